@@ -13,6 +13,7 @@ from linkanim.intake import control_in
 from linkanim.units import shown
 
 _NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?")
+_LONGEST_LINE = 100_000
 _WITH_COMMA = re.compile(r"[+-]?\d+(,\d+)?([eE][+-]?\d+)?")
 
 
@@ -53,6 +54,10 @@ def _lines(text: str, where: str) -> list[tuple[int, str]]:
     for number, line in enumerate(text.splitlines(), start=1):
         if control := control_in(line):
             raise BadInput(f"{where}: line {number} has {control} in it; save it as plain text")
+        if len(line) > _LONGEST_LINE:
+            raise BadInput(
+                f"{where}: line {number} has more than {_LONGEST_LINE:,} characters; give fewer cells"
+            )
         bare = line.partition("#")[0].strip(" ")
         if bare.strip(" \t;,"):
             found.append((number, bare))

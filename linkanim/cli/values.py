@@ -11,6 +11,7 @@ from linkanim import units
 from linkanim.bounds import LARGEST_SIDE, MOST_POSES
 from linkanim.errors import BadInput
 from linkanim.picture.look import TOGGLES
+from linkanim.units import shown
 
 MOST_ROWS = 1_000_000
 _MOST_DIGITS = 15
@@ -23,12 +24,12 @@ def sweep(text: str) -> tuple[Decimal, Decimal, int]:
     """
     parts = text.split(":")
     if len(parts) != 3:
-        raise BadInput(f"{text!r} is not FIRST:LAST:STEP in degrees, such as 0:360:1")
+        raise BadInput(f"{shown(text)} is not FIRST:LAST:STEP in degrees, such as 0:360:1")
     first, last, step = (_decimal(part, text) for part in parts)
     if step == 0 or (last - first) * step < 0:
-        raise BadInput(f"the step of {text!r} does not lead from {first} to {last}; give one that does")
+        raise BadInput(f"the step of {shown(text)} does not lead from {first} to {last}; give one that does")
     if abs(last - first) >= abs(step) * MOST_ROWS:
-        raise BadInput(f"{text!r} has more than {MOST_ROWS:,} rows; take a longer step")
+        raise BadInput(f"{shown(text)} has more than {MOST_ROWS:,} rows; take a longer step")
     return first, step, int((last - first) / step) + 1
 
 
@@ -36,9 +37,9 @@ def _decimal(part: str, text: str) -> Decimal:
     try:
         value = Decimal(part.strip())
     except InvalidOperation:
-        raise BadInput(f"{part!r} in {text!r} is not a number of degrees") from None
+        raise BadInput(f"{shown(part)} in {shown(text)} is not a number of degrees") from None
     if not value.is_finite() or abs(value) > Decimal("1e12"):
-        raise BadInput(f"{part!r} in {text!r} is not a number of degrees between -1e12 and 1e12")
+        raise BadInput(f"{shown(part)} in {shown(text)} is not a number of degrees between -1e12 and 1e12")
     return value
 
 
@@ -46,10 +47,10 @@ def size(text: str) -> tuple[int, int]:
     """Read `1280x720`: whole numbers of pixels, width first."""
     found = re.fullmatch(r"\s*(\d{1,6})\s*[x×X]\s*(\d{1,6})\s*", text)
     if not found or "0" in (found[1].lstrip("0") or "0", found[2].lstrip("0") or "0"):
-        raise BadInput(f"{text!r} is not a size; write width x height in pixels, such as 1280x720")
+        raise BadInput(f"{shown(text)} is not a size; write width x height in pixels, such as 1280x720")
     width, height = int(found[1]), int(found[2])
     if max(width, height) > LARGEST_SIDE:
-        raise BadInput(f"{text!r} is too large; a side has {LARGEST_SIDE:,} pixels at the most")
+        raise BadInput(f"{shown(text)} is too large; a side has {LARGEST_SIDE:,} pixels at the most")
     return width, height
 
 
@@ -60,14 +61,14 @@ def positive(text: str) -> float:
     except ValueError:
         value = math.nan
     if not (math.isfinite(value) and value > 0):
-        raise BadInput(f"{text!r} is not a number greater than zero")
+        raise BadInput(f"{shown(text)} is not a number greater than zero")
     return value
 
 
 def count(text: str) -> int:
     """Read a whole number of at least one."""
     if not re.fullmatch(r"\d{1,6}", text) or int(text) == 0:
-        raise BadInput(f"{text!r} is not a whole number from 1 to 999999")
+        raise BadInput(f"{shown(text)} is not a whole number from 1 to 999999")
     return int(text)
 
 
@@ -75,7 +76,7 @@ def digits(text: str) -> int:
     """Read how many significant digits a number is written with."""
     found = count(text)
     if found > _MOST_DIGITS:
-        raise BadInput(f"{text!r} digits are too many; a number has {_MOST_DIGITS} at the most")
+        raise BadInput(f"{shown(text)} digits are too many; a number has {_MOST_DIGITS} at the most")
     return found
 
 
@@ -83,7 +84,7 @@ def speeds(text: str) -> dict[str, float]:
     """Read angular speeds with commas between (rad/s), by their words; none is zero."""
     found = _several(text, units.angular_speed)
     if not found or not all(found.values()):
-        raise BadInput(f'{text!r}: give speeds other than zero, such as "5 rad/s,10 rad/s"')
+        raise BadInput(f'{shown(text)}: give speeds other than zero, such as "5 rad/s,10 rad/s"')
     return found
 
 
@@ -91,7 +92,7 @@ def angles(text: str) -> tuple[float, ...]:
     """Read angles with commas between, in radians."""
     found = _several(text, units.angle)
     if not found:
-        raise BadInput(f'{text!r}: give angles with their unit, such as "87 deg,306 deg"')
+        raise BadInput(f'{shown(text)}: give angles with their unit, such as "87 deg,306 deg"')
     return tuple(found.values())
 
 
@@ -103,7 +104,9 @@ def poses(text: str) -> int:
     """Read how many poses a figure has behind its own."""
     found = count(text)
     if found > MOST_POSES:
-        raise BadInput(f"{text!r} is too many; a figure has {MOST_POSES} poses behind its own at the most")
+        raise BadInput(
+            f"{shown(text)} is too many; a figure has {MOST_POSES} poses behind its own at the most"
+        )
     return found
 
 
@@ -114,7 +117,7 @@ def box(text: str) -> tuple[float, ...]:
     except ValueError:
         found = ()
     if len(found) != 4 or not all(map(math.isfinite, found)):
-        raise BadInput(f"{text!r} is not X,Y,W,H: four numbers with commas between, such as 0,0,200,100")
+        raise BadInput(f"{shown(text)} is not X,Y,W,H: four numbers with commas between, such as 0,0,200,100")
     return found
 
 
@@ -122,7 +125,7 @@ def step(text: str) -> float:
     """Read a length above zero in mm, such as `0.1 mm`."""
     found = units.length(text, unit="mm")
     if found <= 0:
-        raise BadInput(f"{text!r} is no length to round to; give one above zero, such as 0.1 mm")
+        raise BadInput(f"{shown(text)} is no length to round to; give one above zero, such as 0.1 mm")
     return found
 
 
@@ -135,5 +138,5 @@ def vectors(text: str) -> frozenset[str]:
     """Read a list such as `v,a`: which of velocity and acceleration are drawn."""
     chosen = frozenset(part.strip() for part in text.split(","))
     if not chosen <= set(TOGGLES["vectors"].steps):
-        raise BadInput(f"{text!r} is not a list of vectors; take v (velocity), a (acceleration) or v,a")
+        raise BadInput(f"{shown(text)} is not a list of vectors; take v (velocity), a (acceleration) or v,a")
     return chosen

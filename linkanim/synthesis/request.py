@@ -48,8 +48,8 @@ def path(
     lengths to that step, each time fitting the rest again. `options` are those of `task_of`. BadInput for
     points or limits that make no sense, and where nothing was found that keeps to the limits.
     """
-    if not 1 <= count <= MOST_ANSWERS:
-        raise BadInput(f"count={count!r}: give a whole number from 1 to {MOST_ANSWERS}")
+    if not isinstance(count, int | np.integer) or not 1 <= count <= MOST_ANSWERS:
+        raise BadInput(f"count={shown(count)}: give a whole number from 1 to {MOST_ANSWERS}")
     if cognates and options.get("kind", "four-bar") != "four-bar":
         raise BadInput(f"a {options['kind']} has no cognates; leave them out, or take a four-bar")
     task = task_of(points, closed, **options)  # type: ignore[arg-type]

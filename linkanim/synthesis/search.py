@@ -71,8 +71,11 @@ def found(
 def _none_fits(task: PathTask) -> str:
     limits = ["the box"] if task.requirements.box else []
     limits += [f"the given {name}" for name in task.requirements.given]
-    kept = f"{', '.join(limits)}, the longest link and the least transmission angle"
-    return f"no {task.kind.name} was found that keeps to {kept}; give it more room"
+    kept = ", ".join([*limits, "the longest link"])
+    return (
+        f"no {task.kind.name} was found that keeps to {kept} and the least transmission angle; "
+        "give it more room"
+    )
 
 
 def glimpsed(task: PathTask) -> Fit | None:

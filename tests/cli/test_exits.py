@@ -163,7 +163,8 @@ USAGE = [
     (["solve", "press", "--sweep", "360:10:5"], "step"),
     (["solve", "press", "--sweep", "0:360:1e-9"], "rows"),
     (["solve", "press", "--sweep", "0:inf:1"], "inf"),
-    (["solve", "press", "--sweep", "a:b:c"], "'a'"),
+    (["solve", "press", "--sweep", "a:b:c"], '"a"'),
+    (["path", "c.csv", "--count", "1" * 400_000], '1111..."'),
     # a recording's options
     (["record", "press", "--size", "1280"], "1280x720"),
     (["record", "press", "--size", "0x720"], "0x720"),

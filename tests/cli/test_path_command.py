@@ -100,7 +100,7 @@ def test_what_rounding_costs_is_printed(here: Path, capsys: pytest.CaptureFixtur
         (["none.csv"], "none.csv: no such file"),
         (["oval.csv", "--timing", "column"], "oval.csv: has no third column"),
         (["oval.csv", "--timing", "20"], '--timing: "20" has no unit'),
-        (["oval.csv", "--box", "1,2,3"], "'1,2,3' is not X,Y,W,H"),
+        (["oval.csv", "--box", "1,2,3"], '"1,2,3" is not X,Y,W,H'),
         (["oval.csv", "--box", "0,0,0,9"], "nothing fits in it"),
         (["oval.csv", "--round", "-1 mm"], "no length to round to"),
         (["oval.csv", "-o", "oval.gif"], "use one of .toml"),

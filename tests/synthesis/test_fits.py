@@ -282,7 +282,10 @@ REFUSED: dict[str, tuple[Any, dict[str, Any]]] = {
     "has no cognates": (SQUARE, {"kind": "slider-crank", "cognates": True}),
     "no point 99": (SQUARE, {"exactly": [99]}),
     "rounding to -1": (SQUARE, {"rounding": -1.0}),
-    "1 to 50": (SQUARE, {"count": 0}),
+    "count=0: give a whole number from 1 to 50": (SQUARE, {"count": 0}),
+    "count=2.5: give a whole number": (SQUARE, {"count": 2.5}),
+    "a point lies at 1e\\+308": ([(0, 0), (1e308, -1e308), (-1e308, 1e308)], {}),
+    "keeps to the longest link and": (SQUARE[::8], {"largest": 0.05}),
     "keeps to the box": (SQUARE[::8], {"box": (1e6, 1e6, 1.0, 1.0)}),
 }
 

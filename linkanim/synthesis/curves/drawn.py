@@ -13,6 +13,8 @@ from linkanim.errors import BadInput
 from linkanim.synthesis.kinds import Complex, Indices, Real
 
 LEAST_POINTS = 3
+_FARTHEST = 1e150
+"""Of a coordinate: squares of what lies beyond are no numbers any more."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,8 +79,10 @@ def drawn(points: ArrayLike, *, closed: bool, timed: bool = False) -> DrawnCurve
         found = found[:-1]
     if len(found) < LEAST_POINTS:
         raise BadInput(f"a path needs {LEAST_POINTS} points at least; there are {len(found)}")
+    if (farthest := float(max(np.abs(found.real).max(), np.abs(found.imag).max()))) > _FARTHEST:
+        raise BadInput(f"a point lies at {farthest:g}; give points up to {_FARTHEST:g}")
     size = np.hypot(np.ptp(found.real), np.ptp(found.imag))
-    if not size > 1e-9 * np.abs(found).max() or not 1e-150 < size < 1e150:
+    if not size > 1e-9 * np.abs(found).max() or not size > 1e-150:
         raise BadInput("the points have no extent: all are one; draw a curve")
     same = np.flatnonzero(np.abs(np.diff(found)) <= 1e-12 * size)
     if len(same) and not timed:

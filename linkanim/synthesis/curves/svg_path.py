@@ -18,6 +18,7 @@ import numpy as np
 
 from linkanim.errors import BadInput
 from linkanim.synthesis.kinds import Complex
+from linkanim.units import shown
 
 _STEPS = 24
 """Points along each curved piece."""
@@ -26,6 +27,10 @@ _TOKEN = re.compile(rf"(?P<letter>[MmZzLlHhVvCcSsQqTtAa])|(?P<number>{_NUMBER.pa
 _FLAG = re.compile(r"[\s,]*(?P<number>[01])(?P<letter>)")
 _TAKES = {"M": 2, "L": 2, "H": 1, "V": 1, "C": 6, "S": 4, "Q": 4, "T": 2, "A": 7, "Z": 0}
 _MOST_PIECES = 5_000
+_LARGEST = 1e100
+"""Of a number: beyond it sizes of curves are no numbers any more."""
+_FLAT, _STRAIGHT = 1e-12, 1e12
+"""An ellipse with a radius that is less of the other, or with radii of more half chords, is a line."""
 _NOT_DRAWN = frozenset({"defs", "clipPath", "mask", "marker", "pattern", "symbol"})
 _TRANSFORM = re.compile(r"[\s,]*(matrix|translate|scale|rotate|skewX|skewY)\s*\(([-+\deE.,\s]*)\)")
 _ARGUMENTS = {
@@ -72,8 +77,9 @@ def first_path(text: str, where: str) -> Complex:
     for element, place in _drawn_elements(root, where):
         drawn = element.get("d", "").strip()
         if _name(element) == "path" and drawn:
-            points = _points(drawn, where)
-            return place.x * points.real + place.y * points.imag + place.origin
+            with np.errstate(all="ignore"):  # what is no number any more is refused as a point
+                points = _points(drawn, where)
+                return place.x * points.real + place.y * points.imag + place.origin
     raise BadInput(f"{where}: has no path; convert its shapes to paths first")
 
 
@@ -97,7 +103,7 @@ def _matrices(text: str, where: str) -> Iterator[_Affine]:
     place = 0
     while place < len(text.rstrip()):
         found = _TRANSFORM.match(text, place)
-        numbers = [float(one[0]) for one in _NUMBER.finditer(found[2])] if found else []
+        numbers = [_number(one[0], "transform", where) for one in _NUMBER.finditer(found[2])] if found else []
         if found is None or len(numbers) not in _ARGUMENTS[found[1]]:
             raise BadInput(f"{where}: the transform cannot be read at {text[place : place + 20].strip()!r}")
         place = found.end()
@@ -156,14 +162,22 @@ def _pieces(drawn: str, where: str) -> Iterator[tuple[str, list[float]]]:
             if letter in "Zz":
                 yield letter, []
         elif found["number"]:
-            values.append(float(found["number"]))
-            if not letter or letter in "Zz" or not math.isfinite(values[-1]):
-                raise BadInput(f"{where}: the path has the number {found['number']} where none can be")
+            values.append(_number(found["number"], "path", where))
+            if not letter or letter in "Zz":
+                raise BadInput(f"{where}: the path has the number {values[-1]:g} where none can be")
             if len(values) == _TAKES[letter.upper()]:
                 yield letter, values
                 values, letter = [], {"M": "L", "m": "l"}.get(letter, letter)
     if values:
         raise BadInput(f"{where}: the path's {letter} has too few numbers")
+
+
+def _number(text: str, what: str, where: str) -> float:
+    if abs(number := float(text)) > _LARGEST:
+        raise BadInput(
+            f"{where}: the {what} has a number beyond {_LARGEST:g}: {shown(text)}; draw it smaller"
+        )
+    return number
 
 
 def _drawn(pen: _Pen, letter: str, values: list[float]) -> tuple[_Pen, list[complex]]:
@@ -206,18 +220,22 @@ def _bezier(controls: list[complex]) -> list[complex]:
 def _arc(start: complex, values: list[float], end: complex) -> list[complex]:
     """Return points along an elliptic arc by its ends, its radii raised where they are too short."""
     rx, ry, tilt, large, sweep = abs(values[0]), abs(values[1]), math.radians(values[2]), values[3], values[4]
-    if rx == 0 or ry == 0 or start == end:
+    size, turn = max(rx, ry), cmath.exp(1j * tilt)
+    if min(rx, ry) <= _FLAT * size:
         return [end]
-    turn = cmath.exp(1j * tilt)
+    rx, ry = rx / size, ry / size
 
     def unit(point: complex) -> complex:
-        """Return a point in coordinates in which the ellipse is a circle of radius 1."""
+        """Return a point in coordinates in which the ellipse is a circle of radius `size`."""
         own = point / turn
         return complex(own.real / rx, own.imag / ry)
 
     first, last = unit(start), unit(end)
     half = (last - first) / 2
-    height = math.sqrt(max(0.0, 1.0 / abs(half) ** 2 - 1.0))
+    reach = size / abs(half) if half else math.inf
+    if not reach < _STRAIGHT:
+        return [end]
+    height = math.sqrt(max(0.0, reach * reach - 1.0))
     centre = first + half + half * 1j * height * (-1.0 if large == sweep else 1.0)
     radius = abs(first - centre)
     begin, angle = cmath.phase(first - centre), cmath.phase((last - centre) / (first - centre))
