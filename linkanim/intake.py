@@ -34,7 +34,8 @@ _LONG_NUMBER = re.compile(
     rf"(?<![0-9_.])(?:[0-9_.]{{{MOST_DIGITS + 1}}}|0x[0-9a-fA-F_]{{{MOST_DIGITS + 1}}})"
 )
 _CONTROLS = re.compile(
-    r"[\0-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069\ud800-\udfff\ufffe\uffff]"
+    r"[\0-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2060-\u206f\ud800-\udfff"
+    r"\ufff9-\ufffb\ufffe\uffff\U000e0000-\U000e007f]"
 )
 _BRACKETS = re.compile(r"[\[\]{}]")
 _MARKS = "=,:[{"
@@ -121,7 +122,8 @@ def control_in(text: str) -> str | None:
     """Return what in a text is no plain text, in words; None where all of it is.
 
     Controls of the terminal and of the direction of writing, lines' and paragraphs' separators, halves of
-    characters: what a terminal obeys, or no page may hold. Tabs and line breaks pass.
+    characters, invisible signs (U+2060 to U+206F, tags): what a terminal obeys, no page may hold or no reader
+    can see. Tabs and line breaks pass, and what joins letters or figures into one.
     """
     found = _CONTROLS.search(text)
     return f"the control character U+{ord(found[0]):04X}" if found else None

@@ -119,12 +119,29 @@ CONTROLS = (
     "\x9b",
     "\u2028",
     "\u2029",
+    "\u061c",
+    "\u200e",
+    "\u200f",
     "\u202e",
+    "\u2063",
     "\u2066",
+    "\ufffa",
+    "\U000e0041",
     "\ud800",
     "\uffff",
 )
-PLAIN = ("", "two\nlines\tand\r", "é", "e\u0301", "机构", "שלום \u200f", "👩\u200d🔧", "a\u00a0b", "\u00ad")
+PLAIN = (
+    "",
+    "two\nlines\tand\r",
+    "é",
+    "e\u0301",
+    "机构",
+    "שלום",
+    "می\u200cخواهم",
+    "👩\u200d🔧",
+    "a\u00a0b",
+    "\u00ad",
+)
 
 
 @pytest.mark.parametrize("char", CONTROLS, ids=lambda char: f"U+{ord(char):04X}")

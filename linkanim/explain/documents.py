@@ -10,7 +10,7 @@ from itertools import groupby
 
 from linkanim.explain.drawing import tikz
 from linkanim.explain.expression import Formula
-from linkanim.explain.lines import Equation, Given, Item, Unknown, ValueLine, Words
+from linkanim.explain.lines import MARKED, Equation, Given, Item, Unknown, ValueLine, Words
 from linkanim.explain.notation import LATEX, MATHML, Notation, plain_latex, typeset
 from linkanim.explain.rows import EquationRow, rows
 from linkanim.explain.solution import Solution
@@ -37,14 +37,13 @@ ul.given { columns: 2; list-style: none; padding: 0 0 0 1rem; margin: .35rem 0; 
 ul.given li { break-inside: avoid; }
 figure.vectors { margin: .6rem 0; break-inside: avoid; } figure.vectors svg { max-width: 100%; height: auto; }
 """
-_NAME = re.compile(r"\{([^{}]*)\}")
 _INDEXED = re.compile(r"(?<=[^\W\d_])_?(\d+)$")
 _KEY_DIGITS = 5
 
 
 @dataclass(frozen=True)
 class DocumentForm:
-    """How one kind of document is written; names of joints stand in braces in headings and in text.
+    """How one kind of document is written; names of joints are marked in headings and in text.
 
     `listed` sets what is given: formulas, and what each is. `figure` draws the loops; on a page that is
     left to who prints pictures. `new_page` begins one.
@@ -132,7 +131,7 @@ def _html_page(title: str, body: str) -> str:
 
 
 def _html_words(text: str) -> str:
-    return _NAME.sub(lambda found: _INDEXED.sub(r"<sub>\1</sub>", found[1]), escape(text))
+    return MARKED.sub(lambda found: _INDEXED.sub(r"<sub>\1</sub>", found[1]), escape(text))
 
 
 def _html_aligned(found: list[EquationRow]) -> str:
@@ -171,7 +170,7 @@ _BEFORE = "\n\n\\begin{align*}"
 
 
 def _latex_words(text: str) -> str:
-    parts = _NAME.split(text)
+    parts = MARKED.split(text)
     return "".join(LATEX.name(part) if n % 2 else plain_latex(part) for n, part in enumerate(parts))
 
 
@@ -211,8 +210,17 @@ TEX = DocumentForm(
 )
 
 
+_MARKS = re.compile(r"[\\`*_{}\[\]<>#$&~|]")
+"""What Markdown, or a page made of it, may take for a mark wherever it stands."""
+
+
 def _markdown_words(text: str) -> str:
-    return _NAME.sub(r"\1", text)
+    return _MARKS.sub(r"\\\g<0>", MARKED.sub(r"\1", text))
+
+
+def _without_tags(formula: str) -> str:
+    """Return a formula without signs that a page would take for the ends of a tag."""
+    return formula.replace("<", r"\lt ").replace(">", r"\gt ")
 
 
 def _markdown_aligned(found: list[EquationRow]) -> str:
@@ -227,6 +235,11 @@ def _markdown_listed(found: list[tuple[str, str]]) -> str:
 
 MARKDOWN = replace(
     TEX,
+    how=replace(
+        LATEX,
+        symbol=lambda symbol: _without_tags(LATEX.symbol(symbol)),
+        name=lambda name: _without_tags(LATEX.name(name)),
+    ),
     page=lambda _, body: f"{body}\n",
     heading=lambda level, text: f"{'#' * level} {_markdown_words(text)}",
     text=_markdown_words,

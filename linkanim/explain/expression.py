@@ -106,7 +106,7 @@ class Formula:
         if self.constant == 0:
             return self
         if self.constant is not None:
-            return number(f"-{self.shown}".removeprefix("--"))
+            return number(f"-{self.shown}".removeprefix("--"), self.in_degrees)
         return self.parts[0] if self.operation == "neg" else Formula("neg", (self,))
 
 
@@ -125,9 +125,9 @@ _VALUES: Mapping[str, Callable[..., float]] = {
 }
 
 
-def number(shown: str) -> Formula:
+def number(shown: str, in_degrees: bool = False) -> Formula:
     """Return a number without a symbol, in the digits given."""
-    return Formula("leaf", shown=shown)
+    return Formula("leaf", shown=shown, in_degrees=in_degrees)
 
 
 ZERO, ONE, TWO = number("0"), number("1"), number("2")

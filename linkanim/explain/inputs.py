@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from linkanim.explain.expression import TWO, Formula, Symbol, arccos, cos, number, sin, square
+from linkanim.explain.lines import marked
 from linkanim.explain.rates import Rates
 from linkanim.explain.work import ANGLE, LENGTH, RATIO, Powers
 from linkanim.mechanics.drive.strokes import CylinderStroke, Stroke
@@ -71,7 +72,7 @@ def _swinging(request: PoseRequest, rates: Rates, symbol: Symbol) -> Formula:
     middle = work.known(Symbol("θ", "m"), (low + high) / 2, ANGLE, "middle of the swing")
     amplitude = work.known(Symbol("A"), (high - low) / 2, ANGLE, "half of the swing")
     found = work.let(symbol, middle - amplitude * cos(phase), ANGLE)
-    reach = work.let(Symbol("a"), amplitude * _PI / number("180"), RATIO)
+    reach = work.let(Symbol("a"), amplitude * _PI / number("180", in_degrees=True), RATIO)
     once, twice = _cosine_rates(reach, phase, pace)
     rates.let_rate(work.driver, once, 1)
     rates.let_rate(work.driver, twice, 2)
@@ -111,7 +112,7 @@ def _cylinder(
     pivot = work.linkage.crank(work.linkage.drive.joint).pivot
     sides = [side * path.unscale for side in path.sides]
     g, r = (
-        work.known(Symbol(name), side, LENGTH, f"{{{pivot}}}–{{{end}}}")
+        work.known(Symbol(name), side, LENGTH, f"{marked(pivot)}–{marked(end)}")
         for name, side, end in zip("gc", sides, between, strict=True)
     )
     base = work.known(

@@ -24,6 +24,7 @@ from linkanim.explain.expression import (
     sqrt,
     square,
 )
+from linkanim.explain.lines import marked
 from linkanim.explain.rates import Order, Rates, UnknownRate
 from linkanim.explain.work import ANGLE, LENGTH, GuideLine, Work
 from linkanim.mechanics.linkage.dyads import RPP, RPR, RRP, RRR
@@ -114,7 +115,7 @@ def body_point(
 ) -> Components:
     """Return how far a point of a body lies from its first joint."""
     ahead = along(work.angle_of(*on))
-    about = f"along {{{on[0]}}}–{{{on[1]}}}", f"to the left of {{{on[0]}}}–{{{on[1]}}}"
+    about = f"along {marked(on[0])}–{marked(on[1])}", f"to the left of {marked(on[0])}–{marked(on[1])}"
     p, q = (
         work.stated(name, value, LENGTH, words) for name, value, words in zip(names, at, about, strict=True)
     )
@@ -145,8 +146,8 @@ def place_bars(joint: RRR, work: Work) -> None:
     (p, q), name = joint.ends, joint.name
     way = work.points[q] - work.points[p]
     work.say(
-        f"From {{{p}}} to {{{q}}} the distance d and its direction δ, then the triangle of both bars by the "
-        "cosine rule:"
+        f"From {marked(p)} to {marked(q)} the distance d and its direction δ, then the triangle of both bars "
+        "by the cosine rule:"
     )
     d = work.let(Symbol("d", name), sqrt(square(way.x) + square(way.y)), LENGTH)
     symbol = work.angle_symbol(p, name)
@@ -154,7 +155,7 @@ def place_bars(joint: RRR, work: Work) -> None:
         work.say("Both ends lie in one point, where every direction closes; the motion takes this one:")
         at = complex(*work.pose.position[name]) - complex(*work.pose.position[p])
         work.angles[p, name] = work.known(
-            symbol, phase(at), ANGLE, f"from the motion through {{{p}}} = {{{q}}}"
+            symbol, phase(at), ANGLE, f"from the motion through {marked(p)} = {marked(q)}"
         )
     else:
         work.angles[p, name] = work.let(symbol, _direction_of_bar(joint, work, way, d), ANGLE)
@@ -177,7 +178,7 @@ def _corner(cosine: Formula, work: Work, name: str) -> Formula:
     if abs(cosine.value) <= 1:
         return work.let(Symbol("γ", name), arccos(cosine), ANGLE)
     work.say("To the digits shown the bars lie in one line: the cosine of γ is rounded past 1.")
-    return number("0" if cosine.value > 0 else "180")
+    return number("0" if cosine.value > 0 else "180", in_degrees=True)
 
 
 def _left(joint: RRR, work: Work) -> bool:
@@ -189,7 +190,7 @@ def _left(joint: RRR, work: Work) -> bool:
 def _why_left(joint: RRR, left: bool) -> str:
     p, q = joint.ends
     side, sign = ("left", "added") if left else ("right", "taken off")
-    found = f"Here {{{joint.name}}} lies {side} of {{{p}}} → {{{q}}}, so γ is {sign}"
+    found = f"Here {marked(joint.name)} lies {side} of {marked(p)} → {marked(q)}, so γ is {sign}"
     if joint.side_of is not None:
         return f"{found}: the closure to which the motion leads from its start."
     if left == (joint.side > 0):
@@ -235,8 +236,8 @@ def place_slider_on_bar(joint: RRP, work: Work) -> None:
     name, end = joint.name, joint.end
     guide = work.guide(joint.line, name)
     work.say(
-        f"How far {{{end}}} lies along the guide from {{{guide.through}}} (f) and to its left (n), then the "
-        "slider's way s:"
+        f"How far {marked(end)} lies along the guide from {marked(guide.through)} (f) and to its left (n), "
+        "then the slider's way s:"
     )
     forward, aside = beside_guide(work, guide, end, name)
     margin = square(work.length(end, name, joint.length)) - square(aside)
@@ -262,7 +263,7 @@ def _why_ahead(joint: RRP, ahead: bool) -> str:
     way, sign = ("ahead of", "plus") if ahead else ("behind", "minus")
     named = ahead == (joint.side > 0)
     why = "as the scene names it" if named else "the motion came to it through a limit or a change point"
-    return f"Here {{{joint.name}}} is {way} {{{joint.end}}}, so the root has a {sign}: {why}."
+    return f"Here {marked(joint.name)} is {way} {marked(joint.end)}, so the root has a {sign}: {why}."
 
 
 def move_slider_on_bar(joint: RRP, rates: Rates, order: Order) -> None:
@@ -291,7 +292,10 @@ def place_slot(joint: RPR, work: Work) -> None:
     name, pivot, pin = joint.name, joint.pivot, joint.through
     way = work.points[pin] - work.points[pivot]
     offset = work.stated(Symbol("e", name), joint.offset, LENGTH, "the slot's offset to the left")
-    work.say(f"The slotted bar turns about {{{pivot}}} and its slot passes through {{{pin}}}, s ahead of it:")
+    work.say(
+        f"The slotted bar turns about {marked(pivot)} and its slot passes through {marked(pin)}, "
+        "s ahead of it:"
+    )
     root = sqrt(square(way.x) + square(way.y) - square(offset))
     slide = work.let(work.names.slide(name), root if _pin_ahead(joint, work) else -root, LENGTH)
     work.slides[name] = slide
@@ -332,8 +336,8 @@ def place_yoke(joint: RPP, work: Work) -> None:
     name = joint.name
     guide, slot = work.guide(joint.line, name), _slot(joint, work)
     work.say(
-        f"How far {{{joint.pin}}} lies along the guide from {{{guide.through}}} (f) and to its left (n), and "
-        "where the slot crosses it:"
+        f"How far {marked(joint.pin)} lies along the guide from {marked(guide.through)} (f) and to its left "
+        "(n), and where the slot crosses it:"
     )
     forward, aside = beside_guide(work, guide, joint.pin, name)
     work.slides[name] = work.let(work.names.slide(name), forward - aside * (cos(slot) / sin(slot)), LENGTH)

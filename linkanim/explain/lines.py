@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -10,9 +11,18 @@ from linkanim.explain.expression import Formula, Symbol
 
 @dataclass(frozen=True, slots=True)
 class Words:
-    """A sentence. SymbolNames of joints in it stand in braces, {O2}."""
+    """A sentence; names of joints in it are `marked`."""
 
     text: str
+
+
+def marked(joint: str) -> str:
+    """Return a joint's name marked as one in a text, by characters that no text of a scene has in it."""
+    return f"\x02{joint}\x03"
+
+
+MARKED = re.compile("\x02([^\x02\x03]*)\x03")
+"""A name that is marked."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,7 +80,7 @@ Item = Words | ValueLine | Given | Equation | System | Unknown
 
 @dataclass(frozen=True)
 class Step:
-    """One stage of a chapter under a heading, such as a joint; names of joints stand in braces."""
+    """One stage of a chapter under a heading, such as a joint; names of joints are marked."""
 
     title: str
     items: tuple[Item, ...]
@@ -95,9 +105,13 @@ NOTHING = 5e-7
 
 @dataclass(frozen=True)
 class Outcome:
-    """A number that the solution leads to: of which quantity, and below what it is nothing but rounding."""
+    """A number that the solution leads to: of which quantity, and below what it is nothing but rounding.
+
+    It is `last` where no place and no rate follows from it.
+    """
 
     token: str
     value: Formula
     unit: str = ""
     least: float = NOTHING
+    last: bool = False

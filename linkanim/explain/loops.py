@@ -8,7 +8,7 @@ from typing import NamedTuple
 from linkanim.explain.chains import LoopSide, Route
 from linkanim.explain.expression import ZERO, Formula, Symbol, along
 from linkanim.explain.kinds import KINDS
-from linkanim.explain.lines import Chapter, Equation, Step, Unknown, ValueLine
+from linkanim.explain.lines import Chapter, Equation, Step, Unknown, ValueLine, marked
 from linkanim.explain.work import Work
 from linkanim.mechanics.linkage.joint import Joint
 
@@ -45,7 +45,7 @@ def loops_of(work: Work, places: Chapter) -> tuple[VectorLoop, ...]:
         for step in places.steps
     }
     dyads = (joint for joint in work.linkage.joints if KINDS[type(joint)].loop)
-    loops = tuple(_loop(joint, work, found.get(f"Joint {{{joint.name}}}", set())) for joint in dyads)
+    loops = tuple(_loop(joint, work, found.get(f"Joint {marked(joint.name)}", set())) for joint in dyads)
     lines = [item for step in places.steps for item in step.items if isinstance(item, ValueLine)]
     length = next((line.value for line in lines if line.value.symbol == CYLINDER), None)
     return loops if length is None else (_cylinder(length, work), *loops)
@@ -94,7 +94,7 @@ def _loop(joint: Joint, work: Work, found: set[Symbol | None]) -> VectorLoop:
     arrows = tuple(LoopArrow(side.symbol, at, at + _value(side)) for side, at in (*left, *right))
     known = {leaf.symbol: leaf for pair in parts for side in pair for leaf in side.leaves}
     unknown = tuple(leaf for symbol, leaf in known.items() if symbol in found)
-    return VectorLoop(Step(f"Loop of {{{joint.name}}}", (*equations, Unknown(unknown))), arrows)
+    return VectorLoop(Step(f"Loop of {marked(joint.name)}", (*equations, Unknown(unknown))), arrows)
 
 
 def _ground(work: Work, start: str, end: str) -> tuple[LoopSide, complex]:

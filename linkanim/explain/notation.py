@@ -14,7 +14,9 @@ _GREEK = {
     "α": "alpha", "β": "beta", "γ": "gamma", "δ": "delta", "θ": "theta", "ω": "omega", "φ": "varphi",
     "ψ": "psi", "σ": "sigma", "π": "pi", "ℓ": "ell", "→": "rightarrow",
 }  # fmt: skip
-_INDEX = re.compile(r"([^\W\d_]+|[^\w]+|_)|(\d+)")
+_INDEX = re.compile(r"([^\W\d_]+|\W+|[^\W0-9])|([0-9]+)")
+_NOT_SET = re.compile("[^\0-\u017f]|[ĦħĸĿŀŉŦŧſ]")
+"""What LaTeX's standard fonts have no letter for."""
 
 
 @dataclass(frozen=True)
@@ -105,7 +107,7 @@ class _Setting:
 
 def plain_latex(text: str) -> str:
     """Return words as LaTeX sets them; what its standard fonts have no letter for is a question mark."""
-    return re.sub(r"[^\0-\u017f]", "?", normalize("NFC", text).translate(_TEXT))
+    return _NOT_SET.sub("?", normalize("NFC", text).translate(_TEXT))
 
 
 _TEXT = str.maketrans(
@@ -147,10 +149,9 @@ def _latex_index(text: str) -> str:
 def _letters(word: str) -> str:
     if word in _GREEK:
         return f"\\{_GREEK[word]} "
-    safe = re.sub(r"([#$%&_{}])", r"\\\1", re.sub(r"[\\~^]", "", word))
+    safe = re.sub(r"([#$%&_{}])", r"\\\1", re.sub(r"[\\~^]", "", normalize("NFC", word)))
     if not safe.isascii():
-        # the standard fonts have no more letters than these
-        return f"\\text{{{''.join(c if ord(c) < 0x180 else f'U{ord(c):X}' for c in safe)}}}"
+        return f"\\text{{{_NOT_SET.sub(lambda found: f'U{ord(found[0]):X}', safe)}}}"
     return safe if len(safe) == 1 else f"\\mathrm{{{safe}}}"
 
 

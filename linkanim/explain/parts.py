@@ -30,8 +30,12 @@ def centre_of_mass(body: Body, rates: Rates) -> Iterator[Outcome]:
 
 
 def centre_name(body: Body, rates: Rates) -> str:
-    """Return what a body's centre of mass is called: G3."""
-    return f"G{link_labels(rates.work.linkage)[body.name]}"
+    """Return what a body's centre of mass is called: G3, or GG3 where a joint has that name."""
+    linkage = rates.work.linkage
+    name = f"G{link_labels(linkage)[body.name]}"
+    while any(joint.name == name for joint in linkage.joints):
+        name = f"G{name}"
+    return name
 
 
 def strut(item: Spring | Damper, rates: Rates) -> Iterator[Outcome]:
@@ -48,7 +52,7 @@ def strut(item: Spring | Damper, rates: Rates) -> Iterator[Outcome]:
     if item.forceful:
         force = work.let_plain(Symbol("F", name), _force(item, rates, length, rate), "N")
         rates.struts[item] = force, rate
-        yield Outcome(f"{name}.force", force)
+        yield Outcome(f"{name}.force", force, last=True)
 
 
 def _force(item: Spring | Damper, rates: Rates, length: Formula, rate: Formula) -> Formula:
@@ -85,7 +89,7 @@ def effort(rates: Rates, known: Mapping[str, Formula]) -> Iterator[Outcome]:
         work.say("The input rests here, so that this does not follow from power.")
         return
     delivered = work.let_plain(Symbol(name[0].upper(), "in"), total / pace, unit)
-    yield Outcome(effort_token(linkage), delivered)
+    yield Outcome(effort_token(linkage), delivered, last=True)
 
 
 def _pace(rates: Rates) -> Formula:

@@ -1,25 +1,26 @@
 """The worked solution of a pose: its chapters, and the results that they lead to.
 
-It shows as few digits as let every result agree with solving to five significant digits.
+It carries as few digits as let every result agree with solving to five significant digits. What is zero shows
+none of their rounding, and of a force or a torque, from which nothing follows, only those that are right.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 
-from linkanim.explain.expression import ONE
+from linkanim.explain.expression import ONE, Symbol
 from linkanim.explain.inputs import PoseRequest, place_input
 from linkanim.explain.kinds import KINDS
-from linkanim.explain.lines import Chapter, Outcome, Step, Words
+from linkanim.explain.lines import Chapter, Outcome, Step, Words, marked
 from linkanim.explain.loops import LoopArrow, VectorLoop, loops_of
 from linkanim.explain.names import SymbolNames, names_of
 from linkanim.explain.parts import centre_of_mass, effort, strut
 from linkanim.explain.rates import BY_INPUT, IN_TIME, ORDERS, Order, Rates
-from linkanim.explain.work import ANGLE, LENGTH, Powers, Scale, Work
+from linkanim.explain.work import ANGLE, LENGTH, Powers, Scale, Work, rounded
 from linkanim.mechanics.facts.register import input_symbol
 from linkanim.mechanics.linkage.linkage import Body
 from linkanim.picture.figure import figure
@@ -36,6 +37,7 @@ _IN_TIME = (
     "The loops differentiated in time: the same equations, the input running at its own speed.",
     "Differentiated once more: the same matrix, with ω² and what Coriolis adds on the right sides.",
 )
+_CARRIED = "As many digits are carried as make five significant ones of every result right."
 _NO_LOOP = "There is none to close: each joint follows from the input alone."
 _SINGULAR = (
     "No rates follow here in as many digits as a page can show: at a limit or a change point the two linear "
@@ -93,29 +95,53 @@ def solution(request: PoseRequest) -> Solution:
     for digits, rates in ways:
         # a root or a quotient of rounded digits is none near a limit: more of them are taken
         with suppress(ZeroDivisionError, ValueError):
-            found = _Draft(request, names, digits).solution(rates)
+            places: dict[Symbol, int] = {}
+            found = _Draft(request, names, digits, places).solution(rates)
+            # what follows from a number in fewer digits is another number, and may have fewer that are right
+            while _agrees(found) and (fewer := _right_places(found)):
+                places |= fewer
+                found = _Draft(request, names, digits, places).solution(rates)
             if _agrees(found):
                 break
     return found
 
 
-def _agrees(found: Solution) -> bool:
+def _compared(found: Solution) -> Iterator[tuple[Outcome, float]]:
+    """Yield each result with what solving gives, of an angle on the same turn."""
     motion, quantities = found.request.motion(), found.request.scene.quantities
     for result in found.results:
-        quantity = quantities[result.token]
-        true = float(quantity.shown(motion))
-        off = abs(result.value.value - true)
-        if result.unit == "°":
-            off = abs(math.remainder(off, 360))
-        if not off <= max(_AGREES * abs(true), result.least):
-            return False
-    return True
+        true, worked_out = float(quantities[result.token].shown(motion)), result.value.value
+        yield (
+            result,
+            worked_out + math.remainder(true - worked_out, 360) if result.unit == "°" else true,
+        )
+
+
+def _agrees(found: Solution) -> bool:
+    return all(
+        abs(result.value.value - true) <= max(_AGREES * abs(true), result.least)
+        for result, true in _compared(found)
+    )
+
+
+def _right_places(found: Solution) -> dict[Symbol, int]:
+    """Return with how many decimals zeros and `last` results are right to the last, where they have more."""
+    right: dict[Symbol, int] = {}
+    for result, true in _compared(found):
+        value, symbol = result.value.value, result.value.symbol
+        shown = len(result.value.shown.partition(".")[2])
+        if symbol is not None and (result.last or float(rounded(true, shown)) == 0):
+            places = next((n for n in range(shown, 0, -1) if rounded(value, n) == rounded(true, n)), 0)
+            right |= {symbol: places} if places < shown else {}
+    return right
 
 
 class _Draft:
-    """A solution in so many digits while it is written."""
+    """A solution in so many digits while it is written, some of its results in fewer decimals."""
 
-    def __init__(self, request: PoseRequest, names: SymbolNames, digits: int) -> None:
+    def __init__(
+        self, request: PoseRequest, names: SymbolNames, digits: int, places: Mapping[Symbol, int]
+    ) -> None:
         self.request, self.motion = request, request.motion()
         self.linkage = request.scene.linkage
         length = max([abs(value) for joint in self.linkage.joints for _, value in joint.bars] or [1.0])
@@ -124,7 +150,7 @@ class _Draft:
         pace = max(rate, math.sqrt(second))
         rate = pace if angular else pace / length
         scale = Scale(digits, request.scene.length_unit, length, rate if 0 < rate < math.inf else 1.0)
-        self.work = Work(self.linkage, names, self.motion, scale)
+        self.work = Work(self.linkage, names, self.motion, scale, places)
         rate, per = (1.0, "") if angular else (1.0 / length, scale.unit)
         by = Scale(digits, scale.unit, length, rate, per)
         self.rates, self.slopes = Rates(self.work, IN_TIME, scale), Rates(self.work, BY_INPUT, by)
@@ -140,13 +166,15 @@ class _Draft:
             rest = [*self._by_input(), *self._in_time(), *self._parts()]
         else:
             rest = [Chapter("Velocities and accelerations", (Step("", (Words(_SINGULAR),)),))]
-        given = Chapter("Given", (Step("", tuple(self.work.given.values())),))
+        given = Chapter(
+            "Given", (Step("", (*self.work.given.values(), *([Words(_CARRIED)] if rates else ()))),)
+        )
         steps = tuple(loop.step for loop in loops) or (Step("", (Words(_NO_LOOP),)),)
         chapters = (given, Chapter("Vector loops", steps), places, *rest)
         known = self.request.scene.quantities
         # of parts with one name the last has the token, as it has among the quantities
         results = tuple({one.token: one for one in self.results if one.token in known}.values())
-        at = {name: self.work.place(name) for name in self.work.points}
+        at = {joint.name: self.work.place(joint.name) for joint in self.linkage.joints}
         return Solution(self.request, chapters, loops, results, at, not rates)
 
     def _step(self, title: str, write: Callable[[], object]) -> None:
@@ -166,7 +194,7 @@ class _Draft:
         scale = self.work.scale
         self._step("The input", partial(place_input, self.request, self.rates))
         for joint in self.linkage.joints:
-            self._step(f"Joint {{{joint.name}}}", partial(KINDS[type(joint)].place, joint, self.work))
+            self._step(f"Joint {marked(joint.name)}", partial(KINDS[type(joint)].place, joint, self.work))
             self.results += scale.outcomes(f"{joint.name}.position", self.work.points[joint.name], 0)
         self._step("Angles of the links", self._angles)
         for body in self.linkage.bodies:
@@ -207,7 +235,7 @@ class _Draft:
     def _moved(self, rates: Rates, order: Order, words: str = "") -> None:
         """Add a step for each joint that moves."""
         for joint in self.linkage.joints:
-            title = f"Joint {{{joint.name}}}{words}"
+            title = f"Joint {marked(joint.name)}{words}"
             self._step(title, partial(KINDS[type(joint)].move, joint, rates, order))
 
     def _tell_links(self, rates: Rates, order: Order, turning: str, sliding: str) -> None:

@@ -6,7 +6,7 @@ What follows is computed from shown digits alone, so each line gives the next on
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from decimal import Decimal
 from typing import NamedTuple
@@ -83,13 +83,15 @@ def _power(unit: str, power: int) -> str:
 class Work:
     """The positions known so far at a pose, and the lines that led to them; vectors by their joints' names.
 
-    `slides` are ways along guides; `given` what the scene states, in the order in which it is needed.
+    `slides` are ways along guides; `given` what the scene states, in the order in which it is needed;
+    `places` the decimals of symbols that have fewer than the scale gives them.
     """
 
     linkage: Linkage
     names: SymbolNames
     pose: Pose
     scale: Scale
+    places: Mapping[Symbol, int] = field(default_factory=dict)
     points: dict[str, Components] = field(default_factory=dict)
     angles: dict[tuple[str, str], Formula] = field(default_factory=dict)
     slides: dict[str, Formula] = field(default_factory=dict)
@@ -112,7 +114,7 @@ class Work:
     def _line(self, symbol: Symbol, formula: Formula, places: int, unit: str) -> Formula:
         if formula.constant is not None:
             return formula
-        text = rounded(formula.value, places)
+        text = rounded(formula.value, min(places, self.places.get(symbol, places)))
         found = Formula("leaf", symbol=symbol, shown=text, in_degrees=unit == "°")
         self.items.append(ValueLine(formula, found, unit))
         return found
@@ -121,7 +123,7 @@ class Work:
         """Return what the scene states as a symbol's value; 0 as the number alone."""
         text = self.written(value, measure)
         plain = float(text) == 0 or (measure.angle and float(text) % 90 == 0)
-        return number(text) if plain else self.known(symbol, value, measure, words)
+        return number(text, measure.angle) if plain else self.known(symbol, value, measure, words)
 
     def known(self, symbol: Symbol, value: float, measure: Powers, words: str = "") -> Formula:
         """Return a number that is given as a symbol's value, whatever it is."""

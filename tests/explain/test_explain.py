@@ -8,7 +8,7 @@ import shutil
 import subprocess
 from dataclasses import replace
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 import pytest
@@ -24,14 +24,17 @@ from linkanim.explain.variant import variant
 from linkanim.mechanics.facts.effort import effort_token
 from linkanim.scenes import load, names
 from linkanim.scenes.editing.edit import dimensions
+from linkanim.scenes.editing.shown_unit import in_unit
+from linkanim.scenes.reading.read import scene_from
+from linkanim.scenes.scene import Scene
 
 DIGITS = 5.1e-5
 """Four significant digits, and what is in the last place of a float."""
 
 
-def _request(name: str, degrees: float, speed: float | None = None) -> PoseRequest:
+def _request(scene: str | Scene, degrees: float, speed: float | None = None) -> PoseRequest:
     """Return a pose by angle, or by phase of an input that turns back."""
-    scene = load(name)
+    scene = load(scene) if isinstance(scene, str) else scene
     by: Literal["angle", "phase"] = "angle" if scene.info.full_turn else "phase"
     return PoseRequest(scene, by, math.radians(degrees), speed or scene.linkage.drive.speed)
 
@@ -209,15 +212,162 @@ def test_bad_input_is_refused_in_one_line(
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.skipif(shutil.which("pdflatex") is None, reason="needs pdflatex")
-@pytest.mark.slow
-@pytest.mark.parametrize("name", ["press"])
-def test_the_latex_compiles(name: str, tmp_path: Path) -> None:
-    (tmp_path / "solution.tex").write_text(document(solution(_request(name, 87.0)), TEX), encoding="utf-8")
+def _compiles(text: str, tmp_path: Path) -> None:
+    (tmp_path / "solution.tex").write_text(text, encoding="utf-8")
     command = ["pdflatex", "-interaction=nonstopmode", "-halt-on-error", "solution.tex"]
     ran = subprocess.run(command, cwd=tmp_path, capture_output=True, check=False)
     assert ran.returncode == 0, ran.stdout[-2000:]
     assert (tmp_path / "solution.pdf").stat().st_size > 10_000
+
+
+@pytest.mark.skipif(shutil.which("pdflatex") is None, reason="needs pdflatex")
+@pytest.mark.slow
+def test_the_latex_compiles(tmp_path: Path) -> None:
+    _compiles(document(solution(_request("press", 87.0)), TEX), tmp_path)
+
+
+ODD_NAMES = r"\input{x}", "a_b^c", "%$#&~", "{", "x}", "<i>", "机é", "٣", "Ŀħe\u0301", "`*[]|", "constructor"
+"""Names that LaTeX, Markdown or a page takes for orders."""
+
+
+TITLE = '<img src=x onerror=alert(1)> {of} $a_b$ \\ "100 %"'
+FOUR_BAR = {"ground": 100, "crank": 30, "coupler": 90, "rocker": 80}
+
+
+@pytest.fixture(scope="module")
+def odd() -> Solution:
+    """A crank-rocker with points under odd names, whose crank has its centre of mass in its pivot."""
+    points = {name: {"on": ["A", "B"], "at": [10 * n, 5]} for n, name in enumerate(ODD_NAMES, 1)}
+    document = {
+        "title": TITLE,
+        "four-bar": FOUR_BAR,
+        "joints": points,
+        "bodies": {"crank": {"joints": ["O2", "A"], "com": [0, 0]}},
+    }
+    return solution(_request(scene_from(document, name="odd", where="odd.toml"), 60.0))
+
+
+@pytest.mark.skipif(shutil.which("pdflatex") is None, reason="needs pdflatex")
+@pytest.mark.slow
+def test_the_latex_of_odd_names_compiles(odd: Solution, tmp_path: Path) -> None:
+    _compiles(document(odd, TEX), tmp_path)
+
+
+def test_markdown_takes_nothing_of_the_scene_for_a_mark_or_a_tag(odd: Solution) -> None:
+    text = document(odd, MARKDOWN)
+    assert text.splitlines()[0] == r'# \<img src=x onerror=alert(1)\> \{of\} \$a\_b\$ \\ "100 %"'
+    assert "<" not in text.replace(r"\<", "")
+    headings = {line for line in text.splitlines() if line.startswith("### Joint") and "," not in line}
+    assert {r"### Joint \{", r"### Joint x\}", r"### Joint \\input\{x\}", "### Joint constructor"} <= headings
+
+
+def test_a_page_has_the_braces_of_the_scene_and_no_tag(odd: Solution) -> None:
+    text = document(odd, HTML)
+    assert "<h1>&lt;img src=x onerror=alert(1)&gt; {of} $a_b$ \\ &quot;100 %&quot;</h1>" in text
+    assert "<h3>Joint {</h3>" in text
+    assert "<h3>Joint x}</h3>" in text
+
+
+def test_a_centre_of_mass_has_no_name_that_a_joint_has() -> None:
+    point = {"on": ["A", "B"], "at": [10, 20]}
+    document = {
+        "four-bar": FOUR_BAR,
+        "joints": {"G2": point, "GG2": point},
+        "bodies": {"crank": {"joints": ["O2", "A"], "com": [5, 0]}},
+        "springs": {"s": {"between": ["O4", "G2"]}},
+    }
+    found = solution(_request(scene_from(document, name="my", where="my.toml"), 60.0))
+    assert not found.singular
+    assert _disagreeing(found) == []
+    assert found.places["G2"] == pytest.approx(complex(*found.request.motion().position["G2"]), rel=1e-4)
+
+
+# What is stated in right angles, and how a swing's is in radians: each with the sign of a degree.
+IN_DEGREES: dict[str, tuple[dict[str, Any], str]] = {
+    "a start": ({"drive": {"start": "90 deg"}, "four-bar": FOUR_BAR}, r"= 90^{\circ} + \varphi ="),
+    "gears": (
+        {
+            "ground": {"O2": [0, 0], "O4": [100, 0]},
+            "joints": {
+                "A": {"crank": "O2", "length": 30},
+                "D": {"crank": "O4", "length": 20, "gear": {"with": "A", "ratio": -2, "offset": "-90 deg"}},
+            },
+        },
+        r"+ \left(-90^{\circ}\right) =",
+    ),
+    "a guide on a body": (
+        {
+            "four-bar": FOUR_BAR,
+            "joints": {
+                "C": {
+                    "from": "O2",
+                    "length": 90,
+                    "line": {"on": ["A", "B"], "through": "A", "angle": "90 deg"},
+                }
+            },
+        },
+        r"\theta_{3} + 90^{\circ} =",
+    ),
+    "a swing": (
+        {"four-bar": {"ground": 100, "crank": 90, "coupler": 30, "rocker": 80}},
+        r"= \frac{A \, \pi}{180^{\circ}} = \frac{",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", IN_DEGREES)
+def test_right_angles_have_the_sign_of_a_degree(name: str) -> None:
+    written, row = IN_DEGREES[name]
+    found = solution(
+        PoseRequest(scene_from(written, name="my", where="my.toml"), "phase", 0.7, 2.0),
+    )
+    assert row in document(found, MARKDOWN)
+    assert _failing(found) == []
+
+
+@pytest.mark.parametrize("unit", ["mm", "in"])
+def test_a_torque_has_no_digit_that_is_wrong(unit: str) -> None:
+    request = _request("press", 87.0)
+    found = solution(replace(request, scene=in_unit(request.scene, unit)))
+    (torque,) = [result.value for result in found.results if result.token == "input.torque"]
+    assert len(torque.shown) >= len("1.4038")
+    assert float(torque.shown) == round(1.40379722, len(torque.shown) - 2)
+
+
+# Poses at which what is zero by geometry comes out of rounded numbers.
+ZEROS = {
+    ("excavator", 50.0): ("stick.rate", "bucket.rate"),
+    ("isosceles-slider", 87.0): ("rod.angular_acceleration",),
+    ("parallel-locomotive", 87.0): ("crank2.angular_acceleration", "rod2.angular_velocity"),
+}
+
+
+@pytest.mark.parametrize(("name", "degrees"), ZEROS)
+def test_what_is_zero_shows_no_rounding(name: str, degrees: float) -> None:
+    found = solution(_request(name, degrees))
+    results = {result.token: result.value.shown for result in found.results}
+    assert {float(results[token]) for token in ZEROS[name, degrees]} == {0.0}
+    assert _failing(found) == []
+
+
+@pytest.mark.parametrize("name", ["hart", "peaucellier", "scissor-lift", "pantograph"])
+def test_other_lengths_leave_lines_straight_circles_round_and_what_is_level_so(name: str) -> None:
+    scene = load(name)
+    for seed in (1, 2, 3):
+        changed = variant(scene, seed, lambda _: True)
+        assert changed.title == f"{scene.title}, with other lengths"
+        for one, other in zip(_straightness(scene), _straightness(changed), strict=True):
+            assert (one < 1e-9) == (other < 1e-9)
+
+
+def _straightness(scene: Scene) -> list[float]:
+    """Return how wide each moving joint's path is across, in its lengths."""
+    found = []
+    for place in scene.cycle(96).position.values():
+        widths = np.linalg.svd(place - place.mean(axis=0), compute_uv=False)
+        if widths[0] > 1e-9 * scene.linkage.longest:
+            found.append(widths[1] / widths[0])
+    return found
 
 
 def test_a_cylinder_that_drives_is_a_loop_and_where_none_closes_it_says_so() -> None:
