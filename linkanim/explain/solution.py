@@ -28,6 +28,7 @@ from linkanim.picture.figure import figure
 _FEWEST, _MOST = 6, 12
 _AGREES = 5e-6
 """A result agrees to that share of itself."""
+_TINY = 1e-300
 _BY_INPUT = (
     "Primes are derivatives by the input: h of angles, f of ways. Each loop differentiated gives two linear "
     "equations; a are the entries of their matrix, b the right sides, D the determinant, and both unknowns "
@@ -98,7 +99,7 @@ def solution(request: PoseRequest) -> Solution:
             places: dict[Symbol, int] = {}
             found = _Draft(request, names, digits, places).solution(rates)
             # what follows from a number in fewer digits is another number, and may have fewer that are right
-            while _agrees(found) and (fewer := _right_places(found)):
+            while _agrees(found) and not (fewer := _right_places(found)).items() <= places.items():
                 places |= fewer
                 found = _Draft(request, names, digits, places).solution(rates)
             if _agrees(found):
@@ -125,15 +126,26 @@ def _agrees(found: Solution) -> bool:
 
 
 def _right_places(found: Solution) -> dict[Symbol, int]:
-    """Return with how many decimals zeros and `last` results are right to the last, where they have more."""
+    """Return with how many decimals zeros and `last` results are right to the last, where they have more.
+
+    All zeros get fewer where one shows rounding: in what follows from it others would, one after the other.
+    """
+    zeros: dict[Symbol, int] = {}
     right: dict[Symbol, int] = {}
+    rounding = False
     for result, true in _compared(found):
         value, symbol = result.value.value, result.value.symbol
         shown = len(result.value.shown.partition(".")[2])
-        if symbol is not None and (result.last or float(rounded(true, shown)) == 0):
-            places = next((n for n in range(shown, 0, -1) if rounded(value, n) == rounded(true, n)), 0)
-            right |= {symbol: places} if places < shown else {}
-    return right
+        if symbol is None:
+            continue
+        if float(rounded(true, shown)) == 0:
+            zeros[symbol] = min(shown, max(math.floor(-math.log10(2 * max(result.least, _TINY))), 0))
+            rounding = rounding or value != 0
+        elif result.last:
+            right[symbol] = next((n for n in range(shown, 0, -1) if rounded(value, n) == rounded(true, n)), 0)
+            if right[symbol] == shown:
+                del right[symbol]
+    return right | (zeros if rounding else {})
 
 
 class _Draft:

@@ -21,7 +21,7 @@ from linkanim.picture.theme import Theme
 from linkanim.picture.view import Rect
 from linkanim.scenes.scene import Scene
 from linkanim.share.pairs import Pairs
-from linkanim.share.tracks import packed
+from linkanim.share.tracks import LARGEST, packed
 
 CHART = (960, 300)
 _TEXT = (26, 22)
@@ -64,8 +64,21 @@ def _motion(scene: Scene, speed: float) -> Motion:
 def _row(label: str, unit: str, step: float, values: list[NDArray[np.float64]]) -> dict[str, Any]:
     forth, back = values[0], values[-1]
     sign = next((sign for sign in (1, -1) if np.array_equal(back, sign * forth)), 0)
-    packs = [packed(some, "<f4") for some in (values if sign == 0 else values[:1])]
-    return {"label": label, "unit": unit, "digits": _digits(step), "values": packs, "back": sign}
+    some = values if sign == 0 else values[:1]
+    kind = _kind(some)
+    packs = {"values": [packed(one, kind) for one in some], **_said(kind)}
+    return {"label": label, "unit": unit, "digits": _digits(step), **packs, "back": sign}
+
+
+def _kind(values: list[NDArray[np.float64]]) -> str:
+    """Return the kind of numbers that holds values: 32 bits, or 64 where one is too large for them."""
+    largest = max(float(np.abs(one[np.isfinite(one)]).max(initial=0.0)) for one in values)
+    return "<f4" if largest < LARGEST else "<f8"
+
+
+def _said(kind: str) -> dict[str, str]:
+    """Return what a page is told of a kind of numbers: nothing of the usual one."""
+    return {} if kind == "<f4" else {"kind": kind[1:]}
 
 
 def _digits(step: float) -> int:
@@ -89,13 +102,16 @@ def charts(figure: Figure, themes: tuple[Theme, Theme], shown: tuple[str, float]
 def _chart(light: ChartPanel, dark: ChartPanel, pairs: Pairs) -> dict[str, Any]:
     course, (x, values) = light.course, light.curves
     even = np.linspace(0.0, course.span, min(len(light.figure.cycle.phase), _MOST) + 1)
+    columns = [np.interp(even, x, np.where(np.isfinite(column), column, np.nan)) for column in values.T]
+    kind = _kind(columns)
     curves = [
         {
             "label": light.series.labels[n],
             "colour": pairs.variable(light.colour(n), dark.colour(n)),
-            "values": packed(np.interp(even, x, np.where(np.isfinite(column), column, np.nan)), "<f4"),
+            "values": packed(column, kind),
+            **_said(kind),
         }
-        for n, column in enumerate(values.T)
+        for n, column in enumerate(columns)
     ]
     span = light.plot.y.high - light.plot.y.low
     return {

@@ -14,6 +14,7 @@ from string import Template
 from typing import Any
 
 from linkanim.errors import BadInput
+from linkanim.mechanics.linkage.pins import Crank
 from linkanim.paper.svg import FACES
 from linkanim.picture.figure import figure
 from linkanim.picture.look import ACCELERATION, VELOCITY, Look, ThemeName
@@ -62,7 +63,7 @@ def document(shared: Shared) -> str:
     """Return the page as HTML, which loads nothing; one closure alone where there is no room for both.
 
     BadInput for a chart of no quantity of the scene, for a speed of zero, and where the page would be larger
-    than `LARGEST`, of a scene that takes very many turns to be back.
+    than `LARGEST`: its gears take very many turns to be back, or it has very many joints and bodies.
     """
     scene = shared.scene
     if shared.speed == 0:
@@ -72,12 +73,21 @@ def document(shared: Shared) -> str:
     if len(both) > 1 and len(page.encode()) > LARGEST:
         page = _whole(shared, both[:1])
     if len(page.encode()) > LARGEST:
-        turns, size = scene.info.true_period, len(page.encode()) / 1000
+        size = len(page.encode()) / 1000
         raise BadInput(
             f"{scene.name}: a page of it would take {size:.0f} kB, and {LARGEST / 1000:.0f} kB is the most; "
-            f"it is back after {turns} turns: a gear ratio of smaller numbers makes them fewer"
+            f"{_why_large(scene)}"
         )
     return page
+
+
+def _why_large(scene: Scene) -> str:
+    """Return what makes a page of a scene large, and what would make it smaller."""
+    linkage, turns = scene.linkage, scene.info.true_period
+    if turns > 1 and any(isinstance(joint, Crank) and joint.gear for joint in linkage.joints):
+        return f"it is back after {turns} turns: a gear ratio of smaller numbers makes them fewer"
+    count = f"{len(linkage.joints)} joints and {len(linkage.bodies)} bodies"
+    return f"it has {count}: share a scene of fewer, or record it"
 
 
 def _whole(shared: Shared, closures: tuple[Scene, ...]) -> str:

@@ -31,6 +31,8 @@ _PROBES = (0.25, 0.5, 0.75)
 """Where between two nodes is looked how far off it is."""
 _STEPS = 1 << 30
 """Of positions, to the farthest of all."""
+LARGEST = float(np.finfo(np.float32).max)
+"""What 32 bits hold at the most: of rates beside a place where they are unbounded no more is kept."""
 _NOWHERE = complex(-1e4, -1e4)
 """Where a joint lies that is nowhere (NaN)."""
 
@@ -160,7 +162,7 @@ def packed_tracks(found: Mapping[str, Track]) -> dict[str, Any]:
             name: [
                 packed(track.nodes, "<u2"),
                 packed(np.rint(_parts(track.places) / grain), "<i4"),
-                packed(_parts(track.rates.T), "<f4"),
+                packed(np.clip(_parts(track.rates.T), -LARGEST, LARGEST), "<f4"),
             ]
             for name, track in found.items()
         },

@@ -54,6 +54,43 @@ def test_joints_lie_where_the_solver_has_them_on_both_closures(name: str, page: 
     assert page.requests == [address]
 
 
+ODD = """
+title = "odd names"
+[ground]
+constructor = [0, 0]
+toString = [100, 0]
+valueOf = [200, 0]
+[joints.__proto__]
+crank = "constructor"
+length = 30
+[joints.hasOwnProperty]
+from = ["__proto__", "toString"]
+length = [90, 80]
+side = "left"
+[joints.length]
+from = ["hasOwnProperty", "valueOf"]
+length = [110, 80]
+side = "left"
+[bodies.constructor]
+joints = ["__proto__", "hasOwnProperty"]
+com = [20, 10]
+[trace]
+joints = ["length"]
+"""
+
+
+def test_joints_are_called_as_every_object_s_own_things(page: Page, tmp_path: Path) -> None:
+    (tmp_path / "odd.toml").write_text(ODD, encoding="utf-8")
+    scene = load(tmp_path / "odd.toml")
+    page.go(put(tmp_path, Shared(scene, names=1)))
+    page.value("document.getElementById('numbers').open = true")
+    assert max(farthest(page, scene, at) for at in PHASES) < FINEST
+    rows = page.value("[...document.querySelectorAll('#numbers tbody th')].map((cell) => cell.textContent)")
+    centre = "constructor (centre of mass)"
+    assert sorted(rows) == sorted([*(joint.name for joint in scene.linkage.joints), centre])
+    assert page.messages == []
+
+
 def test_the_mouse_drags_the_crank(page: Page, tmp_path: Path) -> None:
     scene = load("crank-rocker")
     page.go(put(tmp_path, Shared(scene)))

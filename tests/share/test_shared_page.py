@@ -117,6 +117,25 @@ def test_a_page_runs_at_the_speed_asked_for() -> None:
     assert found["sides"][0]["rows"][1]["text"] == ["−14.32 rpm", "14.32 rpm"]
 
 
+def test_numbers_too_large_for_the_usual_ones_are_held_by_larger_ones() -> None:
+    text = f"[four-bar]\nground = 100\ncrank = 30\ncoupler = 90\nrocker = 80\n{SPRING}"
+    shared = Shared(scene_from(parse(text, "my"), name="my", where="my"), chart="s.force")
+    side = held(document(shared))["sides"][0]
+    (row,) = [row for row in side["rows"] if row["label"].endswith("force")]
+    (curve,) = side["charts"][0]["curves"]
+    for kind, packed in ((row["kind"], row["values"][0]), (curve["kind"], curve["values"])):
+        values = np.frombuffer(base64.b64decode(packed), f"<{kind}")
+        assert 1e38 < np.abs(values).max() < 1e39
+
+
+SPRING = """
+[springs.s]
+between = ["B", "O2"]
+stiffness = "9e29 N/m"
+free_length = 9e11
+"""
+
+
 def test_a_page_s_numbers_and_chart_are_what_is_solved() -> None:
     scene = load("crank-rocker")
     side = held(document(Shared(scene, speed=2.0, chart="B.velocity")))["sides"][0]
@@ -163,7 +182,9 @@ joints = ["B", "C"]
 
 def test_what_is_larger_than_a_page_may_be_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("linkanim.share.page.LARGEST", 20_000)
-    with pytest.raises(BadInput, match="20 kB is the most; it is back after 2 turns"):
+    with pytest.raises(
+        BadInput, match="20 kB is the most; it has 5 joints and 3 bodies: share a scene of fewer"
+    ):
         document(Shared(load("kite")))
 
 

@@ -1,0 +1,276 @@
+"""Everything that can come to an open window at random: events of every kind, and a world that changes."""
+
+from __future__ import annotations
+
+import errno
+import math
+import os
+import shutil
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from pathlib import Path
+from random import Random
+
+import pygame
+import pytest
+from playing import NoSearch, fake_start
+
+from linkanim.play.arcade import Arcade
+from linkanim.player.input.keyboard import code
+from linkanim.player.input.keys import key_names
+from linkanim.player.state.action import Action
+from linkanim.player.state.advance import carried
+from linkanim.player.state.state import begin
+from linkanim.player.window import following, rendering
+from linkanim.player.window.drafts import DraftFile
+from linkanim.player.window.files import SceneFile
+from linkanim.player.window.window import Window
+from linkanim.scenes import load, names
+from linkanim.scenes.editing.write import text
+from linkanim.synthesis.answer import PathAnswer
+from linkanim.synthesis.follower import Follow, Reply
+
+SIZES = ((320, 180), (640, 200), (180, 320), (64, 36), (2, 700), (700, 2), (1, 1), (500, 400))
+_KEYS = [code(name) for name in key_names()]
+_OFTEN = [
+    code(name) for name in ("return", "escape", "up", "down", "left", "right", "o", "w", "f2", "f3", "e")
+]
+_RARE = {code(name) for name in ("f11", "q", "g", "m", "s", "f12")}
+_MODS = (0, 0, 0, 0, pygame.KMOD_LSHIFT, pygame.KMOD_LCTRL, pygame.KMOD_LALT, pygame.KMOD_LCTRL | 1)
+_STRANGE = (math.nan, math.inf, -math.inf, -1.0, 2.0, 1e300)
+_LINKS = (30.0, 90.0, 45.0, 30.0, 100.0, 0.0, 80.0)
+
+
+class Search(NoSearch):
+    """Stands where the process that looks for linkages would; replies come late, and to old strokes too."""
+
+    def __init__(self, random: Random) -> None:
+        super().__init__()
+        self._random = random
+
+    def replies(self) -> Iterator[Reply]:
+        random = self._random
+        for request in self.asked if random.random() < 0.2 else ():
+            row = (0.1, 1.0, *(length + random.uniform(-2, 2) for length in _LINKS))
+            numbers = PathAnswer(random.random(), 1.0, 0.3, 1.0, row).numbers
+            whole = random.random() < 0.5
+            error = "no linkage follows that" if random.random() < 0.1 else ""
+            yield Reply(request.stroke, whole, numbers * random.randint(1, 3) if whole else numbers, 0, error)
+        if random.random() < 0.3:
+            self.asked: list[Follow] = []
+
+
+class Pad:
+    """A gamepad that may be pulled out at any moment: it then answers with an error, as SDL's do."""
+
+    def __init__(self, index: int) -> None:
+        if index > 1:
+            raise pygame.error("Invalid joystick device number")
+        self._index, self.asked = index, 0
+
+    def _answered(self, value: object) -> object:
+        self.asked += 1
+        if self.asked % 7 == 0:
+            raise pygame.error("joystick not initialized")
+        return value
+
+    def get_name(self) -> object:
+        return self._answered("Pad")
+
+    def get_instance_id(self) -> object:
+        return self._answered(self._index)
+
+    def get_numhats(self) -> object:
+        return self._answered(1 - self._index)
+
+
+class Storm:
+    """Windows on a folder of their own, one after the other, and what comes to them."""
+
+    def __init__(self, seed: int, folder: Path, patch: pytest.MonkeyPatch) -> None:
+        self._random, self._folder, self.events, self.windows = Random(seed), folder, 0, 0
+        self._here = folder / "here"
+        self._there()
+        self._is_full = False
+        patch.setattr(rendering, "_start", fake_start([]))
+        patch.setattr(following, "Following", lambda: Search(self._random))
+        patch.setattr(pygame.joystick, "Joystick", Pad)
+        synced = os.fsync
+
+        def full(number: int) -> None:
+            if self._is_full:
+                raise OSError(errno.ENOSPC, "No space left on device")
+            synced(number)
+
+        patch.setattr(os, "fsync", full)
+
+    def blow(self, events: int) -> None:
+        """Post so many events, a few a frame; a window that closes is followed by another one."""
+        end = self.events + events
+        while self.events < end:
+            window = self._opened()
+            while self.events < end:
+                for _ in range(self._random.choice((0, 1, 1, 2, 6))):
+                    self._post(window)
+                    self.events += 1
+                if self._random.random() < 0.03:
+                    self._change()
+                if not window.tick(self._random.choice((1, 1, 1, 2, 30, 90))):
+                    break
+            self._there()
+            window.close()
+
+    def _opened(self) -> Window:
+        """Return a window on a scene, a scene file, the title, a game or a sheet."""
+        random = self._random
+        self._there()
+        self.windows += 1
+        keeper = Arcade(self._folder / "data" / "scores.json", random)
+        (self._here / "mine.toml").write_text(text(load(random.choice(names()))), encoding="utf-8")
+        mine = random.random() < 0.5
+        scene = load(self._here / "mine.toml" if mine else random.choice(names()))
+        state = replace(begin(scene), games=keeper.game_of, attract=random.random() < 0.3)
+        if random.random() < 0.3:
+            words = random.choice(("title", "lobby", "menu", "match", "predict", "follow"))
+            state = carried(state, Action("play", keeper.completed(words)))
+        drafts = DraftFile(self._folder / "data" / "draft.json")
+        return Window(state, None, SceneFile(Path("mine.toml")) if mine else None, keeper, drafts)
+
+    def _post(self, window: Window) -> None:
+        kinds: list[Callable[[Window], pygame.event.Event]] = [
+            *[self._key] * 6,
+            *[self._mouse] * 6,
+            *[self._finger] * 2,
+            *[self._pad] * 2,
+            self._drop,
+            self._of_the_window,
+        ]
+        pygame.event.post(self._random.choice(kinds)(window))
+
+    def _key(self, _: Window) -> pygame.event.Event:
+        random = self._random
+        key = random.choice(_OFTEN if random.random() < 0.4 else _KEYS)
+        if key in _RARE and random.random() < 0.8:
+            key = code("space")
+        if random.random() < 0.05:
+            return pygame.event.Event(pygame.KEYUP, key=key, mod=0)
+        typed = random.choice(("é", "ω", "\x00", "1", "9", "-", ".", "𝔸")) if random.random() < 0.1 else ""
+        own = chr(key) if 32 <= key < 127 else ""
+        return pygame.event.Event(pygame.KEYDOWN, key=key, mod=random.choice(_MODS), unicode=typed or own)
+
+    def _place(self, window: Window) -> tuple[int, int]:
+        """Return a pixel: anywhere, outside, or on a joint."""
+        random, (width, height) = self._random, pygame.display.get_window_size()
+        if random.random() < 0.5:
+            return random.randint(-5, width + 5), random.randint(-5, height + 5)
+        places = list(window.state.shown.pose(window.state.phase, 0).position.values())
+        try:
+            x, y = window.screen.pixel(*random.choice(places))
+        except AssertionError:  # nothing is painted yet
+            return 0, 0
+        inside = abs(x) < 1e5 and abs(y) < 1e5
+        return (round(x), round(y)) if inside else (0, 0)
+
+    def _mouse(self, window: Window) -> pygame.event.Event:
+        random, at = self._random, self._place(window)
+        match random.randrange(7):
+            case 0 | 1:
+                return pygame.event.Event(
+                    pygame.MOUSEBUTTONDOWN, pos=at, button=random.choice((1, 1, 1, 2, 3))
+                )
+            case 2:
+                return pygame.event.Event(pygame.MOUSEBUTTONUP, pos=at, button=random.choice((1, 1, 1, 3)))
+            case 3:
+                return pygame.event.Event(pygame.MOUSEWHEEL, x=0, y=random.choice((-40, -1, 0, 1, 40)))
+        return pygame.event.Event(pygame.MOUSEMOTION, pos=at, rel=(0, 0), buttons=(1, 0, 0))
+
+    def _finger(self, _: Window) -> pygame.event.Event:
+        random = self._random
+        x, y = (random.choice(_STRANGE) if random.random() < 0.1 else random.random() for _ in "xy")
+        kind = random.choice((pygame.FINGERDOWN, pygame.FINGERMOTION, pygame.FINGERMOTION, pygame.FINGERUP))
+        return pygame.event.Event(kind, finger_id=random.randrange(3), touch_id=1, x=x, y=y, dx=0.0, dy=0.0)
+
+    def _pad(self, _: Window) -> pygame.event.Event:
+        random, which = self._random, self._random.randrange(3)
+        match random.randrange(7):
+            case 0:
+                return pygame.event.Event(pygame.JOYDEVICEADDED, device_index=which)
+            case 1:
+                return pygame.event.Event(pygame.JOYDEVICEREMOVED, instance_id=which)
+            case 2:
+                value = random.choice(_STRANGE) if random.random() < 0.1 else random.uniform(-1, 1)
+                return pygame.event.Event(
+                    pygame.JOYAXISMOTION, instance_id=which, axis=random.randrange(4), value=value
+                )
+            case 3:
+                value2 = random.choice((-1, 0, 1)), random.choice((-1, 0, 1))
+                return pygame.event.Event(pygame.JOYHATMOTION, instance_id=which, value=value2)
+        kind = random.choice((pygame.JOYBUTTONDOWN, pygame.JOYBUTTONUP))
+        return pygame.event.Event(kind, instance_id=which, button=random.randrange(20))
+
+    def _drop(self, _: Window) -> pygame.event.Event:
+        name = self._random.choice((*DROPPED, "n" * 300 + ".png", "a\0b.toml", "\udcff.png", "", ".", ".."))
+        file = str(self._here / name) if self._random.random() < 0.7 else name
+        return pygame.event.Event(pygame.DROPFILE, file=file)
+
+    def _of_the_window(self, _: Window) -> pygame.event.Event:
+        kinds = ("EXPOSED", "SIZECHANGED", "MINIMIZED", "HIDDEN", "RESTORED", "FOCUSLOST", "CLOSE", "LEAVE")
+        kind = getattr(pygame, f"WINDOW{self._random.choice(kinds)}")
+        if self._random.random() < 0.1:
+            return pygame.event.Event(pygame.QUIT)
+        return pygame.event.Event(kind)
+
+    def _change(self) -> None:
+        """Change the world: the window's size, a file, a folder, the disk."""
+        random, data = self._random, self._folder / "data"
+        match random.randrange(10):
+            case 0 | 1 | 2:
+                pygame.display.set_mode(random.choice(SIZES), pygame.RESIZABLE)
+            case 3 | 4:
+                name = random.choice((*DROPPED, "mine.toml"))
+                if self._here.exists():
+                    put(self._here / name, random)
+            case 5:
+                self._is_full = not self._is_full
+            case 6:
+                shutil.rmtree(self._here / "recordings", ignore_errors=True)
+            case 7:
+                shutil.rmtree(self._here) if self._here.exists() else self._there()
+            case 8:
+                data.mkdir(exist_ok=True)
+                name = random.choice(("draft.json", "scores.json"))
+                (data / name).write_bytes(random.choice((b"", b"{", b'{"linkanim_scores": 7}', b"\xff" * 9)))
+            case 9:
+                shutil.rmtree(data, ignore_errors=True)
+
+    def _there(self) -> None:
+        """Have the current folder there again."""
+        self._is_full = False
+        self._here.mkdir(exist_ok=True)
+        os.chdir(self._here)
+
+
+DROPPED = ("a.toml", "b.toml", "photo.png", "gone.toml", "gone.jpg", "wide.bmp", "broken.webp", "folder.toml")
+"""Names of what is dropped on a window; what lies under them comes and goes."""
+
+
+def put(path: Path, random: Random) -> None:
+    """Put something at a path, or take away what is there."""
+    if path.is_dir():
+        path.rmdir()
+        return
+    path.unlink(missing_ok=True)
+    match path.suffix, random.randrange(4):
+        case _, 0:
+            return
+        case _, 1:
+            path.write_bytes(random.randbytes(40))
+        case ".toml", 2:
+            path.mkdir()
+        case ".toml", _:
+            path.write_text(text(load(random.choice(names()))), encoding="utf-8")
+        case _:
+            picture = pygame.Surface((random.randint(1, 300), random.randint(1, 300)))
+            picture.fill([random.randrange(256) for _ in range(3)])
+            pygame.image.save(picture, path.with_suffix(".png"))
+            path.with_suffix(".png").replace(path)
