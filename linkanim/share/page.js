@@ -24,8 +24,8 @@
   const minus = (text) => text.replaceAll("-", "−");
   const short = (x) => minus(String(Number(x.toPrecision(4))));
 
-  const NUMBERS = { u1: Uint8Array, u2: Uint16Array, i4: Int32Array, f4: Float32Array };
-  function unpacked(text, kind) {
+  const NUMBERS = { u1: Uint8Array, u2: Uint16Array, i4: Int32Array, f4: Float32Array, f8: Float64Array };
+  function unpacked(text, kind = "f4") {
     const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
     return new NUMBERS[kind](bytes.buffer);
   }
@@ -193,7 +193,7 @@
 
     curve(group, { at, width, colours }, tracks) {
       const count = Math.max(360, 360 * Math.round(page.period / TURN));
-      const points = Array.from({ length: count }, (_, n) => tracks[at].at(n / count * page.period).p);
+      const points = Array.from({ length: count }, (_, n) => tracks.get(at).at(n / count * page.period).p);
       stroked(group, colours[0], width, { d: line(points) + "Z" });
       return () => group.classList.toggle("off", !state.trace);
     },
@@ -208,7 +208,7 @@
         const tail = Math.min(phase, page.period) * Math.sign(speed());
         paths.forEach((path, n) => put(path, "d", line(Array.from({ length: pieces + 1 }, (_, k) => {
           const age = 1 - (n + k / pieces) / shades.length;
-          return tracks[at].at(state.phase - tail * age).p;
+          return tracks.get(at).at(state.phase - tail * age).p;
         }))));
       };
     },
@@ -288,13 +288,14 @@
   // --- both closures, ready to be moved -----------------------------------------------------------
 
   const sides = page.sides.map((data, number) => {
-    const tracks = {};
-    for (const name in data.tracks.points) tracks[name] = new Track(data.tracks.points[name], data.tracks.grain);
+    // a map: an object has properties that nobody gave it, such as "constructor"
+    const tracks = new Map();
+    for (const name in data.tracks.points) tracks.set(name, new Track(data.tracks.points[name], data.tracks.grain));
     const group = byId(`side${number}`);
     const groups = [...group.querySelectorAll("[data-m]")];
-    const rows = data.rows.map((row) => ({ ...row, tables: (row.values || []).map((some) => unpacked(some, "f4")) }));
+    const rows = data.rows.map((row) => ({ ...row, tables: (row.values || []).map((some) => unpacked(some, row.kind)) }));
     const charts = data.charts.map((chart) => ({
-      ...chart, curves: chart.curves.map((curve) => ({ ...curve, table: unpacked(curve.values, "f4") })),
+      ...chart, curves: chart.curves.map((curve) => ({ ...curve, table: unpacked(curve.values, curve.kind) })),
     }));
     const moves = data.movers.map((mover, n) => KINDS[mover.kind](groups[n], mover, tracks));
     return { data, tracks, group, groups, rows, charts, moves };
@@ -304,8 +305,11 @@
   // --- drawing ------------------------------------------------------------------------------------
 
   function draw() {
-    const side = now(), poses = {};
-    const pose = (name) => poses[name] || (poses[name] = side.tracks[name].at(state.phase));
+    const side = now(), poses = new Map();
+    const pose = (name) => {
+      if (!poses.has(name)) poses.set(name, side.tracks.get(name).at(state.phase));
+      return poses.get(name);
+    };
     const place = (name) => pose(name).p;
     for (const move of side.moves) move(place, pose);
     put(byId("grip"), "transform", `translate(${xy(place(side.data.drive))})`);
@@ -456,7 +460,7 @@
     };
     const { unit: of } = page, [head, body] = byId("numbers").querySelectorAll("thead, tbody");
     head.replaceChildren(row("th", ["point", `position (${of})`, `velocity (${of}/s)`, `acceleration (${of}/s²)`]));
-    body.replaceChildren(...Object.keys(side.tracks).map((name) => {
+    body.replaceChildren(...[...side.tracks.keys()].map((name) => {
       const { place, velocity, acceleration } = inUnits(pose(name), side.data.view);
       return row("td", [name, couple(place), couple(velocity), couple(acceleration)]);
     }));
@@ -501,7 +505,7 @@
   // Moves the input to where its joint comes nearest to the pointer within a quarter turn: of several such
   // places to the next one, at the end of a swing, where two are alike, on in the same way.
   function drag(target) {
-    const track = now().tracks[now().data.drive], step = TURN / 360;
+    const track = now().tracks.get(now().data.drive), step = TURN / 360;
     const off = (phase) => { const gap = sub(track.at(phase).p, target); return gap[0] ** 2 + gap[1] ** 2; };
     const tried = Array.from({ length: 183 }, (_, n) => state.phase + (n - 91) * step), offs = tried.map(off);
     const near = tried.filter((_, n) => n && n < 182 && offs[n] <= offs[n - 1] && offs[n] <= offs[n + 1])
@@ -525,7 +529,7 @@
     event.preventDefault();
     handle.setPointerCapture(event.pointerId);
     pause();
-    state.held = sub(under(picture, event), now().tracks[now().data.drive].at(state.phase).p);
+    state.held = sub(under(picture, event), now().tracks.get(now().data.drive).at(state.phase).p);
     picture.classList.add("held");
   });
   handle.addEventListener("touchstart", (event) => event.preventDefault(), { passive: false });  // no scrolling
