@@ -79,7 +79,7 @@ THIRD_PARTIES = {
     "scenes": {"numpy", "tomli_w"},
     "synthesis": {"numpy"},
     "build": set(),
-    "picture": {"numpy", "pygame"},
+    "picture": {"numpy", "pygame", "PIL"},
     "explain": {"numpy"},
     "paper": {"numpy", "pygame", "fpdf"},
     "share": {"numpy"},

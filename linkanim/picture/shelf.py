@@ -68,7 +68,12 @@ class Grid(NamedTuple):
         return next((n for n, cell in self.cells.items() if inside and cell.holds(x, y)), None)
 
     def beside(self, place: int, rows: int) -> int:
-        """Return the mechanism nearest to one, so many rows further down; the first row follows the last."""
+        """Return the mechanism nearest to one, so many rows further down; the first row follows the last.
+
+        The same one where there are none.
+        """
+        if not self.rows:
+            return place
         here = next((n for n, row in enumerate(self.rows) if place in row), 0)
         row = self.rows[(here + rows) % len(self.rows)]
         return row[min(self.rows[here].index(place), len(row) - 1)] if place in self.rows[here] else row[0]
@@ -99,7 +104,8 @@ class _Shape:
         unit = layout(size).unit
         self.text = max(round(15.0 * unit), 11)
         edge = max(14.0 * unit, 4.0)
-        self._room = Rect(edge, 2.4 * self.text, size[0] - 2 * edge, size[1] - 5.4 * self.text)
+        wide, high = (max(side, 1.0) for side in (size[0] - 2 * edge, size[1] - 5.4 * self.text))
+        self._room = Rect(edge, 2.4 * self.text, wide, high)
         self._gap, least = max(12.0 * unit, 4.0), max(_WIDE[0] * unit, _WIDE[1])
         columns = max(int((self._room.width + self._gap) / (least + self._gap)), 1)
         self._wide = (self._room.width - (columns - 1) * self._gap) / columns

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkanim.picture.answer_row import RowPrinter
+from linkanim.picture.building.photograph import refuse_lacking
 from linkanim.picture.panels.overlay import Overlay
 from linkanim.picture.raster.offscreen import offscreen, pixel_view
 from linkanim.picture.surface import SurfacePrinter
@@ -50,6 +51,8 @@ class TapeFrames:
         """Return the bytes of a frame, to be let go before the next is drawn in their place."""
         state, phase = self._at(frame)
         picture, over = self._framing.at(state, self.size), _lasting(overlay(state), photo=self._photo)
+        if over.build and over.build.photo:
+            refuse_lacking(over.build.photo.file)
         self._printer.print(self._surface, picture, phase, state.clock.speed, over)
         self._row.draw(self._surface, picture.layout, over.row)
         return pixel_view(self._surface)
@@ -95,7 +98,7 @@ def record_tape(
     """Record what a tape does, at any size; a tape in which nothing is done, as the scene's loop.
 
     Without a size it is of the window's shape, so that all stands where it was seen. A `photo` behind what is
-    built is in it if that is asked for.
+    built is in it if that is asked for; one that cannot be shown is then `BadInput`.
 
     The loop starts at the phase at which the tape does. Errors as `record`, and `BadInput` for a
     file that is not a tape of this version.

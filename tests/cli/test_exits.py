@@ -148,7 +148,9 @@ USAGE = [
     (["solve", "press", "--angle", "nan deg"], "--angle"),
     (["solve", "press", "--angle", "87 deg", "--speed", "10 mph"], "mph"),
     # what is to lie below a drawing
-    (["new", "--photo", "none.png"], "is no picture"),
+    (["new", "--photo", "none.png"], "none.png: is not there"),
+    (["new", "--photo", "n" * 300 + ".png"], "file name too long"),
+    (["new", "--photo", __file__], "is no picture"),
     # options that do not go together
     (["solve", "press", "--angle", "1 deg", "--phase", "1 deg"], "one of"),
     (["solve", "press", "--angle", "1 deg", "--sweep", "0:1:1"], "--sweep"),

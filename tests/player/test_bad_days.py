@@ -143,6 +143,7 @@ def test_a_window_may_have_a_thousand_sizes(here: Path) -> None:
     "size",
     [
         (1, 1),
+        (2, 700),
         pytest.param((2000, 1), marks=pytest.mark.long),
         pytest.param((33, 400), marks=pytest.mark.long),
     ],
@@ -152,7 +153,7 @@ def test_a_window_too_small_to_show_anything_takes_keys_and_mouse(here: Path, si
     with display.opened(SIZE):
         player = Player(begin(load("press")))
         pygame.display.set_mode(size, pygame.RESIZABLE)
-        for letter in "ekonhc":
+        for letter in "ekonhcoo":
             player.type(letter)
             player.drag((0, 0), size)
             player.type(letter)
@@ -242,6 +243,25 @@ def test_a_changed_file_comes_on_in_place_of_another_mechanism(opened: Player, h
     assert opened.state.scene == load(here / "my.toml")
     assert [entry for entry in opened.state.shelf if not isinstance(entry, str)] == [opened.state.scene]
     assert (opened.state.place, opened.state.editing.changed) == (0, False)
+
+
+@fault
+def test_a_changed_file_comes_on_while_a_linkage_is_built_on_it(opened: Player, here: Path) -> None:
+    opened.press(pygame.K_F2, pygame.KMOD_LSHIFT)
+    opened.press(pygame.K_TAB)
+    written(here, "crank = 50", "crank = 45")
+    assert "F5" in in_a_second(opened)
+    opened.press(pygame.K_F5)
+    opened.tick()
+    assert opened.state.scene == load(here / "my.toml")
+    assert opened.state.mode == "play"
+    opened.press(pygame.K_F2)
+    assert opened.state.building
+    assert opened.state.building.building.draft.of("bars")["O2–A"]["length"] == 50
+    opened.tick()
+    opened.press(pygame.K_F2)
+    opened.tick()
+    assert opened.state.scene.linkage.crank("A").length == 50
 
 
 @fault

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import pygame
 import pytest
@@ -315,6 +316,46 @@ def test_arrows_scroll_no_more_than_they_need(player: Player) -> None:
     player.press(pygame.K_UP)
     assert player.state.browsing
     assert _grid(player).whole(player.state.browsing.chosen)
+
+
+# What moves about on the shelf by keys and mouse.
+MOVES = {
+    "an arrow": (pygame.KEYDOWN, {"key": pygame.K_DOWN, "mod": 0, "unicode": ""}),
+    "an arrow back": (pygame.KEYDOWN, {"key": pygame.K_UP, "mod": 0, "unicode": ""}),
+    "a page": (pygame.KEYDOWN, {"key": pygame.K_PAGEDOWN, "mod": 0, "unicode": ""}),
+    "a page back": (pygame.KEYDOWN, {"key": pygame.K_PAGEUP, "mod": 0, "unicode": ""}),
+    "the wheel": (pygame.MOUSEWHEEL, {"x": 0, "y": -1, "flipped": False}),
+}
+on_the_shelf = pytest.mark.parametrize("event", MOVES.values(), ids=MOVES)
+
+
+@on_the_shelf
+def test_where_nothing_is_found_nothing_is_moved_to(
+    player: Player, event: tuple[int, dict[str, Any]]
+) -> None:
+    player.type("o")
+    player.type("xyzzy")
+    before = player.state.browsing
+    pygame.event.post(pygame.event.Event(*event))
+    player.tick()
+    assert player.state.browsing == before
+
+
+@on_the_shelf
+@pytest.mark.parametrize("size", [(320, 120), (320, 60), (700, 2), (2, 700)])
+def test_a_window_too_low_for_a_whole_picture_is_scrolled(
+    player: Player, event: tuple[int, dict[str, Any]], size: tuple[int, int]
+) -> None:
+    pygame.display.set_mode(size, pygame.RESIZABLE)
+    player.type("o")
+    for _ in range(3):
+        pygame.event.post(pygame.event.Event(*event))
+        player.tick()
+    assert player.state.browsing
+    if size == (320, 120) and event[0] == pygame.MOUSEWHEEL:
+        assert _grid(player).top == 3
+    player.press(pygame.K_RETURN)
+    assert player.state.browsing is None
 
 
 def test_a_click_beside_the_pictures_closes_the_shelf(player: Player) -> None:

@@ -5,31 +5,34 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import pygame
 import pytest
-from playing import CTRL, SHIFT, Player
+from playing import CTRL, SHIFT, NoSearch, Player
 
 from linkanim.build.draft import Photo
+from linkanim.errors import BadInput
 from linkanim.picture.building.photograph import lack
 from linkanim.picture.building.tools import ICONS, tool_cells
 from linkanim.picture.shelf import NEW
 from linkanim.play.arcade import Arcade
 from linkanim.player.state.action import Action
-from linkanim.player.state.advance import carried
+from linkanim.player.state.advance import advance, carried
 from linkanim.player.state.sheet import BuildSheet, Grip
 from linkanim.player.state.state import TOAST_FRAMES, begin
 from linkanim.player.state.tools import TOOLS
 from linkanim.player.tape.tape import Tape, Taping
 from linkanim.player.tape.tape_file import read, write
-from linkanim.player.window import display
+from linkanim.player.window import display, following
 from linkanim.player.window.drafts import DraftFile
 from linkanim.player.window.show import overlay
 from linkanim.recorder.tape_frames import _lasting, record_tape
 from linkanim.scenes import load
 from linkanim.scenes.editing.toml import parse
 from linkanim.scenes.editing.write import save
+from linkanim.synthesis.answer import PathAnswer
 
 WINDOW = (640, 360)
 
@@ -475,7 +478,34 @@ def test_a_scene_file_names_its_photograph_and_a_recording_leaves_it_out(
         assert (shown.photo is not None) is photo
 
 
-@pytest.mark.parametrize(("name", "reason"), [("broken.jpg", "is no picture"), ("gone.png", "is not there")])
+def test_a_recording_that_is_to_have_a_photograph_is_refused_without_it(
+    builder: Builder, photograph: Path, here: Path
+) -> None:
+    builder.press(pygame.K_F2)
+    taping = Taping(builder.state, WINDOW)
+    pygame.event.post(pygame.event.Event(pygame.DROPFILE, file=str(photograph)))
+    builder.tick(2)
+    taping.note(builder.state.frame, (Action("photo", "digger.png"),))
+    write(taping.tape(builder.state.frame + 20), here / "a.tape.json")
+    made = partial(record_tape, "a.tape.json", "a.gif", size=(64, 36), fps=25)
+    made(photo=True)
+    with_it = (here / "a.gif").read_bytes()
+    photograph.unlink()
+    with pytest.raises(BadInput, match=r"^digger\.png: is not there$"):
+        made(photo=True)
+    assert (here / "a.gif").read_bytes() == with_it
+    made()
+    assert (here / "a.gif").read_bytes() != with_it
+
+
+@pytest.mark.parametrize(
+    ("name", "reason"),
+    [
+        ("broken.jpg", "is no picture; a photograph is one of .png, .jpg, .jpeg, .webp, .bmp"),
+        ("gone.png", "is not there"),
+        ("n" * 300 + ".png", "cannot be read: file name too long"),
+    ],
+)
 def test_a_photograph_that_is_gone_or_none_is_a_sentence_and_does_no_harm(
     builder: Builder, here: Path, name: str, reason: str
 ) -> None:
@@ -489,6 +519,68 @@ def test_a_photograph_that_is_gone_or_none_is_a_sentence_and_does_no_harm(
     builder.press(pygame.K_b, text="b")
     builder.tick(TOAST_FRAMES)
     assert builder.pixels == bare
+
+
+def test_a_photograph_dropped_while_linkages_are_looked_for_lays_the_pencil_down(
+    builder: Builder, photograph: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(following, "Following", NoSearch)
+    builder.press(pygame.K_F2)
+    before = builder.state.scene
+    builder.press(pygame.K_w, text="w")
+    builder.drag(*((320 + 90 * math.cos(n / 3), 180 + 60 * math.sin(n / 3)) for n in range(18)))
+    assert builder.state.sketch
+    found = PathAnswer(0.1, 1.0, 0.3, 1.0, (9.0, 7.0, 30.0, 90.0, 45.0, 30.0, 100.0, 0.0, 80.0))
+    builder.window.state = carried(builder.state, Action("follow", found.numbers))
+    pygame.event.post(pygame.event.Event(pygame.DROPFILE, file=str(photograph)))
+    builder.tick(2)
+    assert builder.sheet.before is before
+    assert overlay(builder.state).path is None
+    assert photo_of(builder).file == "digger.png"
+
+
+def test_a_photograph_can_be_dropped_once_the_current_folder_is_gone(
+    builder: Builder, tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    folder = tmp_path_factory.mktemp("gone")
+    picture = tmp_path_factory.mktemp("other") / "digger.png"
+    pygame.image.save(pygame.Surface((20, 10)), picture)
+    monkeypatch.chdir(folder)
+    folder.rmdir()
+    pygame.event.post(pygame.event.Event(pygame.DROPFILE, file=str(picture)))
+    builder.tick(2)
+    assert photo_of(builder).file == str(picture)
+    DraftFile(picture.with_name("draft.json")).keep(builder.sheet)
+    builder.press(pygame.K_b, text="b")
+    builder.four_bar()
+    builder.press(pygame.K_s, CTRL)
+    builder.tick()
+    assert builder.state.toast
+    assert "cannot be written" in builder.state.toast.text
+
+
+@pytest.mark.parametrize("name", ["\udcff.png", "a\u202e.png"])
+def test_a_photograph_whose_name_no_file_can_hold_is_refused_and_no_tape_has_it(
+    builder: Builder, here: Path, name: str
+) -> None:
+    taping = Taping(builder.state, WINDOW)
+    drop = Action("photo", name)
+    builder.window.state = advance(builder.state, [drop])
+    taping.note(builder.state.frame, (drop,))
+    assert builder.sheet.building.draft.photo is None
+    assert builder.state.toast
+    assert "rename the picture" in builder.state.toast.text
+    write(taping.tape(builder.state.frame), here / "a.tape.json")
+    assert "photo" not in [action.name for _, action in read(here / "a.tape.json").actions]
+
+
+def test_what_is_asked_in_the_frame_that_opens_a_sheet_does_no_harm(builder: Builder) -> None:
+    builder.press(pygame.K_UP)
+    builder.press(pygame.K_F2)
+    for key in (pygame.K_F2, pygame.K_UP, pygame.K_RETURN, pygame.K_i):
+        pygame.event.post(pygame.event.Event(pygame.KEYDOWN, key=key, mod=0, unicode=""))
+    assert builder.tick()
+    assert builder.state.mode == "build"
 
 
 @pytest.fixture

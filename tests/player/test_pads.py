@@ -147,3 +147,42 @@ def test_help_names_the_buttons_once_one_is_plugged_in(pads: Player, index: int,
     assert not pads.state.pad
     written = [words for words, _ in dict(help_groups(pad=True))["gamepad"]]
     assert written == [row.written for row in PAD]
+
+
+def test_one_that_is_gone_before_its_event_comes_is_left_out(
+    pads: Player, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def gone(index: int) -> Pad:
+        raise pygame.error("Invalid joystick device number")
+
+    with monkeypatch.context() as patch:
+        patch.setattr(pygame.joystick, "Joystick", gone)
+        pygame.event.post(pygame.event.Event(pygame.JOYDEVICEADDED, device_index=0))
+        assert pads.tick()
+    assert (pads.state.pad, pads.state.toast) == (False, None)
+
+
+def test_one_that_is_pulled_out_is_asked_nothing_any_more(
+    pads: Player, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def pulled(_: Pad) -> str:
+        raise pygame.error("joystick not initialized")
+
+    for index in (0, 1):
+        pygame.event.post(pygame.event.Event(pygame.JOYDEVICEADDED, device_index=index))
+        pads.tick()
+    monkeypatch.setattr(Pad, "get_name", pulled)
+    monkeypatch.setattr(Pad, "get_numhats", pulled)
+    assert button(pads, SOUTH).clock.paused
+    post(pygame.JOYDEVICEREMOVED)
+    pads.tick()
+    assert pads.state.toast
+    assert pads.state.toast.text.startswith("Pad 1: its left stick")
+
+
+@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
+def test_a_stick_that_is_nowhere_leaves_the_crank_alone(pads: Player, value: float) -> None:
+    before = push(pads, 1j).phase
+    post(pygame.JOYAXISMOTION, axis=0, value=value)
+    pads.tick()
+    assert pads.state.phase == before

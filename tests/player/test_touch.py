@@ -39,6 +39,18 @@ def test_a_second_finger_lets_go_and_two_turn_the_wheel_about_their_middle() -> 
     assert touch.pointed([finger(pygame.FINGERUP, 2, 180, 90)], SIZE) == []
 
 
+def test_a_finger_that_is_nowhere_stays_where_it_was_and_one_outside_is_at_the_edge() -> None:
+    touch, nowhere = Fingers(), float("nan")
+    assert touch.pointed([finger(pygame.FINGERDOWN, 1, nowhere, 90)], SIZE) == []
+    touch.pointed([finger(pygame.FINGERDOWN, 1, 100, 90)], SIZE)
+    (moved,) = touch.pointed([finger(pygame.FINGERMOTION, 1, nowhere, nowhere)], SIZE)
+    assert moved.pos == (100, 90)
+    (moved,) = touch.pointed([finger(pygame.FINGERMOTION, 1, float("-inf"), 1e300)], SIZE)
+    assert moved.pos == (0, HIGH)
+    (lifted,) = touch.pointed([finger(pygame.FINGERUP, 1, nowhere, 0)], SIZE)
+    assert (lifted.type, lifted.pos) == (pygame.MOUSEBUTTONUP, (0, HIGH))
+
+
 def test_a_finger_drags_the_crank_pin(player: Player) -> None:
     x, y = player.window.screen.crank_pin()
     for event in (

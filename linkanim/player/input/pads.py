@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from math import isfinite
+from typing import NamedTuple
+
 import pygame
 from pygame.event import Event
 
@@ -26,11 +29,19 @@ _DEAD_ZONE = 0.4
 """A stick that is no further out than so much of its way is let go."""
 
 
+class Pad(NamedTuple):
+    """A gamepad, held open so that its events come, and what is to be known of it once it is gone."""
+
+    opened: pygame.joystick.JoystickType
+    name: str
+    has_hat: bool
+
+
 class Pads:
     """Knows the gamepads that are plugged in, where the stick was pushed last, and what is being held."""
 
     def __init__(self) -> None:
-        self._pads: dict[int, pygame.joystick.JoystickType] = {}
+        self._pads: dict[int, Pad] = {}
         self._stick, self._moved = [0.0, 0.0], False
         self._repeats = Repeats()
         self._frames: int | None = _LOOKED_FOR_AFTER
@@ -50,8 +61,8 @@ class Pads:
             case pygame.JOYDEVICEADDED:
                 return self._plugged_in(event.device_index)
             case pygame.JOYDEVICEREMOVED if self._pads.pop(event.instance_id, None):
-                return (Action("pad", next((pad.get_name() for pad in self._pads.values()), "")),)
-            case pygame.JOYAXISMOTION if event.axis in (0, 1):
+                return (Action("pad", next((pad.name for pad in self._pads.values()), "")),)
+            case pygame.JOYAXISMOTION if event.axis in (0, 1) and isfinite(event.value):
                 self._stick[event.axis], self._moved = event.value, True
             case pygame.JOYBUTTONDOWN:
                 return self._pressed(button_name(event.button, hat=self._has_hat(event)), mode, frame)
@@ -74,14 +85,18 @@ class Pads:
         return self._repeats.due(frame)
 
     def _plugged_in(self, index: int) -> tuple[Action, ...]:
-        pad = pygame.joystick.Joystick(index)
-        self._pads[pad.get_instance_id()] = pad
-        return (Action("pad", pad.get_name()),)
+        try:
+            pad = pygame.joystick.Joystick(index)
+            found = Pad(pad, pad.get_name(), pad.get_numhats() > 0)
+            self._pads[pad.get_instance_id()] = found
+        except pygame.error:  # pulled out before its event came
+            return ()
+        return (Action("pad", found.name),)
 
     def _has_hat(self, event: Event) -> bool:
         """Whether the gamepad of an event has its D-pad as a hat, as most have."""
         pad = self._pads.get(getattr(event, "instance_id", -1))
-        return pad is None or pad.get_numhats() > 0
+        return pad is None or pad.has_hat
 
     def _pressed(self, name: str, mode: Mode, frame: int) -> tuple[Action, ...]:
         bind = _bound(name, mode)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import dist, log
+from math import dist, isnan, log
 
 import pygame
 from pygame.event import Event
@@ -37,7 +37,9 @@ class Fingers:
         return found
 
     def _of_finger(self, event: Event, size: tuple[int, int]) -> list[Event]:
-        at = round(event.x * size[0]), round(event.y * size[1])
+        at = _place(event, size) or self._down.get(event.finger_id)
+        if at is None:
+            return []
         if event.type == pygame.FINGERDOWN:
             return self._put(event.finger_id, at)
         if event.type == pygame.FINGERUP:
@@ -82,6 +84,14 @@ class Fingers:
     def _spread(self) -> float:
         places = [*self._down.values()]
         return dist(*places[:2]) if len(places) > 1 else 0.0
+
+
+def _place(event: Event, size: tuple[int, int]) -> Place | None:
+    """Return the pixel under a finger, on the window's edge where it is outside; None where it is nowhere."""
+    if isnan(event.x) or isnan(event.y):
+        return None
+    x, y = (min(max(share, 0.0), 1.0) for share in (event.x, event.y))
+    return round(x * size[0]), round(y * size[1])
 
 
 def _mouse(kind: int, at: Place) -> Event:

@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any, NamedTuple
 
+from linkanim.intake import control_in
 from linkanim.picture.diagrams.quantities import quantity
 from linkanim.picture.look import TOGGLES, answer
 from linkanim.picture.parts.driven import speed_words
@@ -47,7 +48,7 @@ def _number(value: object) -> bool:
 
 
 def _text(value: object) -> bool:
-    return isinstance(value, str)
+    return isinstance(value, str) and not control_in(value)
 
 
 def _one_of(*words: str | None) -> Callable[[object], bool]:

@@ -10,6 +10,7 @@ from linkanim.build.draft import Draft
 from linkanim.intake import Intake
 from linkanim.player.state.handlers.build import stored_text
 from linkanim.player.state.sheet import BuildSheet
+from linkanim.player.window.files import from_anywhere
 
 _FILE = Intake("a draft", most_bytes=5_000_000, most_values=500_000)
 
@@ -44,5 +45,5 @@ class DraftFile:
 def _found_anywhere(sheet: BuildSheet) -> BuildSheet:
     """Return a sheet as it lasts, its photograph by a path that holds from any folder."""
     draft = sheet.lasting.draft
-    photo = draft.photo and draft.photo._replace(file=str(Path(draft.photo.file).absolute()))
+    photo = draft.photo and draft.photo._replace(file=from_anywhere(draft.photo.file))
     return replace(sheet, building=replace(sheet.lasting, draft=replace(draft, photo=photo)))

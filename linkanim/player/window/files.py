@@ -63,8 +63,17 @@ def _added(data: bytes, name: str, suffix: str) -> Path:
 
 def beside(file: str) -> str:
     """Return a file's path from the current folder, where scene files are written, if it lies in there."""
-    path, here = Path(file).absolute(), Path.cwd()
-    return str(path.relative_to(here) if path.is_relative_to(here) else path)
+    path = Path(from_anywhere(file))
+    with suppress(OSError, ValueError):  # it is gone, or the file lies elsewhere
+        return str(path.relative_to(Path.cwd()))
+    return str(path)
+
+
+def from_anywhere(file: str) -> str:
+    """Return a path of a file that holds from any folder; the same one where the current folder is gone."""
+    with suppress(OSError):
+        return str(Path(file).absolute())
+    return file
 
 
 class SceneFile:

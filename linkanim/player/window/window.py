@@ -174,7 +174,7 @@ class Window:
             yield from () if listing.files is None else (Action("back"),)
             deed = "plot" if listing.files is None else "open_file"
             yield from (Action(deed, name) for name in listing.found(self.state.scene)[row : row + 1])
-        elif action.name in ("aim", "enter") and self.state.building:
+        elif action.name in ("aim", "enter") and self.state.building and self.screen.state.building:
             yield from self._by_keys(self.state.building, action)
         elif action.name == "back" and not self.state.is_covered and display.is_full():
             yield from [] if self.state.kiosk else [Action("fullscreen")]
@@ -219,9 +219,9 @@ class Window:
         free = self.screen.shelf_grid(replace(browsing, top=row, chosen=before.rows[row][0]))
         yield Action("top", free.top)
         if not free.whole(browsing.chosen):
-            seen = [n for n in free.cells if free.whole(n)]
-            near = [n for row in free.rows for n in row if n in seen]
-            yield Action("point", near[0] if rows > 0 else near[-1])
+            # in a low window none is seen whole
+            seen = [n for n in free.cells if free.whole(n)] or [*free.cells]
+            yield from (Action("point", n) for n in (seen[:1] if rows > 0 else seen[-1:]))
 
     def _files(self) -> Iterator[Action]:
         """Yield what opens the list of the scene files in the current folder."""
@@ -386,7 +386,7 @@ class Window:
             raise BadInput("a recording keeps to the scenes it began with; stop it, then F5 loads the file")
         scene = self._file.load()
         try:
-            self.state = renewed(self.state, scene)
+            self.state = renewed(left(self.state), scene)
         except LinkanimError:
             raise
         except Exception as error:

@@ -52,7 +52,7 @@ def _photographed(scene: Scene, folder: Path) -> Scene:
     if photo is None:
         return scene
     path = Path(photo["file"])
-    with suppress(ValueError):  # of another drive
+    with suppress(ValueError, OSError):  # of another drive, or the current folder is gone
         path = Path(os.path.relpath(path, folder))
     return replace(scene, document={**scene.document, "photo": photo | {"file": path.as_posix()}})
 

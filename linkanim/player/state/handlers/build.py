@@ -13,11 +13,13 @@ from linkanim.build.building import Building
 from linkanim.build.draft import JOINT, restored, stored
 from linkanim.build.origin import building_of
 from linkanim.errors import BadInput
+from linkanim.intake import control_in, named
 from linkanim.picture.figure import figure
 from linkanim.picture.shelf import NEW
 from linkanim.picture.view import Box
 from linkanim.player.state import editing as edit
 from linkanim.player.state.clock import FRAMES_PER_SECOND
+from linkanim.player.state.handlers import pencil
 from linkanim.player.state.handlers.edits import drop
 from linkanim.player.state.handlers.shelf import exchanged
 from linkanim.player.state.handlers.shelf import put as put_on
@@ -64,7 +66,7 @@ def _anew(state: State, make: Callable[[], Building]) -> State:
 
 def _opened(state: State, building: Building, *, known: bool = False) -> State:
     """Return the state with a sheet open over its scene; `known` tells that a file has what is on it."""
-    state, last = drop(state, None), state.sheet
+    state, last = pencil.left(drop(state, None)), state.sheet
     editing = edit.let_go(replace(state.editing, open=False))
     sheet = BuildSheet(state.scene, state.clock, editing, building, HOME, written=building.draft)
     if last and not known:
@@ -195,7 +197,12 @@ def tool(state: State, name: str) -> State:
 
 
 def photo(state: State, file: str) -> State:
-    """Lay a photograph behind the sheet, as wide as that is seen, and take the tool that fits it."""
+    """Lay a photograph behind the sheet, as wide as that is seen, and take the tool that fits it.
+
+    BadInput for a name that no file of ours could hold.
+    """
+    if found := control_in(file):
+        raise BadInput(f"{named(file)}: has {found} in its name; rename the picture")
     state = state if state.building else build(state, None)
     home = sheet_of(state).home
     width = home.right - home.left
