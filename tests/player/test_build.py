@@ -487,7 +487,7 @@ def test_a_recording_that_is_to_have_a_photograph_is_refused_without_it(
     builder.tick(2)
     taping.note(builder.state.frame, (Action("photo", "digger.png"),))
     write(taping.tape(builder.state.frame + 20), here / "a.tape.json")
-    made = partial(record_tape, "a.tape.json", "a.gif", size=(64, 36), fps=25)
+    made = partial(record_tape, "a.tape.json", "a.gif", size=(320, 180), fps=25)
     made(photo=True)
     with_it = (here / "a.gif").read_bytes()
     photograph.unlink()
