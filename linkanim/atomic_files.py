@@ -4,6 +4,8 @@ Work goes into a scratch folder beside the target, `.linkanim-TOKEN.part`, and t
 the end, when its bytes are on the disk. A lock held on `lock` in it says that its run is alive; what a
 killed run left behind is cleared by the next one in that folder. Everything that is written goes through
 here: `BadInput` for a target that is not ours to replace, `WorkFailed` where disk or folder refuse.
+
+A file that several runs change is changed under a `Claim`: read, changed and written without another between.
 """
 
 from __future__ import annotations
@@ -36,6 +38,8 @@ _PART = re.compile(r"\.linkanim-[0-9a-f]{16}\.part")
 _LOCK = "lock"
 _FORSAKEN = 7 * 24 * 3600
 """Seconds after which a scratch folder of another machine, whose locks we may not see, is left behind."""
+_PATIENCE, _PAUSE = 2.0, 0.003
+"""Seconds for which a file that another run changes is waited for, and between looking."""
 
 
 def checked_target(path: str | os.PathLike[str], suffixes: tuple[str, ...]) -> Path:
@@ -157,6 +161,72 @@ def _moved(part: Path, target: Path) -> bool:
         return False
     part.replace(target)
     return True
+
+
+def set_aside(path: Path) -> Path | None:
+    """Give a file of ours that is damaged another name, which is free; None where that cannot be."""
+    names = (path.with_name(f"{path.stem}-aside-{n}{path.suffix}") for n in range(1, 10_000))
+    with suppress(OSError):
+        free = next(name for name in names if not os.path.lexists(name))
+        path.rename(free)
+        return free
+    return None
+
+
+class Claim:
+    """The right to change a file: no other run of linkanim has it until it is released, or we are gone.
+
+    A file beside it is locked, `.NAME.lock`, and goes with the claim.
+    """
+
+    def __init__(self, path: Path, lock: int) -> None:
+        self._path, self._lock = path, lock
+
+    @classmethod
+    def on(cls, target: Path) -> Claim | None:
+        """Return the claim on a file, its folder made if it is not there; None where another run has it.
+
+        A file system that knows no locks gives it to everyone. `WorkFailed` where the folder refuses.
+        """
+        path = target.with_name(f".{target.name}.lock")
+        with saying_why(target):
+            target.parent.mkdir(parents=True, exist_ok=True)
+            # of a file that is another user's no more than this may be asked
+            lock = os.open(path, os.O_RDONLY | os.O_CREAT, 0o666)
+        try:
+            hold(lock)
+            # whoever had the claim before may have taken the file away since it was opened
+            if os.path.samestat(os.fstat(lock), path.stat()):
+                return cls(path, lock)
+        except (BlockingIOError, FileNotFoundError):
+            pass
+        except OSError:
+            return cls(path, lock)
+        os.close(lock)
+        return None
+
+    def release(self) -> None:
+        """Let others change the file."""
+        if sys.platform == "win32":  # where no open file can be removed
+            os.close(self._lock)
+        with suppress(OSError):
+            self._path.unlink()
+        if sys.platform != "win32":
+            os.close(self._lock)
+
+
+@contextmanager
+def alone(target: Path) -> Iterator[None]:
+    """Have no other run of linkanim change a file meanwhile; `WorkFailed` where one does so for long."""
+    until = time.monotonic() + _PATIENCE
+    while (claim := Claim.on(target)) is None:
+        if time.monotonic() > until:
+            raise WorkFailed(f"{target}: cannot be written: another linkanim does not let go of it")
+        time.sleep(_PAUSE)
+    try:
+        yield
+    finally:
+        claim.release()
 
 
 def take_place(part: Path, target: Path) -> None:

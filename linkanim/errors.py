@@ -26,6 +26,10 @@ class SceneError(BadInput):
     """A scene file, or a name in the catalogue, that does not describe a linkage."""
 
 
+class OtherVersion(BadInput):
+    """A file of ours that a linkanim of another version wrote; it stays as it is."""
+
+
 class AssemblyError(BadInput):
     """Lengths that cannot be assembled, or not as asked."""
 

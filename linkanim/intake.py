@@ -15,7 +15,8 @@ from pathlib import Path
 from typing import Any
 
 from linkanim.bounds import MOST_DIGITS
-from linkanim.errors import BadInput, WorkFailed
+from linkanim.errors import BadInput, OtherVersion, WorkFailed
+from linkanim.units import shown
 
 DEEPEST = 16
 """Keys within keys, or brackets within brackets; a scene needs four."""
@@ -82,6 +83,20 @@ class Intake:
             return json.loads(text, parse_constant=int)  # which takes no NaN, nor an infinity
         except (ValueError, RecursionError):
             raise self.refusal(f"{where}: {otherwise}") from None
+
+    def marked(self, document: object, where: str, mark: str, version: int, otherwise: str) -> dict[str, Any]:
+        """Return a document of ours, which has its version under a mark.
+
+        OtherVersion for one of another version; one without the mark is refused as `otherwise`.
+        """
+        if not isinstance(document, dict) or mark not in document:
+            raise self.refusal(f"{where}: {otherwise}")
+        if document[mark] != version or isinstance(document[mark], bool):
+            raise OtherVersion(
+                f"{where}: is {self.noun} of version {shown(document[mark])}; this linkanim reads version "
+                f"{version}"
+            )
+        return document
 
     def _bytes(self, path: Path, where: str) -> bytes:
         if path.is_dir():  # Windows cannot open one to be asked

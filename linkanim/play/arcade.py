@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import islice
 from pathlib import Path
 from random import Random
 from typing import TYPE_CHECKING
@@ -21,18 +22,23 @@ if TYPE_CHECKING:
 _AGAIN = 3
 """So many questions of earlier rounds come again in one."""
 _SEEDS = 10**6
+_MOST_WAITING = 1_000
+"""So many changes wait to be kept."""
 
 
 class Arcade:
     """The games of a window, and the file in which best scores and what was missed are kept.
 
     Without a path it is the user's own; it is read when first needed, and written after each answer. Another
-    window may write it, too: each change is made to what is there at the moment.
+    window may write it, too: each change is made to what is there at the moment. What cannot be kept then is
+    kept with the next change.
     """
 
     def __init__(self, path: Path | None = None, random: Random | None = None) -> None:
         self._path, self._random = path, random or Random()
         self._news: list[str] = []
+        self._said = ""
+        self._waiting: tuple[str, ...] = ()
 
     def game_of(self, words: str) -> Game:
         """Return the game that words begin; BadInput where they name none."""
@@ -45,8 +51,10 @@ class Arcade:
             case "title":
                 return str(found.having(door=scores.door or "play"))
             case "menu":
-                best = ",".join(f"{name}:{score}" for name, score in scores.best.items())
-                return str(found.having(best=best))
+                from linkanim.play.menu import is_round
+
+                rounds = (f"{name}:{score}" for name, score in scores.best.items() if is_round(name))
+                return str(found.having(best=",".join(rounds)))
             case "follow":
                 from linkanim.play.follow import read as run_of
 
@@ -63,30 +71,32 @@ class Arcade:
         return words
 
     def _again(self, words: GameWords, scores: Scores) -> list[QuestionId]:
-        """Return what was missed of a chapter and level, the longest ago first."""
+        """Return what was missed of a chapter and level and can still be asked, the longest ago first."""
         from linkanim.play.chapters import ALL, members
         from linkanim.play.kinds.table import of_level
+        from linkanim.play.round import is_question
 
         scenes = members(words.text("chapter", ALL))
         kinds = of_level(words.whole("level", 1, 1, 3))
-        return [
-            question_id
-            for question_id in scores.missed
-            if question_id.scene in scenes and question_id.kind in kinds
-        ][:_AGAIN]
+        fitting = (one for one in scores.missed if one.scene in scenes and one.kind in kinds)
+        return list(islice(filter(is_question, fitting), _AGAIN))
 
     def keep(self, words: str) -> None:
         """Keep what a game leaves; what cannot be kept is news."""
-        from linkanim.play.scores import save
+        from linkanim.play.scores import keep
 
-        name, _, value = words.partition("=")
+        self._waiting = (*self._waiting, words)[-_MOST_WAITING:]
         try:
-            before = self._scores()
-            after = before.having(name, value)
-            if after != before:
-                save(after, self._file)
+            self._say(keep(self._waiting, self._file, own=self._path is None))
+            self._waiting = ()
         except LinkanimError as error:
-            self._news.append(f"{error}; scores are not kept")
+            self._say(f"{error}; scores are not kept")
+
+    def _say(self, sentence: str | None) -> None:
+        """Have a sentence told, once as long as no other comes."""
+        if sentence and sentence != self._said:
+            self._news.append(sentence)
+        self._said = sentence or ""
 
     def news(self) -> list[str]:
         """Return what there is to say about the file, once."""
@@ -98,9 +108,10 @@ class Arcade:
         return self._path or kept_as("scores.json")
 
     def _scores(self) -> Scores:
-        from linkanim.play.scores import loaded
+        """Return what is kept; nothing where that cannot be read, which is told once there is more."""
+        from linkanim.play.scores import Scores, load
 
-        scores, sentence = loaded(self._file)
-        if sentence:
-            self._news.append(sentence)
-        return scores
+        try:
+            return load(self._file)
+        except LinkanimError:
+            return Scores()

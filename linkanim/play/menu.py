@@ -76,6 +76,13 @@ class Menu(OverWhatRuns):
         return replace(over, game=panel)
 
 
+def is_round(name: str) -> bool:
+    """Tell whether a best score is that of a round which the menu shows."""
+    chapter, _, level = name.rpartition(".")
+    known = (ALL, *chapters(), *names())
+    return chapter.replace("_", " ") in known and level in map(str, LEVELS)
+
+
 def read(words: GameWords) -> Menu:
     """Return the menu that words begin; BadInput where they do not."""
     chapter = words.text("chapter", ALL)

@@ -66,5 +66,14 @@ def question_of(question_id: QuestionId) -> QuizQuestion:
     raise BadInput(f"{shown(str(question_id))} is no question of this version")
 
 
+def is_question(question_id: QuestionId) -> bool:
+    """Tell whether a question that was kept can be asked by this version."""
+    try:
+        question_of(question_id)
+    except BadInput:
+        return False
+    return True
+
+
 def _made(kind: str, scene: Scene, phase: float) -> QuizQuestion | None:
     return KINDS[kind].make(Puzzle(kind, scene, phase, Random(f"{kind} {scene.name} {phase}")))

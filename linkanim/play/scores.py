@@ -3,22 +3,21 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
-from contextlib import suppress
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
-from itertools import count
 from pathlib import Path
 from types import MappingProxyType
 
 from linkanim import atomic_files, intake
-from linkanim.document import Section
-from linkanim.errors import BadInput, LinkanimError, WorkFailed
+from linkanim.document import Section, refuse_controls
+from linkanim.errors import BadInput, OtherVersion
 from linkanim.intake import Intake
 from linkanim.play.question import QuestionId
 
 VERSION = 1
 _MARK = "linkanim_scores"
-_FILE = Intake("a file of scores", most_bytes=1_000_000, most_values=20_000)
+_FILE = Intake("a file of scores", most_bytes=5_000_000, most_values=20_000)
+_NONE = "holds no scores of linkanim"
 _MOST_MISSED = 200
 _MOST_BEST = 1_000
 _HIGHEST = 10**9
@@ -26,7 +25,10 @@ _HIGHEST = 10**9
 
 @dataclass(frozen=True)
 class Scores:
-    """Best scores by round, questions that were missed and not met since, the door taken last."""
+    """Best scores by round, questions that were missed and not met since, the door taken last.
+
+    What was bettered longest ago is forgotten first, where that is more than is ever kept.
+    """
 
     door: str = ""
     best: Mapping[str, int] = field(default_factory=lambda: MappingProxyType({}))
@@ -39,8 +41,10 @@ class Scores:
                 return replace(self, door=value)
             case "best":
                 kind, _, score = value.rpartition(":")
-                best = max(int(score), self.best.get(kind, 0))
-                return replace(self, best=MappingProxyType({**self.best, kind: best}))
+                if int(score) <= self.best.get(kind, -1):
+                    return self
+                rounds = [*(one for one in self.best.items() if one[0] != kind), (kind, int(score))]
+                return replace(self, best=MappingProxyType(dict(rounds[-_MOST_BEST:])))
             case "missed" | "met":
                 question_id = QuestionId.of(value)
                 others = tuple(one for one in self.missed if one != question_id)
@@ -50,25 +54,32 @@ class Scores:
 
 
 def load(path: Path) -> Scores:
-    """Return what a file holds, nothing where there is none; BadInput for one that is not of this version."""
+    """Return what a file holds, nothing where there is none.
+
+    BadInput for one that is damaged or none of ours, OtherVersion for one of another version.
+    """
     where = intake.named(path)
     if not path.exists():
         return Scores()
-    document = _FILE.json(path, where, "is not JSON")
-    if not isinstance(document, dict) or document.get(_MARK) != VERSION:
-        raise BadInput(f"{where}: holds no scores of this version")
-    return _read(Section(where, document))
+    document = _FILE.json(path, where, _NONE)
+    return _read(Section(where, _FILE.marked(document, where, _MARK, VERSION, _NONE)))
 
 
 def _read(top: Section) -> Scores:
+    refuse_controls(top)
     best, missed = top.table("best"), top.listed("missed")
-    if len(best.values) > _MOST_BEST or len(missed.values) > _MOST_MISSED:
-        raise top.wrong("holds more than is ever kept")
     return Scores(
         top.text("door"),
         MappingProxyType({name: best.whole(name, 0, _HIGHEST) for name in best.values}),
-        tuple(QuestionId.of(missed.text(key)) for key in missed.values),
+        tuple(_question(missed, key) for key in missed.values),
     )
+
+
+def _question(missed: Section, key: str) -> QuestionId:
+    try:
+        return QuestionId.of(missed.text(key))
+    except BadInput:
+        raise missed.error(key, "is no question, which is KIND@SCENE@PHASE@SUBJECT") from None
 
 
 def save(scores: Scores, path: Path) -> None:
@@ -76,31 +87,33 @@ def save(scores: Scores, path: Path) -> None:
     document = {
         _MARK: VERSION,
         "door": scores.door,
-        "best": dict(sorted(scores.best.items())),
+        "best": dict(scores.best),
         "missed": [str(question_id) for question_id in scores.missed],
     }
     text = json.dumps(document, indent=1, ensure_ascii=False)
     atomic_files.write_text(path, f"{text}\n", folders=True)
 
 
-def loaded(path: Path) -> tuple[Scores, str | None]:
-    """Return what a file holds; one that is damaged or not ours is set aside, and a sentence says where."""
-    try:
-        return load(path), None
-    except WorkFailed as error:
-        return Scores(), str(error)
-    except LinkanimError as error:
-        aside = _set_aside(path)
-        if aside is None:
-            return Scores(), f"{error}; scores are not kept"
-        return Scores(), f"{error}; it is kept as {aside.name}, and scores begin anew"
+def keep(changes: Iterable[str], path: Path, *, own: bool) -> str | None:
+    """Make changes, each as "best=all.1:50", to what a file holds at this moment, no other window between.
 
-
-def _set_aside(path: Path) -> Path | None:
-    """Give a file another name that is free; None where it cannot be."""
-    names = (path.with_name(f"{path.stem}-aside-{n}{path.suffix}") for n in count(1))
-    free = next(name for name in names if not name.exists())
-    with suppress(OSError):
-        path.rename(free)
-        return free
-    return None
+    Where it is our `own`, one that is damaged is set aside, and a sentence says where. Errors as `load` and
+    `save`.
+    """
+    told = None
+    with atomic_files.alone(path):
+        try:
+            before = load(path)
+        except OtherVersion:
+            raise
+        except BadInput as error:
+            aside = atomic_files.set_aside(path) if own else None
+            if aside is None:
+                raise
+            before, told = Scores(), f"{error}; it is kept as {aside.name}, and scores begin anew"
+        after = before
+        for name, _, value in (change.partition("=") for change in changes):
+            after = after.having(name, value)
+        if after != before:
+            save(after, path)
+    return told

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from argparse import Namespace
+from pathlib import Path
 
 from linkanim.atomic_files import checked_target
+from linkanim.errors import BadInput
 from linkanim.picture.look import Look
 from linkanim.play.arcade import Arcade
 from linkanim.player.window.loop import run as play
@@ -13,12 +15,24 @@ from linkanim.user_data import kept_as
 
 def run(options: Namespace) -> None:
     """Open the window on the title, a scene, a scene file or a tape, and return when it is closed."""
+    if options.scores:
+        _refuse_foreign(checked_target(options.scores, (".json",)))
     play(
         options.scene,
         look=Look(theme=options.theme, unit=options.unit),
         attract=options.attract,
         size=options.size,
-        keeper=Arcade(options.scores and checked_target(options.scores, (".json",))),
+        keeper=Arcade(options.scores),
         game=options.game,
         drafts=kept_as("draft.json"),
     )
+
+
+def _refuse_foreign(path: Path) -> None:
+    """Raise BadInput for a file that is there and holds no scores that we read: it is not ours to replace."""
+    from linkanim.play.scores import load
+
+    try:
+        load(path)
+    except BadInput as error:
+        raise BadInput(f"{error}; it stays as it is: name another file with --scores") from None

@@ -11,9 +11,10 @@ from random import Random
 
 import numpy as np
 
+from linkanim.bounds import LONGEST_TEXT
 from linkanim.document import Section, refuse_controls
 from linkanim.errors import BadInput
-from linkanim.intake import Intake
+from linkanim.intake import Intake, control_in
 from linkanim.play.match.worth import Worth, trace, worth
 from linkanim.scenes.editing.toml import parse
 from linkanim.synthesis.curves.drawn import DrawnCurve, drawn
@@ -24,6 +25,7 @@ FOLDER = files("linkanim.play.match") / "levels"
 _FILE = Intake("a level", most_bytes=100_000, most_values=5_000)
 _KEYS = frozenset({"title", "about", "closed", "points", "fixed", "start", "full", "answer"})
 _JOINTS = Linkage4._fields
+_LONGEST_SEED = 18
 _BEGINNING = Linkage4(-60 - 60j, -40 - 40j, 40 + 20j, 60 - 60j, 0 + 0j)
 """Where the joints of a level that is made begin, about a curve of size 100."""
 
@@ -63,10 +65,13 @@ def level_of(name: str) -> Level:
 
     BadInput with file, key and way out where there is none, or where it makes no sense.
     """
+    if len(name) > LONGEST_TEXT or control_in(name):
+        raise BadInput(f"match: {shown(name)} cannot be a level's name; rename the file")
     if name.endswith(".toml"):
         return _read(_FILE.read(Path(name), name), name, Path(name).stem)
-    if name.startswith("seed-") and name.removeprefix("seed-").isdecimal():
-        return made(int(name.removeprefix("seed-")))
+    seed = name.removeprefix("seed-")
+    if name.startswith("seed-") and seed.isdecimal() and len(seed) <= _LONGEST_SEED:
+        return made(int(seed))
     for number, known in enumerate(level_names(), start=1):
         if known == name:
             file = f"{number:02}-{name}.toml"

@@ -92,12 +92,8 @@ def to_document(tape: Tape) -> dict[str, Any]:
 
 def from_document(document: object, where: str) -> Tape:
     """Return the tape that a document holds; BadInput where it is not one of this version's."""
-    if not isinstance(document, dict) or _MARK not in document:
-        raise BadInput(f"{where}: is not a tape; a tape is a file that G or M wrote in the window")
-    if document[_MARK] != VERSION:
-        found = repr(document[_MARK])[:20]
-        raise BadInput(f"{where}: is a tape of version {found}; this linkanim reads version {VERSION}")
-    top = Section(where, document)
+    otherwise = "is not a tape; a tape is a file that G or M wrote in the window"
+    top = Section(where, TAPE_FILE.marked(document, where, _MARK, VERSION, otherwise))
     frames = top.whole("frames", 0, _MOST_FRAMES)
     return Tape(_start(top), frames, _actions(top, frames), _size(top))
 
