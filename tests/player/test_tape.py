@@ -154,7 +154,7 @@ Spoil = Callable[[dict[str, Any]], object]
 # A tape that is not ours, or not this version's, or broken at one place: the line names the place.
 SPOILT: dict[str, tuple[Spoil, str]] = {
     "another version": (lambda d: d.update(linkanim_tape=2), "version 2; this linkanim reads version 1"),
-    "a version that is text": (lambda d: d.update(linkanim_tape="1"), "version '1'"),
+    "a version that is text": (lambda d: d.update(linkanim_tape="1"), 'version "1"'),
     "no tape": (lambda d: d.pop("linkanim_tape"), "is not a tape"),
     "an unknown action": (
         lambda d: d["actions"].append([90, "explode"]),
