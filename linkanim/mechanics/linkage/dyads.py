@@ -49,6 +49,12 @@ class RRR(Joint):
         """The side of a line on which another joint lies, where that names the closure."""
         return (self.side, *self.side_of) if self.side_of else None
 
+    @property
+    def at_limit(self) -> str:
+        """Its bars lie in one line, stretched or folded."""
+        one, other = (f"{end}–{self.name}" for end in self.ends)
+        return f"the bars {one} and {other} lie in one line"
+
     def transmission(self, u: float, w: float) -> float:
         """Return the angle μ between its bars' lines: tan²(μ/2) = W/U or, past 90°, U/W.
 
@@ -99,6 +105,11 @@ class RRP(Guided):
     def named_sign(self) -> int:
         """The sign of the root: how far the slider is ahead of the bar's end."""
         return self.side
+
+    @property
+    def at_limit(self) -> str:
+        """Its bar reaches no farther than the line."""
+        return f"the bar {self.end}–{self.name} stands straight across the line of travel of {self.name}"
 
     def transmission(self, u: float, w: float) -> float:
         """Return the angle from its bar to the normal of its line: as much less than 90° as the bar leans.
@@ -168,6 +179,11 @@ class RPR(Joint):
     def named_sign(self) -> int:
         """The sign of the root: the joint in the slot is always ahead of the pivot."""
         return 1
+
+    @property
+    def at_limit(self) -> str:
+        """The pin is where the slot is nearest to its pivot."""
+        return f"{self.through} is as near to {self.pivot} as the offset of the slot lets it come"
 
     def transmission(self, u: float, w: float) -> float:
         """Return the angle from the slot's normal, along which the pin pushes, to the bar's motion there.

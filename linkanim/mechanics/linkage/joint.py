@@ -160,6 +160,11 @@ class Joint(Stated):
         """
         return "it cannot be assembled"
 
+    @property
+    def at_limit(self) -> str:
+        """How a dyad stands where it closes no farther, as a clause; empty for what always closes."""
+        return ""
+
     def transmission(self, u: float, w: float) -> float | None:
         """Return a dyad's transmission angle where its root's factors are U and W; None of other joints."""
         return None
