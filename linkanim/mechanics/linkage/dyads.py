@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import cmath
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -62,14 +61,13 @@ class RRR(Joint):
         """
         return 2 * math.atan2(math.sqrt(min(u, w)), math.sqrt(max(u, w)))
 
-    def transmission_at(self, place: Callable[[str], Any]) -> Any:
+    def transmission_at(self, way: Callable[[str, str], tuple[Any, Any]]) -> Any:
         """Return the angle between its bars' lines."""
         # Here, so that reading a scene file loads no arrays.
         import numpy as np
 
-        one, other = (place(end) - place(self.name) for end in self.ends)
-        product = one * other.conjugate()
-        return np.arctan2(abs(product.imag), abs(product.real))
+        (x, y), (u, v) = (way(self.name, end) for end in self.ends)
+        return np.arctan2(abs(x * v - y * u), abs(x * u + y * v))
 
     def why_apart(self, u: float, w: float, unit: str) -> str:
         """Say how near its ends come, or how far apart: U = (a + b)² - L², W = L² - (a - b)²."""
@@ -118,16 +116,16 @@ class RRP(Guided):
         """
         return math.pi / 2 - abs(2 * math.atan2(math.sqrt(w), math.sqrt(u)) - math.pi / 2)
 
-    def transmission_at(self, place: Callable[[str], Any]) -> Any:
+    def transmission_at(self, way: Callable[[str, str], tuple[Any, Any]]) -> Any:
         """Return the angle from its bar to the normal of its line, as in `transmission`."""
         # Here, so that reading a scene file loads no arrays.
         import numpy as np
 
-        bar = (place(self.name) - place(self.end)) * cmath.rect(1.0, -self.line.angle)
+        (x, y), (u, v) = way(self.end, self.name), (math.cos(self.line.angle), math.sin(self.line.angle))
         if self.line.on:
-            axis = place(self.line.on[1]) - place(self.line.on[0])
-            bar = bar * axis.conjugate()
-        return np.arctan2(abs(bar.real), abs(bar.imag))
+            a, b = way(*self.line.on)
+            u, v = a * u - b * v, a * v + b * u
+        return np.arctan2(abs(x * u + y * v), abs(x * v - y * u))
 
     def why_apart(self, u: float, w: float, unit: str) -> str:
         """Say that the bar is too short for its line."""
@@ -192,12 +190,13 @@ class RPR(Joint):
         """
         return math.atan2(math.sqrt(w), abs(self.offset))
 
-    def transmission_at(self, place: Callable[[str], Any]) -> Any:
+    def transmission_at(self, way: Callable[[str, str], tuple[Any, Any]]) -> Any:
         """Return the angle from the slot's normal to the bar's motion at the pin, as in `transmission`."""
         # Here, so that reading a scene file loads no arrays.
         import numpy as np
 
-        arm = abs(place(self.through) - place(self.pivot))
+        x, y = way(self.pivot, self.through)
+        arm = np.sqrt(x * x + y * y)
         if not self.offset:
             return np.arccos(0.0 * arm)
         with np.errstate(divide="ignore"):  # the pin on the pivot, where rounding brings it
