@@ -1,8 +1,9 @@
 """An arcade-style player for planar linkages.
 
 `load` gives a scene by name or path, `names` the catalogue, `record` turns a scene into a GIF, MP4
-or numbered PNG, `path` a drawn curve into linkages that follow it. Everything is imported when first
-asked for: `import linkanim` alone brings in neither a window nor an encoder.
+or numbered PNG, `path` a drawn curve into linkages that follow it, `guide` poses into linkages whose
+coupler passes them. Everything is imported when first asked for: `import linkanim` alone brings in
+neither a window nor an encoder.
 
 `mechanics`, from the ground up; each room imports from those before it only:
 
@@ -51,6 +52,7 @@ if TYPE_CHECKING:
     from linkanim.recorder.scene_frames import record
     from linkanim.scenes import load, names
     from linkanim.scenes.scene import Scene
+    from linkanim.synthesis.guidance import guide
     from linkanim.synthesis.request import path
 
 # Here, because every import of pygame comes after it: its greeting would stand among a command's output.
@@ -58,12 +60,13 @@ os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
 
 __version__ = "0.3.0"
 
-__all__ = ["LinkanimError", "Look", "Scene", "__version__", "load", "names", "path", "record"]
+__all__ = ["LinkanimError", "Look", "Scene", "__version__", "guide", "load", "names", "path", "record"]
 
 _HOME = {
     "LinkanimError": "linkanim.errors",
     "Look": "linkanim.picture.look",
     "Scene": "linkanim.scenes.scene",
+    "guide": "linkanim.synthesis.guidance",
     "load": "linkanim.scenes",
     "names": "linkanim.scenes",
     "path": "linkanim.synthesis.request",

@@ -17,7 +17,7 @@ from linkanim.errors import BadInput, WorkFailed
 from linkanim.intake import control_in
 from linkanim.units import shown
 
-_WITHOUT_PYGAME = ("solve", "info", "scenes", "check", "path")
+_WITHOUT_PYGAME = ("solve", "info", "scenes", "check", "path", "guide")
 
 
 def parse(argv: Sequence[str] | None = None) -> Namespace:
@@ -195,6 +195,12 @@ COMMANDS: Mapping[str, tuple[str, ...]] = {
         "linkanim path curve.csv -o follower.toml",
         'linkanim path stroke.svg --open --kind slider-crank --least-angle "30 deg" --json',
         'linkanim path points.csv --timing "20 deg" --box 0,0,200,100 --round "0.1 mm"',
+    ),
+    "guide": (
+        "find linkages that carry a body through two to five poses, and write them as scenes",
+        "linkanim guide poses.csv -o lid.toml",
+        "linkanim guide poses.csv --pivots 0,0 120,-15",
+        'linkanim guide poses.csv --kind slider-crank --box 0,0,200,100 --least-angle "30 deg" --json',
     ),
     "gallery": (
         "record every built-in scene as a small GIF, and draw the chart of bench",

@@ -129,6 +129,16 @@ _ANGLE = _value("--angle ANGLE", units.angle, 'crank angle, such as "87 deg"')
 _PHASE = _value("--phase PHASE", units.angle, "phase instead (default: joints farthest apart)")
 _SPEED = _value("--speed SPEED", units.angular_speed, 'such as "30 rpm" (default: the scene\'s)')
 
+
+def _limits(sizes: str) -> tuple[Argument, ...]:
+    """Return the limits of what is synthesised."""
+    return (
+        _value("--box X,Y,W,H", values.box, "in which all fixed pins lie"),
+        _value("--largest F", values.positive, f"link, in {sizes} (default: 8)", 8.0),
+        _value("--least-angle ANGLE", units.angle, "of transmission", 0.0),
+    )
+
+
 ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
     "play": (
         _scene(", or of a tape", nargs="?"),
@@ -274,12 +284,24 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _takes("--kind", choices=("four-bar", "slider-crank"), default="four-bar", help="default: four-bar"),
         _value("--timing STEP", values.timing, 'the crank\'s angle a point, "20 deg", or `column`'),
         _value("--count N", values.count, "answers (default: 5)", 5),
-        _value("--box X,Y,W,H", values.box, "in which all fixed pins lie"),
-        _value("--largest F", values.positive, "link, in sizes of the curve (default: 8)", 8.0),
-        _value("--least-angle ANGLE", units.angle, "of transmission", 0.0),
+        *_limits("sizes of the curve"),
         _value("--round LENGTH", values.step, 'round lengths to, such as "0.1 mm", and fit the rest again'),
         _flag("--open", "the curve does not close"),
         _flag("--cognates", "each four-bar's two Roberts cognates, too"),
+        _flag("--json", "a list of objects; angles in radians"),
+    ),
+    "guide": (
+        _value("poses POSES", Path, "a row for each pose: x, y and its angle in degrees; 2 to 5 rows"),
+        _value(
+            "-o --output NAME.toml",
+            Path,
+            "of the best; the others are NAME-2.toml, ... (default: POSES.toml)",
+        ),
+        _takes("--kind", choices=("four-bar", "slider-crank"), default="four-bar", help="default: four-bar"),
+        _value("--pivots X,Y", values.pair, "fixed pins that are given, one or two", (), nargs="+"),
+        *_limits("sizes of the poses"),
+        _takes("--prefer", choices=("compact", "angle"), help="small links, or a large transmission angle"),
+        _value("--count N", values.count, "answers (default: 6)", 6),
         _flag("--json", "a list of objects; angles in radians"),
     ),
     "gallery": (_value("--into FOLDER", Path, "where to (default: recordings)", Path("recordings")),),

@@ -10,6 +10,7 @@ from typing import Any, NoReturn
 from linkanim.errors import BadInput
 
 _NEGATIVE = re.compile(r"-\.?\d")
+_NEGATIVE_LIST = re.compile(r"-\.?\d[^,]*,")
 
 
 class Parser(argparse.ArgumentParser):
@@ -49,10 +50,15 @@ class Parser(argparse.ArgumentParser):
 
 
 def join_negative(words: Sequence[str]) -> list[str]:
-    """Write `--angle -30deg` as `--angle=-30deg`, or argparse would take -30deg for an option."""
+    """Write `--angle -30deg` as `--angle=-30deg`, or argparse would take -30deg for an option.
+
+    -3,4 gets a blank in front, which does the same for an option that takes several of them.
+    """
     joined: list[str] = []
     for word in words:
-        if joined and joined[-1].startswith("--") and "=" not in joined[-1] and _NEGATIVE.match(word):
+        if _NEGATIVE_LIST.match(word):
+            joined.append(f" {word}")
+        elif joined and joined[-1].startswith("--") and "=" not in joined[-1] and _NEGATIVE.match(word):
             joined[-1] += f"={word}"
         else:
             joined.append(word)

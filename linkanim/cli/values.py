@@ -121,6 +121,17 @@ def box(text: str) -> tuple[float, ...]:
     return found
 
 
+def pair(text: str) -> tuple[float, float]:
+    """Read two numbers with a comma between: x and y."""
+    try:
+        found = tuple(float(part) for part in text.split(","))
+    except ValueError:
+        found = ()
+    if len(found) != 2 or not all(map(math.isfinite, found)):
+        raise BadInput(f"{text.strip()!r} is not X,Y: two numbers with a comma between, such as 20,-40")
+    return found
+
+
 def step(text: str) -> float:
     """Read a length above zero in mm, such as `0.1 mm`."""
     found = units.length(text, unit="mm")

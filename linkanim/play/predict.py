@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from random import Random
 from typing import NamedTuple
 
 from linkanim.errors import BadInput
@@ -109,18 +108,14 @@ class Predict:
         )
 
     def _due(self) -> QuizQuestion:
-        """Return the question that is due: one of an earlier round, a new one, or one that was missed.
-
-        New ones are about all scenes of the chapter before one comes again.
-        """
+        """Return the question that is due: one of an earlier round, a new one, or one that was missed."""
         number = len(self.done)
         if number < len(self.again[:COUNT]):
             return question_of(self.again[number])
         if number >= COUNT:
             return question_of(self.missed[number - COUNT])
         scenes = members(self.chapter)
-        order = Random(self.seed).sample(scenes, len(scenes))
-        scene = load(order[number % len(order)])
+        scene = load(scenes[(self.seed + 7 * number) % len(scenes)])
         before = [*self.again, *(one.question_id for one in self.done)]
         return next_question(scene, f"{self.seed} {number}", before, of_level(self.level))
 
@@ -220,7 +215,7 @@ class Predict:
         well = self.chosen == question.right
         gained = points(self.level, self.done, len(self.done) - 1)
         slip = question.answers[self.chosen].slip
-        verdict = f"Right: {gained} points" if well else f"No: that is {slip}." if slip else "No."
+        verdict = f"Right: {gained} points" if well else f"No: that is {slip}."
         return replace(panel, verdict=verdict, well=well, lines_after=(question.why,))
 
     def _end_panel(self) -> GamePanel:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from linkanim.manifest import FileSet, replacing
 from linkanim.scenes.editing.write import text
-from linkanim.synthesis.fit import Fit
+from linkanim.scenes.scene import Scene
 
 
 def file_set(target: Path) -> FileSet:
@@ -16,13 +16,13 @@ def file_set(target: Path) -> FileSet:
     return FileSet(target.parent, target.name, rf"{re.escape(target.stem)}(-\d+)?\.toml")
 
 
-def write(fits: Sequence[Fit], target: Path) -> list[Path]:
+def write(scenes: Sequence[Scene], target: Path) -> list[Path]:
     """Write the answers, all or none, and return their paths; what an older run wrote more of goes.
 
     BadInput where a name is taken by a file that is not ours, or was changed since.
     """
-    names = [target.name, *(f"{target.stem}-{number}.toml" for number in range(2, len(fits) + 1))]
+    names = [target.name, *(f"{target.stem}-{number}.toml" for number in range(2, len(scenes) + 1))]
     with replacing(file_set(target), names) as folder:
-        for fit, name in zip(fits, names, strict=True):
-            (folder / name).write_text(text(fit.scene), encoding="utf-8")
+        for scene, name in zip(scenes, names, strict=True):
+            (folder / name).write_text(text(scene), encoding="utf-8")
     return [target.parent / name for name in names]

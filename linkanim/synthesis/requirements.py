@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from typing import Self
 
 import numpy as np
 
+from linkanim.errors import BadInput
 from linkanim.synthesis.kinds import LinkageKind, Real
+from linkanim.units import shown
 
 LEAST_ANGLE = math.radians(0.1)
 """Below this transmission angle a linkage is all but at a change point: no answer goes there."""
@@ -30,6 +33,23 @@ class Requirements:
     box: tuple[float, ...] | None = None
     given: Mapping[str, float] = field(default_factory=dict)
     full_turn: bool = True
+
+    @classmethod
+    def of(
+        cls, size: float, sizes: str, *, largest: float, least_angle: float, box: Sequence[float] | None
+    ) -> Self:
+        """Return limits as they are asked for, the longest link in `sizes`; BadInput where they are none."""
+        if not (math.isfinite(largest) and largest > 0):
+            raise BadInput(f"largest={largest!r}: give the longest link in {sizes}, a number such as 3")
+        if not 0 <= least_angle < math.pi / 2:
+            angle = math.degrees(least_angle)
+            raise BadInput(f"a least transmission angle of {angle:g} deg: give 0 to 90 deg")
+        return cls(
+            largest=largest * size,
+            shortest=SHORTEST * size,
+            least_angle=max(least_angle, LEAST_ANGLE),
+            box=None if box is None else _box(box),
+        )
 
     def slack(self, kind: LinkageKind, rows: Real) -> Real:
         """Return (B, m), negative for each limit that is broken; the two of a full turn come first."""
@@ -60,3 +80,13 @@ class Requirements:
         given = {name: placed(name, value) for name, value in self.given.items()}
         largest, shortest = self.largest / scale, self.shortest / scale
         return replace(self, largest=largest, shortest=shortest, box=box, given=given)
+
+
+def _box(box: Sequence[float]) -> tuple[float, float, float, float]:
+    values = tuple(float(value) for value in box)
+    if len(values) != 4 or not all(map(math.isfinite, values)):
+        raise BadInput(f"box={shown(str(list(box)))}: give x, y, width and height, four numbers")
+    x, y, width, height = values
+    if width <= 0 or height <= 0:
+        raise BadInput(f"the box is {width:g} wide and {height:g} high: nothing fits in it")
+    return x, y, width, height

@@ -45,7 +45,7 @@ def run(options: Namespace) -> None:
             source=f"linkanim path for {named(options.curve.name)}",
             progress=progress,
         )
-    files = write(fits, target)
+    files = write([fit.scene for fit in fits], target)
     found = list(zip(fits, files, strict=True))
     if options.json:
         print(json_text([_object(fit, file) for fit, file in found], indent=2))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -48,12 +49,6 @@ class RRR(Joint):
         """The side of a line on which another joint lies, where that names the closure."""
         return (self.side, *self.side_of) if self.side_of else None
 
-    @property
-    def at_limit(self) -> str:
-        """Its bars lie in one line, stretched or folded."""
-        one, other = (f"{end}–{self.name}" for end in self.ends)
-        return f"the bars {one} and {other} lie in one line"
-
     def transmission(self, u: float, w: float) -> float:
         """Return the angle μ between its bars' lines: tan²(μ/2) = W/U or, past 90°, U/W.
 
@@ -61,13 +56,14 @@ class RRR(Joint):
         """
         return 2 * math.atan2(math.sqrt(min(u, w)), math.sqrt(max(u, w)))
 
-    def transmission_at(self, way: Callable[[str, str], tuple[Any, Any]]) -> Any:
+    def transmission_at(self, place: Callable[[str], Any]) -> Any:
         """Return the angle between its bars' lines."""
         # Here, so that reading a scene file loads no arrays.
         import numpy as np
 
-        (x, y), (u, v) = (way(self.name, end) for end in self.ends)
-        return np.arctan2(abs(x * v - y * u), abs(x * u + y * v))
+        one, other = (place(end) - place(self.name) for end in self.ends)
+        product = one * other.conjugate()
+        return np.arctan2(abs(product.imag), abs(product.real))
 
     def why_apart(self, u: float, w: float, unit: str) -> str:
         """Say how near its ends come, or how far apart: U = (a + b)² - L², W = L² - (a - b)²."""
@@ -104,11 +100,6 @@ class RRP(Guided):
         """The sign of the root: how far the slider is ahead of the bar's end."""
         return self.side
 
-    @property
-    def at_limit(self) -> str:
-        """Its bar reaches no farther than the line."""
-        return f"the bar {self.end}–{self.name} stands straight across the line of travel of {self.name}"
-
     def transmission(self, u: float, w: float) -> float:
         """Return the angle from its bar to the normal of its line: as much less than 90° as the bar leans.
 
@@ -116,16 +107,16 @@ class RRP(Guided):
         """
         return math.pi / 2 - abs(2 * math.atan2(math.sqrt(w), math.sqrt(u)) - math.pi / 2)
 
-    def transmission_at(self, way: Callable[[str, str], tuple[Any, Any]]) -> Any:
+    def transmission_at(self, place: Callable[[str], Any]) -> Any:
         """Return the angle from its bar to the normal of its line, as in `transmission`."""
         # Here, so that reading a scene file loads no arrays.
         import numpy as np
 
-        (x, y), (u, v) = way(self.end, self.name), (math.cos(self.line.angle), math.sin(self.line.angle))
+        bar = (place(self.name) - place(self.end)) * cmath.rect(1.0, -self.line.angle)
         if self.line.on:
-            a, b = way(*self.line.on)
-            u, v = a * u - b * v, a * v + b * u
-        return np.arctan2(abs(x * u + y * v), abs(x * v - y * u))
+            axis = place(self.line.on[1]) - place(self.line.on[0])
+            bar = bar * axis.conjugate()
+        return np.arctan2(abs(bar.real), abs(bar.imag))
 
     def why_apart(self, u: float, w: float, unit: str) -> str:
         """Say that the bar is too short for its line."""
@@ -178,11 +169,6 @@ class RPR(Joint):
         """The sign of the root: the joint in the slot is always ahead of the pivot."""
         return 1
 
-    @property
-    def at_limit(self) -> str:
-        """The pin is where the slot is nearest to its pivot."""
-        return f"{self.through} is as near to {self.pivot} as the offset of the slot lets it come"
-
     def transmission(self, u: float, w: float) -> float:
         """Return the angle from the slot's normal, along which the pin pushes, to the bar's motion there.
 
@@ -190,13 +176,12 @@ class RPR(Joint):
         """
         return math.atan2(math.sqrt(w), abs(self.offset))
 
-    def transmission_at(self, way: Callable[[str, str], tuple[Any, Any]]) -> Any:
+    def transmission_at(self, place: Callable[[str], Any]) -> Any:
         """Return the angle from the slot's normal to the bar's motion at the pin, as in `transmission`."""
         # Here, so that reading a scene file loads no arrays.
         import numpy as np
 
-        x, y = way(self.pivot, self.through)
-        arm = np.sqrt(x * x + y * y)
+        arm = abs(place(self.through) - place(self.pivot))
         if not self.offset:
             return np.arccos(0.0 * arm)
         with np.errstate(divide="ignore"):  # the pin on the pivot, where rounding brings it

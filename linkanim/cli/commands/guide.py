@@ -1,0 +1,91 @@
+"""`linkanim guide`: poses to the linkages whose coupler passes them, as scene files and a table."""
+
+from __future__ import annotations
+
+import math
+import sys
+from argparse import Namespace
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from linkanim.atomic_files import checked_target
+from linkanim.digits import significant
+from linkanim.errors import BadInput
+from linkanim.export import columns, json_text
+from linkanim.intake import named
+from linkanim.synthesis.curves.reading import read_curve
+from linkanim.synthesis.files import file_set, write
+from linkanim.synthesis.guidance import GuidedLinkage, guide
+from linkanim.synthesis.kinds import Real
+
+_UNIT = "mm"
+_TITLES = ("file", "defects", f"off {_UNIT}", "transmission", f"longest link {_UNIT}", "sizes", "class")
+_HANDED_ON = ("kind", "count", "pivots", "box", "largest", "least_angle", "prefer")
+"""Options that are called alike here and there."""
+
+
+def run(options: Namespace) -> None:
+    """Find the linkages, write their files, and print the table or JSON; what is worth a remark on stderr."""
+    poses = _poses(options.poses)
+    target = checked_target(options.output or Path(f"{options.poses.stem}.toml"), (".toml",))
+    file_set(target).refuse_foreign([target.name])
+    found = guide(
+        poses,
+        **{name: getattr(options, name) for name in _HANDED_ON},
+        name=target.stem,
+        source=f"linkanim guide for {named(options.poses.name)}",
+    )
+    files = write([one.scene for one in found], target)
+    rows = list(zip(found, files, strict=True))
+    if options.json:
+        print(json_text([_object(one, file) for one, file in rows], indent=2))
+    else:
+        print(columns([_TITLES, *(_cells(one, file) for one, file in rows)]))
+    _remark(found)
+
+
+def _poses(path: Path) -> Real:
+    """Return the rows of a file of poses, angles in radians."""
+    table = read_curve(path)
+    if table.angles is None:
+        raise BadInput(f"{named(path)}: has no third column; give each pose x, y and its angle in degrees")
+    return np.column_stack([table.points.real, table.points.imag, table.angles])
+
+
+def _cells(one: GuidedLinkage, file: Path) -> tuple[str, ...]:
+    angle = f"{significant(math.degrees(one.transmission_angle), 3)} deg"
+    sizes = significant(one.size / one.task.poses.size, 3)
+    defects = ", ".join(one.defects) or "none"
+    return (
+        *(str(file), defects, significant(one.error, 2), angle),
+        *(significant(one.size, 4), sizes, one.class_name),
+    )
+
+
+def _object(one: GuidedLinkage, file: Path) -> dict[str, object]:
+    """Return what `--json` prints of an answer."""
+    return {
+        "file": str(file),
+        "error": one.error,
+        "defects": one.defects,
+        "transmission_angle": one.transmission_angle,
+        "largest_link": one.size,
+        "size": one.size / one.task.poses.size,
+        "class": one.class_name,
+        "full_turn": one.scene.info.full_turn,
+        "angles": one.angles.tolist(),
+        "phases": one.phases.tolist(),
+        "parameters": {"kind": one.task.kind.name, **one.parameters, "closure": one.closure},
+    }
+
+
+def _remark(found: Sequence[GuidedLinkage]) -> None:
+    """Say on stderr where no answer runs through the poses."""
+    if all(one.defects for one in found):
+        print(
+            "every answer has a defect: circuit, it would have to be taken apart between poses; branch, it "
+            "would have to pass a limit of its crank; order, it passes them in another order",
+            file=sys.stderr,
+        )

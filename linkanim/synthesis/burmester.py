@@ -1,0 +1,744 @@
+"""Burmester's theory: which points of a body stay on a circle, or on a line, through its poses.
+
+A point of the body that has one distance m to a fixed point in all poses is a circle point z (told by where
+it lies in the first pose), m its centre point: a bar may join them. With pose j turned by e^(iα) and shifted
+by δ from the first, both told from the first pose's origin, that asks
+
+    |δ|²/2 + Re(δ̄ e^(iα) z) - Re(m̄ (δ + (e^(iα) - 1) z)) = 0,
+
+linear in z and linear in m. Two poses leave three choices, three poses two: each centre point has its
+circle point. Four poses leave one: the centre points lie on a cubic (Burmester, Lehrbuch der Kinematik,
+1888), which runs through the poles, so that lines through a pole meet it in two points more and it is walked
+by a square root. Five poses leave none: four cubics, each of which leaves one pose out, have a pencil of
+conics among their combinations, and two conics meet in four points. A point whose centre lies at infinity
+runs along a line: for three poses such points lie on a circle, for four poses it is one, Ball's point
+(Bottema and Roth, Theoretical Kinematics, 1979; McCarthy, Geometric Design of Linkages, 2000).
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from decimal import Decimal, localcontext
+from fractions import Fraction
+from functools import cached_property
+from itertools import combinations, pairwise, zip_longest
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from linkanim.errors import BadInput
+from linkanim.mechanics.formulas.precise import context, sine_and_cosine
+from linkanim.synthesis.kinds import Complex, Indices, Real
+
+FEWEST, MOST = 2, 5
+"""Poses."""
+SAME = 1e-9
+"""Of the poses' size, and in radians: what differs by less is one."""
+STRAIGHT = 1e-12
+"""Of the poses' size: a point that strays from a line by no more runs along it."""
+_FAR = 1e6
+"""Of the poses' size: a point farther away is none that a bar ends at."""
+_LOOSE = 1e-6
+"""Of a length, by how much it may differ from pose to pose before it is polished."""
+_FLAT = 1e-13
+"""Of its greatest value: a discriminant that dips below zero by no more only touches it."""
+_ROOT_STEPS = 200
+_FINE, _FOOT_STEPS = 720, 60
+"""Of a circuit, where the point nearest to another one is looked for, and steps towards that."""
+
+
+class Bars(NamedTuple):
+    """Circle points (k,), where they lie in the first pose, and their centre points, as x + yi."""
+
+    circle: Complex
+    centre: Complex
+
+    def take(self, chosen: Indices) -> Bars:
+        """Return some of them."""
+        return Bars(self.circle[chosen], self.centre[chosen])
+
+
+class Slides(NamedTuple):
+    """Points (k,), where they lie in the first pose, and the directions (unit) that they run along."""
+
+    point: Complex
+    direction: Complex
+
+
+@dataclass(frozen=True, eq=False)
+class Poses:
+    """Two to five poses of a body: its origin's places as x + yi, and the angles by which it is turned (rad).
+
+    BadInput for too few or too many of them, for two that are one, for what is not finite, and for angles
+    that turn more than once.
+    """
+
+    origins: Complex
+    angles: Real
+
+    def __post_init__(self) -> None:
+        """Refuse what no linkage could be asked for."""
+        count = len(self.origins)
+        if not FEWEST <= count <= MOST:
+            raise BadInput(f"{count} poses: a coupler is guided through {FEWEST} to {MOST} of them")
+        for number, (origin, angle) in enumerate(zip(self.origins, self.angles, strict=True), start=1):
+            if not (cmath.isfinite(origin) and math.isfinite(angle)):
+                raise BadInput(f"pose {number} is not finite; give it x, y and an angle as numbers")
+        for (one, first), (other, second) in combinations(enumerate(self.angles, start=1), 2):
+            if abs(second - first) >= math.tau - SAME:
+                turned = math.degrees(second - first)
+                raise BadInput(
+                    f"poses {one} and {other} are turned by {turned:g} deg against each other, which is more "
+                    "than once round; a pose is a place, so give it an angle within one turn of the others"
+                )
+        for one, other in combinations(range(count), 2):
+            apart = abs(self.origins[one] - self.origins[other])
+            turned = abs(math.remainder(self.angles[one] - self.angles[other], math.tau))
+            if apart <= SAME * self.size and turned <= SAME:
+                raise BadInput(f"poses {one + 1} and {other + 1} are one; leave one of them out")
+
+    @property
+    def count(self) -> int:
+        """How many there are."""
+        return len(self.origins)
+
+    @cached_property
+    def size(self) -> float:
+        """The diagonal of the rectangle about the origins; 1 where they are one point."""
+        size = math.hypot(float(np.ptp(self.origins.real)), float(np.ptp(self.origins.imag)))
+        return size if size > SAME * float(np.abs(self.origins).max()) else 1.0
+
+    @cached_property
+    def centre(self) -> complex:
+        """The middle of that rectangle."""
+        low = complex(self.origins.real.min(), self.origins.imag.min())
+        return (low + complex(self.origins.real.max(), self.origins.imag.max())) / 2
+
+    @cached_property
+    def turns(self) -> Complex:
+        """By what each pose is turned against the first, as unit numbers."""
+        return np.asarray(np.exp(1j * (self.angles - self.angles[0])))
+
+    @cached_property
+    def shifts(self) -> Complex:
+        """By what each pose's origin is shifted against the first's."""
+        return np.asarray(self.origins - self.origins[0])
+
+    def places(self, points: Complex | complex) -> Complex:
+        """Return where points of the body, told in the first pose, lie in all poses (..., n)."""
+        within = np.asarray(points)[..., None] - self.origins[0]
+        return np.asarray(self.origins + self.turns * within)
+
+    def images(self, points: Complex | complex) -> Complex:
+        """Return fixed points as the body in each pose sees them, laid on the first pose (..., n)."""
+        return np.asarray(self.origins[0] + (np.asarray(points)[..., None] - self.origins) / self.turns)
+
+    def pole(self, one: int, other: int) -> complex | None:
+        """Return the point about which a turn takes one pose to the other; None where they are parallel."""
+        turn = complex(self.turns[other] / self.turns[one])
+        if abs(1 - turn) <= SAME:
+            return None
+        return complex((self.origins[other] - turn * self.origins[one]) / (1 - turn))
+
+    @cached_property
+    def poles(self) -> dict[tuple[int, int], complex]:
+        """The poles of all pairs of poses that have one."""
+        pairs = ((pair, self.pole(*pair)) for pair in combinations(range(self.count), 2))
+        return {pair: pole for pair, pole in pairs if pole is not None}
+
+    @cached_property
+    def one_pole(self) -> complex | None:
+        """The point about which three poses or more are turned, all of them; None where they are not."""
+        poles = list(self.poles.values())
+        pairs = self.count * (self.count - 1) // 2
+        if self.count == FEWEST or len(poles) < pairs:
+            return None
+        near = max(abs(pole - poles[0]) for pole in poles) <= SAME * max(
+            self.size, abs(poles[0] - self.centre)
+        )
+        return poles[0] if near else None
+
+
+def _rows(poses: Poses, centres: Complex) -> Real:
+    """Return the equations of the circle points of centres, (k, n - 1, 3): of 1 and of z's x and y."""
+    shift, turn = poses.shifts[1:], poses.turns[1:]
+    centre = (np.asarray(centres) - poses.origins[0])[:, None]
+    factor = np.conj(shift) * turn - np.conj(centre) * (turn - 1)
+    constant = np.abs(shift) ** 2 / 2 - (np.conj(centre) * shift).real
+    return np.stack([constant, factor.real, -factor.imag], axis=-1)
+
+
+def circle_points(poses: Poses, centres: Complex) -> Complex:
+    """Return the circle points of centre points (k,) of three poses, or of a cubic's of four; NaN for none.
+
+    There is none where the centre's images in the body lie on a line, or are one, nor off the cubic.
+    """
+    rows = np.moveaxis(_rows(poses, centres), 0, -1)
+    pairs = [_cross(one, other) for one, other in combinations(rows, 2)]
+    found = np.array(pairs)
+    best = np.abs(found).max(axis=1).argmax(axis=0)
+    one, x, y = found[best, :, np.arange(found.shape[2])].T
+    with np.errstate(all="ignore"):
+        place = poses.origins[0] + (x + 1j * y) / one
+        lengths = np.abs(poses.places(place) - np.asarray(centres)[:, None])
+        kept = np.abs(place - poses.centre) <= _FAR * poses.size
+        kept &= np.ptp(lengths, axis=1) <= _LOOSE * np.maximum(lengths.max(axis=1), poses.size)
+    return np.asarray(np.where(kept, place, np.nan))
+
+
+def centre_points(poses: Poses, circles: Complex) -> Complex:
+    """Return the centre points of circle points (k,) of three poses; NaN where its places lie on a line."""
+    places = poses.places(circles)
+    one, other = places[:, 1] - places[:, 0], places[:, 2] - places[:, 0]
+    across = 2 * (np.conj(one) * other).imag
+    with np.errstate(all="ignore"):
+        found = places[:, 0] + 1j * (one * np.abs(other) ** 2 - other * np.abs(one) ** 2) / across
+    far = ~(np.abs(found - poses.centre) <= _FAR * poses.size)
+    return np.asarray(np.where(far, np.nan, found))
+
+
+def polished(poses: Poses, bars: Bars) -> Bars:
+    """Return bars that are off by rounding, moved by as little as makes their distances alike."""
+    circle, centre = bars
+    for _ in range(2):
+        places = poses.places(circle)
+        way = places - centre[:, None]
+        off = ((places - places[:, :1]) * np.conj(places + places[:, :1] - 2 * centre[:, None])).real[:, 1:]
+        by_circle = 2 * (np.conj(way) * poses.turns - np.conj(way[:, :1]))[:, 1:]
+        by_centre = -2 * np.conj(way - way[:, :1])[:, 1:]
+        slopes = np.stack([by_circle.real, -by_circle.imag, by_centre.real, -by_centre.imag], axis=-1)
+        scale = np.abs(slopes).max(axis=(1, 2), initial=0.0)[:, None, None]
+        step = np.einsum("kpj,kj->kp", np.linalg.pinv(slopes / np.where(scale, scale, 1.0)), -off)
+        step /= np.where(scale, scale, 1.0)[:, 0]
+        circle = circle + step[:, 0] + 1j * step[:, 1]
+        centre = centre + step[:, 2] + 1j * step[:, 3]
+    return Bars(circle, centre)
+
+
+# The equations as polynomials in the centre point: in floats for a curve, in Decimals for points.
+
+_Linear = tuple[Any, Any, Any]
+"""Coefficients of x, y and 1."""
+_Row = tuple[_Linear, _Linear, _Linear]
+
+
+def _equation(shift: tuple[Any, Any], turn: tuple[Any, Any]) -> _Row:
+    """Return a pose's equation as linear functions of the centre: of 1 and of z's x and y."""
+    (x, y), (c, s) = shift, turn
+    return (
+        (-x, -y, (x * x + y * y) / 2),
+        (1 - c, -s, x * c + y * s),
+        (s, 1 - c, y * c - x * s),
+    )
+
+
+def _cubic(rows: Sequence[_Row]) -> list[Any]:
+    """Return the determinant of three equations: of x³, x²y, xy², y³, x², xy, y², x, y, 1.
+
+    The first four are α, β, α, β: it is a circular cubic.
+    """
+    total: list[Any] = [0] * 10
+    for n in range(3):
+        one, other = rows[(n + 1) % 3], rows[(n + 2) % 3]
+        minor = _minus(_times(one[1], other[2]), _times(other[1], one[2]))
+        total = [a + b for a, b in zip(total, _raised(rows[n][0], minor), strict=True)]
+    return total
+
+
+def _times(one: _Linear, other: _Linear) -> list[Any]:
+    """Return the product of linear functions: of x², xy, y², x, y, 1."""
+    (a, b, c), (d, e, f) = one, other
+    return [a * d, a * e + b * d, b * e, a * f + c * d, b * f + c * e, c * f]
+
+
+def _minus(one: list[Any], other: list[Any]) -> list[Any]:
+    return [a - b for a, b in zip(one, other, strict=True)]
+
+
+def _raised(linear: _Linear, conic: list[Any]) -> list[Any]:
+    """Return the product of a linear function and a conic, as `_cubic` has it."""
+    a, b, c = linear
+    xx, xy, yy, x, y, one = conic
+    return [
+        *(a * xx, a * xy + b * xx, a * yy + b * xy, b * yy),
+        *(a * x + c * xx, a * y + b * x + c * xy, b * y + c * yy),
+        *(a * one + c * x, b * one + c * y, c * one),
+    ]
+
+
+# Four poses: the cubic of the centre points.
+
+
+class CurveCircuit(NamedTuple):
+    """A part of the cubic as lines through its pole meet it: between two directions, or all the way round.
+
+    `sign` is that of the root; 0 where it changes at both ends and the part is one closed way.
+    """
+
+    low: float
+    high: float
+    sign: float
+
+
+@dataclass(frozen=True, eq=False)
+class CentreCurve:
+    """The centre points of four poses: circuits, each walked by a phase from 0 to 2π.
+
+    A circuit may run through infinity. A body that turns nowhere has no such curve: BadInput.
+    """
+
+    poses: Poses
+
+    @cached_property
+    def _form(self) -> list[float]:
+        ways = zip(self.poses.shifts[1:] / self.poses.size, self.poses.turns[1:], strict=True)
+        pairs = (((way.real, way.imag), (turn.real, turn.imag)) for way, turn in ways)
+        return _cubic([_equation(*pair) for pair in pairs])
+
+    @cached_property
+    def _about(self) -> tuple[complex, Real]:
+        """The pole that the lines run through, and the curve's coefficients about it, at size 1.
+
+        They are of x³ and y³, of x², xy and y², of x and y. The pole is the one at which they vanish least.
+        """
+        poles = [
+            (pole - self.poses.origins[0]) / self.poses.size
+            for pole in self.poses.poles.values()
+            if abs(pole - self.poses.centre) <= _FAR * self.poses.size
+        ]
+        if not poles:
+            raise BadInput(
+                "no two of the poses are turned against each other; their centre points are no curve"
+            )
+        angles = np.linspace(0.0, math.pi, 48, endpoint=False)
+        forms = [self._shifted(pole) for pole in poles]
+        least = [float(_strength(form, angles).min() / np.abs(form).max()) for form in forms]
+        best = int(np.argmax(least))
+        return poles[best], forms[best]
+
+    def _shifted(self, pole: complex) -> Real:
+        """Return the coefficients about a point of the curve."""
+        alpha, beta, _, _, xx, xy, yy, x, y, _ = self._form
+        p, q = pole.real, pole.imag
+        square = p * p + q * q
+        return np.array(
+            [
+                *(alpha, beta),
+                xx + 3 * alpha * p + beta * q,
+                xy + 2 * alpha * q + 2 * beta * p,
+                yy + alpha * p + 3 * beta * q,
+                x + 2 * xx * p + xy * q + alpha * (square + 2 * p * p) + 2 * beta * p * q,
+                y + 2 * yy * q + xy * p + beta * (square + 2 * q * q) + 2 * alpha * p * q,
+            ]
+        )
+
+    @cached_property
+    def circuits(self) -> tuple[CurveCircuit, ...]:
+        """Its circuits: closed ways between two directions, or all the way round once for each root."""
+        _, form = self._about
+        zeros = _discriminant_zeros(form)
+        if not zeros:
+            return CurveCircuit(0.0, math.pi, 1.0), CurveCircuit(0.0, math.pi, -1.0)
+        ends = [*zeros, zeros[0] + math.pi]
+        spans = [
+            (low, high)
+            for low, high in pairwise(ends)
+            if _discriminant(form, np.array([(low + high) / 2]))[0] > 0
+        ]
+        return tuple(CurveCircuit(low, high, 0.0) for low, high in spans)
+
+    def at(self, circuit: int, phases: Real) -> Complex:
+        """Return the points of a circuit at phases (k,), infinite or NaN at infinity."""
+        pole, form = self._about
+        low, high, sign = self.circuits[circuit]
+        if sign:
+            angles, signs = low + (high - low) * phases / math.tau, np.full(len(phases), sign)
+        else:
+            angles = (low + high) / 2 - (high - low) / 2 * np.cos(phases)
+            signs = np.where(np.sin(phases) >= 0, 1.0, -1.0)
+        cubic, square, linear = _along(form, angles)
+        root = signs * np.sqrt(np.maximum(square * square - 4 * cubic * linear, 0.0))
+        one, other = root - square, -root - square
+        with np.errstate(all="ignore"):
+            far = np.where(np.abs(one) >= np.abs(other), one / (2 * cubic), 2 * linear / other)
+            place = pole + far * np.exp(1j * angles)
+            return np.asarray(self.poses.origins[0] + self.poses.size * place)
+
+    def nearest(self, point: complex) -> complex:
+        """Return the curve's point nearest to a point, from where samples are nearest."""
+        start, size = complex(self.poses.origins[0]), self.poses.size
+        aim = (point - start) / size
+        samples = (self.sampled(_FINE) - start) / size
+        samples = np.append(samples[np.isfinite(samples)], aim)
+        found = [self._footed(complex(one), aim) for one in samples[np.abs(samples - aim).argsort()[:4]]]
+        return start + size * min(found, key=lambda one: abs(one - aim))
+
+    def _footed(self, place: complex, aim: complex) -> complex:
+        """Return the foot of a point on the curve: along the tangent towards it, and back on the curve."""
+        for _ in range(_FOOT_STEPS):
+            value, slope = _value_and_slope(self._form, place)
+            if not slope:
+                break
+            tangent = 1j * slope / abs(slope)
+            place += tangent * ((aim - place) * tangent.conjugate()).real - value * slope / abs(slope) ** 2
+        return place
+
+    def sampled(self, count: int) -> Complex:
+        """Return points of all circuits, so many of each."""
+        phases = _around(count)
+        return np.concatenate([self.at(circuit, phases) for circuit in range(len(self.circuits))])
+
+    def bars(self, count: int) -> Bars:
+        """Return circle points with their centre points, so many of each circuit at the most, all finite."""
+        centres = self.sampled(count)
+        near = np.abs(centres - self.poses.centre) <= _FAR * self.poses.size
+        centres = centres[near]
+        circles = circle_points(self.poses, centres)
+        kept = np.isfinite(circles)
+        return polished(self.poses, Bars(circles[kept], centres[kept]))
+
+
+def _value_and_slope(form: list[float], place: complex) -> tuple[float, complex]:
+    """Return the cubic's value at a point, and its gradient as x + yi."""
+    alpha, beta, _, _, xx, xy, yy, x, y, one = form
+    p, q = place.real, place.imag
+    square, line = p * p + q * q, alpha * p + beta * q
+    value = square * line + xx * p * p + xy * p * q + yy * q * q + x * p + y * q + one
+    by_x = 2 * p * line + alpha * square + 2 * xx * p + xy * q + x
+    by_y = 2 * q * line + beta * square + 2 * yy * q + xy * p + y
+    return value, complex(by_x, by_y)
+
+
+def _around(count: int) -> Real:
+    """Return angles all round, half a step from 0."""
+    return np.asarray((np.arange(count) + 0.5) * (math.tau / count), dtype=np.float64)
+
+
+def _along(form: Real, angles: Real) -> tuple[Real, Real, Real]:
+    """Return the coefficients of r², r and 1 of the curve along directions, its pole at r = 0."""
+    c, s = np.cos(angles), np.sin(angles)
+    alpha, beta, xx, xy, yy, x, y = form
+    return alpha * c + beta * s, xx * c * c + xy * c * s + yy * s * s, x * c + y * s
+
+
+def _strength(form: Real, angles: Real) -> Real:
+    return np.asarray(sum(np.abs(part) for part in _along(form, angles)))
+
+
+def _discriminant(form: Real, angles: Real) -> Real:
+    cubic, square, linear = _along(form, angles)
+    return np.asarray(square * square - 4 * cubic * linear)
+
+
+def _discriminant_zeros(form: Real) -> list[float]:
+    """Return the directions from 0 to π at which the two roots become one, and none that only touches.
+
+    In e^(2it) the discriminant is a polynomial of the fourth degree; five values give it.
+    """
+    places = np.linspace(0.0, math.pi, 8, endpoint=False)
+    values = np.fft.fft(_discriminant(form, places)) / 8
+    coefficients = np.array([values[2], values[1], values[0], values[-1], values[-2]])
+    if not np.abs(coefficients).max():
+        return []
+    with np.errstate(all="ignore"):
+        roots = np.roots(coefficients)
+    on = roots[np.abs(np.log(np.maximum(np.abs(roots), 1e-300))) < 1e-3]
+    found = sorted(float(angle) % math.pi for angle in np.angle(on) / 2)
+    return _crossings(form, found)
+
+
+def _crossings(form: Real, near: list[float]) -> list[float]:
+    """Return of directions those between which the discriminant changes its sign by more than rounding."""
+    if not near:
+        return []
+    most = float(np.abs(_discriminant(form, np.linspace(0, math.pi, 64))).max())
+    ends = [*near, near[0] + math.pi]
+    signs = []
+    for low, high in pairwise(ends):
+        inner = _discriminant(form, low + (high - low) * np.arange(1.0, 8.0) / 8)
+        extreme = float(inner[np.abs(inner).argmax()])
+        signs.append(extreme > 0 or abs(extreme) <= _FLAT * most)
+    return [zero for n, zero in enumerate(near) if signs[n] != signs[n - 1]]
+
+
+# Five poses: two conics meet in four points.
+
+_COSINE, _SINE = Fraction(20, 29), Fraction(21, 29)
+"""Of the axes in which five poses are solved: no two answers of a drawn symmetry lie above each other."""
+_NOTHING = Decimal("1e-38")
+"""In fifty digits, of what a number is made of: less is rounding."""
+
+
+def burmester_points(poses: Poses) -> Bars:
+    """Return the bars of five poses, at most four, each to the last digit of a float.
+
+    Everything is worked out in fifty digits: what nearly coincides or nearly vanishes costs some of those,
+    and none of a float's. Points farther than a million sizes away are left out. BadInput for poses that
+    have more than finitely many.
+    """
+    with localcontext(context()):
+        size = Decimal(poses.size)
+        rows = [_exact_equation(poses, pose, size) for pose in range(1, MOST)]
+        found = [bar for centre in _centres(rows) for bar in _with_circle(rows, centre)]
+        places = [[_placed(poses, place, size) for place in bar] for bar in found]
+    circles, centres = np.array(places, dtype=np.complex128).reshape(-1, 2).T
+    near = (np.abs(circles - poses.centre) <= _FAR * poses.size) & (
+        np.abs(centres - poses.centre) <= _FAR * poses.size
+    )
+    return Bars(circles[near], centres[near])
+
+
+_Point = tuple[Decimal, Decimal]
+
+
+def _exact_equation(poses: Poses, pose: int, size: Decimal) -> _Row:
+    """Return a pose's equation in all digits, at size 1 and in turned axes."""
+    first, origin = complex(poses.origins[0]), complex(poses.origins[pose])
+    x, y = (
+        (Decimal(b) - Decimal(a)) / size for a, b in ((first.real, origin.real), (first.imag, origin.imag))
+    )
+    sine, cosine = sine_and_cosine(Decimal(float(poses.angles[pose])) - Decimal(float(poses.angles[0])))
+    return _equation(_turned((x, y), 1), (cosine, sine))
+
+
+def _turned(point: _Point, way: int) -> _Point:
+    """Return a point in the turned axes, or with -1 back in the poses' own."""
+    (x, y), c, s = point, _decimal(_COSINE), way * _decimal(_SINE)
+    return x * c - y * s, x * s + y * c
+
+
+def _decimal(share: Fraction) -> Decimal:
+    return Decimal(share.numerator) / share.denominator
+
+
+def _placed(poses: Poses, place: _Point, size: Decimal) -> complex:
+    """Return a point in the poses' own axes, rounded once."""
+    x, y = _turned(place, -1)
+    first = complex(poses.origins[0])
+    return complex(float(Decimal(first.real) + size * x), float(Decimal(first.imag) + size * y))
+
+
+def _centres(rows: Sequence[_Row]) -> Iterator[_Point]:
+    """Yield the centre points: the real points in which two conics of the four cubics' pencil meet."""
+    one, other = _conics(rows)
+    (a, b, c), (d, e, f) = _by_y(one), _by_y(other)
+    square = _polynomial_minus(_product(a, f), _product(d, c))
+    linear = _polynomial_minus(_product(a, e), _product(d, b))
+    constant = _polynomial_minus(_product(b, f), _product(e, c))
+    resultant = _polynomial_minus(_product(square, square), _product(linear, constant))
+    if max(map(abs, resultant)) <= _NOTHING:
+        raise BadInput(
+            "these five poses have a whole curve of centre points; leave one of them out, "
+            "and the four others are met by every bar of that curve"
+        )
+    for x in _real_roots(resultant):
+        below = _value(linear, x)
+        if below:
+            yield x, -_value(square, x) / below
+
+
+def _conics(rows: Sequence[_Row]) -> tuple[list[Decimal], list[Decimal]]:
+    """Return two conics through the centre points: cubics of three equations, freed of x³ and y³."""
+    cubics = [_cubic([row for row in rows if row is not left_out]) for left_out in rows]
+    pairs = list(combinations(range(len(cubics)), 2))
+    areas = [cubics[i][0] * cubics[k][3] - cubics[i][3] * cubics[k][0] for i, k in pairs]
+    best = max(range(len(pairs)), key=lambda n: abs(areas[n]))
+    (i, k), area = pairs[best], areas[best]
+    if abs(area) <= _NOTHING:
+        raise BadInput(
+            "these five poses turn too little to tell their centre points; turn them further apart"
+        )
+    p, q = cubics[i], cubics[k]
+    found = []
+    for cubic in (cubics[n] for n in range(len(cubics)) if n not in (i, k)):
+        by_p = (cubic[0] * q[3] - cubic[3] * q[0]) / area
+        by_q = (cubic[3] * p[0] - cubic[0] * p[3]) / area
+        conic = [c - by_p * a - by_q * b for c, a, b in zip(cubic[4:], p[4:], q[4:], strict=True)]
+        most = max(map(abs, conic))
+        found.append([part / most for part in conic] if most else conic)
+    return found[0], found[1]
+
+
+_Polynomial = list[Decimal]
+"""Coefficients, the constant one first."""
+
+
+def _by_y(conic: list[Decimal]) -> tuple[_Polynomial, _Polynomial, _Polynomial]:
+    """Return a conic as polynomials in x that go with y², y and 1."""
+    xx, xy, yy, x, y, one = conic
+    return [yy], [y, xy], [one, x, xx]
+
+
+def _product(one: _Polynomial, other: _Polynomial) -> _Polynomial:
+    found = [Decimal(0)] * (len(one) + len(other) - 1)
+    for i, a in enumerate(one):
+        for k, b in enumerate(other):
+            found[i + k] += a * b
+    return found
+
+
+def _polynomial_minus(one: _Polynomial, other: _Polynomial) -> _Polynomial:
+    return [a - b for a, b in zip_longest(one, other, fillvalue=Decimal(0))]
+
+
+def _value(polynomial: _Polynomial, x: Decimal) -> Decimal:
+    value = Decimal(0)
+    for coefficient in reversed(polynomial):
+        value = value * x + coefficient
+    return value
+
+
+def _real_roots(polynomial: _Polynomial) -> list[Decimal]:
+    """Return the real roots, the least first, a double one once: between the roots of the derivative."""
+    most = max(map(abs, polynomial))
+    parts = [coefficient / most for coefficient in polynomial]
+    while abs(parts[-1]) <= _NOTHING:
+        parts.pop()
+    if len(parts) < 2:
+        return []
+    slope = [n * coefficient for n, coefficient in enumerate(parts)][1:]
+    far = 1 + max(map(abs, parts)) / abs(parts[-1])
+    ends = [-far, *_real_roots(slope), far]
+    values = [_value(parts, end) for end in ends]
+    zero = [abs(value) <= _NOTHING * _size_at(parts, end) for value, end in zip(values, ends, strict=True)]
+    found = []
+    for n in range(len(ends) - 1):
+        if zero[n]:
+            found.append(ends[n])
+        elif not zero[n + 1] and values[n] * values[n + 1] < 0:
+            found.append(_between(parts, slope, (ends[n], ends[n + 1]), values[n] > 0))
+    return found
+
+
+def _size_at(polynomial: _Polynomial, x: Decimal) -> Decimal:
+    return _value([abs(coefficient) for coefficient in polynomial], abs(x))
+
+
+def _between(parts: _Polynomial, slope: _Polynomial, ends: tuple[Decimal, Decimal], falling: bool) -> Decimal:
+    """Return the root between two ends by Newton's steps, halving where those would leave them."""
+    low, high = ends
+    x = (low + high) / 2
+    for _ in range(_ROOT_STEPS):
+        value = _value(parts, x)
+        low, high = (x, high) if (value > 0) == falling else (low, x)
+        rate = _value(slope, x)
+        step = x - value / rate if rate else low
+        after = step if low < step < high else (low + high) / 2
+        if abs(after - x) <= _NOTHING * (1 + abs(x)):
+            return after
+        x = after
+    return x
+
+
+def _with_circle(rows: Sequence[_Row], centre: _Point) -> Iterator[tuple[_Point, _Point]]:
+    """Yield the circle point of a centre point, and that; nothing where it lies at infinity."""
+    x, y = centre
+    lines = [tuple(a * x + b * y + c for a, b, c in row) for row in rows]
+    crossings = [_cross(one, other) for one, other in combinations(lines, 2)]
+    one, p, q = max(crossings, key=lambda found: max(map(abs, found)))
+    if abs(one) > _NOTHING:
+        yield (p / one, q / one), centre
+
+
+def _cross(one: Any, other: Any) -> tuple[Any, Any, Any]:
+    """Return the vector product of triples of numbers of any kind."""
+    (a, b, c), (d, e, f) = one, other
+    return b * f - c * e, c * d - a * f, a * e - b * d
+
+
+# Points that run along a line: their centre lies at infinity.
+
+
+def ball_point(poses: Poses) -> Slides:
+    """Return the point of four or five poses that runs along a line, and that line's direction; none or one.
+
+    Poses that are all parallel have every point run along a line, or none: then it is the origin.
+    """
+    if not poses.poles:
+        along = poses.shifts[int(np.abs(poses.shifts).argmax())]
+        way = along / abs(along)
+        found = Slides(poses.origins[:1], np.array([way]))
+        return found if _strays(poses, found) <= STRAIGHT else Slides(found.point[:0], found.direction[:0])
+    candidates = [point for point in _ball_points(poses) if np.isfinite(point)]
+    tries = [_straightened(poses, point) for point in candidates]
+    best = min(tries, key=lambda found: _strays(poses, found), default=None)
+    if best is None or not _strays(poses, best) <= STRAIGHT:
+        return Slides(np.empty(0, np.complex128), np.empty(0, np.complex128))
+    return best
+
+
+def slides_through(poses: Poses, points: Complex) -> Slides:
+    """Return points (k,) with the direction from their first place to the one farthest from there."""
+    ways = poses.places(points) - np.asarray(points)[:, None]
+    longest = ways[np.arange(len(ways)), np.abs(ways).argmax(axis=1)]
+    with np.errstate(all="ignore"):
+        return Slides(np.asarray(points), longest / np.abs(longest))
+
+
+def slide_points(poses: Poses, angles: Real) -> Complex:
+    """Return points of three poses that run along a line, at angles round the circle on which they lie.
+
+    Where that is a straight line, all angles from 0 to 2π go along it; NaN where there is none.
+    """
+    square, linear, constant = _in_line(poses, 1, 2)
+    with np.errstate(all="ignore"):
+        if abs(square) > SAME:
+            middle = -0.5j * linear.conjugate() / square
+            radius = math.sqrt(max(abs(middle) ** 2 - constant / square, 0.0))
+            return np.asarray(poses.origins[0] + middle + radius * np.exp(1j * angles))
+        foot = -1j * constant * np.conj(linear) / np.abs(linear) ** 2
+        along = np.conj(linear) / np.abs(linear)
+        return np.asarray(poses.origins[0] + foot + along * poses.size * np.tan((angles - math.pi) / 2))
+
+
+def _in_line(poses: Poses, one: int, other: int) -> tuple[float, complex, float]:
+    """Return q, B and C: q|w|² + Im(B w) + C is zero where w, from the first origin, stays on a line."""
+    shift, turn = poses.shifts, poses.turns - 1
+    square = (turn[one].conjugate() * turn[other]).imag
+    linear = shift[one].conjugate() * turn[other] - shift[other].conjugate() * turn[one]
+    return float(square), complex(linear), float((shift[one].conjugate() * shift[other]).imag)
+
+
+def _ball_points(poses: Poses) -> Iterator[complex]:
+    """Yield Ball's point of the first four poses as each pole gives it.
+
+    Two of the circles on which points lie that three poses have in line meet in a pole, and there.
+    """
+    for one, other in combinations(range(4), 2):
+        order = [one, other, *(pose for pose in range(4) if pose not in (one, other))]
+        four = Poses(poses.origins[order], poses.angles[order])
+        pole = four.pole(0, 1)
+        if pole is None:
+            continue
+        circles = sorted((_in_line(four, 1, pose) for pose in (2, 3)), key=lambda circle: -abs(circle[0]))
+        (square, linear, _), (square2, linear2, _) = circles
+        line = square2 * linear - square * linear2
+        if abs(square) <= SAME or not line:
+            continue
+        way = line.conjugate() / abs(line)
+        start = pole - complex(four.origins[0])
+        far = -2 * (start.conjugate() * way).real - (linear * way).imag / square
+        within = (start + far * way) / complex(poses.turns[one])
+        yield complex(poses.origins[0]) + within
+
+
+def _straightened(poses: Poses, point: complex) -> Slides:
+    """Return a point moved, with its direction, to where its places lie in line as well as they can."""
+    way = complex(slides_through(poses, np.array([point])).direction[0])
+    for _ in range(3):
+        ways = (poses.places(point) - point)[1:] / way
+        by_point = (poses.turns[1:] - 1) / way
+        slopes = np.stack([by_point.imag, by_point.real, -ways.real / poses.size], axis=1)
+        step = np.linalg.lstsq(slopes, -ways.imag, rcond=1e-14)[0]
+        point += complex(step[0], step[1])
+        way *= cmath.exp(1j * step[2] / poses.size)
+    return Slides(np.array([point]), np.array([way]))
+
+
+def _strays(poses: Poses, found: Slides) -> float:
+    """Return how far a point strays from its line, in the poses' size."""
+    ways = (poses.places(found.point) - found.point[:, None]) / found.direction[:, None]
+    return float(np.abs(ways.imag).max() / poses.size)

@@ -1,0 +1,737 @@
+"""`linkanim.guide`: poses to the linkages whose coupler passes them, each checked on the solver.
+
+A four-bar is two bars of Burmester's theory, a slider-crank one of them and a point that runs along a line;
+what is free is sampled, all combinations are judged at once, and the best are followed to where they are
+best. Whether a linkage gets from pose to pose is told in the words of Norton (Design of Machinery) and
+McCarthy (Geometric Design of Linkages): it has a defect of *circuit* where it would have to be taken apart
+to get from one pose to another, of *branch* where it would have to pass a limit of its input, and of *order*
+where it passes the poses in another order.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linkanim import units
+from linkanim.errors import AssemblyError, BadInput, SceneError
+from linkanim.mechanics.motion.measures import as_complex
+from linkanim.scenes.reading.read import scene_from
+from linkanim.scenes.scene import Scene
+from linkanim.scenes.steering import phase_along
+from linkanim.synthesis.burmester import (
+    SAME,
+    Bars,
+    CentreCurve,
+    Poses,
+    Slides,
+    ball_point,
+    burmester_points,
+    circle_points,
+    polished,
+    slide_points,
+    slides_through,
+)
+from linkanim.synthesis.fit import document_of, parameters_of
+from linkanim.synthesis.kinds import KINDS, SLIDER_CRANK, Complex, Indices, LinkageKind, Real
+from linkanim.synthesis.requirements import Requirements
+from linkanim.units import shown
+
+LARGEST = 8.0
+"""Of a link, in the poses' sizes."""
+COUNT = 6
+MOST_ANSWERS = 50
+DEFECTS = ("circuit", "branch", "order")
+PREFERENCES = ("compact", "angle")
+
+_SAMPLES = {2: 160, 3: 160, 4: 72}
+"""Bars that are tried, of each circuit where they lie on a curve."""
+_REACH = 1.6
+"""In the poses' sizes: how far from their middle free pivots are tried."""
+_ON_CURVE = 1e-4
+"""Of the poses' size: a given pivot that is nearer to where one can be stands there."""
+_MET = 1e-6
+"""Of the poses' size: a pose that a linkage passes at this distance is one that it passes."""
+_APART = 0.25
+"""Of the poses' size: linkages from which better ones are looked for lie that far apart."""
+_PREFERRED = 2
+"""Linkages that are followed to where they are smallest, and to the best angle."""
+_MORE = 4
+"""Linkages that are looked at beside those that are asked for: some come to be alike."""
+_ROUNDS, _NARROWER = 8, 0.4
+_TURNING, _DEFECT = 0.3, 1e3
+"""What a crank that turns fully is worth, as a size's logarithm, and what a defect costs."""
+_CLOSED = 1e-12
+"""By how much a cosine may be beyond 1 at a change point."""
+_STEP = 0.1
+"""The farthest in a step of Newton's, in radians."""
+_ALIKE = 0.15
+"""Of the poses' size: answers whose joints are apart by no more look the same."""
+_DIGITS = 15
+
+
+@dataclass(frozen=True, eq=False)
+class GuideTask:
+    """Poses, a kind of linkage, the fixed pivots that are given, and limits."""
+
+    poses: Poses
+    kind: LinkageKind
+    pivots: tuple[complex, ...]
+    requirements: Requirements
+    unit: str = "mm"
+    name: str = "guide"
+    source: str = "made by linkanim for poses"
+
+
+@dataclass(frozen=True, eq=False)
+class GuidedLinkage:
+    """A linkage and the poses that it was made for; lengths in their unit, angles in radians."""
+
+    scene: Scene = field(repr=False)
+    parameters: Mapping[str, float]
+    closure: str
+    angles: Real
+    """Of the crank, at each pose."""
+    phases: Real
+    """At which it is nearest to each pose."""
+    lean: float
+    """The coupler's angle less that of the pose it is in."""
+    bars: tuple[Complex, Complex]
+    """Each bar's joint on the coupler, in the first pose, and its pivot; of a slider its joint, twice."""
+    error: float
+    """The largest deviation: of the origin from a pose's, or of the turn from a pose's at the poses' size."""
+    defects: tuple[str, ...]
+    """Of `DEFECTS`, those that keep it from running through the poses in their order."""
+    transmission_angle: float
+    """The least on the way from the first pose to the last, of a linkage with defects at the poses."""
+    size: float
+    """The longest link."""
+    task: GuideTask = field(repr=False)
+
+    @property
+    def class_name(self) -> str:
+        """The linkage's class, in words."""
+        return self.scene.info.class_name
+
+    @property
+    def row(self) -> Real:
+        """The parameters as a row of its kind."""
+        return np.array([self.parameters[name] for name in self.task.kind.parameters])
+
+    @property
+    def closure_sign(self) -> float:
+        """The closure at the first pose as +1 or -1."""
+        return 1.0 if self.closure == self.task.kind.sides[0] else -1.0
+
+    @property
+    def sense(self) -> float:
+        """+1 where the crank's angle grows from pose to pose, else -1."""
+        return 1.0 if self.angles[-1] > self.angles[0] else -1.0
+
+
+def guide(poses: ArrayLike, *, count: int = COUNT, **options: Any) -> tuple[GuidedLinkage, ...]:
+    """Return linkages whose coupler passes poses (n, 3), 2 to 5 rows of x, y and angle (rad), the best first.
+
+    Those without a defect come first, then small ones with a large transmission angle: `prefer` is "compact"
+    or "angle" for more of one of them. Of five poses the answers are all there are, of fewer a choice that
+    differs. Further `options` are those of `task_of`. BadInput for poses and limits that make no sense, and
+    where no linkage of the kind passes the poses, with the reason.
+    """
+    if not 1 <= count <= MOST_ANSWERS:
+        raise BadInput(f"count={count!r}: give a whole number from 1 to {MOST_ANSWERS}")
+    prefer = options.pop("prefer", None)
+    if prefer is not None and prefer not in PREFERENCES:
+        raise BadInput(f"prefer={shown(prefer)}: take {' or '.join(PREFERENCES)}, or leave it out")
+    return answers(task_of(poses, **options), count, prefer)
+
+
+def task_of(
+    poses: ArrayLike,
+    *,
+    kind: str = "four-bar",
+    pivots: Sequence[Sequence[float] | None] = (),
+    box: Sequence[float] | None = None,
+    largest: float = LARGEST,
+    least_angle: float = 0.0,
+    unit: str = "mm",
+    name: str = "guide",
+    source: str = "made by linkanim for poses",
+) -> GuideTask:
+    """Return what is asked for, checked.
+
+    `kind` is "four-bar" or "slider-crank"; `pivots` are fixed pins in any order, None for one that is free,
+    `box` is x, y, width and height, in which all fixed pins lie, `largest` the longest link in sizes of the
+    poses' places, `least_angle` the least transmission angle (rad) from the first pose to the last.
+    """
+    if kind not in KINDS:
+        raise BadInput(f"kind={shown(kind)}: take {' or '.join(KINDS)}")
+    units.metre(unit)
+    rows = np.asarray(poses, dtype=np.float64)
+    if rows.ndim != 2 or rows.shape[1] != 3:
+        raise BadInput(f"poses of shape {rows.shape}: give a row of x, y and angle for each, (n, 3)")
+    found, chosen = Poses(rows[:, 0] + 1j * rows[:, 1], rows[:, 2].copy()), KINDS[kind]
+    if (point := found.one_pole) is not None:
+        raise BadInput(
+            f"all poses turn about one point, {point.real:g}, {point.imag:g}: a single pin there carries the "
+            "body, so no linkage is needed; move one of the poses if one is"
+        )
+    if len(pivots) > len(chosen.pins):
+        raise BadInput(f"a {kind} has {len(chosen.pins)} fixed pins; {len(pivots)} are given")
+    given = tuple(_pivot(found, pivot) for pivot in pivots if pivot is not None)
+    limits = Requirements.of(
+        found.size, "sizes of the poses", largest=largest, least_angle=least_angle, box=box
+    )
+    return GuideTask(found, chosen, given, replace(limits, full_turn=False), unit, name, source)
+
+
+def _pivot(poses: Poses, pivot: Sequence[float]) -> complex:
+    """Return where a fixed pin is to be."""
+    values = tuple(float(value) for value in pivot)
+    if len(values) != 2 or not all(map(math.isfinite, values)):
+        raise BadInput(f"pivot {shown(str(list(pivot)))}: give x and y, two numbers")
+    return complex(*values)
+
+
+class _EndChoice(NamedTuple):
+    """What is free of one end of the coupler: rows of parameters to try, and how they make its bar or slide.
+
+    `steps` is how far each parameter is moved at first to find a better one; none of it is free where empty.
+    """
+
+    rows: Real
+    make: Callable[[Real], Any]
+    steps: tuple[float, ...]
+
+    @property
+    def free(self) -> bool:
+        """Whether there is anything to choose that can be moved."""
+        return any(self.steps)
+
+    def around(self, row: Real, scale: float) -> Real:
+        """Return a row (1, d) and those to either side of it in each parameter."""
+        moves = np.diag(self.steps)[np.flatnonzero(self.steps)] * scale
+        return np.concatenate(
+            [row, *(row + factor * moves for factor in (-1.0, -0.3, 0.3, 1.0) if len(moves))]
+        )
+
+
+def _all_of(found: Bars | Slides) -> _EndChoice:
+    """Return a choice among so many and no others."""
+    rows = np.arange(len(found[0]), dtype=np.float64)[:, None]
+    return _EndChoice(
+        rows, lambda rows: type(found)(*(part[rows[:, 0].astype(int)] for part in found)), (0.0,)
+    )
+
+
+def _bars(task: GuideTask) -> _EndChoice:
+    """Return the bars that may hold one end of the coupler, their pivots free."""
+    poses = task.poses
+    if poses.count == 2:
+        rows = _scattered(poses, _SAMPLES[2], task.requirements.box)
+        rows[:, 2] = np.tan((rows[:, 2] - 0.5) * 0.85 * math.pi) * poses.size
+        return _EndChoice(rows, lambda rows: _of_two(poses, rows), (0.2 * poses.size,) * 3)
+    if poses.count == 3 or not poses.poles:
+        rows = _scattered(poses, _SAMPLES[3], task.requirements.box)[:, :2]
+        if not np.isfinite(_about(poses, rows).circle).any():
+            raise BadInput(
+                f"these {poses.count} poses are parallel and their places lie on no circle, so no point of "
+                "the body stays at one distance from a pivot; turn them against each other"
+            )
+        return _EndChoice(rows, lambda rows: _about(poses, rows), (0.2 * poses.size,) * 2)
+    return _on_curve(poses) if poses.count == 4 else _all_of(_of_five(poses))
+
+
+_STEPS = np.array([0.8191725133961645, 0.6710436067037893, 0.5497004779019703])
+"""Powers of the root of x⁴ = x + 1, whose multiples are evenly scattered (Roberts's sequence)."""
+
+
+def _scattered(poses: Poses, count: int, box: tuple[float, ...] | None = None) -> Real:
+    """Return (count, 3): x and y of points in a box, or about the poses, and a number from 0 to 1."""
+    rows = (0.5 + np.outer(np.arange(1, count + 1), _STEPS)) % 1.0
+    reach = _REACH * poses.size
+    low = poses.centre - complex(reach, reach)
+    left, below, wide, high = box or (low.real, low.imag, 2 * reach, 2 * reach)
+    rows[:, 0] = left + wide * rows[:, 0]
+    rows[:, 1] = below + high * rows[:, 1]
+    return np.asarray(rows)
+
+
+def _of_two(poses: Poses, rows: Real) -> Bars:
+    """Return the bars of two poses by their pivots, and how far along the midline of the pivot's images."""
+    centre = rows[:, 0] + 1j * rows[:, 1]
+    first, second = poses.images(centre).T
+    way = second - first
+    with np.errstate(all="ignore"):
+        return Bars((first + second) / 2 + 1j * way / np.abs(way) * rows[:, 2], centre)
+
+
+def _about(poses: Poses, rows: Real) -> Bars:
+    """Return the bars of three poses by their pivots."""
+    centre = rows[:, 0] + 1j * rows[:, 1]
+    return Bars(circle_points(poses, centre), centre)
+
+
+def _on_curve(poses: Poses) -> _EndChoice:
+    """Return the bars of four poses: circuits of the centre points' curve and phases along them."""
+    curve = CentreCurve(poses)
+    count = len(curve.circuits)
+    phases = (np.arange(_SAMPLES[4]) + 0.5) * (math.tau / _SAMPLES[4])
+    rows = np.column_stack([np.repeat(np.arange(count), len(phases)), np.tile(phases, count)])
+
+    def make(rows: Real) -> Bars:
+        centre = np.full(len(rows), np.nan, np.complex128)
+        for circuit in range(count):
+            on = rows[:, 0] == circuit
+            centre[on] = curve.at(circuit, rows[on, 1])
+        return Bars(circle_points(poses, centre), centre)
+
+    return _EndChoice(rows, make, (0.0, math.tau / _SAMPLES[4]))
+
+
+def _held(task: GuideTask, pivot: complex) -> _EndChoice:
+    """Return the bars that end at a given pivot; BadInput where there is none, saying where one could be."""
+    poses = task.poses
+    where = f"the pivot at {pivot.real:g}, {pivot.imag:g}"
+    if poses.count == 2:
+        return _on_midline(poses, pivot)
+    if poses.count == 3 or not poses.poles:
+        found = Bars(circle_points(poses, np.array([pivot])), np.array([pivot]))
+        if not np.isfinite(found.circle[0]):
+            raise BadInput(
+                f"{where}: as the body sees it, it lies in one line in all poses, or in one point, so no "
+                "joint of the body stays at one distance from it; move the pivot"
+            )
+        return _all_of(found)
+    if poses.count == 4:
+        nearest = CentreCurve(poses).nearest(pivot)
+        if abs(nearest - pivot) > _ON_CURVE * poses.size:
+            raise BadInput(
+                f"{where}: is no centre point of these four poses; the nearest one is "
+                f"{nearest.real:.6g}, {nearest.imag:.6g}"
+            )
+        return _all_of(Bars(circle_points(poses, np.array([nearest])), np.array([nearest])))
+    bars = _of_five(poses)
+    nearby = np.abs(bars.centre - pivot) <= _ON_CURVE * poses.size
+    if not nearby.any():
+        places = "; ".join(f"{place.real:.6g}, {place.imag:.6g}" for place in bars.centre)
+        raise BadInput(f"{where}: five poses leave no choice of pivots, theirs are {places}; take of these")
+    return _all_of(bars.take(np.flatnonzero(nearby)))
+
+
+def _of_five(poses: Poses) -> Bars:
+    """Return the bars of five poses; BadInput where there is none."""
+    bars = burmester_points(poses)
+    if not len(bars.centre):
+        raise BadInput(
+            "no point of the body stays on a circle through these five poses: none of Burmester's four "
+            "points is real; move a pose a little, or leave one out"
+        )
+    return bars
+
+
+def _on_midline(poses: Poses, pivot: complex) -> _EndChoice:
+    """Return the bars of two poses at a pivot: their circle points lie on a line, or anywhere at the pole."""
+    first, second = poses.images(pivot)
+    if abs(second - first) <= SAME * poses.size:
+        rows = _scattered(poses, _SAMPLES[2])[:, :2]
+        return _EndChoice(
+            rows,
+            lambda rows: Bars(rows[:, 0] + 1j * rows[:, 1], np.full(len(rows), pivot)),
+            (0.2 * poses.size,) * 2,
+        )
+    along = np.tan(np.linspace(-1.3, 1.3, _SAMPLES[2])) * poses.size
+    rows = np.column_stack([np.full(len(along), pivot.real), np.full(len(along), pivot.imag), along])
+    return _EndChoice(rows, lambda rows: _of_two(poses, rows), (0.0, 0.0, 0.2 * poses.size))
+
+
+def _slides(task: GuideTask) -> _EndChoice:
+    """Return the points that may slide along a line; BadInput where no point has its places in one line."""
+    poses = task.poses
+    if poses.count == 2 or (poses.count == 3 and not poses.poles and len(ball_point(poses).point)):
+        rows = _scattered(poses, _SAMPLES[2])[:, :2]
+        return _EndChoice(
+            rows,
+            lambda rows: slides_through(poses, rows[:, 0] + 1j * rows[:, 1]),
+            (0.2 * poses.size,) * 2,
+        )
+    if poses.count == 3 and poses.poles:
+        rows = np.linspace(0.0, math.tau, _SAMPLES[3], endpoint=False, dtype=np.float64)[:, None]
+        return _EndChoice(rows, lambda rows: slides_through(poses, slide_points(poses, rows[:, 0])), (0.1,))
+    found = ball_point(poses)
+    if not len(found.point):
+        fewer = "leave one out" if poses.count > 4 else "turn them against each other"
+        raise BadInput(
+            f"no point of the body has its places in these {poses.count} poses in one line, so none can "
+            f"slide; {fewer}, or take a four-bar"
+        )
+    return _all_of(found)
+
+
+class _Pairs(NamedTuple):
+    """Linkages (k,): the crank's circle point and pivot, and the coupler's other end with what holds it.
+
+    `held` is the other pivot, or the direction of a line.
+    """
+
+    pin: Complex
+    pivot: Complex
+    end: Complex
+    held: Complex
+
+
+def _paired(first: Bars, second: Bars | Slides) -> _Pairs:
+    """Return every bar with every end."""
+    one, other = (part.ravel() for part in np.indices((len(first[0]), len(second[0]))))
+    return _Pairs(first.circle[one], first.centre[one], second[0][other], second[1][other])
+
+
+class _Judged(NamedTuple):
+    """What is known of linkages (k,): parameters, the least transmission angle, defects, the longest link.
+
+    `angles` are those of the crank at each pose (k, n), growing or falling as they are passed; `closures`
+    are +1 or -1 at each; `turning` says whether the crank turns fully.
+    """
+
+    rows: Real
+    closures: Real
+    angles: Real
+    transmission: Real
+    defects: NDArray[np.bool_]
+    turning: NDArray[np.bool_]
+    size: Real
+
+
+def _judged(task: GuideTask, pairs: _Pairs) -> _Judged:
+    """Return what linkages come to, in closed form.
+
+    With τ the crank's angle from the ground line, or from the line's normal, the cosine of the angle at the
+    coupler's end is c = p + q·cos τ for both kinds (for the slider-crank its rod against its line's normal).
+    The linkage closes while |c| ≤ 1: a crank has a limit near τ = 0, where |p + q| > 1, and near τ = π,
+    where |p - q| > 1; with both, what lies to either side of the ground line are circuits of their own.
+    """
+    poses, sliding = task.poses, task.kind is SLIDER_CRANK
+    pins, ends = poses.places(pairs.pin), poses.places(pairs.end)
+    crank, coupler = pins - pairs.pivot[:, None], ends - pins
+    r2, r3 = np.abs(crank).mean(axis=1), np.abs(coupler).mean(axis=1)
+    held = pairs.held
+    with np.errstate(all="ignore"):
+        if sliding:
+            # the first pose is to be closed forward
+            held = np.where((np.conj(held) * coupler[:, 0]).real < 0, -held, held)
+            offset = (np.conj(held)[:, None] * (ends - pairs.pivot[:, None])).imag.mean(axis=1)
+            reference, p, q = -1j * held, -offset / r3, -r2 / r3
+            side = (np.conj(held)[:, None] * coupler).real
+        else:
+            ground = held - pairs.pivot
+            r1, r4 = np.abs(ground), np.abs(ends - held[:, None]).mean(axis=1)
+            reference, q = ground / r1, r1 * r2 / (r3 * r4)
+            p = (r3 * r3 + r4 * r4 - r1 * r1 - r2 * r2) / (2 * r3 * r4)
+            side = (np.conj(held[:, None] - pins) * coupler).imag
+        angle = np.angle(crank / reference[:, None])
+    # where c reaches 1 and goes no farther the two closures meet: a change point
+    near, far = (np.abs(place) - 1 for place in (p + q, p - q))
+    changes = (np.abs(near) <= _CLOSED).astype(int) + (np.abs(far) <= _CLOSED)
+    near, far = near <= _CLOSED, far <= _CLOSED
+    turning, parted = near & far, ~near & ~far
+    # an input that cannot pass τ = 0 runs through π
+    angle = np.where((far & ~near)[:, None], angle % math.tau, angle)
+    closures = np.where(side > 0, 1.0, -1.0)
+    upper = np.where(angle > 0, 1.0, -1.0)
+    way = _passed(angle, turning)
+    other_range = parted[:, None] & (upper != upper[:, :1])
+    other_closure = closures != closures[:, :1]
+    crossed = other_closure.any(axis=1) & (closures * upper != (closures * upper)[:, :1]).any(axis=1)
+    circuit = np.where(
+        turning, np.choose(changes, [other_closure.any(axis=1), False, crossed]), other_range.any(axis=1)
+    )
+    branch = ~turning & (other_closure & ~other_range).any(axis=1)
+    steps = np.diff(way, axis=1)
+    order = ~circuit & ~branch & ~((steps > 0).all(axis=1) | (steps < 0).all(axis=1))
+    defects = np.column_stack([circuit, branch, order])
+    cosine = np.abs(p[:, None] + q[:, None] * np.cos(angle)).max(axis=1)
+    for place, half in ((p + q, 0.0), (p - q, math.pi)):
+        passed = np.floor((way[:, 0] - half) / math.tau) != np.floor((way[:, -1] - half) / math.tau)
+        cosine = np.where(passed & ~defects.any(axis=1), np.maximum(cosine, np.abs(place)), cosine)
+    transmission = np.arctan2(np.sqrt(np.maximum((1 - cosine) * (1 + cosine), 0.0)), cosine)
+    with np.errstate(all="ignore"):
+        arm = (poses.origins[0] - pairs.pin) * np.conj(coupler[:, 0]) / np.abs(coupler[:, 0])
+    base = pairs.pivot.real, pairs.pivot.imag, r2, r3, arm.real, arm.imag
+    rest = (np.angle(held), offset) if sliding else (held.real, held.imag, r4)
+    rows = np.stack([*base, *rest], axis=1)
+    size = task.kind.link_lengths(rows).max(axis=1)
+    angles = way + np.angle(reference)[:, None]
+    return _Judged(rows, closures, angles, transmission, defects, turning, size)
+
+
+def _passed(angle: Real, turning: NDArray[np.bool_]) -> Real:
+    """Return the crank's angles at the poses as they are passed, within one turn where it turns fully.
+
+    Of the two senses it is that in which the poses are in order, or else the one that grows.
+    """
+    forth = angle[:, :1] + (angle - angle[:, :1]) % math.tau
+    back = angle[:, :1] - (angle[:, :1] - angle) % math.tau
+    falling = (np.diff(back, axis=1) < 0).all(axis=1) & ~(np.diff(forth, axis=1) > 0).all(axis=1)
+    shorter = (np.diff(back, axis=1) < 0).all(axis=1) & (
+        np.abs(back[:, -1] - angle[:, 0]) < np.abs(forth[:, -1] - angle[:, 0])
+    )
+    turned = np.where((falling | shorter)[:, None], back, forth)
+    return np.asarray(np.where(turning[:, None], turned, angle))
+
+
+def _merit(task: GuideTask, judged: _Judged, prefer: str | None) -> Real:
+    """Return what is to be small: defects first, then size against the transmission angle."""
+    weight = {"compact": 0.5, "angle": 6.0, None: 2.0}[prefer]
+    with np.errstate(all="ignore"):
+        found = np.log(judged.size / task.poses.size) - weight * np.log(np.sin(judged.transmission))
+        found -= _TURNING * judged.turning
+        limits = task.requirements
+        slack = limits.slack(task.kind, judged.rows).min(axis=1)
+        kept = (slack >= -1e-9 * task.poses.size) & (judged.transmission >= limits.least_angle)
+    found += _DEFECT * judged.defects.sum(axis=1)
+    return np.asarray(np.where(kept & np.isfinite(found), found, np.inf))
+
+
+def answers(task: GuideTask, count: int = COUNT, prefer: str | None = None) -> tuple[GuidedLinkage, ...]:
+    """Return the best few linkages that differ, each as the solver runs it; BadInput where there is none."""
+    ends = _ends(task)
+    alike = _ALIKE if any(choice.free for pair in ends for choice in pair) else SAME
+    found: list[GuidedLinkage] = []
+    for pairs in _candidates(task, ends, count, prefer):
+        one = checked(task, pairs)
+        if one is not None and not any(apart(one, other) <= alike for other in found):
+            found.append(one)
+        if sum(not one.defects for one in found) >= count:
+            break
+    if not found:
+        raise BadInput(_none_keeps(task, ends))
+    return tuple(sorted(found, key=lambda one: len(one.defects))[:count])
+
+
+def _none_keeps(task: GuideTask, ends: list[tuple[_EndChoice, _EndChoice]]) -> str:
+    """Return why there is no answer, with what the smallest linkage would need."""
+    limits = ["the box"] if task.requirements.box else []
+    kept = ", ".join([*limits, "the longest link"]) + " and the least transmission angle"
+    sizes = [_judged(task, _all_pairs(pair)).size for pair in ends]
+    least = float(np.nanmin([*np.concatenate(sizes), np.inf])) / task.poses.size
+    way = f"; the longest link is {least:.3g} sizes of the poses at the least" if math.isfinite(least) else ""
+    most = task.requirements.largest / task.poses.size
+    more = f"{way}, {most:g} are allowed" if least > most else "; give it more room"
+    return f"no {task.kind.name} through these {task.poses.count} poses keeps to {kept}{more}"
+
+
+def _all_pairs(ends: tuple[_EndChoice, _EndChoice]) -> _Pairs:
+    first, second = ends
+    return _paired(first.make(first.rows), second.make(second.rows))
+
+
+def _ends(task: GuideTask) -> list[tuple[_EndChoice, _EndChoice]]:
+    """Return for each way to hold the coupler what its crank may be, and what its other end."""
+    held = [_held(task, pivot) for pivot in task.pivots]
+    if task.kind is SLIDER_CRANK:
+        return [(held[0] if held else _bars(task), _slides(task))]
+    if len(held) == 2:
+        return [(held[0], held[1]), (held[1], held[0])]
+    free = _bars(task)
+    return [(held[0], free), (free, held[0])] if held else [(free, free)]
+
+
+class _Seed(NamedTuple):
+    """A linkage among those that were tried: by the ways to hold it and the parameters of both ends."""
+
+    ends: tuple[_EndChoice, _EndChoice]
+    rows: tuple[Real, Real]
+    merit: float
+
+
+def _candidates(
+    task: GuideTask, ends: list[tuple[_EndChoice, _EndChoice]], count: int, prefer: str | None
+) -> Iterator[_Pairs]:
+    """Yield linkages one by one, the best first: what is free of them is followed to where they are best.
+
+    The first are, where nothing is preferred, the best, the smallest and that of the best angle.
+    """
+    seeds = [seed for pair in ends for seed in _seeds(task, pair, count + _MORE, prefer)]
+    seeds = sorted(seeds, key=lambda seed: seed.merit)[: count + _MORE]
+    if any(choice.free for pair in ends for choice in pair):
+        kinds = [prefer] if prefer else [None, *PREFERENCES]
+        seeds = [_followed(task, seed, prefer) for seed in seeds] + [
+            _followed(task, seed, kind) for kind in kinds[1:] for seed in seeds[:_PREFERRED]
+        ]
+        judged = [_judged(task, _made(task, seed)) for seed in seeds]
+        merits = {kind: [float(_merit(task, one, kind)[0]) for one in judged] for kind in kinds}
+        first = [min(range(len(seeds)), key=merits[kind].__getitem__) for kind in kinds if seeds]
+        rest = sorted(range(len(seeds)), key=merits[prefer].__getitem__)
+        seeds = [seeds[n] for n in dict.fromkeys([*first, *rest])]
+    yield from (_made(task, seed) for seed in seeds)
+
+
+def _seeds(
+    task: GuideTask, ends: tuple[_EndChoice, _EndChoice], count: int, prefer: str | None
+) -> list[_Seed]:
+    """Return the best of all combinations of sampled ends whose joints lie apart."""
+    first, second = ends
+    pairs = _all_pairs(ends)
+    merit = _merit(task, _judged(task, pairs), prefer)
+    order = np.argsort(merit, kind="stable")[: int(np.isfinite(merit).sum())]
+    places = np.stack([pairs.pin, pairs.pivot, pairs.end, pairs.held], axis=1)
+    least = _APART * task.poses.size if first.free or second.free else 0.0
+    found = []
+    for number in _apart_ones(places, order, least, count):
+        one, other = divmod(number, len(second.rows))
+        rows = first.rows[one : one + 1], second.rows[other : other + 1]
+        found.append(_Seed(ends, rows, float(merit[number])))
+    return found
+
+
+def _apart_ones(places: Complex, order: Indices, least: float, count: int) -> list[int]:
+    """Return of linkages in their order so many whose joints lie farther from all before than that."""
+    found: list[int] = []
+    left = order
+    while len(left) and len(found) < count:
+        found.append(int(left[0]))
+        off = np.abs(places[left] - places[left[0]]).max(axis=1)
+        left = left[off > least] if least else left[1:]
+    return found
+
+
+def _followed(task: GuideTask, seed: _Seed, prefer: str | None) -> _Seed:
+    """Return a linkage whose free choices were moved, step by shorter step, while it became better."""
+    first, second = seed.ends
+    rows, scale = seed.rows, 1.0
+    merit = float(_merit(task, _judged(task, _made(task, seed)), prefer)[0])
+    for _ in range(_ROUNDS):
+        tried = tuple(choice.around(row, scale) for choice, row in zip(seed.ends, rows, strict=True))
+        pairs = _paired(first.make(tried[0]), second.make(tried[1]))
+        merits = _merit(task, _judged(task, pairs), prefer)
+        best = int(merits.argmin())
+        if merits[best] < merit:
+            one, other = divmod(best, len(tried[1]))
+            rows, merit = (tried[0][one : one + 1], tried[1][other : other + 1]), float(merits[best])
+        else:
+            scale *= _NARROWER
+    return _Seed(seed.ends, rows, merit)
+
+
+def _made(task: GuideTask, seed: _Seed) -> _Pairs:
+    """Return a linkage, its bars alike in all poses to the last digits."""
+    first, second = (choice.make(row) for choice, row in zip(seed.ends, seed.rows, strict=True))
+    exact = polished(task.poses, second) if isinstance(second, Bars) else second
+    return _paired(polished(task.poses, first), exact)
+
+
+def checked(task: GuideTask, pairs: _Pairs) -> GuidedLinkage | None:
+    """Return a linkage as it is written and as the solver runs it; None where it does not assemble."""
+    judged, kind = _judged(task, pairs), task.kind
+    row = np.array([_written(task, *one) for one in zip(kind.parameters, judged.rows[0], strict=True)])
+    closures, angles = judged.closures[0], judged.angles[0]
+    lean = cmath.phase(pairs.end[0] - pairs.pin[0]) - float(task.poses.angles[0])
+    try:
+        scene = _scene(task, row, closures[0], angles)
+        phases, off = _met(task, scene, angles, lean)
+        defects = _defects(scene, phases, off <= _MET * task.poses.size)
+        for pose in np.flatnonzero(off > _MET * task.poses.size):
+            # it is met after the linkage was taken apart and put together the other way
+            other = _scene(task, row, closures[pose], angles[[pose, pose]])
+            off[pose] = _met(task, other, angles, lean)[1][pose]
+    except (AssemblyError, SceneError):
+        return None
+    return GuidedLinkage(
+        scene=scene,
+        parameters=parameters_of(kind, row),
+        closure=kind.sides[int(closures[0] < 0)],
+        angles=angles,
+        phases=phases,
+        lean=lean,
+        bars=_bars_of(task, pairs),
+        error=float(off.max()),
+        defects=defects,
+        transmission_angle=float(judged.transmission[0]),
+        size=float(judged.size[0]),
+        task=task,
+    )
+
+
+def _written(task: GuideTask, name: str, value: float) -> float:
+    """Return a parameter to fifteen digits after the poses' first: one input gives one file."""
+    places = 16 if name == "line_angle" else _DIGITS - math.floor(math.log10(task.poses.size))
+    return round(float(value), places) + 0.0
+
+
+def _scene(task: GuideTask, row: Real, closure: float, angles: Real) -> Scene:
+    title = f"{task.kind.name.capitalize()} through {task.poses.count} poses"
+    stated = {"title": title, "source": task.source, "length_unit": task.unit}
+    start = float(angles[0]), float(angles[-1] - angles[0])
+    document = document_of(task.kind, row, float(closure), start, **stated)
+    return scene_from(document, name=task.name, where=task.name)
+
+
+def _met(task: GuideTask, scene: Scene, angles: Real, lean: float) -> tuple[Real, Real]:
+    """Return the phases at which a linkage is nearest to each pose, and how far it is from it then.
+
+    Of the phases at which the crank stands at a pose's angle, on the way there or back, in any turn of a
+    true period; beside a limit, where an angle says little of them, a step of Newton's goes on from there.
+    """
+    turns = math.tau * np.arange(round(scene.period / math.tau))
+    home = np.array([phase_along(scene, 0.0, cmath.exp(1j * angle)) for angle in angles])[:, None]
+    tried = home + turns if scene.info.full_turn else np.hstack([home + turns, turns - home])
+    origins = np.broadcast_to(task.poses.origins[:, None], tried.shape)
+    tried = np.hstack([tried, _nearer(scene, origins.ravel(), tried.ravel()).reshape(tried.shape)])
+    off = _off(task, scene, tried, lean)
+    best = off.argmin(axis=1)[:, None]
+    phases, off = (np.take_along_axis(part, best, axis=1)[:, 0] for part in (tried, off))
+    return phases % scene.period, off
+
+
+def _nearer(scene: Scene, points: Complex, phases: Real) -> Real:
+    """Return phases at which the coupler point is nearer to points, by a step of Newton's."""
+    motion = scene.solve(phase=phases, speed=1.0, derivatives=1)
+    rate = as_complex(motion.velocity["P"])
+    with np.errstate(all="ignore"):
+        step = (np.conj(rate) * (points - as_complex(motion.position["P"]))).real / np.abs(rate) ** 2
+    return np.asarray(phases + np.clip(np.nan_to_num(step), -_STEP, _STEP))
+
+
+def _off(task: GuideTask, scene: Scene, phases: Real, lean: float) -> Real:
+    """Return how far the coupler is from each pose at phases (n, k): its origin, or its turn at that size."""
+    motion, poses = scene.solve(phase=phases.ravel(), derivatives=0), task.poses
+    away = as_complex(motion.position["P"]).reshape(phases.shape) - poses.origins[:, None]
+    angles = np.asarray(motion.angle[task.kind.links[1]]).reshape(phases.shape)
+    turned = (angles - lean - poses.angles[:, None] + math.pi) % math.tau - math.pi
+    return np.asarray(np.maximum(np.abs(away), poses.size * np.abs(turned)))
+
+
+def _defects(scene: Scene, phases: Real, met: NDArray[np.bool_]) -> tuple[str, ...]:
+    """Return the defects of a linkage that meets some of its poses at phases of the circuit it is on."""
+    found = [] if met.all() else ["circuit"]
+    if scene.info.full_turn:
+        way = (phases - phases[0]) % scene.period
+        back = -((-way) % scene.period)
+    else:
+        if len(set((phases[met] // math.pi).tolist())) > 1:
+            found.append("branch")
+        way = back = phases
+    if not found and not ((np.diff(way) > 0).all() or (np.diff(back) < 0).all()):
+        found.append("order")
+    return tuple(found)
+
+
+def _bars_of(task: GuideTask, pairs: _Pairs) -> tuple[Complex, Complex]:
+    end = pairs.end if task.kind is SLIDER_CRANK else pairs.held
+    return np.array([pairs.pin[0], pairs.pivot[0]]), np.array([pairs.end[0], end[0]])
+
+
+def apart(one: GuidedLinkage, other: GuidedLinkage) -> float:
+    """Return how far the joints of two linkages lie apart in the first pose, in the poses' sizes.
+
+    Which of two bars drives does not count.
+    """
+    (first, second), (third, fourth) = one.bars, other.bars
+    straight = max(abs(first - third).max(), abs(second - fourth).max())
+    crossed = max(abs(first - fourth).max(), abs(second - third).max())
+    return float(min(straight, crossed) / one.task.poses.size)

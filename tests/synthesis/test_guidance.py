@@ -1,0 +1,263 @@
+"""Poses to linkages: published ones again, known ones among the answers, defects as the solver has them."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import pytest
+from random_poses import of_four_bars, of_slider_cranks, runs_through
+
+import linkanim
+from linkanim.errors import BadInput
+from linkanim.mechanics.motion.measures import as_complex, transmission_angle
+from linkanim.synthesis.burmester import Poses, slide_points
+from linkanim.synthesis.guidance import GuidedLinkage, apart
+
+DEGREE = math.pi / 180
+LID = [(0, 0, 0), (40, 10, 35 * DEGREE), (70, -5, 80 * DEGREE)]
+
+
+def verify(found: GuidedLinkage) -> None:
+    """Hold what an answer says of itself against the solver's own motion of its scene."""
+    poses, scene = found.task.poses, found.scene
+    size = max(found.size, poses.size)
+    rows = np.column_stack([poses.origins.real, poses.origins.imag, poses.angles])
+    assert found.error < 1e-12 * size
+    assert runs_through(scene, rows, -found.lean, 1e-2) == (not found.defects)
+    assert scene.trace == ("P",)
+    motion = scene.solve(phase=found.phases, derivatives=0)
+    off = np.abs(as_complex(motion.position["P"]) - poses.origins)
+    if "circuit" not in found.defects:
+        assert off.max() < 1e-12 * size
+        turned = np.asarray(motion.angle[found.task.kind.links[1]]) - poses.angles
+        assert np.abs(np.sin((turned - turned[0]) / 2)).max() < 1e-12
+        assert np.cos(motion.coordinate - found.angles) == pytest.approx(1)
+    if not found.defects:
+        first, last = np.unwrap(found.phases, period=scene.period)[[0, -1]]
+        if scene.info.full_turn:
+            last = first + found.sense * (((last - first) * found.sense) % scene.period)
+        way = scene.solve(phase=np.linspace(first, last, 20_001), derivatives=0)
+        least = float(np.min(transmission_angle(way, "B")))
+        assert found.transmission_angle == pytest.approx(least, abs=1e-5)
+
+
+def known_is_found(
+    found: Sequence[GuidedLinkage], pivots: Sequence[complex], joints: Sequence[complex]
+) -> float:
+    """Return how far the nearest answer's joints and pivots are from the known linkage's."""
+    bars = [np.array([joint, pivot]) for joint, pivot in zip(joints, pivots, strict=True)]
+    ways = [(one.bars, order) for one in found for order in (bars, bars[::-1])]
+    return min(float(max(np.abs(a - b).max() for a, b in zip(*way, strict=True))) for way in ways)
+
+
+def of_known(count: int, number: int, seed: int) -> None:
+    for known in of_four_bars(seed + count, count, number):
+        pivots = [(pivot.real, pivot.imag) for pivot in known.pivots] if count < 5 else []
+        found = linkanim.guide(known.rows, pivots=pivots, largest=1e6, count=6 if count == 5 else 2)
+        if count > 2:  # two poses leave a choice at given pivots, too
+            assert known_is_found(found, known.pivots.tolist(), known.joints.tolist()) < 1e-9
+        for one in (*found, *linkanim.guide(known.rows, largest=1e6, count=2)):
+            verify(one)
+
+
+@pytest.mark.parametrize("count", [2, 3, 4, 5])
+@pytest.mark.slow
+def test_a_known_four_bar_is_among_the_answers(count: int) -> None:
+    of_known(count, 1, 900)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("count", [2, 3, 4, 5])
+def test_a_thousand_known_four_bars_are_among_the_answers(count: int) -> None:
+    of_known(count, 250, 600)
+
+
+@pytest.mark.parametrize("count", [2, 3, 4, 5])
+@pytest.mark.slow
+def test_a_known_slider_crank_is_among_the_answers(count: int) -> None:
+    (known,) = of_slider_cranks(11 + count, count, 1)
+    pivot = (known.pivots[0].real, known.pivots[0].imag)
+    found = linkanim.guide(known.rows, kind="slider-crank", pivots=[pivot], largest=1e6)
+    if count > 3:
+        # three poses leave a circle of sliders
+        assert min(abs(one.bars[1][0] - known.joints[1]) for one in found) < 1e-9
+    for one in found:
+        verify(one)
+
+
+def polar(length: float, angle: float) -> complex:
+    return cmath.rect(length, angle * DEGREE)
+
+
+# Norton, Design of Machinery, examples 5-1 and 5-2: P21 and δ2, P31 and δ3, the turns α; of each dyad Z and
+# its angle φ, or β; what is printed is W and its angle, and U.
+def test_norton_s_example_of_two_positions() -> None:
+    shift = polar(2.416, 165.2)
+    for arm, turned, length, angle in (
+        (polar(1.298, 26.5), 38.4, "2.467", "71.6"),
+        (polar(1.035, 104.1), 85.6, "1.486", "15.4"),
+    ):
+        joint = -arm
+        # the pivot lies on the midline, from where the bar turns by β
+        other = shift - arm * np.exp(1j * 43.3 * DEGREE)
+        pivot = (other - joint * np.exp(1j * turned * DEGREE)) / (1 - np.exp(1j * turned * DEGREE))
+        rows = [(0, 0, 0), (shift.real, shift.imag, 43.3 * DEGREE)]
+        poses = linkanim.guide(rows, pivots=[(pivot.real, pivot.imag)], count=1)[0].task.poses
+        assert abs(np.diff(np.abs(poses.places(joint) - pivot))[0]) < 1e-12
+        bar = joint - pivot
+        assert f"{abs(bar):.3f}" == length
+        assert f"{np.angle(bar, deg=True):.1f}" == angle
+
+
+def test_norton_s_example_of_three_positions() -> None:
+    second, third = polar(2.798, -31.19), polar(3.919, -16.34)
+    rows = [(0, 0, 0), (second.real, second.imag, -45 * DEGREE), (third.real, third.imag, 9.3 * DEGREE)]
+    turned = np.array([[342.3, 324.8], [30.9, 80.6]]) * DEGREE
+    pivots = []
+    for two, three in turned:
+        ways = np.exp(1j * np.array([[two, -math.pi / 4], [three, 9.3 * DEGREE]])) - 1
+        bar, arm = np.linalg.solve(ways, [second, third])
+        pivots.append(-bar - arm)
+    (found,) = linkanim.guide(rows, pivots=[(pivot.real, pivot.imag) for pivot in pivots])
+    lengths = sorted((found.parameters["crank"], found.parameters["rocker"]))
+    assert f"{lengths[1]:.3f}" == "6.832"
+    verify(found)
+
+
+def test_answers_differ_and_those_without_defects_come_first() -> None:
+    found = linkanim.guide(LID, count=5)
+    assert [len(one.defects) for one in found] == sorted(len(one.defects) for one in found)
+    for n, one in enumerate(found):
+        verify(one)
+        assert all(apart(one, other) > 0.1 for other in found[:n])
+    compact, wide = (linkanim.guide(LID, count=1, prefer=prefer)[0] for prefer in ("compact", "angle"))
+    assert compact.size <= found[0].size <= wide.size
+    assert compact.transmission_angle <= found[0].transmission_angle <= wide.transmission_angle
+
+
+@pytest.mark.parametrize("kind", ["four-bar", "slider-crank"])
+def test_limits_are_kept(kind: str) -> None:
+    box = (0, -60, 60, 50)
+    for one in linkanim.guide(LID, kind=kind, box=box, largest=1.5, least_angle=0.5, count=3):
+        verify(one)
+        assert one.size <= 1.5 * one.task.poses.size
+        assert one.transmission_angle >= 0.5
+        pins = [pin.position for pin in one.scene.linkage.pins]
+        assert all(0 <= x <= 60 and -60 <= y <= -10 for x, y in pins)
+
+
+def test_parallel_poses_on_a_circle_are_a_parallelogram_s() -> None:
+    places = 20 * np.exp(1j * np.array([0.1, 0.7, 1.5, 2.6]))
+    rows = np.column_stack([places.real, places.imag, np.zeros(4)])
+    for one in linkanim.guide(rows, count=3):
+        verify(one)
+        assert one.parameters["crank"] == pytest.approx(20)
+        assert one.parameters["rocker"] == pytest.approx(20)
+
+
+# Crank-rocker 100, 30, 90, 80 at angles of its crank: poses taken from its two circuits, out of order; and
+# of a four-bar whose crank swings from both its branches.
+@pytest.mark.parametrize(
+    ("lengths", "angles", "sides", "defects"),
+    [
+        ((100, 30, 90, 80), (10, 60, 130), (1, 1, 1), ()),
+        ((100, 30, 90, 80), (10, 60, 130), (1, 1, -1), ("circuit",)),
+        ((100, 30, 90, 80), (10, 130, 60, 200), (1, 1, 1, 1), ("order",)),
+        # any three places of a turn are in order, one way round or the other
+        ((100, 30, 90, 80), (130, 10, 60), (1, 1, 1), ()),
+        ((100, 80, 40, 70), (20, 40, 50), (1, 1, 1), ()),
+        ((100, 80, 40, 70), (20, 40, 50), (1, 1, -1), ("branch",)),
+        ((100, 80, 40, 70), (20, 50, 40), (1, 1, 1), ("order",)),
+        # a double-rocker of Grashof's: its crank swings above the ground line, or below
+        ((60, 80, 30, 90), (60, 80, 100), (1, 1, 1), ()),
+        ((60, 80, 30, 90), (60, 80, -90), (1, 1, 1), ("circuit",)),
+        ((60, 80, 30, 90), (60, 80, 100), (1, -1, 1), ("branch",)),
+    ],
+)
+def test_defects_are_told(
+    lengths: tuple[float, ...], angles: tuple[float, ...], sides: tuple[int, ...], defects: tuple[str, ...]
+) -> None:
+    r1, r2, r3, r4 = lengths
+    crank = r2 * np.exp(1j * np.array(angles) * DEGREE)
+    way = r1 - crank
+    square = np.abs(way) ** 2
+    root = np.array(sides) * np.sqrt(((r3 + r4) ** 2 - square) * (square - (r3 - r4) ** 2))
+    coupler = way * (square + (r3 - r4) * (r3 + r4) + 1j * root) / (2 * square * r3)
+    origins = crank + (40 + 30j) * coupler
+    rows = np.column_stack([origins.real, origins.imag, np.angle(coupler)])
+    found = linkanim.guide(rows, pivots=[(0, 0), (r1, 0)], largest=100)
+    driven = [one for one in found if abs(one.parameters["x"]) < 1e-9] or found
+    for one in found:
+        verify(one)
+    if abs(driven[0].parameters["x"]) < 1e-9:
+        assert driven[0].defects == defects
+    else:
+        # from the other side it runs without
+        assert driven[0].defects == ()
+
+
+def turned(*rows: tuple[float, float, float]) -> list[tuple[float, float, float]]:
+    return [(x, y, angle * DEGREE) for x, y, angle in rows]
+
+
+def about(point: complex, *angles: float) -> list[tuple[float, float, float]]:
+    places = [point + (30 + 10j - point) * np.exp(1j * angle * DEGREE) for angle in angles]
+    return [(place.real, place.imag, angle * DEGREE) for place, angle in zip(places, angles, strict=True)]
+
+
+SHIFTED = turned((0, 0, 0), (10, 4, 0), (30, -5, 0), (50, 20, 0))
+IMAGINARY = turned((9, 24, -20), (80, 58, 3), (9, 43, -12), (48, 16, 16), (73, 11, 43))
+ROUND = turned((20, 0, 0), (0, 20, 0), (-20, 0, 0), (12, 16, 0))
+FOUR = turned((0, 0, 0), (40, 10, 35), (70, -5, 80), (90, -40, 120))
+FIVE = [*FOUR, (60, -80, 170 * DEGREE)]
+
+
+@pytest.mark.parametrize(
+    ("poses", "options", "said"),
+    [
+        (turned((0, 0, 0)), {}, "1 poses: a coupler is guided through 2 to 5"),
+        ([*FIVE, (0, -90, 3.0)], {}, "6 poses"),
+        ([(0, 0), (1, 1)], {}, "give a row of x, y and angle"),
+        (turned((0, 0, 0), (math.nan, 0, 0)), {}, "pose 2 is not finite"),
+        (turned((0, 0, 0), (5, 5, 9), (5, 5, 9)), {}, "poses 2 and 3 are one"),
+        (turned((0, 0, 0), (5, 5, 9), (9, 5, 400)), {}, "poses 1 and 3 are turned by 400 deg"),
+        (about(7 - 3j, 0, 30, 70), {}, "all poses turn about one point, 7, -3"),
+        (about(0j, 0, 30, 70, -20, 90), {}, "all poses turn about one point"),
+        (turned((4, 4, 0), (4, 4, 30), (4, 4, 70)), {}, "all poses turn about one point, 4, 4"),
+        (LID, {"kind": "six-bar"}, "take four-bar or slider-crank"),
+        (LID, {"pivots": [(0, 0), (1, 1), (2, 2)]}, "has 2 fixed pins; 3 are given"),
+        (LID, {"pivots": [(0, 0)] * 2, "kind": "slider-crank"}, "has 1 fixed pins; 2 are given"),
+        (LID, {"pivots": [(math.inf, 0)]}, "give x and y, two numbers"),
+        (LID, {"count": 0}, "from 1 to 50"),
+        (LID, {"prefer": "exact"}, "take compact or angle"),
+        (LID, {"largest": -1}, "give the longest link in sizes of the poses"),
+        (LID, {"least_angle": 2}, "give 0 to 90 deg"),
+        (LID, {"box": (0, 0, 0, 9)}, "nothing fits in it"),
+        (LID, {"box": (9000, 0, 9, 9)}, "keeps to the box"),
+        (LID, {"largest": 0.01}, "sizes of the poses at the least, 0.01 are allowed"),
+        (LID, {"unit": "ft"}, "ft"),
+        # parallel poses whose places lie on no circle and no line
+        (SHIFTED, {}, "no circle"),
+        (ROUND, {"kind": "slider-crank"}, "turn them against each other, or take a four-bar"),
+        (FIVE, {"kind": "slider-crank"}, "leave one out, or take a four-bar"),
+        (FOUR, {"pivots": [(500, 500)]}, "is no centre point of these four poses; the nearest one is"),
+        (IMAGINARY, {}, "none of Burmester's four points is real"),
+        (FIVE, {"pivots": [(500, 500)]}, "five poses leave no choice of pivots, theirs are"),
+    ],
+)
+def test_what_cannot_be_is_said(poses: list[tuple[float, ...]], options: dict[str, Any], said: str) -> None:
+    with pytest.raises(BadInput, match=said):
+        linkanim.guide(poses, **options)
+
+
+def test_a_pivot_whose_images_lie_in_line_is_refused() -> None:
+    rows = np.array(LID)
+    poses = Poses(rows[:, 0] + 1j * rows[:, 1], rows[:, 2])
+    # what the ground is to the body: a fixed point that slides as the body sees it
+    (point,) = slide_points(Poses(poses.images(0), -rows[:, 2]), np.array([1.0]))
+    with pytest.raises(BadInput, match="it lies in one line in all poses"):
+        linkanim.guide(LID, pivots=[(point.real, point.imag)])
