@@ -144,15 +144,15 @@ def extremes(scene: Scene, curve: Curve) -> tuple[Peak, ...]:
 
     A level curve has none, nor has one that is somewhere unbounded.
     """
-    values = curve.values
-    if not np.isfinite(values).all() or np.ptp(values) <= 1e-9 * max(np.abs(values).max(), 1e-300):
+    values = curve.values[~np.isnan(curve.values)]
+    if not values.size or np.isinf(values).any() or np.ptp(values) <= 1e-9 * np.abs(values).max():
         return ()
     return tuple(_peak(scene, curve, sign) for sign in (1, -1))
 
 
 def _peak(scene: Scene, curve: Curve, sign: int) -> Peak:
     """Return the greatest value (`sign` +1) or the least (-1), solved ever closer about its sample."""
-    index = int((sign * curve.values).argmax())
+    index = int(np.nanargmax(sign * curve.values))
     ends = sorted((curve.phases[0], curve.phases[-1]))
     phase, reach = float(curve.phases[index]), float(np.abs(np.diff(curve.phases)).max())
     # Where a point rests for an instant its path has no direction there, and nothing along it a value.

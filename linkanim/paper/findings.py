@@ -63,12 +63,11 @@ def usual_instants(scene: Scene) -> tuple[Instant, ...]:
     found = [Instant(0.0, "start")]
     output = output_slider(scene.linkage) or output_body(scene.linkage)
     if output and (output.slider or output.name not in scene.info.turning_links):
-        names = ("travel", "travel_velocity") if output.slider else ("angle", "angular_velocity")
-        place, rate = (f"{output.name}.{name}" for name in names)
+        place, rate = ("travel", "travel_velocity") if output.slider else ("angle", "angular_velocity")
         pace = Pace(abs(scene.linkage.drive.speed), "")
-        curve = curves_of(scene, (place,), (pace,), "phase").curves[0]
+        curve = curves_of(scene, (f"{output.name}.{place}",), (pace,), "phase").curves[0]
         for peak, words in zip(extremes(scene, curve), ("greatest", "least"), strict=False):
-            phase = _at_rest(scene, rate, float(np.radians(peak.x)))
+            phase = _at_rest(scene, (rate, output.name), float(np.radians(peak.x)))
             found.append(Instant(phase, f"{words} {curve.quantity.words.lower()}"))
     return tuple(_together(found, scene.period))
 
@@ -81,11 +80,15 @@ def _together(found: list[Instant], period: float) -> Iterator[Instant]:
     yield from (one for one in others if one not in same)
 
 
-def _at_rest(scene: Scene, rate: str, near: float) -> float:
-    """Return the phase next to an extreme at which what is extreme rests; that of the extreme without one."""
+def _at_rest(scene: Scene, rate: tuple[str, str], near: float) -> float:
+    """Return the phase next to an extreme at which what is extreme rests; that of the extreme without one.
+
+    `rate` is that of a part, under a motion's name for it.
+    """
+    kind, part = rate
 
     def speed(phases: np.ndarray) -> np.ndarray:
-        return np.asarray(scene.quantities[rate].read(scene.solve(phase=phases)), float)
+        return np.asarray(getattr(scene.solve(phase=phases), kind)[part])
 
     found = sign_changes(speed, near + _BESIDE * np.array([-1.0, 1.0]))
     return float(found[0]) if len(found) else near

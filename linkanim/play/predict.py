@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from random import Random
 from typing import NamedTuple
 
 from linkanim.errors import BadInput
@@ -108,14 +109,18 @@ class Predict:
         )
 
     def _due(self) -> QuizQuestion:
-        """Return the question that is due: one of an earlier round, a new one, or one that was missed."""
+        """Return the question that is due: one of an earlier round, a new one, or one that was missed.
+
+        New ones are about all scenes of the chapter before one comes again.
+        """
         number = len(self.done)
         if number < len(self.again[:COUNT]):
             return question_of(self.again[number])
         if number >= COUNT:
             return question_of(self.missed[number - COUNT])
         scenes = members(self.chapter)
-        scene = load(scenes[(self.seed + 7 * number) % len(scenes)])
+        order = Random(self.seed).sample(scenes, len(scenes))
+        scene = load(order[number % len(order)])
         before = [*self.again, *(one.question_id for one in self.done)]
         return next_question(scene, f"{self.seed} {number}", before, of_level(self.level))
 
@@ -215,7 +220,7 @@ class Predict:
         well = self.chosen == question.right
         gained = points(self.level, self.done, len(self.done) - 1)
         slip = question.answers[self.chosen].slip
-        verdict = f"Right: {gained} points" if well else f"No: that is {slip}."
+        verdict = f"Right: {gained} points" if well else f"No: that is {slip}." if slip else "No."
         return replace(panel, verdict=verdict, well=well, lines_after=(question.why,))
 
     def _end_panel(self) -> GamePanel:

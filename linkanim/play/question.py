@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from math import isfinite
 from random import Random
-from typing import Any, NamedTuple, Self
+from typing import NamedTuple, Self
 
 import numpy as np
 
 from linkanim.errors import BadInput
+from linkanim.mechanics.formulas.program import Array
 from linkanim.mechanics.linkage.joint import Point
 from linkanim.mechanics.linkage.linkage import Body
+from linkanim.mechanics.linkage.rigid_bodies import holding
+from linkanim.mechanics.motion.measures import pivots_of, pole
 from linkanim.mechanics.motion.motion import Motion, Pose
 from linkanim.picture.figure import Figure, figure
 from linkanim.picture.look import Look
@@ -31,8 +35,8 @@ _ADJECTIVES = frozenset({"upper", "lower", "left", "right", "large", "small", "s
 class QuizAnswer(NamedTuple):
     """An answer, and of a wrong one the misconception that it comes from, to be read after "that is".
 
-    Where answers are places (in the scene's unit, at the phase) or curves (values from −1 to 1 over one
-    period), it has its own.
+    An answer that no misconception gives, when it is carried out, names none. Where answers are places (in
+    the scene's unit, at the phase) or curves (values from −1 to 1 over one period), it has its own.
     """
 
     text: str
@@ -133,6 +137,33 @@ class Puzzle:
         fixed = {pin.name for pin in self.scene.linkage.pins}
         return tuple(name for name in self.figure.shown if name not in fixed)
 
+    def vector(self, kind: str, name: str) -> complex:
+        """Return a joint's position, velocity or acceleration at the pose, x + yi."""
+        return complex(*getattr(self.pose, kind)[name])
+
+    def apart(self, one: str, other: str) -> complex:
+        """Return the way from one joint to another."""
+        return self.vector("position", other) - self.vector("position", one)
+
+    def bodies_of(self, *joints: str) -> Iterator[Body]:
+        """Yield the named bodies that turn and carry all these joints."""
+        rigid = self.scene.linkage.rigid_bodies
+        turning = (body for body in self.scene.linkage.bodies if body.slider is None)
+        return (body for body in turning if holding(rigid, (*body.joints, *joints)))
+
+    def pivot_of(self, joint: str) -> str | None:
+        """Return the fixed pin about which a joint turns; None where there is none."""
+        frames = [frame for frame in self.scene.linkage.rigid_bodies[1:] if joint in frame]
+        pins = (pin.name for frame in frames for pin in self.scene.linkage.pins if pin.name in frame)
+        return next((pin for pin in pins if pin != joint), None)
+
+    def centre_of(self, body: Body) -> tuple[complex, str]:
+        """Return about which place a body turns at the pose, and what that is called; infinite where none."""
+        pins = pivots_of(self.scene.linkage, body)
+        if pins:
+            return self.vector("position", pins[0]), pins[0]
+        return complex(*map(float, pole(self.pose, body))), f"the instant centre of the {self.name(body)}"
+
     def name(self, body: Body) -> str:
         """Return what a body is called, with its number where the scene gives one."""
         called = self.scene.info.link_names[body.name]
@@ -142,19 +173,24 @@ class Puzzle:
             return called if len(called) > 2 and called.islower() else f"link {called}"
         return f"{called} ({body.name})" if body.name.isdecimal() else called
 
-    def share(self, kind: str, name: str) -> float:
-        """Return a quantity at the pose over its greatest size in the period: -1 … 1; 0 where it is none.
+    def value(self, token: str) -> float:
+        """Return what a quantity says at the pose: 0 of nothing, infinite where it is not bounded."""
+        return float(self.scene.quantities[token].read(self.pose))
 
-        A vector's is its length's.
-        """
-        greatest = float(np.max(_sizes(getattr(self.cycle, kind)[name]), initial=0.0))
-        value = getattr(self.pose, kind)[name]
-        at = float(np.hypot(*value)) if isinstance(value, tuple) else float(value)
-        return at / greatest if 0.0 < greatest < np.inf and np.isfinite(at) else 0.0
+    def values(self, token: str) -> Array:
+        """Return what a quantity says over the period."""
+        return np.asarray(self.scene.quantities[token].read(self.cycle), np.float64)
+
+    def share(self, token: str) -> float:
+        """Return a quantity at the pose over its greatest size in the period: -1 … 1; 0 where it is none."""
+        sizes = np.abs(self.values(token))
+        greatest = float(np.max(sizes[np.isfinite(sizes)], initial=0.0))
+        value = self.value(token)
+        return value / greatest if greatest > 0.0 and isfinite(value) else 0.0
 
     def clear(self, kind: str) -> list[str]:
         """Return the joints whose velocity, or acceleration, is seen at once."""
-        return [name for name in self.joints if self.share(kind, name) > PLAIN]
+        return [name for name in self.joints if self.share(f"{name}.{kind}") > PLAIN]
 
     def question(
         self,
@@ -177,10 +213,3 @@ class Puzzle:
         about = (self.kind, self.scene, self.phase, subject)
         given = (text, tuple(answers), answers.index(right), why)
         return QuizQuestion(*about, *given, shows, tuple(arrows), stops, names)
-
-
-def _sizes(values: Any) -> Any:
-    """Return the sizes of numbers (N,), or of vectors (N, 2), those that are finite."""
-    found = np.asarray(values, np.float64)
-    sizes = np.hypot(found[..., 0], found[..., 1]) if found.ndim == 2 else np.abs(found)
-    return sizes[np.isfinite(sizes)]

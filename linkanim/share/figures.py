@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from linkanim.mechanics.motion.motion import Motion
 from linkanim.picture.diagrams.chart import Pen
 from linkanim.picture.diagrams.chart_panel import ChartPanel
-from linkanim.picture.diagrams.quantities import cleared, quantity
+from linkanim.picture.diagrams.quantities import quantity
 from linkanim.picture.figure import Figure
 from linkanim.picture.panels.readings import measured
 from linkanim.picture.parts.driven import speed_words
@@ -51,7 +51,7 @@ def rows(scene: Scene, speed: float) -> Iterator[dict[str, Any]]:
     title = "input speed" if scene.info.full_turn else "input rate"
     yield {"label": title, "text": [speed_words(scene, way * speed) for way in (1, -1)]}
     for _, label, of, step in measured(scene):
-        found = [cleared(np.asarray(of.shown(one), float), of.rounding(one)) for one in both]
+        found = [np.asarray(of.shown(one), float) for one in both]
         yield _row(label, of.shown_unit(scene.length_unit), step, found)
 
 

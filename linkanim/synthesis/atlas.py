@@ -19,6 +19,8 @@ POINTS = 64
 """Along each curve."""
 _POSES = 96
 """At equal crank angles, from which the points are found."""
+_AT_ONCE = 2_000
+"""Curves, so that memory does not grow with the atlas beyond what it holds."""
 _SEED = 25
 _WORST = math.radians(4)
 """The least transmission angle of a linkage in the atlas."""
@@ -48,7 +50,8 @@ class Atlas(NamedTuple):
 def atlas(kind: LinkageKind, count: int = CURVES) -> Atlas:
     """Return the atlas of a kind, made when it is first needed."""
     rows = _sampled(kind, count)
-    angles, points = _along(kind, rows)
+    parts = [_along(kind, rows[first : first + _AT_ONCE], first) for first in range(0, len(rows), _AT_ONCE)]
+    angles, points = (np.concatenate(part) for part in zip(*parts, strict=True))
     centre = points.mean(axis=1)
     shape = points - centre[:, None]
     scale = np.sqrt((np.abs(shape) ** 2).sum(axis=1))
@@ -66,8 +69,11 @@ def _sampled(kind: LinkageKind, count: int) -> Real:
     return np.concatenate(found)[:count]
 
 
-def _along(kind: LinkageKind, rows: Real) -> tuple[Real, Complex]:
-    """Return crank angles (J, POINTS) at equal distances along each closed curve, and the points there."""
+def _along(kind: LinkageKind, rows: Real, first: int) -> tuple[Real, Complex]:
+    """Return crank angles (J, POINTS) at equal distances along each closed curve, and the points there.
+
+    `first` is the number of the first of these linkages in the atlas.
+    """
     turn = np.linspace(0, 2 * math.pi, _POSES + 1)
     closure = np.ones(len(rows))
     points = kind.points(rows, closure, np.broadcast_to(turn, (len(rows), len(turn))))
@@ -75,7 +81,7 @@ def _along(kind: LinkageKind, rows: Real) -> tuple[Real, Complex]:
     np.cumsum(np.abs(np.diff(points, axis=1)), axis=1, out=length[:, 1:])
     # One search for all rows: each has its lengths between 2j and 2j + 1.
     length /= length[:, -1:]
-    own = 2.0 * np.arange(len(rows))[:, None]
+    own = 2.0 * np.arange(first, first + len(rows))[:, None]
     places = np.arange(POINTS) / POINTS
     flat, sought = (length + own).ravel(), (places + own).ravel()
     angles = np.interp(sought, flat, np.tile(turn, len(rows))).reshape(len(rows), POINTS)

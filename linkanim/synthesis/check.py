@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from itertools import pairwise
 
 import numpy as np
 
@@ -18,9 +17,11 @@ from linkanim.synthesis.task import PathTask
 
 _POSES = 1440
 """Over the turn, or between the first and the last point, at which the way is compared with the polyline."""
-_FOOT_STEPS = 6
-_FARTHEST_STEP = 0.1
+_FOOT_STEPS = 12
+_FARTHEST_STEP, _LAST_STEP = 0.1, 1e-9
 _SLACK = 1e-9
+_RUN, _MOST_RUNS = 16, 128
+"""Segments of a polyline that are looked at together at the least, and how many such runs at the most."""
 
 
 def checked(task: PathTask, row: Real, closure: float, angles: Real) -> Fit | None:
@@ -39,9 +40,8 @@ def checked(task: PathTask, row: Real, closure: float, angles: Real) -> Fit | No
         return None
     if task.requirements.full_turn and not full:
         return None
-    angles = _feet(scene, task, angles)
+    angles, off = _feet(scene, task, angles)
     least = _least_transmission(scene, angles, full=full)
-    off = np.abs(_traced(scene, angles) - task.curve.points)
     passes = np.isfinite(off).all() and _in_order(task, angles)
     if not passes or least < task.requirements.least_angle - _SLACK:
         return None
@@ -107,28 +107,56 @@ def _traced(scene: Scene, places: Real, by: str = "angle") -> Complex:
     return np.asarray(as_complex(motion.position["P"]))
 
 
-def _feet(scene: Scene, task: PathTask, angles: Real) -> Real:
-    """Return the crank angles at which the coupler point is nearest to each point, in order."""
-    if task.timing is not None:
-        return angles
-    best = _nearest(scene, task.curve.points, angles, "angle")
-    return best if _in_order(task, best) else angles
+def _feet(scene: Scene, task: PathTask, angles: Real) -> tuple[Real, Real]:
+    """Return the crank angles at which the points are passed, in order, and how far each one is off.
+
+    Points are as far off as the nearest place of the curve near by, or, with prescribed timing, as where the
+    coupler point is then. Neighbours whose nearest places have changed places are in order as long as that
+    is by no more than points are off.
+    """
+    if task.timing is None:
+        sense = 1.0 if angles[-1] > angles[0] else -1.0
+        nearest = _nearest(scene, task.curve.points, angles, "angle")
+        ordered = sense * _ascending(sense * nearest, closed=task.curve.closed)
+        passed = _traced(scene, nearest)
+        off = np.abs(passed - task.curve.points)
+        if np.abs(_traced(scene, ordered) - passed).max() <= 2 * off.max() + _SLACK * task.curve.size:
+            return ordered, off
+    return angles, np.abs(_traced(scene, angles) - task.curve.points)
+
+
+def _ascending(angles: Real, *, closed: bool) -> Real:
+    """Return angles sorted, those of a closed curve within one turn."""
+    found = np.sort(angles)
+    while closed and found[-1] - found[0] > 2 * math.pi:
+        found[0], found[-1] = found[-1] - 2 * math.pi, found[0] + 2 * math.pi
+        found.sort()
+    return found
 
 
 def _nearest(scene: Scene, points: Complex, places: Real, by: str) -> Real:
-    """Return where, near to given places, the coupler point is nearest to each point."""
-    best, least = places, np.abs(_traced(scene, places, by) - points)
+    """Return where, near to given places, the coupler point is nearest to each point: Newton's steps."""
+    best = places.copy()
+    least, reach = np.abs(_traced(scene, best, by) - points), np.full(len(best), _FARTHEST_STEP)
+    left = np.arange(len(best))
     for _ in range(_FOOT_STEPS):
-        motion = scene.solve(**{by: best}, speed=1.0, derivatives=1)
-        way = points - as_complex(motion.position["P"])
-        rate = as_complex(motion.velocity["P"])
+        motion = scene.solve(**{by: best[left]}, speed=1.0, derivatives=2)
+        way = points[left] - as_complex(motion.position["P"])
+        rate, turn = as_complex(motion.velocity["P"]), as_complex(motion.acceleration["P"])
         with np.errstate(all="ignore"):
-            step = np.nan_to_num((np.conj(rate) * way).real / np.abs(rate) ** 2)
-        trial = best + np.clip(step, -_FARTHEST_STEP, _FARTHEST_STEP)
-        off = np.abs(_traced(scene, trial, by) - points)
-        nearer = off < least
-        best, least = np.where(nearer, trial, best), np.where(nearer, off, least)
-    return np.asarray(best)
+            square = np.abs(rate) ** 2
+            bend = square - (np.conj(turn) * way).real
+            step = np.nan_to_num((np.conj(rate) * way).real / np.where(bend > 0, bend, square))
+        step = np.clip(step, -reach[left], reach[left])
+        off = np.abs(_traced(scene, best[left] + step, by) - points[left])
+        nearer = off < least[left]
+        best[left] += np.where(nearer, step, 0.0)
+        least[left] = np.where(nearer, off, least[left])
+        reach[left] = np.where(nearer, _FARTHEST_STEP, np.abs(step) / 4)
+        left = left[np.abs(step) > _LAST_STEP]
+        if not len(left):
+            break
+    return best
 
 
 def _in_order(task: PathTask, angles: Real) -> bool:
@@ -153,11 +181,30 @@ def _between(curve: DrawnCurve, angles: Real) -> Real:
 
 
 def _stray(way: Complex, curve: DrawnCurve) -> float:
-    """Return how far the coupler point goes from the points' polyline: from the nearest of its segments."""
+    """Return how far the coupler point goes from the points' polyline: from the nearest of its segments.
+
+    Infinite where the way is not closed. Of the segments, taken in runs, only runs are looked at that may
+    hold the nearest one.
+    """
+    start, side = curve.polyline[:-1], np.diff(curve.polyline)
+    runs = np.array_split(np.arange(len(side)), 1 + min(len(side) // _RUN, _MOST_RUNS))
+    corners = [curve.polyline[run[0] : run[-1] + 2] for run in runs]
+    middle = np.array([part.mean() for part in corners])
+    radius = np.array([np.abs(part - centre).max() for part, centre in zip(corners, middle, strict=True)])
     least = np.full(len(way), np.inf)
-    for start, end in pairwise(curve.polyline):
-        side = end - start
-        square = abs(side) ** 2
-        share = np.clip((np.conj(side) * (way - start)).real / square, 0, 1) if square else 0.0
-        np.minimum(least, np.abs(way - start - share * side), out=least)
+    away = np.abs(way[:, None] - middle)
+    near = away - radius <= (away + radius).min(axis=1, keepdims=True) * (1 + _SLACK)
+    for run, here in zip(runs, near.T, strict=True):
+        if here.any():
+            least[here] = np.minimum(least[here], _off(way[here], start[run], side[run]))
     return float(least.max())
+
+
+def _off(places: Complex, start: Complex, side: Complex) -> Real:
+    """Return how far places (n,) are from the nearest of some segments (m,)."""
+    way, side = places - start[:, None], side[:, None]
+    with np.errstate(invalid="ignore"):  # segments without a length
+        share = np.nan_to_num((way.real * side.real + way.imag * side.imag) / np.abs(side) ** 2)
+    np.clip(share, 0, 1, out=share)
+    x, y = way.real - share * side.real, way.imag - share * side.imag
+    return np.asarray(np.sqrt((x * x + y * y).min(axis=0)))

@@ -24,9 +24,10 @@ class Fit:
     """Pivots x, y, x4, y4, lengths, and the coupler point along A -> B and across, to its left."""
     closure: str
     angles: Real
-    """Of the crank, where the coupler point passes each point of the curve."""
+    """Of the crank, where the coupler point passes each point of the curve, in their order."""
     rms: float
-    """Root mean square of the points' distances; with prescribed timing, to where the point is then."""
+    """Root mean square of the points' distances to the curve near where the coupler point passes them; with
+    prescribed timing, to where it is then."""
     largest: float
     """The largest of those distances."""
     stray: float
@@ -61,11 +62,9 @@ class Fit:
     @cached_property
     def joints(self) -> Complex:
         """Fixed pins, and all joints where the crank is at the first and at the middle point of the curve."""
-        kind, rows, angles = self.task.kind, self.row[None], self.angles[[0, len(self.angles) // 2]]
-        pins = complex(*self.row[:2]) + self.row[2] * np.exp(1j * angles)
-        way = kind.close(rows, np.array([[self.closure_sign]]), pins[None]).direction[0]
-        arm = complex(*self.row[4:6])
-        return np.concatenate([kind.pivots(rows)[0], pins, pins + self.row[3] * way, pins + arm * way])
+        angles = self.angles[None, [0, len(self.angles) // 2]]
+        joints: Complex = self.task.kind.joints(self.row[None], np.array([self.closure_sign]), angles)[0]
+        return joints
 
     def apart(self, other: Fit) -> float:
         """Return how far two answers' joints are apart, in curve sizes, however their parameters are told."""

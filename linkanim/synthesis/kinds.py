@@ -114,6 +114,14 @@ class LinkageKind(ABC):
         pin, _ = _pins(rows, angles)
         return pin + _arm(rows) * self.close(rows, closure[:, None], pin).direction
 
+    def joints(self, rows: Real, closure: Real, angles: Real) -> Complex:
+        """Return the fixed pins, then the pins A, B and P at crank angles (B, n), in a row (B, m)."""
+        pin, _ = _pins(rows, angles)
+        way = self.close(rows, closure[:, None], pin).direction
+        return np.concatenate(
+            [self.pivots(rows), pin, pin + rows[:, 3:4] * way, pin + _arm(rows) * way], axis=1
+        )
+
     def trace(self, rows: Real, closure: Real, angles: Real) -> TracedPoints:
         """Return the coupler points at crank angles, and all their first derivatives."""
         pin, spoke = _pins(rows, angles)

@@ -18,15 +18,13 @@ from linkanim.synthesis.kinds import KINDS, LinkageKind, Real
 from linkanim.synthesis.requirements import LEAST_ANGLE, SHORTEST, Requirements
 from linkanim.synthesis.rounding import with_round_lengths
 from linkanim.synthesis.search import Progress, found
-from linkanim.synthesis.task import PathTask
+from linkanim.synthesis.task import EXACTLY, PathTask
 from linkanim.units import shown
 
 LARGEST = 8.0
 """Of a link, in curve sizes."""
 COUNT = 5
 MOST_ANSWERS = 50
-_EXACTLY = 1e10
-"""What a point that is to be passed through exactly weighs beside another one."""
 
 Pair = Sequence[float]
 
@@ -185,5 +183,5 @@ def _weights(weights: ArrayLike | None, exactly: Sequence[int], curve: DrawnCurv
     for point in exactly:
         if not 0 <= point < count:
             raise BadInput(f"exactly: there is no point {point}; the points are 0 to {count - 1}")
-        found[point] = _EXACTLY
+        found[point] = EXACTLY
     return found

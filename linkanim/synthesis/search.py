@@ -12,8 +12,9 @@ import numpy as np
 from linkanim.errors import BadInput
 from linkanim.synthesis.atlas import CURVES, atlas
 from linkanim.synthesis.check import checked
+from linkanim.synthesis.curves.drawn import DrawnCurve
 from linkanim.synthesis.fit import Fit
-from linkanim.synthesis.kinds import Indices, Real
+from linkanim.synthesis.kinds import Complex, Indices, Real
 from linkanim.synthesis.match import Candidates, joined, matched, matched_few, matched_in_time
 from linkanim.synthesis.refine import merit, refined
 from linkanim.synthesis.task import FEW, PathTask
@@ -33,6 +34,8 @@ _FEW_STAGES = (_Stage(300, FEW, 25), _Stage(80, FEW, 60), _Stage(12, FEW, 200))
 _STAGES = (_Stage(80, 32, 12), _Stage(24, 64, 40), _Stage(8, 200, 150))
 _WIDER_STAGES = (_Stage(2000, 32, 8), _Stage(300, 64, 40), _Stage(40, 64, 200))
 _FOREIGN_STAGES = (_Stage(600, 32, 8), _Stage(80, 64, 40), _Stage(12, 200, 150))
+_MATCHED = 128
+"""Points at the most at which a curve is looked for in the atlas."""
 _REFIT_STEPS = 30
 _GLIMPSED, _GLIMPSED_OPEN = CURVES, CURVES // 5
 """Curves of the atlas among which the first answer is: of each an open curve may be one of several shares."""
@@ -80,19 +83,22 @@ def _none_fits(task: PathTask) -> str:
 
 def glimpsed(task: PathTask) -> Fit | None:
     """Return the atlas's best as it is, in a tenth of a second, once the atlas is made."""
-    start = started(task, _STAGES[0].candidates, _GLIMPSED if task.curve.closed else _GLIMPSED_OPEN)
-    off = np.abs(task.kind.points(start.rows, start.closure, start.angles) - task.normal.points).max(axis=1)
-    return next(_checked(task, start.take(np.argsort(off))), None)
+    chosen = task.thinned(_MATCHED)
+    start = started(task, chosen, _STAGES[0].candidates, _GLIMPSED if task.curve.closed else _GLIMPSED_OPEN)
+    traced = task.kind.points(start.rows, start.closure, start.angles)
+    off = np.abs(traced - task.normal.points[chosen]).max(axis=1)
+    return next(_checked(task, start.take(np.argsort(off, kind="stable")), chosen), None)
 
 
-def started(task: PathTask, count: int, among: int = CURVES) -> Candidates:
-    """Return the best candidates of the atlas, or of its first curves, at size 1."""
-    known, points = atlas(task.kind).first(among), task.normal
+def started(task: PathTask, chosen: Indices, count: int, among: int = CURVES) -> Candidates:
+    """Return the best candidates of the atlas, or of its first curves, at size 1 and at chosen points."""
+    known, points = atlas(task.kind).first(among), DrawnCurve(task.normal.points[chosen], task.curve.closed)
     if task.timing is None and len(points.points) <= FEW:
         return joined([matched(known, points, count // 4), matched_few(known, points, count)])
     if task.timing is None:
         return matched(known, points, count)
-    return matched_in_time(known, points.points, task.timing, count, free_start=task.free_start)
+    timing = task.timing[chosen]
+    return matched_in_time(known, points.points, timing, count, free_start=task.free_start)
 
 
 def _searched(task: PathTask, count: int, progress: Progress | None, *, widely: bool) -> tuple[Fit, ...]:
@@ -108,8 +114,8 @@ def _searched(task: PathTask, count: int, progress: Progress | None, *, widely: 
 def _through(
     task: PathTask, stages: tuple[_Stage, ...], count: int, progress: Progress | None
 ) -> tuple[Fit, ...]:
-    start = started(task, stages[0].candidates)
-    return best_of(_enough(_checked(task, refined_through(task, start, stages, progress)), count), count)
+    found, chosen = _refined_through(task, stages, progress)
+    return best_of(_enough(_checked(task, found, chosen), count), count)
 
 
 def _enough(fits: Iterator[Fit], count: int) -> Iterator[Fit]:
@@ -122,17 +128,18 @@ def _enough(fits: Iterator[Fit], count: int) -> Iterator[Fit]:
             return
 
 
-def refined_through(
-    task: PathTask, start: Candidates, stages: tuple[_Stage, ...], progress: Progress | None = None
-) -> Candidates:
-    """Return the best candidates after all stages, at size 1, the best first, at all points' angles."""
-    chosen = np.arange(len(task.normal.points))
-    now, cost = start, np.zeros(len(start.rows))
+def _refined_through(
+    task: PathTask, stages: tuple[_Stage, ...], progress: Progress | None
+) -> tuple[Candidates, Indices]:
+    """Return the best candidates after all stages, the best first, at size 1, and the points chosen last."""
+    chosen = task.thinned(_MATCHED)
+    now = started(task, chosen, stages[0].candidates)
+    cost = np.zeros(len(now.rows))
     for number, stage in enumerate(stages):
         if progress:
             progress(number, len(stages))
         now = now.take(_by_merit(cost)[: stage.candidates])
-        before, chosen = chosen, task.normal.thinned(stage.points)
+        before, chosen = chosen, task.thinned(stage.points)
         now = now._replace(angles=_spread(task, now, before, chosen))
         problem = task.problem(chosen)
         now, cost = refined(problem, now, stage.steps, guarded=stage is stages[-1])
@@ -140,8 +147,7 @@ def refined_through(
             cost = merit(problem, now)
     if progress:
         progress(len(stages), len(stages))
-    now = now._replace(angles=_spread(task, now, chosen, np.arange(len(task.normal.points))))
-    return now.take(_by_merit(cost)[: int(np.isfinite(cost).sum())])
+    return now.take(_by_merit(cost)[: int(np.isfinite(cost).sum())]), chosen
 
 
 def _by_merit(cost: Real) -> Indices:
@@ -155,17 +161,16 @@ def refitted(task: PathTask, fit: Fit) -> Fit | None:
     The task's points are as many as the answer's. None where it ends nowhere.
     """
     start = Candidates(fit.row[None], np.array([fit.closure_sign]), fit.angles[None], np.array([fit.sense]))
-    chosen = task.normal.thinned(_STAGES[-1].points)
+    chosen = task.thinned(_STAGES[-1].points)
     now = task.normalised(start)
     now = now._replace(angles=_spread(task, now, np.arange(len(task.normal.points)), chosen))
     now, _ = refined(task.problem(chosen), now, _REFIT_STEPS)
-    now = now._replace(angles=_spread(task, now, chosen, np.arange(len(task.normal.points))))
-    return next(_checked(task, now), None)
+    return next(_checked(task, now, chosen), None)
 
 
 def _spread(task: PathTask, found: Candidates, before: Indices, after: Indices) -> Real:
     """Return the crank angles at some points from those at others."""
-    if len(before) == len(after):
+    if np.array_equal(before, after):
         return found.angles
     if task.timing is not None:
         return np.asarray(found.angles[:, :1] + (task.timing[after] - task.timing[before[0]]))
@@ -176,10 +181,18 @@ def _spread(task: PathTask, found: Candidates, before: Indices, after: Indices) 
     return np.stack([np.interp(task.normal.places[after], places, row) for row in angles])
 
 
-def _checked(task: PathTask, normal: Candidates) -> Iterator[Fit]:
-    scaled = task.scaled(normal)
-    for row, closure, angles, _ in zip(*scaled, strict=True):
+def _checked(task: PathTask, normal: Candidates, chosen: Indices) -> Iterator[Fit]:
+    """Yield those that are answers, of candidates of size 1 at chosen points; of the same ones the first."""
+    everywhere = _spread(task, normal, chosen, np.arange(len(task.normal.points)))
+    scaled = task.scaled(normal._replace(angles=everywhere))
+    middle = everywhere.shape[1] // 2
+    joints = task.kind.joints(scaled.rows, scaled.closure, scaled.angles[:, [0, middle]])
+    known: list[Complex] = []
+    for (row, closure, angles, _), places in zip(zip(*scaled, strict=True), joints, strict=True):
+        if any(np.abs(places - other).max() <= _SAME * task.curve.size for other in known):
+            continue
         if fit := checked(task, row, float(closure), angles):
+            known.append(places)
             yield fit
 
 

@@ -15,6 +15,8 @@ from linkanim.synthesis.requirements import Requirements
 
 FEW = 12
 """Points that say nothing about the way between them."""
+EXACTLY = 1e10
+"""What a point that is to be passed through exactly weighs beside another one."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,6 +41,10 @@ class PathTask:
     def normal(self) -> DrawnCurve:
         """The curve about the origin, its size 1."""
         return DrawnCurve((self.curve.points - self.curve.centre) / self.curve.size, self.curve.closed)
+
+    def thinned(self, count: int) -> Indices:
+        """Return which points to take: about so many equally far along, and those to be passed exactly."""
+        return np.union1d(self.normal.thinned(count), np.flatnonzero(self.weights >= EXACTLY))
 
     @property
     def is_dense(self) -> bool:

@@ -26,7 +26,7 @@ from linkanim.player.state.state import State, begin
 from linkanim.player.tape.tape import Tape, Taping, resumed, starting
 from linkanim.player.tape.tape_file import read, write
 from linkanim.player.window import display
-from linkanim.scenes import chapters, load
+from linkanim.scenes import chapters, load, names
 
 BEGUN = "predict chapter=four-bars level=1 seed=7"
 FASTEST = "fastest@press@0.2105@velocity"
@@ -211,6 +211,18 @@ def test_a_round_asks_ten_and_then_what_was_missed() -> None:
         (begun,) = carried(state, action).effects
         assert str(begun.value).startswith(f"{what} chapter=four-bars level=1")
     assert carried(state, Action("option", 2)) == state
+
+
+@pytest.mark.parametrize("count", [3, 7, 14])
+def test_a_round_is_about_all_scenes_before_one_comes_again(
+    count: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("linkanim.play.predict.members", lambda _: names()[:count])
+    state = playing("predict chapter=all level=1 seed=3")
+    for _ in range(min(count, COUNT)):
+        state = answered(state, well=True)
+    asked = [one.question_id.scene for one in round_of(state).done]
+    assert len({*asked}) == len(asked)
 
 
 @pytest.mark.parametrize("level", [1, 2, 3])

@@ -54,7 +54,25 @@ def scene(seed: int, number: int) -> tuple[str, Document]:
     return ", ".join(words), document
 
 
-SHARE = {"further joints": 0.3, "decorated": 0.7, "extreme": 0.4}
+def named(seed: int, number: int) -> Document:
+    """Return a scene file's document, of usual sizes, all of whose bars and sliders are named bodies."""
+    rng = Random(f"{seed}:{number}")
+    document = rng.choice(tuple(STARTS.values()))(rng)
+    if rng.random() < SHARE["further joints"]:
+        _joined(rng, document)
+    if rng.random() < SHARE["comes back as it went"]:
+        document.setdefault("drive", {})["returns"] = "same"
+    if "bodies" not in document:
+        bars = dict.fromkeys(bars_of(document))
+        sliding = (name for name, table in document.get("joints", {}).items() if {"line", "slide"} & {*table})
+        bodies = {f"{n}": {"joints": list(bar)} for n, bar in enumerate(bars, 2)}
+        document["bodies"] = bodies | {f"slider{n}": {"slider": name} for n, name in enumerate(sliding)}
+    if rng.random() < SHARE["further joints"]:
+        _strut(rng, document)
+    return document
+
+
+SHARE = {"comes back as it went": 0.2, "further joints": 0.3, "decorated": 0.7, "extreme": 0.4}
 
 
 def _typed(rng: Random) -> Document:
@@ -129,7 +147,7 @@ def _known(document: Document) -> list[str]:
     return [*dict.fromkeys((*short, *document.get("ground", {}), *_moving(document)))]
 
 
-def _bars(document: Document) -> list[tuple[str, str]]:
+def bars_of(document: Document) -> list[tuple[str, str]]:
     short = [pair for key, pairs in SHORTHAND_BARS.items() if key in document for pair in pairs]
     for name, table in document.get("joints", {}).items():
         match table:
@@ -146,7 +164,7 @@ def _bars(document: Document) -> list[tuple[str, str]]:
 
 def _joined(rng: Random, document: Document) -> None:
     """Add a joint of a kind that typed linkages lack."""
-    known, moving, bars = _known(document), _moving(document), _bars(document)
+    known, moving, bars = _known(document), _moving(document), bars_of(document)
     name, length = rng.choice(NAMES), rng.choice((1, 10, 40, 200, 1e7, 1e-6))
     line: Document = {"through": rng.choice(known), "angle": rng.choice(CIRCLE), "offset": rng.choice((0, 3))}
     if rng.random() < 0.5:
@@ -207,7 +225,7 @@ def _meeting(rng: Random, document: Document) -> None:
 
 
 def _body(rng: Random, document: Document) -> None:
-    bars = _bars(document)
+    bars = bars_of(document)
     if not bars:
         return
     table: Document = {"joints": list(rng.choice(bars))}

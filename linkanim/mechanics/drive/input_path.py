@@ -16,6 +16,7 @@ from typing import Any, ClassVar, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from linkanim.mechanics.formulas.circular import STATED
 from linkanim.mechanics.formulas.exact import Sum
 from linkanim.mechanics.formulas.expression import Graph, Value
 from linkanim.mechanics.formulas.planar import Slope
@@ -180,11 +181,16 @@ def retraced(phases: Any) -> tuple[Any, Any]:
     """Return the phases on the way up where an input is that comes back by the way it came, and +1 or -1.
 
     The sign is that of its rates: +1 on the way up and at both ends, where they change it, -1 on the way
-    back. A float of any multiple of π is an end, as exact as it is itself.
+    back. A float of any multiple of π is an end, as exact as it is itself, and so is what its last digits
+    leave of one (`stated`).
     """
     within = np.fmod(phases, 2 * math.pi)
     within = np.where(np.abs(within) > math.pi, within - np.copysign(2 * math.pi, within), within)
-    return np.abs(within), np.where((within < 0) & (within > -math.pi), -1.0, 1.0)
+    near, at = STATED * np.hypot(phases, math.pi), np.abs(within)
+    back = np.where((within < -near) & (within > near - math.pi), -1.0, 1.0)
+    # of many turns a phase's last digits are more than those of the end that is left
+    ended = np.where(at <= near, 0.0, np.where(at >= math.pi - near, math.pi, at))
+    return np.where(np.abs(phases) > 2 * math.pi, ended, at), back
 
 
 @dataclass(frozen=True)

@@ -34,7 +34,7 @@ from linkanim.mechanics.drive.input_path import (
     nearer_way,
 )
 from linkanim.mechanics.drive.swing import Swing
-from linkanim.mechanics.formulas.circular import Half, direction, half_of, sharp_half_angle
+from linkanim.mechanics.formulas.circular import Half, direction, half_of, sharp_half_angle, stated
 from linkanim.mechanics.formulas.exact import FULL_TURN, Sum, exact_angle
 from linkanim.mechanics.formulas.expression import Graph, Value, arctan2, sqrt
 from linkanim.mechanics.formulas.planar import Moving, Slope, Vec
@@ -332,7 +332,7 @@ class SliderStroke(Stroke):
     def state_per_input(self, phase: Value) -> InputState:
         """Return the input's state at a phase, its rates those by the slider's travel."""
         by_phase = self.running(phase, Slope(1.0))
-        rate = 1.0 / by_phase.rate
+        rate = 1.0 / stated(by_phase.rate, phase, abs(self.last - self.first) / 2)
         second = -(by_phase.second * rate * rate * rate)
         travel = Moving(by_phase.value, 1.0, 0.0)
         return TravelState(phase, Sum(0.0), rate, second, Slope(rate, second), travel=travel)

@@ -46,11 +46,11 @@ class Turn(InputPath):
 
     def coordinates(self, phases: Array) -> Array:
         """Return the input's angle at phases."""
-        return phases + self.start if self.start else phases
+        return phases + float(exact_angle(self.start)) if self.start else phases
 
     def phases(self, angles: Array, distances: LimitDistances | None) -> Array:
         """Return the phase at angles of the input."""
-        return angles - self.start if self.start else angles
+        return angles - float(exact_angle(self.start)) if self.start else angles
 
     def home(self, start: float) -> float:
         """Return the phase of the start."""

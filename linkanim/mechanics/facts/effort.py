@@ -22,7 +22,15 @@ from numpy.typing import NDArray
 from linkanim.mechanics.closing.search import SAMPLES_A_TURN, highest
 from linkanim.mechanics.formulas.program import Array
 from linkanim.mechanics.linkage.linkage import Damper, Linkage, Spring
-from linkanim.mechanics.motion.measures import as_complex, between, growth, over, size
+from linkanim.mechanics.motion.measures import (
+    between,
+    components,
+    force_rounding,
+    growth,
+    over,
+    size,
+)
+from linkanim.mechanics.motion.settled import ROUNDING, rounding_of, settled, stands
 
 _AT_ONCE = 1 << 16
 """Phases that are solved at once, so that many of them take little memory."""
@@ -32,10 +40,12 @@ _ROUNDING = 1e-13
 """A mean below this share of what it is the mean of is rounding."""
 _BOUNDED = 1e-9
 """A limit of the input asks for no more than a bounded torque where power there is below this share."""
-_TURNING, _IDLE = 1e-10, 1e-9
-"""Within that phase of where the input turns back, power below that share of its terms is rounding."""
-_ASIDE = 1e-4
-"""Where power and pace are nothing but rounding, the torque is read this far to either side, in phase."""
+_ENDING = 1e-6
+"""Within that phase of where the input turns back, what power and pace have in common may have no digits."""
+_IDLE = 1e-12
+"""Power below that share of its terms is rounding."""
+_ASIDE = 1e-3, (4.0, -6.0, 4.0, -1.0)
+"""In what steps of phase an effort is read aside of where it is nothing over nothing, and their weights."""
 _TOPS = 8
 """How many of the highest samples are followed to a peak of their own."""
 
@@ -71,73 +81,100 @@ def input_effort(motion: Any) -> Any:
     start to move either.
     """
     pace, power = _pace(motion, _MOVING), _power(motion, _MOVING)
-    found = over(power.total, pace)
+    found = settled(over(power.total, pace), power.rounding)
     if not motion.acceleration:
         return found
     second = _pace(motion, _STARTING)
-    turns = np.abs(pace * motion.input_speed) <= _TURNING * np.abs(second)
-    if not np.any(turns):
+    ends = np.abs(pace * motion.input_speed) <= _ENDING * np.abs(second)
+    if not np.any(ends):
         return found
-    rests = (np.asarray(pace) == 0) & _rests(motion)
-    found = np.where(rests, over(_power(motion, _STARTING).total, second), found)
-    idle = turns & ~rests & (np.abs(power.total) <= _IDLE * power.weight)
-    return (_beside(motion, found, idle) if np.any(idle) else found)[()]
+    stops = stands(motion)
+    found = np.where(stops, np.inf, found)
+    rests = stops & _rests(motion)
+    starting = settled(over(_power(motion, _STARTING).total, second), power.rounding)
+    found = np.where(rests, starting, found)
+    ends = np.asarray(ends & ~rests)
+    return (_aside(motion, found, ends) if np.any(ends) else found)[()]
 
 
-def _beside(motion: Any, effort: Array, idle: NDArray[np.bool_]) -> Array:
-    """Return efforts with those of `idle` instants, nothing over nothing, read from either side of them."""
+def _aside(motion: Any, effort: Array, ends: NDArray[np.bool_]) -> Array:
+    """Return efforts with those read aside that are next to an end of the input that takes no power."""
     phase, speed, second = (
-        np.broadcast_to(value, effort.shape)[idle]
+        np.broadcast_to(value, effort.shape)[ends]
         for value in (motion.phase, motion.input_speed, motion.input_acceleration)
     )
-    sides = [
-        input_effort(motion.setting.solve(phase=phase + way, speed=speed, acceleration=second))
-        for way in (-_ASIDE, _ASIDE)
+    end = math.pi * np.rint(phase / math.pi)
+    solve = motion.setting.solve
+    there = _power(solve(phase=end, speed=speed, acceleration=second), _MOVING)
+    step, weights = _ASIDE
+    way = np.where(phase < end, -step, step)
+    read = [
+        weight * input_effort(solve(phase=phase + n * way, speed=speed, acceleration=second))
+        for n, weight in enumerate(weights, start=1)
     ]
-    effort[idle] = (sides[0] + sides[1]) / 2
+    effort[ends] = np.where(np.abs(there.total) <= _IDLE * there.weight, sum(read), effort[ends])
     return effort
 
 
 class _Power(NamedTuple):
-    """The power of all forces and inertia, in W, and how much there is of which it is a sum."""
+    """The power of all forces and inertia, in W, how much there is of which it is a sum, and roundings.
+
+    `rounding` is that of the effort which takes it.
+    """
 
     total: Any
     weight: Any
+    rounding: Any
 
 
 def _power(motion: Any, way: _Way) -> _Power:
     """Return what forces and inertia take, in W; of what starts from rest per second."""
     linkage = motion.setting.linkage
     struts = _strut_power(motion, way, linkage.springs + linkage.dampers)
-    parts = [(0.0 * motion.phase, 0.0), *struts, *_body_power(motion, way)]
-    return _Power(sum(power for power, _ in parts), sum(weight for _, weight in parts))
+    nothing = 0.0 * motion.phase
+    return _Power(
+        *map(sum, zip((nothing, nothing, nothing), *struts, *_body_power(motion, way), strict=True))
+    )
 
 
-def _strut_power(motion: Any, way: _Way, struts: Iterable[Spring | Damper]) -> Iterator[tuple[Any, Any]]:
-    """Yield what each spring and damper takes, and its weight."""
+def _lever(linkage: Linkage) -> float:
+    """Return on how long a lever a force is, for the effort at the input; in m, 1 where that is a force."""
+    angular = linkage.drive.actuator.along is None and linkage.drive.coordinate.is_angle
+    return linkage.extent * linkage.metre if angular else 1.0
+
+
+def _strut_power(motion: Any, way: _Way, struts: Iterable[Spring | Damper]) -> Iterator[tuple[Any, Any, Any]]:
+    """Yield what each spring and damper takes, its weight, and the rounding of the effort for it."""
+    linkage = motion.setting.linkage
     for strut in struts:
         if strut.forceful:
             kind = motion.damper if isinstance(strut, Damper) else motion.spring
-            force = kind[strut.name].force * motion.setting.linkage.metre
+            force = kind[strut.name].force
             moving = between(getattr(motion, way.points), strut.between)
-            yield force * growth(between(motion.position, strut.between), moving), abs(force) * size(moving)
+            rate = growth(between(motion.position, strut.between), moving)
+            weight = abs(force) * linkage.metre * size(moving)
+            noise = ROUNDING * abs(force) + force_rounding(motion, strut)
+            yield force * linkage.metre * rate, weight, noise * _lever(linkage)
 
 
-def _body_power(motion: Any, way: _Way) -> Iterator[tuple[Any, Any]]:
-    """Yield what each mass and each inertia takes, and its weight."""
+def _body_power(motion: Any, way: _Way) -> Iterator[tuple[Any, Any, Any]]:
+    """Yield what each mass and each inertia takes, its weight, and the rounding of the effort for it."""
     linkage = motion.setting.linkage
+    metre, lever = linkage.metre, _lever(linkage)
+    jolt = rounding_of(motion, "{}/s²", 2) * metre, rounding_of(motion, "rad/s²", 2)
     for body in linkage.bodies:
         prefix, centre = ("com_", body.name) if body.slider is None else ("", body.slider)
         if body.mass is not None:
-            velocity = as_complex(getattr(motion, way.centres if prefix else way.points)[centre])
-            pull = as_complex(getattr(motion, f"{prefix}acceleration")[centre]) * linkage.metre
-            lift, scale = (pull.conjugate() * velocity).real, body.mass * linkage.metre
-            weight = abs(velocity) * (abs(pull) + abs(linkage.gravity))
-            yield scale * (lift + linkage.gravity * velocity.imag), scale * weight
+            u, v = components(getattr(motion, way.centres if prefix else way.points)[centre])
+            a, b = components(getattr(motion, f"{prefix}acceleration")[centre])
+            pull, scale = size((a, b)) * metre + abs(linkage.gravity), body.mass * metre
+            power = scale * ((a * u + b * v) * metre + linkage.gravity * v)
+            yield power, scale * size((u, v)) * pull, body.mass * (ROUNDING * pull + jolt[0]) * lever
         if body.inertia is not None:
             turning = getattr(motion, way.turning)[body.name]
-            power = body.inertia * motion.angular_acceleration[body.name] * turning
-            yield power, abs(power)
+            moment = body.inertia * motion.angular_acceleration[body.name]
+            noise = ROUNDING * abs(moment) + body.inertia * jolt[1]
+            yield moment * turning, abs(moment * turning), noise * (lever / (linkage.extent * metre))
 
 
 def _pace(motion: Any, way: _Way) -> Any:
@@ -153,7 +190,8 @@ def _pace(motion: Any, way: _Way) -> Any:
 
 def _rests(motion: Any) -> NDArray[np.bool_]:
     """Return at which instants no joint moves."""
-    still = [np.asarray(as_complex(velocity) == 0) for velocity in motion.velocity.values()]
+    rounding = rounding_of(motion, "{}/s", 1)
+    still = [size(components(velocity)) <= rounding for velocity in motion.velocity.values()]
     return np.asarray(np.all(still, axis=0))
 
 
@@ -205,7 +243,7 @@ def _needs_of(cycle: Any) -> tuple[Array, Array, Array]:
     """Return the input's power and effort, and the power that dampers use up."""
     dampers = _strut_power(cycle, _MOVING, cycle.setting.linkage.dampers)
     power = np.asarray(input_power(cycle))
-    return power, np.asarray(input_effort(cycle)), sum((part for part, _ in dampers), 0.0 * power)
+    return power, np.asarray(input_effort(cycle)), sum((part for part, *_ in dampers), 0.0 * power)
 
 
 def _peak(effort: Callable[[Array], Array], phases: Array, known: Array) -> float:

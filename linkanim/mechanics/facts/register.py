@@ -8,9 +8,8 @@ Symbols are those of the textbooks; their subscripts are Unicode's digits (ω₃
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache, partial
 from types import MappingProxyType
 from typing import Any
@@ -44,6 +43,7 @@ from linkanim.mechanics.motion.measures import (
     worst_transmission,
 )
 from linkanim.mechanics.motion.motion import Motion
+from linkanim.mechanics.motion.settled import rounding_of, said
 
 _STANDARD = {
     "crank": "2",
@@ -106,8 +106,6 @@ def input_symbol(linkage: Linkage) -> str:
 NO_NAMES: Mapping[str, str] = MappingProxyType({})
 """Every body by its own name."""
 _NEAREST = 3
-_ROUNDING = 1e-13
-"""Of what is as large as the extent, moved at the input's speed."""
 
 
 Path = tuple[str | int, ...]
@@ -117,9 +115,10 @@ Path = tuple[str | int, ...]
 class Quantity:
     """A quantity of one linkage: `rocker.angular_velocity`, ω₄, "Rocker: angular velocity", rad/s.
 
-    `read` takes a Motion (arrays) or a Pose (floats) and gives radians and the scene's unit of length:
-    one value an instant, or one in each of `columns`. `unit` and `order` are as in `Measure`. `path` is where
-    it stands in JSON, numbers being places in a list; what follows from others there has none.
+    `read` takes a Motion (arrays) or a Pose (floats) and says what it is, in radians and the scene's unit of
+    length: one value an instant, or one in each of `columns`; 0.0 is nothing, `inf` not bounded, `nan` none
+    (`motion.settled`). `unit` and `order` are as in `Measure`. `path` is where it stands in JSON, numbers
+    being places in a list; what follows from others there has none.
     """
 
     token: str
@@ -138,9 +137,7 @@ class Quantity:
 
     def rounding(self, cycle: Any) -> float:
         """Return how large rounding errors may be over a cycle, from its extent and the input's speed."""
-        extent = max(float(np.abs(places).max()) for places in cycle.position.values())
-        size = extent if "{}" in self.unit else 1.0
-        return _ROUNDING * size * abs(float(cycle.input_speed)) ** self.order
+        return float(np.max(rounding_of(cycle, self.unit, self.order)))
 
     def shown_unit(self, length_unit: str) -> str:
         """Return the unit that goes with `shown`."""
@@ -214,7 +211,7 @@ def _quantities(linkage: Linkage, names: Mapping[str, str], *, still: bool) -> I
 
 
 def _pole(motion: Any, name: str) -> Any:
-    found = pole(motion, motion.setting.body(name))
+    found = said(motion, pole(motion, motion.setting.body(name)), "{}", 0)
     return found if isinstance(motion.phase, float) else np.stack(found, axis=-1)
 
 
@@ -230,8 +227,8 @@ def _of_whole(linkage: Linkage) -> Iterator[Quantity]:
         yield _whole("transmission_angle", "μ", "Transmission angle", "rad", 0, read)
     for dyad in dyads if len(dyads) > 1 else ():
         read, words = partial(transmission_angle, dyad=dyad), f"{dyad}: transmission angle"
-        token, path = f"{dyad}.transmission_angle", ("joints", dyad, "transmission_angle")
-        yield Quantity(token, indexed("μ", dyad), words, "rad", 0, read, path=path)
+        whole = _whole(f"{dyad}.transmission_angle", indexed("μ", dyad), words, "rad", 0, read)
+        yield replace(whole, path=("joints", dyad, "transmission_angle"))
     output = output_body(linkage)
     if output is not None and (output.slider or linkage.drive.coordinate.is_angle):
         read = partial(mechanical_advantage, output=output)
@@ -261,7 +258,11 @@ def _whole(
     token: str, symbol: str, words: str, unit: str, order: int, read: Callable[[Any], Any]
 ) -> Quantity:
     """Return a quantity of the linkage as a whole, which stands in JSON under its own token."""
-    return Quantity(token, symbol, words, unit, order, read, path=tuple(token.split(".")))
+
+    def told(motion: Any) -> Any:
+        return said(motion, read(motion), unit, order)
+
+    return Quantity(token, symbol, words, unit, order, told, path=tuple(token.split(".")))
 
 
 def _of_body(linkage: Linkage, body: Body, label: str, words: str) -> Iterator[Quantity]:
@@ -305,7 +306,7 @@ def _vector(measure: Measure, names: tuple[str, str, str], path: Path) -> Iterat
 
     whole = (indexed(measure.symbol, label), words, measure.unit, measure.order)
     if measure.order:
-        yield Quantity(token, *whole, lambda motion: _size(vector(motion)))
+        yield Quantity(token, *whole, lambda motion: size(components(vector(motion))))
     else:
         yield Quantity(token, *whole, vector, ("x", "y"))
     for n, axis in enumerate("xy"):
@@ -316,11 +317,6 @@ def _vector(measure: Measure, names: tuple[str, str, str], path: Path) -> Iterat
 
 def _component(vector: Callable[[Any], Any], index: int) -> Callable[[Any], Any]:
     return lambda motion: components(vector(motion))[index]
-
-
-def _size(vector: Any) -> Any:
-    x, y = components(vector)
-    return math.hypot(x, y) if isinstance(vector, tuple) else np.hypot(x, y)
 
 
 def _of_strut(strut: Spring | Damper, index: str, words: str, *, every: bool) -> Iterator[Quantity]:

@@ -18,7 +18,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
 
-from linkanim.mechanics.formulas.expression import Expr, Value, rint
+from linkanim.mechanics.formulas.expression import Expr, Value, rint, select
 
 Pair = tuple[Value, Value]
 
@@ -48,6 +48,8 @@ DENOMINATOR = (1.0, -1215.4805641571577, 330009.01549134793, -22584873.118746653
 
 Highest powers first. Times one factor, ψ N is the sine and D the cosine of half the angle.
 """
+STATED = 2.0**-51
+"""Share of a phase, or of half a turn where that is more, by which one that is stated may be off."""
 
 
 def reduced(angle: Value, rest: Value, turns: float) -> Pair:
@@ -225,6 +227,17 @@ def sharp_half_angle(angle: Value, rest: Value = 0.0, *, quarters: int | None = 
     if quarters is not None:
         return _quartered(half_of(*_halved(angle + rest)), quarters)
     return half_of(*_sharp_sides(angle, rest))
+
+
+def stated(side: Value, phase: Value, share: float = 1.0) -> Value:
+    """Return a sine or cosine of that share of a phase: 0 where the phase is that of its zero, as stated.
+
+    A phase is stated in floats, of which none is π: within two to four of its last digits of a multiple of
+    half a turn it is that. There what vanishes is nothing, and what is over it is not bounded.
+    """
+    if _is_exact(phase):
+        return side
+    return select(side * side, (phase * phase + math.pi**2) * (share * STATED) ** 2, 0.0, side)
 
 
 def _is_exact(angle: Value) -> bool:

@@ -129,7 +129,8 @@ def _function(code: CodeType, name: str, names: Mapping[str, Any]) -> Callable[.
     return function
 
 
-FLOAT_NAMES = {"sqrt": math.sqrt, "atan2": math.atan2}
+FLOAT_NAMES = {"sqrt": math.sqrt, "atan2": lambda y, x: float(np.arctan2(y, x))}
+"""An arc tangent is numpy's in floats as in arrays: a C library's has other bits."""
 DEEPEST = 40
 """Brackets in brackets; Python reads 200."""
 _KEPT = 128

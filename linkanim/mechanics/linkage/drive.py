@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from linkanim.digits import stepped
+from linkanim.digits import short, stepped
 from linkanim.errors import BadInput
 from linkanim.mechanics.linkage.joint import Stated
 
@@ -72,6 +72,10 @@ class Actuator(Stated):
         """The two joints whose distance it changes; None where it drives a joint itself."""
         return None
 
+    def at_ends(self, unit: str) -> str:
+        """Return how it ends the way of an input that turns, as a clause; empty for what has no stroke."""
+        return ""
+
 
 @dataclass(frozen=True, slots=True)
 class Cylinder(Actuator):
@@ -92,6 +96,11 @@ class Cylinder(Actuator):
     def along(self) -> tuple[str, str]:
         """The two joints whose distance it changes."""
         return self.between
+
+    def at_ends(self, unit: str) -> str:
+        """Return the lengths between which it runs."""
+        lengths = f"{short(self.first)} {unit} long at one end and {short(self.last)} {unit} at the other"
+        return f"the cylinder {'–'.join(self.between)} is {lengths}"
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import cmath
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -49,6 +48,12 @@ class RRR(Joint):
         """The side of a line on which another joint lies, where that names the closure."""
         return (self.side, *self.side_of) if self.side_of else None
 
+    @property
+    def at_limit(self) -> str:
+        """Its bars lie in one line, stretched or folded."""
+        one, other = (f"{end}–{self.name}" for end in self.ends)
+        return f"the bars {one} and {other} lie in one line"
+
     def transmission(self, u: float, w: float) -> float:
         """Return the angle μ between its bars' lines: tan²(μ/2) = W/U or, past 90°, U/W.
 
@@ -56,14 +61,13 @@ class RRR(Joint):
         """
         return 2 * math.atan2(math.sqrt(min(u, w)), math.sqrt(max(u, w)))
 
-    def transmission_at(self, place: Callable[[str], Any]) -> Any:
+    def transmission_at(self, way: Callable[[str, str], tuple[Any, Any]]) -> Any:
         """Return the angle between its bars' lines."""
         # Here, so that reading a scene file loads no arrays.
         import numpy as np
 
-        one, other = (place(end) - place(self.name) for end in self.ends)
-        product = one * other.conjugate()
-        return np.arctan2(abs(product.imag), abs(product.real))
+        (x, y), (u, v) = (way(self.name, end) for end in self.ends)
+        return np.arctan2(abs(x * v - y * u), abs(x * u + y * v))
 
     def why_apart(self, u: float, w: float, unit: str) -> str:
         """Say how near its ends come, or how far apart: U = (a + b)² - L², W = L² - (a - b)²."""
@@ -100,6 +104,11 @@ class RRP(Guided):
         """The sign of the root: how far the slider is ahead of the bar's end."""
         return self.side
 
+    @property
+    def at_limit(self) -> str:
+        """Its bar reaches no farther than the line."""
+        return f"the bar {self.end}–{self.name} stands straight across the line of travel of {self.name}"
+
     def transmission(self, u: float, w: float) -> float:
         """Return the angle from its bar to the normal of its line: as much less than 90° as the bar leans.
 
@@ -107,16 +116,16 @@ class RRP(Guided):
         """
         return math.pi / 2 - abs(2 * math.atan2(math.sqrt(w), math.sqrt(u)) - math.pi / 2)
 
-    def transmission_at(self, place: Callable[[str], Any]) -> Any:
+    def transmission_at(self, way: Callable[[str, str], tuple[Any, Any]]) -> Any:
         """Return the angle from its bar to the normal of its line, as in `transmission`."""
         # Here, so that reading a scene file loads no arrays.
         import numpy as np
 
-        bar = (place(self.name) - place(self.end)) * cmath.rect(1.0, -self.line.angle)
+        (x, y), (u, v) = way(self.end, self.name), (math.cos(self.line.angle), math.sin(self.line.angle))
         if self.line.on:
-            axis = place(self.line.on[1]) - place(self.line.on[0])
-            bar = bar * axis.conjugate()
-        return np.arctan2(abs(bar.real), abs(bar.imag))
+            a, b = way(*self.line.on)
+            u, v = a * u - b * v, a * v + b * u
+        return np.arctan2(abs(x * u + y * v), abs(x * v - y * u))
 
     def why_apart(self, u: float, w: float, unit: str) -> str:
         """Say that the bar is too short for its line."""
@@ -169,6 +178,11 @@ class RPR(Joint):
         """The sign of the root: the joint in the slot is always ahead of the pivot."""
         return 1
 
+    @property
+    def at_limit(self) -> str:
+        """The pin is where the slot is nearest to its pivot."""
+        return f"{self.through} is as near to {self.pivot} as the offset of the slot lets it come"
+
     def transmission(self, u: float, w: float) -> float:
         """Return the angle from the slot's normal, along which the pin pushes, to the bar's motion there.
 
@@ -176,12 +190,13 @@ class RPR(Joint):
         """
         return math.atan2(math.sqrt(w), abs(self.offset))
 
-    def transmission_at(self, place: Callable[[str], Any]) -> Any:
+    def transmission_at(self, way: Callable[[str, str], tuple[Any, Any]]) -> Any:
         """Return the angle from the slot's normal to the bar's motion at the pin, as in `transmission`."""
         # Here, so that reading a scene file loads no arrays.
         import numpy as np
 
-        arm = abs(place(self.through) - place(self.pivot))
+        x, y = way(self.pivot, self.through)
+        arm = np.sqrt(x * x + y * y)
         if not self.offset:
             return np.arccos(0.0 * arm)
         with np.errstate(divide="ignore"):  # the pin on the pivot, where rounding brings it

@@ -160,12 +160,17 @@ class Joint(Stated):
         """
         return "it cannot be assembled"
 
+    @property
+    def at_limit(self) -> str:
+        """How a dyad stands where it closes no farther, as a clause; empty for what always closes."""
+        return ""
+
     def transmission(self, u: float, w: float) -> float | None:
         """Return a dyad's transmission angle where its root's factors are U and W; None of other joints."""
         return None
 
-    def transmission_at(self, place: Callable[[str], Any]) -> Any:
-        """Return a dyad's transmission angle where `place` gives joints as x + yi, floats or arrays.
+    def transmission_at(self, way: Callable[[str, str], tuple[Any, Any]]) -> Any:
+        """Return a dyad's transmission angle where `way` leads from joint to joint: x, y, floats or arrays.
 
         None of other joints.
         """

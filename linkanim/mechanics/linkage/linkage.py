@@ -5,7 +5,8 @@ Joints stand in the order in which they can be solved: each one names only joint
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import ClassVar
@@ -13,7 +14,7 @@ from typing import ClassVar
 from linkanim.mechanics.linkage.drive import Drive
 from linkanim.mechanics.linkage.joint import Joint, Point, RigidBody, Stated
 from linkanim.mechanics.linkage.pins import Crank, Pin
-from linkanim.mechanics.linkage.rigid_bodies import rigid_bodies
+from linkanim.mechanics.linkage.rigid_bodies import holding, rigid_bodies
 from linkanim.units import unit_of
 
 
@@ -134,6 +135,11 @@ class Linkage(Stated):
         return max((abs(length) for joint in self.joints for length in joint.lengths), default=1.0)
 
     @cached_property
+    def extent(self) -> float:
+        """How far from the origin any joint may come: all lengths together; 1 without any."""
+        return math.fsum(map(abs, self.lengths)) or 1.0
+
+    @cached_property
     def by_name(self) -> dict[str, Joint]:
         """Map each joint's name to the joint."""
         return {joint.name: joint for joint in self.joints}
@@ -147,6 +153,21 @@ class Linkage(Stated):
     def rigid_bodies(self) -> tuple[RigidBody, ...]:
         """The rigid bodies, the ground first: where each one's joints lie in its own frame."""
         return rigid_bodies(self.joints)
+
+    @cached_property
+    def radii(self) -> dict[str, float]:
+        """How far each joint is from the fixed pin that it turns about; infinite where its line is fixed."""
+        found = {slide.point: math.inf for joint in self.joints for slide in joint.slides if not slide.start}
+        for frame in self.rigid_bodies[1:]:
+            if (pivot := self.pivot(frame)) is not None:
+                found |= {name: abs(place - frame[pivot]) for name, place in frame.items() if name != pivot}
+        return {name: radius for name, radius in found.items() if radius}
+
+    def pivot(self, names: Iterable[str]) -> str | None:
+        """Return the fixed pin about which a rigid body turns that has joints; None of others, and of two."""
+        n = holding(self.rigid_bodies, names)
+        pins = [pin.name for pin in self.pins if n and pin.name in self.rigid_bodies[n]]
+        return pins[0] if len(pins) == 1 else None
 
     @property
     def cranks(self) -> Iterator[Crank]:

@@ -12,7 +12,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from fractions import Fraction
 
-from linkanim.mechanics.formulas.circular import Half, cosine_of, half_angle, sharp_half_angle
+from linkanim.mechanics.formulas.circular import Half, cosine_of, half_angle, sharp_half_angle, stated
 from linkanim.mechanics.formulas.constant import root
 from linkanim.mechanics.formulas.exact import Sum, quarter_turns, two_product, two_sum
 from linkanim.mechanics.formulas.expression import Value, beside, sqrt
@@ -178,7 +178,7 @@ def swing_per_input(phase: Value, low: Sum, high: Sum) -> InputState:
     """Return the state of a swing at a phase, its rates those by its own angle: infinite at a limit."""
     half, amplitude, pace = sharp_half_angle(phase), half_way(low, high), Slope(1.0)
     scale = math.sqrt(amplitude)
-    roots = half.cosine * scale, half.sine * scale
+    roots = [stated(side, phase, 0.5) * scale for side in (half.cosine, half.sine)]
     root_u, root_v = (_rated(root, sign, pace) for root, sign in zip(roots, (-1.0, 1.0), strict=True))
     u, v = roots[0] * roots[0], roots[1] * roots[1]
     ends = Ends(Slope(u, -0.5), Slope(v, 0.5), root_u, root_v, pace, low, high, by_phase=False)

@@ -1,9 +1,9 @@
 """Measures: what follows from solved quantities, and what is known of each joint, body and strut.
 
-Every function takes a Motion, and works on arrays, or a Pose, and works on floats. What has no value at
-an instant (how a path bends where its point rests) is NaN, what is not bounded is infinite. Motion's
-attributes, the tables of `solve`, JSON and CSV read the tables of measures. Symbols are those of the
-textbooks on mechanisms: ω, α, v, a; h and f for first kinematic coefficients.
+Every function takes a Motion, and works on arrays, or a Pose, and works on floats: by + - × ÷ and roots of
+components, and numpy's functions, so that both have the same bits. What has no value at an instant is NaN,
+what is not bounded is infinite (`settled`). Symbols are those of the textbooks on mechanisms: ω, α, v, a; h
+and f for first kinematic coefficients.
 """
 
 from __future__ import annotations
@@ -15,12 +15,15 @@ from typing import Any
 
 import numpy as np
 
-from linkanim.mechanics.linkage.linkage import Body, Linkage
+from linkanim.mechanics.linkage.linkage import Body, Damper, Linkage, Spring
 from linkanim.mechanics.linkage.pins import Crank
-from linkanim.mechanics.linkage.rigid_bodies import holding
+from linkanim.mechanics.linkage.rigid_bodies import holding, share_of
+from linkanim.mechanics.motion.settled import rounding_of, said, settled, stands, unbounded
 
 _STRAIGHT = 1e-12
 """Below this share a cross product of velocity and acceleration, or of the input's rate, is rounding."""
+_SHARP = 1e-3
+"""Above this share such a product keeps its digits."""
 
 
 def components(vector: Any) -> tuple[Any, Any]:
@@ -65,40 +68,43 @@ def cross(way: Way, other: Way) -> Any:
 def growth(way: Way, moving: Way) -> Any:
     """Return how fast the length of a way that moves grows; of one of length 0, how fast it is about to."""
     length = size(way)
-    rate = over(way[0] * moving[0] + way[1] * moving[1], length)
+    rate = over(_dot(way, moving), length)
     return rate if np.all(length) else np.where(length == 0, size(moving), rate)[()]
 
 
 def direction(way: Way) -> Any:
     """Return the angle of a way, -π … π; NaN where it has no length."""
     dx, dy = way
-    if isinstance(dx, float):
-        return math.atan2(dy, dx) if dx or dy else math.nan
+    if isinstance(dx, float) and not (dx or dy):
+        return math.nan
+    # numpy's of floats, too: a C library's has other bits
     return np.where((dx == 0) & (dy == 0), np.nan, np.arctan2(dy, dx))[()]
 
 
 def tangential(velocity: Any, acceleration: Any) -> Any:
-    """Return the acceleration along the way a point moves: negative where it slows down."""
-    v, a = as_complex(velocity), as_complex(acceleration)
-    return over((v.conjugate() * a).real, abs(v))
+    """Return the acceleration along the way a point moves: negative where it slows down; NaN at rest."""
+    return over(_dot(velocity, acceleration), size(velocity))
 
 
 def normal(velocity: Any, acceleration: Any) -> Any:
-    """Return the acceleration towards the centre of curvature of a point's path, not negative; 0 at rest."""
-    speed = abs(as_complex(velocity))
-    return np.where(speed == 0, 0.0, over(_bend(velocity, acceleration), speed))[()]
+    """Return the acceleration towards the centre of curvature of a point's path, not negative."""
+    return over(_bend(velocity, acceleration), size(velocity))
 
 
 def curvature_radius(velocity: Any, acceleration: Any) -> Any:
     """Return the radius of curvature of a point's path, ρ = |v|³/|v × a|; infinite where it is straight."""
-    return over(abs(as_complex(velocity)) ** 3, _bend(velocity, acceleration))
+    speed = size(velocity)
+    return over(speed * speed * speed, _bend(velocity, acceleration))
 
 
-def _bend(velocity: Any, acceleration: Any) -> Any:
+def _dot(way: Way, other: Way) -> Any:
+    return way[0] * other[0] + way[1] * other[1]
+
+
+def _bend(velocity: Way, acceleration: Way) -> Any:
     """Return |v × a|, 0 where it is nothing but rounding errors."""
-    v, a = as_complex(velocity), as_complex(acceleration)
-    bend = abs((v.conjugate() * a).imag)
-    return np.where(bend <= _STRAIGHT * abs(v) * abs(a), 0.0, bend)[()]
+    bend = abs(cross(velocity, acceleration))
+    return np.where(bend <= _STRAIGHT * size(velocity) * size(acceleration), 0.0, bend)[()]
 
 
 def pole(motion: Any, body: Body, other: Body | None = None) -> tuple[Any, Any]:
@@ -106,15 +112,30 @@ def pole(motion: Any, body: Body, other: Body | None = None) -> tuple[Any, Any]:
 
     There both move alike: P = A + i·(v_A - v)/(ω - ω′) with v and ω′ of the other's plane at A, a joint of
     the body. Those of three bodies lie in one line (Aronhold and Kennedy). Infinite where they turn alike.
+    A fixed pin is the centre of what turns about it, and at rest they are those of the motion by the input.
     """
+    linkage, still = motion.setting.linkage, 0.0 * motion.phase
+    pin = linkage.pivot(body.joints) if other is None and body.slider is None else None
+    if pin is not None:
+        x, y = linkage.pin(pin).position
+        return x + still, y + still
+    found = _moving_pole(motion, body, other)
+    if np.any(stops := stands(motion)):
+        by_input = _moving_pole(motion.per_input, body, other)
+        known = stops & np.isfinite(by_input[0]) & np.isfinite(by_input[1])
+        return np.where(known, by_input[0], found[0])[()], np.where(known, by_input[1], found[1])[()]
+    return found
+
+
+def _moving_pole(motion: Any, body: Body, other: Body | None) -> tuple[Any, Any]:
     joint, rate = body.slider or body.joints[0], _rate(motion, body)
-    place, velocity = as_complex(motion.position[joint]), as_complex(motion.velocity[joint])
+    (x, y), (vx, vy) = (components(kind[joint]) for kind in (motion.position, motion.velocity))
     if other is not None:
         there, theirs = other.slider or other.joints[0], _rate(motion, other)
-        arm = place - as_complex(motion.position[there])
-        rate, velocity = rate - theirs, velocity - as_complex(motion.velocity[there]) - 1j * theirs * arm
+        (px, py), (wx, wy) = (components(kind[there]) for kind in (motion.position, motion.velocity))
+        rate, vx, vy = rate - theirs, vx - wx + theirs * (y - py), vy - wy - theirs * (x - px)
     turns = abs(rate) > _STRAIGHT * abs(motion.coordinate_rate)
-    found = place.real - over(velocity.imag, rate), place.imag + over(velocity.real, rate)
+    found = x - over(vy, rate), y + over(vx, rate)
     return np.where(turns, found[0], math.inf)[()], np.where(turns, found[1], math.inf)[()]
 
 
@@ -125,9 +146,8 @@ def _rate(motion: Any, body: Body) -> Any:
     (guide, *_) = motion.setting.linkage.joint(body.slider).slides
     if guide.axis is None:
         return 0.0 * motion.coordinate_rate
-    start, end = (as_complex(motion.position[name]) for name in guide.axis)
-    first, second = (as_complex(motion.velocity[name]) for name in guide.axis)
-    return over(second - first, end - start).imag
+    arm, moving = between(motion.position, guide.axis), between(motion.velocity, guide.axis)
+    return over(cross(arm, moving), _dot(arm, arm))
 
 
 def centrodes(motion: Any, body: Body) -> tuple[Any, Any]:
@@ -149,10 +169,10 @@ def centrodes(motion: Any, body: Body) -> tuple[Any, Any]:
 def transmission_angle(motion: Any, dyad: str) -> Any:
     """Return a dyad's transmission angle, 90° at the most, as its kind of joint defines it."""
 
-    def place(name: str) -> Any:
-        return as_complex(motion.position[name])
+    def way(start: str, end: str) -> Way:
+        return between(motion.position, (start, end))
 
-    return motion.setting.linkage.joint(dyad).transmission_at(place)
+    return motion.setting.linkage.joint(dyad).transmission_at(way)
 
 
 def worst_transmission(motion: Any, dyads: tuple[str, ...]) -> Any:
@@ -198,28 +218,21 @@ def mechanical_advantage(motion: Any, output: Body) -> Any:
     """Return the output's torque over the input's; of sliders the force, at the crank's pin.
 
     Without losses both are ratios of speeds (Uicker, Pennock and Shigley, Theory of Machines and
-    Mechanisms); not negative, infinite where the output rests.
+    Mechanisms); not negative, infinite where the output rests, 0 where the input does.
     """
-    if output.slider is None:
-        return _faster(motion, 1.0, ("angular_velocity", "angular_acceleration"), output.name)
     linkage = motion.setting.linkage
-    crank = linkage.joint(linkage.drive.joint)
-    length = crank.length if isinstance(crank, Crank) else 1.0
-    return _faster(motion, length, ("travel_velocity", "travel_acceleration"), output.name)
+    crank, turning = linkage.joint(linkage.drive.joint), output.slider is None
+    length = crank.length if isinstance(crank, Crank) and not turning else 1.0
+    first, _ = coefficients_of(linkage, turning=turning)
 
+    def by_input(motion: Any) -> Any:
+        rates = motion.angular_velocity if turning else motion.travel_velocity
+        return over(rates[output.name], motion.coordinate_rate)
 
-def _faster(motion: Any, length: float, rates: tuple[str, str], output: str) -> Any:
-    """Return how many times as fast the input moves, at `length` from its pivot, as the output.
-
-    Where both rest for an instant it is how they start to move.
-    """
-    first, other = length * motion.coordinate_rate, getattr(motion, rates[0])[output]
-    found = abs(over(first, other))
-    rests = np.asarray((first == 0) & (other == 0))
-    if not rests.any():
-        return found
-    starting = abs(over(length * motion.coordinate_second, getattr(motion, rates[1])[output]))
-    return np.where(rests, starting, found)[()]
+    slope = by_input(motion)
+    if np.any(stops := stands(motion)):
+        slope = np.where(stops, unbounded(by_input(motion.per_input), motion.phase), slope)[()]
+    return abs(over(length, settled(slope, rounding_of(motion, first.unit, 0))) + 0.0 * motion.phase)
 
 
 def input_rate(motion: Any) -> Any:
@@ -233,7 +246,7 @@ class Measure:
 
     `name` ends the token, and is Motion's attribute where that holds it; `key` is the name in JSON and
     `heading` in a table of plain letters. In `unit`, `{}` stands for the unit of length. `order` counts
-    derivatives in time. `read` takes a Motion or a Pose and the part's name.
+    derivatives in time. `read` takes a Motion or a Pose and the part's name, and says what `settled` tells.
     """
 
     name: str
@@ -251,7 +264,7 @@ def _solved(name: str, symbol: str, words: str, unit: str, order: int, heading: 
     key = name.removeprefix("travel_").removeprefix("com_")
 
     def read(motion: Any, part: str) -> Any:
-        return getattr(motion, name)[part]
+        return said(motion, getattr(motion, name)[part], unit, order)
 
     return Measure(name, key, symbol, words, unit, order, heading or symbol, read)
 
@@ -289,10 +302,11 @@ def coefficients_of(linkage: Linkage, *, turning: bool) -> tuple[Measure, ...]:
     first = "coefficient", "1", symbol, "kinematic coefficient", units[0], 0, f"d{letter}/d{plain}"
     words = "second kinematic coefficient"
     second = "second_coefficient", "2", f"{symbol}′", words, units[1], 0, f"d2{letter}/d{plain}2"
-    return (
-        Measure(*first, lambda motion, part: motion.coefficient[part][0]),
-        Measure(*second, lambda motion, part: motion.coefficient[part][1]),
-    )
+
+    def read(place: int) -> Callable[[Any, str], Any]:
+        return lambda motion, part: said(motion, motion.coefficient[part][place], units[place], 0)
+
+    return Measure(*first, read(0)), Measure(*second, read(1))
 
 
 def measures_of(linkage: Linkage, body: Body) -> tuple[tuple[Measure, ...], tuple[Measure, ...]]:
@@ -301,12 +315,37 @@ def measures_of(linkage: Linkage, body: Body) -> tuple[tuple[Measure, ...], tupl
     return TURNING if turning else TRAVELLING, coefficients_of(linkage, turning=turning)
 
 
+def _strut(motion: Any, item: Spring | Damper, found: Any, name: str) -> Any:
+    """Return what of a strut has that name; of one between two joints of one rigid body the length stays."""
+    value = getattr(found, name)
+    if value is None:
+        return None
+    rigid = holding(motion.setting.linkage.rigid_bodies, item.between) is not None
+    if rigid and (name == "rate" or (name == "force" and isinstance(item, Damper))):
+        return 0.0 * motion.phase
+    if name == "force":
+        return settled(value, force_rounding(motion, item))
+    if name in ("length", "rate"):
+        return said(motion, value, "{}" if name == "length" else "{}/s", int(name == "rate"))
+    nowhere = np.equal(said(motion, found.length, "{}", 0), 0.0)
+    order = int(name == "direction_rate")
+    return np.where(nowhere, np.nan, said(motion, value, "rad/s" if order else "rad", order))[()]
+
+
+def force_rounding(motion: Any, item: Spring | Damper) -> Any:
+    """Return how large the rounding errors of a strut's force may be (N)."""
+    factor = item.stiffness if isinstance(item, Spring) else item.coefficient
+    unit, order = ("{}", 0) if isinstance(item, Spring) else ("{}/s", 1)
+    return rounding_of(motion, unit, order) * (abs(factor or 0.0) * motion.setting.linkage.metre)
+
+
 def _of_struts(kind: str) -> tuple[Measure, ...]:
     """Return length, rate, force, direction and its rate of the struts of one kind, "spring" or "damper"."""
 
     def measure(name: str, symbol: str, words: str, unit: str, order: int) -> Measure:
         def read(motion: Any, strut: str) -> Any:
-            return getattr(getattr(motion, kind)[strut], name)
+            item = next(one for one in getattr(motion.setting.linkage, f"{kind}s") if one.name == strut)
+            return _strut(motion, item, getattr(motion, kind)[strut], name)
 
         return Measure(name, name, symbol, words, unit, order, name, read)
 
@@ -322,19 +361,83 @@ def _of_struts(kind: str) -> tuple[Measure, ...]:
 SPRING, DAMPER = _of_struts("spring"), _of_struts("damper")
 
 
+def _radius(motion: Any, prefix: str, part: str) -> float | None:
+    """Return the radius of the circle on which a joint, or a centre of mass, runs; None where on none."""
+    linkage = motion.setting.linkage
+    if not prefix:
+        found: float | None = linkage.radii.get(part)
+        return found
+    body = motion.setting.body(part)
+    if (pivot := linkage.pivot(body.joints)) is None:
+        return None
+    frame = linkage.rigid_bodies[holding(linkage.rigid_bodies, body.joints) or 0]
+    start, end = (frame[name] for name in body.joints[:2])
+    assert body.com is not None
+    place = start + (end - start) * share_of(frame, (body.joints[0], body.joints[1]), body.com)
+    return float(abs(place - frame[pivot])) or None
+
+
+def _rates(motion: Any, prefix: str, part: str) -> tuple[Way, Way]:
+    kinds = (getattr(motion, f"{prefix}{kind}") for kind in ("velocity", "acceleration"))
+    velocity, acceleration = (components(kind[part]) for kind in kinds)
+    return velocity, acceleration
+
+
+def _radius_of_curvature(motion: Any, prefix: str, part: str) -> Any:
+    """Return how a path bends: known by geometry, or from the rates in time or by the input.
+
+    The path is the same by either. Where the input stops those in time lose their digits, at a limit of it
+    the others: those are taken that keep more, which the angle between velocity and acceleration tells.
+    """
+    radius = _radius(motion, prefix, part)
+    if radius is not None:
+        return radius + 0.0 * motion.phase
+    rates = _rates(motion, prefix, part)
+    found, share = curvature_radius(*rates), _share(*rates)
+    steady = motion.setting.assembly.path.full_turn and not np.any(motion.input_acceleration)
+    if (steady and np.all(motion.input_speed)) or not np.any(share < _SHARP):
+        return found
+    others = _rates(motion.per_input, prefix, part)
+    better = (share < _SHARP) & ((_share(*others) > share) | np.isnan(found))
+    return np.where(better, curvature_radius(*others), found)[()]
+
+
+def _share(velocity: Way, acceleration: Way) -> Any:
+    """Return the sine of the angle between velocity and acceleration; 0 at rest, and of unbounded ones."""
+    with np.errstate(invalid="ignore", over="ignore"):
+        share = over(abs(cross(velocity, acceleration)), size(velocity) * size(acceleration))
+    return np.where(np.isnan(share), 0.0, share)
+
+
+def _along(motion: Any, prefix: str, part: str) -> Any:
+    """Return the tangential acceleration, NaN of a point that rests."""
+    velocity, acceleration = _rates(motion, prefix, part)
+    rests = np.equal(said(motion, size(velocity), "{}/s", 1), 0.0)
+    return np.where(rests, np.nan, tangential(velocity, acceleration))[()]
+
+
+def _across(motion: Any, prefix: str, part: str) -> Any:
+    """Return the normal acceleration, 0 of a point that rests."""
+    velocity, acceleration = _rates(motion, prefix, part)
+    speed, radius = said(motion, size(velocity), "{}/s", 1), _radius(motion, prefix, part)
+    if radius is not None:
+        return speed * speed / radius
+    return np.where(np.equal(speed, 0.0), 0.0, normal(velocity, acceleration))[()]
+
+
 def _of_paths(prefix: str) -> tuple[Measure, ...]:
     """Return how the paths bend of joints, or of centres of mass, from velocity and acceleration."""
 
     def bent(name: str, symbol: str, words: str, unit: str, order: int, work: Callable[..., Any]) -> Measure:
         def read(motion: Any, part: str) -> Any:
-            return work(*(getattr(motion, prefix + of)[part] for of in ("velocity", "acceleration")))
+            return said(motion, work(motion, prefix, part), unit, order)
 
         return Measure(prefix + name, name, symbol, words, unit, order, name, read)
 
     return (
-        bent("normal_acceleration", "aⁿ", "normal acceleration", "{}/s²", 2, normal),
-        bent("tangential_acceleration", "aᵗ", "tangential acceleration", "{}/s²", 2, tangential),
-        bent("curvature_radius", "ρ", "radius of curvature", "{}", 0, curvature_radius),
+        bent("normal_acceleration", "aⁿ", "normal acceleration", "{}/s²", 2, _across),
+        bent("tangential_acceleration", "aᵗ", "tangential acceleration", "{}/s²", 2, _along),
+        bent("curvature_radius", "ρ", "radius of curvature", "{}", 0, _radius_of_curvature),
     )
 
 

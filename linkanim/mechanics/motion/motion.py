@@ -33,6 +33,7 @@ from linkanim.mechanics.motion.measures import (
     over,
     size,
 )
+from linkanim.mechanics.motion.settled import unbounded
 
 COORDINATE = ("coordinate", "coordinate_rate", "coordinate_second")
 """The input's angle, or travel, and its rates: one that does not turn fully moves in its own way."""
@@ -372,13 +373,6 @@ def _mark_limits(places: ResultLayout, results: Array, snapped: Array, at_limit:
         if DERIVATIVE_OF[kind]:
             values = snapped[row, at_limit]
             results[row, at_limit] = np.where(np.isnan(values), np.inf, values)
-
-
-def unbounded(rate: Any, phase: Any) -> Any:
-    """Return a rate, infinite where it is NaN at a phase that is known: there it is not bounded."""
-    if isinstance(rate, float):
-        return math.inf if math.isnan(rate) and not math.isnan(phase) else rate
-    return np.where(np.isnan(rate) & ~np.isnan(phase), np.inf, rate)[()]
 
 
 def _before_stretch(whole: Array, gap: NDArray[np.bool_]) -> Array:

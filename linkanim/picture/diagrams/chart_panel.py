@@ -26,7 +26,7 @@ from linkanim.picture.diagrams.chart import (
     x_title,
 )
 from linkanim.picture.diagrams.course import Course, Floats, axis_of, course
-from linkanim.picture.diagrams.quantities import Series, cleared, quantity, series_of
+from linkanim.picture.diagrams.quantities import Series, quantity, series_of
 from linkanim.picture.figure import Figure
 from linkanim.picture.items import Caption, Item
 from linkanim.picture.layout import Layout
@@ -67,10 +67,6 @@ class ChartPanel:
     def series(self) -> Series:
         """The quantity over one true period."""
         return series_of(self.figure.scene, self.quantity, self._cycle)
-
-    @cached_property
-    def _rounding(self) -> float:
-        return self.quantity.rounding(self._cycle)
 
     @cached_property
     def _cycle(self) -> Motion:
@@ -136,7 +132,7 @@ class ChartPanel:
 
     def values_at(self, pose: Pose) -> Floats:
         """Return the pose's own values; of an angle the turn in which the curve stands there."""
-        found = cleared(np.atleast_1d(self.quantity.shown(pose)), self._rounding)
+        found: Floats = np.atleast_1d(np.asarray(self.quantity.shown(pose), float))
         if self.series.unit != "°":
             return found
         x, values = self.curves

@@ -40,10 +40,4 @@ def series_of(scene: Scene, quantity: Quantity, cycle: Motion) -> Series:
     """Return a quantity of a cycle that is already solved."""
     values = np.asarray(quantity.shown(cycle), float)
     columns = values if values.ndim == 2 else values[:, None]
-    columns = cleared(columns, quantity.rounding(cycle))
     return Series(cycle.phase, columns, quantity.shown_unit(scene.length_unit), quantity.columns)
-
-
-def cleared(values: NDArray[np.float64], rounding: float) -> NDArray[np.float64]:
-    """Return values with 0 for what is no larger than rounding errors."""
-    return np.where(np.abs(values) <= rounding, 0.0, values)

@@ -9,6 +9,7 @@ from math import hypot, isfinite
 import numpy as np
 
 from linkanim.mechanics.formulas.program import Array
+from linkanim.mechanics.linkage.joint import Slide
 from linkanim.mechanics.motion.measures import between as way_between
 from linkanim.mechanics.motion.measures import growth, output_body
 from linkanim.picture.look import ACCELERATION, VELOCITY, Look
@@ -21,28 +22,36 @@ _SAMPLES = 72
 _APART = 0.3
 """Curves that differ by less, of their greatest value, could be taken for one."""
 _FACTORS = {1: "as large as before", 2: "twice as large", 4: "four times as large", 8: "eight times as large"}
-_GOES_WITH = {1: "a spring's force", 2: "a velocity or a damper's force", 4: "an acceleration", 8: "a power"}
+_GOES_WITH = {
+    1: "a spring's force",
+    2: "a velocity or a damper's force",
+    4: "an acceleration",
+    8: "the power that accelerates a mass",
+}
 """What becomes so large when the speed doubles."""
 
 
 def speeding(puzzle: Puzzle) -> QuizQuestion | None:
-    """Return whether a joint becomes faster; taken wrongly, whether it moves forward."""
+    """Return whether a joint becomes faster; taken wrongly, whether it is accelerated to the right, or up."""
     names = puzzle.clear("velocity")
     puzzle.random.shuffle(names)
     for name in names:
-        (vx, vy), (ax, ay) = puzzle.pose.velocity[name], puzzle.pose.acceleration[name]
-        along = (vx * ax + vy * ay) / hypot(vx, vy)
+        along = puzzle.value(f"{name}.tangential_acceleration")
+        ax, ay = puzzle.pose.acceleration[name]
         gains = isfinite(along) and abs(along) > PLAIN * hypot(ax, ay)
-        if gains and puzzle.share("acceleration", name) > CLEAR:
+        if gains and puzzle.share(f"{name}.acceleration") > CLEAR:
+            way = "the way it moves" if along > 0 else "against its velocity"
             why = (
-                f"Its acceleration along its velocity is {number(along)} {puzzle.scene.length_unit}/s²: "
-                "not where it moves to, but whether both point the same way, decides."
+                f"The part of its acceleration along its velocity, {number(along)} "
+                f"{puzzle.scene.length_unit}/s², points {way}."
             )
+            larger = ax if abs(ax) > abs(ay) else ay
+            slip = "the sign of the acceleration alone, whichever way the point moves"
             return puzzle.question(
                 name,
                 f"Does {name} speed up or slow down?",
                 *either(
-                    ("it speeds up", "it slows down"), along > 0, "the velocity taken for the acceleration"
+                    ("it speeds up", "it slows down"), along > 0, slip if (larger > 0) != (along > 0) else ""
                 ),
                 why,
                 shows=_BOTH,
@@ -58,7 +67,7 @@ def doubled(puzzle: Puzzle) -> QuizQuestion | None:
     if not names:
         return None
     name = puzzle.random.choice(names)
-    value = hypot(*getattr(puzzle.pose, kind)[name])
+    value = puzzle.value(f"{name}.{kind}")
     unit = f"{puzzle.scene.length_unit}/s{'²' if kind == 'acceleration' else ''}"
     power = "the square of the speed" if factor == 4 else "the speed itself"
     return _growing(
@@ -74,11 +83,10 @@ def force(puzzle: Puzzle) -> QuizQuestion | None:
     """Return what becomes of a force as the speed doubles: a spring's, a damper's, or that on a mass."""
     known = puzzle.scene.linkage
     clear = []
-    for kind, items, factor in (("spring", known.springs, 1), ("damper", known.dampers, 2)):
+    for items, factor in ((known.springs, 1), (known.dampers, 2)):
         for item in items:
-            value, cycle = (getattr(found, kind)[item.name].force for found in (puzzle.pose, puzzle.cycle))
-            if item.forceful and isfinite(value) and abs(value) > PLAIN * float(np.nanmax(np.abs(cycle))):
-                clear.append((item, factor, value))
+            if item.forceful and abs(puzzle.share(f"{item.name}.force")) > PLAIN:
+                clear.append((item, factor, puzzle.value(f"{item.name}.force")))
     if clear:
         item, factor, value = puzzle.random.choice(clear)
         power = "the speed itself" if factor == 2 else "its length alone, which is the same there"
@@ -136,7 +144,7 @@ def curves(puzzle: Puzzle) -> QuizQuestion | None:
         if body.slider
         else ("angle", "angular_velocity", "angular_acceleration")
     )
-    scaled = _distinct(puzzle, [getattr(puzzle.cycle, token)[body.name] for token in tokens])
+    scaled = _distinct(puzzle, [puzzle.values(f"{body.name}.{token}") for token in tokens])
     if scaled is None:
         return None
     order = puzzle.random.sample(range(3), 3)
@@ -167,7 +175,7 @@ def _distinct(puzzle: Puzzle, columns: Sequence[Array]) -> list[Array] | None:
     None where they look alike, one is unbounded or rests, or the value grows from turn to turn.
     """
     step = max(len(puzzle.cycle.phase) // _SAMPLES, 1)
-    value, *rates = (np.asarray(column, np.float64)[::step] for column in columns)
+    value, *rates = (column[::step] for column in columns)
     if not all(np.isfinite(part).all() and np.ptp(part) > 0.0 for part in (value, *rates)):
         return None
     value = value - (value.max() + value.min()) / 2
@@ -180,20 +188,21 @@ def _distinct(puzzle: Puzzle, columns: Sequence[Array]) -> list[Array] | None:
 
 
 def coriolis(puzzle: Puzzle) -> QuizQuestion | None:
-    """Return whether a slider's acceleration has a Coriolis term; only where the guide turns it has."""
+    """Return whether a point that slides has a Coriolis acceleration; only where the guide turns it has."""
     found = list(_sliding(puzzle))
     if not found:
         return None
-    joint, turns = puzzle.random.choice(found)
+    joint, guide, turns = puzzle.random.choice(found)
     why = (
-        f"{joint} slides along a guide that turns meanwhile: 2ω × v is not zero."
+        f"The guide turns while {joint} slides along it: 2ω × v is not zero."
         if turns
-        else f"The guide of {joint} does not turn: ω is zero, and 2ω × v with it."
+        else "The guide does not turn: ω is zero, and 2ω × v with it."
     )
     slip = "the guide's turning overlooked" if turns else "sliding alone taken for a Coriolis term"
     return puzzle.question(
         joint,
-        f"Is there a Coriolis term in the acceleration of {joint}, told in its guide's frame?",
+        f"{joint} slides along {guide}. In a frame fixed to that guide, has the acceleration of {joint} a "
+        "Coriolis term?",
         *either(("yes", "no"), turns, slip),
         why,
         shows=_BOTH,
@@ -201,22 +210,28 @@ def coriolis(puzzle: Puzzle) -> QuizQuestion | None:
     )
 
 
-def _sliding(puzzle: Puzzle) -> Iterator[tuple[str, bool]]:
-    """Yield joints that slide clearly, each with whether its guide turns clearly; none between."""
-    sliders = {body.slider: body for body in puzzle.scene.linkage.bodies if body.slider}
-    for joint in puzzle.scene.linkage.joints:
-        for slide in joint.slides:
-            if slide.axis is None and slide.start is None and joint.name in sliders:
-                if abs(puzzle.share("travel_velocity", sliders[joint.name].name)) > PLAIN:
-                    yield joint.name, False
-            elif slide.axis and slide.start and _slides(puzzle, (slide.start, slide.point)):
-                body = next((one for one in puzzle.turning if {*slide.axis} <= {*one.joints}), None)
-                if body is not None and abs(puzzle.share("angular_velocity", body.name)) > PLAIN:
-                    yield slide.point, True
+def _sliding(puzzle: Puzzle) -> Iterator[tuple[str, str, bool]]:
+    """Yield joints that slide clearly, each with the words for its guide, and whether that turns clearly."""
+    linkage = puzzle.scene.linkage
+    for slide in (slide for joint in linkage.joints for slide in joint.slides):
+        if linkage.joint(slide.point).fixed or not _slides(puzzle, slide):
+            continue
+        if slide.start is None:
+            yield slide.point, "a fixed line", False
+        elif slide.axis is None:
+            yield slide.point, f"the slot at {slide.start}", False
+        else:
+            carriers = puzzle.bodies_of(*slide.axis)
+            body = next(
+                (one for one in carriers if abs(puzzle.share(f"{one.name}.angular_velocity")) > PLAIN), None
+            )
+            if body is not None:
+                yield slide.point, f"the {puzzle.name(body)}", True
 
 
-def _slides(puzzle: Puzzle, ends: tuple[str, str]) -> bool:
-    """Return whether two joints clearly come nearer to each other, or part."""
+def _slides(puzzle: Puzzle, slide: Slide) -> bool:
+    """Return whether a joint clearly slides along its guide."""
+    ends = (slide.start or slide.line.through, slide.point)
     rates = [
         growth(way_between(found.position, ends), way_between(found.velocity, ends))
         for found in (puzzle.cycle, puzzle.pose)

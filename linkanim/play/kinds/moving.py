@@ -2,48 +2,61 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from math import atan2, hypot, inf, isfinite, pi
+from collections.abc import Iterable, Iterator
+from math import inf, isfinite, pi
 
-from linkanim.mechanics.motion.measures import coupler_body, pole
+from linkanim.mechanics.linkage.linkage import Body
+from linkanim.mechanics.motion.measures import coupler_body
 from linkanim.picture.look import VELOCITY, Look
-from linkanim.play.kinds.wording import MOST, number
+from linkanim.play.kinds.wording import BESIDE, MOST, SIDES, TURNS, WAYS, number, obliquity, quarter
 from linkanim.play.question import CLEAR, PLAIN, Puzzle, QuizAnswer, QuizQuestion, either
 
-_TURN = ("counterclockwise", "clockwise")
-_WAYS = ("to the right", "up", "to the left", "down")
 _OBLIQUE = pi / 6
 """A way that is farther from a compass point is between two of them."""
 _NEAR = 0.08
 """Places that are nearer to each other, in sizes of the linkage, could be taken for one."""
 _ARROWS = Look(names=1, vectors=frozenset({VELOCITY}))
-_BACKWARDS = "the chain seen backwards"
+_BACKWARDS = "when the input runs backwards"
 
 
 def turning(puzzle: Puzzle) -> QuizQuestion | None:
     """Return which way a link turns; taken wrongly, as the input does."""
-    clear = [body for body in puzzle.turning if abs(puzzle.share("angular_velocity", body.name)) > PLAIN]
+    clear = [body for body in puzzle.turning if abs(puzzle.share(f"{body.name}.angular_velocity")) > PLAIN]
     if not clear:
         return None
     body = puzzle.random.choice(clear)
-    rate = puzzle.pose.angular_velocity[body.name]
+    rate = puzzle.value(f"{body.name}.angular_velocity")
     forward = puzzle.pose.coordinate_rate > 0
     against = puzzle.scene.linkage.drive.coordinate.is_angle and forward != (rate > 0)
-    misled = " It turns against the input: directions are not handed on along a chain." if against else ""
-    slip = "the input's direction, handed on along the chain" if against else _BACKWARDS
+    slip = "the input's direction, handed on along the chain" if against else f"the way it turns {_BACKWARDS}"
+    misled = " The input turns the other way: a chain does not hand on directions." if against else ""
     return puzzle.question(
         body.name,
         f"Which way does the {puzzle.name(body)} turn?",
-        *either(_TURN, rate > 0, slip),
-        f"Its angular velocity is {number(rate)} rad/s, so it turns {_TURN[rate < 0]}.{misled}",
+        *either(TURNS, rate > 0, slip),
+        f"{_why_turning(puzzle, body, rate)}{misled}",
         shows=_ARROWS,
         arrows=body.joints,
     )
 
 
+def _why_turning(puzzle: Puzzle, body: Body, rate: float) -> str:
+    """Return why a body turns as it does: by how one joint moves about another, a fixed one if any."""
+    is_fixed = {name: puzzle.scene.linkage.joint(name).fixed for name in body.joints[:2]}
+    first, second = sorted(is_fixed, key=lambda name: not is_fixed[name])
+    place, way = (
+        quarter(puzzle.vector(kind, second) - puzzle.vector(kind, first)) for kind in ("position", "velocity")
+    )
+    lies = f"{second} lies {SIDES[place]} {first}"
+    if not is_fixed[first]:
+        lies = f"Seen from {first}, {second} lies {BESIDE[place]}"
+    turns = f"the {puzzle.name(body)} turns {TURNS[rate < 0]}, with {number(abs(rate))} rad/s"
+    return f"{lies} and moves {WAYS[way]}: {turns}."
+
+
 def fastest(puzzle: Puzzle) -> QuizQuestion | None:
-    """Return which of some joints is fastest; taken wrongly, the one that is farthest from the input."""
-    speeds = {name: hypot(*puzzle.pose.velocity[name]) for name in puzzle.joints}
+    """Return which of some joints is fastest; taken wrongly, the input's or the one that is farthest out."""
+    speeds = {name: puzzle.value(f"{name}.velocity") for name in puzzle.joints}
     greatest = max((value for value in speeds.values() if isfinite(value)), default=0.0)
     chosen: list[str] = []
     for name in puzzle.random.sample(list(speeds), len(speeds)):
@@ -56,82 +69,135 @@ def fastest(puzzle: Puzzle) -> QuizQuestion | None:
     unit = puzzle.scene.length_unit
     listed = ", ".join(f"{name} {number(speeds[name])} {unit}/s" for name in (first, *others))
     places = puzzle.pose.position
-    driven = complex(*places[puzzle.scene.linkage.drive.joint])
-    far = max(others, key=lambda name: abs(complex(*places[name]) - driven))
+    slips = dict(_taken_for_fastest(puzzle, chosen))
     return puzzle.question(
         "velocity",
         "Which of these points is fastest?",
         QuizAnswer(first, place=places[first]),
-        [QuizAnswer(name, _too_fast(puzzle, name, far), places[name]) for name in others],
-        f"Their speeds: {listed}.",
+        [QuizAnswer(name, slips.get(name, ""), places[name]) for name in others],
+        f"{_why_faster(puzzle, first, others)}The speeds: {listed}.",
         shows=_ARROWS,
         arrows=chosen,
     )
 
 
-def _too_fast(puzzle: Puzzle, name: str, far: str) -> str:
-    """Say why a joint is taken for the fastest."""
-    if name == puzzle.scene.linkage.drive.joint:
-        return "the input taken for the fastest: a chain can speed up on its way"
-    if name == far:
-        return "the farthest point taken for the fastest"
-    return "its place taken for its speed"
+def _taken_for_fastest(puzzle: Puzzle, names: list[str]) -> Iterator[tuple[str, str]]:
+    """Yield what is taken for the fastest of some joints, and why."""
+    linkage = puzzle.scene.linkage
+    if linkage.drive.coordinate.is_angle:
+        pivot = linkage.crank(linkage.drive.joint).pivot
+        far = max(names, key=lambda name: abs(puzzle.apart(pivot, name)))
+        yield far, f"the point farthest from {pivot}, taken for the fastest"
+    yield linkage.drive.joint, "the input taken for the fastest: a chain can speed up on its way"
+
+
+def _why_faster(puzzle: Puzzle, first: str, others: list[str]) -> str:
+    """Return why a joint is faster than the next one that is on one body with it; "" where none is."""
+    shared = ((name, body) for name in others for body in puzzle.bodies_of(first, name))
+    for name, body in shared:
+        centre, about = puzzle.centre_of(body)
+        far, close = (abs(puzzle.vector("position", joint) - centre) for joint in (first, name))
+        if CLEAR * far < close < inf:
+            times = number(round(far / close, 2))
+            return (
+                f"{first} and {name} turn with the same ω about {about}, and {first} is {times} times as far "
+                "from it. "
+            )
+    return ""
 
 
 def heading(puzzle: Puzzle) -> QuizQuestion | None:
-    """Return which way a joint moves; taken wrongly, back, along its link or as it is accelerated."""
+    """Return which way a joint moves; taken wrongly, back, along its link or as it is accelerated.
+
+    What slides in a fixed guide is asked for the two ways of its guide only.
+    """
     names = puzzle.clear("velocity")
     puzzle.random.shuffle(names)
     for name in names:
-        x, y = puzzle.pose.velocity[name]
-        quarter = atan2(y, x) / (pi / 2)
-        if abs(quarter - round(quarter)) * pi / 2 < _OBLIQUE:
-            way = round(quarter) % 4
-            ax, ay = puzzle.pose.acceleration[name]
-            gains = round(atan2(ay, ax) / (pi / 2)) % 4 if isfinite(ax) and isfinite(ay) else None
-            slips = ["along its link, not across"] * 4
-            if gains is not None:
-                slips[gains] = "the acceleration taken for the velocity"
-            slips[(way + 2) % 4] = _BACKWARDS
-            why = f"Its velocity is ({number(x)}, {number(y)}) {puzzle.scene.length_unit}/s."
-            return puzzle.question(
-                name,
-                f"Which way does {name} move?",
-                QuizAnswer(_WAYS[way]),
-                [QuizAnswer(_WAYS[n], slips[n]) for n in range(4) if n != way],
-                why,
-                shows=_ARROWS,
-                arrows=[name],
-            )
+        velocity = puzzle.vector("velocity", name)
+        if obliquity(velocity) > _OBLIQUE:
+            continue
+        way = quarter(velocity)
+        ways = (way, (way + 2) % 4) if _is_guided(puzzle, name) else range(4)
+        slips = dict(_taken_for_heading(puzzle, name, way))
+        return puzzle.question(
+            name,
+            f"Which way does {name} move?",
+            QuizAnswer(WAYS[way]),
+            [QuizAnswer(WAYS[n], slips.get(n, "")) for n in ways if n != way],
+            _why_heading(puzzle, name),
+            shows=_ARROWS,
+            arrows=[name],
+        )
     return None
 
 
+def _is_guided(puzzle: Puzzle, name: str) -> bool:
+    """Return whether a joint slides along a fixed line."""
+    slides = puzzle.scene.linkage.joint(name).slides
+    return any(slide.point == name and slide.start is None for slide in slides)
+
+
+def _taken_for_heading(puzzle: Puzzle, name: str, way: int) -> Iterator[tuple[int, str]]:
+    """Yield which way is taken for a joint's heading, and why; what counts most comes last."""
+    pin = puzzle.pivot_of(name)
+    if pin is not None:
+        along = quarter(puzzle.apart(pin, name))
+        yield from ((n % 4, "along its link, not across") for n in (along, along + 2))
+    yield (way + 2) % 4, f"the way it moves {_BACKWARDS}"
+    acceleration = puzzle.vector("acceleration", name)
+    known = isfinite(abs(acceleration)) and puzzle.share(f"{name}.acceleration") > CLEAR
+    if known and obliquity(acceleration) < _OBLIQUE:
+        yield quarter(acceleration), "the acceleration taken for the velocity"
+
+
+def _why_heading(puzzle: Puzzle, name: str) -> str:
+    """Return why a joint moves as it does: by the bar that pushes it, or by what its link turns about."""
+    velocity = puzzle.vector("velocity", name)
+    moves = f"{WAYS[quarter(velocity)]}, with {number(abs(velocity))} {puzzle.scene.length_unit}/s"
+    joint = puzzle.scene.linkage.joint(name)
+    if _is_guided(puzzle, name):
+        for end, _ in joint.bars:
+            towards = (puzzle.apart(end, name).conjugate() * puzzle.vector("velocity", end)).real
+            pushes = f"towards {name}: it pushes" if towards > 0 else f"away from {name}: it pulls"
+            return f"{end} moves the bar {end}–{name} {pushes} {name} along the guide, {moves}."
+        return f"It slides along its guide, {moves}."
+    pin = puzzle.pivot_of(name)
+    centres = (
+        [(puzzle.vector("position", pin), pin)] if pin else map(puzzle.centre_of, puzzle.bodies_of(name))
+    )
+    for centre, about in centres:
+        arm = puzzle.vector("position", name) - centre
+        if 0 < abs(arm) < inf:
+            turns = TURNS[(arm.conjugate() * velocity).imag < 0]
+            return f"It turns {turns} about {about} and lies {SIDES[quarter(arm)]} it: so it moves {moves}."
+    return f"It moves {moves}: its velocity is ({number(velocity.real)}, {number(velocity.imag)})."
+
+
 def instant_centre(puzzle: Puzzle) -> QuizQuestion | None:
-    """Return where a coupler's instant centre is; taken wrongly, at the nearest joint or half-way."""
+    """Return where a coupler's instant centre is; taken wrongly, at a joint, a pin or half-way."""
     body = coupler_body(puzzle.scene.linkage)
-    if body is None or abs(puzzle.share("angular_velocity", body.name)) < PLAIN:
+    if body is None or abs(puzzle.share(f"{body.name}.angular_velocity")) < PLAIN:
         return None
-    centre = complex(*map(float, pole(puzzle.pose, body)))
+    centre, _ = puzzle.centre_of(body)
     box, size = puzzle.figure.box, puzzle.figure.extent
     if not (abs(centre) < inf and abs(centre - complex(*box.middle)) < size):
         return None
-    places = {name: complex(*puzzle.pose.position[name]) for name in puzzle.figure.shown}
-    ends = [places[name] for name in body.joints[:2]]
+    ends = [puzzle.vector("position", name) for name in body.joints[:2]]
+    places = {puzzle.vector("position", name): name for name in puzzle.figure.shown}
     half = sum(ends) / 2
-    points = _apart([centre, half, *ends, *places.values()], _NEAR * size)[:MOST]
+    points = _apart([centre, half, *ends, *places], _NEAR * size)[:MOST]
     if len(points) < 3:
         return None
-    near = min(
-        (point for point in points[1:] if point != half), key=lambda at: abs(at - centre), default=None
-    )
-    slips = {half: "the middle of the link taken for the pole"}
-    slips |= {near: "the nearer joint taken for the pole"} if near is not None else {}
-    slips[centre], other = "", "a joint that moves, or of another link, taken for the pole"
+    slips = {place: _taken_for_pole(puzzle, name) for place, name in places.items()}
+    slips[half] = "the middle of the link taken for the pole"
+    slips[min(ends, key=lambda end: abs(end - centre))] = "the nearer joint taken for the pole"
+    slips[centre] = ""
     unit = puzzle.scene.length_unit
     right, *wrong = (
         QuizAnswer(
             f"({number(point.real)}, {number(point.imag)}) {unit}",
-            slips.get(point, other),
+            slips.get(point, ""),
             (point.real, point.imag),
         )
         for point in points
@@ -141,12 +207,29 @@ def instant_centre(puzzle: Puzzle) -> QuizQuestion | None:
         f"Where is the instant centre of the {puzzle.name(body)}?",
         right,
         wrong,
-        "It stands still there for this instant: the normals to the velocities of its points meet there.",
+        _why_pole(puzzle, body, centre),
         shows=Look(names=1, vectors=frozenset({VELOCITY}), centres=1),
         arrows=body.joints,
         shuffled=True,
         stops=puzzle.phase,
     )
+
+
+def _why_pole(puzzle: Puzzle, body: Body, centre: complex) -> str:
+    """Return why a body's instant centre is there, by the velocities of its first two joints."""
+    one, other = body.joints[:2]
+    arms = [puzzle.vector("position", name) - centre for name in (one, other)]
+    still = f"the point of the {puzzle.name(body)} in that place stands still at this instant."
+    if abs((arms[0].conjugate() * arms[1]).imag) > CLEAR * abs(arms[0] * arms[1]):
+        return f"The normals to the velocities of {one} and {other} meet there: {still}"
+    return f"Along the line through {one} and {other} the velocities fall to nothing there: {still}"
+
+
+def _taken_for_pole(puzzle: Puzzle, name: str) -> str:
+    """Return as what a joint is taken for the pole of a link that moves."""
+    if puzzle.scene.linkage.joint(name).fixed:
+        return "a fixed pin, about which another link turns"
+    return "a joint that moves, taken for the pole" if puzzle.share(f"{name}.velocity") > CLEAR else ""
 
 
 def _apart(points: Iterable[complex], least: float) -> list[complex]:

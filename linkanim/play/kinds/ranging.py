@@ -2,102 +2,202 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from itertools import combinations
-from math import degrees, tau
+from math import degrees, floor, tau
 
 import numpy as np
 
 from linkanim.mechanics.closing.search import sign_changes
 from linkanim.mechanics.facts.naming import FourBar, four_bar_of
+from linkanim.mechanics.linkage.linkage import Body
 from linkanim.mechanics.motion.measures import output_body
 from linkanim.picture.look import Look
-from linkanim.play.kinds.wording import MOST, angle, between, crank_degrees, number, swing
+from linkanim.play.kinds.wording import MOST, angle, between, crank_degrees, number, swing, tenths
 from linkanim.play.question import CLEAR, Puzzle, QuizAnswer, QuizQuestion, either
 
 _APART = 20.0
 """Crank angles in degrees that nobody takes for one another."""
+_SWINGS_APART = 5.0
+"""Ends of swings in degrees that nobody takes for one another."""
 _FULL = "it turns fully"
+_IN_LINE = 1e-6
+"""Two bars are in one line where the sine of the angle between them is less."""
+Swing = tuple[float, float]
+"""The two ends of a swing, in degrees."""
 
 
 def dead_centre(puzzle: Puzzle) -> QuizQuestion | None:
     """Return at which crank angle the output turns back; taken wrongly, where it is fastest."""
-    scene = puzzle.scene
-    body = output_body(scene.linkage)
-    if body is None or not scene.info.full_turn or scene.period > tau * 1.001:
-        return None
-    kind, name = "travel_velocity" if body.slider else "angular_velocity", body.name
-    quickest = float(puzzle.cycle.phase[int(abs(getattr(puzzle.cycle, kind)[name]).argmax())])
-    samples = len(puzzle.cycle.phase)  # once round from between two of them: many turn back at a phase of 0
-    once_round = scene.period * (np.arange(samples + 1) + 0.5) / samples
-    found = sign_changes(lambda phases: getattr(scene.solve(phase=phases), kind)[name], once_round)
-    exact = {crank_degrees(puzzle, float(phase)): float(phase) for phase in found}
-    if not exact:
+    body = output_body(puzzle.scene.linkage)
+    exact = _turning_back(puzzle, body) if body else {}
+    if body is None or not exact:
         return None
     right = puzzle.random.choice([*exact])
-    fast = crank_degrees(puzzle, quickest)
-    others = [fast, *(puzzle.random.uniform(0, 360) for _ in range(20))]
+    rates = puzzle.values(_rate_of(body))
+    fast = crank_degrees(puzzle, float(puzzle.cycle.phase[int(abs(rates).argmax())]))
+    slips = {(one + 180) % 360: "the other dead centre, taken to lie half a turn on" for one in exact}
+    slips[fast] = "the greatest speed taken for the dead centre"
     wrong: list[float] = []
-    for one in others:
+    for one in (fast, *slips, *(puzzle.random.uniform(0, 360) for _ in range(20))):
         if all(between(one, other) > _APART for other in (*exact, *wrong)) and len(wrong) < MOST - 1:
             wrong.append(one)
     if len(wrong) < 2:
         return None
-    slips = {fast: "the greatest speed taken for the dead centre"}
     return puzzle.question(
         body.name,
         f"At which crank angle does the {puzzle.name(body)} turn back?",
         QuizAnswer(angle(right)),
-        [QuizAnswer(angle(one), slips.get(one, "an angle at which it runs on")) for one in wrong],
-        f"Its velocity is zero at {' and '.join(map(angle, exact))}; where that is greatest it runs on.",
+        [QuizAnswer(angle(one), slips.get(one, "")) for one in wrong],
+        f"Its velocity changes its sign at {' and '.join(map(angle, exact))}{_in_line(puzzle, body, exact)}.",
         shuffled=True,
-        shows=Look(names=1, chart=f"{name}.{kind}"),
+        shows=Look(names=1, chart=_rate_of(body)),
         stops=exact[right],
         names=0,  # named, a guide has its dead centres
     )
 
 
+def _rate_of(body: Body) -> str:
+    """Return the token of how fast a body turns, or travels."""
+    return f"{body.name}.{'travel_velocity' if body.slider else 'angular_velocity'}"
+
+
+def _turning_back(puzzle: Puzzle, body: Body) -> dict[float, float]:
+    """Return the crank angles at which a body turns back, in degrees, each with its phase.
+
+    None where the input does not turn fully, or does so more than once before all is back.
+    """
+    scene, samples = puzzle.scene, len(puzzle.cycle.phase)
+    if not scene.info.full_turn or scene.period > tau * 1.001:
+        return {}
+    # once round from between two samples: many turn back at a phase of 0
+    once_round = scene.period * (np.arange(samples + 1) + 0.5) / samples
+    rate = scene.quantities[_rate_of(body)]
+    found = sign_changes(
+        lambda phases: np.asarray(rate.read(scene.solve(phase=phases, derivatives=1))), once_round
+    )
+    return {crank_degrees(puzzle, float(phase)): float(phase) for phase in found}
+
+
+def _in_line(puzzle: Puzzle, body: Body, exact: Mapping[float, float]) -> str:
+    """Return, after a colon, which bar is in line with the crank as the output turns back; "" if none."""
+    linkage = puzzle.scene.linkage
+    pin = linkage.drive.joint
+    pivot = linkage.crank(pin).pivot
+    poses = [puzzle.scene.pose(phase, 0).position for phase in exact.values()]
+    for name in (body.slider, *body.joints):
+        if name and pin in (end for end, _ in linkage.joint(name).bars):
+            ways = [[complex(*pose[joint]) for joint in (pivot, pin, name)] for pose in poses]
+            turns = [(c - b) * (b - a).conjugate() for a, b, c in ways]
+            if all(abs(turn.imag) < _IN_LINE * abs(turn) for turn in turns):
+                return f": there {pivot}–{pin} and {pin}–{name} lie in one line"
+    return ""
+
+
 def input_range(puzzle: Puzzle) -> QuizQuestion | None:
-    """Return whether the input turns fully, and else between which angles it swings."""
-    drive, info = puzzle.scene.linkage.drive, puzzle.scene.info
-    if not drive.coordinate.is_angle:
+    """Return whether the input turns fully, or how it swings; taken wrongly, another's swing."""
+    info = puzzle.scene.info
+    if not puzzle.scene.linkage.drive.coordinate.is_angle:
         return None
-    low, high = map(degrees, info.input_range)
-    if info.full_turn:
-        low, width = puzzle.random.uniform(-90, 90), puzzle.random.uniform(100, 200)
-        right, slip = _FULL, "a limit seen where the loop still closes"
-        wrong = [
-            QuizAnswer(swing(low, low + width), slip),
-            QuizAnswer(swing(low - 40, low + width / 2), slip),
-        ]
-        why = "The solver closes it at every angle of the input."
-    else:
-        width = high - low
-        right = swing(low, high)
-        wrong = [
-            QuizAnswer(_FULL, "the limit overlooked: beyond it the loop does not close"),
-            QuizAnswer(swing(low + 0.25 * width, high + 0.25 * width), "the swing seen from another bar"),
-            QuizAnswer(swing(low, low + 0.6 * width), "one limit taken for both"),
-        ]
-        why = "At both ends two links lie in one line: beyond it the loop does not close."
+    own = None if info.full_turn else (degrees(info.input_range[0]), degrees(info.input_range[1]))
+    wrong = [] if own is None else [QuizAnswer(_FULL, _overlooked(puzzle))]
+    swings = [] if own is None else [own]
+    for slip, other in _taken_for_range(puzzle, own):
+        if len(wrong) == MOST - 1:
+            break
+        if all(_are_apart(one, other) for one in swings):
+            swings.append(other)
+            wrong.append(QuizAnswer(swing(*other), slip))
+    right = QuizAnswer(_FULL if own is None else swing(*own))
     text = f"How far can the {info.input_name} turn?"
-    return puzzle.question("input", text, QuizAnswer(right), wrong, why, shuffled=True)
+    why = _why_fully(puzzle) if own is None else _why_swinging(puzzle)
+    return puzzle.question("input", text, right, wrong, why, shuffled=True)
+
+
+def _are_apart(one: Swing, other: Swing) -> bool:
+    """Return whether nobody takes two swings for one another."""
+    return max(between(a, b) for a, b in zip(one, other, strict=True)) > _SWINGS_APART
+
+
+def _overlooked(puzzle: Puzzle) -> str:
+    """Return what is overlooked by who has an input turn fully that swings."""
+    if any(puzzle.scene.mechanism.assembly.path.ends):
+        return "the limit overlooked: beyond it the loop does not close"
+    return "the stroke of the drive overlooked"
+
+
+def _taken_for_range(puzzle: Puzzle, own: Swing | None) -> Iterator[tuple[str, Swing]]:
+    """Yield swings that are taken for the input's own, None where it turns fully, each after its reason."""
+    body, info = output_body(puzzle.scene.linkage), puzzle.scene.info
+    if body is not None and body.slider is None and body.name not in info.turning_links:
+        angles = np.degrees(puzzle.values(f"{body.name}.angle"))
+        if np.ptp(angles) > _SWINGS_APART:
+            slip = f"the swing of the {puzzle.name(body)} taken for that of the input"
+            yield slip, (float(angles.min()), float(angles.max()))
+    if own is not None:
+        yield "the angles counted clockwise", (-own[1], -own[0])
+        yield "the swing counted from its own limit", (0.0, own[1] - own[0])
+        return
+    if body is not None and len(ends := sorted(_turning_back(puzzle, body))) == 2:
+        yield f"the dead centres of the {puzzle.name(body)} taken for limits of the crank", (ends[0], ends[1])
+    for _ in range(MOST):
+        low = puzzle.random.uniform(-90, 90)
+        yield "a limit seen where the loop still closes", (low, low + puzzle.random.uniform(100, 200))
+
+
+def _why_fully(puzzle: Puzzle) -> str:
+    """Return why an input turns fully: by Grashof's sum of a four-bar alone, else by what its dyads keep."""
+    info, bar = puzzle.scene.info, four_bar_of(puzzle.scene.mechanism)
+    if bar is not None and sum(joint.dyad for joint in puzzle.scene.linkage.joints) == 1:
+        if bar.change_points:
+            return f"{info.grashof}: where all bars lie in one line it is at a change point, and turns on."
+        against = "both links that turn on it" if bar.shortest == "ground" else "it"
+        return f"{info.grashof}, and the shortest link is the {bar.shortest}: {against} can turn fully."
+    if info.transmission is None:
+        return "There is no loop that could hold it."
+    least = floor(10 * degrees(info.transmission.least)) / 10
+    if least > 0:
+        return (
+            "A loop closes no farther where a transmission angle comes to 0°: here none is ever less than "
+            f"{least:.1f}°."
+        )
+    return "Where its bars come into one line it is at a change point, and turns on."
+
+
+def _why_swinging(puzzle: Puzzle) -> str:
+    """Return why an input swings: what is in its way at both ends."""
+    linkage, info = puzzle.scene.linkage, puzzle.scene.info
+    clauses = [linkage.joint(end).at_limit for end in puzzle.scene.mechanism.assembly.path.ends if end]
+    if not clauses:
+        return f"Its stroke is all: {linkage.drive.actuator.at_ends(puzzle.scene.length_unit)}."
+    if len(set(clauses)) == 1:
+        return f"At both ends {clauses[0]}: beyond that the loop does not close."
+    ends = [
+        f"at {tenths(degrees(end))} {clause}" for end, clause in zip(info.input_range, clauses, strict=True)
+    ]
+    return f"The loop does not close farther: {', and '.join(ends)}."
 
 
 def closure(puzzle: Puzzle) -> QuizQuestion | None:
-    """Return on which closure an input that swings comes back."""
-    info = puzzle.scene.info
-    if info.full_turn or not puzzle.scene.linkage.drive.coordinate.is_angle or not info.toggles:
+    """Return on which closure an input that swings comes back; taken wrongly, on the one it came by."""
+    info, mechanism = puzzle.scene.info, puzzle.scene.mechanism
+    ends = [end for end in zip(info.input_range, mechanism.assembly.path.ends, strict=False) if end[1]]
+    if not ends:
         return None
-    retraced, answers = info.mechanism.retraced, ("on the same closure", "on the other closure")
+    place, dyad = puzzle.random.choice(ends)
+    jump, slip = "No velocity jumps there", "the closure that it came by"
     why = (
-        "It goes back by the way it came, as the scene says."
-        if retraced
-        else "Through the limit the links swing on smoothly, to the other side of their line."
+        f"The {info.input_name} stands there for an instant, the links do not: they run on to the other side."
     )
-    text = f"The {info.input_name} comes to its limit and turns back. On which closure?"
-    slip = "the other closure" if retraced else "the closure that it came by"
-    look = Look(names=1, ghost=True)
-    return puzzle.question("input", text, *either(answers, retraced, slip), why, shows=look)
+    if mechanism.retraced:  # the scene says so, and nothing else would
+        jump, slip = "All velocities change their sign there at once", "the closure beyond the limit"
+        why = "With all velocities reversed each link goes back the way it came."
+    text = (
+        f"At {tenths(degrees(place))} {puzzle.scene.linkage.joint(dyad).at_limit}, and the {info.input_name} "
+        f"turns back. {jump}. On which closure do the links come back?"
+    )
+    answers, look = ("on the same closure", "on the other closure"), Look(names=1, ghost=True)
+    return puzzle.question("input", text, *either(answers, mechanism.retraced, slip), why, shows=look)
 
 
 def grashof(puzzle: Puzzle) -> QuizQuestion | None:
@@ -114,8 +214,10 @@ def grashof(puzzle: Puzzle) -> QuizQuestion | None:
         "s + l = p + q: a change point",
     )
     right = 2 if bar.margin == 0 else 0 if bar.margin > 0 else 1
-    slips = ("the sums compared the wrong way round", "a near miss taken for a change point")
-    wrong = [QuizAnswer(answers[n], slips[2 in (n, right)]) for n in range(3) if n != right]
+    slips = ["the sums compared the wrong way round"] * 2 + [""]
+    if right == 2:
+        slips = ["equal sums taken for unequal ones"] * 3
+    wrong = [QuizAnswer(answers[n], slips[n]) for n in range(3) if n != right]
     s, p, q, longest = map(number, lengths)
     return puzzle.question(
         bar.joint,
@@ -123,7 +225,7 @@ def grashof(puzzle: Puzzle) -> QuizQuestion | None:
         "Does a link turn fully against the others?",
         QuizAnswer(answers[right]),
         wrong,
-        f"s + l = {s} + {longest} and p + q = {p} + {q}.",
+        f"s + l = {s} + {longest} {'<>='[right]} p + q = {p} + {q}.",
     )
 
 
@@ -147,13 +249,17 @@ def grashof_sum(puzzle: Puzzle) -> QuizQuestion | None:
     s, p, q, longest = (f"{number(bar.links[part])} ({part})" for part in written)
     right = order[puzzle.random.choice((one, other))]
     wrong = [order[n] for n in range(4) if n not in (one, other)]
-    slip = "the order round the loop taken for the order of lengths"
+    slips = {}
+    if written[0] != "input":
+        slips["input"] = "the input expected as s, whatever its length"
+    if written[3] != "ground":
+        slips["ground"] = "the ground expected as l, whatever its length"
     places = ("s, the shortest", "one of p and q", "one of p and q", "l, the longest")
     return puzzle.question(
         bar.joint,
-        f"Grashof's sums of this four-bar: s + l = {s} + {longest}, p + q = {p} + {q}. "
-        "Which link is in the wrong place?",
+        f"Grashof's sums of this four-bar are written as s + l = {s} + {longest} and p + q = {p} + {q}. "
+        "Which of these links is in the wrong place?",
         QuizAnswer(right),
-        [QuizAnswer(part, slip) for part in wrong],
+        [QuizAnswer(part, slips.get(part, "")) for part in wrong],
         f"The {right} is {places[order.index(right)]}, not {places[written.index(right)]}.",
     )
