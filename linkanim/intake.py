@@ -75,9 +75,12 @@ class Intake:
 
     def json(self, path: Path, where: str, otherwise: str) -> Any:
         """Return what a file of JSON holds; one that is none, or has a NaN, is refused as `otherwise`."""
+        return self.parsed(self.read(path, where), where, otherwise)
+
+    def parsed(self, text: str, where: str, otherwise: str) -> Any:
+        """Return what a text of JSON holds; refused as by `json`."""
         import json
 
-        text = self.read(path, where)
         try:
             self.refuse_heavy(text, where)
             return json.loads(text, parse_constant=int)  # which takes no NaN, nor an infinity

@@ -32,7 +32,8 @@ What comes of it: `building.made.scene` (a Scene, or None) and `building.made.mi
 The scene's document is its file: `scenes.editing.write.save` writes it. While there is a scene, the window
 draws that, and calls `posed(building, phase)` before a gesture, so that places are those of the pose on
 the screen. Without a scene it draws `drawn(draft)` (`shapes.py`). `building_of(scene)` (`origin.py`) begins
-with a scene; `stored(draft)` and `restored(tables)` are the draft as plain data, for JSON.
+with a scene; `stored(draft)` is the draft as plain data, for JSON, `restored(tables)` a building with it
+(`storing.py`).
 
 `order` finds the dyads in a draft, `making` its scene, `shorthand` the few lines that say the same; `places`
 is numbers to places and back, `missing` what to say before it moves.

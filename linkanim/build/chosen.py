@@ -14,7 +14,7 @@ from linkanim.build.order import line_of, place_of
 from linkanim.build.places import crank_of, fitted, moved, with_number
 from linkanim.build.rounding import round_number, snapped
 
-_OWN = ("pins", "points", "sliders", "yokes", "gears", "sides")
+OWN = ("pins", "points", "sliders", "yokes", "gears", "sides")
 """The kinds of tables whose names are those of joints."""
 _HELD = ("pins", "points", "sliders")
 _WORDS = {JOINT: "joint", "drive": "drive"}
@@ -112,7 +112,7 @@ def _slider_drives(draft: Draft, joint: str) -> list[dict[str, Any]]:
     start, way = line_of(draft, {**guide, "offset": 0})
     travel = ((place_of(draft, joint) - start) * way.conjugate()).real
     bars = [abs(place_of(draft, end) - place_of(draft, joint)) for _, end, _ in draft.bars_at(joint)]
-    longest = max(bars, default=abs(travel) or 100.0)
+    longest = max(bars, default=0.0) or abs(travel) or 100.0
     drives = []
     for part in SHARES:
         reach, step = longest * part, 10.0 ** floor(log10(longest * part) - 1)
@@ -151,7 +151,7 @@ def _hanging(draft: Draft, gone: set[Thing]) -> Iterator[Thing]:
     axes = [set(bars[name]["joints"]) for kind, name in gone if kind == "bars"]
     for kind, every in draft.tables.items():
         for name, table in every.items():
-            own = {(JOINT, name)} if kind in _OWN else set()
+            own = {(JOINT, name)} if kind in OWN else set()
             if kind == "bodies":
                 lost = ("sliders", table.get("slider")) in gone or any(
                     axis <= set(table.get("joints", ())) for axis in axes

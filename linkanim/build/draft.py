@@ -6,7 +6,6 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple
 
-from linkanim.document import Section
 from linkanim.mechanics.linkage.joint import Point
 
 Thing = tuple[str, str]
@@ -150,25 +149,3 @@ def named_in(table: Any, key: str = "at") -> Iterator[Thing]:
             yield from named_in(value, key)
     elif key in _NAMING or key in _JOINTS:
         yield _NAMING.get(key, JOINT), table
-
-
-def stored(draft: Draft) -> dict[str, Any]:
-    """Return all of a draft as tables, lists, texts and numbers."""
-    return {**vars(draft), "typed": sorted(draft.typed, key=repr)}
-
-
-def restored(tables: Mapping[str, Any], where: str = "draft") -> Draft:
-    """Return the draft that was stored; BadInput for what is none."""
-    try:
-        photo = tables["photo"] and Photo(tables["photo"][0], tuple(tables["photo"][1]), *tables["photo"][2:])
-        return Draft(
-            {str(name): (float(x), float(y)) for name, (x, y) in tables["places"].items()},
-            {kind: dict(every) for kind, every in tables["tables"].items()},
-            dict(tables["rest"]),
-            frozenset(tuple(key) for key in tables["typed"]),
-            photo,
-            tables["short"],
-            float(tables.get("phase", 0.0)),
-        )
-    except (KeyError, TypeError, ValueError, AttributeError, IndexError) as error:
-        raise Section(where, {}).wrong(f"is no draft of linkanim: {type(error).__name__}") from None

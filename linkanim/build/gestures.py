@@ -70,7 +70,7 @@ def guide(building: Building, start: Thing | None, begin: complex, end: complex,
     through, on = _carrier(draft, start)
     if on:
         axis = place_of(draft, on[1]) - place_of(draft, on[0])
-        way *= axis.conjugate() / abs(axis)
+        way *= axis.conjugate() / (abs(axis) or 1.0)
     elif not draft.of("pins"):
         draft, through = _with_pin(draft, begin, snap)
     through = through or min(draft.of("pins"), key=lambda pin: abs(place_of(draft, pin) - begin))

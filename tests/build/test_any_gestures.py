@@ -10,12 +10,12 @@ from hand import gesture, gestures
 from test_sessions import SESSIONS
 
 from linkanim.build.building import Building, undo
-from linkanim.build.draft import restored, stored
 from linkanim.build.missing import EMPTY
 from linkanim.build.order import line_of
 from linkanim.build.origin import building_of
 from linkanim.build.pointing import TOOLS
 from linkanim.build.shapes import drawn
+from linkanim.build.storing import restored, stored
 from linkanim.scenes.editing.toml import parse
 from linkanim.scenes.editing.write import text
 from linkanim.scenes.reading.read import scene_from
@@ -82,7 +82,7 @@ def after(seed: int, steps: int) -> None:
         again = scene_from(parse(text(scene), "again"), name=scene.name, where="again")
         assert again == scene
         assert building_of(scene).made.scene == scene
-    assert restored(stored(building.draft)) == building.draft
+    assert restored(stored(building.draft)).draft == building.draft
     while building.past:
         building = undo(building)
     assert building.draft == Building().draft

@@ -12,9 +12,10 @@ from hand import drawn, gesture
 from linkanim.build import shapes
 from linkanim.build.building import Building, posed, redo, undo
 from linkanim.build.chosen import choose_thing
-from linkanim.build.draft import Photo, restored, stored
+from linkanim.build.draft import Photo
 from linkanim.build.gestures import fit_photo, lay_photo, move_photo
 from linkanim.build.origin import draft_of
+from linkanim.build.storing import restored, stored
 from linkanim.errors import BadInput
 from linkanim.scenes import load
 from linkanim.scenes.editing.toml import parse
@@ -55,7 +56,7 @@ def test_undo_goes_back_to_the_empty_sheet_and_redo_on_again() -> None:
 
 def test_a_draft_that_is_stored_comes_back() -> None:
     draft = replace(drawn(FOUR_BAR).draft, photo=Photo("digger.jpg", (-20.0, 5.0), 300.0, 0.1))
-    assert restored(json.loads(json.dumps(stored(draft)))) == draft
+    assert restored(json.loads(json.dumps(stored(draft)))).draft == draft
 
 
 def test_what_is_no_draft_is_refused() -> None:

@@ -619,12 +619,15 @@ def test_a_kept_draft_has_its_photograph_from_another_folder_too(
     builder: Builder, photograph: Path, here: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     builder.window.state = carried(builder.state, Action("photo", photograph.name))
-    DraftFile(here / "draft.json").keep(builder.sheet)
+    drafts = DraftFile(here / "draft.json")
+    drafts.keep(builder.sheet)
+    drafts.close()
     (here / "other").mkdir()
     monkeypatch.chdir(here / "other")
-    text = DraftFile(here / "draft.json").found()
-    assert text
-    builder.window.state = carried(builder.state, Action("draft", text))
+    builder.window.state, sentence = drafts.offered(builder.state)
+    drafts.close()
+    assert sentence
+    builder.press(pygame.K_F2)
     assert lack(photo_of(builder).file) is None
 
 

@@ -2,27 +2,43 @@
 
 from __future__ import annotations
 
+import errno
+import json
+import math
+import os
 import signal
 import subprocess
 import sys
+from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 from random import Random
+from typing import Any
 
 import pygame
 import pytest
-from hand import gestures, taped
+from damage import damaged
+from hand import drawn, gestures, taped
 from playing import CTRL, SIZE, Player
 from test_sessions import SESSIONS, Session
 
+from linkanim.build.building import Building
 from linkanim.build.draft import Draft
+from linkanim.build.origin import building_of
+from linkanim.errors import BadInput
+from linkanim.picture.surface import SurfacePrinter
 from linkanim.player.state.action import Action
-from linkanim.player.state.advance import carried
+from linkanim.player.state.advance import advance, carried
+from linkanim.player.state.handlers.build import restored_sheet, stored_text
 from linkanim.player.state.sheet import BuildSheet
-from linkanim.player.state.state import begin
+from linkanim.player.state.state import State, begin
+from linkanim.player.state.tools import TOOLS
 from linkanim.player.tape.tape import Tape
 from linkanim.player.tape.tape_file import write
 from linkanim.player.window import display
+from linkanim.player.window.approach import Framing
 from linkanim.player.window.drafts import DraftFile
+from linkanim.player.window.show import overlay
 from linkanim.player.window.window import Window
 from linkanim.scenes import load
 
@@ -31,7 +47,9 @@ import sys
 from pathlib import Path
 from linkanim.player.tape.tape_file import read
 from linkanim.player.window import display
+from linkanim.player.window.approach import Framing
 from linkanim.player.window.drafts import DraftFile
+from linkanim.player.window.show import overlay
 from linkanim.player.window.window import Window
 tape, step = read(Path(sys.argv[1])), int(sys.argv[3])
 with display.opened((160, 90)):
@@ -86,7 +104,7 @@ def test_of_a_window_that_is_killed_what_was_drawn_is_offered_but_for_the_last_s
     session: Session, here: Path
 ) -> None:
     tape = taped(session.lines, pace=300 // len(gestures(session.lines)))
-    drawn = [state.building.building.draft if state.building else Draft() for state in tape.states()]
+    seen = [state.building.building.draft if state.building else Draft() for state in tape.states()]
     last = killed(
         tape, here / "draft.json", Random(session.scene).randrange(2 * SECOND, tape.frames - SECOND)
     )
@@ -98,7 +116,7 @@ def test_of_a_window_that_is_killed_what_was_drawn_is_offered_but_for_the_last_s
         player.press(pygame.K_F2)
         found = sheet_of(player).building.draft
         assert found.places
-        assert found in drawn[last - SECOND : last + STEP + 1]
+        assert found in seen[last - SECOND : last + STEP + 1]
         player.window.close()
 
 
@@ -112,6 +130,7 @@ def test_what_was_drawn_is_kept_while_the_hand_is_down(here: Path, tool: str) ->
             player.window.state = carried(player.state, Action(name, value))
         player.tick(SECOND)
         assert sheet_of(player).grip
+        player.window.close()
         player = started_again(here / "draft.json")
         player.press(pygame.K_F2)
         assert dict(sheet_of(player).building.draft.places) == {"O2": (0.0, 0.0)}
@@ -123,7 +142,9 @@ def test_a_draft_that_is_offered_stays_until_it_is_let_go_of(here: Path) -> None
     state = begin(load("press"))
     for name, value in (("sheet", None), ("hand_down", (0.0, 0.0, 3.0, 1.0)), ("hand_up", None)):
         state = carried(state, Action(name, value))
-    DraftFile(kept).keep(state.sheet)
+    drafts = DraftFile(kept)
+    drafts.keep(state.sheet)
+    drafts.close()
     with display.opened(SIZE):
         player = started_again(kept)
         player.tick(120)
@@ -138,12 +159,210 @@ def test_a_draft_that_is_offered_stays_until_it_is_let_go_of(here: Path) -> None
         player.window.close()
 
 
-def test_a_damaged_draft_is_said_and_does_no_harm(here: Path) -> None:
-    (here / "draft.json").write_text('{"draft": {"places": 3}}')
+def drawn_on(player: Player, *places: tuple[float, float]) -> None:
+    """Set ground pins on an open sheet, and let it be kept."""
+    for at in places:
+        for name, value in (("hand_down", (*at, 3.0, 1.0)), ("hand_up", None)):
+            player.window.state = carried(player.state, Action(name, value))
+    player.tick(SECOND)
+
+
+def four_bar() -> dict[str, Any]:
+    """Return what is kept of a four-bar on a sheet."""
+    found: dict[str, Any] = json.loads(stored_text(begin_on(drawn(SESSIONS[0].lines))))
+    return found
+
+
+def begin_on(building: Building) -> BuildSheet:
+    sheet = carried(begin(load("press")), Action("sheet")).building
+    assert sheet
+    return replace(sheet, building=building)
+
+
+def changed(*keys: str | int, to: Any) -> Callable[[], bytes]:
+    """Return what makes a kept draft with another value at some keys."""
+
+    def text() -> bytes:
+        document = holder = four_bar()
+        for key in keys[:-1]:
+            holder = holder[key]  # type: ignore[index]
+        holder[keys[-1]] = to  # type: ignore[index]
+        return json.dumps(document).encode()
+
+    return text
+
+
+DAMAGED: dict[str, Callable[[], bytes]] = {
+    "nothing": lambda: b"",
+    "half of it": lambda: json.dumps(four_bar()).encode()[:200],
+    "no text": lambda: b"\xff\xfe\0",
+    "another document": lambda: b'{"draft": {"places": 3}}',
+    "deep": lambda: b"[" * 100_000,
+    "a number of 401 digits": changed("draft", "places", "A", to=[10**400, 0]),
+    "a number of 4,401 digits": lambda: json.dumps(four_bar()).encode().replace(b"30", b"3" * 4_401, 1),
+    "no number": changed("draft", "places", "A", to=[math.nan, 0]),
+    "an endless one": lambda: json.dumps(four_bar()).encode().replace(b"30", b"1e999", 1),
+    "half a character": changed("draft", "rest", "title", to="\ud800"),
+    "a colour for the terminal": changed("draft", "rest", "title", to="\x1b[31m"),
+    "an edge that is none": changed("home", 0, to=math.nan),
+    "no room": changed("home", to=[0, 0, 0, 0]),
+    "edges the other way round": changed("home", to=[100, 100, -100, -100]),
+    "five edges": changed("home", to=[-1, -1, 1, 1, 2]),
+    "too far away": changed("home", to=[-1e300, -1e300, 1e300, 1e300]),
+    "an unknown tool": changed("tool", to="hammer"),
+    "a tool that is a list": changed("tool", to=["bar"]),
+    "a bar of no joint": changed("draft", "tables", "bars", "x", to={"joints": ["A", "Z"], "length": 3}),
+    "a photograph of no width": changed("draft", "photo", to=["a.png", [0, 0], 0, 0]),
+    "a newer version": changed("linkanim_draft", to=2),
+}
+
+
+@pytest.mark.parametrize("content", DAMAGED.values(), ids=DAMAGED)
+def test_a_damaged_draft_is_set_aside_with_a_sentence_and_another_is_kept(
+    here: Path, content: Callable[[], bytes]
+) -> None:
+    kept, text = here / "draft.json", content()
+    kept.write_bytes(text)
     with display.opened(SIZE):
-        player = started_again(here / "draft.json")
+        player = started_again(kept)
+        assert player.state.toast
+        said = player.state.toast.text
+        assert said.startswith(f"{kept}: ")
+        assert said.endswith("; it is kept as draft-aside-1.json")
+        assert player.state.sheet is None
+        player.press(pygame.K_F2)
+        drawn_on(player, (0.0, 0.0))
+        player.window.close()
+        assert (here / "draft-aside-1.json").read_bytes() == text
+        again = started_again(kept)
+        again.press(pygame.K_F2)
+        assert list(sheet_of(again).building.draft.places) == ["O2"]
+        again.window.close()
+
+
+def test_what_windows_draw_at_once_is_in_nobody_s_way_and_is_offered_one_by_one(here: Path) -> None:
+    kept = here / "data" / "draft.json"
+    with display.opened(SIZE):
+        windows = [started_again(kept) for _ in range(3)]
+        assert not kept.parent.exists()
+        for count, player in enumerate(windows, 1):
+            player.press(pygame.K_F2)
+            drawn_on(player, *((10.0 * n, 0.0) for n in range(count)))
+        files = ["draft.json", "draft-2.json", "draft-3.json"]
+        assert sorted(path.name for path in kept.parent.glob("d*")) == sorted(files)
+        for player in windows:  # as if they had been killed: locks go with their run
+            player.window._drafts.close()  # type: ignore[union-attr]
+        offered = [started_again(kept) for _ in range(4)]
+        assert [player.state.toast is not None for player in offered] == [True] * 3 + [False]
+        found = [player.state.sheet and len(player.state.sheet.building.draft.places) for player in offered]
+        assert found == [1, 2, 3, None]
+        offered[1].press(pygame.K_F2)
+        for _ in range(2):
+            offered[1].press(pygame.K_n, CTRL)
+        offered[1].tick(SECOND)
+        for player in offered:
+            player.window.close()
+        assert sorted(path.name for path in kept.parent.iterdir()) == ["draft-3.json", "draft.json"]
+
+
+@pytest.fixture
+def full(monkeypatch: pytest.MonkeyPatch) -> Callable[[bool], None]:
+    """What fills the disk, or frees it."""
+    synced, is_full = os.fsync, [False]
+
+    def sync(number: int) -> None:
+        if is_full[0]:
+            raise OSError(errno.ENOSPC, "No space left on device")
+        synced(number)
+
+    monkeypatch.setattr(os, "fsync", sync)
+    return lambda filled: is_full.__setitem__(0, filled)
+
+
+def test_a_draft_that_a_full_disk_does_not_take_is_kept_when_there_is_room(
+    here: Path, full: Callable[[bool], None]
+) -> None:
+    kept = here / "draft.json"
+    with display.opened(SIZE):
+        player = started_again(kept)
+        player.press(pygame.K_F2)
+        full(True)
+        drawn_on(player, (0.0, 0.0))
         player.tick()
         assert player.state.toast
-        assert "damaged" in player.state.toast.text
-        assert player.state.sheet is None
+        assert player.state.toast.text == f"{kept}: cannot be written: no space left on device"
+        player.tick(4 * SECOND)
+        assert player.window.screen.over.toast is None  # it is said once
+        full(False)
+        player.tick(SECOND)
+        assert "O2" in kept.read_text()
+        full(True)
+        drawn_on(player, (50.0, 0.0))
+        full(False)
         player.window.close()
+        assert "O4" in kept.read_text()
+
+
+def test_closing_does_not_promise_what_a_full_disk_prevents(here: Path, full: Callable[[bool], None]) -> None:
+    with display.opened(SIZE):
+        player = started_again(here / "draft.json")
+        player.press(pygame.K_F2)
+        full(True)
+        drawn_on(player, (0.0, 0.0))
+        assert player.press(pygame.K_q)
+        assert player.press(pygame.K_q)
+        player.tick()
+        assert player.state.toast
+        assert player.state.toast.text.endswith("no space left on device; once more closes without the draft")
+        assert player.press(pygame.K_q) is False
+        player.window.close()
+        assert not (here / "draft.json").exists()
+
+
+def test_a_folder_that_takes_no_drafts_is_a_sentence(here: Path) -> None:
+    (here / "data").write_text("a file where the folder would be")
+    with display.opened(SIZE):
+        player = started_again(here / "data" / "draft.json")
+        player.press(pygame.K_F2)
+        drawn_on(player, (0.0, 0.0))
+        player.tick()
+        assert player.state.toast
+        assert "cannot be" in player.state.toast.text
+        player.window.close()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [1, pytest.param(2, marks=pytest.mark.long)])
+def test_damaged_drafts_are_refused_or_can_be_drawn_on(seed: int, here: Path) -> None:
+    random, state = Random(seed), begin(load("press"))
+    documents = [json.loads(stored_text(begin_on(drawn(one.lines)))) for one in SESSIONS[:6]]
+    documents += [
+        json.loads(stored_text(begin_on(building_of(load(name))))) for name in ("press", "whitworth")
+    ]
+    framing, printer, surface = Framing(), SurfacePrinter(), pygame.Surface(SIZE, 0, 32)
+    taken = 0
+    for _ in range(70 if seed == 1 else 3_000):
+        text = damaged(random.choice(documents), random).decode("utf-8", "surrogateescape")
+        try:
+            restored_sheet(state, text)
+        except BadInput:
+            continue
+        shown, taken = advance(state, [Action("draft", text)]), taken + 1
+        for action in (None, *a_hand(random, shown)):
+            shown = advance(shown, [action] if action else [])
+            assert not [effect for effect in shown.effects if effect.name == "report"], shown.effects
+        printer.print(surface, framing.fitting(shown, SIZE), shown.phase, shown.clock.speed, overlay(shown))
+    assert taken > 5
+
+
+def a_hand(random: Random, state: State) -> Iterator[Action]:
+    """Yield what a hand does with any tool, from what is drawn or from paper."""
+    places = [*state.building.building.draft.places.values()] if state.building else []
+    free = (random.uniform(-150, 150), random.uniform(-150, 150))
+    yield Action("tool", random.choice([tool.value for tool in TOOLS if tool.action == "tool"]))
+    for name in ("hand_down", "hand_to"):
+        yield Action(name, (*random.choice([*places, free]), 5.0, 1.0))
+    yield Action("hand_up")
+    more = ("remove", "trace_on", "drive_by", "unbuild", "rebuild", "take_number")
+    yield from (Action(name) for name in random.sample(more, 3))
+    yield from (Action("further", 1), Action("digits", "5"), Action("take_number"))

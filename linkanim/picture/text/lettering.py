@@ -47,6 +47,8 @@ class Lettering:
 
         They begin at a whole pixel where that is wanted, which draws many new places faster.
         """
+        if not self._meets(surface.get_size(), middle):
+            return
         wide, high = (_FINE * side for side in self.size)
         step = _FINE if whole else 1
         x = step * round((_FINE * middle.real - wide / 2) / step)
@@ -55,6 +57,11 @@ class Lettering:
         if sprite.get_alpha() != round(255 * shown):
             sprite.set_alpha(round(255 * shown))
         surface.blit(sprite, (x // _FINE, y // _FINE))
+
+    def _meets(self, size: tuple[int, int], middle: complex) -> bool:
+        """Whether the words about a place are seen on a surface so large, to a pixel."""
+        (wide, high), (x, y) = self.size, (middle.real, middle.imag)
+        return -1 - wide / 2 < x < size[0] + 1 + wide / 2 and -1 - high / 2 < y < size[1] + 1 + high / 2
 
     def _sprite(self, right: int, down: int) -> pygame.Surface:
         """Return the words so many parts of a pixel further right and down."""

@@ -26,7 +26,7 @@ from linkanim.player.state.advance import aged, carried, settled
 from linkanim.player.state.browsing import RESOLVED, Browsing
 from linkanim.player.state.clock import FRAMES_PER_SECOND
 from linkanim.player.state.fault import recovered, report
-from linkanim.player.state.handlers.build import left, offered, written
+from linkanim.player.state.handlers.build import left, written
 from linkanim.player.state.handlers.games import leave
 from linkanim.player.state.handlers.shelf import renewed
 from linkanim.player.state.sheet import BuildSheet
@@ -52,7 +52,6 @@ if TYPE_CHECKING:
 _UNCOVERED = (pygame.WINDOWEXPOSED, pygame.WINDOWSIZECHANGED)
 _NEWS_EVERY = 15
 _NO_FILES = "there is no scene file in the current folder; Ctrl+S writes one"
-_OFFER = "a draft that was in no scene file has been kept: F2 takes it up"
 _BESIDE_A_TAPE = frozenset({"screenshot", "svg", "share", "fullscreen", "quit", "close", "back"})
 
 
@@ -87,6 +86,8 @@ class Window:
         self._now = state.frame
         self._good: State | None = None
         self._reported: set[str] = set()
+        self._unkept: str | None = None
+        self._warned: str | None = None
         self._offer()
 
     def tick(self, frames: int = 1) -> bool:
@@ -117,6 +118,8 @@ class Window:
             if self.state.recording:
                 self._render(self.state.recording.format)
         finally:
+            if self._drafts:
+                self._drafts.close()
             self._speaker.close()
             for process in (self._renderings, self._following):
                 if process:
@@ -344,7 +347,7 @@ class Window:
             case "fullscreen":
                 self.fill()
             case "quit":
-                self._open = False
+                self._quit()
 
     def _save(self) -> None:
         """Write the scene as a new file, a new linkage under its class; a draft on a sheet once it moves."""
@@ -358,15 +361,28 @@ class Window:
     def _offer(self) -> None:
         """Offer the draft that was kept of another window."""
         with self._noting():
-            if self._drafts and (text := self._drafts.found()):
-                self.state = offered(self.state, text)
-                self._notes.append(_OFFER)
+            if self._drafts:
+                self.state, sentence = self._drafts.offered(self.state)
+                self._notes += [sentence] if sentence else []
 
-    def _keep_draft(self) -> None:
-        """Keep what is drawn on the sheet."""
-        with self._noting():
+    def _keep_draft(self) -> str | None:
+        """Keep what is drawn on the sheet; return in a sentence, which is told once, what prevents that."""
+        before, self._unkept = self._unkept, None
+        try:
             if self._drafts:
                 self._drafts.keep(self.state.sheet)
+        except LinkanimError as error:
+            self._unkept = str(error)
+            self._notes += [self._unkept] if self._unkept != before else []
+        return self._unkept
+
+    def _quit(self) -> None:
+        """Close, but for the first time where a draft would be lost: closing said that it is kept."""
+        sheet = self.state.sheet
+        why = self._keep_draft() if sheet and not sheet.is_written else None
+        if why and why != self._warned:
+            self._notes.append(f"{why}; once more closes without the draft")
+        self._open, self._warned = bool(why and why != self._warned), why
 
     def _open_file(self, path: Path) -> None:
         """Put on the scene of a file, which is watched from now on."""

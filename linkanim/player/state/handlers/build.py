@@ -10,10 +10,12 @@ from typing import Any
 from linkanim.build import building as built
 from linkanim.build import chosen, dimensions, gestures, pointing
 from linkanim.build.building import Building
-from linkanim.build.draft import JOINT, restored, stored
+from linkanim.build.draft import JOINT
 from linkanim.build.origin import building_of
+from linkanim.build.storing import restored, stored
+from linkanim.document import Section
 from linkanim.errors import BadInput
-from linkanim.intake import control_in, named
+from linkanim.intake import Intake, control_in, named
 from linkanim.picture.figure import figure
 from linkanim.picture.shelf import NEW
 from linkanim.picture.view import Box
@@ -25,6 +27,7 @@ from linkanim.player.state.handlers.shelf import exchanged
 from linkanim.player.state.handlers.shelf import put as put_on
 from linkanim.player.state.sheet import HOME, LIVE, BuildSheet, Grip
 from linkanim.player.state.state import State, with_toast
+from linkanim.player.state.tools import TOOLS
 
 Handler = Callable[[State, Any], State]
 
@@ -32,6 +35,12 @@ _DOUBLE = 24
 """Frames within which a second click at a place makes a double one."""
 _LONGEST = 10 * FRAMES_PER_SECOND
 """A linkage that can move runs for a period, if that is no longer."""
+VERSION = 1
+_MARK = "linkanim_draft"
+_DAMAGED = "is damaged, or no draft of linkanim"
+DRAFT = Intake("a draft", most_bytes=5_000_000, most_values=500_000)
+_FARTHEST = 1e15
+"""No edge of what is seen of a sheet is beyond it."""
 LOST = "the draft is in no scene file: Ctrl+S writes it; once more begins anew"
 _MEANT = "the draft is in no scene file: Ctrl+S writes it; once more closes, and it is offered next time"
 
@@ -92,14 +101,14 @@ def left(state: State) -> State:
 
 def draft(state: State, text: str) -> State:
     """Open a sheet as it was stored, seen as it is zoomed; BadInput for what is none."""
-    look, sheet = state.look, _restored(state, text)
+    look, sheet = state.look, restored_sheet(state, text)
     opened = _opened(replace(state, sheet=sheet), sheet.building)
     return replace(opened, look=replace(look, unit=None, chart=None))
 
 
-def offered(state: State, text: str) -> State:
-    """Return the state with a sheet as it was stored, which F2 opens; BadInput for what is none."""
-    sheet = replace(_restored(state, text), open=False, closes=True)
+def offered(state: State, text: str, where: str) -> State:
+    """Return the state with a sheet as it was stored in a file, which F2 opens."""
+    sheet = replace(restored_sheet(state, text, where), open=False, closes=True)
     return replace(state, sheet=sheet, beneath=state.beneath and replace(state.beneath, sheet=sheet))
 
 
@@ -107,20 +116,26 @@ def stored_text(sheet: BuildSheet) -> str:
     """Return a sheet with its draft as text that `draft` takes."""
     import json  # here: the first frame does not wait for it
 
-    table = {"draft": stored(sheet.building.draft), "home": sheet.home, "tool": sheet.tool}
+    draft = stored(sheet.building.draft)
+    table = {_MARK: VERSION, "draft": draft, "home": sheet.home, "tool": sheet.tool}
     return json.dumps(table, ensure_ascii=False)
 
 
-def _restored(state: State, text: str) -> BuildSheet:
-    import json
-
-    try:
-        table = json.loads(text)
-        home, tool = Box(*map(float, table["home"])), str(table["tool"])
-        building = Building(restored(table["draft"]))
-    except (ValueError, TypeError, KeyError, RecursionError):
-        raise BadInput("the draft is damaged; it is none of this linkanim's") from None
-    return BuildSheet(state.scene, state.clock, state.editing, building, home, tool=tool)
+def restored_sheet(state: State, text: str, where: str = "the draft") -> BuildSheet:
+    """Return a sheet as it was stored, over a state; BadInput for what is none, OtherVersion as it says."""
+    document = DRAFT.parsed(text, where, _DAMAGED)
+    # that of an older tape has no mark
+    known = {_MARK: VERSION, **document} if isinstance(document, dict) and "draft" in document else document
+    top = Section(where, DRAFT.marked(known, where, _MARK, VERSION, _DAMAGED))
+    edges = top.listed("home", 4)
+    left, low, right, high = (edges.number(key) for key in edges.values)
+    if not (left < right and low < high and max(map(abs, (left, low, right, high))) <= _FARTHEST):
+        raise top.error("home", "must be the left, lower, right and upper edge of what is seen")
+    tool = top.choice("tool", tuple(one.value for one in TOOLS if one.action == "tool" and one.value))
+    building = restored(top.table("draft").values, where)
+    return BuildSheet(
+        state.scene, state.clock, state.editing, building, Box(left, low, right, high), tool=tool
+    )
 
 
 def written(state: State) -> State:
