@@ -131,8 +131,9 @@ class Linkage(Stated):
 
     @property
     def longest(self) -> float:
-        """The longest length that the definition of a joint states; 1 without any."""
-        return max((abs(length) for joint in self.joints for length in joint.lengths), default=1.0)
+        """The longest length that the definition of a joint states; without any that of the drive, or 1."""
+        stated = max((abs(length) for joint in self.joints for length in joint.lengths), default=0.0)
+        return stated or max(map(abs, self.drive.actuator.lengths), default=0.0) or 1.0
 
     @cached_property
     def extent(self) -> float:
