@@ -84,7 +84,7 @@ def _fill(page: FPDF, layer: Layer) -> None:
             for point in rest:
                 path.line_to(point.real, point.imag)
             path.close()
-        drawn.add_item(path)
+        drawn.add_item(path, False)  # no copy, which would take most of the time
 
 
 def _write(page: FPDF, line: Caption) -> None:

@@ -16,7 +16,7 @@ from linkanim.picture.panels.overlay import Overlay
 from linkanim.picture.panels.panels import Panels
 from linkanim.picture.panels.path import SHEET
 from linkanim.picture.picture import Picture
-from linkanim.picture.raster.raster import Cover, Shapes, covers, is_clear, keep_memory, paints
+from linkanim.picture.raster.raster import Cover, Shapes, covers, in_turn, is_clear, keep_memory, paints
 from linkanim.picture.text.lettering import Lettering
 from linkanim.picture.text.text import Type
 
@@ -71,10 +71,11 @@ class SurfacePrinter:
         canvas = self._on_still(surface, picture, first)
         parted = [_parts(run) for run in others]
         fresh = [_shapes(groups) for parts in parted for key, groups in parts if key is None]
-        found = iter(covers(canvas, fresh))
+        found = in_turn(canvas, fresh)
         for run, parts in zip(others, parted, strict=True):
             for key, groups in parts:
-                (next(found) if key is None else self._kept(canvas, key, groups)).put(canvas)
+                for cover in next(found) if key is None else (self._kept(canvas, key, groups),):
+                    cover.put(canvas)
             self._words(canvas, picture.type, run, whole=picture.held)
         self._labels.let_go()
         self._panels_of(picture).draw(canvas, overlay)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import tracemalloc
 
 import numpy as np
 import pygame
@@ -10,8 +11,9 @@ import pytest
 from fidelity import Pixels, averaged, centre, jitter, psnr
 from pictures import alphas, coverage, filled
 
+from linkanim.picture.raster import raster
 from linkanim.picture.raster.offscreen import offscreen
-from linkanim.picture.raster.raster import Layer, Loop, Shapes, covers, paint, paints
+from linkanim.picture.raster.raster import Layer, Loop, Shapes, covers, in_turn, paint, paints
 from linkanim.picture.raster.shapes import box, cut, disc, rounded
 
 WHITE = (255, 255, 255)
@@ -221,6 +223,41 @@ def test_parts_worked_out_together_are_filled_one_after_the_other() -> None:
             one.put(surface)
             paint(surface, [Layer((0, 200, 0), [_rect(0, 25, 64, 28.25)])])
     assert pygame.image.tobytes(together, "RGBA") == pygame.image.tobytes(in_turn, "RGBA")
+
+
+@pytest.mark.parametrize("alpha", [False, True])
+@pytest.mark.parametrize("most", [1, 3, 1000])
+def test_parts_worked_out_a_few_layers_at_a_time_are_the_same_bytes(
+    most: int, alpha: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    parts = [
+        Shapes(_scattered(1, 20), (50, 40), _scattered(2, 4)),
+        Shapes([]),
+        Shapes(_scattered(3, 5)),
+    ]
+    whole = filled([], background=90, alpha=alpha)
+    for cover in covers(whole, parts):
+        cover.put(whole)
+    pieces = filled([], background=90, alpha=alpha)
+    monkeypatch.setattr(raster, "_MOST_AT_ONCE", most * 64 * 64)
+    for covers_ in in_turn(pieces, parts):
+        for cover in covers_:
+            cover.put(pieces)
+    assert pieces.get_buffer().raw == whole.get_buffer().raw
+
+
+def test_many_layers_take_no_more_memory_than_some(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(raster, "_MOST_AT_ONCE", 10 * 64 * 64)
+    peaks = []
+    for count in (10, 200):
+        surface, layers = filled([]), [Layer(WHITE, [_rect(0, 0, 64, 64.5)])] * count
+        tracemalloc.start()
+        for some in in_turn(surface, [Shapes(layers)]):
+            for cover in some:
+                cover.put(surface)
+        peaks.append(tracemalloc.get_traced_memory()[1])
+        tracemalloc.stop()
+    assert peaks[1] < 2 * peaks[0]
 
 
 @pytest.mark.parametrize("right", [0, 1, 20, 33, 64])

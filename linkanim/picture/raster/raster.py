@@ -6,6 +6,7 @@ Those that lie apart are mixed in together, too: each on the lowest level above 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import accumulate, pairwise
 from typing import NamedTuple, overload
@@ -22,6 +23,8 @@ Colour = tuple[int, int, int]
 
 _KEPT_BYTES = 16 << 20
 """More than a frame's largest arrays take together."""
+_MOST_AT_ONCE = 1 << 28
+"""So many layers times pixels of the surface are worked out together: thirty at 3840 × 2160."""
 
 
 class Outlines(Sequence[Loop]):
@@ -147,6 +150,23 @@ def covers(surface: pygame.Surface, parts: Sequence[Shapes]) -> list[Cover]:
     (full, *others), levels = _covered(surface, parts)
     mixes = [(mixed_in(some.place, some.share, some.ink), some.bounds.tolist()) for some in others]
     return [Cover(full, mixes, range(*ends)) for ends in pairwise((0, *accumulate(levels)))]
+
+
+def in_turn(surface: pygame.Surface, parts: Iterable[Shapes]) -> Iterator[Iterable[Cover]]:
+    """Yield what each part does to surfaces like this one, to be put on it one after the other.
+
+    All go through the arithmetic together; where that would take too much memory, some layers at a time, as
+    they are asked for.
+    """
+    known = [(list(layers), ends, list(over)) for layers, ends, over in parts]
+    most = max(_MOST_AT_ONCE // max(math.prod(surface.get_size()), 1), 1)
+    if sum(len(layers) + len(over) for layers, _, over in known) <= most:
+        yield from ([cover] for cover in covers(surface, [Shapes(*part) for part in known]))
+        return
+    for layers, ends, over in known:
+        pieces = [Shapes(layers[n : n + most], ends) for n in range(0, len(layers), most)]
+        pieces += [Shapes(over[n : n + most]) for n in range(0, len(over), most)]
+        yield (covers(surface, [piece])[0] for piece in pieces)
 
 
 def paint(surface: pygame.Surface, layers: Iterable[Layer]) -> None:
