@@ -12,7 +12,6 @@ import math
 import os
 import re
 import shutil
-import subprocess
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -25,7 +24,7 @@ from linkanim import child
 from linkanim.errors import RecordingFailed
 from linkanim.recorder.palette import Colour, Indexing
 from linkanim.recorder.plan import Format
-from linkanim.recorder.process import Frame, not_started, running
+from linkanim.recorder.process import Frame, running, told
 
 _THREADS = 2
 """Fixed, for H.264's bytes depend on it."""
@@ -72,12 +71,8 @@ def count_frames(part: Path, form: Format) -> int:
         return sum(1 for _ in part.glob("*.png"))
     # a line for each frame: how many it copied ffmpeg 7 does not say otherwise
     copied = ["-map", "0:v:0", "-c", "copy", "-f", "framecrc", "-"]
-    command = [ffmpeg(), "-v", "error", "-nostdin", "-i", f"file:{part}", *copied]
-    try:
-        done = subprocess.run(command, capture_output=True, check=False)
-    except OSError as error:
-        raise not_started(command, error) from error
-    return len(re.findall(rb"^\d", done.stdout, re.MULTILINE)) if done.returncode == 0 else 0
+    lines = told([ffmpeg(), "-v", "error", "-nostdin", "-i", f"file:{part}", *copied])
+    return len(re.findall(rb"^\d", lines, re.MULTILINE))
 
 
 def ffmpeg() -> str:

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import os
 import re
 import signal
 import subprocess
 import sys
+import time
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
-from threading import Semaphore, Thread
+from threading import Event, Semaphore, Thread
 from typing import IO
 
 from linkanim.errors import RecordingFailed
@@ -22,6 +24,8 @@ Frame = bytes | bytearray | memoryview
 
 _PATIENCE = 0.5
 """Seconds after which an encoder that tells of no frame gets one more all the same."""
+_STILL = 60.0
+"""Seconds after which an encoder that takes nothing and tells of nothing is ended."""
 _LAST_WORDS = 8
 _WIDTH = 1 << 20
 _ROOM = 100
@@ -32,6 +36,49 @@ class _GoneError(Exception):
     """The encoder does not read any more; its last lines and its exit code tell why."""
 
 
+class _Watch:
+    """Ends a process that is waited for and gives no sign of progress for `_STILL` seconds."""
+
+    def __init__(self, process: subprocess.Popen[bytes]) -> None:
+        self._process, self._over = process, Event()
+        self._since: float | None = None
+        self._thread = Thread(target=self._look)
+        self._thread.start()
+        self.ended = False
+
+    @contextmanager
+    def waiting(self) -> Iterator[None]:
+        """Count the time of the block as time in which there should be progress."""
+        self._since = time.monotonic()
+        try:
+            yield
+        finally:
+            self._since = None
+
+    def heard(self) -> None:
+        """Begin to count anew: there is progress."""
+        if self._since is not None:
+            self._since = time.monotonic()
+
+    def stop(self) -> None:
+        """Watch no longer."""
+        self._over.set()
+        self._thread.join()
+
+    def refuse_stillness(self) -> None:
+        """Raise `RecordingFailed` where the process was ended for its stillness."""
+        if self.ended:
+            raise RecordingFailed(f"the encoder made no progress for {_STILL:g} s and was ended")
+
+    def _look(self) -> None:
+        while not self._over.wait(_STILL / 20):
+            since = self._since
+            if since is not None and time.monotonic() - since > _STILL:
+                self.ended = True
+                _kill(self._process)
+                return
+
+
 @contextmanager
 def running(command: Sequence[str], *, ahead: int) -> Iterator[Callable[[Frame], None]]:
     """Run the encoder and give the function that writes to it, not too far ahead of what is encoded.
@@ -39,22 +86,24 @@ def running(command: Sequence[str], *, ahead: int) -> Iterator[Callable[[Frame],
     It tells of each frame that it is done with by a line on stdout, and gets no more than `ahead` of
     them; so its memory is the same for few frames and for many. When the block ends well, the encoder
     has; else it is gone.
-    `RecordingFailed` where it cannot be started, stops early or reports an error.
+    `RecordingFailed` where it cannot be started, stops early, stands still or reports an error.
     """
     process = _started(command)
+    watch = _Watch(process)
     room = Semaphore(ahead)
     words: deque[bytes] = deque(maxlen=_LAST_WORDS)
     frames, stdout, stderr = _pipes(process)
     _widen(frames)
     listeners = (
-        Thread(target=_making_room, args=(stdout, room)),
+        Thread(target=_making_room, args=(stdout, room, watch)),
         Thread(target=words.extend, args=(stderr,)),
     )
 
     def write(frame: Frame) -> None:
         room.acquire(timeout=_PATIENCE)
         try:
-            frames.write(frame)
+            with watch.waiting():
+                frames.write(frame)
         except BrokenPipeError as error:
             raise _GoneError from error
 
@@ -63,12 +112,40 @@ def running(command: Sequence[str], *, ahead: int) -> Iterator[Callable[[Frame],
             listener.start()
         with suppress(_GoneError):
             yield write
-        with suppress(BrokenPipeError):
-            frames.close()
-        process.wait()
+        with watch.waiting():
+            with suppress(BrokenPipeError):
+                frames.close()
+            process.wait()
     finally:
+        watch.stop()
         _stop(process, listeners)
+    watch.refuse_stillness()
     _refuse_failure(process.returncode, words)
+
+
+def told(command: Sequence[str]) -> bytes:
+    """Return what a command prints; nothing where it does not end well.
+
+    `RecordingFailed` where it cannot be started or stands still.
+    """
+    process = _started(command)
+    watch = _Watch(process)
+    frames, stdout, stderr = _pipes(process)
+    listener = Thread(target=stderr.read)
+    lines = []
+    try:
+        listener.start()
+        frames.close()
+        with watch.waiting():
+            for line in stdout:
+                watch.heard()
+                lines.append(line)
+            process.wait()
+    finally:
+        watch.stop()
+        _stop(process, [listener])
+    watch.refuse_stillness()
+    return b"".join(lines) if process.returncode == 0 else b""
 
 
 def _started(command: Sequence[str]) -> subprocess.Popen[bytes]:
@@ -77,12 +154,8 @@ def _started(command: Sequence[str]) -> subprocess.Popen[bytes]:
     try:
         return subprocess.Popen(command, stdin=pipe, stdout=pipe, stderr=pipe, start_new_session=True)
     except OSError as error:
-        raise not_started(command, error) from error
-
-
-def not_started(command: Sequence[str], error: OSError) -> RecordingFailed:
-    """Return what to raise where an encoder cannot be started."""
-    return RecordingFailed(f"the encoder {command[0]} cannot be started: {error.strerror or error}")
+        why = error.strerror or error
+        raise RecordingFailed(f"the encoder {command[0]} cannot be started: {why}") from error
 
 
 def _pipes(process: subprocess.Popen[bytes]) -> tuple[IO[bytes], IO[bytes], IO[bytes]]:
@@ -99,9 +172,10 @@ def _widen(pipe: IO[bytes]) -> None:
             fcntl.fcntl(pipe.fileno(), fcntl.F_SETPIPE_SZ, _WIDTH)
 
 
-def _making_room(stdout: IO[bytes], room: Semaphore) -> None:
+def _making_room(stdout: IO[bytes], room: Semaphore, watch: _Watch) -> None:
     for _ in stdout:
         room.release()
+        watch.heard()
     room.release(_ROOM)  # the encoder is gone: whoever waits is to find out
 
 
@@ -122,9 +196,17 @@ def _signal_name(number: int) -> str:
         return f"signal {number}"
 
 
+def _kill(process: subprocess.Popen[bytes]) -> None:
+    """End a process and what it has started, which would keep its pipes open."""
+    if sys.platform != "win32" and process.returncode is None:  # else its number may be another's by now
+        with suppress(OSError):
+            os.killpg(process.pid, signal.SIGKILL)
+    process.kill()
+
+
 def _stop(process: subprocess.Popen[bytes], listeners: Iterable[Thread]) -> None:
     """Leave no process and no thread behind, however the work ended."""
-    process.kill()
+    _kill(process)
     process.wait()
     for listener in listeners:
         if listener.is_alive():

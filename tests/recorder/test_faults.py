@@ -16,6 +16,7 @@ from moving_disc import TWO_SECONDS, MovingDisc, disc
 
 from linkanim.errors import BadInput, RecordingFailed
 from linkanim.recorder import encode, recording
+from linkanim.recorder import process as processes
 from linkanim.recorder.plan import Format
 from linkanim.recorder.recording import write
 
@@ -143,6 +144,43 @@ def test_an_encoder_that_is_not_installed_is_one_line(
     with pytest.raises(RecordingFailed, match="IMAGEIO_FFMPEG_EXE"):
         write(frames, frames.plan, target)
     assert untouched(target.parent)
+
+
+# What an encoder may stand still at: it takes no frame, it takes all and never ends, it cannot be read back.
+STILL = {
+    "taking nothing": "exec sleep 1000",
+    "never ending": "cat >/dev/null; sleep 1000",
+    "one that it has started": "sleep 1000 & wait",
+}
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="a script of a Unix shell")
+@needs_proc
+@pytest.mark.parametrize("name", STILL)
+def test_an_encoder_that_stands_still_is_ended_and_said(
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    encoder = tmp_path / "encoder"
+    encoder.write_text(f"#!/bin/sh\n{STILL[name]}\n")
+    encoder.chmod(0o700)
+    monkeypatch.setattr(encode, "get_ffmpeg_exe", lambda: str(encoder))
+    monkeypatch.setattr(processes, "_STILL", 0.2)
+    frames = disc("mp4")
+    with pytest.raises(RecordingFailed, match=r"made no progress for 0\.2 s and was ended"):
+        write(frames, frames.plan, tmp_path / "disc.mp4")
+    assert [path.name for path in tmp_path.iterdir()] == ["encoder"]
+    assert children(os.getpid()) == []
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="a script of a Unix shell")
+def test_a_file_that_cannot_be_read_back_for_ever_is_given_up(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(processes, "_STILL", 0.2)
+    with pytest.raises(RecordingFailed, match="made no progress"):
+        processes.told(["sh", "-c", "echo 1; sleep 1000"])
+    assert processes.told(["sh", "-c", "echo 1"]) == b"1\n"
+    assert processes.told(["sh", "-c", "echo 1; exit 3"]) == b""
 
 
 def test_missing_frames_are_noticed(target: Path, form: Format, monkeypatch: pytest.MonkeyPatch) -> None:
