@@ -18,10 +18,24 @@ MOST_FRAMES = 100_000
 """Frames of a recording."""
 MOST_POSES = 360
 """Poses of one figure behind its own."""
+MOST_DRAWN = 6_000
+"""Joints in all of them: so many are drawn in some ten seconds."""
+MOST_ASKED = 3_000
+"""Joints in all figures of a round of questions."""
+MOST_CHARTED = 1_000
+"""Quantities of a report with all of them, at each of its speeds."""
+MOST_LISTED = 36
+"""Speeds or angles that are given in a list: each has curves, or tables and figures, of its own."""
+MOST_NUMBERS = 100_000_000
+"""Numbers of a sweep: some 2 GB of CSV."""
+MOST_NUMBERS_READ = 4_000_000
+"""The same of one that is printed to be read, whose columns are known when all rows are."""
 MOST_ACTIONS = 100_000
 """Actions of a tape."""
 LARGEST_SIDE = 16_384
 """Pixels of a picture's width or height; H.264 has no more."""
+MOST_PIXELS = 7680 * 4320
+"""Pixels of a picture; those of a recording, with the frames in flight, take some 2 GB."""
 MOST_DIGITS = 1_000
 """Digits of a number as it is written."""
 MOST_ROWS_READ = 20_000

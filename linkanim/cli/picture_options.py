@@ -30,7 +30,7 @@ def scene_size_target(
     if options.text:
         refuse_latex(target)
     size = options.size or _SIZE
-    refuse_size(size)
+    refuse_size(size, painted=target.suffix.lower() == ".png")
     return in_unit(load(options.scene), getattr(options, "unit", None)), size, target
 
 

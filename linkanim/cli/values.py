@@ -8,7 +8,7 @@ from collections.abc import Callable
 from decimal import Decimal, InvalidOperation
 
 from linkanim import units
-from linkanim.bounds import LARGEST_SIDE, MOST_POSES
+from linkanim.bounds import LARGEST_SIDE, MOST_LISTED, MOST_POSES
 from linkanim.errors import BadInput
 from linkanim.picture.look import TOGGLES
 from linkanim.units import shown
@@ -97,7 +97,10 @@ def angles(text: str) -> tuple[float, ...]:
 
 
 def _several(text: str, read: Callable[[str], float]) -> dict[str, float]:
-    return {" ".join(part.split()): read(part.strip()) for part in text.split(",") if part.strip()}
+    parts = [" ".join(part.split()) for part in text.split(",") if part.strip()]
+    if len(parts) > MOST_LISTED:
+        raise BadInput(f"{len(parts)} values are too many; a list has {MOST_LISTED} at the most")
+    return {part: read(part) for part in parts}
 
 
 def poses(text: str) -> int:

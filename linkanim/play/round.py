@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Sequence
 from random import Random
 
 from linkanim.errors import BadInput, WorkFailed
@@ -18,17 +18,20 @@ _DECIMALS = 4
 """Of a question's phase, in radians, so that it can be typed."""
 
 
-def questions(scenes: Sequence[Scene], count: int, seed: int) -> tuple[QuizQuestion, ...]:
+def questions(
+    scenes: Sequence[Scene], count: int, seed: int, progress: Callable[[int, int], None] = lambda *_: None
+) -> tuple[QuizQuestion, ...]:
     """Return so many questions, the scenes one after the other.
 
     Kinds come in turn, as far as the scene has something to ask of each; none is asked twice of one subject
-    before a scene has nothing else. WorkFailed where a scene has
-    nothing that can be asked, because nothing of it moves clearly.
+    before a scene has nothing else. `progress` is called with (questions made, in all). WorkFailed where a
+    scene has nothing that can be asked, because nothing of it moves clearly.
     """
     found: list[QuizQuestion] = []
     for number in range(count):
         scene = scenes[number % len(scenes)]
         found.append(next_question(scene, f"{seed} {number}", [one.question_id for one in found]))
+        progress(number + 1, count)
     return tuple(found)
 
 

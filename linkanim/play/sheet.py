@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from html import escape
 from math import tau
 
@@ -57,14 +57,19 @@ def as_text(round_: Sequence[QuizQuestion]) -> str:
     return "\n".join(lines)
 
 
-def as_html(round_: Sequence[QuizQuestion], title: str) -> str:
-    """Return a round as one page of HTML with a figure to each question, without a script."""
+def as_html(
+    round_: Sequence[QuizQuestion], title: str, progress: Callable[[int, int], None] = lambda *_: None
+) -> str:
+    """Return a round as one page of HTML with a figure to each question, without a script.
+
+    `progress` is called with (figures drawn, in all).
+    """
     head = f"<meta charset='utf-8'><title>{escape(title)}</title><style>{_STYLE}</style>"
-    body = "\n".join([f"<h1>{escape(title)}</h1>", *_sections(round_), *_key_page(round_, title)])
+    body = "\n".join([f"<h1>{escape(title)}</h1>", *_sections(round_, progress), *_key_page(round_, title)])
     return f"<!doctype html>\n<html lang='en'><head>{head}</head><body>\n{body}\n</body></html>\n"
 
 
-def _sections(round_: Sequence[QuizQuestion]) -> Iterator[str]:
+def _sections(round_: Sequence[QuizQuestion], progress: Callable[[int, int], None]) -> Iterator[str]:
     for number, question in enumerate(round_, 1):
         drawn = Figured(
             question.scene, _SIZE, Look(hud=False, trace=False, names=question.names), question.phase
@@ -76,6 +81,7 @@ def _sections(round_: Sequence[QuizQuestion]) -> Iterator[str]:
             f"<figure>{embedded(drawn, words)}<figcaption>{escape(words)}</figcaption></figure>"
             f"<ol class='answers'>{answers}</ol></section>"
         )
+        progress(number, len(round_))
 
 
 def _key_page(round_: Sequence[QuizQuestion], title: str) -> Iterator[str]:

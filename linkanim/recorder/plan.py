@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Literal, NamedTuple
 
-from linkanim.bounds import LARGEST_SIDE, MOST_FRAMES
+from linkanim.bounds import LARGEST_SIDE, MOST_FRAMES, MOST_PIXELS
 from linkanim.digits import rpm, short
 from linkanim.errors import BadInput
 
@@ -117,13 +117,18 @@ def make_plan(clip: Clip, form: Format) -> Plan:
     return Plan(frames, rate, sign * sweep, clip, closes=clip.seconds is None)
 
 
-def refuse_size(size: tuple[int, int]) -> None:
-    """Raise `BadInput` for a picture that is too small to read or too large to encode."""
+def refuse_size(size: tuple[int, int], *, painted: bool = True) -> None:
+    """Raise `BadInput` for a picture too small to read or too large to encode, or if `painted` to hold."""
     low, high = SIDES
+    width, height = size
     if not all(low <= side <= high for side in size):
-        width, height = size
         raise BadInput(
             f"a size of {width}x{height} cannot be recorded; both sides must be {low} to {high} pixels"
+        )
+    if painted and width * height > MOST_PIXELS:
+        raise BadInput(
+            f"a size of {width}x{height} has {width * height:,} pixels, more than are held at once; "
+            f"{MOST_PIXELS:,} are the most, such as 7680x4320"
         )
 
 

@@ -119,6 +119,28 @@ def _gears(rng: Random) -> Document:
     return {"ground": {"O2": [0, 0], "O4": [rng.choice((0, 50, 1e-28, 1e-9)), 0]}, "joints": joints}
 
 
+def chain(dyads: int, *, weighed: bool = False) -> Document:
+    """Return a crank that moves so many rockers, each by the one before, each with a pin of its own.
+
+    If `weighed` each link between them has a mass, an inertia and its centre of mass beside it.
+    """
+    ground: Document = {"O2": [0, 0]}
+    joints: Document = {"A": {"crank": "O2", "length": 10}}
+    bodies, before = {}, "A"
+    for n in range(1, dyads + 1):
+        name, pin = f"D{n}", f"O{n + 2}"
+        ground[pin] = [40 * n, 0]
+        joints[name] = {"from": [before, pin], "length": [42 if n == 1 else 40, 25], "side": "left"}
+        bodies[f"b{n}"] = {"joints": [before, name], "com": [20, 3], "mass": "1 kg", "inertia": "0.01 kg m^2"}
+        before = name
+    more: Document = {"gravity": "9.81 m/s^2", "bodies": bodies} if weighed and dyads else {}
+    return {"ground": ground, "joints": joints, **more}
+
+
+def _chain(rng: Random) -> Document:
+    return chain(rng.choice((0, 1, 2, 5, 10, 20, 40, 62)), weighed=rng.random() < 0.5)
+
+
 STARTS: Mapping[str, Callable[[Random], Document]] = {
     "typed": _typed,
     "typed again": _typed,
@@ -127,6 +149,7 @@ STARTS: Mapping[str, Callable[[Random], Document]] = {
     "cylinder": _by_a_cylinder,
     "slider": _by_a_slider,
     "gears": _gears,
+    "chain": _chain,
 }
 
 

@@ -4,17 +4,21 @@ from __future__ import annotations
 
 from argparse import Namespace
 
+from linkanim.bounds import MOST_DRAWN
 from linkanim.cli.commands.solve import phase_at
 from linkanim.cli.picture_options import look_of, scene_size_target
+from linkanim.errors import BadInput
 from linkanim.paper.figure import Figured
 from linkanim.paper.latex import labels_path
 from linkanim.paper.write import OF_A_FIGURE, write
+from linkanim.scenes.scene import Scene
 
 
 def run(options: Namespace) -> None:
     """Write the figure that was asked for, and print its path; of a pose of our choice where the input is."""
     scene, size, target = scene_size_target(options, OF_A_FIGURE, ".svg")
     look = look_of(scene, options)
+    _refuse_many(scene, options.poses or 0)
     phase = options.phase if options.angle is None else phase_at(scene, options.angle)
     phase = None if phase is None else float(phase)
     shown = Figured(scene, size, look, phase, options.poses or 0, options.speed)
@@ -24,3 +28,13 @@ def run(options: Namespace) -> None:
         print(labels_path(target))
     if shown.phase is None:
         print(f"{shown.caption}: the joints farthest apart; --angle or --phase for another pose")
+
+
+def _refuse_many(scene: Scene, poses: int) -> None:
+    joints = len(scene.linkage.joints)
+    if poses * joints > MOST_DRAWN:
+        most = MOST_DRAWN // joints
+        raise BadInput(
+            f"--poses {poses}: of {scene.name}, which has {joints} joints, a figure holds {most} poses; "
+            f"take {most} or fewer"
+        )

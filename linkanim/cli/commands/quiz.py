@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 from argparse import Namespace
+from collections.abc import Sequence
 
 from linkanim.atomic_files import checked_target, write_text
+from linkanim.bounds import MOST_ASKED
+from linkanim.cli.commands.record import bar
 from linkanim.errors import BadInput
 from linkanim.export import json_text
 from linkanim.play.question import QuizQuestion
@@ -20,7 +23,8 @@ _MOST = 200
 def run(options: Namespace) -> None:
     """Print the round, or write it as a sheet and print its path.
 
-    `BadInput` for an output that cannot be, and for no questions or too many, before any is made.
+    `BadInput` for an output that cannot be, and for no questions or too many of so large scenes, before any
+    is made.
     """
     target = None if options.output is None else checked_target(options.output, SUFFIXES)
     if not 1 <= options.count <= _MOST:
@@ -28,12 +32,27 @@ def run(options: Namespace) -> None:
     if target and options.json:
         raise BadInput("-o writes a sheet, --json prints a list; leave one of them out")
     scenes, title = _scenes(options.scene)
-    found = questions(scenes, options.count, options.seed)
+    _refuse_many(scenes, options.count)
+    with bar(unit=" questions") as progress:
+        found = questions(scenes, options.count, options.seed, progress)
     if target is None:
         print(json_text([_as_object(one) for one in found], indent=2) if options.json else as_text(found))
         return
-    write_text(target, as_html(found, f"{title}: {len(found)} questions"))
+    with bar(unit=" figures") as progress:
+        page = as_html(found, f"{title}: {len(found)} questions", progress)
+    write_text(target, page)
     print(target)
+
+
+def _refuse_many(scenes: Sequence[Scene], count: int) -> None:
+    """Refuse more questions than can be made, and drawn, of scenes of so many joints."""
+    joints = sum(len(scene.linkage.joints) for scene in scenes) / len(scenes)
+    if count * joints > MOST_ASKED:
+        most = max(int(MOST_ASKED / joints), 1)
+        raise BadInput(
+            f"-n {count}: of scenes of {joints:.0f} joints a round has {most} questions at the most; "
+            f"take {most} or fewer"
+        )
 
 
 def _scenes(name: str) -> tuple[tuple[Scene, ...], str]:

@@ -5,12 +5,15 @@ from __future__ import annotations
 from argparse import Namespace
 from pathlib import Path
 
+from linkanim.bounds import MOST_CHARTED
 from linkanim.cli.commands.chart import paces
+from linkanim.errors import BadInput
 from linkanim.manifest import FileSet, replacing
 from linkanim.paper.findings import instants_at, usual_instants
 from linkanim.paper.report import Report
 from linkanim.scenes import load
 from linkanim.scenes.editing.shown_unit import in_unit
+from linkanim.scenes.scene import Scene
 
 _ALWAYS = ("report.html", "figure.svg")
 _OURS = r"report\.html|figure\.svg|loops\.svg|chart-\d{3,}-[\w.-]+\.svg|quantities-\d+\.csv"
@@ -28,7 +31,20 @@ def run(options: Namespace) -> None:
     with replacing(files, _ALWAYS) as folder:
         scene = in_unit(load(options.scene), options.unit)
         instants = instants_at(scene, options.angles) if options.angles else usual_instants(scene)
+        if options.all:
+            _refuse_many(scene, len(paces(scene, options)))
         report = Report(scene, instants, paces(scene, options), options.digits, options.all)
         for name, text in report.files():
             (folder / name).write_text(text, encoding="utf-8")
     print(target / "report.html")
+
+
+def _refuse_many(scene: Scene, speeds: int) -> None:
+    """Refuse tables and charts of more quantities than a report holds."""
+    count = len(scene.quantities) * speeds
+    if count > MOST_CHARTED:
+        at = f" at {speeds} speeds" * (speeds > 1)
+        raise BadInput(
+            f"--all: {scene.name} has {len(scene.quantities):,} quantities{at}, and a report holds "
+            f"{MOST_CHARTED:,}; leave it out, or write those that you want with `linkanim chart --quantity`"
+        )

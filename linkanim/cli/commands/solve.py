@@ -14,6 +14,7 @@ from typing import TextIO
 import numpy as np
 
 from linkanim.atomic_files import checked_target, replacing
+from linkanim.bounds import MOST_NUMBERS, MOST_NUMBERS_READ
 from linkanim.cli import table
 from linkanim.cli.options import EVERY_ANGLE
 from linkanim.cli.solved import Leaf, RowBlock, Steps, Tree, blocks, input_key, leaves, rows, tree
@@ -48,6 +49,8 @@ def run(options: Namespace) -> None:
     target = None if options.csv in (None, "-") else checked_target(options.csv, (".csv",))
     scene = in_unit(load(options.scene), options.unit)
     speed = scene.linkage.drive.speed if options.speed is None else options.speed
+    if inputs.steps is not None:
+        _refuse_many(scene, inputs.steps.rows, shown=not (options.csv or options.json))
     found = _blocks(scene, inputs, speed, options.acceleration)
     if options.csv:
         _write_csv(target, inputs.by, found)
@@ -78,6 +81,21 @@ def _inputs(options: Namespace) -> Inputs:
     if len(given) != 1:
         raise BadInput('say where to solve: one of --angle "87 deg", --phase "87 deg" and --sweep 0:360:1')
     return Inputs(*given[0])
+
+
+def _refuse_many(scene: Scene, rows: int, *, shown: bool) -> None:
+    """Refuse a sweep of more numbers than are written, or shown to be read."""
+    numbers = rows * sum(1 for _ in leaves(tree(scene, scene.cycle(1))))
+    most, way_out = (
+        (MOST_NUMBERS_READ, "write them with --csv or --json, or take a longer step")
+        if shown
+        else (MOST_NUMBERS, "take a longer step, or sweep it in parts")
+    )
+    if numbers > most:
+        raise BadInput(
+            f"--sweep: {rows:,} rows of {scene.name} have {numbers:,} numbers, and {most:,} are the most; "
+            f"{way_out}"
+        )
 
 
 def _blocks(scene: Scene, inputs: Inputs, speed: float, acceleration: float) -> Iterator[RowBlock]:
