@@ -16,7 +16,6 @@ from linkanim.mechanics.formulas.program import Array
 from linkanim.mechanics.linkage.joint import Point
 from linkanim.mechanics.linkage.linkage import Body
 from linkanim.mechanics.linkage.rigid_bodies import holding
-from linkanim.mechanics.motion.measures import pivots_of, pole
 from linkanim.mechanics.motion.motion import Motion, Pose
 from linkanim.picture.figure import Figure, figure
 from linkanim.picture.look import Look
@@ -153,16 +152,14 @@ class Puzzle:
 
     def pivot_of(self, joint: str) -> str | None:
         """Return the fixed pin about which a joint turns; None where there is none."""
-        frames = [frame for frame in self.scene.linkage.rigid_bodies[1:] if joint in frame]
-        pins = (pin.name for frame in frames for pin in self.scene.linkage.pins if pin.name in frame)
-        return next((pin for pin in pins if pin != joint), None)
+        linkage = self.scene.linkage
+        pins = (linkage.pivot(frame) for frame in linkage.rigid_bodies[1:] if joint in frame)
+        return next((pin for pin in pins if pin not in (None, joint)), None)
 
     def centre_of(self, body: Body) -> tuple[complex, str]:
         """Return about which place a body turns at the pose, and what that is called; infinite where none."""
-        pins = pivots_of(self.scene.linkage, body)
-        if pins:
-            return self.vector("position", pins[0]), pins[0]
-        return complex(*map(float, pole(self.pose, body))), f"the instant centre of the {self.name(body)}"
+        place = complex(self.value(f"{body.name}.pole.x"), self.value(f"{body.name}.pole.y"))
+        return place, self.scene.linkage.pivot(body.joints) or f"the instant centre of the {self.name(body)}"
 
     def name(self, body: Body) -> str:
         """Return what a body is called, with its number where the scene gives one."""

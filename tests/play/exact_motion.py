@@ -23,6 +23,8 @@ from linkanim.scenes.scene import Scene
 DIGITS = 60
 SAMPLES = 180
 """Of a true period, where greatest values are sought."""
+NUDGE = mpf(10) ** -30
+"""Added to every phase: where two joints meet neither has a direction from the other."""
 STEP = 2.0**-17
 """Of the differences, in radians of the phase: five points of it are off by its fourth power."""
 _TOUCHING = mpf(10) ** -3
@@ -66,9 +68,8 @@ class ExactMotion:
         phase = mpf(phase)
         if phase not in self._known:
             with mp.workdps(DIGITS):
-                self._known[phase] = places(
-                    self.scene.linkage, self.coordinate(phase), self.signs(float(phase))
-                )
+                coordinate, signs = self.coordinate(phase), self.signs(float(phase))
+                self._known[phase] = places(self.scene.linkage, coordinate, signs)
         return self._known[phase]
 
     def rate(self, of: Callable[[dict[str, Place]], Any], phase: float, order: int = 1) -> Any:
@@ -136,6 +137,7 @@ class ExactMotion:
         """Return the crank's angle at a phase, or how far the slider that drives has travelled."""
         drive = self.scene.linkage.drive
         with mp.workdps(DIGITS):
+            phase = mpf(phase) + NUDGE
             if self.turns_fully:
                 return mpf(drive.start) + phase
             low, high = (end.coordinate for end in self._stroke)

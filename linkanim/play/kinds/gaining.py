@@ -10,8 +10,10 @@ import numpy as np
 
 from linkanim.mechanics.formulas.program import Array
 from linkanim.mechanics.linkage.joint import Slide
+from linkanim.mechanics.linkage.rigid_bodies import holding
 from linkanim.mechanics.motion.measures import between as way_between
 from linkanim.mechanics.motion.measures import growth, output_body
+from linkanim.mechanics.motion.settled import said
 from linkanim.picture.look import ACCELERATION, VELOCITY, Look
 from linkanim.play.kinds.wording import number
 from linkanim.play.question import CLEAR, PLAIN, Puzzle, QuizAnswer, QuizQuestion, either
@@ -230,10 +232,16 @@ def _sliding(puzzle: Puzzle) -> Iterator[tuple[str, str, bool]]:
 
 
 def _slides(puzzle: Puzzle, slide: Slide) -> bool:
-    """Return whether a joint clearly slides along its guide."""
+    """Return whether a joint clearly slides along its guide: what is rigid with it does not."""
     ends = (slide.start or slide.line.through, slide.point)
+    if holding(puzzle.scene.linkage.rigid_bodies, ends) is not None:
+        return False
     rates = [
-        growth(way_between(found.position, ends), way_between(found.velocity, ends))
+        np.abs(
+            said(
+                found, growth(*(way_between(at, ends) for at in (found.position, found.velocity))), "{}/s", 1
+            )
+        )
         for found in (puzzle.cycle, puzzle.pose)
     ]
-    return bool(abs(rates[1]) > PLAIN * float(np.nanmax(abs(rates[0]))))
+    return bool(rates[1] > PLAIN * float(np.nanmax(rates[0])))
