@@ -125,10 +125,12 @@ class Puzzle:
 
     @property
     def turning(self) -> tuple[Body, ...]:
-        """The bodies that turn other than by a crank, those of cranks where there are no others."""
-        bodies = [body for body in self.scene.linkage.bodies if body.slider is None]
-        driven = [body for body in bodies if not self.scene.linkage.crank_of(body)]
-        return tuple(driven or bodies)
+        """The bodies that turn other than as the input does, geared cranks where there are no others."""
+        linkage = self.scene.linkage
+        cranks = {body: linkage.crank_of(body) for body in linkage.bodies if body.slider is None}
+        driven = [body for body, crank in cranks.items() if crank is None]
+        geared = [body for body, crank in cranks.items() if crank and crank.gear]
+        return tuple(driven or geared)
 
     @property
     def joints(self) -> tuple[str, ...]:
@@ -159,16 +161,16 @@ class Puzzle:
     def centre_of(self, body: Body) -> tuple[complex, str]:
         """Return about which place a body turns at the pose, and what that is called; infinite where none."""
         place = complex(self.value(f"{body.name}.pole.x"), self.value(f"{body.name}.pole.y"))
-        return place, self.scene.linkage.pivot(body.joints) or f"the instant centre of the {self.name(body)}"
+        return place, self.scene.linkage.pivot(body.joints) or f"the instant centre of {self.name(body)}"
 
     def name(self, body: Body) -> str:
         """Return what a body is called, with its number where the scene gives one."""
         called = self.scene.info.link_names[body.name]
         if called in _ADJECTIVES:
-            return f"{called} link"
-        if called == body.name:
-            return called if len(called) > 2 and called.islower() else f"link {called}"
-        return f"{called} ({body.name})" if body.name.isdecimal() else called
+            return f"the {called} link"
+        if called != body.name:
+            return f"the {called} ({body.name})" if body.name.isdecimal() else f"the {called}"
+        return f"the {called}" if len(called) > 2 and called.islower() else f"link {called}"
 
     def value(self, token: str) -> float:
         """Return what a quantity says at the pose: 0 of nothing, infinite where it is not bounded."""

@@ -80,6 +80,7 @@ class Checked:
         if len(set(drawn)) != 1:
             yield f"some of its answers are drawn: {drawn}"
         yield from KEYS[self.question.kind](self)
+        yield from self.reasons()
         for answer in self.wrong:
             if answer.slip and not self._from(answer):
                 yield f"{answer.text!r} does not come of {answer.slip!r}"
@@ -181,7 +182,7 @@ class Checked:
             yield from self.grows(1 if isinstance(strut, Spring) else 2, self.pull(strut))
 
     def pull(self, strut: Spring | Damper) -> float:
-        """Return the force of a spring or of a damper, in N; 0 where it is but rounding."""
+        """Return how large the force of a spring or damper is, in N; 0 where it is but rounding."""
         one, other = strut.between
         metre = self.question.scene.linkage.metre
         here = self.motion.at(self.phase)
@@ -189,10 +190,10 @@ class Checked:
             assert strut.stiffness is not None
             assert strut.free_length is not None
             longer = float(abs(here[other] - here[one]) - strut.free_length)
-            return strut.stiffness * metre * longer if abs(longer) > REST * self.motion.size else 0.0
+            return abs(strut.stiffness * metre * longer) if abs(longer) > REST * self.motion.size else 0.0
         rate = float(self.motion.rate(lambda at: abs(at[other] - at[one]), self.phase))
         assert strut.coefficient is not None
-        return strut.coefficient * metre * rate if self.clear(rate) else 0.0
+        return abs(strut.coefficient * metre * rate) if self.clear(rate) else 0.0
 
     def grows(self, factor: int, value: float | None) -> Iterator[str]:
         if value == 0:
@@ -202,6 +203,7 @@ class Checked:
         if value is not None:
             yield from self.told(r"([−\d.e]+)(?: N)? becomes", value)
             yield from self.told(r"becomes (\S+) ", factor * value)
+            yield from self.told(r"stays (\S+) ", factor * value)
 
     def instant_centre(self) -> Iterator[str]:
         body = self.bodies[self.question.subject]
@@ -495,15 +497,86 @@ class Checked:
             return slide.start is None
         if f"the slot at {slide.start}" in words:
             return slide.axis is None
-        called = self.question.scene.info.link_names
         axis = set(slide.axis) if slide.axis else set()
         bodies = (body for body in self.bodies.values() if axis and axis <= {*body.joints})
-        return any(called[body.name] in words for body in bodies)
+        return any(f"along {name}." in words for body in bodies for name in self.called(body))
+
+    def called(self, body: Body) -> tuple[str, ...]:
+        """Return the words that may stand for a body."""
+        word = self.question.scene.info.link_names[body.name]
+        return f"the {word}", f"the {word} ({body.name})", f"the {word} link", f"link {word}"
 
     def sliding(self, start: str, point: str, turning: float) -> float:
         """Return how fast a point goes, seen from the plane of a joint that turns so."""
         arm = self.place(point) - self.place(start)
         return abs(self.velocity(point) - self.velocity(start) - 1j * turning * arm)
+
+    # what reasons tell
+
+    def reasons(self) -> Iterator[str]:
+        """Yield what is wrong in the places, ways, ratios and bars that a reason names."""
+        why = self.question.why
+        for second, side, first, way in re.findall(
+            r"(\S+) lies (above|below|to the left of|to the right of) (\S+) and moves (.+?):", why
+        ):
+            yield from self.beside(self.place(second) - self.place(first), side)
+            yield from self.towards(self.velocity(second) - self.velocity(first), way)
+        for first, second, side, way in re.findall(
+            r"Seen from (\S+), (\S+) lies (above|below|on the left|on the right) and moves (.+?):", why
+        ):
+            yield from self.beside(self.place(second) - self.place(first), side)
+            yield from self.towards(self.velocity(second) - self.velocity(first), way)
+        for turns, about, side in re.findall(
+            r"It turns (\w+) about (.+) and lies (above|below|to the left of|to the right of) it", why
+        ):
+            yield from self.about(turns, about, side)
+        for one, other, _, times in re.findall(
+            r"(\S+) and (\S+) turn with the same ω about (.+), and \1 is ([\d.]+) times", why
+        ):
+            ratio = abs(self.velocity(one)) / abs(self.velocity(other))
+            if not isclose(ratio, number(times), rel_tol=SAME, abs_tol=0.006):
+                yield f"its reason says {times} of {ratio}"
+        for end, joint, what in re.findall(r"moves the bar (\S+)–(\S+) .*: it (pushes|pulls)", why):
+            arm = self.place(joint) - self.place(end)
+            if ((arm.conjugate() * self.velocity(end)).real > 0) != (what == "pushes"):
+                yield f"its reason has {end} {what} {joint}"
+        for a, b, c, d in re.findall(r"there (\S+)–(\S+) and (\S+)–(\S+) lie in one line", why):
+            yield from self.in_line((a, b), (c, d))
+
+    def beside(self, arm: complex, side: str) -> Iterator[str]:
+        ways = {"above": 1j, "below": -1j, "left": -1, "right": 1}
+        word = next(word for word in ways if word in side)
+        if self.apart(arm, ways[word]) > 45.1:
+            yield f"its reason says {side} of {arm}"
+
+    def towards(self, velocity: complex, way: str) -> Iterator[str]:
+        if self.apart(velocity, WAYS[way]) > 45.1:
+            yield f"its reason has {velocity} go {way}"
+
+    def about(self, turns: str, about: str, side: str) -> Iterator[str]:
+        """Yield that a point does not turn so about a pin, or about the instant centre of its link."""
+        subject, pins = self.question.subject, {pin.name for pin in self.question.scene.linkage.pins}
+        arms = [self.place(subject) - self.place(about)] if about in pins else []
+        if not arms:
+            bodies = [
+                body
+                for body in self.bodies.values()
+                if body.joints and about in {f"the instant centre of {name}" for name in self.called(body)}
+            ]
+            arms = [self.place(subject) - self.pole(body) for body in bodies]
+        velocity = self.velocity(subject)
+        across = [arm for arm in arms if abs(self.apart(velocity, arm) - 90) < 0.1]
+        if not across or ((across[0].conjugate() * velocity).imag > 0) != (turns == "counterclockwise"):
+            yield f"its reason has it turn {turns} about {about}"
+        else:
+            yield from self.beside(across[0], side)
+
+    def in_line(self, bar: tuple[str, str], other: tuple[str, str]) -> Iterator[str]:
+        for angle in re.findall(r"[\d.]+(?=°)", self.question.why):
+            at = self.motion.at(radians(number(angle)) - self.question.scene.linkage.drive.start)
+            turn = complex((at[bar[1]] - at[bar[0]]) / (at[other[1]] - at[other[0]]))
+            if abs(turn.imag) > 0.01 * abs(turn):
+                yield f"at {angle}° its bars are not in one line"
 
     # numbers that are told
 
@@ -625,19 +698,7 @@ class Checked:
     def other_swing(self, answer: QuizAnswer, name: str) -> bool:
         """The swing of another link, of that name."""
         swing = swing_of(answer.text)
-        called = self.question.scene.info.link_names
-        bodies = [
-            body
-            for body in self.bodies.values()
-            if not body.slider
-            and name
-            in (
-                called[body.name],
-                f"link {body.name}",
-                f"{called[body.name]} ({body.name})",
-                f"{called[body.name]} link",
-            )
-        ]
+        bodies = [body for body in self.bodies.values() if not body.slider and name in self.called(body)]
         return swing is not None and any(
             near(self.swing_of_body(body), swing, 0.06, turns=True) for body in bodies
         )
@@ -667,19 +728,11 @@ class Checked:
 
     def dead_centres(self, answer: QuizAnswer, name: str) -> bool:
         """Between the crank angles at which the output turns back."""
-        swing, called = swing_of(answer.text), self.question.scene.info.link_names
-        if swing is None:
-            return False
-        for body in self.bodies.values():
-            if name in (
-                called[body.name],
-                f"link {body.name}",
-                f"{called[body.name]} ({body.name})",
-                f"{called[body.name]} link",
-            ):
-                rates = [self.rates_around(body, end) for end in swing]
-                if all(one * other < 0 for one, other in rates):
-                    return True
+        swing = swing_of(answer.text)
+        for body in (body for body in self.bodies.values() if name in self.called(body)):
+            rates = [self.rates_around(body, end) for end in swing or ()]
+            if rates and all(one * other < 0 for one, other in rates):
+                return True
         return False
 
     def rates_around(self, body: Body, angle: float) -> tuple[float, float]:
@@ -780,8 +833,8 @@ MISCONCEPTIONS: dict[str, dict[str, Callable[..., bool]]] = {
         r"a limit seen where the loop still closes": Checked.still_closes,
         r"the limit overlooked: beyond it the loop does not close": Checked.limit_overlooked,
         r"the stroke of the drive overlooked": Checked.stroke_overlooked,
-        r"the swing of the (.*) taken for that of the input": Checked.other_swing,
-        r"the dead centres of the (.*) taken for limits of the crank": Checked.dead_centres,
+        r"the swing of (.*) taken for that of the input": Checked.other_swing,
+        r"the dead centres of (.*) taken for limits of the crank": Checked.dead_centres,
         r"the angles counted clockwise": Checked.mirrored,
         r"the swing counted from its own limit": Checked.from_its_limit,
     },

@@ -88,16 +88,18 @@ def force(puzzle: Puzzle) -> QuizQuestion | None:
     for items, factor in ((known.springs, 1), (known.dampers, 2)):
         for item in items:
             if item.forceful and abs(puzzle.share(f"{item.name}.force")) > PLAIN:
-                clear.append((item, factor, puzzle.value(f"{item.name}.force")))
+                clear.append((item, factor, abs(puzzle.value(f"{item.name}.force"))))
     if clear:
         item, factor, value = puzzle.random.choice(clear)
-        power = "the speed itself" if factor == 2 else "its length alone, which is the same there"
+        why = f"It goes with its length alone, which is the same there: it stays {number(value)} N."
+        if factor == 2:
+            why = f"It goes with the speed itself: {number(value)} N becomes {number(factor * value)} N."
         return _growing(
             puzzle,
             item.name,
             f"How large is the force of the {known.strut_words(item)} in the same place?",
             factor,
-            f"It goes with {power}: {number(value)} N becomes {number(factor * value)} N.",
+            why,
             Look(names=1, chart=f"{item.name}.force"),
         )
     names = puzzle.clear("acceleration")
@@ -163,7 +165,7 @@ def curves(puzzle: Puzzle) -> QuizQuestion | None:
     token = f"{body.name}.{tokens[which]}"
     return puzzle.question(
         token,
-        f"Over one period, which curve is the {right} of the {puzzle.name(body)}?",
+        f"Over one period, which curve is the {right} of {puzzle.name(body)}?",
         answers.pop(which),
         answers,
         f"Where the {_ORDERS[which - 1]} has its extremes the {right}, its steepness, is zero.",
@@ -228,7 +230,7 @@ def _sliding(puzzle: Puzzle) -> Iterator[tuple[str, str, bool]]:
                 (one for one in carriers if abs(puzzle.share(f"{one.name}.angular_velocity")) > PLAIN), None
             )
             if body is not None:
-                yield slide.point, f"the {puzzle.name(body)}", True
+                yield slide.point, puzzle.name(body), True
 
 
 def _slides(puzzle: Puzzle, slide: Slide) -> bool:

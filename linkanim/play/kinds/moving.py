@@ -32,7 +32,7 @@ def turning(puzzle: Puzzle) -> QuizQuestion | None:
     misled = " The input turns the other way: a chain does not hand on directions." if against else ""
     return puzzle.question(
         body.name,
-        f"Which way does the {puzzle.name(body)} turn?",
+        f"Which way does {puzzle.name(body)} turn?",
         *either(TURNS, rate > 0, slip),
         f"{_why_turning(puzzle, body, rate)}{misled}",
         shows=_ARROWS,
@@ -50,7 +50,7 @@ def _why_turning(puzzle: Puzzle, body: Body, rate: float) -> str:
     lies = f"{second} lies {SIDES[place]} {first}"
     if not is_fixed[first]:
         lies = f"Seen from {first}, {second} lies {BESIDE[place]}"
-    turns = f"the {puzzle.name(body)} turns {TURNS[rate < 0]}, with {number(abs(rate))} rad/s"
+    turns = f"{puzzle.name(body)} turns {TURNS[rate < 0]}, with {number(abs(rate))} rad/s"
     return f"{lies} and moves {WAYS[way]}: {turns}."
 
 
@@ -204,7 +204,7 @@ def instant_centre(puzzle: Puzzle) -> QuizQuestion | None:
     )
     return puzzle.question(
         body.name,
-        f"Where is the instant centre of the {puzzle.name(body)}?",
+        f"Where is the instant centre of {puzzle.name(body)}?",
         right,
         wrong,
         _why_pole(puzzle, body, centre),
@@ -219,7 +219,7 @@ def _why_pole(puzzle: Puzzle, body: Body, centre: complex) -> str:
     """Return why a body's instant centre is there, by the velocities of its first two joints."""
     one, other = body.joints[:2]
     arms = [puzzle.vector("position", name) - centre for name in (one, other)]
-    still = f"the point of the {puzzle.name(body)} in that place stands still at this instant."
+    still = f"the point of {puzzle.name(body)} in that place stands still at this instant."
     if abs((arms[0].conjugate() * arms[1]).imag) > CLEAR * abs(arms[0] * arms[1]):
         return f"The normals to the velocities of {one} and {other} meet there: {still}"
     return f"Along the line through {one} and {other} the velocities fall to nothing there: {still}"

@@ -46,7 +46,7 @@ def dead_centre(puzzle: Puzzle) -> QuizQuestion | None:
         return None
     return puzzle.question(
         body.name,
-        f"At which crank angle does the {puzzle.name(body)} turn back?",
+        f"At which crank angle does {puzzle.name(body)} turn back?",
         QuizAnswer(angle(right)),
         [QuizAnswer(angle(one), slips.get(one, "")) for one in wrong],
         f"Its velocity changes its sign at {' and '.join(map(angle, exact))}{_in_line(puzzle, body, exact)}.",
@@ -132,14 +132,14 @@ def _taken_for_range(puzzle: Puzzle, own: Swing | None) -> Iterator[tuple[str, S
     if body is not None and body.slider is None and body.name not in info.turning_links:
         angles = np.degrees(puzzle.values(f"{body.name}.angle"))
         if np.ptp(angles) > _SWINGS_APART:
-            slip = f"the swing of the {puzzle.name(body)} taken for that of the input"
+            slip = f"the swing of {puzzle.name(body)} taken for that of the input"
             yield slip, (float(angles.min()), float(angles.max()))
     if own is not None:
         yield "the angles counted clockwise", (-own[1], -own[0])
         yield "the swing counted from its own limit", (0.0, own[1] - own[0])
         return
     if body is not None and len(ends := sorted(_turning_back(puzzle, body))) == 2:
-        yield f"the dead centres of the {puzzle.name(body)} taken for limits of the crank", (ends[0], ends[1])
+        yield f"the dead centres of {puzzle.name(body)} taken for limits of the crank", (ends[0], ends[1])
     for _ in range(MOST):
         low = puzzle.random.uniform(-90, 90)
         yield "a limit seen where the loop still closes", (low, low + puzzle.random.uniform(100, 200))
@@ -154,7 +154,8 @@ def _why_fully(puzzle: Puzzle) -> str:
         against = "both links that turn on it" if bar.shortest == "ground" else "it"
         return f"{info.grashof}, and the shortest link is the {bar.shortest}: {against} can turn fully."
     if info.transmission is None:
-        return "There is no loop that could hold it."
+        slides = any(joint.slides for joint in puzzle.scene.linkage.joints)
+        return f"What it drives {'slides as far as it is taken' if slides else 'turns with it all the way'}."
     least = floor(10 * degrees(info.transmission.least)) / 10
     if least > 0:
         return (

@@ -35,7 +35,7 @@ def number(value: float) -> str:
 
 def angle(value: float) -> str:
     """Return an angle of a full turn, in degrees."""
-    return f"{value % 360:.1f}°"
+    return f"{round(value, 1) % 360:.1f}°"
 
 
 def swing(low: float, high: float) -> str:
@@ -55,4 +55,4 @@ def between(one: float, other: float) -> float:
 
 def crank_degrees(puzzle: Puzzle, at: float) -> float:
     """Return the input's angle at a phase, 0 to 360."""
-    return degrees(puzzle.scene.pose(at, 0).coordinate) % 360
+    return round(degrees(puzzle.scene.pose(at, 0).coordinate), 9) % 360
