@@ -16,7 +16,7 @@ from linkanim.mechanics.facts.register import Quantity
 from linkanim.mechanics.motion.motion import Motion
 from linkanim.picture.diagrams.axis import Axis, linear
 from linkanim.picture.diagrams.course import Floats, course, gain_of, input_title
-from linkanim.picture.diagrams.quantities import quantity, series_of
+from linkanim.picture.diagrams.quantities import broken, quantity, series_of
 from linkanim.picture.look import Over
 from linkanim.scenes.scene import Scene
 
@@ -119,8 +119,9 @@ def _there_and_back(scene: Scene, over: Over | None) -> bool:
 def _of(scene: Scene, one: Quantity, pace: Pace, over: Over | None, cycle: Motion) -> Iterator[Curve]:
     """Yield the curve of a quantity, or one for each component of a vector."""
     series = series_of(scene, one, cycle.paced(pace.speed / scene.linkage.drive.speed))
+    series = broken(series, one, cycle)
     if _there_and_back(scene, over):
-        angle = np.degrees(cycle.coordinate)
+        angle = np.degrees(scene.solve(phase=series.phases, derivatives=0).coordinate)
         x, phases = np.append(angle, angle[0]), np.append(series.phases, scene.period)
         values = np.vstack([series.values, series.values[0] + gain_of(series)])
     else:

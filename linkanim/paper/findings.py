@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import cache
-from math import copysign, degrees, inf, tau
+from math import degrees, tau
 from typing import NamedTuple
 
 import numpy as np
@@ -17,10 +17,6 @@ from linkanim.mechanics.motion.measures import output_body, output_slider
 from linkanim.paper.curves import SAMPLES, Pace, curves_of, extremes
 from linkanim.scenes.scene import Scene
 
-_LEVEL = 1e-9
-"""Of a quantity's greatest size; what changes less over the cycle has no chart."""
-_NOTHING = 1e-7
-"""Of the size that a quantity has half of the time: what is less is nothing, as much more unbounded."""
 _SAMPLES = 180
 _BESIDE = tau / SAMPLES
 """How far from an extreme as it is read off a curve its rate changes its sign, in radians at the most."""
@@ -95,42 +91,20 @@ def _at_rest(scene: Scene, rate: tuple[str, str], near: float) -> float:
 
 
 class Values:
-    """Quantities at an instant: 0 for what is rounding errors, infinite for what is unbounded there.
-
-    What is so small, or so large, beside what it is over the cycle: a slider's speed at its dead centre, and
-    the mechanical advantage there.
-    """
+    """Quantities at an instant, and whether they change over the cycle."""
 
     def __init__(self, scene: Scene) -> None:
-        self.scene, cycle = scene, scene.cycle(_SAMPLES)
-        # each serves every quantity, or every instant
+        self.scene, self._cycle = scene, scene.cycle(_SAMPLES)
+        # each serves every quantity
         self._motion = cache(lambda phase, speed: scene.solve(phase=phase, speed=speed))
-        self._cycle = cache(lambda speed: cycle.paced(speed / scene.linkage.drive.speed))
-        self._usual = cache(self._size)
 
     def of(self, quantity: Quantity, instant: Instant, pace: Pace) -> float:
         """Return the value of one number as people read it, NaN where it has none."""
-        value = float(quantity.shown(self._motion(instant.phase, pace.speed)))
-        usual, nothing = self._usual(quantity.token, pace.speed)
-        if abs(value) <= max(_NOTHING * usual, nothing):
-            return 0.0
-        return copysign(inf, value) if usual and abs(value) > usual / _NOTHING else value
+        return float(quantity.shown(self._motion(instant.phase, pace.speed)))
 
     def changes(self, quantity: Quantity) -> bool:
         """Whether a quantity has more than one value over the cycle, rounding errors aside."""
-        cycle = self._cycle(self.scene.linkage.drive.speed)
-        values = np.asarray(quantity.read(cycle), float)
-        known = values[np.isfinite(values)]
-        return bool(
-            known.size and np.ptp(known) > max(_LEVEL * np.abs(known).max(), quantity.rounding(cycle))
-        )
-
-    def _size(self, token: str, speed: float) -> tuple[float, float]:
-        """Return what size a quantity has half of the time, and how large its rounding errors are."""
-        quantity, cycle = self.scene.quantities[token], self._cycle(speed)
-        sizes = np.abs(np.asarray(quantity.shown(cycle), float))
-        known = sizes[np.isfinite(sizes)]
-        return float(np.median(known)) if known.size else 0.0, quantity.rounding(cycle)
+        return quantity.changes(self._cycle)
 
 
 def sheet(values: Values, instant: Instant, paces: tuple[Pace, ...], digits: int) -> dict[str, list[Finding]]:

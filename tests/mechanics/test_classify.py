@@ -344,3 +344,15 @@ def test_the_stroke_is_that_of_the_slider_that_is_moved_not_of_the_one_that_driv
     assert scene.info.stroke == pytest.approx(float(np.ptp(travel)), rel=1e-6)
     assert scene.info.stroke == pytest.approx(73.155, abs=1e-3)
     assert load("driven-piston").info.stroke == pytest.approx(100.0, rel=1e-12)
+
+
+def test_links_of_a_sort_are_counted_in_english() -> None:
+    scene = load("crank-rocker")
+    count = 33
+    bodies = {f"coupler{n}": {"joints": ["A", "B"]} for n in range(2, count + 1)}
+    many = scene_from({**scene.document, "bodies": bodies}, name="many", where="many")
+    words = [name for name in many.info.link_names.values() if name.endswith("coupler")]
+    assert words[:4] == ["coupler", "second coupler", "third coupler", "4th coupler"]
+    assert [words[n - 1].split()[0] for n in (11, 12, 13, 21, 22, 23, 31, 33)] == [
+        "11th", "12th", "13th", "21st", "22nd", "23rd", "31st", "33rd",
+    ]  # fmt: skip

@@ -172,3 +172,35 @@ def test_an_extreme_beside_a_cusp_has_a_value() -> None:
     peaks = extremes(scene, curve)
     assert len(peaks) == 2
     assert all(np.isfinite([peak.value, peak.x, peak.angle]).all() for peak in peaks)
+
+
+# What is somewhere unbounded, at an instant or between two, has no greatest value; what is one value none.
+@pytest.mark.parametrize(
+    ("name", "token"),
+    [
+        ("crank-rocker", "mechanical_advantage"),
+        ("engine", "mechanical_advantage"),
+        ("hoecken", "P.curvature_radius"),
+        ("watt-line", "P.curvature_radius"),
+        ("crank-rocker", "coupler.pole.x"),
+        ("double-rocker", "coupler.coefficient"),
+        ("double-rocker", "B.curvature_radius"),
+        ("triple-rocker-in-out", "B.curvature_radius"),
+        ("watt-line", "A.curvature_radius"),
+        ("excavator", "stick.length"),
+    ],
+)
+def test_no_extreme_is_marked_of_what_is_unbounded_or_of_one_value(name: str, token: str) -> None:
+    scene = load(name)
+    (curve,) = curves_of(scene, (token,), (Pace(scene.linkage.drive.speed, ""),)).curves
+    assert extremes(scene, curve) == ()
+
+
+def test_a_curve_is_broken_where_it_goes_through_infinity_between_two_samples() -> None:
+    scene = load("crank-rocker")
+    (curve,) = curves_of(scene, ("mechanical_advantage",), (Pace(2.0, ""),)).curves
+    assert np.isinf(curve.values).sum() == 2
+    breaks = curve.phases[np.isinf(curve.values)]
+    rates = scene.solve(phase=breaks).angular_velocity["rocker"]
+    assert rates == pytest.approx(0.0, abs=1e-12)
+    assert (np.diff(curve.x) >= 0).all()

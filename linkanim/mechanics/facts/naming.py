@@ -40,6 +40,7 @@ GRASHOF = {
 _PARTS = re.compile(r"(crank|rocker|coupler|drag)\d*")
 """The names of bodies that say what they do."""
 _ORDINALS = {2: "second", 3: "third"}
+_ENDINGS = {1: "st", 2: "nd", 3: "rd"}
 
 
 @dataclass(frozen=True)
@@ -264,4 +265,5 @@ def _part_of(cycle: Motion, body: Body) -> tuple[str | None, bool]:
 def _counted(words: str, number: int) -> str:
     if number == 1:
         return words
-    return f"{_ORDINALS.get(number, f'{number}th')} {words}"
+    ending = "th" if number // 10 % 10 == 1 else _ENDINGS.get(number % 10, "th")
+    return f"{_ORDINALS.get(number, f'{number}{ending}')} {words}"

@@ -17,7 +17,9 @@ from typing import Any
 import numpy as np
 
 from linkanim.errors import BadInput
+from linkanim.mechanics.closing.search import sign_changes
 from linkanim.mechanics.facts.effort import effort_token, input_effort
+from linkanim.mechanics.formulas.program import Array
 from linkanim.mechanics.linkage.linkage import Body, Damper, Linkage, Spring
 from linkanim.mechanics.linkage.pins import Pin
 from linkanim.mechanics.linkage.rigid_bodies import holding
@@ -38,6 +40,7 @@ from linkanim.mechanics.motion.measures import (
     mechanical_advantage,
     output_body,
     pole,
+    rate_of,
     size,
     transmission_angle,
     worst_transmission,
@@ -106,6 +109,8 @@ def input_symbol(linkage: Linkage) -> str:
 NO_NAMES: Mapping[str, str] = MappingProxyType({})
 """Every body by its own name."""
 _NEAREST = 3
+_LEVEL = 1e-9
+"""Of a quantity's greatest size; what changes less stands still."""
 
 
 Path = tuple[str | int, ...]
@@ -117,8 +122,8 @@ class Quantity:
 
     `read` takes a Motion (arrays) or a Pose (floats) and says what it is, in radians and the scene's unit of
     length: one value an instant, or one in each of `columns`; 0.0 is nothing, `inf` not bounded, `nan` none
-    (`motion.settled`). `unit` and `order` are as in `Measure`. `path` is where it stands in JSON, numbers
-    being places in a list; what follows from others there has none.
+    (`motion.settled`). `unit`, `order` and `divisor` are as in `Measure`. `path` is where it stands in JSON,
+    numbers being places in a list; what follows from others there has none.
     """
 
     token: str
@@ -129,15 +134,38 @@ class Quantity:
     read: Callable[[Any], Any]
     columns: tuple[str, ...] = ("",)
     path: Path = ()
+    divisor: Callable[[Any], Any] | None = None
 
     def shown(self, motion: Any) -> Any:
         """Return the values as people read them: angles in degrees."""
         found = self.read(motion)
         return np.degrees(found) if self.unit == "rad" else found
 
+    def unbounded_between(self, cycle: Motion) -> Array:
+        """Return the phases between the instants of a cycle, at equal steps, at which it is not bounded.
+
+        They lie where what it is over changes its sign; what is unbounded all along is so at the instants.
+        """
+        divisor, phases = self.divisor, cycle.phase
+        if divisor is None or len(phases) < 2:
+            return np.empty(0)
+        solve = partial(cycle.setting.solve, speed=1.0)
+        around = np.append(phases, 2 * phases[-1] - phases[-2])
+        found = sign_changes(lambda near: np.asarray(divisor(solve(phase=near))), around)
+        unbounded: Any = np.isinf(self.read(solve(phase=found)))
+        return np.sort(found[unbounded.any(axis=1) if unbounded.ndim > 1 else unbounded])
+
     def rounding(self, cycle: Any) -> float:
         """Return how large rounding errors may be over a cycle, from its extent and the input's speed."""
         return float(np.max(rounding_of(cycle, self.unit, self.order)))
+
+    def changes(self, cycle: Any) -> bool:
+        """Return whether it has more than one value over a cycle, rounding errors aside."""
+        values = np.asarray(self.read(cycle), float)
+        found = values[np.isfinite(values)]
+        return bool(
+            found.size and np.ptp(found) > max(_LEVEL * np.abs(found).max(), 10 * self.rounding(cycle))
+        )
 
     def shown_unit(self, length_unit: str) -> str:
         """Return the unit that goes with `shown`."""
@@ -215,7 +243,11 @@ def _pole(motion: Any, name: str) -> Any:
     return found if isinstance(motion.phase, float) else np.stack(found, axis=-1)
 
 
-_POLE = Measure("pole", "pole", "r", "instant centre to the ground", "{}", 0, "", _pole)
+def _turning(motion: Any, name: str) -> Any:
+    return motion.angular_velocity[name]
+
+
+_POLE = Measure("pole", "pole", "r", "instant centre to the ground", "{}", 0, "", _pole, _turning)
 
 
 def _of_whole(linkage: Linkage) -> Iterator[Quantity]:
@@ -232,7 +264,8 @@ def _of_whole(linkage: Linkage) -> Iterator[Quantity]:
     output = output_body(linkage)
     if output is not None and (output.slider or linkage.drive.coordinate.is_angle):
         read = partial(mechanical_advantage, output=output)
-        yield _whole("mechanical_advantage", "MA", "Mechanical advantage", "", 0, read)
+        whole = _whole("mechanical_advantage", "MA", "Mechanical advantage", "", 0, read)
+        yield replace(whole, divisor=partial(rate_of, body=output))
 
 
 def _of_input(linkage: Linkage) -> Iterator[Quantity]:
@@ -279,7 +312,8 @@ def _bound(measure: Measure, part: str, symbol: str, words: str, path: Path) -> 
     """Return the quantity that a measure is of one part."""
     token, words = f"{part}.{measure.name}", f"{words}: {measure.words}"
     known = (token, symbol, words, measure.unit, measure.order)
-    return Quantity(*known, lambda motion: measure.read(motion, part), path=path)
+    divisor = measure.divisor_of(part)
+    return Quantity(*known, lambda motion: measure.read(motion, part), path=path, divisor=divisor)
 
 
 def _of_point(
@@ -304,15 +338,16 @@ def _vector(measure: Measure, names: tuple[str, str, str], path: Path) -> Iterat
     def vector(motion: Any) -> Any:
         return measure.read(motion, part)
 
+    divisor = measure.divisor_of(part)
     whole = (indexed(measure.symbol, label), words, measure.unit, measure.order)
     if measure.order:
         yield Quantity(token, *whole, lambda motion: size(components(vector(motion))))
     else:
-        yield Quantity(token, *whole, vector, ("x", "y"))
+        yield Quantity(token, *whole, vector, ("x", "y"), divisor=divisor)
     for n, axis in enumerate("xy"):
         symbol = indexed(measure.symbol, f"{label}{axis}") if measure.order else indexed(axis, label)
         part_of = f"{token}.{axis}", symbol, f"{words}, {axis}", measure.unit, measure.order
-        yield Quantity(*part_of, _component(vector, n), path=(*path, measure.key, n))
+        yield Quantity(*part_of, _component(vector, n), path=(*path, measure.key, n), divisor=divisor)
 
 
 def _component(vector: Callable[[Any], Any], index: int) -> Callable[[Any], Any]:
@@ -333,8 +368,6 @@ def _of_strut(strut: Spring | Damper, index: str, words: str, *, every: bool) ->
 
 
 _LEAST, _MOST = 6, 10
-_LEVEL = 1e-6
-"""Of a quantity's greatest size; what changes less stands still."""
 
 
 def key_quantities(cycle: Motion, traced: tuple[str, ...] = ()) -> tuple[str, ...]:
@@ -344,19 +377,12 @@ def key_quantities(cycle: Motion, traced: tuple[str, ...] = ()) -> tuple[str, ..
     `traced` joints whose speed changes, how well it transmits; nothing that stands still over the cycle.
     """
     linkage = cycle.setting.linkage
-    changing = {token for token, one in register(linkage).items() if _changes(one, cycle)}
+    changing = {token for token, one in register(linkage).items() if one.changes(cycle)}
     point = tuple(name for name in traced if f"{name}.velocity" in changing)[:1]
     candidates = [token for token in _candidates(linkage, point) if token in changing]
     rest = [token for token in register(linkage) if token in changing and token not in candidates]
     rest.sort(key=lambda token: token.partition(".")[0] not in traced)
     return tuple(dict.fromkeys((*candidates[:_MOST], *rest[: max(_LEAST - len(candidates), 0)])))
-
-
-def _changes(one: Quantity, cycle: Motion) -> bool:
-    """Whether a quantity has more than one value, rounding errors aside."""
-    values = np.asarray(one.read(cycle))
-    found = values[np.isfinite(values)]
-    return bool(found.size and np.ptp(found) > max(_LEVEL * np.abs(found).max(), 10 * one.rounding(cycle)))
 
 
 def _candidates(linkage: Linkage, traced: tuple[str, ...]) -> Iterator[str]:

@@ -22,6 +22,8 @@ from linkanim.mechanics.motion.settled import rounding_of, said, settled, stands
 
 _STRAIGHT = 1e-12
 """Below this share a cross product of velocity and acceleration, or of the input's rate, is rounding."""
+_FLAT = 1e-2
+"""Of the rounding errors of accelerations: what they are where all terms of one are small."""
 _SHARP = 1e-3
 """Above this share such a product keeps its digits."""
 
@@ -88,23 +90,21 @@ def tangential(velocity: Any, acceleration: Any) -> Any:
 
 def normal(velocity: Any, acceleration: Any) -> Any:
     """Return the acceleration towards the centre of curvature of a point's path, not negative."""
-    return over(_bend(velocity, acceleration), size(velocity))
+    return over(abs(cross(velocity, acceleration)), size(velocity))
 
 
-def curvature_radius(velocity: Any, acceleration: Any) -> Any:
-    """Return the radius of curvature of a point's path, ρ = |v|³/|v × a|; infinite where it is straight."""
-    speed = size(velocity)
-    return over(speed * speed * speed, _bend(velocity, acceleration))
+def curvature_radius(velocity: Any, acceleration: Any, least: Any) -> Any:
+    """Return the radius of curvature of a point's path, ρ = |v|³/|v × a|; infinite where it is straight.
+
+    Of an acceleration less is known than `least`.
+    """
+    speed, bend = size(velocity), abs(cross(velocity, acceleration))
+    straight = bend <= speed * np.maximum(_STRAIGHT * size(acceleration), least)
+    return over(speed * speed * speed, np.where(straight, 0.0, bend)[()])
 
 
 def _dot(way: Way, other: Way) -> Any:
     return way[0] * other[0] + way[1] * other[1]
-
-
-def _bend(velocity: Way, acceleration: Way) -> Any:
-    """Return |v × a|, 0 where it is nothing but rounding errors."""
-    bend = abs(cross(velocity, acceleration))
-    return np.where(bend <= _STRAIGHT * size(velocity) * size(acceleration), 0.0, bend)[()]
 
 
 def pole(motion: Any, body: Body, other: Body | None = None) -> tuple[Any, Any]:
@@ -226,13 +226,17 @@ def mechanical_advantage(motion: Any, output: Body) -> Any:
     first, _ = coefficients_of(linkage, turning=turning)
 
     def by_input(motion: Any) -> Any:
-        rates = motion.angular_velocity if turning else motion.travel_velocity
-        return over(rates[output.name], motion.coordinate_rate)
+        return over(rate_of(motion, output), motion.coordinate_rate)
 
     slope = by_input(motion)
     if np.any(stops := stands(motion)):
         slope = np.where(stops, unbounded(by_input(motion.per_input), motion.phase), slope)[()]
     return abs(over(length, settled(slope, rounding_of(motion, first.unit, 0))) + 0.0 * motion.phase)
+
+
+def rate_of(motion: Any, body: Body) -> Any:
+    """Return how fast a body turns, or a slider travels."""
+    return (motion.travel_velocity if body.slider else motion.angular_velocity)[body.name]
 
 
 def input_rate(motion: Any) -> Any:
@@ -247,6 +251,7 @@ class Measure:
     `name` ends the token, and is Motion's attribute where that holds it; `key` is the name in JSON and
     `heading` in a table of plain letters. In `unit`, `{}` stands for the unit of length. `order` counts
     derivatives in time. `read` takes a Motion or a Pose and the part's name, and says what `settled` tells.
+    Where its `divisor` changes sign it may be unbounded.
     """
 
     name: str
@@ -257,6 +262,14 @@ class Measure:
     order: int
     heading: str
     read: Callable[[Any, str], Any]
+    divisor: Callable[[Any, str], Any] | None = None
+
+    def divisor_of(self, part: str) -> Callable[[Any], Any] | None:
+        """Return the divisor of one part, if there is one."""
+        divisor = self.divisor
+        if divisor is None:
+            return None
+        return lambda motion: divisor(motion, part)
 
 
 def _solved(name: str, symbol: str, words: str, unit: str, order: int, heading: str = "") -> Measure:
@@ -393,13 +406,17 @@ def _radius_of_curvature(motion: Any, prefix: str, part: str) -> Any:
     if radius is not None:
         return radius + 0.0 * motion.phase
     rates = _rates(motion, prefix, part)
-    found, share = curvature_radius(*rates), _share(*rates)
+    found, share = _curved(motion, rates), _share(*rates)
     steady = motion.setting.assembly.path.full_turn and not np.any(motion.input_acceleration)
     if (steady and np.all(motion.input_speed)) or not np.any(share < _SHARP):
         return found
     others = _rates(motion.per_input, prefix, part)
     better = (share < _SHARP) & ((_share(*others) > share) | np.isnan(found))
-    return np.where(better, curvature_radius(*others), found)[()]
+    return np.where(better, _curved(motion.per_input, others), found)[()]
+
+
+def _curved(motion: Any, rates: tuple[Way, Way]) -> Any:
+    return curvature_radius(*rates, _FLAT * rounding_of(motion, "{}/s²", 2))
 
 
 def _share(velocity: Way, acceleration: Way) -> Any:
@@ -432,7 +449,11 @@ def _of_paths(prefix: str) -> tuple[Measure, ...]:
         def read(motion: Any, part: str) -> Any:
             return said(motion, work(motion, prefix, part), unit, order)
 
-        return Measure(prefix + name, name, symbol, words, unit, order, name, read)
+        def turning(motion: Any, part: str) -> Any:
+            return cross(*_rates(motion, prefix, part))
+
+        divisor = None if order else turning
+        return Measure(prefix + name, name, symbol, words, unit, order, name, read, divisor)
 
     return (
         bent("normal_acceleration", "aⁿ", "normal acceleration", "{}/s²", 2, _across),

@@ -149,8 +149,14 @@ class Derived(ABC, Generic[Vector, Number]):
     def crank_angle(self) -> Any:
         """The angle of the bar that is driven; AttributeError where a slider drives, which has none."""
         if not self.setting.linkage.drive.coordinate.is_angle:
-            raise AttributeError("a slider drives, which has no crank angle; read coordinate")
+            raise AttributeError  # which asks __getattr__ for it
         return self.coordinate
+
+    def _missing(self, what: str, name: str) -> AttributeError:
+        """Return what is raised for an attribute that `what` has not."""
+        if name == "crank_angle":
+            return AttributeError("a slider drives, which has no crank angle; read coordinate")
+        return AttributeError(f"{what} has no {name!r}")
 
     @cached_property
     def angle(self) -> Mapping[str, Any]:
@@ -252,7 +258,7 @@ class Motion(Derived[Array, Array]):
     def __getattr__(self, name: str) -> Any:
         """Work a quantity out, with those that come out of the same pass."""
         if name not in ORDER:
-            raise AttributeError(f"a motion has no {name!r}")
+            raise self._missing("a motion", name)
         vars(self).update(self._read(name))
         return vars(self)[name]
 
@@ -402,7 +408,7 @@ class Pose(Derived[Pair, float]):
     def __getattr__(self, name: str) -> Any:
         """Return nothing of a kind that was not solved."""
         if name not in DERIVATIVE_OF:
-            raise AttributeError(f"a pose has no {name!r}")
+            raise self._missing("a pose", name)
         return NOTHING
 
     @cached_property

@@ -26,7 +26,7 @@ from linkanim.picture.diagrams.chart import (
     x_title,
 )
 from linkanim.picture.diagrams.course import Course, Floats, axis_of, course
-from linkanim.picture.diagrams.quantities import Series, quantity, series_of
+from linkanim.picture.diagrams.quantities import Series, broken, quantity, series_of
 from linkanim.picture.figure import Figure
 from linkanim.picture.items import Caption, Item
 from linkanim.picture.layout import Layout
@@ -66,7 +66,8 @@ class ChartPanel:
     @cached_property
     def series(self) -> Series:
         """The quantity over one true period."""
-        return series_of(self.figure.scene, self.quantity, self._cycle)
+        found = series_of(self.figure.scene, self.quantity, self._cycle)
+        return broken(found, self.quantity, self.figure.cycle)
 
     @cached_property
     def _cycle(self) -> Motion:

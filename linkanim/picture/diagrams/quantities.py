@@ -36,6 +36,16 @@ def quantity(scene: Scene, token: str) -> Quantity:
     return look_up(scene.quantities, named if named in scene.quantities else token, scene.name)
 
 
+def broken(series: Series, quantity: Quantity, cycle: Motion) -> Series:
+    """Return a series over a cycle with infinite values where it is not bounded between its instants."""
+    places = quantity.unbounded_between(cycle)
+    if not len(places):
+        return series
+    index = np.searchsorted(series.phases, places)
+    phases, values = np.insert(series.phases, index, places), np.insert(series.values, index, np.inf, axis=0)
+    return series._replace(phases=phases, values=values)
+
+
 def series_of(scene: Scene, quantity: Quantity, cycle: Motion) -> Series:
     """Return a quantity of a cycle that is already solved."""
     values = np.asarray(quantity.shown(cycle), float)
