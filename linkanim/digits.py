@@ -7,6 +7,8 @@ from math import floor, isfinite, isinf, log10, pi
 
 _SMALLEST, _LARGEST = -4, 7
 """Powers of ten from which and up to which a number is written without one."""
+_NOTHING = 1e-13
+"""Radians that are left of none."""
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
@@ -41,8 +43,8 @@ def rpm(speed: float) -> str:
 
 
 def degrees(angle: float) -> str:
-    """Return an angle in radians as degrees of four significant digits."""
-    return f"{significant(to_degrees(angle), 4)}°"
+    """Return an angle in radians as degrees of four significant digits; what rounding leaves of none is 0."""
+    return f"{significant(to_degrees(angle) if abs(angle) > _NOTHING else 0.0, 4)}°"
 
 
 def stepped(value: float, step: float) -> str:

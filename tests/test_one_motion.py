@@ -30,6 +30,7 @@ from linkanim.picture.layout import layout
 from linkanim.picture.panels.readings import rows
 from linkanim.picture.text.text import Type
 from linkanim.picture.theme import LIGHT
+from linkanim.player.window.show import value_words
 from linkanim.scenes import load, names
 from linkanim.scenes.reading.read import scene_from
 from linkanim.scenes.scene import Scene
@@ -269,3 +270,30 @@ def _hud_agrees(scene: Scene, pose: Pose) -> None:
             value = float(known[token].shown(pose))
             digits = shown[label].partition(".")[2].partition(" ")[0]
             assert _number(shown[label]) == pytest.approx(value, abs=0.51 * 10.0 ** -len(digits)), label
+
+
+# Many turns on, with quick gears, and just short of a whole one.
+@pytest.mark.parametrize(
+    "name", ["geared-five-bar-3-2", "press", "crank-rocker-link3", "cardan-gears", "double-rocker"]
+)
+def test_the_list_of_quantities_has_the_crank_s_angle_that_the_hud_has(name: str) -> None:
+    scene = _started(name)
+    crank = next(body.name for body in scene.linkage.bodies if scene.linkage.crank_of(body) is not None)
+    for phase in (0.0, 0.3, 5.0, 100.2, -7.0, 2 * math.pi - 1e-5):
+        pose = scene.pose(phase)
+        told = next(value for label, value in rows(scene, pose) if label.endswith(" angle"))
+        listed = value_words(scene, scene.quantities[f"{crank}.angle"], pose)
+        assert math.remainder(_number(listed.partition("=")[2]) - _number(told), 360) == pytest.approx(
+            0, abs=0.11
+        )
+        if scene.info.full_turn:
+            assert 0 <= _number(listed.partition("=")[2]) < 360
+
+
+def test_the_list_of_quantities_says_what_is_not_bounded_and_what_there_is_none_of() -> None:
+    scene = load("double-rocker")
+    words = {
+        token: value_words(scene, scene.quantities[token], scene.pose(math.pi))
+        for token in ("coupler.coefficient", "A.tangential_acceleration", "A.velocity")
+    }
+    assert list(words.values()) == ["h₃ = ∞ rad/rad", "aᵗ_{A} = – mm/s²", "v_{A} = 0 mm/s"]

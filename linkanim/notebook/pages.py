@@ -11,7 +11,7 @@ import numpy as np
 
 from linkanim.digits import significant, typeset
 from linkanim.errors import BadInput
-from linkanim.mechanics.facts.naming import link_names, one_cycle
+from linkanim.mechanics.facts.naming import link_names, turning_bodies
 from linkanim.mechanics.facts.register import Quantity, register
 from linkanim.mechanics.motion.measures import output_body
 from linkanim.mechanics.motion.mechanism import mechanism
@@ -79,7 +79,7 @@ def _unit(motion: Motion) -> str:
 def _quantities(motion: Motion) -> Mapping[str, Quantity]:
     """Return all quantities by their tokens, bodies called by what they do."""
     solved = mechanism(motion.setting.linkage)
-    return register(solved.linkage, link_names(one_cycle(solved, 0)))
+    return register(solved.linkage, link_names(solved, turning_bodies(solved)))
 
 
 def _shown(motion: Motion) -> Iterator[Quantity]:

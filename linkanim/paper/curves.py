@@ -100,7 +100,7 @@ def curves_of(
         )
     known = [quantity(scene, token) for token in quantities]
     periods = min(round(scene.period / tau), _MOST_PERIODS)
-    cycle = scene.cycle(SAMPLES * periods)
+    cycle = scene.cycle(scene.mechanism.count(SAMPLES * periods))
     of_each = [_of(scene, one, pace, over, cycle) for one in known for pace in paces]
     found = tuple(chain.from_iterable(of_each))
     longest = max((course(scene, pace.speed, over) for pace in paces), key=lambda one: one.span)

@@ -94,7 +94,7 @@ class Values:
     """Quantities at an instant, and whether they change over the cycle."""
 
     def __init__(self, scene: Scene) -> None:
-        self.scene, self._cycle = scene, scene.cycle(_SAMPLES)
+        self.scene, self._cycle = scene, scene.cycle(scene.mechanism.count(_SAMPLES))
         # each serves every quantity
         self._motion = cache(lambda phase, speed: scene.solve(phase=phase, speed=speed))
 

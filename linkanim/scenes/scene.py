@@ -101,7 +101,7 @@ class Scene:
         """The tokens of the six to ten quantities that say most of it, the most telling first."""
         from linkanim.mechanics.facts.register import key_quantities
 
-        return key_quantities(self.cycle(96), self.trace)
+        return key_quantities(self.cycle(self.mechanism.count(96)), self.trace)
 
     @cached_property
     def length_step(self) -> float:

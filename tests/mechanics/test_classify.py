@@ -14,7 +14,7 @@ from linkanim.errors import AssemblyError
 from linkanim.mechanics.facts.classify import Info
 from linkanim.mechanics.linkage.drive import Drive
 from linkanim.mechanics.linkage.dyads import RPR, RRR
-from linkanim.mechanics.linkage.linkage import Linkage
+from linkanim.mechanics.linkage.linkage import Body, Linkage
 from linkanim.mechanics.linkage.pins import Crank, Gear, Pin, Polar
 from linkanim.mechanics.linkage.rigid_bodies import Rigid
 from linkanim.mechanics.motion.mechanism import mechanism
@@ -356,3 +356,44 @@ def test_links_of_a_sort_are_counted_in_english() -> None:
     assert [words[n - 1].split()[0] for n in (11, 12, 13, 21, 22, 23, 31, 33)] == [
         "11th", "12th", "13th", "21st", "22nd", "23rd", "31st", "33rd",
     ]  # fmt: skip
+
+
+def _beside_a_straight_line(**more: object) -> Info:
+    """Return what is told of Peaucellier's linkage, whose P runs along x = 250, with one joint more."""
+    document = load("peaucellier").document
+    parts = {key: {**document.get(key, {}), **part} for key, part in more.items() if isinstance(part, dict)}
+    return scene_from({**document, **parts}, name="more", where="more").info
+
+
+# By rounding a block moved by 1e-13 mm, and a lever swung 1e-14°, 47 times as long forth as back.
+def test_what_stands_still_has_no_stroke_no_swing_and_no_time_ratio() -> None:
+    slide = {"pin": "P", "line": {"through": "O2"}, "slot": "90 deg"}
+    info = _beside_a_straight_line(joints={"Y": {"slide": slide}}, bodies={"block": {"slider": "Y"}})
+    assert (info.stroke, info.time_ratio, info.dead_centres) == (0.0, None, None)
+    told = dict(info.lines)
+    assert (told["stroke"], "time ratio" in told) == ("0 mm", False)
+    lever = {"slot": {"pivot": "F", "through": "P"}, "length": 50}
+    ground, bodies = {"F": [250, -600]}, {"lever": {"joints": ["F", "L"]}}
+    info = _beside_a_straight_line(joints={"L": lever}, ground=ground, bodies=bodies)
+    assert info.output_name == "lever"
+    assert (info.swing, info.time_ratio) == (None, None)
+    assert not {"swing", "time ratio"} & {label for label, _ in info.lines}
+
+
+# What the last digits of exact sums leave of a limit at 0: 7.6e-32° was told.
+def test_a_limit_at_nothing_is_at_nothing() -> None:
+    linkage = four_bar((10.0, 10.0, 4.0, 6.0), ground_angle=-math.pi / 3)
+    info = Info(mechanism(linkage), "mm")
+    assert 0.0 in info.input_range
+    assert dict(info.lines)["input"].endswith("…0°")
+    assert all(end == 0.0 or abs(end) > 1e-3 for end in info.toggles)
+
+
+# Gears so quick that the usual samples of a period were fewer than their turns.
+@pytest.mark.parametrize(("ratio", "turns"), [(96, 15), (1441, 15), (1440, 1), (-480, 1), (720, 7)])
+def test_what_quick_gears_turn_turns_fully(ratio: int, turns: int) -> None:
+    quick = Crank("K", "A", 20.0, Gear("A", Fraction(ratio, turns)))
+    joints = Pin("O2", (0.0, 0.0)), Crank("A", "O2", 50.0), quick, Rigid("W", ("A", "K"), (5.0, 9.0))
+    bodies = Body("plate", ("K", "W")), Body("crank", ("O2", "A"))
+    found = Info(mechanism(Linkage(joints, Drive("A", 1.0), bodies)), "mm")
+    assert found.turning_links == ("plate", "crank")

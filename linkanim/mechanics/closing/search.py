@@ -16,10 +16,10 @@ from linkanim.mechanics.formulas.program import Array, Bools
 
 Indices = NDArray[np.intp]
 
-SAMPLES_A_TURN = 1440
-"""At which a true period is looked at, for each drive period."""
-BLOCK = 1024
-"""Places worked out at a time where a function has many rows."""
+SAMPLES_A_TURN, SAMPLES_A_GEARED_TURN = 1440, 96
+"""At which a true period is looked at, for each drive period; at least so many for a turn of any crank."""
+BLOCK, AT_ONCE = 1024, 1 << 16
+"""Places worked out at a time where a function has many rows, and where it has few."""
 
 FINEST = 2.0**-70
 """Share of the largest place below which a bracket is not halved further: a place may be zero itself."""
@@ -29,6 +29,16 @@ _AHEAD = 64
 """So many places are worked out at a time where brackets are fewer."""
 _DEEPEST = 4
 """Halvings."""
+
+
+def samples_a_turn(quickest: float) -> int:
+    """Return at how many phases of a drive period is looked where a crank turns so many times as fast."""
+    return max(SAMPLES_A_TURN, math.ceil(SAMPLES_A_GEARED_TURN * quickest))
+
+
+def in_blocks(places: Array) -> list[Array]:
+    """Return places in as many parts as bounds what working them out takes."""
+    return np.array_split(places, max(math.ceil(len(places) / AT_ONCE), 1))
 
 
 def around(turns: int, samples_a_turn: int) -> Array:

@@ -21,7 +21,7 @@ from linkanim.errors import AssemblyError
 from linkanim.mechanics.closing.chain import Closing
 from linkanim.mechanics.closing.fitting import extreme
 from linkanim.mechanics.closing.kinds import walk_at
-from linkanim.mechanics.closing.search import SAMPLES_A_TURN, around, ends_of
+from linkanim.mechanics.closing.search import around, ends_of
 from linkanim.mechanics.closing.walk import AT_ITS_LIMIT, Assembly
 from linkanim.mechanics.drive.input_path import InputPath
 from linkanim.mechanics.formulas.exact import FULL_TURN, Sum
@@ -29,8 +29,6 @@ from linkanim.mechanics.formulas.expression import Graph, Value
 from linkanim.mechanics.formulas.planar import Slope
 from linkanim.mechanics.formulas.program import Array, Bools, batch
 
-SAMPLES_A_GEARED_TURN = 96
-"""Of the crank that turns most while the input turns once."""
 TOUCHING = 1e-12
 """Share of a margin's scale within which floats cannot tell its sign."""
 BARELY = 1 / 64
@@ -202,9 +200,8 @@ def _phases(assembly: Assembly) -> Array:
 
     The start is among them, and the ends of a way there and back.
     """
-    count = max(SAMPLES_A_TURN, math.ceil(SAMPLES_A_GEARED_TURN * assembly.quickest))
     marks = 0.0, math.pi, assembly.path.home(assembly.linkage.drive.start)
-    return np.sort(np.concatenate([around(assembly.path.periods, count), marks]))
+    return np.sort(np.concatenate([around(assembly.path.periods, assembly.samples), marks]))
 
 
 def _scales(assembly: Assembly, phases: Array) -> Mapping[str, tuple[float, float]]:

@@ -21,6 +21,7 @@ from functools import cached_property
 
 from linkanim.errors import AssemblyError
 from linkanim.mechanics.closing.chain import ChainRoot, Closing
+from linkanim.mechanics.closing.search import samples_a_turn
 from linkanim.mechanics.drive.input_path import InputPath
 from linkanim.mechanics.formulas.circular import Half
 from linkanim.mechanics.formulas.constant import Constant
@@ -70,6 +71,11 @@ class Assembly:
     def quickest(self) -> float:
         """How many times as fast as the input the quickest crank turns, at least once."""
         return max([1.0, *(abs(float(gearing.ratio)) for gearing in self.gears.values())])
+
+    @property
+    def samples(self) -> int:
+        """At how many phases of a drive period it is looked at: as near as what turns fastest needs."""
+        return samples_a_turn(self.quickest)
 
 
 AT_ITS_LIMIT = (

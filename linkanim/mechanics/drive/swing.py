@@ -10,6 +10,7 @@ from fractions import Fraction
 import numpy as np
 
 from linkanim.mechanics.drive.input_path import Limit, LimitDistances, Shortened, ThereAndBack, nearer_way
+from linkanim.mechanics.formulas.circular import STATED
 from linkanim.mechanics.formulas.exact import FULL_TURN, Sum, two_product, two_sum
 from linkanim.mechanics.formulas.expression import Graph, Value
 from linkanim.mechanics.formulas.planar import Slope
@@ -60,12 +61,14 @@ class Swing(ThereAndBack):
     @property
     def limits(self) -> tuple[float, ...]:
         """The angles at which a dyad stops the input; an end at which it merely turns back is none."""
-        return tuple(float(end) for end, dyad in zip((self.low, self.high), self.ends, strict=True) if dyad)
+        ends = zip(self.input_range, self.ends, strict=True)
+        return tuple(end for end, dyad in ends if dyad)
 
     @property
     def input_range(self) -> tuple[float, float]:
-        """How far the input goes."""
-        return float(self.low), float(self.high)
+        """How far the input goes; what the last digits of its sums leave of 0 is 0."""
+        low, high = (float(end) for end in (self.low, self.high))
+        return low if abs(low) > STATED * math.pi else 0.0, high if abs(high) > STATED * math.pi else 0.0
 
     def holds(self, place: float, turns: int = 1) -> bool:
         """Tell whether the input comes to an angle, or to one that many turns away, or twice as many …"""

@@ -11,15 +11,14 @@ from typing import NamedTuple
 import numpy as np
 
 from linkanim.digits import degrees, short, significant
-from linkanim.mechanics.closing.search import SAMPLES_A_TURN, around, sign_changes
+from linkanim.mechanics.closing.search import around, in_blocks, sign_changes
 from linkanim.mechanics.facts.effort import Demand, demand, usual_effort
 from linkanim.mechanics.facts.naming import (
     FourBar,
     class_name,
     four_bar_of,
     link_names,
-    one_cycle,
-    turns_fully,
+    turning_bodies,
 )
 from linkanim.mechanics.facts.register import driven_body, input_symbol
 from linkanim.mechanics.facts.transmission import Transmission, transmission
@@ -28,6 +27,7 @@ from linkanim.mechanics.linkage.pins import DrivenSlider
 from linkanim.mechanics.motion.measures import output_body, output_slider
 from linkanim.mechanics.motion.mechanism import Mechanism
 from linkanim.mechanics.motion.motion import Motion
+from linkanim.mechanics.motion.settled import said
 
 SAME_ANGLE = 1e-9
 
@@ -165,30 +165,26 @@ class Info:
 
     @cached_property
     def swing(self) -> _ToAndFro | None:
-        """How far the output rocker swings (rad), and its time ratio; None where the output is none."""
+        """How far the output rocker swings (rad), and its time ratio; None where it does not."""
         body = output_body(self.mechanism.linkage)
         if body is None or body.slider is not None or body.name in self.turning_links:
             return None
-        return _to_and_fro(self.mechanism, body.name, "angle", "angular_velocity")
+        found = _to_and_fro(self.mechanism, body.name, "angle", "angular_velocity")
+        return found if found.stroke else None
 
     @cached_property
     def demand(self) -> Demand | None:
         """What a true period at the drive's speed asks of the input; None where nothing has force or mass."""
         if not self.mechanism.linkage.forceful:
             return None
-        return demand(
-            self._driven,
-            self.mechanism.periods,
-            quickest=self.mechanism.assembly.quickest,
-            limited=bool(self.toggles),
-        )
+        return demand(self._driven, self.mechanism.phases)
 
     @cached_property
     def usual_effort(self) -> float | None:
         """The size that the effort at the input has half of the time; None where `demand` is."""
         if not self.mechanism.linkage.forceful:
             return None
-        return usual_effort(self._driven, self.mechanism.periods)
+        return usual_effort(self._driven, self.mechanism.phases)
 
     def _driven(self, phases: Array) -> Motion:
         """Return the motion at the drive's speed."""
@@ -202,13 +198,12 @@ class Info:
     @cached_property
     def turning_links(self) -> tuple[str, ...]:
         """The bodies that turn fully over one true period."""
-        bodies = self.mechanism.linkage.bodies
-        return tuple(body.name for body in bodies if turns_fully(self._cycle, body))
+        return turning_bodies(self.mechanism)
 
     @cached_property
     def link_names(self) -> Mapping[str, str]:
         """What each body is called by what it does, by the name that it has in the scene."""
-        return link_names(self._cycle)
+        return link_names(self.mechanism, self.turning_links)
 
     @cached_property
     def input_name(self) -> str:
@@ -235,10 +230,6 @@ class Info:
         return tuple((label, value) for label, value in _facts(self) if value)
 
     @cached_property
-    def _cycle(self) -> Motion:
-        return one_cycle(self.mechanism, 0)
-
-    @cached_property
     def _four_bar(self) -> FourBar | None:
         return four_bar_of(self.mechanism)
 
@@ -257,10 +248,13 @@ class Counts(NamedTuple):
 
 
 class _ToAndFro(NamedTuple):
-    """How a slider or rocker goes to and fro: the phases of its dead centres are None where it rests."""
+    """How a slider or rocker goes to and fro: its time ratio and the phases of its dead centres.
+
+    Both are None where it rests.
+    """
 
     stroke: float
-    time_ratio: float
+    time_ratio: float | None
     dead_centres: tuple[float, float] | None
 
 
@@ -270,7 +264,9 @@ def _to_and_fro(mechanism: Mechanism, name: str, place: str, rate: str) -> _ToAn
     In a longer true period it goes so more than once: each way ends at the next dead centre.
     """
     whole = 2 * math.pi * mechanism.periods
-    samples = around(mechanism.periods, SAMPLES_A_TURN)
+    samples = around(mechanism.periods, mechanism.assembly.samples)
+    if _rests(mechanism, name, rate, samples):
+        return _ToAndFro(0.0, None, None)
     reversals = sign_changes(
         lambda phase: getattr(mechanism.solve(phase=phase, speed=1.0, derivatives=1), rate)[name], samples
     )
@@ -279,15 +275,25 @@ def _to_and_fro(mechanism: Mechanism, name: str, place: str, rate: str) -> _ToAn
     phases = np.concatenate((reversals, samples))[order]
     along = getattr(mechanism.solve(phase=phases, speed=1.0, derivatives=0), place)[name]
     travel = along[np.argsort(order)[: len(reversals)]]
-    span = float(np.ptp(travel)) if len(travel) else 0.0
-    if span == 0:
-        return _ToAndFro(0.0, 1.0, None)
+    if not len(travel):
+        return _ToAndFro(0.0, None, None)
+    span = float(np.ptp(travel))
     near = SAME_ANGLE * span
     backs, forwards = (reversals[np.abs(travel - end) <= near] for end in (travel.min(), travel.max()))
     forth = (forwards - backs[:, None]) % whole
     row, column = np.unravel_index(int(forth.argmin()), forth.shape)
     ways = float(forth.min()), float(((backs - forwards[:, None]) % whole).min())
     return _ToAndFro(span, max(ways) / min(ways), (float(backs[row]), float(forwards[column])))
+
+
+def _rests(mechanism: Mechanism, name: str, rate: str, phases: Array) -> bool:
+    """Return whether a body stands still all along, rounding errors aside."""
+    for part in in_blocks(phases):
+        motion = mechanism.solve(phase=part, speed=1.0, derivatives=1)
+        unit = "{}/s" if rate.startswith("travel") else "rad/s"
+        if np.any(said(motion, getattr(motion, rate)[name], unit, 1)):
+            return False
+    return True
 
 
 def _facts(info: Info) -> Iterator[tuple[str, str | None]]:

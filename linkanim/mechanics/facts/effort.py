@@ -19,9 +19,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from linkanim.mechanics.closing.search import SAMPLES_A_TURN, highest
+from linkanim.mechanics.closing.search import highest, in_blocks
 from linkanim.mechanics.formulas.program import Array
 from linkanim.mechanics.linkage.linkage import Damper, Linkage, Spring
+from linkanim.mechanics.linkage.rigid_bodies import holding
 from linkanim.mechanics.motion.measures import (
     between,
     components,
@@ -30,16 +31,10 @@ from linkanim.mechanics.motion.measures import (
     over,
     size,
 )
-from linkanim.mechanics.motion.settled import ROUNDING, rounding_of, settled, stands
+from linkanim.mechanics.motion.settled import ROUNDING, rounding_of, said, settled, stands
 
-_AT_ONCE = 1 << 16
-"""Phases that are solved at once, so that many of them take little memory."""
-_FINE = 24.0
-"""The gear ratio up to which the usual number of samples is enough."""
 _ROUNDING = 1e-13
 """A mean below this share of what it is the mean of is rounding."""
-_BOUNDED = 1e-9
-"""A limit of the input asks for no more than a bounded torque where power there is below this share."""
 _ENDING = 1e-6
 """Within that phase of where the input turns back, what power and pace have in common may have no digits."""
 _IDLE = 1e-12
@@ -81,7 +76,7 @@ def input_effort(motion: Any) -> Any:
     start to move either.
     """
     pace, power = _pace(motion, _MOVING), _power(motion, _MOVING)
-    found = settled(over(power.total, pace), power.rounding)
+    found = settled(over(power.total, pace), over(power.rounding, abs(pace)))
     if not motion.acceleration:
         return found
     second = _pace(motion, _STARTING)
@@ -91,7 +86,8 @@ def input_effort(motion: Any) -> Any:
     stops = stands(motion)
     found = np.where(stops, np.inf, found)
     rests = stops & _rests(motion)
-    starting = settled(over(_power(motion, _STARTING).total, second), power.rounding)
+    begun = _power(motion, _STARTING)
+    starting = settled(over(begun.total, second), over(begun.rounding, abs(second)))
     found = np.where(rests, starting, found)
     ends = np.asarray(ends & ~rests)
     return (_aside(motion, found, ends) if np.any(ends) else found)[()]
@@ -117,10 +113,7 @@ def _aside(motion: Any, effort: Array, ends: NDArray[np.bool_]) -> Array:
 
 
 class _Power(NamedTuple):
-    """The power of all forces and inertia, in W, how much there is of which it is a sum, and roundings.
-
-    `rounding` is that of the effort which takes it.
-    """
+    """The power of all forces and inertia, in W, the sizes of its terms together, and its rounding errors."""
 
     total: Any
     weight: Any
@@ -137,44 +130,38 @@ def _power(motion: Any, way: _Way) -> _Power:
     )
 
 
-def _lever(linkage: Linkage) -> float:
-    """Return on how long a lever a force is, for the effort at the input; in m, 1 where that is a force."""
-    angular = linkage.drive.actuator.along is None and linkage.drive.coordinate.is_angle
-    return linkage.extent * linkage.metre if angular else 1.0
-
-
 def _strut_power(motion: Any, way: _Way, struts: Iterable[Spring | Damper]) -> Iterator[tuple[Any, Any, Any]]:
-    """Yield what each spring and damper takes, its weight, and the rounding of the effort for it."""
-    linkage = motion.setting.linkage
+    """Yield what each spring and damper takes, its weight, and its rounding errors."""
+    linkage, points = motion.setting.linkage, getattr(motion, way.points)
+    metre = linkage.metre
     for strut in struts:
-        if strut.forceful:
+        # what keeps its length takes nothing
+        if strut.forceful and holding(linkage.rigid_bodies, strut.between) is None:
             kind = motion.damper if isinstance(strut, Damper) else motion.spring
-            force = kind[strut.name].force
-            moving = between(getattr(motion, way.points), strut.between)
+            force, moving = kind[strut.name].force, between(points, strut.between)
             rate = growth(between(motion.position, strut.between), moving)
-            weight = abs(force) * linkage.metre * size(moving)
-            noise = ROUNDING * abs(force) + force_rounding(motion, strut)
-            yield force * linkage.metre * rate, weight, noise * _lever(linkage)
+            speeds = sum(size(components(points[end])) for end in strut.between)
+            noise = ROUNDING * abs(force) * speeds + force_rounding(motion, strut) * abs(rate)
+            yield force * metre * rate, abs(force) * metre * size(moving), noise * metre
 
 
 def _body_power(motion: Any, way: _Way) -> Iterator[tuple[Any, Any, Any]]:
-    """Yield what each mass and each inertia takes, its weight, and the rounding of the effort for it."""
+    """Yield what each mass and each inertia takes, its weight, and its rounding errors."""
     linkage = motion.setting.linkage
-    metre, lever = linkage.metre, _lever(linkage)
-    jolt = rounding_of(motion, "{}/s²", 2) * metre, rounding_of(motion, "rad/s²", 2)
+    metre = linkage.metre
+    jolt, jerk = rounding_of(motion, "{}/s²", 2) * metre, rounding_of(motion, "rad/s²", 2)
     for body in linkage.bodies:
         prefix, centre = ("com_", body.name) if body.slider is None else ("", body.slider)
         if body.mass is not None:
             u, v = components(getattr(motion, way.centres if prefix else way.points)[centre])
             a, b = components(getattr(motion, f"{prefix}acceleration")[centre])
-            pull, scale = size((a, b)) * metre + abs(linkage.gravity), body.mass * metre
-            power = scale * ((a * u + b * v) * metre + linkage.gravity * v)
-            yield power, scale * size((u, v)) * pull, body.mass * (ROUNDING * pull + jolt[0]) * lever
+            pull, moved = size((a, b)) * metre + abs(linkage.gravity), body.mass * metre * size((u, v))
+            power = body.mass * metre * ((a * u + b * v) * metre + linkage.gravity * v)
+            yield power, moved * pull, moved * (ROUNDING * pull + jolt)
         if body.inertia is not None:
-            turning = getattr(motion, way.turning)[body.name]
-            moment = body.inertia * motion.angular_acceleration[body.name]
-            noise = ROUNDING * abs(moment) + body.inertia * jolt[1]
-            yield moment * turning, abs(moment * turning), noise * (lever / (linkage.extent * metre))
+            turning = body.inertia * getattr(motion, way.turning)[body.name]
+            power = turning * motion.angular_acceleration[body.name]
+            yield power, abs(power), ROUNDING * abs(power) + abs(turning) * jerk
 
 
 def _pace(motion: Any, way: _Way) -> Any:
@@ -207,43 +194,41 @@ class Demand(NamedTuple):
     mean: float | None
 
 
-def usual_effort(solved: Callable[[Array], Any], periods: int) -> float:
-    """Return the size that the effort has half of a true period of so many drive periods; NaN without one.
+def usual_effort(solved: Callable[[Array], Any], phases: Array) -> float:
+    """Return the size that the effort has half of a true period, at these phases of it; NaN without one.
 
     `solved` gives the motion at phases; where the effort is not bounded it does not count.
     """
-    effort = np.asarray(input_effort(solved(_phases(periods))))
+    effort = np.concatenate([np.asarray(input_effort(solved(part))) for part in in_blocks(phases)])
     sizes = np.sort(np.abs(effort[np.isfinite(effort)]))
     # the median; numpy's own loads masked arrays at its first call
     return 0.5 * float(sizes[(sizes.size - 1) // 2] + sizes[sizes.size // 2]) if sizes.size else math.nan
 
 
-def demand(solved: Callable[[Array], Any], periods: int, *, quickest: float, limited: bool) -> Demand:
-    """Return what a true period of so many drive periods asks; `solved` gives the motion at phases.
+def demand(solved: Callable[[Array], Any], phases: Array) -> Demand:
+    """Return what a true period asks, at these phases of it from 0 on; `solved` gives the motion at phases.
 
-    `quickest` is how many times as fast as the input the quickest crank turns.
-    Where the input is `limited` its ends are limits. The means are those of equal weights on a closed curve,
-    which lose nothing of a smooth one.
+    The means are those of equal weights on a closed curve, which lose nothing of a smooth one. Where the
+    effort is not bounded is an end of the input, which is among the phases.
     """
-    fine = math.ceil(quickest / _FINE)
-    phases = _phases(periods * fine) / fine
-    cycles = map(solved, np.array_split(phases, math.ceil(len(phases) / _AT_ONCE)))
-    parts = [_needs_of(cycle := part) for part in cycles]
-    power, effort, used = (np.concatenate(rows) for rows in zip(*parts, strict=True))
-    work = float(np.mean(used)) * math.tau * periods / abs(float(cycle.input_speed))
-    idle = np.abs(power) <= _BOUNDED * np.abs(power).max()
-    if (limited and not idle[:: len(idle) // (2 * periods)].all()) or not np.isfinite(effort).all():
+    parts = [_needs_of(cycle := solved(part)) for part in in_blocks(phases)]
+    effort, used = (np.concatenate(rows) for rows in zip(*parts, strict=True))
+    work = float(np.mean(used)) * len(phases) * float(phases[1]) / abs(float(cycle.input_speed))
+    if not np.isfinite(effort).all():
         return Demand(work, None, None)
     peak = _peak(lambda near: np.asarray(input_effort(solved(near))), phases, effort)
     steady = np.ndim(cycle.coordinate_rate) == 0
     return Demand(work, peak, float(np.mean(used) / cycle.coordinate_rate) if steady else _mean(effort))
 
 
-def _needs_of(cycle: Any) -> tuple[Array, Array, Array]:
-    """Return the input's power and effort, and the power that dampers use up."""
-    dampers = _strut_power(cycle, _MOVING, cycle.setting.linkage.dampers)
-    power = np.asarray(input_power(cycle))
-    return power, np.asarray(input_effort(cycle)), sum((part for part, *_ in dampers), 0.0 * power)
+def _needs_of(cycle: Any) -> tuple[Array, Array]:
+    """Return the input's effort, and the power that dampers use up."""
+    linkage, used = cycle.setting.linkage, 0.0 * np.asarray(cycle.phase)
+    for item in linkage.dampers:
+        if item.coefficient is not None and holding(linkage.rigid_bodies, item.between) is None:
+            rate = said(cycle, cycle.damper[item.name].rate, "{}/s", 1) * linkage.metre
+            used = used + item.coefficient * rate * rate
+    return np.asarray(input_effort(cycle)), used
 
 
 def _peak(effort: Callable[[Array], Array], phases: Array, known: Array) -> float:
@@ -256,13 +241,6 @@ def _peak(effort: Callable[[Array], Array], phases: Array, known: Array) -> floa
     ]
     peaks = effort(np.array(places))
     return float(peaks[np.abs(peaks).argmax()])
-
-
-def _phases(periods: int) -> Array:
-    """Return phases at which a true period is looked at."""
-    count = SAMPLES_A_TURN * periods
-    phases: Array = np.arange(count, dtype=np.float64) * (math.tau * periods / count)
-    return phases
 
 
 def _mean(values: Array) -> float:

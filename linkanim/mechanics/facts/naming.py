@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
+from numpy.typing import NDArray
 
 from linkanim.mechanics.closing.kinds import CLOSERS
-from linkanim.mechanics.closing.search import SAMPLES_A_TURN
+from linkanim.mechanics.closing.search import in_blocks
 from linkanim.mechanics.formulas.program import Array
 from linkanim.mechanics.linkage.dyads import RRR
 from linkanim.mechanics.linkage.joint import Joint
@@ -20,7 +21,6 @@ from linkanim.mechanics.linkage.rigid_bodies import holding
 from linkanim.mechanics.loops.roots import Kind
 from linkanim.mechanics.motion.measures import pivots_of
 from linkanim.mechanics.motion.mechanism import Mechanism
-from linkanim.mechanics.motion.motion import Motion
 
 _EACH_NAMED = 4
 """Up to this many four-bars in a row each is named, beyond that only the first."""
@@ -144,7 +144,8 @@ def _further_loops(mechanism: Mechanism) -> Iterator[FourBar]:
 
     Their sign tells a parallelogram, whose coupler keeps along the ground, from an antiparallelogram.
     """
-    linkage, cycle = mechanism.linkage, one_cycle(mechanism, 0)
+    linkage = mechanism.linkage
+    cycle = mechanism.solve(phase=in_blocks(mechanism.phases)[0], speed=1.0, derivatives=0)
     pins = {pin.name: complex(*pin.position) for pin in linkage.pins}
     for joint in linkage.joints:
         if not isinstance(joint, RRR) or joint.name in mechanism.assembly.loops:
@@ -199,45 +200,55 @@ def _change_point_name(bar: FourBar) -> str:
     return "change-point " + GRASHOF[_part(bar, min)]
 
 
-def one_cycle(mechanism: Mechanism, derivatives: int) -> Motion:
-    """Return the motion over one true period, at equal steps of phase and at one radian a second."""
-    phases = np.linspace(0.0, 2 * math.pi * mechanism.periods, SAMPLES_A_TURN, endpoint=False)
-    return mechanism.solve(phase=phases, speed=1.0, derivatives=derivatives)
+def turning_bodies(mechanism: Mechanism) -> tuple[str, ...]:
+    """Return the bodies that turn fully over one true period: a crank with the input, another as it winds."""
+    linkage, full_turn = mechanism.linkage, mechanism.assembly.path.full_turn
+    bodies = [body for body in linkage.bodies if body.slider is None]
+    turns = {body.name: full_turn for body in bodies if linkage.crank_of(body)}
+    others = [body for body in bodies if body.name not in turns]
+    if others:
+        turns |= dict(zip((body.name for body in others), _windings(mechanism, others), strict=True))
+    return tuple(body.name for body in bodies if turns[body.name])
 
 
-def turns_fully(cycle: Motion, body: Body) -> bool:
-    """Tell whether a body turns fully over one true period: a crank with the input, another as it winds."""
-    if body.slider is not None:
-        return False
-    if cycle.setting.crank_of(body):
-        return cycle.setting.assembly.path.full_turn
-    first, second = (cycle.position[joint] for joint in body.joints[:2])
-    return winds(*(second - first).T)
+def _windings(mechanism: Mechanism, bodies: list[Body]) -> list[bool]:
+    """Return whether each body's direction has gone round in one true period, a block of it at a time."""
+    gone = np.zeros(len(bodies), np.intp)
+    first: Array = np.empty((len(bodies), 0, 2))
+    last = first
+    for part in in_blocks(mechanism.phases):
+        places = mechanism.solve(phase=part, speed=1.0, derivatives=0).position
+        ways = np.stack([places[body.joints[1]] - places[body.joints[0]] for body in bodies])
+        gone += _crossings(np.concatenate([last, ways], axis=1))
+        first, last = first if first.size else ways[:, :1], ways[:, -1:]
+    gone += _crossings(np.concatenate([last, first], axis=1))
+    return [bool(one) for one in gone]
 
 
-def winds(x: Array, y: Array) -> bool:
-    """Tell whether a direction that is sampled once around, by less than half a turn, has gone round."""
-    below, x1, y1 = y < 0, np.append(x[1:], x[0]), np.append(y[1:], y[0])
-    left = x * y1 > y * x1
-    up, down = below & left, ~below & ~left
-    return bool(np.count_nonzero(up & (y1 >= 0)) != np.count_nonzero(down & (y1 < 0)))
+def _crossings(ways: Array) -> NDArray[np.intp]:
+    """Return how often directions (D, N, 2) cross the x axis ahead to the left, less how often back."""
+    (x, x1), (y, y1) = ((ways[:, :-1, n], ways[:, 1:, n]) for n in (0, 1))
+    below, left = y < 0, x * y1 > y * x1
+    up, down = below & left & (y1 >= 0), ~below & ~left & (y1 < 0)
+    return np.asarray(np.count_nonzero(up, axis=1) - np.count_nonzero(down, axis=1))
 
 
-def link_names(cycle: Motion) -> dict[str, str]:
+def link_names(mechanism: Mechanism, turning: Collection[str]) -> dict[str, str]:
     """Return what each body is called: one that a scene names crank, rocker or coupler by what it does.
 
-    A crank turns fully about a fixed pin, a rocker swings about one, a coupler has none. Of cranks the
-    input is the crank, others are driven cranks; of rockers the input is the input rocker. Further ones of
-    a sort are counted: second coupler. Every other name stays.
+    `turning` are those that turn fully. A crank turns fully about a fixed pin, a rocker swings about one, a
+    coupler has none. Of cranks the input is the crank, others are driven cranks; of rockers the input is the
+    input rocker. Further ones of a sort are counted: second coupler. Every other name stays.
     """
-    parts = {body.name: _part_of(cycle, body) for body in cycle.setting.linkage.bodies}
+    full_turn = mechanism.assembly.path.full_turn
+    parts = {body.name: _part_of(mechanism, body, turning) for body in mechanism.linkage.bodies}
     driven = [name for name, (_, drives) in parts.items() if not drives]
     first = next((noun for noun, drives in parts.values() if drives and noun), None)
     count: dict[str, int] = {}
     names = {}
     for name, (noun, drives) in parts.items():
         words = noun or name
-        if noun == "crank" and not drives and first != "rocker" and cycle.setting.assembly.path.full_turn:
+        if noun == "crank" and not drives and first != "rocker" and full_turn:
             words = "driven crank"
         elif noun == "rocker" and drives and any(parts[other][0] == "rocker" for other in driven):
             words = "input rocker"
@@ -246,9 +257,9 @@ def link_names(cycle: Motion) -> dict[str, str]:
     return names
 
 
-def _part_of(cycle: Motion, body: Body) -> tuple[str | None, bool]:
+def _part_of(mechanism: Mechanism, body: Body, turning: Collection[str]) -> tuple[str | None, bool]:
     """Return crank, rocker or coupler, None for a body with another name; and whether it is the input."""
-    linkage = cycle.setting.linkage
+    linkage = mechanism.linkage
     own = _PARTS.fullmatch(body.name)
     if own is None or body.slider is not None:
         return None, False
@@ -258,7 +269,7 @@ def _part_of(cycle: Motion, body: Body) -> tuple[str | None, bool]:
     drives = linkage.drive.joint in linkage.rigid_bodies[holding(linkage.rigid_bodies, body.joints) or 0]
     if not pivoted:
         return "coupler", False
-    turns = cycle.setting.assembly.path.full_turn if drives else turns_fully(cycle, body)
+    turns = mechanism.assembly.path.full_turn if drives else body.name in turning
     return "crank" if turns else "rocker", drives
 
 

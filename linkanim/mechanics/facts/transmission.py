@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 
 from linkanim.mechanics.closing.kinds import walk_at
-from linkanim.mechanics.closing.search import SAMPLES_A_TURN, around, changes_by_row, highest, own_rows
+from linkanim.mechanics.closing.search import around, changes_by_row, highest, in_blocks, own_rows
 from linkanim.mechanics.formulas.expression import Graph
 from linkanim.mechanics.formulas.planar import Slope
 from linkanim.mechanics.formulas.program import Array, batch
@@ -65,9 +65,10 @@ def _where_least(mechanism: Mechanism, dyad: str) -> float:
         motion = mechanism.solve(phase=phases, speed=1.0, derivatives=0)
         return -np.asarray(transmission_angle(motion, dyad), dtype=np.float64)
 
-    places = around(mechanism.periods, SAMPLES_A_TURN)
-    worst = float(places[np.nanargmax(negative(places))])
-    return highest(negative, worst, math.tau / SAMPLES_A_TURN) % (math.tau * mechanism.periods)
+    count = mechanism.assembly.samples
+    places = around(mechanism.periods, count)
+    worst = float(places[np.nanargmax(np.concatenate([*map(negative, in_blocks(places))]))])
+    return highest(negative, worst, math.tau / count) % (math.tau * mechanism.periods)
 
 
 def _of_loops(mechanism: Mechanism) -> Iterator[tuple[str, Array]]:
@@ -100,7 +101,7 @@ def _of_chain(mechanism: Mechanism) -> Iterator[tuple[str, Array]]:
         rates[np.abs(rates) <= RIGID * np.abs(values[::3])] = 0.0
         return values
 
-    places = around(assembly.path.periods, SAMPLES_A_TURN)
+    places = around(assembly.path.periods, assembly.samples)
     with np.errstate(all="ignore"):
         rows, extremes = changes_by_row(moving, places, NEARLY)
         whose = np.concatenate([np.arange(count), rows // len(parts[0])])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
@@ -37,6 +38,8 @@ _Key = tuple[int, bool, bool]
 """Which poses a program gives: how many derivatives, whether the input accelerates, whether `per_input`."""
 
 
+_FINE, _MOST_SEEN = 24, 20_001
+
 Traced = tuple[tuple[str, ...], Rows]
 """The formulas as traced for one way of asking: the inputs' names, and every quantity."""
 
@@ -61,6 +64,20 @@ class Mechanism(Setting):
     def periods(self) -> int:
         """The number of drive periods after which every joint is back."""
         return 1 if self.retraced else self.assembly.path.periods
+
+    @property
+    def phases(self) -> Array:
+        """Phases over one true period, from 0 on at equal steps, as near as what turns fastest needs."""
+        count = self.assembly.samples * self.periods
+        phases: Array = np.arange(count, dtype=np.float64) * (2 * math.pi * self.periods / count)
+        return phases
+
+    def count(self, least: int) -> int:
+        """Return at how many phases of one true period its course is seen: `least`, more of quick gears.
+
+        Of each turn of the quickest crank it is 24 of them, as far as that is not too many.
+        """
+        return max(least, min(math.ceil(_FINE * self.assembly.quickest * self.periods), _MOST_SEEN))
 
     @property
     def retraced(self) -> bool:

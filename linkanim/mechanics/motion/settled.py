@@ -93,4 +93,5 @@ def _size(unit: str, extent: float) -> float:
     if not ("{" in above or above.startswith("rad")):
         return 0.0
     power = ("{" in above) - ("{" in below) * (2 if "²" in below else 1)
-    return float(ROUNDING * extent**power)
+    with np.errstate(all="ignore"):  # extents to a power may be beyond all floats
+        return float(ROUNDING * np.power(extent, float(power)))

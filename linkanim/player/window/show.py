@@ -5,11 +5,13 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import replace
+from math import isfinite
 
 import numpy as np
 
-from linkanim.digits import significant, typeset
+from linkanim.digits import significant, stepped, typeset
 from linkanim.mechanics.facts.register import Quantity
+from linkanim.mechanics.linkage.linkage import Body
 from linkanim.mechanics.motion.motion import Pose
 from linkanim.picture.diagrams.quantities import quantity
 from linkanim.picture.panels.overlay import (
@@ -116,19 +118,32 @@ def _quantities(state: State, listing: Listing) -> Quantities:
     pose = scene.pose(state.clock.at(state.frame // _READ * _READ), speed=state.clock.speed)
     near = range(listing.chosen - _NEAR, listing.chosen + _NEAR)
     rows = tuple(
-        (one.words, _value(one, pose, scene.length_unit) if n in near or n < _NEAR else one.symbol)
+        (one.words, value_words(scene, one, pose) if n in near or n < _NEAR else one.symbol)
         for n, one in enumerate(found)
     )
     return Quantities(rows, listing.chosen, listing.sieve, _LIST_HINT)
 
 
-def _value(one: Quantity, pose: Pose, length_unit: str) -> str:
-    """Return a quantity's symbol and what it is at a pose, a vector by its components."""
+def value_words(scene: Scene, one: Quantity, pose: Pose) -> str:
+    """Return a quantity's symbol and what it is at a pose, a vector by its components.
+
+    Of a crank that goes on and on it is the angle within one turn, as the HUD has it.
+    """
     found = one.shown(pose)
     parts = found if isinstance(found, tuple | list | np.ndarray) and np.ndim(found) else (found,)
-    values = ", ".join(typeset(significant(float(part), 4)) for part in parts if part is not None)
-    unit = one.shown_unit(length_unit)
+    if scene.info.full_turn and any(one.token == f"{body.name}.angle" for body in _cranks(scene)):
+        parts = tuple(float(significant(float(part), 4)) % 360 for part in parts)
+    values = ", ".join(_four_digits(float(part)) for part in parts if part is not None)
+    unit = one.shown_unit(scene.length_unit)
     return f"{one.symbol} = {values or '–'}{'' if unit == '°' else ' '}{unit}".rstrip()
+
+
+def _cranks(scene: Scene) -> Iterator[Body]:
+    return (body for body in scene.linkage.bodies if scene.linkage.crank_of(body))
+
+
+def _four_digits(value: float) -> str:
+    return typeset(significant(value, 4)) if isfinite(value) else stepped(value, 1.0)
 
 
 def _path(sketch: Sketch) -> PathShown:
