@@ -2,8 +2,9 @@
 
 `load` gives a scene by name or path, `names` the catalogue, `record` turns a scene into a GIF, MP4
 or numbered PNG, `path` a drawn curve into linkages that follow it, `guide` poses into linkages whose
-coupler passes them. Everything is imported when first asked for: `import linkanim` alone brings in
-neither a window nor an encoder.
+coupler passes them, `function` a function into linkages that generate it, `quick_return` a time ratio
+into linkages that have it. Everything is imported when first asked for: `import linkanim` alone brings
+in neither a window nor an encoder.
 
 `mechanics`, from the ground up; each room imports from those before it only:
 
@@ -52,7 +53,9 @@ if TYPE_CHECKING:
     from linkanim.recorder.scene_frames import record
     from linkanim.scenes import load, names
     from linkanim.scenes.scene import Scene
+    from linkanim.synthesis.generation import function
     from linkanim.synthesis.guidance import guide
+    from linkanim.synthesis.quick_returns import quick_return
     from linkanim.synthesis.request import path
 
 # Here, because every import of pygame comes after it: its greeting would stand among a command's output.
@@ -60,16 +63,30 @@ os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
 
 __version__ = "0.3.0"
 
-__all__ = ["LinkanimError", "Look", "Scene", "__version__", "guide", "load", "names", "path", "record"]
+__all__ = [
+    "LinkanimError",
+    "Look",
+    "Scene",
+    "__version__",
+    "function",
+    "guide",
+    "load",
+    "names",
+    "path",
+    "quick_return",
+    "record",
+]
 
 _HOME = {
     "LinkanimError": "linkanim.errors",
     "Look": "linkanim.picture.look",
     "Scene": "linkanim.scenes.scene",
+    "function": "linkanim.synthesis.generation",
     "guide": "linkanim.synthesis.guidance",
     "load": "linkanim.scenes",
     "names": "linkanim.scenes",
     "path": "linkanim.synthesis.request",
+    "quick_return": "linkanim.synthesis.quick_returns",
     "record": "linkanim.recorder.scene_frames",
 }
 

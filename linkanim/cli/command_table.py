@@ -17,7 +17,7 @@ from linkanim.errors import BadInput, WorkFailed
 from linkanim.intake import control_in
 from linkanim.units import shown
 
-_WITHOUT_PYGAME = ("solve", "info", "scenes", "check", "path", "guide")
+_WITHOUT_PYGAME = ("solve", "info", "scenes", "check", "path", "guide", "function", "quick-return")
 
 
 def parse(argv: Sequence[str] | None = None) -> Namespace:
@@ -33,7 +33,8 @@ def run(chosen: Namespace) -> None:
     """Import the module of the chosen command, and only that, and let it do its work."""
     if chosen.command not in _WITHOUT_PYGAME:
         refuse_mixed_pygame()
-    work = cast(Callable[[Namespace], None], import_module(f"linkanim.cli.commands.{chosen.command}").run)
+    module = f"linkanim.cli.commands.{chosen.command.replace('-', '_')}"
+    work = cast(Callable[[Namespace], None], import_module(module).run)
     work(chosen)
 
 
@@ -201,6 +202,19 @@ COMMANDS: Mapping[str, tuple[str, ...]] = {
         "linkanim guide poses.csv -o lid.toml",
         "linkanim guide poses.csv --pivots 0,0 120,-15",
         'linkanim guide poses.csv --kind slider-crank --box 0,0,200,100 --least-angle "30 deg" --json',
+    ),
+    "function": (
+        "find linkages whose output follows a function, and write them as scenes",
+        'linkanim function "y = log10(x)" --from 1 --to 10',
+        'linkanim function "y = x^2" --from 0 --to 1 --input "90 deg" --output "60 deg" --chart error.svg',
+        'linkanim function table.csv --kind slider-crank --output "80 mm" --points 3',
+        'linkanim function "1/x" --from 1 --to 2 --input "30 deg:90 deg" --output "90 deg:0 deg" --chebyshev',
+    ),
+    "quick-return": (
+        "find linkages of a stroke or swing and a time ratio, with the best transmission angle",
+        "linkanim quick-return --stroke 80 --ratio 1.4",
+        'linkanim quick-return --swing "60 deg" --ratio 1.25 -o rocker.toml --count 1',
+        'linkanim quick-return --stroke "8 cm" --ratio 1.4 --place 0.5 --json',
     ),
     "gallery": (
         "record every built-in scene as a small GIF, and draw the chart of bench",

@@ -135,6 +135,14 @@ def pair(text: str) -> tuple[float, float]:
     return found
 
 
+def length(text: str) -> float:
+    """Read a length above zero in mm, which needs no unit."""
+    found = units.length(text, unit="mm")
+    if found <= 0:
+        raise BadInput(f"{text!r} is no length above zero; give one such as 80 mm")
+    return found
+
+
 def step(text: str) -> float:
     """Read a length above zero in mm, such as `0.1 mm`."""
     found = units.length(text, unit="mm")

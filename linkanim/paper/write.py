@@ -11,6 +11,7 @@ from linkanim.paper.curves import table
 from linkanim.paper.figure import Figured
 from linkanim.paper.latex import write_for_latex
 from linkanim.paper.pdf import pdf, require_pdf
+from linkanim.paper.structural_error import ErrorChart
 from linkanim.paper.svg import svg
 from linkanim.picture.raster.offscreen import png_bytes
 
@@ -18,7 +19,7 @@ OF_A_FIGURE = (".svg", ".png", ".pdf")
 OF_A_CHART = (*OF_A_FIGURE, ".csv")
 
 
-def write(shown: Figured | Page, target: Path, *, latex: bool = False) -> None:
+def write(shown: Figured | Page | ErrorChart, target: Path, *, latex: bool = False) -> None:
     """Write a figure or a chart as SVG, PNG or PDF, a chart also as CSV; a file appears whole or not at all.
 
     The words of a PDF are left to `latex` in a file beside it. `WorkFailed` where disk or folder refuse;
@@ -33,12 +34,14 @@ def write(shown: Figured | Page, target: Path, *, latex: bool = False) -> None:
         part.write_bytes(data(shown, target.suffix.lower()))
 
 
-def data(shown: Figured | Page, suffix: str) -> bytes:
+def data(shown: Figured | Page | ErrorChart, suffix: str) -> bytes:
     """Return a figure or a chart as a kind of file."""
     match suffix:
         case ".csv" if isinstance(shown, Page):
             names, columns = table(shown.curves)
             return (csv_head(names) + csv_rows(columns)).encode()
+        case ".csv" if isinstance(shown, ErrorChart):
+            return shown.csv().encode()
         case ".png":
             return png_bytes(shown.surface())
         case ".pdf":

@@ -1,0 +1,132 @@
+"""`linkanim function`: a function to the linkages that generate it, as scene files and a table."""
+
+from __future__ import annotations
+
+import math
+from argparse import Namespace
+from collections.abc import Callable
+from pathlib import Path
+
+from linkanim import units
+from linkanim.atomic_files import checked_target
+from linkanim.digits import significant
+from linkanim.errors import BadInput
+from linkanim.export import columns, json_text
+from linkanim.intake import Intake, named
+from linkanim.number_table import read_numbers
+from linkanim.synthesis.files import file_set, write
+from linkanim.synthesis.generation import Generated, function
+
+_TABLE_FILE = Intake("a table of x and y", most_bytes=1_000_000, most_values=100_000)
+_SUFFIXES = (".csv", ".txt", ".tsv", ".dat")
+_TITLES = ("file", "largest error", "of y's range", "input", "output", "transmission", "class")
+
+
+def run(options: Namespace) -> None:
+    """Find the linkages, write their files, and print the table or JSON; draw the error where asked to."""
+    target = checked_target(options.output_file or Path("function.toml"), (".toml",))
+    file_set(target).refuse_foreign([target.name])
+    chart = None if options.chart is None else checked_target(options.chart, (".svg", ".png", ".pdf", ".csv"))
+    given = _table(Path(options.given)) if _names_a_file(options.given) else options.given
+    sliding = options.kind == "slider-crank"
+    found = function(
+        given,
+        options.first,
+        options.last,
+        kind=options.kind,
+        points=options.points,
+        count=options.count,
+        level=not options.chebyshev,
+        **_scale("input", options.input, units.angle),
+        **_scale("output", options.output, _length if sliding else units.angle),
+        name=target.stem,
+        source=f"linkanim function {options.given}",
+    )
+    files = write([one.scene for one in found], target)
+    if chart is not None:
+        _draw(found[0], chart)
+    rows = list(zip(found, files, strict=True))
+    if options.json:
+        print(json_text([_object(one, file) for one, file in rows], indent=2))
+    else:
+        print(columns([_TITLES, *(_cells(one, file) for one, file in rows)]))
+
+
+def _names_a_file(text: str) -> bool:
+    return Path(text).suffix.lower() in _SUFFIXES or Path(text).is_file()
+
+
+def _table(path: Path) -> list[tuple[float, float]]:
+    where = named(path)
+    rows = read_numbers(_TABLE_FILE.read(path, where), where, "x, y").rows
+    for line, numbers in rows:
+        if len(numbers) != 2:
+            raise BadInput(f"{where}: line {line} has {len(numbers)} columns; give x and y")
+    return [(row.numbers[0], row.numbers[1]) for row in rows]
+
+
+def _length(text: str) -> float:
+    return units.length(text, unit="mm")
+
+
+def _scale(name: str, text: str | None, read: Callable[[str], float]) -> dict[str, float]:
+    """Return the range that is given of a scale, and its start if it has one."""
+    if text is None:
+        return {}
+    first, sign, last = text.partition(":")
+    try:
+        values = [read(part.strip()) for part in ((first, last) if sign else (first,))]
+    except BadInput as error:
+        raise BadInput(f"--{name}: {error}") from None
+    if not sign:
+        return {f"{name}_range": values[0]}
+    return {f"{name}_start": values[0], f"{name}_range": values[1] - values[0]}
+
+
+def _draw(one: Generated, target: Path) -> None:
+    from linkanim.paper.structural_error import ErrorChart
+    from linkanim.paper.write import write as write_figure
+
+    write_figure(ErrorChart(one), target)
+
+
+def _span(one: Generated, start: float, over: float, *, turning: bool) -> str:
+    ends = [math.degrees(end) if turning else end for end in (start, start + over)]
+    return f"{significant(ends[0], 4)}…{significant(ends[1], 4)} {'deg' if turning else one.task.unit}"
+
+
+def _cells(one: Generated, file: Path) -> tuple[str, ...]:
+    share = f"{significant(100 * one.error / abs(one.task.function.span), 2)} %"
+    angle = f"{significant(math.degrees(one.transmission_angle), 3)} deg"
+    return (
+        *(str(file), significant(one.error, 3), share),
+        _span(one, one.input_start, one.input_range, turning=True),
+        _span(one, one.output_start, one.output_range, turning=one.task.generator.turning),
+        *(angle, one.class_name),
+    )
+
+
+def _object(one: Generated, file: Path) -> dict[str, object]:
+    """Return what `--json` prints of an answer."""
+    given = one.task.function
+    return {
+        "file": str(file),
+        "error": one.error,
+        "defects": [],
+        "input_start": one.input_start,
+        "input_range": one.input_range,
+        "output_body": one.output_body,
+        "output_start": one.output_start,
+        "output_range": one.output_range,
+        "x_from": given.first,
+        "x_to": given.last,
+        "y_start": given.start,
+        "y_range": given.span,
+        "points": one.points.tolist(),
+        "extremes": one.extremes,
+        "chebyshev_error": one.chebyshev,
+        "transmission_angle": one.transmission_angle,
+        "largest_link": one.size,
+        "class": one.class_name,
+        "parameters": {"kind": one.task.generator.name, **one.parameters},
+    }

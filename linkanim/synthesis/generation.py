@@ -1,0 +1,872 @@
+"""`linkanim.function`: a function to the linkages whose output follows it as their input turns.
+
+x is read on the input crank, y on the output, each on an even scale. What the output does is y at as many
+x as there are precision points, to the last digits, and differs from it between them by the structural
+error. Three points leave the directions at which both scales begin, and Freudenstein's equation
+
+    K₁ cos ψ - K₂ cos θ + K₃ = cos(θ - ψ)
+
+is linear in the rest (Freudenstein, Approximate Synthesis of Four-Bar Linkages, Transactions of the ASME 77,
+1955). Four points leave one choice, five none: seen from the output link the input link takes as many poses,
+and the coupler is a bar of Burmester's between them. As many numbers as there are points then make as many
+extremes of the error, and one more, equal: that is the least error of all (Chebyshev's theorem on best
+approximation), found by Remez's exchange, Newton's steps for numbers that do not go in evenly.
+"""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from linkanim import units
+from linkanim.errors import AssemblyError, BadInput, SceneError
+from linkanim.scenes.reading.read import scene_from
+from linkanim.scenes.scene import Scene
+from linkanim.synthesis.burmester import Bars, CentreCurve, Poses, burmester_points, circle_points, polished
+from linkanim.synthesis.given_function import GivenFunction, expression, table
+from linkanim.synthesis.kinds import Real
+from linkanim.units import shown
+
+COUNT = 3
+FEWEST_POINTS, MOST_POINTS = 3, 5
+GROUND, STROKE = 100.0, 100.0
+"""The four-bar's ground, and the slider's way, where nothing is said of them."""
+
+_FREE = tuple(math.radians(angle) for angle in (60, 90, 120))
+"""Ranges that are tried where one is free."""
+_LEAST = math.radians(35)
+"""Transmission angles below this one count against a linkage."""
+_SLIMMEST = 40.0
+"""The longest link in shortest ones, beyond which a linkage is none."""
+_TRIED, _SEEN, _CURVE = 18, 41, 60
+"""Directions of each scale, places along the range, and bars of a curve that are tried."""
+_PLACES = 401
+"""Along the range, at which extremes are looked for."""
+_EXCHANGES = 25
+_SHARES = (1.0, 0.5, 0.25, 0.1, 0.03)
+"""Of a step of Newton's, the first that makes the largest error less is taken."""
+_LEVEL = 1e-9
+"""Of the error: by how much its extremes may differ when they are level."""
+_SAME = 1e-6
+_FARTHEST = 3.0
+"""Of the slider's way: where its scale is tried to begin, to either side of the crank's pivot."""
+_KEPT, _MORE = 4, 7
+"""Linkages that are kept of those for one pair of ranges, and looked at beside those that are asked for."""
+_HALVINGS = 50
+_FINEST = 1e-15
+_POOR = 5.0
+"""What a transmission angle below the least costs: the error times the ratio of their sines, so often."""
+_DIGITS = 11
+_FINE = 2001
+"""Places at which the solver's errors are looked at."""
+_NARROWEST, _WIDEST = math.radians(1), math.radians(340)
+MOST_ANSWERS = 50
+
+
+@dataclass(frozen=True, eq=False)
+class FunctionTask:
+    """A function, ranges and starts of both scales, None for one that is free, and how many precision points.
+
+    Ranges and starts are angles (rad), those of a slider lengths; a negative range is run backwards.
+    """
+
+    function: GivenFunction
+    generator: Generator
+    points: int
+    input_range: float | None = None
+    input_start: float | None = None
+    output_range: float | None = None
+    output_start: float | None = None
+    level: bool = True
+    fewer: bool = False
+    """Whether fewer precision points may be taken."""
+    unit: str = "mm"
+    name: str = "function"
+    source: str = "made by linkanim for a function"
+
+    @property
+    def length(self) -> float:
+        """What the generator's unit of length stands for."""
+        if self.generator.turning:
+            return GROUND
+        return STROKE if self.output_range is None else abs(self.output_range)
+
+    @property
+    def scales(self) -> tuple[float, float]:
+        """The units in which the generator has its input and its output."""
+        return 1.0, 1.0 if self.generator.turning else self.length
+
+
+@dataclass(frozen=True, eq=False)
+class Generated:
+    """A linkage beside the function; y's unit for errors, angles in radians, of a slider lengths."""
+
+    scene: Scene = field(repr=False)
+    parameters: Mapping[str, float]
+    error: float
+    """The largest structural error."""
+    extremes: tuple[tuple[float, float], ...]
+    """Where the structural error is greatest and least along x, with its value, the ends among them."""
+    points: Real
+    """The precision points: x at which there is no error."""
+    input_start: float
+    input_range: float
+    output_start: float
+    output_range: float
+    transmission_angle: float
+    """The least over the range."""
+    chebyshev: float
+    """The largest structural error of the linkage that it was levelled from, with Chebyshev's points."""
+    task: FunctionTask = field(repr=False)
+
+    def errors(self, x: Real) -> Real:
+        """Return the structural errors at x as the solver has them, in y's unit."""
+        scales = self.input_start, self.input_range, self.output_start, self.output_range
+        return _solved_errors(self.scene, self.task, scales, x)
+
+    @property
+    def class_name(self) -> str:
+        """The linkage's class, in words."""
+        return self.scene.info.class_name
+
+    @property
+    def output_body(self) -> str:
+        """The body on which y is read."""
+        return self.task.generator.output
+
+    @property
+    def size(self) -> float:
+        """The longest link."""
+        return max(self.parameters[name] for name in self.task.generator.links)
+
+
+class Designs(NamedTuple):
+    """Linkages of one kind (k, p), their closures (k,), and the ranges of both scales (k,)."""
+
+    rows: Real
+    closure: Real
+    input_range: Real
+    output_range: Real
+
+    def take(self, chosen: Any) -> Designs:
+        """Return some of them."""
+        return Designs(*(part[chosen] for part in self))
+
+
+class Generator(ABC):
+    """A kind of linkage that generates functions, by its parameters at the first x.
+
+    A row has the input's link first, and the input's and the output's places at the first x last.
+    """
+
+    name: str
+    parameters: tuple[str, ...]
+    links: tuple[str, ...]
+    output: str
+    reading: str
+    """Which of a motion's quantities y is read on."""
+    turning: bool
+    """Whether that is an angle."""
+    in_line: float
+    """The crank's angle, half turns aside, at which the transmission angle is at an extreme."""
+
+    @abstractmethod
+    def lengths(self, rows: Real) -> Real:
+        """Return the lengths of `links` (k, m)."""
+
+    @abstractmethod
+    def poses(self, inputs: Real, outputs: Real) -> Poses:
+        """Return the poses of the input link as the output sees it, at ways of both since the first x."""
+
+    @abstractmethod
+    def rows(self, poses: Poses, bars: Bars, first: tuple[float, float]) -> Real:
+        """Return the rows of couplers (k,) of such poses, the ways at the first of which are `first`."""
+
+    @abstractmethod
+    def through(self, inputs: Real, outputs: Real) -> Real:
+        """Return the rows (k, p) through three places of input and output (k, 3), by a linear equation."""
+
+    @abstractmethod
+    def outputs(self, rows: Real, closure: Real, inputs: Real, near: Real) -> tuple[Real, Real]:
+        """Return the output's ways (k, n) at those of the input, and cos μ; NaN where it is not reached.
+
+        Of angles that are one the way is that which is nearest to what it is to be `near`.
+        """
+
+    @abstractmethod
+    def closures(self, rows: Real, inputs: Real, outputs: Real) -> Real:
+        """Return +1 or -1 (k, n) for how the linkage closes at ways of both, which it passes."""
+
+    @abstractmethod
+    def slopes(self, row: Real, inputs: Real, outputs: Real) -> Real:
+        """Return how outputs (n,) change with each parameter (n, p), less the change of the scale's start."""
+
+    @abstractmethod
+    def document(self, row: Real, closure: float, scale: float) -> dict[str, Any]:
+        """Return the scene's tables [ground], [joints] and [bodies]."""
+
+
+class FourBarGenerator(Generator):
+    """Crank and rocker on a ground of length 1: y is read on the rocker's angle."""
+
+    name = "four-bar"
+    parameters = ("crank", "coupler", "rocker", "input_start", "output_start")
+    links = ("ground", "crank", "coupler", "rocker")
+    output = "rocker"
+    reading, turning, in_line = "angle", True, 0.0
+
+    def lengths(self, rows: Real) -> Real:
+        """Return ground, crank, coupler and rocker."""
+        return np.column_stack([np.ones(len(rows)), rows[:, :3]])
+
+    def poses(self, inputs: Real, outputs: Real) -> Poses:
+        """Return the crank as the rocker sees it."""
+        turned = inputs - outputs
+        return Poses(-np.exp(-1j * outputs), turned - math.tau * np.round((turned - turned[0]) / math.tau))
+
+    def rows(self, poses: Poses, bars: Bars, first: tuple[float, float]) -> Real:
+        """Return the rows of couplers between both; that of length 1 between the pivots is none."""
+        pin = (bars.circle - poses.origins[0]) * np.exp(1j * (first[1] - first[0]))
+        lengths = np.abs(pin), np.abs(bars.circle - bars.centre), np.abs(bars.centre)
+        found = np.stack([*lengths, np.angle(pin), np.angle(bars.centre)], axis=1)
+        return np.asarray(found[(lengths[0] > _SAME) & (lengths[2] > _SAME)])
+
+    def through(self, inputs: Real, outputs: Real) -> Real:
+        """Solve Freudenstein's equation; a negative length is a link that points the other way."""
+        cosines = np.stack([np.cos(outputs), -np.cos(inputs), np.ones_like(inputs)], axis=-1)
+        found = _solved(cosines, np.cos(inputs - outputs))
+        with np.errstate(all="ignore"):
+            crank, rocker = 1 / found[:, 0], 1 / found[:, 1]
+            coupler = np.sqrt(1 + crank**2 + rocker**2 - 2 * crank * rocker * found[:, 2])
+        return np.asarray(np.stack([crank, coupler, rocker], axis=1))
+
+    def outputs(self, rows: Real, closure: Real, inputs: Real, near: Real) -> tuple[Real, Real]:
+        """Close the loop by its signed root."""
+        crank, coupler, rocker, first, last = (part[:, None] for part in rows.T)
+        way = 1 - crank * np.exp(1j * (first + inputs))
+        square = np.abs(way) ** 2
+        with np.errstate(all="ignore"):
+            root = np.sqrt(((coupler + rocker) ** 2 - square) * (square - (coupler - rocker) ** 2))
+            # B from O4: seen from there the root has the other sign
+            arm = -way * (square + (rocker - coupler) * (rocker + coupler) - 1j * closure[:, None] * root)
+            turned = np.angle(arm * np.exp(-1j * last))
+            cosine = (coupler**2 + rocker**2 - square) / (2 * coupler * rocker)
+        return turned + math.tau * np.round((near - turned) / math.tau), cosine
+
+    def closures(self, rows: Real, inputs: Real, outputs: Real) -> Real:
+        """Return on which side of A -> O4 the pin B lies."""
+        crank, _, rocker, first, last = (part[:, None] for part in rows.T)
+        pin = crank * np.exp(1j * (first + inputs))
+        end = 1 + rocker * np.exp(1j * (last + outputs))
+        return np.where((np.conj(1 - pin) * (end - pin)).imag > 0, 1.0, -1.0)
+
+    def slopes(self, row: Real, inputs: Real, outputs: Real) -> Real:
+        """Differentiate |1 + r₄e^(iψ) - r₂e^(iθ)|² = r₃²."""
+        crank, coupler, rocker, first, last = row
+        theta, psi = first + inputs, last + outputs
+        across, along = np.sin(psi - theta), np.cos(psi - theta)
+        by_psi = -rocker * np.sin(psi) + crank * rocker * across
+        by = (
+            crank - np.cos(theta) - rocker * along,
+            np.full_like(psi, -coupler),
+            rocker + np.cos(psi) - crank * along,
+            crank * np.sin(theta) - crank * rocker * across,
+        )
+        return np.stack([*(-part / by_psi for part in by), -np.ones_like(psi)], axis=-1)
+
+    def document(self, row: Real, closure: float, scale: float) -> dict[str, Any]:
+        """Return the four-bar, its ground along x."""
+        crank, coupler, rocker = (float(length) for length in row[:3] * scale)
+        return {
+            "ground": {"O2": [0.0, 0.0], "O4": [scale, 0.0]},
+            "joints": {
+                "A": {"crank": "O2", "length": crank},
+                "B": {
+                    "from": ["A", "O4"],
+                    "length": [coupler, rocker],
+                    "side": "left" if closure > 0 else "right",
+                },
+            },
+            "bodies": {
+                "crank": {"joints": ["O2", "A"]},
+                "coupler": {"joints": ["A", "B"]},
+                "rocker": {"joints": ["O4", "B"]},
+            },
+        }
+
+
+class SliderGenerator(Generator):
+    """Crank, rod and slider: y is read on the slider's travel, whose range is of length 1."""
+
+    name = "slider-crank"
+    parameters = ("crank", "rod", "offset", "input_start", "output_start")
+    links = ("crank", "rod")
+    output = "slider"
+    reading, turning, in_line = "travel", False, math.pi / 2
+
+    def lengths(self, rows: Real) -> Real:
+        """Return crank and rod."""
+        return np.asarray(rows[:, :2])
+
+    def poses(self, inputs: Real, outputs: Real) -> Poses:
+        """Return the crank as the slider sees it."""
+        return Poses(-outputs.astype(np.complex128), inputs)
+
+    def rows(self, poses: Poses, bars: Bars, first: tuple[float, float]) -> Real:
+        """Return the rows of rods between both."""
+        pin = (bars.circle - poses.origins[0]) * np.exp(-1j * first[0])
+        rod = np.abs(bars.circle - bars.centre)
+        found = np.stack([np.abs(pin), rod, bars.centre.imag, np.angle(pin), bars.centre.real], axis=1)
+        return found[found[:, 0] > _SAME]
+
+    def through(self, inputs: Real, outputs: Real) -> Real:
+        """Solve s² = 2r s cos θ + 2re sin θ + (l² - r² - e²), linear in three numbers of the lengths."""
+        parts = np.stack([outputs * np.cos(inputs), np.sin(inputs), np.ones_like(inputs)], axis=-1)
+        found = _solved(parts, outputs**2)
+        with np.errstate(all="ignore"):
+            crank, offset = found[:, 0] / 2, found[:, 1] / found[:, 0]
+            rod = np.sqrt(found[:, 2] + crank**2 + offset**2)
+        return np.stack([crank, rod, offset], axis=1)
+
+    def outputs(self, rows: Real, closure: Real, inputs: Real, near: Real) -> tuple[Real, Real]:
+        """Close the rod on the line."""
+        crank, rod, offset, first, last = (part[:, None] for part in rows.T)
+        rise = crank * np.sin(first + inputs) - offset
+        with np.errstate(all="ignore"):
+            root = np.sqrt((rod - rise) * (rod + rise))
+            return crank * np.cos(first + inputs) + closure[:, None] * root - last, rise / rod
+
+    def closures(self, rows: Real, inputs: Real, outputs: Real) -> Real:
+        """Return whether the slider is ahead of the crank's pin, or behind."""
+        crank, _, _, first, last = (part[:, None] for part in rows.T)
+        return np.where(last + outputs > crank * np.cos(first + inputs), 1.0, -1.0)
+
+    def slopes(self, row: Real, inputs: Real, outputs: Real) -> Real:
+        """Differentiate (s - r cos θ)² + (e - r sin θ)² = l²."""
+        crank, rod, offset, first, last = row
+        cosine, sine = np.cos(first + inputs), np.sin(first + inputs)
+        along, across = last + outputs - crank * cosine, offset - crank * sine
+        by = (
+            -cosine * along - sine * across,
+            np.full_like(along, -rod),
+            across,
+            crank * (sine * along - cosine * across),
+        )
+        return np.stack([*(-part / along for part in by), -np.ones_like(along)], axis=-1)
+
+    def document(self, row: Real, closure: float, scale: float) -> dict[str, Any]:
+        """Return the slider-crank, its line along x."""
+        crank, rod, offset = (float(length) for length in row[:3] * scale)
+        line = {"through": "O2", "angle": "0 deg", "offset": offset}
+        side = "forward" if closure > 0 else "backward"
+        return {
+            "ground": {"O2": [0.0, 0.0]},
+            "joints": {
+                "A": {"crank": "O2", "length": crank},
+                "B": {"from": "A", "length": rod, "line": line, "side": side},
+            },
+            "bodies": {
+                "crank": {"joints": ["O2", "A"]},
+                "rod": {"joints": ["A", "B"]},
+                "slider": {"slider": "B"},
+            },
+        }
+
+
+GENERATORS: Mapping[str, Generator] = {one.name: one for one in (FourBarGenerator(), SliderGenerator())}
+"""The kinds by what `--kind` calls them."""
+
+
+def _solved(matrices: Real, right: Real) -> Real:
+    """Return the solutions of linear equations (k, 3, 3), NaN of those that have none."""
+    sound = np.abs(np.linalg.det(matrices)) > 1e-12
+    found = np.full(right.shape, np.nan)
+    found[sound] = np.linalg.solve(matrices[sound], right[sound][..., None])[..., 0]
+    return found
+
+
+def function(
+    given: str | Sequence[Sequence[float]],
+    first: float | None = None,
+    last: float | None = None,
+    *,
+    count: int = COUNT,
+    **options: Any,
+) -> tuple[Generated, ...]:
+    """Return linkages whose output follows a function as their input turns, the best first.
+
+    `given` is an expression in x as "y = log10(x)", over x from `first` to `last`, or the rows (x, y) of a
+    table. `options` are those of `task_of`. BadInput for what is no function, for ranges that make no sense,
+    and where no linkage was found.
+    """
+    if not 1 <= count <= MOST_ANSWERS:
+        raise BadInput(f"count={count!r}: give a whole number from 1 to {MOST_ANSWERS}")
+    return answers(task_of(given, first, last, **options), count)
+
+
+def task_of(
+    given: str | Sequence[Sequence[float]],
+    first: float | None = None,
+    last: float | None = None,
+    *,
+    kind: str = "four-bar",
+    points: int | None = None,
+    input_range: float | None = None,
+    input_start: float | None = None,
+    output_range: float | None = None,
+    output_start: float | None = None,
+    level: bool = True,
+    unit: str = "mm",
+    name: str = "function",
+    source: str = "made by linkanim for a function",
+) -> FunctionTask:
+    """Return what is asked for, checked.
+
+    `kind` is "four-bar" or "slider-crank"; `points` how many precision points there are, 3 to 5, as many as
+    what is given leaves unless stated. Ranges and starts of the scales on input and output are in radians, of
+    a slider's output in `unit`; negative ranges run backwards. Without `level` the precision points stay
+    where Chebyshev has them.
+    """
+    if kind not in GENERATORS:
+        raise BadInput(f"kind={shown(kind)}: take {' or '.join(GENERATORS)}")
+    units.metre(unit)
+    if isinstance(given, str):
+        if first is None or last is None:
+            raise BadInput(f"{shown(given)}: say over which x, from and to")
+        target = expression(given, float(first), float(last))
+    else:
+        target = table([(float(x), float(y)) for x, y in given])
+    starts = (input_start is not None) + (output_start is not None)
+    most = MOST_POINTS - starts
+    if points is not None and not FEWEST_POINTS <= points <= MOST_POINTS:
+        raise BadInput(
+            f"points={points!r}: a linkage meets a function in {FEWEST_POINTS} to {MOST_POINTS} points"
+        )
+    if points is not None and points > most:
+        raise BadInput(f"{points} precision points leave no choice of where {starts} scales begin; {most} do")
+    sliding = kind == "slider-crank"
+    for what, value, most_of_it in (
+        ("input", input_range, _WIDEST),
+        ("output", output_range, math.inf if sliding else _WIDEST),
+    ):
+        if value is not None and not (math.isfinite(value) and _NARROWEST <= abs(value) <= most_of_it):
+            words = f"{math.degrees(value):g} deg" if math.isfinite(most_of_it) else f"{value:g}"
+            raise BadInput(f"the {what} goes over {words}; give an angle of 1 to 340 deg, or a length")
+    for start in (input_start, output_start):
+        if start is not None and not math.isfinite(start):
+            raise BadInput(f"a scale begins at {start!r}; give a finite number")
+    return FunctionTask(
+        target, GENERATORS[kind], points or most, input_range, input_start, output_range, output_start,
+        level, points is None, unit, name, source,
+    )  # fmt: skip
+
+
+def answers(task: FunctionTask, count: int = COUNT) -> tuple[Generated, ...]:
+    """Return the best few linkages that differ, each as the solver runs it; BadInput where there is none."""
+    found: list[Generated] = []
+    for design in _candidates(task, count):
+        one = checked(task, design)
+        if one is not None and not any(_same(one, other) for other in found):
+            found.append(one)
+        if len(found) == count:
+            break
+    if not found:
+        raise BadInput(
+            f"no {task.generator.name} was found that follows {task.function.words} over the whole range on "
+            "one branch; take other ranges, another number of precision points, or a shorter piece of it"
+        )
+    return tuple(sorted(found, key=lambda one: one.error))
+
+
+def _same(one: Generated, other: Generated) -> bool:
+    scale = max(one.size, other.size)
+    lengths = (abs(one.parameters[name] - other.parameters[name]) for name in one.parameters)
+    return max(lengths) <= 1e-3 * scale and abs(one.input_range - other.input_range) < _SAME
+
+
+class _Design(NamedTuple):
+    """One linkage: its row, its closure, and the ranges of both scales."""
+
+    row: Real
+    closure: float
+    input_range: float
+    output_range: float
+    points: int
+    chebyshev: float = math.nan
+    """The largest error before it was levelled."""
+
+
+def _candidates(task: FunctionTask, count: int) -> Iterator[_Design]:
+    """Yield linkages, the best first: those through precision points, the better of them levelled."""
+    few = range(FEWEST_POINTS if task.fewer else task.points, task.points + 1)
+    designs = [
+        design for points in few for ranges in _ranges(task) for design in _through(task, ranges, points)
+    ]
+    best = sorted(((_merit(task, design), n) for n, design in enumerate(designs)))[: count + _MORE]
+    chosen = [designs[n] for merit, n in best if math.isfinite(merit)]
+    x = np.linspace(task.function.first, task.function.last, _PLACES)
+    chosen = [one._replace(chebyshev=float(np.abs(_errors(task, one, x)).max())) for one in chosen]
+    if task.level:
+        chosen = [_levelled(task, design) for design in chosen]
+        chosen.sort(key=lambda design: _merit(task, design))
+    yield from chosen
+
+
+def _ranges(task: FunctionTask) -> Iterator[tuple[float, float]]:
+    """Yield the ranges of both scales that are to be tried."""
+    sliding = isinstance(task.generator, SliderGenerator)
+    for wide in [task.input_range] if task.input_range else _FREE:
+        if task.output_range is not None:
+            yield wide, math.copysign(1.0, task.output_range) if sliding else task.output_range
+            continue
+        for high in (1.0,) if sliding else _FREE:
+            yield wide, high
+            yield wide, -high
+
+
+def _through(task: FunctionTask, ranges: tuple[float, float], points: int) -> list[_Design]:
+    """Return the best linkages that are exact at Chebyshev's points, for given ranges of both scales."""
+    x = task.function.chebyshev(points)
+    inputs, outputs = task.function.share(x) * ranges[0], task.function.way(x) * ranges[1]
+    try:
+        rows = _rows_of_three(task, inputs, outputs) if points == 3 else _rows_of_more(task, inputs, outputs)
+    except BadInput:  # of poses that are one: a function that comes back to where it was
+        return []
+    rows = rows[np.isfinite(rows).all(axis=1) & (rows[:, :2] > 0).all(axis=1)]
+    generator = task.generator
+    closures = generator.closures(rows, inputs, outputs)
+    rows, closures = (part[(closures == closures[:, :1]).all(axis=1)] for part in (rows, closures))
+    found = [
+        _Design(row, float(closure), *ranges, points)
+        for row, (closure, *_) in zip(rows, closures, strict=True)
+    ]
+    merits = _merits(task, rows, closures[:, 0], ranges)
+    order = np.argsort(merits, kind="stable")[:_KEPT]
+    return [found[n] for n in order if np.isfinite(merits[n])]
+
+
+def _rows_of_three(task: FunctionTask, inputs: Real, outputs: Real) -> Real:
+    """Return the rows through three points, for the starts that are given or all round."""
+    sliding = isinstance(task.generator, SliderGenerator)
+    given = task.input_start, task.output_start
+    around = np.linspace(0.0, math.pi, _TRIED, endpoint=False)
+    free = around, np.linspace(-_FARTHEST, _FARTHEST, 2 * _TRIED) if sliding else around
+    starts = [
+        choice if start is None else np.array([start / scale])
+        for choice, start, scale in zip(free, given, task.scales, strict=True)
+    ]
+    first, last = (part.ravel() for part in np.meshgrid(*starts, indexing="ij"))
+    lengths = task.generator.through(first[:, None] + inputs, last[:, None] + outputs)
+    with np.errstate(all="ignore"):
+        # a negative link points the other way
+        first = np.where(lengths[:, 0] < 0, first + math.pi, first)
+        if not sliding:
+            last = np.where(lengths[:, 2] < 0, last + math.pi, last)
+            lengths = np.abs(lengths)
+        lengths[:, 0] = np.abs(lengths[:, 0])
+    return np.column_stack([lengths, first, last])
+
+
+def _rows_of_more(task: FunctionTask, inputs: Real, outputs: Real) -> Real:
+    """Return the rows through four points or five, which are couplers between poses of the input link."""
+    poses, first = task.generator.poses(inputs, outputs), (float(inputs[0]), float(outputs[0]))
+    if poses.count == MOST_POINTS:
+        return task.generator.rows(poses, burmester_points(poses), first)
+    curve = CentreCurve(poses)
+    if task.input_start is None and task.output_start is None:
+        return task.generator.rows(poses, curve.bars(_CURVE), first)
+    return np.concatenate(
+        [_at_start(task, poses, curve, circuit, first) for circuit in range(len(curve.circuits))]
+    )
+
+
+def _at_start(
+    task: FunctionTask, poses: Poses, curve: CentreCurve, circuit: int, first: tuple[float, float]
+) -> Real:
+    """Return the rows of a circuit at which the scale that has a given start begins there."""
+    column, start = (3, task.input_start) if task.output_start is None else (4, task.output_start)
+    assert start is not None
+    start = start / task.scales[column - 3]
+
+    def rows(phases: Real) -> Real:
+        centre = curve.at(circuit, phases)
+        found = np.full((len(phases), 5), np.nan)
+        bars = Bars(circle_points(poses, centre), centre)
+        sound = np.isfinite(bars.circle)
+        with np.errstate(all="ignore"):
+            made = [
+                task.generator.rows(poses, polished(poses, bars.take(np.array([n]))), first)
+                for n in np.flatnonzero(sound)
+            ]
+        for n, row in zip(np.flatnonzero(sound), made, strict=True):
+            found[n] = row[0] if len(row) else np.nan
+        return found
+
+    def off(found: Real) -> Real:
+        if column == 4 and isinstance(task.generator, SliderGenerator):
+            return np.asarray(found[:, 4] - start)
+        # half a turn off is the same link pointing the other way
+        return np.sin(found[:, column] - start)
+
+    phases = np.linspace(0.0, math.tau, 4 * _CURVE + 1)
+    values = off(rows(phases))
+    turns = np.flatnonzero(values[:-1] * values[1:] < 0)
+    low, high, below = phases[turns], phases[turns + 1], values[turns]
+    for _ in range(_HALVINGS if len(turns) else 0):
+        middle = (low + high) / 2
+        same = off(rows(middle)) * below > 0
+        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    return rows(low)
+
+
+def _generated(
+    task: FunctionTask, rows: Real, closure: Real, ranges: tuple[float, float], x: Real
+) -> tuple[Real, Real]:
+    """Return the structural errors (k, n) at x in y's unit, and cos μ."""
+    function = task.function
+    way = function.way(x) * ranges[1]
+    outputs, cosine = task.generator.outputs(rows, closure, function.share(x) * ranges[0], way)
+    return (outputs - way) * (function.span / ranges[1]), cosine
+
+
+def _merits(task: FunctionTask, rows: Real, closure: Real, ranges: tuple[float, float]) -> Real:
+    """Return what is to be small: the largest error, and what poor transmission and slim links cost."""
+    x = np.linspace(task.function.first, task.function.last, _SEEN)
+    error, cosine = _generated(task, rows, closure, ranges, x)
+    with np.errstate(all="ignore"):
+        worst = np.abs(error).max(axis=1) / abs(task.function.span)
+        sine = np.sqrt(1 - np.abs(cosine).max(axis=1) ** 2)
+        found = np.log(worst + _FINEST) + _POOR * np.maximum(np.log(math.sin(_LEAST) / sine), 0.0)
+        lengths = task.generator.lengths(rows)
+        found[lengths.max(axis=1) > _SLIMMEST * lengths.min(axis=1)] = np.inf
+    return np.where(np.isfinite(found), found, np.inf)
+
+
+def _merit(task: FunctionTask, design: _Design) -> float:
+    ranges = design.input_range, design.output_range
+    return float(_merits(task, design.row[None], np.array([design.closure]), ranges)[0])
+
+
+def _levelled(task: FunctionTask, design: _Design) -> _Design:
+    """Return the linkage whose largest error is the least near by, or itself where none is found.
+
+    Changed are as many of its numbers as it has precision points, or where that is left open all that are
+    not given.
+    """
+    starts = [column for column, start in ((4, task.output_start), (3, task.input_start)) if start is None]
+    few = starts[: design.points - FEWEST_POINTS]
+    choices = [
+        [0, 1, 2, *sorted(free)] for free in ([few, starts] if task.fewer and few != starts else [few])
+    ]
+    return min((_exchanged(task, design, columns) for columns in choices), key=lambda one: _merit(task, one))
+
+
+def _exchanged(task: FunctionTask, design: _Design, columns: list[int]) -> _Design:
+    """Return a linkage with its largest error made least by some of its numbers.
+
+    Remez's exchange: the row is changed by Newton's steps until the errors at as many places as numbers are
+    changed, and one more, are equal and alternate; then the places go on to where the errors are greatest.
+    """
+    x = np.linspace(task.function.first, task.function.last, _PLACES)
+    places = _alternating(task, design, x, len(columns) + 1)
+    if places is None:
+        design = _smoothed(task, design, columns)
+        places = _alternating(task, design, x, len(columns) + 1)
+    worst = np.abs(_errors(task, design, x)).max()
+    for _ in range(_EXCHANGES):
+        if places is None:
+            break
+        error = _errors(task, design, places)
+        step = _step(task, design, places, error, columns)
+        if step is None or np.ptp(np.abs(error)) <= _LEVEL * np.abs(error).max():
+            break
+        for share in _SHARES:
+            tried = design._replace(row=design.row + share * step)
+            after = _alternating(task, tried, x, len(columns) + 1)
+            if after is not None and (less := np.abs(_errors(task, tried, after)).max()) < worst:
+                design, places, worst = tried, after, less
+                break
+        else:
+            break
+    return design
+
+
+def _errors(task: FunctionTask, design: _Design, x: Real) -> Real:
+    """Return a linkage's structural errors at x."""
+    ranges = design.input_range, design.output_range
+    return np.asarray(_generated(task, design.row[None], np.array([design.closure]), ranges, x)[0][0])
+
+
+def _alternating(task: FunctionTask, design: _Design, x: Real, count: int) -> Real | None:
+    """Return so many places at which the error is greatest to either side in turn; None of fewer."""
+    places = _extremes(lambda at: _errors(task, design, at), x)
+    error = _errors(task, design, places)
+    kept: list[int] = []
+    for n in np.flatnonzero(np.isfinite(error)):
+        if kept and error[kept[-1]] * error[n] > 0:
+            kept[-1] = max(kept[-1], int(n), key=lambda one: abs(error[one]))
+        else:
+            kept.append(int(n))
+    while len(kept) > count:
+        # neighbours go in pairs, so that signs still go on in turn, but for the last one too many
+        heights = np.abs(error[kept])
+        pairs = np.maximum(heights[1:], heights[:-1])
+        if len(kept) == count + 1 or min(heights[0], heights[-1]) < pairs.min():
+            kept.pop(0 if heights[0] < heights[-1] else -1)
+        else:
+            least = int(pairs.argmin())
+            del kept[least : least + 2]
+    return places[kept] if len(kept) == count else None
+
+
+def _extremes(errors: Callable[[Real], Real], x: Real) -> Real:
+    """Return the ends and the places at which errors turn, between samples by parabolas, twice."""
+    values = errors(x)
+    steps = np.diff(values)
+    inner = np.flatnonzero(steps[:-1] * steps[1:] <= 0) + 1
+    places, wide = x[inner], float(x[1] - x[0])
+    for _ in range(2):
+        low, middle, high = (errors(places + share * wide) for share in (-1.0, 0.0, 1.0))
+        bend = low - 2 * middle + high
+        with np.errstate(all="ignore"):
+            shift = np.nan_to_num((low - high) / (2 * bend))
+        places = np.clip(places + wide * np.clip(shift, -1, 1), x[0] + wide / 100, x[-1] - wide / 100)
+        wide /= 30
+    return np.concatenate([x[:1], places, x[-1:]])
+
+
+def _step(task: FunctionTask, design: _Design, places: Real, error: Real, columns: list[int]) -> Real | None:
+    """Return Newton's step of the row towards errors that are equal and alternate."""
+    signs = np.where(np.arange(len(places)) % 2 == 0, 1.0, -1.0)
+    return _solved_for(task, design, places, error, columns, -signs[:, None])
+
+
+def _solved_for(
+    task: FunctionTask, design: _Design, places: Real, error: Real, columns: list[int], more: Real
+) -> Real | None:
+    """Return the step of a row that takes errors to none, as well as it can, with `more` unknowns (n, m)."""
+    function = task.function
+    unit = function.span / design.output_range
+    way = error / unit + function.way(places) * design.output_range
+    slopes = task.generator.slopes(design.row, function.share(places) * design.input_range, way)
+    matrix = np.column_stack([slopes[:, columns] * unit, more])
+    if not np.isfinite(matrix).all() or not np.isfinite(error).all():
+        return None
+    step = np.zeros(len(design.row))
+    step[columns] = np.linalg.lstsq(matrix, -error, rcond=1e-13)[0][: len(columns)]
+    return step
+
+
+def _smoothed(task: FunctionTask, design: _Design, columns: list[int]) -> _Design:
+    """Return a linkage whose errors' squares are less, by Gauss and Newton's steps."""
+    x = task.function.chebyshev(_SEEN)
+    error = _errors(task, design, x)
+    for _ in range(_EXCHANGES):
+        step = _solved_for(task, design, x, error, columns, np.empty((len(x), 0)))
+        if step is None:
+            break
+        for share in _SHARES:
+            tried = design._replace(row=design.row + share * step)
+            after = _errors(task, tried, x)
+            if (after**2).sum() < 0.999 * (error**2).sum():
+                design, error = tried, after
+                break
+        else:
+            break
+    return design
+
+
+def checked(task: FunctionTask, design: _Design) -> Generated | None:
+    """Return a linkage as it is written and as the solver runs it; None where it does not go all the way."""
+    generator, function, length = task.generator, task.function, task.length
+    row = design.row.copy()
+    row[:3] = np.round(row[:3] * length, _DIGITS) / length
+    start, wide = float(row[3]) % math.tau, design.input_range
+    document = {
+        "title": f"{generator.name.capitalize()} for {function.words}",
+        "source": task.source,
+        "length_unit": task.unit,
+        "drive": {
+            "joint": "A",
+            "speed": "20 rpm" if wide > 0 else "-20 rpm",
+            "start": f"{math.degrees(start)!r} deg",
+        },
+        **generator.document(row, design.closure, length),
+        "trace": {"joints": []},
+    }
+    scale = task.scales[1]
+    first, high = float(row[4]) * scale, design.output_range * scale
+
+    def errors(x: Real) -> Real:
+        """Return the structural errors as the solver has them."""
+        return _solved_errors(scene, task, (start, wide, first, high), x)
+
+    try:
+        scene = scene_from(document, name=task.name, where=task.name)
+        x = np.linspace(function.first, function.last, _FINE)
+        sampled = errors(x)
+        if not np.isfinite(sampled).all():
+            return None
+        extremes = _extremes(errors, x)
+        worst = errors(extremes)
+        if generator.turning:
+            seen = float(scene.solve(angle=start, derivatives=0).angle[generator.output])
+            first += math.tau * round((seen - first) / math.tau)
+    except (AssemblyError, SceneError):
+        return None
+    return Generated(
+        scene=scene,
+        parameters=dict(
+            zip(generator.links, map(float, generator.lengths(row[None])[0] * length), strict=True)
+        ),
+        error=float(np.abs(worst).max()),
+        extremes=tuple(zip(extremes.tolist(), worst.tolist(), strict=True)),
+        points=_zeros(errors, x, sampled),
+        input_start=start,
+        input_range=wide,
+        output_start=first,
+        output_range=high,
+        transmission_angle=_least_transmission(task, design),
+        chebyshev=design.chebyshev if task.level else float(np.abs(worst).max()),
+        task=task,
+    )
+
+
+def _solved_errors(
+    scene: Scene, task: FunctionTask, scales: tuple[float, float, float, float], x: Real
+) -> Real:
+    """Return the structural errors at x as the solver has them, by start and range of input and output."""
+    function, generator, (start, wide, first, high) = task.function, task.generator, scales
+    motion = scene.solve(angle=start + wide * function.share(x), derivatives=0)
+    off = np.asarray(getattr(motion, generator.reading)[generator.output]) - first - high * function.way(x)
+    if generator.turning:
+        off = np.remainder(off + math.pi, math.tau) - math.pi
+    return np.asarray(off * (function.span / high))
+
+
+def _zeros(errors: Callable[[Real], Real], x: Real, values: Real) -> Real:
+    """Return where errors change their sign, between samples by halving."""
+    turns = np.flatnonzero(values[:-1] * values[1:] <= 0)
+    low, high, below = x[turns], x[turns + 1], values[turns]
+    for _ in range(_HALVINGS if len(turns) else 0):
+        middle = (low + high) / 2
+        same = errors(middle) * below > 0
+        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    return np.asarray((low + high) / 2)
+
+
+def _least_transmission(task: FunctionTask, design: _Design) -> float:
+    """Return the least transmission angle over the range: at its ends, or where the crank is in line."""
+    first, wide = float(design.row[3]), design.input_range
+    lines = task.generator.in_line + math.pi * np.arange(-6.0, 7.0)
+    shares = np.concatenate([[0.0, 1.0], (lines - first) / wide])
+    shares = shares[(shares >= 0) & (shares <= 1)]
+    near = np.zeros(len(shares))
+    cosine = task.generator.outputs(design.row[None], np.array([design.closure]), shares * wide, near)[1]
+    worst = min(float(np.abs(cosine).max()), 1.0)
+    return math.atan2(math.sqrt((1 - worst) * (1 + worst)), worst)

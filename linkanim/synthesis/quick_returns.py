@@ -1,0 +1,266 @@
+"""`linkanim.quick_return`: linkages from their swing or stroke and their time ratio, by Alt's construction.
+
+In its two dead centres a crank a and its coupler b lie in line: the output's pin is b - a and b + a away
+from the crank's pivot, and between the two directions lies the angle α of the time ratio, which is
+Q = (180° + α)/(180° - α). So the pivot sees the chord H between the dead centres at the angle α: it lies
+on a circle through both (Alt, 1925; VDI 2130). By the law of cosines H² = 4b² sin²(α/2) + 4a² cos²(α/2),
+which leaves one choice:
+
+    b sin(α/2) = (H/2) sin t,    a cos(α/2) = (H/2) cos t,
+
+the pivot (b² - a²) sin α / H off the chord's line. Without a quick return α is 0 and a half the chord, and
+the longer b, the better the linkage transmits: there it is taken as four cranks.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from linkanim import units
+from linkanim.errors import BadInput
+from linkanim.scenes.reading.read import scene_from
+from linkanim.scenes.scene import Scene
+from linkanim.synthesis.kinds import Real
+from linkanim.units import shown
+
+COUNT = 5
+MOST_ANSWERS = 50
+KINDS = ("slider-crank", "crank-rocker")
+LONGEST = 100.0
+"""The longest link of a crank-rocker, of which nothing but angles is asked."""
+_EVEN = 1e-6
+"""A quick return's angle (rad) below this is none."""
+_ROD = 4.0
+"""In cranks, the rod of a slider-crank without a quick return: the longer, the better it transmits."""
+_LONGEST_ROD = 12.0
+"""In cranks: towards a crank of nothing a family's angle may still grow."""
+_TRIED = 2001
+_NARROWINGS = 60
+_GOLDEN = (math.sqrt(5) - 1) / 2
+_STEEPEST = math.radians(1.0)
+"""A transmission angle below this is none."""
+_DIGITS = 12
+
+
+@dataclass(frozen=True, eq=False)
+class QuickReturn:
+    """A linkage with its time ratio; lengths in the scene's unit, angles in radians."""
+
+    scene: Scene = field(repr=False)
+    kind: str
+    parameters: Mapping[str, float]
+    place: float
+    """Where in the family it is, from 0 to 1."""
+    ratio: float
+    output: float
+    """The slider's stroke, or the rocker's swing (rad)."""
+    transmission_angle: float
+    """The least over the turn."""
+    best: bool
+    """Whether it is the one to take: that of the largest least angle."""
+
+    @property
+    def class_name(self) -> str:
+        """The linkage's class, in words."""
+        return self.scene.info.class_name
+
+    @property
+    def size(self) -> float:
+        """The longest link."""
+        return max(abs(value) for name, value in self.parameters.items() if name != "offset")
+
+
+class DeadCentreFamily(NamedTuple):
+    """Linkages of one stroke or swing and one time ratio, by the angle t (rad) or a rod's length in cranks.
+
+    Members lie from `low` to `high`, on one `side`: the crank's pivot on that of the chord's where the
+    rocker's is (+1), or on the other (-1). The chord is of length 1.
+    """
+
+    kind: str
+    angle: float
+    swing: float
+    side: float
+    low: float
+    high: float
+
+    def lengths(self, t: Real) -> tuple[Real, Real, Real]:
+        """Return crank, coupler, and how far the crank's pivot is off the chord's line."""
+        if self.angle < _EVEN:
+            return np.full_like(t, 0.5), 0.5 * t, np.zeros_like(t)
+        crank = np.cos(t) / (2 * math.cos(self.angle / 2))
+        coupler = np.sin(t) / (2 * math.sin(self.angle / 2))
+        return crank, coupler, (coupler**2 - crank**2) * math.sin(self.angle)
+
+    def rocker(self, t: Real) -> tuple[Real, Real, Real, Real]:
+        """Return crank, coupler, rocker and ground; NaN where the dead centres are not of one circuit.
+
+        The ground is negative where the coupler's end lies to the right of the way from A to O4.
+        """
+        crank, coupler, off = self.lengths(t)
+        rocker = np.full_like(t, 1 / (2 * math.sin(self.swing / 2)))
+        # the nearer dead centre at 0, the farther at 1, the rocker's pivot below their middle
+        other = 0.5 - 1j * rocker * math.cos(self.swing / 2)
+        with np.errstate(all="ignore"):
+            along = ((coupler - crank) ** 2 + 1 - (coupler + crank) ** 2) / 2
+            pivot = along - 1j * self.side * off
+            near, far = -pivot, 1 - pivot
+            pins = pivot - crank * near / np.abs(near), pivot + crank * far / np.abs(far)
+            sides = [
+                (np.conj(other - pin) * (end - pin)).imag for pin, end in zip(pins, (0.0, 1.0), strict=True)
+            ]
+            ground = np.abs(other - pivot)
+        return crank, coupler, rocker, np.where(sides[0] * sides[1] > 0, np.sign(sides[0]) * ground, np.nan)
+
+    def transmission(self, t: Real) -> Real:
+        """Return the least transmission angle over a turn; NaN of what does not turn fully."""
+        with np.errstate(all="ignore"):
+            if self.kind == "slider-crank":
+                crank, coupler, off = self.lengths(t)
+                # beyond the pivot's foot the nearer dead centre is one of the other circuit
+                cosine = np.where(4 * crank * coupler > 1, (crank + np.abs(off)) / coupler, np.nan)
+            else:
+                crank, coupler, rocker, ground = self.rocker(t)
+                ends = (
+                    (coupler**2 + rocker**2 - (np.abs(ground) + sign * crank) ** 2) / (2 * coupler * rocker)
+                    for sign in (-1, 1)
+                )
+                cosine = np.maximum(*map(np.abs, ends))
+            return np.where(cosine < 1, np.arctan2(np.sqrt((1 - cosine) * (1 + cosine)), cosine), np.nan)
+
+    @property
+    def best(self) -> float:
+        """Where the least transmission angle is greatest: between samples by the golden section."""
+        if self.angle < _EVEN:
+            return min(max(_ROD, self.low), self.high)
+        places = np.linspace(self.low, self.high, _TRIED)
+        values = np.nan_to_num(self.transmission(places))
+        top = int(values.argmax())
+        low, high = places[max(top - 1, 0)], places[min(top + 1, _TRIED - 1)]
+        for _ in range(_NARROWINGS):
+            one, other = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
+            first, second = np.nan_to_num(self.transmission(np.array([one, other])))
+            low, high = (one, high) if first < second else (low, other)
+        return float((low + high) / 2)
+
+
+def families(kind: str, ratio: float, swing: float = 0.0) -> list[DeadCentreFamily]:
+    """Return the families of linkages with a time ratio, and for crank-rockers a swing (rad); maybe none."""
+    angle = math.pi * (ratio - 1) / (ratio + 1)
+    found = []
+    for side in (1.0,) if kind == "slider-crank" or angle < _EVEN else (1.0, -1.0):
+        whole = DeadCentreFamily(kind, angle, swing, side, 0.0, math.pi / 2)
+        if angle < _EVEN:
+            whole = whole._replace(low=1.0, high=_LONGEST_ROD + 1)
+        places = np.linspace(whole.low, whole.high, _TRIED + 1)[1:]
+        crank, coupler, _ = whole.lengths(places)
+        kept = (np.nan_to_num(whole.transmission(places)) >= _STEEPEST) & (coupler <= _LONGEST_ROD * crank)
+        sound = np.flatnonzero(kept)
+        found += [
+            whole._replace(low=float(places[run[0]]), high=float(places[run[-1]]))
+            for run in np.split(sound, np.flatnonzero(np.diff(sound) > 1) + 1)
+            if len(run) > 2
+        ]
+    return sorted(found, key=lambda one: -float(one.transmission(np.array([one.best]))[0]))
+
+
+def quick_return(
+    *,
+    ratio: float,
+    stroke: float | None = None,
+    swing: float | None = None,
+    kind: str | None = None,
+    place: float | None = None,
+    count: int = COUNT,
+    unit: str = "mm",
+    name: str = "quick-return",
+    source: str = "made by linkanim for a time ratio",
+) -> tuple[QuickReturn, ...]:
+    """Return linkages whose output takes `ratio` times as long one way as the other, the best first.
+
+    Of a slider-crank the `stroke` is given, of a crank-rocker the `swing` (rad), and maybe the stroke as the
+    chord between the dead centres of its pin. The first has the largest least transmission angle there is,
+    the others lie evenly along the family; at `place`, from 0 to 1, it is that one alone. BadInput for
+    numbers that make no sense, and for what no linkage of the kind does.
+    """
+    kind = kind or ("slider-crank" if swing is None else "crank-rocker")
+    if kind not in KINDS:
+        raise BadInput(f"kind={shown(kind)}: take {' or '.join(KINDS)}")
+    units.metre(unit)
+    if not 1 <= count <= MOST_ANSWERS:
+        raise BadInput(f"count={count!r}: give a whole number from 1 to {MOST_ANSWERS}")
+    if not (math.isfinite(ratio) and 1 <= ratio < 10):
+        raise BadInput(f"a time ratio of {ratio:g}: give the slow way's time over the quick way's, 1 to 10")
+    if stroke is not None and not (math.isfinite(stroke) and stroke > 0):
+        raise BadInput(f"a stroke of {stroke:g}: give a length above zero")
+    if kind == "slider-crank" and (stroke is None or swing is not None):
+        raise BadInput("a slider-crank has a stroke, and no swing; give the one and leave out the other")
+    if kind == "crank-rocker" and swing is None:
+        raise BadInput("a crank-rocker has a swing; give its rocker's, such as 60 deg")
+    if swing is not None and not math.radians(1) <= swing <= math.radians(179):
+        raise BadInput(f"a swing of {math.degrees(swing):g} deg: a rocker swings by 1 to 179 deg")
+    if place is not None and not 0 <= place <= 1:
+        raise BadInput(f"place={place:g}: the family goes from 0 to 1")
+    found = families(kind, ratio, swing or 0.0)
+    if not found:
+        said = f"swings by {math.degrees(swing):g} deg" if swing else "slides"
+        other = ", or another swing" if swing else ""
+        raise BadInput(f"no {kind} {said} with a time ratio of {ratio:g}; take a smaller one{other}")
+    family = found[0]
+    best = family.best
+    places = (
+        [best, *np.linspace(family.low, family.high, count + 1)[1:-1]]
+        if place is None
+        else [family.low + place * (family.high - family.low)]
+    )
+    stated = {"length_unit": unit, "source": source}
+    return tuple(_made(family, float(t), stroke, stated, name) for t in places[:count])
+
+
+def _made(
+    family: DeadCentreFamily, t: float, stroke: float | None, stated: Mapping[str, str], name: str
+) -> QuickReturn:
+    """Return a member of a family as a scene, its time ratio as the solver has it."""
+    parts = family.lengths(np.array([t])) if family.kind == "slider-crank" else family.rocker(np.array([t]))
+    values = [float(part[0]) for part in parts]
+    scale = stroke or LONGEST / max(map(abs, values))
+    lengths = [round(scale * value, _DIGITS - math.floor(math.log10(scale))) for value in values]
+    parameters, tables = (_slider_crank if family.kind == "slider-crank" else _crank_rocker)(lengths)
+    ratio = (math.pi + family.angle) / (math.pi - family.angle)
+    document = {
+        "title": f"{family.kind.capitalize()} with a time ratio of {ratio:g}",
+        **stated,
+        "drive": {"joint": "A", "speed": "20 rpm", "start": "0 deg"},
+        **tables,
+    }
+    scene = scene_from(document, name=name, where=name)
+    info = scene.info
+    output = info.stroke if family.kind == "slider-crank" else info.swing and info.swing.stroke
+    return QuickReturn(
+        scene=scene,
+        kind=family.kind,
+        parameters=parameters,
+        place=min(max((t - family.low) / (family.high - family.low), 0.0), 1.0),
+        ratio=info.time_ratio or 1.0,
+        output=output or 0.0,
+        transmission_angle=float(family.transmission(np.array([t]))[0]),
+        best=t == family.best,
+    )
+
+
+def _slider_crank(lengths: list[float]) -> tuple[dict[str, float], dict[str, Any]]:
+    """Return the parameters and tables of a slider-crank that goes forward slowly as its crank turns left."""
+    crank, rod, off = lengths
+    tables = {"slider-crank": {"crank": crank, "rod": rod, "offset": -off + 0.0}}
+    return {"crank": crank, "rod": rod, "offset": -off + 0.0}, tables
+
+
+def _crank_rocker(lengths: list[float]) -> tuple[dict[str, float], dict[str, Any]]:
+    crank, coupler, rocker, ground = lengths
+    found = {"ground": abs(ground), "crank": crank, "coupler": coupler, "rocker": rocker}
+    return found, {"four-bar": {**found, "assembly": "open" if ground > 0 else "crossed"}}
