@@ -468,8 +468,8 @@ def _crossings(form: Real, near: list[float]) -> list[float]:
 
 _COSINE, _SINE = Fraction(20, 29), Fraction(21, 29)
 """Of the axes in which five poses are solved: no two answers of a drawn symmetry lie above each other."""
-_NOTHING = Decimal("1e-38")
-"""In fifty digits, of what a number is made of: less is rounding."""
+_NOTHING, _MET = Decimal("1e-38"), Decimal("1e-15")
+"""In fifty digits, of what a number is made of: less is rounding; and what an equation is met to."""
 
 
 def burmester_points(poses: Poses) -> Bars:
@@ -541,25 +541,48 @@ def _centres(rows: Sequence[_Row]) -> Iterator[_Point]:
 
 
 def _conics(rows: Sequence[_Row]) -> tuple[list[Decimal], list[Decimal]]:
-    """Return two conics through the centre points: cubics of three equations, freed of x³ and y³."""
+    """Return two conics through the centre points: cubics of three equations each, freed of x³ and y³.
+
+    Where all four cubics go to infinity one way, there is a centre point there, as of five poses whose
+    origins lie in line: one cubic frees the three others, whose conics meet in the three points that are
+    left, and two of them in one point more, which no circle point goes with.
+    """
     cubics = [_cubic([row for row in rows if row is not left_out]) for left_out in rows]
     pairs = list(combinations(range(len(cubics)), 2))
     areas = [cubics[i][0] * cubics[k][3] - cubics[i][3] * cubics[k][0] for i, k in pairs]
+    most = max(abs(part) for cubic in cubics for part in cubic)
     best = max(range(len(pairs)), key=lambda n: abs(areas[n]))
-    (i, k), area = pairs[best], areas[best]
-    if abs(area) <= _NOTHING:
-        raise BadInput(
-            "these five poses turn too little to tell their centre points; turn them further apart"
-        )
-    p, q = cubics[i], cubics[k]
-    found = []
-    for cubic in (cubics[n] for n in range(len(cubics)) if n not in (i, k)):
-        by_p = (cubic[0] * q[3] - cubic[3] * q[0]) / area
-        by_q = (cubic[3] * p[0] - cubic[0] * p[3]) / area
-        conic = [c - by_p * a - by_q * b for c, a, b in zip(cubic[4:], p[4:], q[4:], strict=True)]
-        most = max(map(abs, conic))
-        found.append([part / most for part in conic] if most else conic)
-    return found[0], found[1]
+    if abs(areas[best]) > _NOTHING * most * most:
+        (i, k), area = pairs[best], areas[best]
+        p, q = cubics[i], cubics[k]
+        free = [
+            _freed(
+                cubic,
+                (p, (cubic[0] * q[3] - cubic[3] * q[0]) / area),
+                (q, (cubic[3] * p[0] - cubic[0] * p[3]) / area),
+            )
+            for n, cubic in enumerate(cubics)
+            if n not in (i, k)
+        ]
+        return free[0], free[1]
+    p = max(cubics, key=lambda cubic: abs(cubic[0]) + abs(cubic[3]))
+    square = p[0] ** 2 + p[3] ** 2
+    if square <= (_NOTHING * most) ** 2:
+        raise BadInput("these five poses are not turned against each other; take fewer, or turn them")
+    one, two, three = (
+        _freed(cubic, (p, (cubic[0] * p[0] + cubic[3] * p[3]) / square)) for cubic in cubics if cubic is not p
+    )
+    mixed = [a + b * _COSINE.numerator / 7 for a, b in zip(one, three, strict=True)]
+    return mixed, [a - b * _SINE.numerator / 9 for a, b in zip(two, three, strict=True)]
+
+
+def _freed(cubic: list[Decimal], *shares: tuple[list[Decimal], Decimal]) -> list[Decimal]:
+    """Return the conic that is left of a cubic less shares of others, at size 1."""
+    conic = cubic[4:]
+    for other, share in shares:
+        conic = [part - share * less for part, less in zip(conic, other[4:], strict=True)]
+    most = max(map(abs, conic))
+    return [part / most for part in conic] if most else conic
 
 
 _Polynomial = list[Decimal]
@@ -634,12 +657,16 @@ def _between(parts: _Polynomial, slope: _Polynomial, ends: tuple[Decimal, Decima
 
 
 def _with_circle(rows: Sequence[_Row], centre: _Point) -> Iterator[tuple[_Point, _Point]]:
-    """Yield the circle point of a centre point, and that; nothing where it lies at infinity."""
+    """Yield the circle point of a centre point, and that; nothing where it lies at infinity, or is none."""
     x, y = centre
     lines = [tuple(a * x + b * y + c for a, b, c in row) for row in rows]
     crossings = [_cross(one, other) for one, other in combinations(lines, 2)]
-    one, p, q = max(crossings, key=lambda found: max(map(abs, found)))
-    if abs(one) > _NOTHING:
+    crossing = max(crossings, key=lambda found: max(map(abs, found)))
+    one, p, q = crossing
+    size = max(map(abs, crossing))
+    off = (sum(a * b for a, b in zip(line, crossing, strict=True)) for line in lines)
+    met = all(abs(part) <= _MET * size * max(map(abs, line)) for part, line in zip(off, lines, strict=True))
+    if met and abs(one) > _NOTHING * size:
         yield (p / one, q / one), centre
 
 

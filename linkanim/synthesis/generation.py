@@ -524,9 +524,8 @@ def _ranges(task: FunctionTask) -> Iterator[tuple[float, float]]:
         if task.output_range is not None:
             yield wide, math.copysign(1.0, task.output_range) if sliding else task.output_range
             continue
-        for high in (1.0,) if sliding else _FREE:
-            yield wide, high
-            yield wide, -high
+        # a slider that runs backwards is one that runs forwards, turned round
+        yield from ((wide, high) for high in ((1.0,) if sliding else (*_FREE, *(-high for high in _FREE))))
 
 
 def _through(task: FunctionTask, ranges: tuple[float, float], points: int) -> list[_Design]:

@@ -112,6 +112,18 @@ def test_ball_s_point_of_a_slider_crank_is_its_slider(count: int) -> None:
         assert abs((way / known.pivots[1]).imag) < 1e-9
 
 
+def test_five_poses_whose_origins_lie_in_line_have_their_bars() -> None:
+    """A body led along a line, by its slider: one centre point lies at infinity, the others are found."""
+    for known in of_slider_cranks(503, 5, 12):
+        arm = known.joints[1] - (known.rows[0, 0] + 1j * known.rows[0, 1])
+        origins = known.rows[:, 0] + 1j * known.rows[:, 1]
+        origins = origins + arm * np.exp(1j * (known.rows[:, 2] - known.rows[0, 2]))
+        poses = Poses(origins, known.rows[:, 2])
+        bars = burmester_points(poses)
+        assert deviation(poses, bars) < 1e-12
+        assert (np.abs(bars.centre - known.pivots[0]) + np.abs(bars.circle - known.joints[0])).min() < 1e-9
+
+
 def test_poses_of_a_four_bar_have_no_slider_but_by_chance() -> None:
     for known in of_four_bars(403, 5, 10):
         assert len(ball_point(poses_of(known.rows)).point) == 0
