@@ -32,6 +32,8 @@ MOST_NUMBERS_READ = 4_000_000
 """The same of one that is printed to be read, whose columns are known when all rows are."""
 MOST_ACTIONS = 100_000
 """Actions of a tape."""
+MOST_AT_ONCE = 100
+"""Those of them at one frame that take their time, such as to put another mechanism on."""
 LARGEST_SIDE = 16_384
 """Pixels of a picture's width or height; H.264 has no more."""
 MOST_PIXELS = 7680 * 4320

@@ -30,6 +30,8 @@ def damaged(document: Any, random: Random) -> bytes:
     spoilt = copy.deepcopy(document)
     for _ in range(random.choice((1, 1, 2, 3))):
         places = list(_places(spoilt))
+        if not places:
+            break
         holder, key = random.choice(places)
         match random.randrange(6):
             case 0:

@@ -21,7 +21,7 @@ from linkanim.player.input.keys import key_names
 from linkanim.player.state.action import Action
 from linkanim.player.state.advance import carried
 from linkanim.player.state.state import begin
-from linkanim.player.window import following, rendering
+from linkanim.player.window import files, following, rendering
 from linkanim.player.window.drafts import DraftFile
 from linkanim.player.window.files import SceneFile
 from linkanim.player.window.window import Window
@@ -87,8 +87,10 @@ class Pad:
 class Storm:
     """Windows on a folder of their own, one after the other, and what comes to them."""
 
-    def __init__(self, seed: int, folder: Path, patch: pytest.MonkeyPatch) -> None:
-        self._random, self._folder, self.events, self.windows = Random(seed), folder, 0, 0
+    def __init__(self, seed: int, folder: Path, patch: pytest.MonkeyPatch, *, calm: bool = False) -> None:
+        """Begin one; where it is `calm`, only keys and the wheel come, and nothing changes but the size."""
+        self._random, self._folder, self._calm = Random(seed), folder, calm
+        self.events = self.ticks = 0
         self._here = folder / "here"
         self._there()
         self._is_full = False
@@ -103,6 +105,7 @@ class Storm:
             synced(number)
 
         patch.setattr(os, "fsync", full)
+        patch.setattr(files, "report", _found)
 
     def blow(self, events: int) -> None:
         """Post so many events, a few a frame; a window that closes is followed by another one."""
@@ -115,6 +118,7 @@ class Storm:
                     self.events += 1
                 if self._random.random() < 0.03:
                     self._change()
+                self.ticks += 1
                 if not window.tick(self._random.choice((1, 1, 1, 2, 30, 90))):
                     break
             self._there()
@@ -124,7 +128,6 @@ class Storm:
         """Return a window on a scene, a scene file, the title, a game or a sheet."""
         random = self._random
         self._there()
-        self.windows += 1
         keeper = Arcade(self._folder / "data" / "scores.json", random)
         (self._here / "mine.toml").write_text(text(load(random.choice(names()))), encoding="utf-8")
         mine = random.random() < 0.5
@@ -145,6 +148,8 @@ class Storm:
             self._drop,
             self._of_the_window,
         ]
+        if self._calm:
+            kinds = [self._key, self._key, self._wheel]
         pygame.event.post(self._random.choice(kinds)(window))
 
     def _key(self, _: Window) -> pygame.event.Event:
@@ -181,8 +186,11 @@ class Storm:
             case 2:
                 return pygame.event.Event(pygame.MOUSEBUTTONUP, pos=at, button=random.choice((1, 1, 1, 3)))
             case 3:
-                return pygame.event.Event(pygame.MOUSEWHEEL, x=0, y=random.choice((-40, -1, 0, 1, 40)))
+                return self._wheel(window)
         return pygame.event.Event(pygame.MOUSEMOTION, pos=at, rel=(0, 0), buttons=(1, 0, 0))
+
+    def _wheel(self, _: Window) -> pygame.event.Event:
+        return pygame.event.Event(pygame.MOUSEWHEEL, x=0, y=self._random.choice((-40, -1, 0, 1, 40)))
 
     def _finger(self, _: Window) -> pygame.event.Event:
         random = self._random
@@ -223,7 +231,7 @@ class Storm:
     def _change(self) -> None:
         """Change the world: the window's size, a file, a folder, the disk."""
         random, data = self._random, self._folder / "data"
-        match random.randrange(10):
+        match 0 if self._calm else random.randrange(10):
             case 0 | 1 | 2:
                 pygame.display.set_mode(random.choice(SIZES), pygame.RESIZABLE)
             case 3 | 4:
@@ -248,6 +256,11 @@ class Storm:
         self._is_full = False
         self._here.mkdir(exist_ok=True)
         os.chdir(self._here)
+
+
+def _found(text: str, name: str) -> Path:
+    """Stand where a fault's report would be written."""
+    raise AssertionError(f"{name}: {text}")
 
 
 DROPPED = ("a.toml", "b.toml", "photo.png", "gone.toml", "gone.jpg", "wide.bmp", "broken.webp", "folder.toml")

@@ -9,7 +9,7 @@ import os
 import signal
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from random import Random
@@ -17,28 +17,21 @@ from typing import Any
 
 import pygame
 import pytest
-from damage import damaged
 from hand import drawn, gestures, taped
 from playing import CTRL, SIZE, Player
 from test_sessions import SESSIONS, Session
 
 from linkanim.build.building import Building
 from linkanim.build.draft import Draft
-from linkanim.build.origin import building_of
-from linkanim.errors import BadInput
-from linkanim.picture.surface import SurfacePrinter
 from linkanim.player.state.action import Action
-from linkanim.player.state.advance import advance, carried
-from linkanim.player.state.handlers.build import restored_sheet, stored_text
+from linkanim.player.state.advance import carried
+from linkanim.player.state.handlers.build import stored_text
 from linkanim.player.state.sheet import BuildSheet
-from linkanim.player.state.state import State, begin
-from linkanim.player.state.tools import TOOLS
+from linkanim.player.state.state import begin
 from linkanim.player.tape.tape import Tape
 from linkanim.player.tape.tape_file import write
 from linkanim.player.window import display
-from linkanim.player.window.approach import Framing
 from linkanim.player.window.drafts import DraftFile
-from linkanim.player.window.show import overlay
 from linkanim.player.window.window import Window
 from linkanim.scenes import load
 
@@ -329,40 +322,3 @@ def test_a_folder_that_takes_no_drafts_is_a_sentence(here: Path) -> None:
         assert player.state.toast
         assert "cannot be" in player.state.toast.text
         player.window.close()
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("seed", [1, pytest.param(2, marks=pytest.mark.long)])
-def test_damaged_drafts_are_refused_or_can_be_drawn_on(seed: int, here: Path) -> None:
-    random, state = Random(seed), begin(load("press"))
-    documents = [json.loads(stored_text(begin_on(drawn(one.lines)))) for one in SESSIONS[:6]]
-    documents += [
-        json.loads(stored_text(begin_on(building_of(load(name))))) for name in ("press", "whitworth")
-    ]
-    framing, printer, surface = Framing(), SurfacePrinter(), pygame.Surface(SIZE, 0, 32)
-    taken = 0
-    for _ in range(70 if seed == 1 else 3_000):
-        text = damaged(random.choice(documents), random).decode("utf-8", "surrogateescape")
-        try:
-            restored_sheet(state, text)
-        except BadInput:
-            continue
-        shown, taken = advance(state, [Action("draft", text)]), taken + 1
-        for action in (None, *a_hand(random, shown)):
-            shown = advance(shown, [action] if action else [])
-            assert not [effect for effect in shown.effects if effect.name == "report"], shown.effects
-        printer.print(surface, framing.fitting(shown, SIZE), shown.phase, shown.clock.speed, overlay(shown))
-    assert taken > 5
-
-
-def a_hand(random: Random, state: State) -> Iterator[Action]:
-    """Yield what a hand does with any tool, from what is drawn or from paper."""
-    places = [*state.building.building.draft.places.values()] if state.building else []
-    free = (random.uniform(-150, 150), random.uniform(-150, 150))
-    yield Action("tool", random.choice([tool.value for tool in TOOLS if tool.action == "tool"]))
-    for name in ("hand_down", "hand_to"):
-        yield Action(name, (*random.choice([*places, free]), 5.0, 1.0))
-    yield Action("hand_up")
-    more = ("remove", "trace_on", "drive_by", "unbuild", "rebuild", "take_number")
-    yield from (Action(name) for name in random.sample(more, 3))
-    yield from (Action("further", 1), Action("digits", "5"), Action("take_number"))

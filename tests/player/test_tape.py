@@ -217,12 +217,39 @@ def test_a_tape_nested_deeply_is_refused_before_it_is_parsed(tmp_path: Path) -> 
         read(tmp_path / "x.tape.json")
 
 
+DRAFT = '{"draft": {"places": {"A": [NaN, 0]}}, "home": [0, 0, 1, 1], "tool": "bar"}'
 # JSON's escapes let anything into a text, and a number may have any number of digits.
 UNREADABLE: dict[str, tuple[Spoil, str]] = {
     "an escape sequence": (lambda d: d["scene"].update(name="a\x1b[31m"), r"scene.name = .*U\+001B"),
     "half a character": (lambda d: d["scene"]["document"].update(title="\ud800"), r"title = .*U\+D800"),
     "an override in an action": (lambda d: d["actions"].append([90, "type", "\u202e"]), r"U\+202E"),
     "an endless number": (lambda d: d.update(frames=10**1001), r"1,000 digits \(line \d+\)"),
+    "a draft with no number": (lambda d: d["actions"].append([90, "draft", DRAFT]), "the draft: is damaged"),
+    "a draft that is none": (lambda d: d["actions"].append([90, "draft", "bar"]), "the draft: is damaged"),
+    "a hand out of reach": (
+        lambda d: d["actions"].append([90, "hand_down", [1e100, 0, 3, 1]]),
+        "is not an action of this version",
+    ),
+    "a hand without a step": (
+        lambda d: d["actions"].append([90, "hand_to", [0, 0, 3, 1e-300]]),
+        "is not an action of this version",
+    ),
+    "a cursor out of reach": (
+        lambda d: d["actions"].append([90, "cursor", [0, -1e19]]),
+        "is not an action of this version",
+    ),
+    "2,000 rounds at once": (
+        lambda d: d.update(actions=[[0, "play", f"predict seed={n}"] for n in range(2_000)]),
+        "actions: are 2,000 at frame 0, more than 100; record the tape again",
+    ),
+    "mechanism after mechanism at once": (
+        lambda d: d.update(actions=[[7, "mechanism", 1]] * 101),
+        "actions: are 101 at frame 7, more than 100; record the tape again",
+    ),
+    "eleven drafts": (
+        lambda d: d.update(actions=[[n, "draft", "{}"] for n in range(11)]),
+        "actions: have 11 drafts, more than 10; record the tape again",
+    ),
 }
 
 
@@ -240,7 +267,8 @@ def test_what_a_tape_may_not_hold_is_refused_as_it_is_read(
 @pytest.mark.slow
 def test_a_tape_of_too_many_actions_is_refused(tape: Tape) -> None:
     document = json.loads(json.dumps(to_document(replace(tape, actions=()))))
-    document["actions"] = [[1, "trace"]] * (MOST_ACTIONS + 1)
+    document |= {"frames": 2_000, "actions": [[n // 50, "trace"] for n in range(MOST_ACTIONS)]}
+    document["actions"].append([2_000, "trace"])
     with pytest.raises(BadInput, match="actions: are 100,001, more than 100,000"):
         from_document(document, "mine.tape.json")
     document["actions"].pop()

@@ -19,7 +19,7 @@ from linkanim.picture.parts.struts import barrel
 from linkanim.picture.raster.directions import directions, lengths
 from linkanim.picture.raster.parts import Part, lined, slotted
 from linkanim.picture.raster.raster import Layer, Loop
-from linkanim.picture.raster.shapes import box, segments, unit
+from linkanim.picture.raster.shapes import MOST_MARKS, box, segments, unit
 from linkanim.picture.theme import LIGHT, Theme
 from linkanim.picture.view import View
 
@@ -143,7 +143,7 @@ def hatched(begin: complex, end: complex, gauge: Gauge, side: int) -> Iterator[L
     """Yield a line and its hatching to one side (+1: where the imaginary part grows for a line along 1)."""
     along = unit(end - begin)
     length, step = abs(end - begin), 0.62 * gauge.bar
-    count = max(round(length / step), 1)
+    count = max(round(min(length / step, MOST_MARKS)), 1)
     feet = begin + along * length * (np.arange(count) + 0.75) / count
     yield from segments(begin, end, 1.4 * gauge.line)
     yield from segments(feet, feet + along * (-0.5 + 0.62j * side) * gauge.bar, 0.8 * gauge.line)

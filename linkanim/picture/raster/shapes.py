@@ -16,6 +16,9 @@ from numpy.typing import ArrayLike
 from linkanim.picture.raster.directions import directions, length, lengths
 from linkanim.picture.raster.raster import Loop
 
+MOST_MARKS = 20_000
+"""Dashes of a line, strokes of a hatching or chords of an arc: the largest window has a tenth of them."""
+
 
 @lru_cache(maxsize=64)
 def disc(radius: float) -> Loop:
@@ -124,9 +127,10 @@ def segments(begin: ArrayLike, end: ArrayLike, width: float) -> list[Loop]:
 
 
 def dashes(begin: complex, end: complex, step: float, width: float) -> list[Loop]:
-    """Return a dashed line with square ends, one dash to a step."""
-    along = unit(end - begin)
-    feet = begin + along * np.arange(0.0, length(end - begin), step)
+    """Return a dashed line with square ends, one dash to a step; of a line far beyond any window a few."""
+    along, reach = unit(end - begin), length(end - begin)
+    step = max(step, reach / MOST_MARKS)
+    feet = begin + along * np.arange(0.0, reach, step)
     return segments(feet, feet + 0.6 * step * along, width)
 
 
@@ -212,8 +216,8 @@ def _turn(a: complex, b: complex, c: complex) -> float:
 
 
 def _arc(begin: float, sweep: float, radius: float) -> Loop:
-    """Return an arc about the origin; the chords stay within 0.02 px of it."""
-    step = 2 * np.arccos(max(1 - 0.02 / max(radius, 0.02), 0.5))
+    """Return an arc about the origin; the chords stay within 0.02 px of it, but far beyond any window."""
+    step = max(2 * np.arccos(max(1 - 0.02 / max(radius, 0.02), 0.5)), sweep / MOST_MARKS)
     count = max(int(np.ceil(sweep / step)), 2)
     arc: Loop = radius * directions(begin + sweep / count * np.arange(count + 1))
     return arc

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from importlib.resources import files
 from pathlib import Path
 from random import Random
+from typing import TypeVar
 
 import numpy as np
 
@@ -21,6 +23,7 @@ from linkanim.synthesis.curves.drawn import DrawnCurve, drawn
 from linkanim.synthesis.kinds import FOUR_BAR, Complex, Linkage4
 from linkanim.units import angle, shown
 
+Made = TypeVar("Made")
 FOLDER = files("linkanim.play.match") / "levels"
 _FILE = Intake("a level", most_bytes=100_000, most_values=5_000)
 _KEYS = frozenset({"title", "about", "closed", "points", "fixed", "start", "full", "answer"})
@@ -90,7 +93,8 @@ def _read(text: str, where: str, name: str) -> Level:
         if key not in _KEYS:
             raise document.error(key, f"is no key of a level; there are {', '.join(sorted(_KEYS))}")
     full = document.table("full")
-    curve = drawn(_points(document), closed=document.flag("closed"))
+    closed, points = document.flag("closed"), _points(document)
+    curve = _said_of(document, "points", lambda: drawn(points, closed=closed))
     fixed = document.texts("fixed")
     for joint in fixed:
         if joint not in _JOINTS:
@@ -102,9 +106,24 @@ def _read(text: str, where: str, name: str) -> Level:
         curve,
         _joints(document.table("start")),
         frozenset(fixed),
-        Worth(_positive(full, "off"), _positive(full, "links"), angle(full.text("angle"))),
+        Worth(_positive(full, "off"), _positive(full, "links"), _least_angle(full)),
         _joints(document.table("answer")) if "answer" in document else None,
     )
+
+
+def _said_of(section: Section, key: str, make: Callable[[], Made]) -> Made:
+    """Return what is made of a key's value; what is wrong with that is said of the key."""
+    try:
+        return make()
+    except BadInput as error:
+        raise section.at(f"{section.key(key)}: {error}", key) from None
+
+
+def _least_angle(full: Section) -> float:
+    found = _said_of(full, "angle", lambda: angle(full.text("angle")))
+    if not 0.0 < found <= math.pi / 2:
+        raise full.error("angle", 'must be a transmission angle, such as "40 deg"')
+    return found
 
 
 def _positive(section: Section, key: str) -> float:

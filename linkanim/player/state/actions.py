@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, cast
 
 from linkanim.intake import control_in
 from linkanim.picture.diagrams.quantities import quantity
@@ -33,6 +33,8 @@ class Rule(NamedTuple):
 _MOST_NUMBERS = 1_000
 MOST_STEPS, LARGEST_NUMBER = 10**9, 1e100
 """The most of an action's value: no key or mouse gives more, and no float holds whatever a tape may say."""
+_FARTHEST = 1e18
+"""The same of a place on a sheet, in whose figures places are squared and counted in steps."""
 
 
 def _nothing(value: object) -> bool:
@@ -68,6 +70,19 @@ def _grouped(value: object, each: int) -> bool:
 
 def _pairs(value: object) -> bool:
     return _grouped(value, 2)
+
+
+def _place_of_sheet(value: object) -> bool:
+    return _numbers(2)(value) and all(abs(at) <= _FARTHEST for at in cast(tuple[float, ...], value))
+
+
+def _hand(value: object) -> bool:
+    """Tell whether a value is what the hand does: x and y, how near is on a thing, the step, 0 for none."""
+    if not _numbers(4)(value):
+        return False
+    *place, reach, snap = cast(tuple[float, ...], value)
+    near = _place_of_sheet(tuple(place)) and 0.0 <= reach <= _FARTHEST
+    return near and (snap == 0.0 or 1.0 / _FARTHEST <= snap <= _FARTHEST)
 
 
 def _answer(value: object) -> bool:
@@ -221,10 +236,10 @@ ACTIONS: Mapping[str, Rule] = {
     "tool": Rule(_text, build.tool),
     "photo": Rule(_text, build.photo),  # a picture's file, "" for none
     # (x, y) of the sheet, how near counts as on it, the step of what is drawn
-    "hand_down": Rule(_numbers(4), build.down),
-    "hand_to": Rule(_numbers(4), build.along),
+    "hand_down": Rule(_hand, build.down),
+    "hand_to": Rule(_hand, build.along),
     "hand_up": Rule(_nothing, build.up),
-    "cursor": Rule(_numbers(2), build.cursor),  # (x, y) of the sheet
+    "cursor": Rule(_place_of_sheet, build.cursor),  # (x, y) of the sheet
     "further": Rule(_whole, build.further),
     "number": Rule(_whole, build.number),
     "digits": Rule(_text, build.write),

@@ -7,13 +7,14 @@ each of them comes at.
 from __future__ import annotations
 
 import json
+from collections import Counter
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from linkanim import atomic_files, intake
-from linkanim.bounds import LARGEST_SIDE, MOST_ACTIONS
+from linkanim.bounds import LARGEST_SIDE, MOST_ACTIONS, MOST_AT_ONCE
 from linkanim.document import Section, refuse_controls
 from linkanim.errors import BadInput, LinkanimError
 from linkanim.intake import Intake
@@ -22,6 +23,7 @@ from linkanim.player.state.action import Action
 from linkanim.player.state.actions import is_taped
 from linkanim.player.state.clock import FRAMES_PER_SECOND, Clock
 from linkanim.player.state.editing import Editing
+from linkanim.player.state.handlers.build import restored_sheet
 from linkanim.player.state.state import Edited, Game, State
 from linkanim.player.tape.tape import Tape
 from linkanim.scenes import names
@@ -54,18 +56,15 @@ def read(path: Path, games: Callable[[str], Game] | None = None) -> Tape:
     if isinstance(document, dict):
         refuse_controls(Section(where, document))
     tape = from_document(document, where)
-    return _with_games(tape, games, where) if games else tape
-
-
-def _with_games(tape: Tape, games: Callable[[str], Game], where: str) -> Tape:
-    """Return a tape that can play its games; BadInput for one that there is not."""
-    for _, action in tape.actions:
-        if action.name == "play":
-            try:
+    for action in dict.fromkeys(action for _, action in tape.actions if action.name in ("play", "draft")):
+        try:
+            if action.name == "draft":
+                restored_sheet(tape.start, str(action.value))
+            elif games:
                 games(str(action.value))
-            except LinkanimError as error:
-                raise BadInput(f"{where}: {error}") from None
-    return replace(tape, start=replace(tape.start, games=games))
+        except LinkanimError as error:
+            raise BadInput(f"{where}: {error}") from None
+    return replace(tape, start=replace(tape.start, games=games)) if games else tape
 
 
 class TapeValue(NamedTuple):
@@ -197,6 +196,10 @@ def _draft(entries: Section, key: str) -> tuple[Key, str]:
     raise entries.error(key, "must be a list of what was typed and the keys of its value")
 
 
+_QUICK = frozenset({"pen_to", "zoom", "pan", "scrub", "step", "speed"})
+"""What of a frame may be much: the mouse tells of more than one move while the window waits."""
+_MOST_DRAFTS = 10
+"""A tape that begins on a sheet has one."""
 _LATER = ("kept", "drafts")
 """What older tapes lack."""
 _FLAG = TapeValue(Section.flag)
@@ -254,7 +257,20 @@ def _actions(top: Section, frames: int) -> tuple[tuple[int, Action], ...]:
         if not (found[-1][0] if found else 0) <= frame <= frames:
             raise entries.error(key, f"{shown(entry)} is not in the order of frames, up to {frames}")
         found.append((frame, action))
+    _refuse_crowded(top, found)
     return tuple(found)
+
+
+def _refuse_crowded(top: Section, actions: list[tuple[int, Action]]) -> None:
+    """Refuse more that takes its time at one frame, or more drafts, than a window ever does."""
+    drafts = sum(action.name == "draft" for _, action in actions)
+    if drafts > _MOST_DRAFTS:
+        raise top.error("actions", f"have {drafts:,} drafts, more than {_MOST_DRAFTS}; record the tape again")
+    crowds = Counter(frame for frame, action in actions if action.name not in _QUICK)
+    for frame, count in crowds.most_common(1):
+        if count > MOST_AT_ONCE:
+            many = f"are {count:,} at frame {frame}, more than {MOST_AT_ONCE}"
+            raise top.error("actions", f"{many}; record the tape again")
 
 
 def _action(entry: Any) -> tuple[int, Action]:
