@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
+from itertools import pairwise
 from math import floor, log10, radians
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from linkanim.mechanics.motion.motion import Motion
+from linkanim.mechanics.facts.register import Quantity
 from linkanim.picture.diagrams.chart import Pen
 from linkanim.picture.diagrams.chart_panel import ChartPanel
 from linkanim.picture.diagrams.quantities import quantity
@@ -28,7 +30,11 @@ _TEXT = (26, 22)
 """The heights of a chart's text and of its small text."""
 _LINE = 2.0
 _MOMENTS, _MOST = 240, 2880
-"""How many values a table holds of a drive's turn, and in all at most; cubics run between them."""
+"""How many steps a table has for a drive's turn, and in all at most; cubics run between its entries."""
+_INSIDE = 1e-9
+"""How far inside of a way there, or back, its table's ends are, in phase."""
+_NEAR, _NEARER = 1e-3, 1e-4
+"""So far from an end, in phase, is looked how steeply something grows towards it."""
 
 
 def input_words(scene: Scene) -> str:
@@ -36,13 +42,22 @@ def input_words(scene: Scene) -> str:
     return f"{scene.info.input_name} {scene.linkage.drive.coordinate.name}"
 
 
+def parts_of(scene: Scene) -> int:
+    """Return in how many equal parts a true period's tables are: each way there and back of a swing is one.
+
+    At its ends rates may change their sign at once, or grow without bound.
+    """
+    return 1 if scene.info.full_turn else 2 * round(scene.period / radians(360))
+
+
 def rows(scene: Scene, speed: float) -> Iterator[dict[str, Any]]:
     """Yield what is told of every pose: where the input is, its speed, struts, what drives it.
 
-    `values` are of equal steps over the period with its end, forth and back; where they are the same but
-    for their sign, `back` is that. `text` does not change.
+    `values` are of equal steps over each part of the period with its end, forth and back; where they are the
+    same but for their sign, `back` is that. `text` does not change.
     """
-    motion, drive = _motion(scene, speed), scene.linkage.drive.coordinate
+    drive, phases = scene.linkage.drive.coordinate, _phases(scene, 0.0, scene.period)
+    motion = scene.solve(phase=phases, speed=speed)
     both = (motion, motion.paced(-1.0))
     where = np.asarray(drive.shown(motion.coordinate), float)
     turn = 360 if scene.info.full_turn else 0
@@ -51,14 +66,55 @@ def rows(scene: Scene, speed: float) -> Iterator[dict[str, Any]]:
     title = "input speed" if scene.info.full_turn else "input rate"
     yield {"label": title, "text": [speed_words(scene, way * speed) for way in (1, -1)]}
     for _, label, of, step in measured(scene):
-        found = [np.asarray(of.shown(one), float) for one in both]
-        yield _row(label, of.shown_unit(scene.length_unit), step, found)
+        poles = _poles(scene, of)
+        found = [np.asarray(of.shown(one), float) * _weight(phases, poles) for one in both]
+        yield _row(label, of.shown_unit(scene.length_unit), step, found) | _growing(poles)
 
 
-def _motion(scene: Scene, speed: float) -> Motion:
-    """Return the motion at equal steps over the true period, with its end."""
-    count = min(_MOMENTS * round(scene.period / radians(360)), _MOST)
-    return scene.solve(phase=np.linspace(0.0, scene.period, count + 1), speed=speed)
+def _phases(scene: Scene, begin: float, end: float) -> NDArray[np.float64]:
+    """Return phases at equal steps from one to another, part by part with its ends."""
+    parts = parts_of(scene)
+    count = max(min(_MOMENTS * round(scene.period / radians(360)), _MOST) // parts, 3)
+    ends = np.linspace(begin, end, parts + 1)
+    if parts == 1:
+        return np.linspace(begin, end, count + 1)
+    inside = math.copysign(_INSIDE, end - begin)
+    return np.concatenate(
+        [np.linspace(a + inside, b - inside, count + 1) for a, b in pairwise(ends.tolist())]
+    )
+
+
+_Poles = tuple[int, int]
+"""As which powers of its sine and cosine, of half the phase, something grows towards the ends of a swing."""
+
+
+def _poles(scene: Scene, of: Quantity) -> _Poles:
+    """Return how a quantity grows towards the input's ends, 0 where it does not."""
+    if scene.info.full_turn:
+        return 0, 0
+    return _order(scene, of, 0.0), _order(scene, of, math.pi)
+
+
+def _order(scene: Scene, of: Quantity, end: float) -> int:
+    places = end + np.array([0.0, _NEAR, _NEARER])
+    here, near, nearer = (
+        np.max(np.abs(row)) for row in np.atleast_2d(of.shown(scene.solve(phase=places)).T).T
+    )
+    if not np.isinf(here):
+        return 0
+    growth = math.log(nearer / near, _NEAR / _NEARER) if 0 < near < nearer < math.inf else 1.0
+    return max(round(growth), 1)
+
+
+def _weight(phases: NDArray[np.float64], poles: _Poles) -> NDArray[np.float64]:
+    """Return what a table's values are times, so that they do not grow."""
+    low, high = poles
+    weight: NDArray[np.float64] = np.abs(np.sin(phases / 2)) ** low * np.abs(np.cos(phases / 2)) ** high
+    return weight
+
+
+def _growing(poles: _Poles) -> dict[str, Any]:
+    return {"poles": poles} if any(poles) else {}
 
 
 def _row(label: str, unit: str, step: float, values: list[NDArray[np.float64]]) -> dict[str, Any]:
@@ -99,10 +155,24 @@ def charts(figure: Figure, themes: tuple[Theme, Theme], shown: tuple[str, float]
     return [_chart(one.at(way * speed), other.at(way * speed), pairs) for way in (1, -1)]
 
 
+def _columns(panel: ChartPanel) -> list[NDArray[np.float64]]:
+    """Return the tables of a chart's curves: as they are drawn, or of an input that swings solved anew."""
+    course, (x, values), scene = panel.course, panel.curves, panel.figure.scene
+    if scene.info.full_turn:
+        even = np.linspace(0.0, course.span, min(len(panel.figure.cycle.phase), _MOST) + 1)
+        return [np.interp(even, x, np.where(np.isfinite(column), column, np.nan)) for column in values.T]
+    begin, end = course.phase_of([0.0, course.span]).tolist()
+    phases = _phases(scene, begin, end)
+    found = np.asarray(panel.quantity.shown(scene.solve(phase=phases, speed=panel.speed)), float)
+    columns = found.T if found.ndim == 2 else found[None]
+    if panel.series.unit == "°":  # in the turn in which they are drawn
+        columns = columns + 360.0 * np.rint((values[0] - columns[:, 0]) / 360.0)[:, None]
+    return [*(columns * _weight(phases, _poles(scene, panel.quantity)))]
+
+
 def _chart(light: ChartPanel, dark: ChartPanel, pairs: Pairs) -> dict[str, Any]:
-    course, (x, values) = light.course, light.curves
-    even = np.linspace(0.0, course.span, min(len(light.figure.cycle.phase), _MOST) + 1)
-    columns = [np.interp(even, x, np.where(np.isfinite(column), column, np.nan)) for column in values.T]
+    course, of, scene = light.course, light.quantity, light.figure.scene
+    poles, columns = _poles(scene, of), _columns(light)
     kind = _kind(columns)
     curves = [
         {
@@ -110,6 +180,7 @@ def _chart(light: ChartPanel, dark: ChartPanel, pairs: Pairs) -> dict[str, Any]:
             "colour": pairs.variable(light.colour(n), dark.colour(n)),
             "values": packed(column, kind),
             **_said(kind),
+            **_growing(poles),
         }
         for n, column in enumerate(columns)
     ]

@@ -8,6 +8,7 @@
   const GRID = 65536;
   const STEP = Math.PI / 180;
   const TURN = 2 * Math.PI;
+  page.period = TURN * Math.round(page.period / TURN);  // with all its digits
 
   // --- small arithmetic -------------------------------------------------------------------------
 
@@ -42,8 +43,14 @@
       this.grain = grain;
     }
 
-    // Returns {p, v, a} at a phase.
+    // Returns {p, v, a} at a phase; on a way back that was the way there with velocities of the other sign.
     at(phase) {
+      const there = mod(phase, page.period), back = page.retraced && there > Math.PI;
+      const { p, v, a } = this.found(back ? page.period - there : there);
+      return { p, v: back ? by(v, -1) : v, a };
+    }
+
+    found(phase) {
       const { nodes } = this, count = nodes.length;
       const here = mod(phase / page.period, 1) * GRID;
       let low = 0, high = count;
@@ -51,6 +58,7 @@
         const middle = (low + high) >> 1;
         if (nodes[middle] <= here) low = middle; else high = middle;
       }
+      if (page.retraced && count > 1) low = Math.min(low, count - 2);
       const next = (low + 1) % count;
       const span = low + 1 < count ? nodes[next] - nodes[low] : GRID - nodes[low] + nodes[0];
       const width = span * page.period / GRID;
@@ -76,16 +84,33 @@
     }
   }
 
-  // A table of values at equal steps from one end to the other, read between its entries: by the cubic
-  // through the two on either side, at the ends by a line.
-  function reading(table, share) {
-    const place = clamp(share, 0, 1) * (table.length - 1);
-    const first = Math.min(Math.floor(place), table.length - 2), u = place - first;
-    const b = table[first], c = table[first + 1];
-    if (first === 0 || first === table.length - 2) return b + u * (c - b);
-    const a = table[first - 1], d = table[first + 2];
-    return b + u / 2 * (c - a + u * (2 * a - 5 * b + 4 * c - d + u * (3 * (b - c) + d - a)));
+  // A table of values at equal steps over each part of a period, from its one end to the other, read between
+  // its entries: by the cubic through the four nearest, beside one that there is none of by a line.
+  function reading(table, [part, along]) {
+    const count = table.length / page.parts - 1, place = clamp(along, 0, 1) * count;
+    const near = Math.min(Math.floor(place), count - 1), begin = part * (count + 1);
+    const first = clamp(near - 1, 0, count - 3), t = place - first;
+    const [a, b, c, d] = table.subarray(begin + first, begin + first + 4);
+    const cubic = (t - 1) * (t - 2) * (d * t - a * (t - 3)) / 6 + t * (t - 3) * (b * (t - 2) - c * (t - 1)) / 2;
+    const u = place - near;
+    return Number.isNaN(cubic) ? table[begin + near] * (1 - u) + table[begin + near + 1] * u : cubic;
   }
+
+  // Returns in which part of a period a phase is, and how far along; where it runs backwards in one of that.
+  // The end of a way that is gone back belongs to the way there.
+  function placeOf(phase, backwards = false) {
+    const there = mod(phase, page.period), long = page.period / page.parts;
+    const part = page.retraced && there === Math.PI ? 0 : Math.min(Math.floor(there / long), page.parts - 1);
+    const along = there / long - part;
+    return backwards ? [page.parts - 1 - part, 1 - along] : [part, along];
+  }
+
+  // What a table's values are times that grow without bound towards the ends of a swing.
+  function weight([low, high], phase) {
+    const side = (value) => Math.abs(value) < 1e-14 ? 0 : Math.abs(value);
+    return side(Math.sin(phase / 2)) ** low * side(Math.cos(phase / 2)) ** high;
+  }
+  const grown = (value, { poles }, phase) => poles ? value / weight(poles, phase) : value;
 
   const motionIsFine = !matchMedia("(prefers-reduced-motion: reduce)").matches;
   const state = {
@@ -280,9 +305,10 @@
 
   // Returns how the input's coordinate, as it is read, changes by phase as it runs now: its table's slope.
   function inputRate() {
-    const table = sides[state.side].rows[0].tables[0], count = table.length - 1;
-    const share = mod(state.phase / page.period, 1), k = Math.min(Math.floor(share * count), count - 1);
-    return (table[k + 1] - table[k]) * count / page.period * Math.sign(speed());
+    const table = sides[state.side].rows[0].tables[0], step = page.period / 480;
+    const middle = clamp(mod(state.phase, page.period), step, page.period - step);
+    const [before, after] = [middle - step, middle + step].map((phase) => reading(table, placeOf(phase)));
+    return (after - before) / (2 * step) * Math.sign(speed());
   }
 
   // --- both closures, ready to be moved -----------------------------------------------------------
@@ -322,14 +348,15 @@
 
   function valueOf(row) {
     const back = state.way < 0, table = row.tables[back && !row.back ? 1 : 0];
-    const value = (back && row.back || 1) * reading(table, mod(state.phase / page.period, 1));
+    const held = (back && row.back || 1) * reading(table, placeOf(state.phase));
+    const value = grown(held, row, state.phase);
     if (!row.turn) return value;
     const rounded = Number(mod(value, row.turn).toFixed(row.digits));
     return rounded >= row.turn ? 0 : rounded;
   }
 
   function words(value, digits, unitName) {
-    if (!Number.isFinite(value)) return "–";
+    if (!Number.isFinite(value)) return Number.isNaN(value) ? "–" : "∞";
     const text = value.toFixed(digits);
     return minus(Number(text) === 0 ? text.replace("-", "") : text) + (unitName === "°" ? "°" : ` ${unitName}`).trimEnd();
   }
@@ -371,10 +398,14 @@
     chart.innerHTML = data.frame;
     const [left, top, width, high] = data.area, [low, up] = data.y;
     const level = (value) => top + high * (1 - clamp((value - low) / (up - low), 0, 1));
-    for (const { table, colour } of data.curves) {
+    const [origin, scale, span] = data.course;
+    for (const curve of data.curves) {
+      const { table, colour } = curve, count = table.length / page.parts - 1;
       let d = "", pen = false;
-      table.forEach((value, n) => {
-        if (Number.isFinite(value)) d += `${pen ? "L" : "M"}${xy([left + width * n / (table.length - 1), level(value)])}`;
+      table.forEach((held, n) => {
+        const part = Math.floor(n / (count + 1)), share = (part + (n - part * (count + 1)) / count) / page.parts;
+        const value = grown(held, curve, origin + scale * share * span);
+        if (Number.isFinite(value)) d += `${pen ? "L" : "M"}${xy([left + width * share, level(value)])}`;
         pen = Number.isFinite(value);
       });
       stroked(chart, colour, data.width, { d });
@@ -385,13 +416,17 @@
     cursor = { rule, dots, label, level };
   }
 
-  const chartShare = ({ course: [origin, scale, span] }) => mod((state.phase - origin) / scale, span) / span;
+  // Returns where the cursor stands in a chart's tables: those of a swing begin with the period.
+  function chartPlace({ course: [origin, scale, span] }) {
+    return page.parts > 1 ? placeOf(state.phase, scale < 0) : [0, mod((state.phase - origin) / scale, span) / span];
+  }
 
   function drawCursor(data) {
-    const [left, top, width, high] = data.area, share = chartShare(data), x = left + width * share;
+    const [left, top, width, high] = data.area, place = chartPlace(data);
+    const x = left + width * (place[0] + place[1]) / page.parts;
     put(cursor.rule, "d", `M${x.toFixed(2)} ${top}V${top + high}`);
-    say(cursor.label, data.curves.map(({ table, label }, n) => {
-      const value = reading(table, share), dot = cursor.dots[n];
+    say(cursor.label, data.curves.map((curve, n) => {
+      const { table, label } = curve, value = grown(reading(table, place), curve, state.phase), dot = cursor.dots[n];
       dot.setAttribute("cx", x);
       dot.setAttribute("cy", Number.isFinite(value) ? cursor.level(value) : -100);
       return `${label} ${words(value, data.digits, data.unit)}`.trim();

@@ -21,7 +21,7 @@ from linkanim.picture.look import ACCELERATION, VELOCITY, Look, ThemeName
 from linkanim.picture.picture import Picture
 from linkanim.scenes.editing.closures import closure_name, ghost_of
 from linkanim.scenes.scene import Scene
-from linkanim.share.figures import CHART, charts, input_words, rows
+from linkanim.share.figures import CHART, charts, input_words, parts_of, rows
 from linkanim.share.movers import Mobile
 from linkanim.share.pairs import Pairs
 from linkanim.share.tracks import packed_tracks, tracks
@@ -97,6 +97,8 @@ def _whole(shared: Shared, closures: tuple[Scene, ...]) -> str:
     shapes = "\n".join(side.markup(n, known) for n, side in enumerate(sides))
     found = {
         "period": scene.period,
+        "retraced": scene.mechanism.retraced,
+        "parts": parts_of(scene),
         "speed": shared.speed or scene.linkage.drive.speed,
         "unit": scene.length_unit,
         "input": input_words(scene),

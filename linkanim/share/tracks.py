@@ -1,7 +1,8 @@
 """Where joints run in pixels, as nodes between which a quintic is close enough for the largest screens.
 
 A node has the position and its first two derivatives by phase, from the solver; between two nodes runs the
-polynomial of fifth degree that has them at both ends (Hermite). Nodes lie where they are needed.
+polynomial of fifth degree that has them at both ends (Hermite). Nodes lie where they are needed. Of a scene
+that comes back by the way it came they are those of the way there: at its ends rates change sign at once.
 """
 
 from __future__ import annotations
@@ -54,13 +55,14 @@ class Track:
 
 
 def tracks(scene: Scene, view: View) -> dict[str, Track]:
-    """Return the tracks of all joints and centres of mass over one true period of phase."""
+    """Return the tracks of all joints and centres of mass over one true period of phase, or its way there."""
     joints = scene.linkage.joints
     centres = (centre(body.name) for body in scene.linkage.bodies if body.com is not None)
     names, fixed = (*(one.name for one in joints), *centres), {one.name for one in joints if one.fixed}
     first = min(max(_FIRST, 1 << math.ceil(math.log2(_FIRST * scene.period / math.tau))), GRID)
     step = GRID // first
-    begins = {name: np.arange(0, GRID if name not in fixed else 1, step) for name in names}
+    end = GRID // 2 if scene.mechanism.retraced else GRID
+    begins = {name: np.arange(0, end if name not in fixed else 1, step) for name in names}
     nodes = {name: [some] for name, some in begins.items()}
     open_ = {name: some for name, some in begins.items() if name not in fixed}
     while open_ and step >= 1 / min(_PROBES):
@@ -68,6 +70,8 @@ def tracks(scene: Scene, view: View) -> dict[str, Track]:
         step //= 2
         for name, some in open_.items():
             nodes[name].append(some)
+    for name in begins.keys() - fixed if end < GRID else ():
+        nodes[name].append(np.array([end]))
     kept = {name: np.unique(np.concatenate(some)) for name, some in nodes.items()}
     solved = _Solved(scene, view, names, np.unique(np.concatenate([*kept.values()])))
     return {name: solved.track(name, some) for name, some in kept.items()}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from html import escape
-from math import atan2, cos, degrees, pi, sin
+from math import atan2, cos, degrees, pi, radians, sin
 from pathlib import Path
 
 import pytest
@@ -23,8 +23,11 @@ from shared_page import (
     shown,
 )
 
+from linkanim.picture.panels.readings import rows as readings
 from linkanim.scenes import load, names
 from linkanim.scenes.editing.closures import ghost_of
+from linkanim.scenes.editing.toml import parse
+from linkanim.scenes.reading.read import scene_from
 from linkanim.share.page import Shared, document
 
 pytestmark = [pytest.mark.window, pytest.mark.skipif(not PROGRAM, reason="needs Chromium")]
@@ -225,3 +228,37 @@ def test_all_that_is_pressed_has_a_name_for_a_screen_reader(page: Page, tmp_path
     assert ("slider", "crank angle") in named
     assert len(named) >= 12
     assert [role for role, name in named if not name] == []
+
+
+SIMPLE = """
+length_unit = "mm"
+gravity = "9.81 m/s^2"
+[slider-crank]
+crank = 60
+rod = 40
+[bodies.slider]
+slider = "B"
+mass = "450 g"
+"""
+
+
+@pytest.mark.parametrize("returns", ["other", "same"])
+def test_a_torque_beside_a_limit_is_a_number_and_at_it_not_bounded(
+    returns: str, page: Page, tmp_path: Path
+) -> None:
+    text = SIMPLE.replace("[slider-crank]", f'[drive]\nreturns = "{returns}"\n[slider-crank]')
+    scene = scene_from(parse(text, "simple"), name="simple", where="simple")
+    page.go(put(tmp_path, Shared(scene, chart="B.velocity.x")))
+    for degrees_ in (0.0, 0.01, 1.0, 178.0, 179.9, 180.0, 180.01, 181.0, 183.5, 359.0):
+        pose = scene.pose(radians(degrees_))
+        go_to(page, radians(degrees_))
+        told = dict(readings(scene, pose))["input torque"]
+        page_says = shown(page, "rows").rpartition("torque")[2]
+        one, other = (
+            float(words.removesuffix(" N m").replace("−", "-").replace("∞", "inf"))
+            for words in (page_says, told)
+        )
+        assert one == pytest.approx(other, rel=1e-3), degrees_
+        cursor = str(page.value("document.querySelector('#chart > text:last-of-type').textContent"))
+        velocity = float(cursor.strip().removesuffix(" mm/s").replace("−", "-"))
+        assert velocity == pytest.approx(pose.velocity["B"][0], abs=0.6)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import hashlib
 import json
+import math
 import re
 from html.parser import HTMLParser
 from pathlib import Path
@@ -12,12 +13,16 @@ from typing import Any
 
 import numpy as np
 import pytest
+import read_tables
 
 from linkanim.cli import main
 from linkanim.errors import BadInput
+from linkanim.picture.panels.readings import measured
 from linkanim.scenes import load
+from linkanim.scenes.editing.closures import other_return
 from linkanim.scenes.editing.toml import parse
 from linkanim.scenes.reading.read import scene_from
+from linkanim.scenes.scene import Scene
 from linkanim.share.page import LARGEST, Shared, document
 from linkanim.share.site import INDEX, write_site
 
@@ -146,6 +151,75 @@ def test_a_page_s_numbers_and_chart_are_what_is_solved() -> None:
     assert found[0] == pytest.approx(np.degrees(motions[0].coordinate), abs=1e-3)
     for values in found[1:]:
         assert values == pytest.approx(np.hypot(*motions[1].velocity["B"].T), rel=1e-2)
+
+
+SIMPLE = """
+length_unit = "mm"
+gravity = "9.81 m/s^2"
+[slider-crank]
+crank = 60
+rod = 40
+[bodies.slider]
+slider = "B"
+mass = "450 g"
+"""
+BESIDE = (1e-9, 1e-5, math.radians(0.04), math.radians(1), math.radians(2), math.radians(3.5), 0.5, 1.3)
+
+
+def swinging(name: str) -> Scene:
+    """Return a scene whose input swings; `name, same` comes back by the way it came."""
+    name, _, same = name.partition(", ")
+    scene = scene_from(parse(SIMPLE, name), name=name, where=name) if name == "simple" else load(name)
+    return other_return(scene) if same else scene
+
+
+# Beside a limit, where a torque grows without bound, or where a way that is gone back changes all signs.
+@pytest.mark.parametrize("name", ["simple", "simple, same", "excavator", "excavator, same", "driven-piston"])
+def test_a_page_s_numbers_hold_beside_a_limit(name: str) -> None:
+    scene = swinging(name)
+    data, tables = held(document(Shared(scene, speed=2.0))), 0
+    for back in (False, True):
+        for one in measured(scene):
+            for phase in (
+                end + way * beside for end in (0.0, math.pi) for beside in BESIDE for way in (1, -1)
+            ):
+                exact = float(one.quantity.shown(scene.pose(phase, speed=-2.0 if back else 2.0)))
+                found = read_tables.row(data, one.label, phase % math.tau, back=back)
+                assert found == pytest.approx(exact, rel=2e-5, abs=one.step / 10), (one.label, phase, back)
+                tables += 1
+    assert tables or not scene.linkage.forceful
+
+
+def test_a_torque_that_is_not_bounded_is_told_to_be_so_and_only_there() -> None:
+    data = held(document(Shared(swinging("simple"))))
+    for phase in (0.0, math.pi):
+        assert read_tables.row(data, "input torque", phase) == math.inf
+    for degrees, torque in ((181.0, 0.162355), (178.0, -0.0825)):
+        found = read_tables.row(data, "input torque", math.radians(degrees))
+        assert found == pytest.approx(torque, rel=1e-2)
+
+
+CHARTED = [
+    "A.acceleration.x",
+    "B.velocity.x",
+    "coupler.coefficient",
+    "coupler.second_coefficient",
+    "crank.angle",
+]
+
+
+@pytest.mark.parametrize("token", CHARTED)
+@pytest.mark.parametrize("name", ["double-rocker", "double-rocker, same"])
+def test_a_page_s_chart_holds_beside_a_limit(name: str, token: str) -> None:
+    scene = swinging(name)
+    data, quantity = held(document(Shared(scene, chart=token, speed=2.0))), scene.quantities[token]
+    greatest = float(np.nanmax(np.abs(quantity.shown(scene.solve(phase=np.linspace(0.1, 3, 90), speed=2.0)))))
+    for back in (False, True):
+        for end in (0.0, math.pi, math.tau):
+            for phase in (end + way * beside for beside in BESIDE for way in (1, -1)):
+                exact = float(quantity.shown(scene.pose(phase, speed=-2.0 if back else 2.0)))
+                (found,) = read_tables.charted(data, phase, back=back)
+                assert found == pytest.approx(exact, rel=1e-5, abs=1e-5 * greatest), (phase, back)
 
 
 GEARED = """

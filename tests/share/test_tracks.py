@@ -11,7 +11,7 @@ import pytest
 from linkanim.picture.figure import DOWN, figure
 from linkanim.picture.view import View
 from linkanim.scenes import load, names
-from linkanim.scenes.editing.closures import ghost_of
+from linkanim.scenes.editing.closures import ghost_of, other_return
 from linkanim.scenes.scene import Scene
 from linkanim.share.tracks import GRID, packed_tracks, tracks
 
@@ -86,3 +86,23 @@ def test_more_nodes_lie_where_a_joint_turns_sharply() -> None:
     foot = tracks(scene, view_of(scene))[scene.trace[0]]
     gaps = np.diff(foot.nodes)
     assert gaps.max() >= 4 * gaps.min()
+
+
+# Where all signs change at once, at the ends of a way that is gone back, no stretch leads across.
+@pytest.mark.parametrize("name", ["double-rocker", "triple-rocker", "excavator"])
+def test_rates_of_a_way_that_is_gone_back_hold_up_to_its_ends(name: str) -> None:
+    scene = other_return(load(name))
+    view = view_of(scene)
+    packed = packed_tracks(tracks(scene, view))
+    beside = np.array([1e-9, 1e-6, 1e-4, 7e-4, 1e-2, 0.1])
+    phases = np.concatenate([beside, np.pi - beside])
+    motion = scene.solve(phase=phases, speed=1.0)
+    for joint in motion.position:
+        if not scene.linkage.joint(joint).fixed:
+            held = {"track": packed["points"][joint], "grain": packed["grain"]}
+            assert unpacked(held["track"][0], "<u2")[-1] == GRID // 2
+            for found, true in zip(
+                read(held, phases, scene.period)[1:], (motion.velocity, motion.acceleration), strict=True
+            ):
+                wanted = true[joint] @ DOWN * view.scale
+                assert np.abs(found @ (1, 1j) - wanted).max() <= 2e-3 * np.abs(wanted).max()
