@@ -42,11 +42,13 @@ _PATIENCE, _PAUSE = 2.0, 0.003
 """Seconds for which a file that another run changes is waited for, and between looking."""
 
 
-def checked_target(path: str | os.PathLike[str], suffixes: tuple[str, ...]) -> Path:
+def checked_target(
+    path: str | os.PathLike[str], suffixes: tuple[str, ...], inputs: Iterable[str | os.PathLike[str]] = ()
+) -> Path:
     """Return the path of a file that can be written.
 
     `BadInput` where `path` has none of the suffixes, is a folder or a name of Windows' own, lies in a
-    folder that is not there, or is taken as by `refuse_taken`.
+    folder that is not there, is taken as by `refuse_taken`, or is one of the `inputs`, which are read.
     """
     target = Path(path)
     if target.is_dir():
@@ -60,7 +62,22 @@ def checked_target(path: str | os.PathLike[str], suffixes: tuple[str, ...]) -> P
     if not target.parent.is_dir():
         raise BadInput(f"{target}: there is no folder {target.parent}; make it first, or choose another")
     refuse_taken(target)
+    refuse_input(target, inputs)
     return target
+
+
+def refuse_input(target: Path, inputs: Iterable[str | os.PathLike[str]]) -> None:
+    """Refuse, as `BadInput`, a file to be written that is one of those that are read, by whatever name.
+
+    Names that differ in capitals alone are one: elsewhere they are one file.
+    """
+    for path in map(Path, inputs):
+        if path.is_file() and (_alike(target, path) or (target.exists() and target.samefile(path))):
+            raise BadInput(f"{target} is what is read as {path}; choose another name for what is written")
+
+
+def _alike(one: Path, other: Path) -> bool:
+    return str(one.resolve()).casefold() == str(other.resolve()).casefold()
 
 
 def refuse_taken(path: Path) -> None:

@@ -1,4 +1,4 @@
-"""Sets of files whose names we choose: a list beside them says which we wrote, and only those are replaced.
+"""Files whose names we choose: a list beside them says which we wrote, and only those are replaced.
 
 The list, `.linkanim-NAME.json`, holds the SHA-256 of each file. A file that it does not name, or that was
 changed since, is never touched: where its name is needed, the set is refused before anything is. While a
@@ -18,7 +18,16 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 
-from linkanim.atomic_files import checked_folder, hold, refuse_taken, scratch, settle, take_place
+from linkanim.atomic_files import (
+    checked_folder,
+    checked_target,
+    hold,
+    refuse_taken,
+    scratch,
+    settle,
+    take_place,
+)
+from linkanim.atomic_files import replacing as replacing_any
 from linkanim.errors import BadInput
 from linkanim.intake import Intake
 
@@ -64,14 +73,67 @@ class FileSet:
             raise BadInput(f"{path}: {reason}") from None
         return {name: sums for name, sums in found.items() if re.fullmatch(self.pattern, name)}
 
-    def refuse_foreign(self, names: Iterable[str]) -> None:
+    def refuse_foreign(
+        self, names: Iterable[str], way_out: str = "move it away, or choose another name"
+    ) -> None:
         """Refuse, as `BadInput`, names of files that we did not write, or that were changed since."""
         known = self.sums()
         for name in names:
             path = self.folder / name
             refuse_taken(path)
             if os.path.lexists(path) and not is_ours(path, known):
-                raise BadInput(f"{path} {_STRANGE[name in known]}; move it away, or choose another name")
+                raise BadInput(f"{path} {_STRANGE[name in known]}; {way_out}")
+
+
+@dataclass(frozen=True)
+class Output:
+    """A file to be written: under a name that its user gave, or else under one that we choose.
+
+    What is there under a name that was given is replaced; under another only what we wrote.
+    """
+
+    path: Path
+    named: bool = True
+
+    @contextmanager
+    def replacing(self) -> Iterator[Path]:
+        """Give the path of a new file that takes the name when the block ends well; errors as `replacing`."""
+        if self.named:
+            with replacing_any(self.path) as part:
+                yield part
+            return
+        with replacing(self._files, [self.path.name], others_go=False, told=self.path) as folder:
+            yield folder / self.path.name
+
+    def refuse_foreign(self) -> None:
+        """Refuse, as `BadInput`, a name that we choose where a file has it that we did not write."""
+        if not self.named:
+            option = f"give -o {self.path} to replace it, or another name"
+            self._files.refuse_foreign([self.path.name], option)
+
+    def beside(self, name: str) -> Output:
+        """Return a file of another name in its folder, which nobody gave."""
+        return Output(self.path.with_name(name), named=False)
+
+    @property
+    def _files(self) -> FileSet:
+        """All in the folder that have names that we chose, one by one."""
+        return FileSet(self.path.parent, "outputs", r"[^/]+")
+
+
+def checked_output(
+    named: str | os.PathLike[str] | None,
+    usual: str,
+    suffixes: tuple[str, ...],
+    inputs: Iterable[str | os.PathLike[str]] = (),
+) -> Output:
+    """Return what is to be written: the name that was given, or else the usual one if it is free or ours.
+
+    `BadInput` as `atomic_files.checked_target`, and for a usual name that is a foreign file's.
+    """
+    found = Output(checked_target(named or usual, suffixes, inputs), named is not None)
+    found.refuse_foreign()
+    return found
 
 
 def single(path: Path) -> FileSet:
@@ -88,17 +150,20 @@ def is_ours(path: Path, known: Sums) -> bool:
 
 
 @contextmanager
-def replacing(files: FileSet, names: Iterable[str] = (), *, others_go: bool = True) -> Iterator[Path]:
+def replacing(
+    files: FileSet, names: Iterable[str] = (), *, others_go: bool = True, told: Path | None = None
+) -> Iterator[Path]:
     """Give a new folder, the files in which take their names in the set when the block ends well.
 
     Those of the set that the list names, that are still as we wrote them and are not among the new ones go
     then, unless others are to stay. Whatever ends the block otherwise, and where a file cannot take its
     place, all are as they were. The set's folder is made where only it is missing. `BadInput` before any
     work where one of `names`, known beforehand, is taken by a file that is not ours; at the end for all.
+    Where the disk refuses, it is `told` of that path, or of the set.
     """
     folder = checked_folder(files.folder)
     files.refuse_foreign(names)
-    with scratch(folder if folder.is_dir() else folder.parent, folder / files.name) as room:
+    with scratch(folder if folder.is_dir() else folder.parent, told or folder / files.name) as room:
         new = room / "new"
         new.mkdir()
         yield new

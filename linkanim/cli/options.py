@@ -354,3 +354,8 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
     ),
 }
 """The arguments of each command."""
+
+
+def inputs_of(options: Namespace) -> list[str | Path]:
+    """Return the paths that a command reads: its scene's, where that is a file, and a table's."""
+    return [path for name in ("scene", "data") if (path := getattr(options, name, None)) is not None]

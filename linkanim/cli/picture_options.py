@@ -5,8 +5,10 @@ from __future__ import annotations
 from argparse import Namespace
 from pathlib import Path
 
-from linkanim.atomic_files import checked_target
+from linkanim.atomic_files import refuse_input
+from linkanim.cli.options import inputs_of
 from linkanim.errors import BadInput
+from linkanim.manifest import Output, checked_output
 from linkanim.mechanics.motion.measures import coupler_body
 from linkanim.paper.latex import refuse_latex
 from linkanim.picture.look import TOGGLES, Look
@@ -21,17 +23,27 @@ _SIZE = (1280, 720)
 
 def scene_size_target(
     options: Namespace, suffixes: tuple[str, ...], usual: str
-) -> tuple[Scene, tuple[int, int], Path]:
+) -> tuple[Scene, tuple[int, int], Output]:
     """Return the scene, the size in pixels, and the file, by default named after the scene.
 
     `BadInput` for a size or a file that cannot be.
     """
-    target = checked_target(options.output or f"{Path(options.scene).stem}{usual}", suffixes)
+    target = checked_output(
+        options.output, f"{Path(options.scene).stem}{usual}", suffixes, inputs_of(options)
+    )
     if options.text:
         refuse_latex(target)
     size = options.size or _SIZE
-    refuse_size(size, painted=target.suffix.lower() == ".png")
-    return in_unit(load(options.scene), getattr(options, "unit", None)), size, target
+    refuse_size(size, painted=target.path.suffix.lower() == ".png")
+    scene = load(options.scene)
+    refuse_photograph(scene, target.path)
+    return in_unit(scene, getattr(options, "unit", None)), size, target
+
+
+def refuse_photograph(scene: Scene, target: Path) -> None:
+    """Raise `BadInput` for an output that is the photograph of a scene."""
+    photo = scene.document.get("photo")
+    refuse_input(target, [photo["file"]] if photo else ())
 
 
 def look_of(scene: Scene, options: Namespace) -> Look:

@@ -8,11 +8,10 @@ and as large as the picture has them: none comes to lie on another.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from pathlib import Path
 
-from linkanim.atomic_files import replacing
 from linkanim.errors import BadInput
 from linkanim.explain.notation import plain_latex
+from linkanim.manifest import Output
 from linkanim.paper.pdf import pdf
 from linkanim.paper.svg import flat
 from linkanim.picture.items import Caption, Group, Item
@@ -39,30 +38,32 @@ _POINTS = 0.75
 """A pixel is 3/4 of a PDF's point."""
 
 
-def refuse_latex(target: Path) -> None:
-    """Raise `BadInput` for what is no PDF, or has a name that LaTeX cannot read."""
-    if target.suffix.lower() != ".pdf":
+def refuse_latex(target: Output) -> None:
+    """Raise `BadInput` for what is no PDF, has a name that LaTeX cannot read, or a foreign file beside it."""
+    name = target.path.name
+    if target.path.suffix.lower() != ".pdf":
         raise BadInput(
-            f"--text latex goes with a PDF, not with {shown(target.name)}; write FIG.pdf, or leave it out"
+            f"--text latex goes with a PDF, not with {shown(name)}; write FIG.pdf, or leave it out"
         )
-    if _READ_OTHERWISE & set(target.name):
-        raise BadInput(f"--text latex: LaTeX cannot name {shown(target.name)}; take letters, digits and -")
+    if _READ_OTHERWISE & set(name):
+        raise BadInput(f"--text latex: LaTeX cannot name {shown(name)}; take letters, digits and -")
+    labels_of(target).refuse_foreign()
 
 
-def labels_path(target: Path) -> Path:
-    """Return the file with the words of a PDF."""
-    return target.with_name(f"{target.name}_tex")
+def labels_of(target: Output) -> Output:
+    """Return the file with the words of a PDF: nobody gave its name."""
+    return target.beside(f"{target.path.name}_tex")
 
 
 def write_for_latex(
-    target: Path, size: tuple[int, int], background: Colour | None, groups: Iterable[Group], *, title: str
+    target: Output, size: tuple[int, int], background: Colour | None, groups: Iterable[Group], *, title: str
 ) -> None:
     """Write a picture as PDF without its words, and those beside it; both appear whole, or neither does."""
     items = list(flat(groups))
-    with replacing(target) as part, replacing(labels_path(target)) as labels:
+    with target.replacing() as part, labels_of(target).replacing() as labels:
         shapes: list[Item | Group] = [item for item in items if isinstance(item, Layer)]
         part.write_bytes(pdf(size, background, shapes, title=title))
-        labels.write_text(words(size, items, target.name), encoding="utf-8")
+        labels.write_text(words(size, items, target.path.name), encoding="utf-8")
 
 
 def words(size: tuple[int, int], items: Iterable[Item], name: str) -> str:

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
-from linkanim.atomic_files import replacing
 from linkanim.export import csv_head, csv_rows
+from linkanim.manifest import Output
 from linkanim.paper.chart import Page
 from linkanim.paper.curves import table
 from linkanim.paper.figure import Figured
@@ -19,19 +17,20 @@ OF_A_FIGURE = (".svg", ".png", ".pdf")
 OF_A_CHART = (*OF_A_FIGURE, ".csv")
 
 
-def write(shown: Figured | Page | ErrorChart, target: Path, *, latex: bool = False) -> None:
+def write(shown: Figured | Page | ErrorChart, target: Output, *, latex: bool = False) -> None:
     """Write a figure or a chart as SVG, PNG or PDF, a chart also as CSV; a file appears whole or not at all.
 
     The words of a PDF are left to `latex` in a file beside it. `WorkFailed` where disk or folder refuse;
     `BadInput` for a PDF without what writes it.
     """
-    if target.suffix.lower() == ".pdf":
+    suffix = target.path.suffix.lower()
+    if suffix == ".pdf":
         require_pdf()
     if latex:
         write_for_latex(target, shown.size, shown.background, shown.groups(), title=shown.title)
         return
-    with replacing(target) as part:
-        part.write_bytes(data(shown, target.suffix.lower()))
+    with target.replacing() as part:
+        part.write_bytes(data(shown, suffix))
 
 
 def data(shown: Figured | Page | ErrorChart, suffix: str) -> bytes:

@@ -198,9 +198,10 @@ def _signal_name(number: int) -> str:
 
 def _kill(process: subprocess.Popen[bytes]) -> None:
     """End a process and what it has started, which would keep its pipes open."""
-    if sys.platform != "win32" and process.returncode is None:  # else its number may be another's by now
-        with suppress(OSError):
-            os.killpg(process.pid, signal.SIGKILL)
+    if sys.platform != "win32":
+        if process.returncode is None:  # else its number may be another's by now
+            with suppress(OSError):
+                os.killpg(process.pid, signal.SIGKILL)
     process.kill()
 
 

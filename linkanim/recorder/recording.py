@@ -14,7 +14,8 @@ from typing import Protocol, cast
 
 import numpy as np
 
-from linkanim import atomic_files, manifest
+from linkanim import manifest
+from linkanim.atomic_files import checked_target
 from linkanim.errors import BadInput, RecordingFailed, WorkFailed
 from linkanim.recorder.encode import Stream, count_frames, encoding
 from linkanim.recorder.palette import Colour, make_palette
@@ -92,15 +93,19 @@ class Recording:
         return f"{self.path}: {self.plan.summary}, {width}x{height}, {self.file_bytes / 1e6:.2f} MB"
 
 
-def checked_path(path: str | os.PathLike[str]) -> tuple[Path, Format]:
-    """Return the path and the format its ending stands for; `BadInput` as `atomic_files.checked_target`."""
-    target = atomic_files.checked_target(path, SUFFIXES)
-    return target, cast(Format, target.suffix.lower()[1:])
+Target = str | os.PathLike[str] | manifest.Output
+"""Where to: a path is a name that its user gave."""
 
 
-def write(
-    frames: Frames, plan: Plan, path: str | os.PathLike[str], progress: Progress | None = None
-) -> Recording:
+def checked_path(path: Target) -> tuple[manifest.Output, Format]:
+    """Return the file and the format its ending stands for; `BadInput` as `atomic_files.checked_target`."""
+    target = path if isinstance(path, manifest.Output) else manifest.Output(Path(path))
+    checked_target(target.path, SUFFIXES)
+    target.refuse_foreign()
+    return target, cast(Format, target.path.suffix.lower()[1:])
+
+
+def write(frames: Frames, plan: Plan, path: Target, progress: Progress | None = None) -> Recording:
     """Draw and encode `plan.frames` frames into a file whose ending says the format.
 
     The file appears when it is whole, or not at all; one that was there is replaced then, of numbered
@@ -108,7 +113,8 @@ def write(
     before any work where the path, the size or transparency in MP4 cannot be, or a frame's name is taken;
     `RecordingFailed` where disk or encoder give up.
     """
-    target, form = checked_path(path)
+    output, form = checked_path(path)
+    target = output.path
     refuse_size(frames.size)
     if frames.alpha and form == "mp4":
         raise BadInput(f"{target.name}: MP4 has no transparency; record a GIF or PNG, or keep the background")
@@ -116,7 +122,7 @@ def write(
     if form == "png":  # NAME-0001.png, NAME-0002.png, ...
         numbers = range(1, plan.frames + 1)
         made = [target.with_name(f"{target.stem}-{number:04}{target.suffix}") for number in numbers]
-    finished = _numbering(target, made) if form == "png" else atomic_files.replacing(target)
+    finished = _numbering(target, made) if form == "png" else output.replacing()
     with _saying_why(target), finished as part:
         _encode(frames, plan, part, form, progress)
         held = count_frames(part, form)

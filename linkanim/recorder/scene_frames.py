@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from dataclasses import astuple
 from typing import TYPE_CHECKING
 
@@ -13,7 +12,7 @@ from linkanim.picture.raster.offscreen import offscreen, pixel_view
 from linkanim.picture.surface import SurfacePrinter
 from linkanim.picture.theme import theme_of
 from linkanim.recorder.plan import Clip, Plan, make_plan, refuse_size
-from linkanim.recorder.recording import Progress, Recording, checked_path, write
+from linkanim.recorder.recording import Progress, Recording, Target, checked_path, write
 
 if TYPE_CHECKING:
     from linkanim.recorder.palette import Colour
@@ -44,7 +43,7 @@ class SceneFrames:
 
 def record(
     scene: Scene,
-    path: str | os.PathLike[str],
+    path: Target,
     *,
     size: tuple[int, int] = (1280, 720),
     fps: float = 25.0,

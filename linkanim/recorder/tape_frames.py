@@ -20,7 +20,7 @@ from linkanim.player.tape import tape_file
 from linkanim.player.window.approach import Framing
 from linkanim.player.window.show import overlay
 from linkanim.recorder.plan import SIDES, Clip, make_plan, refuse_size
-from linkanim.recorder.recording import Progress, Recording, checked_path, write
+from linkanim.recorder.recording import Progress, Recording, Target, checked_path, write
 from linkanim.recorder.scene_frames import record, theme_colours
 
 if TYPE_CHECKING:
@@ -88,7 +88,7 @@ def _themes(tape: Tape) -> tuple[str, ...]:
 
 def record_tape(
     tape: str | os.PathLike[str],
-    path: str | os.PathLike[str],
+    path: Target,
     *,
     size: tuple[int, int] | None = None,
     fps: float = 25.0,

@@ -46,7 +46,7 @@ def test_the_ending_says_the_format(name: str, folder: Path, capsys: pytest.Capt
 
 def test_without_a_name_it_is_the_scenes(folder: Path) -> None:
     assert main(["chart", "crank-rocker", "--quantity", "rocker.angle", "--size", "320x180"]) == 0
-    assert [path.name for path in folder.iterdir()] == ["crank-rocker.png"]
+    assert sorted(path.name for path in folder.iterdir()) == [".linkanim-outputs.json", "crank-rocker.png"]
 
 
 def test_a_table_says_what_solve_says(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:

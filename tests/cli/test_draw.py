@@ -12,6 +12,9 @@ import pytest
 from linkanim.cli import main
 from linkanim.scenes import load
 
+LIST = ".linkanim-outputs.json"
+"""What says which files of usual names we wrote."""
+
 
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
@@ -31,7 +34,7 @@ def test_a_figure_is_written_where_it_was_asked_for(folder: Path, capsys: pytest
 
 def test_without_a_name_it_is_the_scenes(folder: Path) -> None:
     assert main(["draw", "kite"]) == 0
-    assert [path.name for path in folder.iterdir()] == ["kite.svg"]
+    assert sorted(path.name for path in folder.iterdir()) == [LIST, "kite.svg"]
     root = ElementTree.parse(folder / "kite.svg").getroot()
     assert (root.get("width"), root.get("height")) == ("1280", "720")
 

@@ -58,7 +58,7 @@ def test_it_tells_and_records(tmp_path: Path, machine: dict[str, str | None]) ->
     assert (done.returncode, done.stdout) == (0, "kite.gif\n")
     assert done.stderr.startswith("kite.gif: 2 frames at ")
     assert done.stderr.rstrip("\n").isprintable()  # one line, and no colours in it
-    assert [path.name for path in tmp_path.iterdir()] == ["kite.gif"]
+    assert sorted(path.name for path in tmp_path.iterdir()) == [".linkanim-outputs.json", "kite.gif"]
 
 
 def test_a_path_with_spaces_and_chinese_characters(

@@ -266,7 +266,8 @@ def test_stopped_in_the_middle_it_leaves_the_old_file_alone(
     number: signal.Signals, code: int, tmp_path: Path
 ) -> None:
     Path("press.gif").write_text("the old one")
-    command = [sys.executable, "-m", "linkanim", "record", "press", "--periods", "50", "--progress"]
+    record = ["record", "press", "-o", "press.gif", "--periods", "50", "--progress"]
+    command = [sys.executable, "-m", "linkanim", *record]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, bufsize=0) as process:
         assert process.stderr is not None
         message = process.stderr.read(64)

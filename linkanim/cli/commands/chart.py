@@ -10,7 +10,7 @@ from linkanim.digits import rpm, stepped
 from linkanim.errors import BadInput
 from linkanim.paper.chart import Page
 from linkanim.paper.curves import Curves, Pace, curves_of
-from linkanim.paper.latex import labels_path
+from linkanim.paper.latex import labels_of
 from linkanim.paper.measured import MeasuredCurve, beside, read_table, usual_over
 from linkanim.paper.write import OF_A_CHART, write
 from linkanim.scenes.scene import Scene
@@ -25,9 +25,9 @@ def run(options: Namespace) -> None:
     write(Page(curves, size, options.theme, measured), target, latex=bool(options.text))
     if measured:
         print(_difference(curves, measured), file=sys.stderr)
-    print(target)
+    print(target.path)
     if options.text:
-        print(labels_path(target))
+        print(labels_of(target).path)
 
 
 def paces(scene: Scene, options: Namespace) -> tuple[Pace, ...]:

@@ -9,7 +9,7 @@ from linkanim.cli.commands.solve import phase_at
 from linkanim.cli.picture_options import look_of, scene_size_target
 from linkanim.errors import BadInput
 from linkanim.paper.figure import Figured
-from linkanim.paper.latex import labels_path
+from linkanim.paper.latex import labels_of
 from linkanim.paper.write import OF_A_FIGURE, write
 from linkanim.scenes.scene import Scene
 
@@ -23,9 +23,9 @@ def run(options: Namespace) -> None:
     phase = None if phase is None else float(phase)
     shown = Figured(scene, size, look, phase, options.poses or 0, options.speed)
     write(shown, target, latex=bool(options.text))
-    print(target)
+    print(target.path)
     if options.text:
-        print(labels_path(target))
+        print(labels_of(target).path)
     if shown.phase is None:
         print(f"{shown.caption}: the joints farthest apart; --angle or --phase for another pose")
 

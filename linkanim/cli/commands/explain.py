@@ -8,6 +8,7 @@ from math import isnan
 
 from linkanim.atomic_files import checked_target, write_text
 from linkanim.cli.commands.solve import phase_at
+from linkanim.cli.options import inputs_of
 from linkanim.explain.documents import HTML, MARKDOWN, TEX, document
 from linkanim.explain.inputs import PoseRequest
 from linkanim.explain.solution import Solution, solution
@@ -27,7 +28,9 @@ def run(options: Namespace) -> None:
     `BadInput` for an output that cannot be, before anything is worked out; `OutOfRange` for an angle that the
     input does not come to.
     """
-    target = None if options.output is None else checked_target(options.output, tuple(FORMS))
+    target = (
+        None if options.output is None else checked_target(options.output, tuple(FORMS), inputs_of(options))
+    )
     found = solution(_request(load(options.scene), options))
     form = MARKDOWN if target is None else FORMS[target.suffix.lower()]
     form = replace(form, figure=_figure) if form is HTML else form

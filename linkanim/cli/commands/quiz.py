@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from linkanim.atomic_files import checked_target, write_text
 from linkanim.bounds import MOST_ASKED
 from linkanim.cli.commands.record import bar
+from linkanim.cli.options import inputs_of
 from linkanim.errors import BadInput
 from linkanim.export import json_text
 from linkanim.play.question import QuizQuestion
@@ -26,7 +27,7 @@ def run(options: Namespace) -> None:
     `BadInput` for an output that cannot be, and for no questions or too many of so large scenes, before any
     is made.
     """
-    target = None if options.output is None else checked_target(options.output, SUFFIXES)
+    target = None if options.output is None else checked_target(options.output, SUFFIXES, inputs_of(options))
     if not 1 <= options.count <= _MOST:
         raise BadInput(f"-n {options.count}: give a number of questions from 1 to {_MOST}")
     if target and options.json:

@@ -15,11 +15,12 @@ from tqdm import tqdm
 from linkanim.cli import main
 from linkanim.cli.command_table import parse
 from linkanim.cli.exits import DONE, FAILED
-from linkanim.cli.options import DEFAULT, PRESETS
-from linkanim.cli.picture_options import look_of
+from linkanim.cli.options import DEFAULT, PRESETS, inputs_of
+from linkanim.cli.picture_options import look_of, refuse_photograph
 from linkanim.errors import BadInput
+from linkanim.manifest import checked_output
 from linkanim.picture.look import TOGGLES
-from linkanim.recorder.recording import Progress, Recording
+from linkanim.recorder.recording import SUFFIXES, Progress, Recording
 from linkanim.recorder.scene_frames import record
 from linkanim.recorder.tape_frames import record_tape
 from linkanim.scenes import load
@@ -32,11 +33,12 @@ def run(options: Namespace) -> None:
     """Record what was asked; print the file's path on stdout, and what it holds on stderr."""
     preset = PRESETS.get(options.preset, DEFAULT)
     is_tape = options.scene.lower().endswith(".json")
-    target = options.output or Path(f"{_stem(options.scene)}{preset.suffix}")
-    usual = None if is_tape and not options.preset else preset.size
-    frame = {"size": options.size or usual, "fps": options.fps or preset.fps}
+    usual = f"{_stem(options.scene)}{preset.suffix}"
+    target = checked_output(options.output, usual, SUFFIXES, inputs_of(options))
+    size = None if is_tape and not options.preset else preset.size
+    frame = {"size": options.size or size, "fps": options.fps or preset.fps}
     with bar(shown=options.progress) as progress:
-        work = _of_tape(options) if is_tape else _of_scene(options)
+        work = _of_tape(options) if is_tape else _of_scene(options, target.path)
         recording = work(target, **frame, progress=progress)
     print(recording.summary, file=sys.stderr)
     print(recording.path)
@@ -47,10 +49,11 @@ def _stem(source: str) -> str:
     return Path(source).name.removesuffix(".json").removesuffix(".tape").removesuffix(".toml")
 
 
-def _of_scene(options: Namespace) -> Callable[..., Recording]:
+def _of_scene(options: Namespace, target: Path) -> Callable[..., Recording]:
     if options.photo:
         raise BadInput("--photo is for a tape, whose sheet has a photograph behind it")
     scene = load(options.scene)
+    refuse_photograph(scene, target)
     asked = {name: getattr(options, name) for name in _OF_A_SCENE}
     return partial(record, scene, **{**asked, "periods": options.periods or 1}, look=look_of(scene, options))
 

@@ -8,8 +8,9 @@ from pathlib import Path
 
 from tqdm import tqdm
 
-from linkanim.atomic_files import checked_target, write_text
+from linkanim.cli.options import inputs_of
 from linkanim.errors import BadInput
+from linkanim.manifest import checked_output
 from linkanim.scenes import load, names
 from linkanim.scenes.editing.shown_unit import in_unit
 from linkanim.share.page import Shared, document
@@ -30,9 +31,12 @@ def run(options: Namespace) -> None:
 def _page(options: Namespace) -> Path:
     if options.scene is None:
         raise BadInput("name a scene (`linkanim scenes` lists them), or give --all DIR for all of them")
-    target = checked_target(options.output or f"{Path(options.scene).stem}.html", SUFFIXES)
-    write_text(target, document(_shared(options, options.scene)))
-    return target
+    usual = f"{Path(options.scene).stem}.html"
+    target = checked_output(options.output, usual, SUFFIXES, inputs_of(options))
+    page = document(_shared(options, options.scene))
+    with target.replacing() as part:
+        part.write_text(page, encoding="utf-8")
+    return target.path
 
 
 def _site(options: Namespace) -> Path:

@@ -16,7 +16,7 @@ import numpy as np
 from linkanim.atomic_files import checked_target, replacing
 from linkanim.bounds import MOST_NUMBERS, MOST_NUMBERS_READ
 from linkanim.cli import table
-from linkanim.cli.options import EVERY_ANGLE
+from linkanim.cli.options import EVERY_ANGLE, inputs_of
 from linkanim.cli.solved import Leaf, RowBlock, Steps, Tree, blocks, input_key, leaves, rows, tree
 from linkanim.digits import significant
 from linkanim.errors import BadInput, OutOfRange
@@ -46,7 +46,9 @@ def run(options: Namespace) -> None:
     In a sweep such an angle has a row of nulls.
     """
     inputs = _inputs(options)
-    target = None if options.csv in (None, "-") else checked_target(options.csv, (".csv",))
+    target = (
+        None if options.csv in (None, "-") else checked_target(options.csv, (".csv",), inputs_of(options))
+    )
     scene = in_unit(load(options.scene), options.unit)
     speed = scene.linkage.drive.speed if options.speed is None else options.speed
     if inputs.steps is not None:

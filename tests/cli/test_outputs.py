@@ -1,0 +1,155 @@
+"""What is written takes the place of no file that its user did not name, and never of one that is read."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from linkanim.atomic_files import refuse_input
+from linkanim.cli import main
+from linkanim.errors import BadInput
+
+KITE = """
+[four-bar]
+ground = 100
+crank = 30
+coupler = 90
+rocker = 80
+[photo]
+file = "photo.png"
+place = [0, 0]
+width = 9
+"""
+TABLE = "0,10\n90,20\n180,10\n270,20\n"
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Return a folder to work in, with what is read: a scene with a photograph, and a table."""
+    monkeypatch.chdir(tmp_path)
+    for name, text in {"my.toml": KITE, "meas.csv": TABLE, "photo.png": "a photograph"}.items():
+        (tmp_path / name).write_text(text)
+    return tmp_path
+
+
+def contents(folder: Path) -> dict[str, bytes]:
+    return {path.name: path.read_bytes() for path in folder.iterdir() if path.is_file()}
+
+
+def hard_link(folder: Path) -> None:
+    (folder / "other.csv").hardlink_to(folder / "meas.csv")
+
+
+def scene_with_another_ending(folder: Path) -> None:
+    for suffix in ("html", "csv", "gif"):
+        (folder / f"my.{suffix}").write_text(KITE)
+
+
+CHART = ("chart", "my.toml", "--quantity", "rocker.angle", "--size", "200x120", "--data")
+# A command whose output is one of the files that it reads; what is done before, if anything.
+READ: dict[str, tuple[tuple[str, ...], Callable[[Path], None] | None]] = {
+    "a table": ((*CHART, "meas.csv", "-o", "meas.csv"), None),
+    "a table by another way": ((*CHART, "meas.csv", "-o", "../{here}/meas.csv"), None),
+    "a table in other capitals": ((*CHART, "meas.csv", "-o", "MEAS.csv"), None),
+    "a table by a link": ((*CHART, "meas.csv", "-o", "other.csv"), hard_link),
+    "a scene file": (("share", "my.html", "-o", "my.html"), scene_with_another_ending),
+    "a scene file, by its usual name": (("share", "my.html"), scene_with_another_ending),
+    "a scene file, solved": (
+        ("solve", "my.csv", "--sweep", "0:9:3", "--csv", "my.csv"),
+        scene_with_another_ending,
+    ),
+    "a scene file, explained": (("explain", "my.html", "-o", "my.html"), scene_with_another_ending),
+    "a scene file, asked about": (("quiz", "my.html", "-n", "1", "-o", "my.html"), scene_with_another_ending),
+    "a scene file, recorded": (("record", "./my.gif", "-o", "my.gif"), scene_with_another_ending),
+    "a photograph": (("draw", "my.toml", "-o", "photo.png"), None),
+}
+
+
+@pytest.mark.parametrize("name", READ)
+def test_what_is_read_is_not_written_over(
+    name: str, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words, prepare = READ[name]
+    if prepare:
+        prepare(folder)
+    before = contents(folder)
+    assert main([word.replace("{here}", folder.name) for word in words]) == 2
+    assert "choose another name for what is written" in capsys.readouterr().err
+    assert contents(folder) == before
+
+
+def test_a_scene_and_a_file_of_its_name_are_two_things(folder: Path) -> None:
+    (folder / "kite").mkdir()
+    refuse_input(folder / "kite.svg", ["kite", "missing.toml"])
+    with pytest.raises(BadInput, match="is what is read as"):
+        refuse_input(folder / "MY.toml", [folder / "my.toml"])
+
+
+# Commands that take a usual name, and that name.
+USUAL = {
+    "kite.svg": ("draw", "kite", "--size", "64x36"),
+    "kite.png": ("chart", "kite", "--quantity", "B.velocity", "--size", "200x120"),
+    "kite.gif": ("record", "kite", "--size", "64x36", "--seconds", "0.1"),
+    "kite.html": ("share", "kite"),
+}
+
+
+@pytest.mark.parametrize("name", USUAL)
+def test_under_a_usual_name_only_what_we_wrote_is_replaced(
+    name: str, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = USUAL[name]
+    (folder / name).write_text("mine")
+    before = contents(folder)
+    assert main(words) == 2
+    assert f"{name} is not known to be linkanim's" in capsys.readouterr().err
+    assert contents(folder) == before
+    (folder / name).unlink()
+    assert main(words) == 0
+    ours = contents(folder)
+    assert main(words) == 0
+    assert contents(folder) == ours
+    (folder / name).write_text("ours, changed")
+    capsys.readouterr()
+    assert main(words) == 2
+    said = capsys.readouterr().err
+    assert f"{name} was changed after linkanim wrote it" in said
+    assert f"give -o {name} to replace it" in said
+    assert (folder / name).read_text() == "ours, changed"
+    assert main([*words, "-o", name]) == 0
+    assert contents(folder)[name] == ours[name]
+
+
+def test_files_of_usual_names_share_one_list(folder: Path) -> None:
+    for words in (USUAL["kite.svg"], USUAL["kite.png"], USUAL["kite.svg"]):
+        assert main(words) == 0
+    lists = [name for name in contents(folder) if name.startswith(".")]
+    assert lists == [".linkanim-outputs.json"]
+
+
+def test_the_words_beside_a_pdf_take_nobody_s_place(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    words = ["draw", "kite", "-o", "fig.pdf", "--text", "latex"]
+    (folder / "fig.pdf_tex").write_text("mine")
+    before = contents(folder)
+    assert main(words) == 2
+    assert "fig.pdf_tex is not known to be linkanim's" in capsys.readouterr().err
+    assert contents(folder) == before
+    (folder / "fig.pdf_tex").unlink()
+    (folder / "fig.pdf").write_text("named, and so replaced")
+    assert main(words) == 0
+    assert main(words) == 0
+    assert (folder / "fig.pdf").read_bytes().startswith(b"%PDF")
+    assert (folder / "fig.pdf_tex").read_text(encoding="utf-8").startswith("%% The words of fig.pdf")
+
+
+@pytest.mark.skipif(os.name == "nt", reason="asks for a folder that nothing can be written to")
+@pytest.mark.skipif(not Path("/proc").is_dir(), reason="asks for such a folder")
+def test_a_disk_that_refuses_is_told_of_the_file(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir("/proc")
+    assert main(["share", "kite"]) == 1
+    assert capsys.readouterr().err.startswith("linkanim: kite.html: cannot be written: ")
