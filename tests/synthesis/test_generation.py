@@ -11,6 +11,7 @@ import pytest
 
 import linkanim
 from linkanim.errors import BadInput
+from linkanim.manifest import Output
 from linkanim.mechanics.motion.measures import transmission_angle
 from linkanim.paper.structural_error import ErrorChart
 from linkanim.paper.write import data, write
@@ -304,7 +305,7 @@ def test_the_chart_has_the_curve_and_its_extremes(tmp_path: Path) -> None:
     picture = data(chart, ".svg").decode()
     assert picture.count("1.84") >= 6
     assert "Structural error of y = log10(x)" in picture
-    write(chart, tmp_path / "error.csv")
+    write(chart, Output(tmp_path / "error.csv"))
     head, *rows = (tmp_path / "error.csv").read_text().splitlines()
     assert head.split(",") == ["x", "y", "error"]
     errors = np.array([[float(cell) for cell in row.split(",")] for row in rows])

@@ -13,12 +13,14 @@ from linkanim.digits import significant
 from linkanim.errors import BadInput
 from linkanim.export import columns, json_text
 from linkanim.intake import Intake, named
+from linkanim.manifest import Output
 from linkanim.number_table import read_numbers
 from linkanim.synthesis.files import file_set, write
 from linkanim.synthesis.generation import Generated, function
 
 _TABLE_FILE = Intake("a table of x and y", most_bytes=1_000_000, most_values=100_000)
 _SUFFIXES = (".csv", ".txt", ".tsv", ".dat")
+_CHARTS = (".svg", ".png", ".pdf", ".csv")
 _TITLES = ("file", "largest error", "of y's range", "input", "output", "transmission", "class")
 
 
@@ -26,7 +28,7 @@ def run(options: Namespace) -> None:
     """Find the linkages, write their files, and print the table or JSON; draw the error where asked to."""
     target = checked_target(options.output_file or Path("function.toml"), (".toml",))
     file_set(target).refuse_foreign([target.name])
-    chart = None if options.chart is None else checked_target(options.chart, (".svg", ".png", ".pdf", ".csv"))
+    chart = None if options.chart is None else checked_target(options.chart, _CHARTS, [options.given])
     given = _table(Path(options.given)) if _names_a_file(options.given) else options.given
     sliding = options.kind == "slider-crank"
     found = function(
@@ -87,7 +89,7 @@ def _draw(one: Generated, target: Path) -> None:
     from linkanim.paper.structural_error import ErrorChart
     from linkanim.paper.write import write as write_figure
 
-    write_figure(ErrorChart(one), target)
+    write_figure(ErrorChart(one), Output(target))
 
 
 def _span(one: Generated, start: float, over: float, *, turning: bool) -> str:
