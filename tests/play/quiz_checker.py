@@ -278,9 +278,9 @@ class Checked:
             least = self.least_transmission()
             if not number(said[1]) - 1e-9 <= least < number(said[1]) + 1:
                 yield f"its reason says {said[1]} of {least}"
-        elif said := re.search(r"the shortest link is the (.*):", self.question.why):
+        elif said := re.search(r"the shortest link is the (.*): (both)?", self.question.why):
             links = self.four_bar()
-            if min(links, key=lambda part: links[part]) != said[1]:
+            if min(links, key=lambda part: links[part]) != said[1] or bool(said[2]) != (said[1] == "ground"):
                 yield f"its reason says {said[1]} of {links}"
 
     def least_transmission(self) -> float:

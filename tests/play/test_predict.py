@@ -225,6 +225,30 @@ def test_a_round_is_about_all_scenes_before_one_comes_again(
     assert len({*asked}) == len(asked)
 
 
+def test_rounds_begin_with_different_scenes() -> None:
+    first = {
+        question.scene.name
+        for seed in range(4)
+        if (question := round_of(playing(f"predict chapter=all level=1 seed={seed}")).question)
+    }
+    assert len(first) > 2
+
+
+@pytest.mark.parametrize("named", [True, False])
+def test_a_wrong_answer_is_called_by_its_misconception_if_one_gives_it(named: bool) -> None:
+    state = playing(f"predict chapter=all level=1 again={FASTEST}")
+    question = round_of(state).question
+    assert question
+    wrong = next(
+        n for n, one in enumerate(question.answers) if n != question.right and bool(one.slip) == named
+    )
+    state = advance(state, [Action("option", wrong)])
+    panel = round_of(state).shown(state, Overlay()).game
+    assert panel
+    assert panel.verdict == (f"No: that is {question.answers[wrong].slip}." if named else "No.")
+    assert panel.lines_after == (question.why,)
+
+
 @pytest.mark.parametrize("level", [1, 2, 3])
 def test_a_level_asks_its_own_kinds(level: int) -> None:
     state = playing(f"predict chapter=four-bars level={level} seed=1")

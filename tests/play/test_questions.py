@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Iterable
 from math import tau
@@ -11,20 +12,21 @@ from typing import Any
 import orjson
 import pytest
 from exact_motion import ExactMotion
-from quiz_checker import faults
+from quiz_checker import MISCONCEPTIONS, faults
 from random_scenes import named
 
 from linkanim.cli import main
 from linkanim.errors import LinkanimError
 from linkanim.play.kinds.table import KINDS
-from linkanim.play.kinds.wording import between
-from linkanim.play.round import questions
+from linkanim.play.kinds.wording import angle, between
+from linkanim.play.question import QuestionId
+from linkanim.play.round import question_of, questions
 from linkanim.play.sheet import pose_words
 from linkanim.scenes import chapters, load, names
 from linkanim.scenes.reading.read import scene_from
 from linkanim.scenes.scene import Scene
 
-FEW, MANY = 8, 100
+FEW, MANY = 14, 100
 """Questions about a scene, and about one of a long run."""
 SEED, SOME, EACH = 35, 12, 6
 """Random scenes of the default run, and questions about each."""
@@ -64,6 +66,74 @@ def test_questions_about_random_scenes_hold_against_fifty_digits(part: int) -> N
     asked, found = about_random(range(part, SOME, 2), EACH)
     assert found == []
     assert asked >= EACH * SOME // 4
+
+
+SLOT = {"crank": "O2", "length": 30}, {"slot": {"pivot": "A", "through": "O4", "offset": 50}, "length": 100}
+# What ends a swing, so that the question why has to say it.
+ENDS: dict[str, tuple[dict[str, Any], str]] = {
+    "bars in line": (
+        {"four-bar": {"ground": 100, "crank": 80, "coupler": 50, "rocker": 40}},
+        "the bars A–B and O4–B lie in one line",
+    ),
+    "a rod across": (
+        {"slider-crank": {"crank": 60, "rod": 40}},
+        "the bar A–B stands straight across the line of travel of B",
+    ),
+    "a slot": (
+        {"ground": {"O2": [0, 0], "O4": [60, 0]}, "joints": {"A": SLOT[0], "P": SLOT[1]}},
+        "O4 is as near to A as the offset of the slot lets it come",
+    ),
+    "a stroke": (
+        dict(load("excavator").document),
+        "Its stroke is all: the cylinder G–H is 150 cm long at one end and 215 cm at the other.",
+    ),
+}
+
+
+@pytest.mark.parametrize(("document", "said"), ENDS.values(), ids=ENDS)
+def test_what_ends_a_swing_is_told_as_it_is(document: dict[str, Any], said: str) -> None:
+    scene = scene_from(document, name="ends", where="ends.toml")
+    why = next(one.why for one in questions((scene,), FEW, 0) if one.kind == "input range")
+    assert said in why
+
+
+REASONS = {
+    "heading@engine@5.3246@B": "A moves the bar A–B towards B: it pushes B along the guide, up",
+    "heading@press@0.8442@C": "B moves the bar B–C away from C: it pulls C along the guide, up",
+    "input_range@drag-link@0.8442@input": "the ground: both links that turn on it can turn fully",
+    "input_range@crank-rocker@0.8442@input": "the input: it can turn fully",
+    "input_range@scotch-yoke@0.8442@input": "What it drives slides as far as it is taken",
+    "dead_centre@crank-rocker@0.8442@rocker": "at 36.1° and 226.4°: there O2–A and A–B lie in one line.",
+    "dead_centre@wiper@0.8442@rocker2": "at 164.8° and 345.0°.",
+}
+
+
+@pytest.mark.parametrize(("token", "said"), REASONS.items(), ids=REASONS)
+def test_a_reason_is_one(token: str, said: str) -> None:
+    question = question_of(QuestionId.of(token))
+    assert said in question.why
+    assert faults(question, ExactMotion(question.scene)) == []
+
+
+def test_what_is_rigid_with_its_guide_is_not_asked_about_as_if_it_slid() -> None:
+    slotted = {"slot": {"pivot": "O2", "through": "A"}, "length": 10}
+    bodies = {"2": {"joints": ["O2", "A"]}, "3": {"joints": ["O2", "P"]}}
+    document = {"ground": {"O2": [0, 0]}, "joints": {"A": SLOT[0], "P": slotted}, "bodies": bodies}
+    scene = scene_from(document, name="rigid", where="rigid.toml")
+    assert "coriolis" not in {one.kind for one in questions((scene,), FEW, 0)}
+
+
+@pytest.mark.slow
+def test_every_misconception_is_named() -> None:
+    back = ENDS["bars in line"][0] | {"drive": {"returns": "same"}}
+    ending = [scene_from(one, name="ends", where="ends.toml") for one in (back, ENDS["a stroke"][0])]
+    asked = [one for seed in range(3) for one in questions([load(name) for name in names()], 57, seed)]
+    asked += questions(ending, 2 * FEW, 0)
+    slips = {(question.kind, answer.slip) for question in asked for answer in question.answers}
+    known = {(kind, pattern) for kind, patterns in MISCONCEPTIONS.items() for pattern in patterns}
+    assert [
+        one for one in known if not any(one[0] == kind and re.fullmatch(one[1], slip) for kind, slip in slips)
+    ] == []
 
 
 @pytest.mark.long
@@ -143,6 +213,11 @@ def test_what_makes_no_round_is_refused_in_a_line(
 def test_the_way_of_the_input_is_said_once(scene: str, way: str) -> None:
     question = next(iter(questions([load(scene)], 1, 7)))
     assert pose_words(question).endswith(f", 20 rpm {way}")
+
+
+@pytest.mark.parametrize(("value", "said"), [(359.99999, "0.0°"), (-0.04, "0.0°"), (-90.0, "270.0°")])
+def test_an_angle_of_a_turn_is_below_a_whole_one(value: float, said: str) -> None:
+    assert angle(value) == said
 
 
 @pytest.mark.parametrize(("one", "other", "far"), [(10, 350, 20), (350, 10, 20), (270, 90, 180), (40, 40, 0)])

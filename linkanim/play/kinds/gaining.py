@@ -10,7 +10,6 @@ import numpy as np
 
 from linkanim.mechanics.formulas.program import Array
 from linkanim.mechanics.linkage.joint import Slide
-from linkanim.mechanics.linkage.rigid_bodies import holding
 from linkanim.mechanics.motion.measures import between as way_between
 from linkanim.mechanics.motion.measures import growth, output_body
 from linkanim.mechanics.motion.settled import said
@@ -234,10 +233,8 @@ def _sliding(puzzle: Puzzle) -> Iterator[tuple[str, str, bool]]:
 
 
 def _slides(puzzle: Puzzle, slide: Slide) -> bool:
-    """Return whether a joint clearly slides along its guide: what is rigid with it does not."""
+    """Return whether a joint clearly slides along its guide."""
     ends = (slide.start or slide.line.through, slide.point)
-    if holding(puzzle.scene.linkage.rigid_bodies, ends) is not None:
-        return False
     rates = [
         np.abs(
             said(

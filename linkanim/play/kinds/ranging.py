@@ -76,7 +76,7 @@ def _turning_back(puzzle: Puzzle, body: Body) -> dict[float, float]:
     found = sign_changes(
         lambda phases: np.asarray(rate.read(scene.solve(phase=phases, derivatives=1))), once_round
     )
-    return {crank_degrees(puzzle, float(phase)): float(phase) for phase in found}
+    return dict(sorted((crank_degrees(puzzle, float(phase)), float(phase)) for phase in found))
 
 
 def _in_line(puzzle: Puzzle, body: Body, exact: Mapping[float, float]) -> str:
@@ -138,7 +138,7 @@ def _taken_for_range(puzzle: Puzzle, own: Swing | None) -> Iterator[tuple[str, S
         yield "the angles counted clockwise", (-own[1], -own[0])
         yield "the swing counted from its own limit", (0.0, own[1] - own[0])
         return
-    if body is not None and len(ends := sorted(_turning_back(puzzle, body))) == 2:
+    if body is not None and len(ends := [*_turning_back(puzzle, body)]) == 2:
         yield f"the dead centres of {puzzle.name(body)} taken for limits of the crank", (ends[0], ends[1])
     for _ in range(MOST):
         low = puzzle.random.uniform(-90, 90)
