@@ -258,7 +258,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _flag("--exercise", "leave the numbers open, with a key on a page of its own"),
         _value(
             "--seed N",
-            int,
+            values.whole,
             "other round lengths, the same kind of motion; a number gives the same ones always",
         ),
         _look("explain"),
@@ -266,8 +266,8 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
     "quiz": (
         _scene("; or a chapter, as sliders", metavar="SCENE|CHAPTER"),
         _output("SHEET.html (default: text on stdout)"),
-        _value("-n N", int, "how many questions (default: 10)", 10, dest="count"),
-        _value("--seed N", int, "a number gives the same questions always (default: 0)", 0),
+        _value("-n N", values.whole, "how many questions (default: 10)", 10, dest="count"),
+        _value("--seed N", values.whole, "a number gives the same questions always (default: 0)", 0),
         _flag("--json", "as a list of objects"),
     ),
     "share": (
@@ -306,8 +306,8 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
     ),
     "function": (
         _takes("given", metavar="FUNCTION", help='such as "y = log10(x)", or a table of x and y'),
-        _value("--from A", float, "the first x", dest="first"),
-        _value("--to B", float, "the last x", dest="last"),
+        _value("--from A", values.number, "the first x", dest="first"),
+        _value("--to B", values.number, "the last x", dest="last"),
         _takes(
             *("-o", "--file"),
             dest="output_file",
@@ -337,7 +337,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _value("--stroke L", values.length, "of the slider, in mm; of a rocker's pin, the chord"),
         _value("--swing ANGLE", units.angle, 'of the rocker, such as "60 deg"'),
         _takes("--kind", choices=("slider-crank", "crank-rocker"), help="default: what the output is"),
-        _value("--place S", float, "one member of the family, from 0 to 1, instead of the best"),
+        _value("--place S", values.number, "one member of the family, from 0 to 1, instead of the best"),
         _value("--count N", values.count, "answers: the best, and others of its family (default: 5)", 5),
         _output("NAME.toml of the best; the others are NAME-2.toml, ... (default: quick-return.toml here)"),
         _flag("--json", "a list of objects; angles in radians"),
@@ -349,7 +349,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
             _flag("--markdown", "the table of speed and error as in the README"),
         ),
         _flag("--path", "measure what `linkanim path` finds instead"),
-        _value("--seconds S", float, "of its global search (default: 600)", 600.0),
+        _value("--seconds S", values.positive, "of its global search (default: 600)", 600.0),
         _value("--into FOLDER", Path, f"where {CHART} goes (default: recordings)", Path("recordings")),
     ),
 }

@@ -8,6 +8,7 @@ from collections.abc import Callable, Sequence
 from typing import Any, NoReturn
 
 from linkanim.errors import BadInput
+from linkanim.units import shown
 
 _NEGATIVE = re.compile(r"-\.?\d")
 _NEGATIVE_LIST = re.compile(r"-\.?\d[^,]*,")
@@ -37,6 +38,12 @@ class Parser(argparse.ArgumentParser):
             return super()._get_value(action, arg_string)
         except BadInput as error:
             raise argparse.ArgumentError(action, str(error)) from error
+
+    def _check_value(self, action: argparse.Action, value: Any) -> None:
+        # argparse's own says the value whole, however long it is
+        if action.choices is not None and value not in action.choices:
+            choices = ", ".join(map(shown, action.choices))
+            raise argparse.ArgumentError(action, f"{shown(value)} is none of its choices: {choices}")
 
     def format_help(self) -> str:
         """Return argparse's help, what `before` adds, and the examples as its last lines."""

@@ -54,13 +54,24 @@ def size(text: str) -> tuple[int, int]:
     return width, height
 
 
-def positive(text: str) -> float:
-    """Read a finite number greater than zero."""
+def number(text: str) -> float:
+    """Read a finite number."""
     try:
         value = float(text)
     except ValueError:
         value = math.nan
-    if not (math.isfinite(value) and value > 0):
+    if not math.isfinite(value):
+        raise BadInput(f"{shown(text)} is not a finite number")
+    return value
+
+
+def positive(text: str) -> float:
+    """Read a finite number greater than zero."""
+    try:
+        value = number(text)
+    except BadInput:
+        value = 0.0
+    if value <= 0:
         raise BadInput(f"{shown(text)} is not a number greater than zero")
     return value
 
@@ -69,6 +80,13 @@ def count(text: str) -> int:
     """Read a whole number of at least one."""
     if not re.fullmatch(r"\d{1,6}", text) or int(text) == 0:
         raise BadInput(f"{shown(text)} is not a whole number from 1 to 999999")
+    return int(text)
+
+
+def whole(text: str) -> int:
+    """Read a whole number of at most 18 digits."""
+    if not re.fullmatch(r"[+-]?[0-9]{1,18}", text):
+        raise BadInput(f"{shown(text)} is not a whole number of at most 18 digits")
     return int(text)
 
 
@@ -131,7 +149,7 @@ def pair(text: str) -> tuple[float, float]:
     except ValueError:
         found = ()
     if len(found) != 2 or not all(map(math.isfinite, found)):
-        raise BadInput(f"{text.strip()!r} is not X,Y: two numbers with a comma between, such as 20,-40")
+        raise BadInput(f"{shown(text.strip())} is not X,Y: two numbers with a comma between, such as 20,-40")
     return found
 
 
@@ -139,7 +157,7 @@ def length(text: str) -> float:
     """Read a length above zero in mm, which needs no unit."""
     found = units.length(text, unit="mm")
     if found <= 0:
-        raise BadInput(f"{text!r} is no length above zero; give one such as 80 mm")
+        raise BadInput(f"{shown(text)} is no length above zero; give one such as 80 mm")
     return found
 
 

@@ -19,6 +19,7 @@ from linkanim.number_table import NumberRow, read_numbers
 from linkanim.paper.curves import Curve, Curves
 from linkanim.picture.diagrams.course import Floats
 from linkanim.picture.look import Over
+from linkanim.units import shown
 
 _TABLE_FILE = Intake("a table of two columns", most_bytes=1_000_000, most_values=2 * MOST_ROWS_READ)
 _SECONDS = re.compile(r"\W*(t|time|s|sec|seconds?)\b", re.IGNORECASE)
@@ -166,7 +167,7 @@ def _refuse_other_unit(curves: Curves, curve: Curve, table: MeasuredTable, over:
     other: Over = degrees if in_time else "time"
     headed = not in_time and bool(_SECONDS.match(table.heading))
     if headed or _misfit(curves, curve, table, over) > _CLEARLY * _misfit(curves, curve, table, other):
-        why = f"is headed {table.heading!r}" if headed else f"fits as {_WORDS[other]}"
+        why = f"is headed {shown(table.heading)}" if headed else f"fits as {_WORDS[other]}"
         raise BadInput(
             f"{table.where}: column 1 {why}, and is read as {_WORDS[over]}; add --over {other}, or give "
             f"{_WORDS[over]}"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from argparse import _SubParsersAction
 from pathlib import Path
 from typing import Any
 
@@ -10,7 +11,8 @@ import pytest
 
 import linkanim
 from linkanim.cli import main
-from linkanim.cli.command_table import parse
+from linkanim.cli.command_table import build, parse
+from linkanim.errors import BadInput
 
 # What is on, or has a value, in a command line that says only what it must.
 DEFAULTS: list[tuple[list[str], dict[str, Any]]] = [
@@ -49,3 +51,51 @@ def test_the_process_s_own_words_are_read_where_none_are_given(monkeypatch: pyte
 def test_the_version_is_told(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["--version"]) == 0
     assert capsys.readouterr().out == f"linkanim {linkanim.__version__}\n"
+
+
+LONG = "9" * 5_000
+"""More digits than Python turns into a number, and than anyone reads."""
+
+
+def _options() -> list[tuple[str, str]]:
+    """Return each command's options that take a value, but for those that any text can be."""
+    commands = next(action for action in build()._actions if isinstance(action, _SubParsersAction)).choices
+    return [
+        (name, action.option_strings[-1])
+        for name, parser in commands.items()
+        for action in parser._actions
+        if action.option_strings and action.nargs != 0 and (action.type not in (None, str, Path))
+    ]
+
+
+@pytest.mark.parametrize(("command", "option"), _options(), ids=str)
+def test_a_number_of_thousands_of_digits_is_refused_in_a_short_sentence(command: str, option: str) -> None:
+    with pytest.raises(BadInput, match=option) as refused:
+        parse([command, f"{option}={LONG}"])
+    assert len(str(refused.value)) < 500
+
+
+# What is told apart later than the command line's words are read.
+LATER = (
+    ("draw", "kite", "--theme", LONG),
+    ("chart", "kite", "--quantity", LONG),
+    ("share", "kite", "--chart", LONG),
+    ("info", LONG),
+    ("quiz", LONG),
+    (LONG,),
+    ("play", "--game", f"match level=seed-{LONG}"),
+    ("play", "--game", f"predict level={LONG}"),
+    ("play", "--game", LONG),
+    ("record", "kite", "-o", f"{LONG}.gif"),
+)
+
+
+@pytest.mark.parametrize("words", LATER, ids=lambda words: " ".join(words)[:30])
+def test_a_word_of_thousands_of_letters_is_refused_in_a_line(
+    words: tuple[str, ...], capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(words) in (1, 2)
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1
+    assert "unexpected" not in said
+    assert said.count("9") < 200 or words[-1].endswith(".gif")

@@ -96,7 +96,7 @@ def test_a_time_ratio_s_scenes_have_it(
         ([*LOGARITHM, "--chart", "error.gif"], "use one of .svg"),
         (["function", "none.csv"], "none.csv: no such file"),
         (["function", "three.csv"], "three.csv: line 1 has 3 columns"),
-        (["function", "y = x", "--from", "one", "--to", "2"], "invalid float value"),
+        (["function", "y = x", "--from", "one", "--to", "2"], "is not a finite number"),
         (["quick-return", "--ratio", "1.4"], "a slider-crank has a stroke"),
         (["quick-return", "--stroke", "80"], "required: --ratio"),
         (["quick-return", "--stroke", "-80", "--ratio", "1.4"], "no length above zero"),

@@ -114,7 +114,7 @@ def test_people_read_degrees_and_the_scenes_unit() -> None:
 def test_a_wrong_token_is_answered_with_the_nearest_and_the_list() -> None:
     known = register(load("crank-rocker").linkage)
     with pytest.raises(
-        BadInput, match=r"'rocker\.angel': crank-rocker .*mean rocker\.angle.*; it has crank\.angle, "
+        BadInput, match=r'"rocker\.angel": crank-rocker .*mean rocker\.angle.*; it has crank\.angle, '
     ):
         look_up(known, "rocker.angel", "crank-rocker")
 

@@ -273,7 +273,7 @@ def test_what_takes_too_many_turns_to_be_back_is_refused() -> None:
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [
-        pytest.param(["press", "--chart", "foo.bar"], "quantity 'foo.bar'", id="quantity"),
+        pytest.param(["press", "--chart", "foo.bar"], 'quantity "foo.bar"', id="quantity"),
         pytest.param(["press", "--speed", "0 rpm"], "nothing moves", id="speed"),
         pytest.param(["press", "-o", "out.pdf"], "use one of .html, .htm", id="suffix"),
         pytest.param(["press", "-o", "none/out.html"], "there is no folder none", id="folder"),

@@ -47,6 +47,7 @@ from linkanim.mechanics.motion.measures import (
 )
 from linkanim.mechanics.motion.motion import Motion
 from linkanim.mechanics.motion.settled import rounding_of, said
+from linkanim.units import shown
 
 _STANDARD = {
     "crank": "2",
@@ -109,6 +110,8 @@ def input_symbol(linkage: Linkage) -> str:
 NO_NAMES: Mapping[str, str] = MappingProxyType({})
 """Every body by its own name."""
 _NEAREST = 3
+_LONG = 60
+"""Characters of a token: more take long to compare, and none has them."""
 _LEVEL = 1e-9
 """Of a quantity's greatest size; what changes less stands still."""
 
@@ -209,9 +212,9 @@ def look_up(known: Mapping[str, Quantity], token: str, of: str) -> Quantity:
         return known[token]
     from difflib import get_close_matches
 
-    near = get_close_matches(token, list(known), n=_NEAREST)
+    near = get_close_matches(token[:_LONG], list(known), n=_NEAREST)
     meant = f" (did you mean {' or '.join(near)}?)" if near else ""
-    raise BadInput(f"quantity {token!r}: {of} has none of this name{meant}; it has {', '.join(known)}")
+    raise BadInput(f"quantity {shown(token)}: {of} has none of this name{meant}; it has {', '.join(known)}")
 
 
 def _quantities(linkage: Linkage, names: Mapping[str, str], *, still: bool) -> Iterator[Quantity]:
