@@ -3,8 +3,8 @@
 `load` gives a scene by name or path, `names` the catalogue, `record` turns a scene into a GIF, MP4
 or numbered PNG, `path` a drawn curve into linkages that follow it, `guide` poses into linkages whose
 coupler passes them, `function` a function into linkages that generate it, `quick_return` a time ratio
-into linkages that have it. Everything is imported when first asked for: `import linkanim` alone brings
-in neither a window nor an encoder.
+into linkages that have it, `make` a scene into parts to cut and pin together. Everything is imported when
+first asked for: `import linkanim` alone brings in neither a window nor an encoder.
 
 `mechanics`, from the ground up; each room imports from those before it only:
 
@@ -40,6 +40,8 @@ from what slides. A kind of input is its data in `linkage/drive`, its path in `d
 `scenes/fields/drive`, how it is worked out in `explain/inputs`.
 
 `play`: what is asked about linkages, printed or played, and other games: pure values over the player's state.
+
+`workshop`: a linkage as flat parts and pins, layers in which it can turn, and the files that it is cut from.
 """
 
 import os
@@ -57,6 +59,7 @@ if TYPE_CHECKING:
     from linkanim.synthesis.guidance import guide
     from linkanim.synthesis.quick_returns import quick_return
     from linkanim.synthesis.request import path
+    from linkanim.workshop.request import make
 
 # Here, because every import of pygame comes after it: its greeting would stand among a command's output.
 os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
@@ -71,6 +74,7 @@ __all__ = [
     "function",
     "guide",
     "load",
+    "make",
     "names",
     "path",
     "quick_return",
@@ -84,6 +88,7 @@ _HOME = {
     "function": "linkanim.synthesis.generation",
     "guide": "linkanim.synthesis.guidance",
     "load": "linkanim.scenes",
+    "make": "linkanim.workshop.request",
     "names": "linkanim.scenes",
     "path": "linkanim.synthesis.request",
     "quick_return": "linkanim.synthesis.quick_returns",

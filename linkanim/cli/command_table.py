@@ -216,6 +216,13 @@ COMMANDS: Mapping[str, tuple[str, ...]] = {
         'linkanim quick-return --swing "60 deg" --ratio 1.25 -o rocker.toml --count 1',
         'linkanim quick-return --stroke "8 cm" --ratio 1.4 --place 0.5 --json',
     ),
+    "make": (
+        "write a scene as parts to cut or print, in layers in which it turns, and how to put them together",
+        "linkanim make crank-rocker -o rocker --fit A4",
+        "linkanim make press -o press-parts --way laser --thickness 4 --sheet 900x600",
+        "linkanim make drag-link -o drag --fit Letter --bridge",
+        "linkanim make jansen --json",
+    ),
     "gallery": (
         "record every built-in scene as a small GIF, and draw the chart of bench",
         "linkanim gallery",

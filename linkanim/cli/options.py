@@ -13,6 +13,8 @@ from linkanim.bench.command import CHART
 from linkanim.cli import values
 from linkanim.picture.look import TOGGLES, Look, Option, Toggle
 
+WAYS = ("cardboard", "laser", "print")
+"""Of making a linkage, as `make` knows them."""
 EVERY_ANGLE = object()
 """What `--phase` without a value stands for: each angle of the sweep."""
 
@@ -341,6 +343,21 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _value("--count N", values.count, "answers: the best, and others of its family (default: 5)", 5),
         _output("NAME.toml of the best; the others are NAME-2.toml, ... (default: quick-return.toml here)"),
         _flag("--json", "a list of objects; angles in radians"),
+    ),
+    "make": (
+        _SCENE,
+        _value("-o --output FOLDER", Path, "the folder to make, or to make anew"),
+        _takes("--way", choices=WAYS, default=WAYS[0], help="of making it (default: cardboard)"),
+        _value("--bar W", values.millimetres, "how wide bars are, in mm (default: for the scene's size)"),
+        _value("--hole D", values.millimetres, "how wide holes are (default: two fifths of a bar, or 6)"),
+        _value("--thickness T", values.millimetres, "of the material (default: 1.5, 3 or 4, by the way)"),
+        _value("--clearance C", values.millimetres, "of a pin in its hole (default: 0, 0.2 or 0.4)"),
+        _value("--gap G", values.millimetres, "at which parts pass in a layer (default: 0.5)", 0.5),
+        _value("--kerf K", values.millimetres, "what the cut takes away (default: 0)", 0.0),
+        _value("--sheet WxH", values.sheet, "of the material, in mm, or a page, A4 or Letter"),
+        _value("--fit PAGE", str, "A4 or Letter: scale all parts to fit one (default: true size)"),
+        _flag("--bridge", "fixed pins may hang from a plate above, where they stand in the way below"),
+        _flag("--json", "print parts and pins as one object; lengths in mm"),
     ),
     "gallery": (_value("--into FOLDER", Path, "where to (default: recordings)", Path("recordings")),),
     "bench": (

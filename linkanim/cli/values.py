@@ -169,6 +169,19 @@ def step(text: str) -> float:
     return found
 
 
+def millimetres(text: str) -> float:
+    """Read a length, `12` or `1.2 cm`, in mm."""
+    return units.length(text, unit="mm")
+
+
+def sheet(text: str) -> str | tuple[float, float]:
+    """Read the size of a sheet in mm, `600x400`, or the name of a page."""
+    found = re.fullmatch(r"\s*([\d.]+)\s*[x×X]\s*([\d.]+)\s*(?:mm)?\s*", text)
+    if not found:
+        return text
+    return positive(found[1]), positive(found[2])
+
+
 def timing(text: str) -> float | str:
     """Read an angle, or `column`."""
     return "column" if text.strip() == "column" else units.angle(text)

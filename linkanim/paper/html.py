@@ -7,7 +7,7 @@ functions of this module alone; all else is text.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
 from itertools import count
@@ -57,6 +57,7 @@ _LOWERED = re.compile(r"_\{([^}]*)\}")
 _HYPHEN = re.compile(r"(?<![\w-])-(?=\d)")
 _ATTRIBUTES = re.compile(r""" (?:id="[^"]*"|role='[^']*'|aria-label='[^']*')""")
 """Of a picture, which would be twice on the page."""
+_APART = " style='break-before: page'"
 _KEPT, _LONG = "<div class='keep'>", "<div class='long'>"
 _ROWS_KEPT = 24
 """A table of so many rows at the most stands on one page."""
@@ -101,10 +102,16 @@ Part = str | FigurePart | TablePart | Beside
 """Of a chapter; a string is markup, which is written as it is."""
 
 
-def page(title: str, head: Iterable[str], chapters: Iterable[tuple[str, Iterable[Part]]]) -> str:
+def page(
+    title: str,
+    head: Iterable[str],
+    chapters: Iterable[tuple[str, Iterable[Part]]],
+    *,
+    apart: Collection[str] = (),
+) -> str:
     """Return the whole document: what stands under its title, its contents, and its chapters by their titles.
 
-    `head` is markup.
+    `head` is markup. Chapters whose titles are in `apart` begin a page of their own.
     """
     style = _STYLE.replace("FOOT", _FOOT % _css_text(title)) + MATH_STYLE
     meta = "<meta charset='utf-8'><meta name='viewport' content='width=device-width'>"
@@ -118,7 +125,8 @@ def page(title: str, head: Iterable[str], chapters: Iterable[tuple[str, Iterable
     contents = f"<nav aria-label='Contents'><ul>{entries}</ul></nav>"
     body = "\n".join([heading(1, title), *head, contents])
     sections = "\n".join(
-        f"<section id='chapter-{n}'>\n{_sectioned(heading(2, f'{n} {name}'), written)}\n</section>"
+        f"<section id='chapter-{n}'{_APART * (name in apart)}>\n"
+        f"{_sectioned(heading(2, f'{n} {name}'), written)}\n</section>"
         for n, name, written in numbered
         if written
     )
@@ -179,6 +187,13 @@ def facts(caption: str, lines: Sequence[tuple[str, str]], columns: Literal[1, 2,
     ]
     rows = "".join(f"<tr>{''.join(cells[n::high])}</tr>" for n in range(high))
     return TablePart(caption, f"<tbody>{rows}</tbody>", high)
+
+
+def table(caption: str, heads: Sequence[str], rows: Sequence[Sequence[str]]) -> TablePart:
+    """Return rows of text under their heads."""
+    head = "".join(f"<th scope='col'>{symbol(one)}</th>" for one in heads)
+    lines = "".join(f"<tr>{''.join(f'<td>{symbol(_minus(cell))}</td>' for cell in row)}</tr>" for row in rows)
+    return TablePart(caption, f"<thead><tr>{head}</tr></thead><tbody>{lines}</tbody>", len(rows))
 
 
 def _minus(text: str) -> str:

@@ -1,4 +1,4 @@
-"""Items as PDF, one page as large as the picture: filled paths, and text in the bundled face.
+"""Items as PDF, pages as large as the picture: filled paths, and text in the bundled face.
 
 A pixel is 3/4 pt, as in a browser. Needs fpdf2, which the extra `pdf` installs.
 """
@@ -41,19 +41,32 @@ def pdf(
     size: tuple[int, int], background: Colour | None, items: Iterable[Item | Group], *, title: str
 ) -> bytes:
     """Return a picture of so many pixels as a PDF document; None leaves the background open."""
-    page = _page(size, title)
-    if background is not None:
-        page.set_fill_color(*background)
-        page.rect(0, 0, *size, style="F")
-    for item in flat(items):
-        if isinstance(item, Layer):
-            _fill(page, item)
-        else:
-            _write(page, item)
-    return bytes(page.output())
+    return pages(size, background, [items], title=title)
 
 
-def _page(size: tuple[int, int], title: str) -> FPDF:
+def pages(
+    size: tuple[float, float],
+    background: Colour | None,
+    pictures: Iterable[Iterable[Item | Group]],
+    *,
+    title: str,
+) -> bytes:
+    """Return pictures of one size, each a page of a PDF document, as `pdf` does one."""
+    document = _document(size, title)
+    for items in pictures:
+        document.add_page()
+        if background is not None:
+            document.set_fill_color(*background)
+            document.rect(0, 0, *size, style="F")
+        for item in flat(items):
+            if isinstance(item, Layer):
+                _fill(document, item)
+            else:
+                _write(document, item)
+    return bytes(document.output())
+
+
+def _document(size: tuple[float, float], title: str) -> FPDF:
     from fpdf import FPDF
 
     page = FPDF(unit=_POINTS, format=size)
@@ -62,7 +75,6 @@ def _page(size: tuple[int, int], title: str) -> FPDF:
     page.set_title(title)
     for style, face in _STYLES.items():
         page.add_font(_FACE, style, file_of(face))
-    page.add_page()
     return page
 
 

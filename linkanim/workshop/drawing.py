@@ -1,0 +1,283 @@
+"""Pictures of what is made, as items for a surface or a file: a plan by layers, from the side, exploded."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from linkanim.picture.items import Caption, Halo, Item
+from linkanim.picture.raster.raster import Colour, Layer, Loop
+from linkanim.picture.raster.shapes import disc, hull, segments, stroke
+from linkanim.picture.text.text import subscripted
+from linkanim.picture.theme import LIGHT, Theme, mixed
+from linkanim.picture.view import Box, Rect, View, view_of
+from linkanim.workshop.made import MadeLinkage, MadePin
+from linkanim.workshop.shapes import polygon
+
+_CHORD = 0.05
+"""How far a drawn outline stays within its arcs, in mm."""
+_TEXT = 15
+_LEAN, _FLAT = 0.42, 0.5
+"""Of an exploded picture: how far right a step back goes, and how far up."""
+_THICK, _EDGE = 5.0, 24.0
+"""How thick a plate of an exploded picture is, and what is left free around it, in pixels."""
+_LIFTED = 0.62
+"""The share of the height for layers to be lifted in."""
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """What is made, drawn at a phase: `size` in pixels, colours by layer.
+
+    The plates of `shown` are drawn, all where it is None; of those the ones that are not `new` are pale.
+    """
+
+    made: MadeLinkage
+    phase: float
+    size: tuple[int, int]
+    theme: Theme = LIGHT
+    shown: Collection[int] | None = None
+    new: Collection[int] | None = None
+
+    @cached_property
+    def _loops(self) -> list[tuple[Loop, ...]]:
+        """The edge of each plate and those of its cuts, where they lie at the phase, in mm."""
+        found = []
+        for plate, (at, turn) in zip(self.made.plates, self.made.placed(self.phase), strict=True):
+            outlines = (plate.outline(), *plate.cuts())
+            found.append(tuple(at + turn * np.array(polygon(outline, _CHORD)) for outline in outlines))
+        return found
+
+    @cached_property
+    def _box(self) -> Box:
+        points = np.concatenate([loops[0] for loops in self._loops])
+        real, imag = points.real, points.imag
+        return Box(float(real.min()), float(imag.min()), float(real.max()), float(imag.max()))
+
+    def _order(self) -> list[int]:
+        """Return the plates that are shown, the lowest first."""
+        shown = range(len(self.made.plates)) if self.shown is None else self.shown
+        return sorted(shown, key=lambda number: (self.made.layer[number], number))
+
+    def _colour(self, number: int) -> Colour:
+        """Return a plate's colour: its layer's, pale where others are new."""
+        layer, theme = self.made.layer[number], self.theme
+        colour = theme.gear if layer == 0 else theme.bodies[(layer - 1) % len(theme.bodies)]
+        pale = self.new is not None and number not in self.new
+        return mixed(colour, theme.background, 0.72 if pale and layer else 0.0)
+
+    def _pins(self) -> list[tuple[MadePin, complex]]:
+        """Return the pins of what is shown, and where they are, in mm."""
+        shown = set(self._order())
+        places = zip(self.made.pins, self.made.pinned(self.phase), strict=True)
+        return [(pin, at) for pin, at in places if shown & set(pin.plates)]
+
+    def plan(self) -> Iterator[Item]:
+        """Yield the plates seen from above, each with its number, and the pins with their joints' names."""
+        left = 110 if self.new is None else 12
+        width, height = self.size
+        view = view_of(self._box, Rect(left, 12, width - left - 12, height - 24))
+        for number in self._order():
+            yield from self._plate(number, view)
+        for pin, at in self._pins():
+            yield from self._pin(pin, view.place((at.real, at.imag)), view)
+        for number in self._order():
+            yield from self._number(number, view)
+        if self.new is None:
+            yield from self._key()
+
+    def _plate(self, number: int, view: View) -> Iterator[Layer]:
+        loops = [_in_view(loop, view) for loop in self._loops[number]]
+        yield Layer(self._colour(number), [loops[0], *(loop[::-1] for loop in loops[1:])], 0.9)
+        new = self.new is not None and number in self.new
+        edge = (
+            self.theme.outline
+            if new or self.new is None
+            else mixed(self.theme.outline, self.theme.background, 0.5)
+        )
+        yield Layer(edge, [line for loop in loops for line in stroke(loop, 1.6 if new else 1.0, closed=True)])
+
+    def _pin(self, pin: MadePin, at: complex, view: View) -> Iterator[Item]:
+        radius = max(0.5 * self.made.sizes.pin * view.scale, 2.0)
+        yield Layer(self.theme.outline, [at + disc(radius)])
+        yield Layer(self.theme.metal, [at + disc(max(radius - 1.2, 1.0))])
+        if not pin.stuck:
+            halo = Halo(self.theme.background, 2.5)
+            place = (at.real + radius + 3, at.imag - radius - 0.8 * _TEXT)
+            yield Caption(subscripted(pin.name), place, _TEXT, self.theme.ink, halo=halo)
+
+    def _number(self, number: int, view: View) -> Iterator[Item]:
+        """Yield a plate's number in a disc, where it is farthest from holes."""
+        if self.made.layer[number] == 0 and self.made.plates[number].role == "ground":
+            return
+        at, turn = self.made.placed(self.phase)[number]
+        place = at + turn * self.made.plates[number].clearest
+        middle = view.place((place.real, place.imag))
+        pale = self.new is not None and number not in self.new
+        if pale:
+            return
+        text = self.made.numbers[number]
+        radius = 0.5 * _TEXT + 2.5 * len(text) - 1
+        yield Layer(self.theme.background, [middle + disc(radius)])
+        yield Layer(self.theme.outline, stroke(middle + disc(radius), 1.0, closed=True))
+        yield Caption(
+            text, (middle.real, middle.imag - 0.5 * _TEXT), _TEXT, self.theme.ink, "centre", strong=True
+        )
+
+    def _key(self) -> Iterator[Item]:
+        """Yield which colour is which layer, from the top down."""
+        layers = range(self.made.layers, -1, -1)
+        for row, layer in enumerate(layers):
+            number = next(n for n, one in enumerate(self.made.layer) if one == layer)
+            top = 14 + row * 1.5 * _TEXT
+            box = np.array([complex(x, y) for x, y in ((12, top), (30, top), (30, top + 14), (12, top + 14))])
+            yield Layer(self._colour(number), [box])
+            yield Caption("ground" if layer == 0 else f"layer {layer}", (37, top - 3), _TEXT, self.theme.ink)
+
+    def side(self) -> Iterator[Item]:
+        """Yield the layers seen from the side: plates as far as they reach, pins from end to end."""
+        width, height = self.size
+        across = self._box.right - self._box.left < self._box.high - self._box.low
+        spans = [_span(loops[0] * (-1j if across else 1)) for loops in self._loops]
+        low, high = min(span[0] for span in spans), max(span[1] for span in spans)
+        left, right = 80.0, width - 16.0
+        scale = (right - left) / (high - low)
+        top, foot = 2.2 * _TEXT, height - 10.0
+        step = (foot - top) / (self.made.layers + 1)
+
+        def x(place: float) -> float:
+            return left + scale * (place - low)
+
+        def y(layer: float) -> float:
+            return foot - step * layer
+
+        for layer in range(self.made.layers + 1):
+            word = "ground" if layer == 0 else f"layer {layer}"
+            yield Caption(word, (8, y(layer + 0.5) - 0.5 * _TEXT), _TEXT, self.theme.dim)
+        thick = 0.72
+        for number in self._order():
+            begin, end = (x(place) for place in spans[number])
+            layer = self.made.layer[number]
+            box = np.array([complex(a, b) for a, b in _corners(begin, end, y(layer + thick), y(layer))])
+            yield Layer(self._colour(number), [box], 0.85)
+            yield Layer(self.theme.outline, stroke(box, 1.0, closed=True))
+        taken: list[tuple[float, float]] = []
+        for pin, at in sorted(self._pins(), key=lambda one: (one[1] * (-1j if across else 1)).real):
+            place = x((at * (-1j if across else 1)).real)
+            half = max(0.5 * self.made.sizes.pin * scale, 1.5)
+            box = np.array(
+                [
+                    complex(a, b)
+                    for a, b in _corners(place - half, place + half, y(pin.high + thick) - 3, y(pin.low) + 3)
+                ]
+            )
+            yield Layer(self.theme.outline, [box], 0.9)
+            for ring in pin.spacers:
+                reach = max(0.5 * ring.diameter * scale, half + 2)
+                box = np.array(
+                    [
+                        complex(a, b)
+                        for a, b in _corners(
+                            place - reach, place + reach, y(ring.layer + thick), y(ring.layer)
+                        )
+                    ]
+                )
+                yield Layer(self.theme.metal, [box], 0.8)
+            if not pin.stuck:
+                row = next(
+                    n
+                    for n in range(9)
+                    if all(abs(place - other) > 26 or level != n for other, level in taken)
+                )
+                taken.append((place, row))
+                at_top = (place, y(pin.high + thick) - 3 - 1.05 * _TEXT)
+                yield Caption(
+                    subscripted(pin.name),
+                    at_top,
+                    _TEXT,
+                    self.theme.ink,
+                    "centre",
+                    halo=Halo(self.theme.background, 2.5),
+                )
+        for number in self._order():
+            begin, end = (x(place) for place in spans[number])
+            middle = complex((begin + end) / 2, y(self.made.layer[number] + thick / 2))
+            halo = Halo(self.theme.background, 3.0)
+            yield Caption(
+                self.made.numbers[number],
+                (middle.real, middle.imag - 0.5 * _TEXT),
+                _TEXT,
+                self.theme.ink,
+                "centre",
+                strong=True,
+                halo=halo,
+            )
+
+    def exploded(self, apart: float = 1.0) -> Iterator[Item]:
+        """Yield the layers lifted off each other, seen aslant: `apart` from 0, flat, to 1, as far as fits."""
+        width, height = self.size
+        flat = [[_aslant(loop) for loop in loops] for loops in self._loops]
+        points = np.concatenate([loops[0] for loops in flat])
+        wide, deep = float(np.ptp(points.real)), float(np.ptp(points.imag))
+        room, layers = height - 2 * _EDGE - _THICK, self.made.layers
+        scale = min((width - 2 * _EDGE) / wide, (1 - _LIFTED) * room / deep)
+        lift = apart * (room - scale * deep) / max(layers, 1)
+        left = (width - scale * wide) / 2 - scale * float(points.real.min())
+        foot = (height + scale * deep + lift * layers) / 2 + scale * float(points.imag.min())
+
+        def seen(places: Loop, layer: float) -> Loop:
+            found: Loop = left + scale * places.real + 1j * (foot - scale * places.imag - lift * layer)
+            return found
+
+        pins = [(pin, complex(_aslant(np.array([at]))[0])) for pin, at in self._pins()]
+        for layer in range(layers + 1):
+            for number in (n for n in self._order() if self.made.layer[n] == layer):
+                loops = [seen(loop, layer) for loop in flat[number]]
+                colour = self._colour(number)
+                below = Layer(mixed(colour, self.theme.outline, 0.45), [loops[0] + 1j * _THICK])
+                if self.made.plates[number].teeth is None:
+                    sides = np.concatenate((loops[0], loops[0] + 1j * _THICK))
+                    below = below._replace(loops=[np.array(hull(sides.tolist()))])
+                yield below
+                yield Layer(colour, [loops[0], *(loop[::-1] for loop in loops[1:])])
+                yield Layer(
+                    self.theme.outline, [line for loop in loops for line in stroke(loop, 0.8, closed=True)]
+                )
+            for pin, at in pins:
+                place = complex(seen(np.array([at]), layer)[0])
+                if any(self.made.layer[number] == layer for number in pin.plates):
+                    yield Layer(self.theme.outline, [place + disc(2.6)])
+                if pin.low <= layer < pin.high:
+                    above = complex(seen(np.array([at]), layer + 1)[0])
+                    yield Layer(self.theme.outline, segments(place, above + 1j * _THICK, 1.4), 0.75)
+                if layer == pin.high and not pin.stuck:
+                    halo = Halo(self.theme.background, 2.5)
+                    yield Caption(
+                        subscripted(pin.name),
+                        (place.real + 4, place.imag - 1.1 * _TEXT),
+                        _TEXT,
+                        self.theme.ink,
+                        halo=halo,
+                    )
+
+
+def _in_view(loop: Loop, view: View) -> Loop:
+    found: Loop = view.x + view.scale * loop.real + 1j * (view.y - view.scale * loop.imag)
+    return found
+
+
+def _span(loop: Loop) -> tuple[float, float]:
+    return float(loop.real.min()), float(loop.real.max())
+
+
+def _corners(left: float, right: float, top: float, foot: float) -> Sequence[tuple[float, float]]:
+    return (left, top), (right, top), (right, foot), (left, foot)
+
+
+def _aslant(loop: Loop) -> Loop:
+    """Return places in the plane as they are seen from aside and above."""
+    found: Loop = loop.real + _LEAN * loop.imag + 1j * _FLAT * loop.imag
+    return found

@@ -1,0 +1,304 @@
+"""What is made: the parts of a scene and their layers, as a value; or why it cannot be made."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import count
+from typing import Literal, NamedTuple
+
+from linkanim import units
+from linkanim.errors import BadInput
+from linkanim.mechanics.motion.motion import Pose
+from linkanim.picture.figure import figure
+from linkanim.scenes.scene import Scene
+from linkanim.workshop.layers import Stack, Unstackable, stacked
+from linkanim.workshop.parts import Band, Hole, Kit, Plate, Sizes, kit, refuse_thin
+from linkanim.workshop.shapes import box, polygon
+from linkanim.workshop.sweep import GROUND, Cycle, Frame
+
+Way = Literal["cardboard", "laser", "print"]
+Size = tuple[float, float]
+
+_TRUE = 1e-12
+"""By so much a scale of 1 may be off."""
+_THINNER = (0.7, 0.5, 0.25)
+"""Shares of the width of bars and holes that are tried where these cannot be laid in layers."""
+
+
+class Spacer(NamedTuple):
+    """A ring on a pin that fills a layer between its plates: the layer, and its outer diameter."""
+
+    layer: int
+    diameter: float
+
+
+class MadePin(NamedTuple):
+    """A pin with the lowest and the highest layer that it reaches; 0 is the ground.
+
+    It moves with the point `at` of a frame, through plates by their numbers, in a slot of those that are
+    `sliding`. One that is fixed is carried from its `side`: from the ground below, or from a bridge above. It
+    is stuck in what carries it and turns in its other plates; a dowel or a post is `stuck` in all.
+    """
+
+    name: str
+    frame: Frame
+    at: complex
+    low: int
+    high: int
+    side: Literal["below", "above"] | None
+    plates: tuple[int, ...]
+    sliding: tuple[int, ...] = ()
+    stuck: bool = False
+    spacers: tuple[Spacer, ...] = ()
+
+
+@dataclass(frozen=True)
+class MadeLinkage:
+    """A scene's parts and their layers, or in a sentence why it cannot be made flat: `refused`.
+
+    `layer[n]` is that of `plates[n]`, counted from plate 0, the ground, in layer 0. `fewest` is whether fewer
+    layers are known to be impossible. `sheet` is the size of the material, or of the paper.
+    """
+
+    scene: Scene
+    way: Way
+    sizes: Sizes
+    kerf: float
+    sheet: Size
+    plates: tuple[Plate, ...] = ()
+    layer: tuple[int, ...] = ()
+    pins: tuple[MadePin, ...] = ()
+    bands: tuple[Band, ...] = ()
+    fewest: bool = True
+    refused: str | None = None
+
+    @property
+    def layers(self) -> int:
+        """How many layers lie on the ground."""
+        return max(self.layer, default=0)
+
+    @property
+    def ratio(self) -> float:
+        """How many times as large as the scene it is made."""
+        return self.sizes.scale / true_scale(self.scene)
+
+    @property
+    def size_words(self) -> str:
+        """How large it is made, in words."""
+        return (
+            "in true size" if abs(self.ratio - 1) < _TRUE else f"{self.ratio:g} times as large as the scene"
+        )
+
+    @cached_property
+    def numbers(self) -> tuple[str, ...]:
+        """The plates' numbers: the ground's is 1, those of links are the figures', others come after them."""
+        given = {body.name: number for body, number in figure(self.scene).numbers.items()}
+        wanted = [next((given[name] for name in plate.bodies if name in given), "") for plate in self.plates]
+        wanted[:1] = ["1"]
+        found: list[str] = []
+        others = (str(number) for number in count(2) if str(number) not in wanted)
+        for number in wanted:
+            found.append(number if number and number not in found else next(others))
+        return tuple(found)
+
+    def label(self, number: int) -> str:
+        """Return a plate's number and name; the number alone where that is its name."""
+        name, own = self.plates[number].name, self.numbers[number]
+        return own if name == own else f"{own} {name}"
+
+    def placed(self, phase: float) -> list[tuple[complex, complex]]:
+        """Return where each plate's frame lies at a phase: its origin in mm, and its direction."""
+        pose = self.scene.pose(phase, 0)
+        return [self._lying(plate.frame, pose) for plate in self.plates]
+
+    def pinned(self, phase: float) -> list[complex]:
+        """Return where each pin is at a phase, in mm."""
+        pose = self.scene.pose(phase, 0)
+        frames = (self._lying(pin.frame, pose) for pin in self.pins)
+        return [at + turn * pin.at for pin, (at, turn) in zip(self.pins, frames, strict=True)]
+
+    def _lying(self, frame: Frame, pose: Pose) -> tuple[complex, complex]:
+        origin, axis, turn = frame
+        at = complex(*pose.position[origin]) if origin else 0j
+        bar = complex(*pose.position[axis[1]]) - complex(*pose.position[axis[0]]) if axis else 1 + 0j
+        return self.sizes.scale * at, turn * bar / abs(bar)
+
+    def as_object(self) -> dict[str, object]:
+        """Return what `linkanim make --json` prints: lengths in mm, each part in its own frame.
+
+        `parts` are the scene's bodies, `fittings` what is needed besides, `pins` those at its joints.
+        """
+        every = [(bool(plate.bodies), self._part(number)) for number, plate in enumerate(self.plates)]
+        return {
+            "scene": self.scene.name,
+            "way": self.way,
+            "scale": self.ratio,
+            "thickness": self.sizes.thickness,
+            "layers": self.layers,
+            "least": self.fewest,
+            "parts": [part for of_scene, part in every if of_scene],
+            "fittings": [part for of_scene, part in every if not of_scene],
+            "pins": [self._pin(pin) for pin in self.pins if not pin.stuck],
+            "dowels": [self._pin(pin) for pin in self.pins if pin.stuck],
+            "bands": [band._asdict() for band in self.bands],
+            "refused": self.refused,
+        }
+
+    def _part(self, number: int) -> dict[str, object]:
+        plate = self.plates[number]
+        inside = [plate.teeth] if plate.teeth and plate.teeth.wheel.ring else []
+        return {
+            "body": plate.bodies[0] if plate.bodies else plate.name,
+            "bodies": plate.bodies,
+            "number": self.numbers[number],
+            "layer": self.layer[number],
+            **_framed(plate.frame),
+            "outline": [_pair(point) for point in polygon(plate.outline())],
+            "holes": [[*_pair(hole.at), hole.diameter] for hole in plate.holes],
+            "joints": [hole.joint for hole in plate.holes],
+            "slots": [[*_pair(slot.begin), *_pair(slot.end), 2 * slot.radius] for slot in plate.slots],
+            "cuts": [[_pair(point) for point in polygon(teeth.outline(0.0))] for teeth in inside],
+        }
+
+    def _pin(self, pin: MadePin) -> dict[str, object]:
+        return {
+            "joint": pin.name,
+            "from": pin.low,
+            "to": pin.high,
+            "diameter": self.sizes.pin,
+            "side": pin.side,
+            **_framed(pin.frame),
+            "at": _pair(pin.at),
+            "spacers": [list(spacer) for spacer in pin.spacers],
+        }
+
+
+def true_scale(scene: Scene) -> float:
+    """Return millimetres for one unit of a scene's length, in true size."""
+    return 1000 * units.metre(scene.length_unit)
+
+
+def laid(made: MadeLinkage, *, bridge: bool) -> MadeLinkage:
+    """Return it with its plates and pins in layers, or with the reason why there are none.
+
+    With a `bridge` fixed pins may hang from a plate above all others. NotFlat and BadInput as `kit`; BadInput
+    where holes leave too little between them.
+    """
+    sizes, cycle = made.sizes, Cycle(made.scene, made.sizes.scale)
+    parts = kit(cycle, sizes)
+    found = stacked(cycle, parts, hole=sizes.hole, gap=sizes.gap, bridge=bridge)
+    if isinstance(found, Unstackable):
+        return replace(made, refused=_why_not(found, cycle, sizes))
+    pins = tuple(_pin(parts, found, number, sizes) for number in range(len(parts.pins)))
+    whole = replace(
+        made, plates=parts.plates, layer=found.layers, pins=pins, bands=parts.bands, fewest=found.least
+    )
+    if found.hanging:
+        whole = _bridged(cycle, whole)
+    refuse_thin(whole.plates, sizes)
+    return whole
+
+
+def _why_not(why: Unstackable, cycle: Cycle, sizes: Sizes) -> str:
+    """Return in a sentence which parts would meet, where, and the ways out."""
+    met = [
+        f"{one} would meet {other} (phase {math.degrees(phase):.1f} deg)" for one, other, phase in why.clashes
+    ]
+    clashes = f"{', '.join(met[:-1])} and {met[-1]}" if met[1:] else met[0]
+    order = "whichever of the two lies higher" if len(met) == 1 else "in whatever order they lie"
+    thinner = (replace(sizes, bar=sizes.bar * share, hole=sizes.hole * share) for share in _THINNER)
+    narrow = next((some.bar for some in thinner if _is_stackable(cycle, some)), None)
+    if narrow is not None:
+        ways_out = f"narrower bars can, such as --bar {narrow:.3g}"
+    elif why.bridged:
+        ways_out = f"a bridge over it can carry {' and '.join(why.bridged)} from above (--bridge)"
+    else:
+        ways_out = (
+            "put a crank outside, on a shaft through the ground, or make a fixed pin a stub shaft so wide "
+            "that it carries the other pin, too"
+        )
+    return f"{cycle.scene.name} cannot be made flat: {clashes}, {order}; {ways_out}"
+
+
+def _is_stackable(cycle: Cycle, sizes: Sizes) -> bool:
+    """Whether there are layers for parts of other sizes."""
+    try:
+        parts = kit(cycle, sizes)
+    except BadInput:
+        return False
+    return isinstance(stacked(cycle, parts, hole=sizes.hole, gap=sizes.gap, bridge=False), Stack)
+
+
+def _pin(parts: Kit, found: Stack, number: int, sizes: Sizes) -> MadePin:
+    """Return a pin as far as it reaches, with a ring in each layer between its plates where one has room."""
+    pin, hangs = parts.pins[number], number in found.hanging
+    plates = tuple(plate for plate in pin.plates if plate or not hangs)
+    levels = {found.layers[plate] for plate in plates} | ({max(found.layers) + 1} if hangs else set())
+    rings = [
+        Spacer(layer, 2 * reach)
+        for layer in range(min(levels), max(levels))
+        if layer not in levels
+        for reach in [_reach(parts, found, number, layer, sizes)]
+        if reach >= sizes.hole / 2 + sizes.wall / 4
+    ]
+    side: Literal["below", "above"] | None = "above" if hangs else "below" if pin.fixed else None
+    ends = min(levels), max(levels)
+    return MadePin(pin.name, pin.frame, pin.at, *ends, side, plates, pin.sliding, pin.stuck, tuple(rings))
+
+
+def _reach(parts: Kit, found: Stack, number: int, layer: int, sizes: Sizes) -> float:
+    """Return the radius that a ring on a pin can have in a layer: a bar's, or what others leave."""
+    first = len(parts.plates)
+    own, reach = first + number, sizes.bar / 2
+    for (one, other), room in found.room.items():
+        if other == own and one < first and found.layers[one] == layer:
+            reach = min(reach, sizes.hole / 2 + room - sizes.gap)
+        elif own in (one, other) and one >= first:
+            # The other pin may have a ring there, too.
+            reach = min(reach, sizes.hole / 2 + (room - sizes.gap) / 2)
+    return reach
+
+
+def _bridged(cycle: Cycle, made: MadeLinkage) -> MadeLinkage:
+    """Return it with a bridge over all that moves, on two posts beside that, for the pins that hang."""
+    sizes, top, number = made.sizes, made.layers + 1, len(made.plates)
+    hanging = {pin.name: complex(cycle.seen(pin.name, GROUND)[0]) for pin in made.pins if pin.side == "above"}
+    swept = [
+        place + plate.radius * corner
+        for plate in made.plates
+        for place in cycle.paths(plate.frame, plate.corners).ravel().tolist()
+        for corner in (1 + 1j, -1 - 1j)
+    ]
+    left, right, low, high = box(swept)
+    middle, beside = sum(hanging.values()) / len(hanging), sizes.bar + sizes.gap
+    if right - left <= high - low:
+        posts = (complex(left - beside, middle.imag), complex(right + beside, middle.imag))
+    else:
+        posts = (complex(middle.real, low - beside), complex(middle.real, high + beside))
+    stands = tuple(Hole(place, sizes.snug, "") for place in posts)
+    carried = tuple(Hole(place, sizes.snug, name) for name, place in hanging.items())
+    corners = (*hanging.values(), *posts)
+    bridge = Plate("bridge", "bridge", GROUND, corners, sizes.bar / 2, holes=carried + stands)
+    ground = made.plates[0]
+    kept = tuple(hole for hole in ground.holes if hole.joint not in hanging)
+    others = (corner for corner in ground.corners if corner not in hanging.values())
+    ground = replace(ground, holes=kept + stands, corners=tuple(dict.fromkeys((*others, *posts))))
+    pins = [pin._replace(plates=(*pin.plates, number)) if pin.name in hanging else pin for pin in made.pins]
+    pins += [
+        MadePin(f"post {n}", GROUND, place, 0, top, "below", (0, number), stuck=True)
+        for n, place in enumerate(posts, start=1)
+    ]
+    plates, layer = (ground, *made.plates[1:], bridge), (*made.layer, top)
+    return replace(made, plates=plates, layer=layer, pins=tuple(pins))
+
+
+def _pair(point: complex) -> tuple[float, float]:
+    return point.real, point.imag
+
+
+def _framed(frame: Frame) -> dict[str, object]:
+    """Return how a frame lies: where its origin is, from which joint to which its x axis is turned from."""
+    turned = math.atan2(frame.turn.imag, frame.turn.real)
+    return {"origin": frame.origin, "towards": frame.axis, "turned": turned}

@@ -1,0 +1,78 @@
+"""Where parts lie on sheets or pages: each turned so that its rectangle is smallest, in rows."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from linkanim.workshop.shapes import Outline, box, polygon, upright
+
+PAGES = {"A4": (210.0, 297.0), "Letter": (215.9, 279.4)}
+"""Sizes of paper, in mm."""
+MARGIN, FOOT = 10.0, 16.0
+"""What a page has at each edge that is not printed on, and what the ruler takes at its foot."""
+
+
+class Laid(NamedTuple):
+    """A part on a sheet: its number and the sheet's, where its frame's origin lies, and its direction."""
+
+    part: int
+    sheet: int
+    at: complex
+    turn: complex
+
+
+class Oversize(NamedTuple):
+    """A part that no sheet holds: its number, its length and its width as it lies best."""
+
+    part: int
+    long: float
+    wide: float
+
+
+class _Row(NamedTuple):
+    """A row on a sheet: its foot, its height, and how far it is filled."""
+
+    sheet: int
+    foot: float
+    high: float
+    filled: float
+
+
+def nested(outlines: Sequence[Outline], room: tuple[float, float], between: float) -> list[Laid | Oversize]:
+    """Return where each outline lies, in the order given; a sheet's room has its origin at the lower left.
+
+    Each goes into the first row that has room for it, else into a new one, on a new sheet where the last has
+    none left (first fit by decreasing height). A part that fits across only stands upright.
+    """
+    sizes = []
+    for outline in outlines:
+        points = polygon(outline)
+        turn = upright(points)
+        ways = ((way, box(way * point for point in points)) for way in (turn, 1j * turn))
+        lying = [(way, found) for way, found in ways if _holds(room, found)]
+        sizes.append(lying[0] if lying else (None, box(turn * point for point in points)))
+    found: dict[int, Laid | Oversize] = {}
+    rows: list[_Row] = []
+    for part in sorted(range(len(sizes)), key=lambda number: sizes[number][1][2] - sizes[number][1][3]):
+        turn_, (left, right, low, top) = sizes[part]
+        wide, high = right - left, top - low
+        if turn_ is None:
+            found[part] = Oversize(part, wide, high)
+            continue
+        fitting = (n for n, row in enumerate(rows) if high <= row.high and row.filled + wide <= room[0])
+        at = next(fitting, len(rows))
+        if at == len(rows):
+            last = rows[-1] if rows else _Row(0, -between, 0.0, 0.0)
+            foot = last.foot + last.high + between
+            fits = foot + high <= room[1]
+            rows.append(_Row(last.sheet, foot, high, 0.0) if fits else _Row(last.sheet + 1, 0.0, high, 0.0))
+        row = rows[at]
+        found[part] = Laid(part, row.sheet, complex(row.filled - left, row.foot - low), turn_)
+        rows[at] = row._replace(filled=row.filled + wide + between)
+    return [found[number] for number in range(len(sizes))]
+
+
+def _holds(room: tuple[float, float], found: tuple[float, float, float, float]) -> bool:
+    left, right, low, high = found
+    return right - left <= room[0] and high - low <= room[1]

@@ -1,0 +1,571 @@
+"""A linkage as flat parts: plates with holes and slots, the pins through them, and what shares a layer.
+
+Every rigid body becomes a plate: of two joints a bar with round ends, of more the hull around them. What
+slides along a line becomes a tongue in a slot; a pin runs in the slot of a bar that turns. A gear pair
+becomes two wheels. The ground is a plate, too, with the fixed pins in it. Lengths are in mm.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+from itertools import combinations, pairwise
+from typing import Literal, NamedTuple
+
+import numpy as np
+
+from linkanim.errors import BadInput
+from linkanim.mechanics.linkage.dyads import RPP
+from linkanim.mechanics.linkage.joint import Line
+from linkanim.mechanics.linkage.linkage import Body, Damper, Spring
+from linkanim.workshop.gears import GearWheel, NotFlat, meshes
+from linkanim.workshop.shapes import Outline, moved, rounded
+from linkanim.workshop.sweep import GROUND, Cycle, Frame, MovingPiece, Real, hulls_apart
+
+Role = Literal["ground", "link", "slider", "wheel", "ring", "bridge"]
+
+_STILL = 1e-7
+"""By so much of the longest link what keeps its place is off for rounding."""
+_POSTS = 4
+_RING_CELLS = 48
+_LEAST_BETWEEN = 1.0
+"""What two cuts leave between them, in mm, where bars are wide."""
+
+
+@dataclass(frozen=True)
+class Sizes:
+    """Widths and distances of all parts, in mm; `scale` is mm for one unit of length of the scene.
+
+    A pin is thinner than the holes that turn on it by `clearance`. What passes in one layer does so at a
+    distance of `gap`.
+    """
+
+    scale: float
+    bar: float = 0.0
+    hole: float = 0.0
+    gap: float = 0.0
+    clearance: float = 0.0
+    thickness: float = 0.0
+
+    @property
+    def wall(self) -> float:
+        """What a bar has left beside a hole."""
+        return (self.bar - self.hole) / 2
+
+    @property
+    def tongue(self) -> float:
+        """The width of a tongue: wide enough for its pin, and less than that of the bars beside its slot."""
+        return (self.bar + self.hole) / 2
+
+    @property
+    def between(self) -> float:
+        """What two cuts leave between them at least."""
+        return min(self.wall / 2, _LEAST_BETWEEN)
+
+    @property
+    def pin(self) -> float:
+        """A pin's diameter."""
+        return self.hole - self.clearance
+
+    @property
+    def snug(self) -> float:
+        """The diameter of a hole in which a pin is stuck."""
+        return self.hole - 0.75 * self.clearance
+
+
+class Hole(NamedTuple):
+    """A round hole: its middle, its diameter, and the joint that it is for; "" of one for a dowel."""
+
+    at: complex
+    diameter: float
+    joint: str
+
+
+class Slot(NamedTuple):
+    """A slot with round ends: the middles of its ends, half its width, and the joint that runs in it."""
+
+    begin: complex
+    end: complex
+    radius: float
+    joint: str
+
+
+class Toothing(NamedTuple):
+    """The teeth of a plate: the wheel's middle in the plate's frame, its direction there, and its play."""
+
+    wheel: GearWheel
+    middle: complex
+    way: complex
+    play: float
+
+    def outline(self, grown: float) -> Outline:
+        """Return the teeth's edge."""
+        return moved(self.wheel.outline(self.play, grown), self.middle, self.way)
+
+
+@dataclass(frozen=True)
+class Plate:
+    """A flat part in its own frame; `bodies` are those of the scene that it is made of.
+
+    Its outline is the hull of `corners` with a rim of `radius`, or that of its teeth; a ring's are inside.
+    """
+
+    name: str
+    role: Role
+    frame: Frame
+    corners: tuple[complex, ...]
+    radius: float
+    bodies: tuple[str, ...] = ()
+    holes: tuple[Hole, ...] = ()
+    slots: tuple[Slot, ...] = ()
+    teeth: Toothing | None = None
+
+    def outline(self, grown: float = 0.0) -> Outline:
+        """Return its outer edge, moved outwards by what a cut takes away."""
+        if self.teeth is None or self.teeth.wheel.ring:
+            return rounded(self.corners, self.radius + grown)
+        return self.teeth.outline(grown)
+
+    def cuts(self, grown: float = 0.0) -> Iterator[Outline]:
+        """Yield the edges of its holes, its slots and a ring's teeth, moved inwards by what a cut takes."""
+        for hole in self.holes:
+            yield rounded([hole.at], hole.diameter / 2 - grown)
+        for slot in self.slots:
+            yield rounded([slot.begin, slot.end], slot.radius - grown)
+        if self.teeth is not None and self.teeth.wheel.ring:
+            yield self.teeth.outline(grown)
+
+    @property
+    def piece(self) -> MovingPiece:
+        """What of it may touch other parts; of a wheel the disc that its teeth reach."""
+        if self.teeth is None:
+            return MovingPiece(self.frame, (self.corners,), self.radius)
+        wheel = self.teeth.wheel
+        if not wheel.ring:
+            return MovingPiece(self.frame, ((self.teeth.middle,),), wheel.tip)
+        # Bars in a round, wide enough for the arcs that they stand for.
+        half = math.pi / _RING_CELLS
+        middle, thick = (wheel.tip + self.radius) / 2, (self.radius - wheel.tip) / 2
+        ring = [self.teeth.middle + cmath.rect(middle, 2 * half * n) for n in range(_RING_CELLS + 1)]
+        cells = tuple(pairwise(ring))
+        return MovingPiece(self.frame, cells, thick + middle * (1 - math.cos(half)))
+
+    @property
+    def clearest(self) -> complex:
+        """The place on it, between its holes or amid its corners, that is farthest from what is cut out."""
+        cuts = [
+            *((hole.at, hole.at) for hole in self.holes),
+            *((slot.begin, slot.end) for slot in self.slots),
+        ]
+        places = [
+            (a + b) / 2 for a, b in combinations(dict.fromkeys(end for pair in cuts for end in pair), 2)
+        ]
+        places += [sum(self.corners) / len(self.corners), *self.corners]
+        if self.teeth is not None:
+            wheel = self.teeth.wheel
+            far = (wheel.root + self.radius) / 2 if wheel.ring else 0.55 * wheel.root
+            round_ = [self.teeth.middle + far * 1j**n for n in range(4)]
+            places = round_ if wheel.ring else [*places, *round_]
+        return max(
+            places,
+            key=lambda place: min((_between((place, place, 0.0), (*cut, 0.0)) for cut in cuts), default=0.0),
+        )
+
+
+class KitPin(NamedTuple):
+    """A pin through plates, by their numbers, that moves with a point of a frame.
+
+    It runs in a slot of those that are `sliding`. A dowel, which keeps plates from turning on each other, is
+    `stuck` in all of its plates, and its name is no joint's.
+    """
+
+    name: str
+    frame: Frame
+    at: complex
+    plates: tuple[int, ...]
+    sliding: tuple[int, ...] = ()
+    stuck: bool = False
+
+    @property
+    def fixed(self) -> bool:
+        """Whether it stands in the ground, which is plate 0."""
+        return 0 in self.plates and 0 not in self.sliding
+
+
+class Band(NamedTuple):
+    """A rubber band for a spring or damper: what it stands for, and the two joints that it is hung on."""
+
+    name: str
+    joints: tuple[str, str]
+
+
+class Kit(NamedTuple):
+    """All parts of a linkage; plate 0 is the ground.
+
+    Plates of one group lie in one layer; those of a pair in `paired` are made to touch, or lie in each other.
+    """
+
+    plates: tuple[Plate, ...]
+    pins: tuple[KitPin, ...]
+    bands: tuple[Band, ...]
+    groups: tuple[tuple[int, ...], ...]
+    paired: frozenset[tuple[int, int]]
+
+
+def kit(cycle: Cycle, sizes: Sizes) -> Kit:
+    """Return the parts of a scene; NotFlat for what no flat parts are, BadInput for sizes that do not fit."""
+    if cycle.scene.linkage.drive.actuator.along is not None:
+        raise NotFlat(
+            "a cylinder drives it, which no flat parts are; let a crank or a slider drive it instead"
+        )
+    return _Bench(cycle, sizes).kit()
+
+
+def refuse_thin(plates: Iterable[Plate], sizes: Sizes) -> None:
+    """Raise BadInput where two cuts of a plate leave too little between them."""
+    for plate in plates:
+        cuts = [
+            *(
+                (hole.at, hole.at, hole.diameter / 2, f"the hole {hole.joint}".strip())
+                for hole in plate.holes
+            ),
+            *((slot.begin, slot.end, slot.radius, f"the slot for {slot.joint}") for slot in plate.slots),
+        ]
+        for one, other in combinations(cuts, 2):
+            # Slots of the ground may cross: their tongues are longer than the others are wide.
+            between = math.inf if one[0] != one[1] and other[0] != other[1] else _between(one[:3], other[:3])
+            if between < sizes.between:
+                left = f"leave {between:.2g} mm between them" if between > 0 else "run into each other"
+                raise BadInput(
+                    f"{plate.name}: {one[3]} and {other[3]}, {2 * one[2]:.3g} and {2 * other[2]:.3g} mm "
+                    f"wide, {left}; make them narrower (--hole, --bar), or everything larger (--fit)"
+                )
+
+
+def _between(one: tuple[complex, complex, float], other: tuple[complex, complex, float]) -> float:
+    """Return how far two cuts with round ends are apart, from edge to edge."""
+    ends = (np.array([cut[:2]]) for cut in (one, other))
+    return float(hulls_apart(*ends)[0]) - one[2] - other[2]
+
+
+@dataclass
+class _PlateDraft:
+    """A plate that is being put together: where joints lie in its frame, and what it needs besides."""
+
+    name: str
+    role: Role
+    frame: Frame
+    places: dict[str, complex]
+    bodies: tuple[str, ...] = ()
+    shown: set[str] = field(default_factory=set)
+    """The joints up to which it reaches whether or not something is there."""
+    reach: list[complex] = field(default_factory=list)
+    """Other points up to which it reaches."""
+    slots: list[Slot] = field(default_factory=list)
+    guided: set[str] = field(default_factory=set)
+    """The joints whose pins themselves, and no tongues, run in its slots."""
+    radius: float = 0.0
+    teeth: Toothing | None = None
+
+    def has(self, joint: str) -> bool:
+        """Whether a joint's pin runs through it, in a hole or a slot."""
+        return joint in self.places or joint in self.guided
+
+
+class _Bench:
+    """The parts of a linkage as they are put together."""
+
+    def __init__(self, cycle: Cycle, sizes: Sizes) -> None:
+        self.cycle, self.sizes, self.linkage = cycle, sizes, cycle.scene.linkage
+        self.small = _STILL * sizes.scale * self.linkage.longest
+        self.struts: tuple[Spring | Damper, ...] = (*self.linkage.springs, *self.linkage.dampers)
+        self.hung = {name for strut in self.struts for name in strut.between}
+        self.drafts: list[_PlateDraft] = []
+        self.dowels: list[KitPin] = []
+        self.one_layer: list[tuple[int, int]] = []
+
+    def kit(self) -> Kit:
+        """Return the parts."""
+        ground = {name: self.sizes.scale * place for name, place in self.linkage.rigid_bodies[0].items()}
+        self.drafts.append(_PlateDraft("ground", "ground", GROUND, ground))
+        self._links()
+        self._sliders()
+        for pair in meshes(self.linkage, self.sizes.scale, max(self.sizes.bar / 4, 1.0)):
+            first, second = map(self._wheel, pair)
+            self._pair(first, second)
+        pins = (*self._pins(), *self.dowels)
+        plates = tuple(self._plate(number, pins) for number in range(len(self.drafts)))
+        bands = tuple(Band(self.linkage.strut_words(strut), strut.between) for strut in self.struts)
+        groups = _joined(len(plates), self.one_layer)
+        return Kit(plates, pins, bands, groups, frozenset(self.one_layer))
+
+    def _links(self) -> None:
+        """Put down a plate for each rigid body but the ground; a bar that rides on another one is of that."""
+        bodies = [body for body in self.linkage.bodies if len(body.joints) > 1]
+        bare: list[_PlateDraft] = []
+        for frame in self.linkage.rigid_bodies[1:]:
+            named = [body for body in bodies if set(body.joints) <= frame.keys()]
+            (self.drafts if named else bare).append(self._link(frame, named))
+        for draft in bare:
+            host = next((one for one in self.drafts[1:] if self._rides(draft, one)), None)
+            if host is None:
+                self.drafts.append(draft)
+            else:
+                new = [name for name in draft.places if name not in host.places]
+                host.places |= {name: complex(self.cycle.seen(name, host.frame)[0]) for name in new}
+                host.shown |= draft.shown
+
+    def _link(self, frame: dict[str, complex], named: Sequence[Body]) -> _PlateDraft:
+        """Return the plate of a rigid body: its first joint at the origin, x towards its second."""
+        first, *others = dict.fromkeys([*(name for body in named for name in body.joints), *frame])
+        second = next(
+            name for name in others if abs(frame[name] - frame[first]) * self.sizes.scale > self.small
+        )
+        along = frame[second] - frame[first]
+        turn = self.sizes.scale * (along / abs(along)).conjugate()
+        places = {name: (place - frame[first]) * turn for name, place in frame.items()}
+        places[second] = complex(self.sizes.scale * abs(along))
+        bodies = tuple(body.name for body in named)
+        shown = {joint for body in named for joint in body.joints} or set(frame)
+        name = bodies[0] if bodies else f"{first}–{second}"
+        return _PlateDraft(name, "link", Frame(first, (first, second)), places, bodies, shown)
+
+    def _rides(self, bare: _PlateDraft, host: _PlateDraft) -> bool:
+        """Whether a bar that no body names keeps its place on another plate at every moment."""
+        if not bare.places.keys() & host.places.keys():
+            return False
+        paths = (self.cycle.seen(name, host.frame) for name in bare.places)
+        return all(np.abs(path - path[0]).max() <= self.small for path in paths)
+
+    def _holder(self, names: Iterable[str]) -> int:
+        """Return the number of the plate that holds all these joints."""
+        wanted = set(names)
+        return next(n for n, draft in enumerate(self.drafts) if wanted <= draft.places.keys())
+
+    def _sliders(self) -> None:
+        blocks = {body.slider: body.name for body in self.linkage.bodies if body.slider is not None}
+        for joint in self.linkage.joints:
+            if isinstance(joint, RPP):
+                self._yoke(joint, blocks.get(joint.name, f"yoke {joint.name}"))
+                continue
+            for slide in joint.slides:
+                if joint.travels:
+                    half, name = 0.75 * self.sizes.tongue, blocks.get(joint.name, f"slider {joint.name}")
+                    tongue = self._tongue(joint.name, slide.line, (-half, half), name)
+                    tongue.places[joint.name] = 0j
+                    tongue.bodies = (name,) if joint.name in blocks else ()
+                else:
+                    guide = self._holder((joint.name, str(slide.start)))
+                    self._slot(guide, slide.point, slide.line, (0.0, 0.0), self.sizes.hole / 2)
+                    self.drafts[guide].guided.add(slide.point)
+
+    def _yoke(self, joint: RPP, name: str) -> None:
+        """Put down a bar with a slot across its line, on a tongue beyond the pins that lie in its way."""
+        frame = Frame(joint.name, joint.line.on, cmath.rect(1.0, joint.line.angle))
+        yoke = _PlateDraft(name, "link", frame, {joint.name: 0j}, (name,))
+        self.drafts.append(yoke)
+        number, way = len(self.drafts) - 1, cmath.rect(1.0, joint.slot)
+        least, most = _range((self.cycle.seen(joint.pin, frame) * way.conjugate()).real)
+        yoke.slots.append(Slot(way * least, way * most, self.sizes.hole / 2, joint.pin))
+        yoke.guided.add(joint.pin)
+        ends = self._free_ends(joint.name, joint.line, 2.5 * self.sizes.bar)
+        self._tongue(joint.name, joint.line, ends, f"{name} tongue")
+        yoke.reach += [way * least, way * most, *map(complex, ends)]
+        for end in ends:
+            self._dowel(frame, complex(end), (number, len(self.drafts) - 1))
+
+    def _guide(self, line: Line) -> int:
+        return self._holder((*line.on, line.through)) if line.on else 0
+
+    def _travel(self, point: str, line: Line) -> tuple[complex, complex, float, float]:
+        """Return a point of a line in its guide's frame, its direction, and the range of a joint along it."""
+        draft, way = self.drafts[self._guide(line)], cmath.rect(1.0, line.angle)
+        if line.on:
+            axis = draft.places[line.on[1]] - draft.places[line.on[0]]
+            way *= axis / abs(axis)
+        base = draft.places[line.through] + 1j * way * line.offset * self.sizes.scale
+        along = ((self.cycle.seen(point, draft.frame) - base) * way.conjugate()).real
+        return base, way, *_range(along)
+
+    def _slot(self, guide: int, point: str, line: Line, ends: tuple[float, float], radius: float) -> None:
+        """Cut a slot for what reaches from `ends[0]` to `ends[1]` of a joint that slides along a line."""
+        base, way, least, most = self._travel(point, line)
+        slot = Slot(base + way * (least + ends[0]), base + way * (most + ends[1]), radius, point)
+        draft = self.drafts[guide]
+        draft.slots.append(slot)
+        draft.reach += [slot.begin, slot.end]
+        draft.radius = max(draft.radius, radius + self.sizes.wall)
+
+    def _tongue(self, point: str, line: Line, ends: tuple[float, float], name: str) -> _PlateDraft:
+        """Put down what slides along a line with a joint, and cut its slot into what guides it."""
+        guide, radius = self._guide(line), self.sizes.tongue / 2
+        self._slot(guide, point, line, ends, radius + self.sizes.clearance / 2)
+        frame = Frame(point, line.on, cmath.rect(1.0, line.angle))
+        tongue = _PlateDraft(name, "slider", frame, {}, reach=[complex(end) for end in ends], radius=radius)
+        self.drafts.append(tongue)
+        self._pair(guide, len(self.drafts) - 1)
+        return tongue
+
+    def _free_ends(self, point: str, line: Line, long: float) -> tuple[float, float]:
+        """Return where a tongue begins and ends, from a joint on, whose way meets no joint of its guide."""
+        base, way, least, most = self._travel(point, line)
+        draft, near = (
+            self.drafts[self._guide(line)],
+            (self.sizes.tongue + self.sizes.hole + self.sizes.bar) / 2,
+        )
+        others = [(place - base) * way.conjugate() for place in draft.places.values()]
+        met = [place.real for place in others if abs(place.imag) < near]
+
+        def free(begin: float) -> bool:
+            return not any(least + begin - near < at < most + begin + long + near for at in met)
+
+        beside = [side for at in met for side in (at - least + 1.01 * near, at - most - long - 1.01 * near)]
+        tries = sorted((-long / 2, *beside), key=lambda begin: abs(begin + long / 2))
+        begin = next(filter(free, tries), -long / 2)
+        return begin, begin + long
+
+    def _wheel(self, wheel: GearWheel) -> int:
+        """Make a plate a wheel if that holds all that is on it, else put the wheel beside it, on a dowel."""
+        sizes = self.sizes
+        play = max(sizes.clearance, 0.1) / 4
+        if wheel.arm is None:
+            return self._still(Toothing(wheel, self.drafts[0].places[wheel.centre], 1 + 0j, play))
+        host = self._holder((wheel.centre, wheel.arm))
+        link = self.drafts[host]
+        middle = link.places[wheel.centre]
+        arm = link.places[wheel.arm] - middle
+        room = wheel.root - sizes.wall - sizes.hole / 2
+        far = max(abs(link.places[name] - middle) for name in {*self._used(host), wheel.centre})
+        if link.teeth is None and not link.slots and far <= room:
+            link.teeth = Toothing(wheel, middle, arm / abs(arm), play)
+            return host
+        least = sizes.hole + 1.01 * sizes.between
+        if room < least:
+            raise BadInput(
+                f"the wheel about {wheel.centre} is {2 * wheel.root:.3g} mm wide within its teeth, too small "
+                f"for a pin and a dowel of {sizes.hole:g} mm; make the holes smaller (--hole), or everything "
+                "larger (--fit)"
+            )
+        frame = Frame(wheel.centre, (wheel.centre, wheel.arm))
+        toothing = Toothing(wheel, 0j, 1 + 0j, play)
+        name = f"{link.name} gear"
+        self.drafts.append(_PlateDraft(name, "wheel", frame, {wheel.centre: 0j}, teeth=toothing))
+        at = min(max(least, abs(arm) / 2), room)
+        self._dowel(frame, complex(at), (host, len(self.drafts) - 1))
+        return len(self.drafts) - 1
+
+    def _still(self, toothing: Toothing) -> int:
+        """Put down a wheel that is fixed to the ground, or a ring on posts."""
+        wheel, sizes, number = toothing.wheel, self.sizes, len(self.drafts)
+        if wheel.ring:
+            edge = wheel.root + sizes.bar
+            middle = toothing.middle
+            self.drafts.append(
+                _PlateDraft("ring", "ring", GROUND, {}, reach=[middle], radius=edge, teeth=toothing)
+            )
+            far, posts = edge - sizes.bar / 2, _POSTS
+        else:
+            sun = _PlateDraft("sun gear", "wheel", GROUND, {wheel.centre: toothing.middle}, teeth=toothing)
+            self.drafts.append(sun)
+            far, posts = (sizes.hole + wheel.root) / 2, 1
+        for n in range(posts):
+            self._dowel(GROUND, toothing.middle + cmath.rect(far, math.tau * (n + 0.5) / posts), (0, number))
+        return number
+
+    def _pair(self, one: int, other: int) -> None:
+        """Have two plates lie in one layer, where they are made to touch."""
+        self.one_layer.append((min(one, other), max(one, other)))
+
+    def _dowel(self, frame: Frame, at: complex, plates: tuple[int, int]) -> None:
+        name = f"dowel {len(self.dowels) + 1}"
+        self.dowels.append(KitPin(name, frame, at, plates, stuck=True))
+
+    def _used(self, number: int) -> list[str]:
+        """Return the joints of a plate at which something is: another plate, a band, a pencil."""
+        others = [draft for draft in self.drafts if draft is not self.drafts[number]]
+        wanted = self.hung | set(self.cycle.scene.trace)
+        return [
+            name
+            for name in self.drafts[number].places
+            if name in wanted or any(one.has(name) for one in others)
+        ]
+
+    def _pins(self) -> Iterator[KitPin]:
+        """Yield a pin for each joint at which plates meet; joints that are always one place share it."""
+        paths: dict[str, list[str]] = {}
+        for name in (joint.name for joint in self.linkage.joints):
+            path = self.cycle.seen(name, GROUND)
+            same = (one for one in paths if np.abs(self.cycle.seen(one, GROUND) - path).max() <= self.small)
+            paths.setdefault(next(same, name), []).append(name)
+        for first, names in paths.items():
+            plates = [n for n, draft in enumerate(self.drafts) if any(map(draft.has, names))]
+            if len(plates) > 1:
+                sliding = tuple(n for n in plates if not self.drafts[n].places.keys() & set(names))
+                yield KitPin(first, Frame(first), 0j, tuple(plates), sliding)
+
+    def _plate(self, number: int, pins: Sequence[KitPin]) -> Plate:
+        """Return a plate with its holes: for pins, dowels, the eyes of bands, and a pencil."""
+        draft, sizes = self.drafts[number], self.sizes
+        holes: list[Hole] = []
+        for pin in (pin for pin in pins if number in pin.plates and number not in pin.sliding):
+            at = complex(self._seen(pin, draft.frame))
+            name = next((name for name, place in draft.places.items() if abs(place - at) <= self.small), "")
+            stuck = pin.stuck or draft.role == "ground"
+            holes.append(Hole(draft.places.get(name, at), sizes.snug if stuck else sizes.hole, name))
+        traced = self.cycle.scene.trace if draft.role == "link" else ()
+        for name, place in draft.places.items():
+            cuts = [
+                *((hole.at, hole.at, hole.diameter / 2) for hole in holes),
+                *(slot[:3] for slot in draft.slots),
+            ]
+            room = min((_between((place, place, sizes.hole / 2), cut) for cut in cuts), default=math.inf)
+            # A pencil's hole is left out where there is no room for it; an eye is not.
+            if (name in self.hung and room > -sizes.hole) or (name in traced and room >= sizes.between):
+                holes.append(Hole(place, sizes.hole, name))
+        if draft.teeth is not None and not draft.teeth.wheel.ring:
+            corners: Iterable[complex] = (draft.teeth.middle,)
+        elif draft.teeth is not None:
+            corners = draft.reach
+        else:
+            shown = (draft.places[name] for name in draft.places if name in draft.shown)
+            corners = (*(hole.at for hole in holes), *shown, *draft.reach)
+        least = {"ground": sizes.bar, "slider": 0.0}.get(draft.role, sizes.bar / 2)
+        radius = (
+            draft.teeth.wheel.tip if draft.teeth and not draft.teeth.wheel.ring else max(draft.radius, least)
+        )
+        return Plate(
+            draft.name,
+            draft.role,
+            draft.frame,
+            tuple(dict.fromkeys(corners)),
+            radius,
+            draft.bodies,
+            tuple(holes),
+            tuple(draft.slots),
+            draft.teeth,
+        )
+
+    def _seen(self, pin: KitPin, frame: Frame) -> complex:
+        """Return where a pin lies in a frame that it keeps its place in."""
+        if pin.frame == frame:
+            return pin.at
+        at = self.cycle.paths(pin.frame, [pin.at])[0, 0]
+        origin, unit = self.cycle.paths(frame, [0j, 1 + 0j])[0]
+        return complex((at - origin) * (unit - origin).conjugate())
+
+
+def _range(along: Real) -> tuple[float, float]:
+    """Return how far samples of a closed motion come, and what the bend between two of them may add."""
+    bend = float(np.abs(np.diff(along, 2, append=along[:2])).max()) / 4
+    return float(along.min()) - bend, float(along.max()) + bend
+
+
+def _joined(count: int, pairs: Iterable[tuple[int, int]]) -> tuple[tuple[int, ...], ...]:
+    """Return the sets of numbers that pairs join, in the order of their first."""
+    home = list(range(count))
+    for a, b in pairs:
+        one, other = sorted((home[a], home[b]))
+        home = [one if at == other else at for at in home]
+    return tuple(tuple(n for n in range(count) if home[n] == at) for at in dict.fromkeys(home))

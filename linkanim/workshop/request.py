@@ -1,0 +1,190 @@
+"""`linkanim.make`: what is asked for, its sizes and its scale; then the parts, as a value or as files."""
+
+from __future__ import annotations
+
+import math
+import os
+from dataclasses import replace
+from itertools import combinations
+from typing import NamedTuple, get_args
+
+import numpy as np
+
+from linkanim.errors import BadInput
+from linkanim.scenes.scene import Scene
+from linkanim.units import shown
+from linkanim.workshop.gears import NotFlat
+from linkanim.workshop.made import MadeLinkage, Size, Way, laid, true_scale
+from linkanim.workshop.nesting import FOOT, MARGIN, PAGES
+from linkanim.workshop.parts import Plate, Sizes, kit
+from linkanim.workshop.shapes import box, polygon, upright
+from linkanim.workshop.sweep import GROUND, Cycle
+
+_SHEETS: dict[str, Size] = {"laser": (600.0, 400.0), "print": (math.inf, math.inf), "cardboard": PAGES["A4"]}
+"""The usual sheet of each way; of a printer's bed we know nothing."""
+_USUAL = {"cardboard": (1.5, 0.0), "laser": (3.0, 0.2), "print": (4.0, 0.4)}
+"""The usual thickness and clearance of each way, in mm."""
+_GAP = 0.5
+_SLENDER, _HOLED, _WIDEST_HOLE = 14.0, 0.4, 6.0
+"""A usual bar's length over its width, its hole's share of that, and the widest usual hole, in mm."""
+_SMALLEST, _LARGEST = 1e-3, 1e5
+"""Between which all lengths that are asked for lie, in mm."""
+_STEPS = 12
+
+
+def make(
+    scene: Scene,
+    output: str | os.PathLike[str] | None = None,
+    *,
+    way: str = "cardboard",
+    bar: float | None = None,
+    hole: float | None = None,
+    thickness: float | None = None,
+    clearance: float | None = None,
+    gap: float = _GAP,
+    kerf: float = 0.0,
+    sheet: str | Size | None = None,
+    fit: str | None = None,
+    bridge: bool = False,
+) -> MadeLinkage:
+    """Return a scene as flat parts with holes, pins and layers; with an `output`, write them into a folder.
+
+    `way` is "cardboard" (a PDF to print), "laser" (SVG and DXF) or "print" (STL). Lengths are in mm: the
+    width of a `bar`, a `hole`'s diameter, the material's `thickness`; by how much a hole is wider than its
+    pin (`clearance`), how far from each other parts of a layer pass (`gap`), what a cut takes away (`kerf`);
+    the width and height of a `sheet`, or a page, "A4" or "Letter". It is in true size, or scaled so that each
+    part `fit`s a page. With a `bridge` fixed pins may hang from a plate above. What cannot be made flat comes
+    back with the reason in `refused`; with an `output` that is BadInput. BadInput for sizes that make no
+    sense, and `WorkFailed` where disk or folder refuse.
+    """
+    if way not in get_args(Way):
+        raise BadInput(f"way={shown(way)}: take {', '.join(get_args(Way))}")
+    if fit is not None and fit not in PAGES:
+        raise BadInput(f"fit={shown(fit)}: take {' or '.join(PAGES)}")
+    asked = _Asked(way, bar, hole, thickness, clearance, gap, kerf)  # type: ignore[arg-type]
+    asked.check()
+    size = _sheet(sheet, fit, asked.way)
+    found = MadeLinkage(scene, asked.way, Sizes(true_scale(scene)), kerf, size)
+    try:
+        scale = _fitting(scene, asked, PAGES[fit]) if fit else true_scale(scene)
+        found = laid(replace(found, sizes=asked.sizes(scene, scale)), bridge=bridge)
+    except NotFlat as why:
+        found = replace(found, refused=f"{scene.name} cannot be made of flat parts: {why}")
+    if output is not None:
+        # Here, since what is only asked for its layers needs no pictures.
+        from linkanim.workshop.files import write
+
+        write(found, output)
+    return found
+
+
+class _Asked(NamedTuple):
+    """The lengths that were asked for, in mm; None where the usual ones will do."""
+
+    way: Way
+    bar: float | None
+    hole: float | None
+    thickness: float | None
+    clearance: float | None
+    gap: float
+    kerf: float
+
+    def check(self) -> None:
+        """Raise BadInput for what is no length."""
+        for name, value in self._asdict().items():
+            least = 0.0 if name in ("clearance", "gap", "kerf") else _SMALLEST
+            if isinstance(value, int | float) and not least <= value <= _LARGEST:
+                raise BadInput(f"{name}={value:g}: give a length in mm from {least:g} to {_LARGEST:g}")
+
+    def sizes(self, scene: Scene, scale: float) -> Sizes:
+        """Return the sizes asked for, and usual ones for the rest: slender bars, holes that lie apart."""
+        spans = [
+            scale * abs(one - other)
+            for frame in scene.linkage.rigid_bodies[1:]
+            for one, other in combinations(frame.values(), 2)
+            if abs(one - other) > _SMALLEST * scene.linkage.longest
+        ]
+        longest, shortest = max(spans, default=100.0), min(spans, default=100.0)
+        if not _SMALLEST < shortest <= longest < _LARGEST:
+            raise BadInput(
+                f"{scene.name} has parts of {shortest:.3g} to {longest:.3g} mm, which nobody can make; scale "
+                "it to a page (--fit A4)"
+            )
+        usual = _rounded(min(longest / _SLENDER, 0.9 * shortest))
+        bar = self.bar or max(usual, (self.hole or 0.0) / _HOLED)
+        hole = self.hole or min(_rounded(_HOLED * bar), max(_WIDEST_HOLE, _rounded(bar / 10)))
+        if hole >= bar:
+            raise BadInput(
+                f"a hole of {hole:g} mm is no narrower than its bar of {bar:g} mm; make it narrower "
+                "(--hole), or the bar wider (--bar)"
+            )
+        thickness, loose = _USUAL[self.way]
+        clearance = min(loose, hole / 10) if self.clearance is None else self.clearance
+        for name, value in (("clearance", clearance), ("kerf", self.kerf)):
+            if value >= hole:
+                raise BadInput(
+                    f"a {name} of {value:g} mm leaves nothing of a hole of {hole:g} mm; make it smaller "
+                    f"(--{name})"
+                )
+        return Sizes(scale, bar, hole, self.gap, clearance, self.thickness or thickness)
+
+
+def _sheet(sheet: str | Size | None, fit: str | None, way: Way) -> Size:
+    """Return the width and height of a sheet, or of a page, in mm."""
+    if isinstance(sheet, str):
+        if sheet not in PAGES:
+            raise BadInput(
+                f"sheet={shown(sheet)}: take {' or '.join(PAGES)}, or a size in mm such as 600x400"
+            )
+        return PAGES[sheet]
+    least = 2 * MARGIN + FOOT
+    if sheet is not None and not all(least < side <= _LARGEST for side in sheet):
+        raise BadInput(
+            f"a sheet of {sheet[0]:g} x {sheet[1]:g} mm: give sides above {least:g} mm, such as 600x400"
+        )
+    return sheet or (PAGES[fit] if fit and way == "cardboard" else _SHEETS[way])
+
+
+def _rounded(length: float) -> float:
+    """Return a length in two digits, not above it."""
+    step = 10.0 ** (math.floor(math.log10(length)) - 1)
+    return float(f"{math.floor(length / step + 1e-9) * step:.2g}")
+
+
+def _fitting(scene: Scene, asked: _Asked, page: Size) -> float:
+    """Return the largest scale, in two digits, at which each part fits a page; in mm a unit of length."""
+    wide, high = page
+    room, true = (high - 2 * MARGIN - FOOT, wide - 2 * MARGIN), true_scale(scene)
+
+    def growth(ratio: float) -> float:
+        """Return how many times as large the largest part could be."""
+        plates = kit(Cycle(scene, ratio * true), asked.sizes(scene, ratio * true)).plates
+        sizes = (_size(plate) for plate in plates)
+        return min(most / size for both in sizes for size, most in zip(both, room, strict=True))
+
+    cycle = Cycle(scene, true)
+    places = np.concatenate([cycle.seen(joint.name, GROUND) for joint in scene.linkage.joints])
+    ratio = room[0] / max(float(np.ptp(places.real)), float(np.ptp(places.imag)))
+    # A part's size is one share that is scaled and one that is not: each step comes nearer.
+    for _ in range(_STEPS):
+        more = growth(ratio)
+        ratio *= more
+        if asked.bar and ratio * true * scene.linkage.longest < asked.bar:
+            raise BadInput(
+                f"for {scene.name} to fit the page its bars would be shorter than {asked.bar:g} mm, their "
+                "width; make them narrower (--bar)"
+            )
+        if abs(more - 1) < 0.01:
+            break
+    ratio = _rounded(ratio)
+    while growth(ratio) < 1:
+        ratio = _rounded(0.99 * ratio)
+    return ratio * true
+
+
+def _size(plate: Plate) -> Size:
+    """Return the sides of the smallest rectangle about a plate, the longer one first."""
+    points = polygon(plate.outline())
+    turn = upright(points)
+    left, right, low, high = box(turn * point for point in points)
+    return right - left, high - low

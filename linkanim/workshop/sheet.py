@@ -1,0 +1,264 @@
+"""The page that tells how to put it together: parts, layers, steps, what to predict and what to measure."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from linkanim.digits import significant
+from linkanim.errors import WorkFailed
+from linkanim.paper import html
+from linkanim.paper.figure import Figured
+from linkanim.paper.html import Beside, FigurePart, Part
+from linkanim.paper.svg import svg
+from linkanim.picture.figure import figure
+from linkanim.picture.items import Item
+from linkanim.picture.look import Look
+from linkanim.picture.parts.driven import driven_words
+from linkanim.picture.text.text import subscripted
+from linkanim.play.question import QuizQuestion
+from linkanim.play.round import next_question
+from linkanim.play.sheet import LETTERS, pose_words
+from linkanim.workshop.drawing import Drawn
+from linkanim.workshop.made import MadeLinkage, MadePin
+
+_FIGURE, _PLAN, _SIDE, _EXPLODED, _STEP = (820, 440), (820, 500), (820, 260), (820, 560), (440, 300)
+_QUESTIONS = 4
+_BY_HAND = ("heading", "turning", "dead centre", "input range", "fastest")
+"""The kinds of questions that a model which is turned by hand answers."""
+_KEY = "Key"
+_WAYS = {
+    "cardboard": "Print parts.pdf at 100 %, hold a ruler against the one at the foot, glue the pages on "
+    "cardboard, and cut. Pins are brads, or pieces of a round rod, {pin} mm thick.",
+    "laser": "Cut the sheet parts-{thick}mm, SVG or DXF: red lines are cut, blue words engraved. Pins are "
+    "pieces of a round rod, {pin} mm thick, glued into the ground, or into the lowest of their plates.",
+    "print": "Print each STL file lying as it is. A pin goes through from below, its head sunk in the lowest "
+    "of its plates; a cap, sunk in the highest, is pressed on. Where a plate has a slot there is neither.",
+}
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """How to put together what is made, as a page to be printed."""
+
+    made: MadeLinkage
+
+    @cached_property
+    def phase(self) -> float:
+        """The phase at which it is put together: that with the joints farthest apart."""
+        return figure(self.made.scene).clearest
+
+    def document(self) -> str:
+        """Return the page as HTML."""
+        return html.page(f"{self.made.scene.title}: to make", self._head(), self._chapters(), apart=(_KEY,))
+
+    def _head(self) -> Iterator[str]:
+        made, sizes = self.made, self.made.sizes
+        fewest = "fewer cannot turn" if made.fewest else "there may be a way with fewer"
+        yield html.paragraph(
+            f"{len(made.plates)} flat parts of {sizes.thickness:g} mm, {made.size_words}, in {made.layers} "
+            f"layers on the ground ({fewest}); bars {_mm(sizes.bar)} wide, holes {_mm(sizes.hole)}. Over the "
+            f"whole period nothing in a layer comes nearer to anything else than {_mm(sizes.gap)}."
+        )
+        words = {"pin": significant(sizes.pin, 3), "thick": f"{sizes.thickness:g}"}
+        yield html.paragraph(_WAYS[made.way].format(**words))
+
+    def _chapters(self) -> Iterator[tuple[str, Iterable[Part]]]:
+        questions = self._questions()
+        yield "What it is", self._overview()
+        yield "Parts", self._parts()
+        yield "Layers", self._layers()
+        yield "Putting it together", self._steps()
+        yield "Predict, turn, measure", self._tasks(questions)
+        yield _KEY, self._key(questions)
+
+    def _overview(self) -> Iterator[Part]:
+        scene = self.made.scene
+        pose = Figured(scene, _FIGURE, Look(hud=False, names=1), self.phase)
+        where = driven_words(scene, scene.pose(self.phase, 0).coordinate)
+        words = f"The linkage, its {scene.info.input_name} at {where}: links and joints"
+        yield FigurePart(pose.document(), words, 85)
+        drawn = Drawn(self.made, self.phase, _PLAN)
+        yield _drawing(drawn.plan(), _PLAN, "The first pose: the parts from above, by layers", 100)
+
+    def _parts(self) -> Iterator[Part]:
+        made, sizes = self.made, self.made.sizes
+        heads = "no.", "part", "quantity", "layer", "holes", "slots for", "measure"
+        plates = [(*self._row(number),) for number in range(len(made.plates))]
+        yield html.table("Flat parts, numbered as in the figures", heads, plates)
+        heads = "pin", "quantity", "thick", "long", "from, to", "stands", "rings: layer, outer width"
+        pins = [
+            (
+                *(subscripted(pin.name), "1", f"{significant(sizes.pin, 3)} mm"),
+                f"{(pin.high - pin.low + 1) * sizes.thickness:g} mm",
+                f"{_level(pin.low)}, {_level(pin.high)}",
+                {"below": "in the ground", "above": "in the bridge", None: ""}[pin.side],
+                "; ".join(f"{ring.layer}, {_mm(ring.diameter)}" for ring in pin.spacers),
+            )
+            for pin in made.pins
+        ]
+        yield html.table("Pins, and rings on them that keep layers apart", heads, pins)
+        for band in made.bands:
+            ends = " and ".join(subscripted(name) for name in band.joints)
+            yield html.paragraph(f"A rubber band for the {band.name}, between {ends}, over all layers.")
+
+    def _row(self, number: int) -> Iterator[str]:
+        """Yield the cells of a plate's row."""
+        made, plate = self.made, self.made.plates[number]
+        yield from (
+            made.numbers[number],
+            ", ".join(plate.bodies) or plate.name,
+            "1",
+            _level(made.layer[number]),
+        )
+        named = [hole for hole in plate.holes if hole.joint]
+        yield ", ".join(subscripted(hole.joint) for hole in named)
+        yield ", ".join(subscripted(slot.joint) for slot in plate.slots)
+        far = max((abs(one.at - other.at) for one in named for other in named), default=0.0)
+        if plate.teeth is not None:
+            wheel = plate.teeth.wheel
+            yield f"{wheel.teeth} teeth, module {significant(wheel.module, 4)} mm"
+        else:
+            yield f"{_mm(far)} between its outermost holes" if far else ""
+
+    def _layers(self) -> Iterator[Part]:
+        side, exploded = (Drawn(self.made, self.phase, size) for size in (_SIDE, _EXPLODED))
+        yield _drawing(side.side(), _SIDE, "The layers from the side, in the first pose", 60)
+        yield _drawing(exploded.exploded(), _EXPLODED, "The layers lifted off each other", 100)
+
+    def _steps(self) -> Iterator[Part]:
+        """Yield a picture for each step with what to do: the ground first, then layer by layer."""
+        made = self.made
+        order = sorted(range(len(made.plates)), key=lambda number: (made.layer[number], number))
+        ground = [number for number in order if made.layer[number] == 0]
+        steps = [ground, *([number] for number in order[len(ground) :])]
+        pictures = []
+        for n, new in enumerate(steps, start=1):
+            shown = order[: order.index(new[-1]) + 1]
+            drawn = Drawn(made, self.phase, _STEP, shown=shown, new=new)
+            words = self._laid_down(new) if n == 1 else self._laid_on(new[0])
+            pictures.append(_drawing(drawn.plan(), _STEP, f"Step {n}. {words}", 60))
+        yield Beside(tuple(pictures))
+        yield html.paragraph(" ".join(self._remarks()))
+
+    def _laid_down(self, plates: Sequence[int]) -> str:
+        """Return how the ground is laid down, with its pins and the tongues in its slots."""
+        made = self.made
+        words = [f"Lay down {made.label(0)}"]
+        if standing := [pin for pin in made.pins if pin.side == "below"]:
+            words.append(f"put {_named(standing)} up through it")
+        for number in plates[1:]:
+            pins = [pin for pin in made.pins if number in pin.plates]
+            words.append(f"lay {made.label(number)} into its slot, {_named(pins)} up through it")
+        return "; ".join(words) + "."
+
+    def _laid_on(self, number: int) -> str:
+        """Return how a plate is laid on those below."""
+        made, layer = self.made, self.made.layer[number]
+        pins = [pin for pin in made.pins if number in pin.plates]
+        there = [pin for pin in pins if pin.low < layer]
+        ringed = [pin for pin in there if any(ring.layer < layer for ring in pin.spacers)]
+        words = f"Layer {layer}: {made.label(number)}"
+        for more, some in (
+            (", with {} up through it", [pin for pin in pins if pin.low == layer]),
+            (", over {}", [pin for pin in there if number not in pin.sliding]),
+            (", its slot over {}", [pin for pin in there if number in pin.sliding]),
+            ("; before that, rings on {} in the layers that it passes", ringed),
+            ("; close {}", [pin for pin in there if pin.high == layer and not pin.stuck]),
+        ):
+            if some:
+                words += more.format(_named(some))
+        return words + "."
+
+    def _remarks(self) -> Iterator[str]:
+        """Yield what else there is to know when it is put together."""
+        made, drive = self.made, self.made.scene.linkage.drive
+        moved = "Turn it by" if drive.coordinate.is_angle else "Push it at"
+        yield f"{moved} {subscripted(drive.joint)}; hold it against the first pose."
+        if any(plate.role == "slider" and made.layer[n] == 0 for n, plate in enumerate(made.plates)):
+            yield "Tongues lie loose in the slots of the ground: a card under it keeps them in."
+        if any(plate.teeth for plate in made.plates):
+            yield "Put wheels into mesh with all cranks as in the first pose: a tooth on is another linkage."
+        if made.scene.info.change_points:
+            yield "At its change points it can go on in two ways: there a finger leads it."
+
+    def _questions(self) -> list[QuizQuestion]:
+        """Return questions that the model answers; none where nothing of it moves clearly."""
+        found: list[QuizQuestion] = []
+        for n in range(_QUESTIONS):
+            before = [one.question_id for one in found]
+            try:
+                question = next_question(self.made.scene, f"make {n}", before, _BY_HAND)
+            except WorkFailed:
+                break
+            if question.question_id not in before:
+                found.append(question)
+        return found
+
+    def _tasks(self, questions: Sequence[QuizQuestion]) -> Iterator[Part]:
+        rows = [
+            (
+                str(n),
+                pose_words(one),
+                one.text,
+                "; ".join(f"{letter}) {text}" for letter, text in _answers(one)),
+            )
+            for n, one in enumerate(questions, start=1)
+        ]
+        if rows:
+            heads = "", "where", "question", "answers"
+            yield html.table("Predict before it is turned, then turn it there and look", heads, rows)
+        blank = [(what, "", "") for what, _ in self._measures()]
+        yield html.table("Measure on the model", ("what", "measured", "worked out from its lengths"), blank)
+
+    def _key(self, questions: Sequence[QuizQuestion]) -> Iterator[Part]:
+        rows = [
+            (str(n), *[") ".join([*_answers(one)][one.right]), one.why])
+            for n, one in enumerate(questions, start=1)
+        ]
+        if rows:
+            yield html.table("Predictions", ("", "right", "why"), rows)
+        yield html.table("Measures of the model", ("what", "value"), [*self._measures()])
+
+    def _measures(self) -> Iterator[tuple[str, str]]:
+        """Yield what can be measured on the model, and its value there."""
+        made, info = self.made, self.made.scene.info
+        if info.stroke:
+            yield "stroke of the slider", _mm(info.stroke * made.sizes.scale)
+        if info.swing is not None:
+            yield f"swing of the {info.output_name}", f"{math.degrees(info.swing.stroke):.1f}°"
+        if info.time_ratio is not None:
+            yield "the input's way for the slow stroke, over that for the quick one", f"{info.time_ratio:.2f}"
+        if info.transmission_angle is not None:
+            least, most = (math.degrees(angle) for angle in info.transmission_angle)
+            yield "least and greatest transmission angle", f"{least:.0f}°, {most:.0f}°"
+        cycle = figure(made.scene).cycle
+        for joint in made.scene.trace:
+            wide, high = np.ptp(np.asarray(cycle.position[joint]) * made.sizes.scale, axis=0)
+            yield f"width and height of the curve of {subscripted(joint)}", f"{_mm(wide)}, {_mm(high)}"
+
+
+def _drawing(items: Iterable[Item], size: tuple[int, int], caption: str, highest: int) -> FigurePart:
+    return FigurePart(svg(size, None, items, title=caption), caption, highest)
+
+
+def _answers(question: QuizQuestion) -> Iterator[tuple[str, str]]:
+    return ((letter, answer.text) for letter, answer in zip(LETTERS, question.answers, strict=False))
+
+
+def _mm(length: float) -> str:
+    return f"{significant(float(length), 4)} mm"
+
+
+def _level(layer: int) -> str:
+    return str(layer) if layer else "ground"
+
+
+def _named(pins: Sequence[MadePin]) -> str:
+    """Return pins in words."""
+    names = [subscripted(pin.name) for pin in pins]
+    return f"pin {names[0]}" if len(names) == 1 else f"pins {', '.join(names[:-1])} and {names[-1]}"

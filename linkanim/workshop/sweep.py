@@ -1,0 +1,267 @@
+"""How near moving pieces come to each other over the whole true period, and not only at samples.
+
+A piece is made of convex cells, each a hull of corners with a rim of one radius, and moves with a frame: a
+joint that it keeps, and a direction. Between two samples a corner strays from where the nearer one has it by
+no more than its speeds, a bound of its acceleration, and what the way between the samples is longer than its
+speeds account for. Where that does not settle whether two pieces stay apart, the step is halved.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkanim.scenes.scene import Scene
+
+Real = NDArray[np.float64]
+Points = NDArray[np.complex128]
+Numbers = NDArray[np.int64]
+
+_SAMPLES = 720
+"""A drive period; more where something turns quicker than the drive."""
+_MOST_SAMPLES = 11_520
+_HALVINGS = 9
+_CAUTION = 2.0
+"""How much more an acceleration may be within a step than at its ends."""
+
+
+class Frame(NamedTuple):
+    """How a piece moves: the joint that its origin is, and its x axis, `turn` from one joint to another.
+
+    None stands for the origin and the x axis of the ground.
+    """
+
+    origin: str | None = None
+    axis: tuple[str, str] | None = None
+    turn: complex = 1 + 0j
+
+
+GROUND = Frame()
+
+
+class MovingPiece(NamedTuple):
+    """Convex cells, each the corners of a hull in the frame, with one radius about them; lengths in mm."""
+
+    frame: Frame
+    cells: tuple[tuple[complex, ...], ...]
+    radius: float
+
+
+class Nearness(NamedTuple):
+    """Whether two pieces stay as far apart as asked; how near they come at least; the phase of that.
+
+    The distance is a bound that they do not come below where they stay apart, else one that they reach.
+    """
+
+    apart: bool
+    distance: float
+    phase: float
+
+
+class _Places(NamedTuple):
+    """Where joints are, in mm, and their first two derivatives by the phase."""
+
+    position: Mapping[str, Points]
+    velocity: Mapping[str, Points]
+    acceleration: Mapping[str, Points]
+
+
+class _Placed(NamedTuple):
+    """Where a frame is: its origin and its direction, each with two derivatives."""
+
+    origin: tuple[Points, Points, Points]
+    way: tuple[Points, Points, Points]
+
+
+class Cycle:
+    """A scene's true period in mm, sampled closely enough for its quickest part, and closer where asked."""
+
+    def __init__(self, scene: Scene, scale: float) -> None:
+        """Solve it; `scale` is millimetres a unit of length of the scene."""
+        self.scene, self.scale = scene, scale
+        self.count = _SAMPLES * max(round(scene.period / (2 * np.pi)), 1)
+        quickest = _quickest(self._at(self.phases), scene)
+        self.count = int(min(self.count * max(quickest, 1.0), max(_MOST_SAMPLES, self.count)))
+        self._start = self._at(self.phases)
+
+    @property
+    def phases(self) -> Real:
+        """The phases of the samples, equally spaced over the period, its end left out."""
+        return np.arange(self.count, dtype=np.float64) * (self.scene.period / self.count)
+
+    def _at(self, phases: Real) -> _Places:
+        motion = self.scene.solve(phase=phases, speed=1.0, derivatives=2)
+        names = [joint.name for joint in self.scene.linkage.joints]
+
+        def read(quantity: Mapping[str, Any]) -> dict[str, Points]:
+            pairs = {name: np.broadcast_to(quantity[name], (len(phases), 2)) for name in names}
+            return {name: self.scale * (pair[:, 0] + 1j * pair[:, 1]) for name, pair in pairs.items()}
+
+        return _Places(read(motion.position), read(motion.velocity), read(motion.acceleration))
+
+    def paths(self, frame: Frame, points: Sequence[complex]) -> Points:
+        """Return where points of a frame are at the samples, (samples, points), in the ground's."""
+        placed = _placed(frame, self._start, self.count)
+        found: Points = placed.origin[0][:, None] + placed.way[0][:, None] * np.asarray(points)
+        return found
+
+    def seen(self, joint: str, frame: Frame) -> Points:
+        """Return where a joint is at the samples in a frame's own coordinates."""
+        placed = _placed(frame, self._start, self.count)
+        return (self._start.position[joint] - placed.origin[0]) * placed.way[0].conj()
+
+    def nearness(
+        self, pieces: Sequence[MovingPiece], pairs: Sequence[tuple[int, int, float]]
+    ) -> list[Nearness]:
+        """Return how near two pieces come, for each (piece, piece, distance that is asked for)."""
+        found: dict[int, Nearness] = {}
+        finest = 2**_HALVINGS
+        # A step is known by where it begins, counted in the finest steps.
+        open_ = {k: np.arange(self.count) * finest for k in range(len(pairs))}
+        bounds = [np.inf] * len(pairs)
+        for level in range(_HALVINGS + 1):
+            if not open_:
+                break
+            width = finest >> level
+            begins = np.unique(np.concatenate(list(open_.values())))
+            rims = np.unique(np.concatenate((begins, begins + width)) % (self.count * finest))
+            step = self.scene.period / (self.count * finest)
+            places = self._at(rims * step) if level else self._start
+            used = {n for k in open_ for n in pairs[k][:2]}
+            placed = {f: _placed(f, places, len(rims)) for f in {pieces[n].frame for n in used}}
+            first, last = (
+                np.searchsorted(rims, some % (self.count * finest)) for some in (begins, begins + width)
+            )
+            strays = {n: _stray(pieces[n], placed[pieces[n].frame], first, last, width * step) for n in used}
+            for k, own in list(open_.items()):
+                i, j, least = pairs[k]
+                rows = np.searchsorted(begins, own)
+                ends, back = np.unique(np.concatenate((first[rows], last[rows])), return_inverse=True)
+                apart = _apart(pieces[i], pieces[j], placed, ends)
+                n = int(apart.argmin())
+                phase = float(rims[ends[n]] * step)
+                if apart[n] < least:
+                    found[k] = Nearness(False, float(apart[n]), phase)
+                    del open_[k]
+                    continue
+                sure = apart[back].reshape(2, -1).min(axis=0) - strays[i][rows] - strays[j][rows]
+                unsure = sure < least
+                bounds[k] = min(bounds[k], float(sure[~unsure].min(initial=np.inf)))
+                if not unsure.any():
+                    found[k] = Nearness(True, bounds[k], phase)
+                    del open_[k]
+                elif level == _HALVINGS:
+                    found[k] = Nearness(False, float(sure.min()), phase)
+                    del open_[k]
+                else:
+                    open_[k] = np.sort(np.concatenate((own[unsure], own[unsure] + width // 2)))
+        return [found[k] for k in range(len(pairs))]
+
+
+def _quickest(places: _Places, scene: Scene) -> float:
+    """Return how many times as fast as the drive's phase the quickest bar turns."""
+    rates = [1.0]
+    for crank in scene.linkage.cranks:
+        bar = places.position[crank.name] - places.position[crank.pivot]
+        moves = places.velocity[crank.name] - places.velocity[crank.pivot]
+        rates.append(float(np.max(np.abs((moves * bar.conj()).imag / np.abs(bar) ** 2))))
+    return max(rates)
+
+
+def _placed(frame: Frame, places: _Places, count: int) -> _Placed:
+    nothing = np.zeros(count, np.complex128)
+    origin = (nothing, nothing, nothing)
+    if frame.origin is not None:
+        origin = tuple(quantity[frame.origin] for quantity in places)  # type: ignore[assignment]
+    if frame.axis is None:
+        return _Placed(origin, (nothing + frame.turn, nothing, nothing))
+    begin, end = frame.axis
+    bar, moves, speeds = (quantity[end] - quantity[begin] for quantity in places)
+    size = np.abs(bar)
+    way = bar / size
+    # The bar keeps its length: its direction's derivatives are those of the bar across it, and inwards.
+    rate = (moves * way.conj()).imag / size
+    second = (speeds * way.conj()).imag / size
+    way = way * frame.turn
+    return _Placed(origin, (way, 1j * rate * way, (1j * second - rate**2) * way))
+
+
+def _stray(piece: MovingPiece, placed: _Placed, first: Numbers, last: Numbers, step: float) -> Real:
+    """Return how far a piece's points may be, within each step, from where the nearer end has them."""
+    far = max(abs(corner) for cell in piece.cells for corner in cell)
+    total = np.zeros(len(first))
+    for (place, speed, acceleration), share in ((placed.origin, 1.0), (placed.way, far)):
+        fastest = np.maximum(np.abs(speed[first]), np.abs(speed[last]))
+        bent = _CAUTION * np.maximum(np.abs(acceleration[first]), np.abs(acceleration[last]))
+        way = place[last] - place[first] - (speed[first] + speed[last]) * (step / 2)
+        total += share * (fastest * (step / 2) + bent * (step**2 / 8) + np.abs(way))
+    return total
+
+
+def _apart(one: MovingPiece, other: MovingPiece, placed: Mapping[Frame, _Placed], rows: Numbers) -> Real:
+    """Return how far apart two pieces are; not above 0 where they overlap."""
+
+    def corners(piece: MovingPiece, cell: Sequence[complex]) -> Points:
+        there = placed[piece.frame]
+        found: Points = there.origin[0][rows, None] + there.way[0][rows, None] * np.asarray(cell)
+        return found
+
+    ones, others = ([corners(piece, cell) for cell in piece.cells] for piece in (one, other))
+    least = np.full(len(rows), np.inf)
+    for a in ones:
+        for b in others:
+            np.minimum(least, hulls_apart(a, b), out=least)
+    return least - one.radius - other.radius
+
+
+def hulls_apart(a: Points, b: Points) -> Real:
+    """Return the distances of convex hulls, corners (n, k) and (n, m) in order; 0 where they overlap."""
+    least = np.minimum(_corners_to_edges(a, b), _corners_to_edges(b, a))
+    return np.where(_meet(a, b), 0.0, least)
+
+
+def _edges(corners: Points) -> tuple[Points, Points]:
+    """Return where edges begin and which way they go; a point is an edge of no length."""
+    if corners.shape[1] < 3:
+        return corners[:, :1], corners[:, -1:] - corners[:, :1]
+    return corners, np.roll(corners, -1, axis=1) - corners
+
+
+def _corners_to_edges(corners: Points, hull: Points) -> Real:
+    begin, along = _edges(hull)
+    squared = np.abs(along) ** 2
+    reach = corners[:, :, None] - begin[:, None, :]
+    share = (reach * along[:, None, :].conj()).real / np.where(squared > 0, squared, 1.0)[:, None, :]
+    away = reach - np.clip(share, 0.0, 1.0) * along[:, None, :]
+    least: Real = np.abs(away).min(axis=(1, 2))
+    return least
+
+
+def _meet(a: Points, b: Points) -> NDArray[np.bool_]:
+    """Whether edges cross, or one hull holds a corner of the other."""
+    inside = _holds(a, b[:, 0]) | _holds(b, a[:, 0])
+    if min(a.shape[1], b.shape[1]) < 2:
+        return inside
+    (p, u), (q, v) = _edges(a), _edges(b)
+    between = q[:, None, :] - p[:, :, None]
+    one, other = u[:, :, None], v[:, None, :]
+    left = _cross(one, between) * _cross(one, between + other) < 0
+    right = _cross(other, between) * _cross(other, between - one) < 0
+    found: NDArray[np.bool_] = inside | np.any(left & right, axis=(1, 2))
+    return found
+
+
+def _holds(hull: Points, point: Points) -> NDArray[np.bool_]:
+    if hull.shape[1] < 3:
+        return np.zeros(len(point), np.bool_)
+    begin, along = _edges(hull)
+    inside: NDArray[np.bool_] = np.all(_cross(along, point[:, None] - begin) > 0, axis=1)
+    return inside
+
+
+def _cross(a: Points, b: Points) -> Real:
+    product: Real = (a.conj() * b).imag
+    return product

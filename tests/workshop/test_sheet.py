@@ -1,0 +1,84 @@
+"""The page that tells how to put it together, and the pictures on it."""
+
+from __future__ import annotations
+
+import re
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+
+from linkanim.picture.figure import figure
+from linkanim.picture.items import Caption
+from linkanim.picture.raster.raster import Layer
+from linkanim.scenes import load
+from linkanim.workshop.drawing import Drawn
+from linkanim.workshop.request import make
+from linkanim.workshop.sheet import Sheet
+
+
+@pytest.mark.parametrize("name", ["press", "crank-shaper", "drag-link", "cardan-gears"])
+def test_every_part_is_listed_and_put_on_once_in_the_order_of_layers(name: str) -> None:
+    made = make(load(name), fit="A4", bridge=True)
+    text = Sheet(made).document()
+    steps = [re.sub(r"<.*?>", "", step) for step in re.findall(r"Step \d+\. .*?(?=</figcaption>)", text)]
+    put_on = [re.search(r"Layer (\d+): (\S+)", step) for step in steps[1:]]
+    layers = [int(found[1]) for found in put_on if found]
+    assert layers == sorted(layer for layer in made.layer if layer)
+    numbers = {found[2].rstrip(",;") for found in put_on if found}
+    assert numbers == {number for number, layer in zip(made.numbers, made.layer, strict=True) if layer}
+    for pin in made.pins:
+        written = pin.name if pin.stuck else pin.name[0]
+        assert sum(written in step for step in steps) >= 1
+    assert text.count("<tr><td>1</td>") >= 1
+
+
+def test_the_key_stands_on_a_page_of_its_own_and_the_tasks_do_not_tell_it() -> None:
+    text = Sheet(make(load("crank-shaper"))).document()
+    tasks, key = text.split("break-before: page", 1)
+    stroke = load("crank-shaper").info.stroke
+    assert stroke is not None
+    assert f"{stroke:.1f} mm" in key
+    assert f"{stroke:.1f} mm" not in tasks
+
+
+def test_numbers_are_those_of_the_scene_s_own_figures() -> None:
+    scene = load("press")
+    made = make(scene)
+    own = {body.name: number for body, number in figure(scene).numbers.items()}
+    for number, plate in zip(made.numbers, made.plates, strict=True):
+        assert all(own[name] == number for name in plate.bodies)
+    assert len(set(make(load("jansen")).numbers)) == len(make(load("jansen")).plates)
+
+
+@pytest.mark.parametrize("picture", ["plan", "side", "exploded"])
+@pytest.mark.parametrize("name", ["jansen", "press", "scotch-yoke", "drag-link"])
+def test_pictures_stay_within_their_size_and_show_every_part_and_pin(name: str, picture: str) -> None:
+    made = make(load(name), bridge=True)
+    size = 640, 420
+    items = list(getattr(Drawn(made, 0.5, size), picture)())
+    points = np.concatenate([loop for item in items if isinstance(item, Layer) for loop in item.loops])
+    assert (points.real.min(), points.imag.min()) >= (0, 0)
+    assert points.real.max() <= size[0]
+    assert points.imag.max() <= size[1]
+    words = {item.text for item in items if isinstance(item, Caption)}
+    assert {pin.name[0] for pin in made.pins if not pin.stuck} <= {word[0] for word in words}
+    if picture != "exploded":
+        shown = {n for n, layer in zip(made.numbers, made.layer, strict=True) if layer}
+        assert shown <= words
+
+
+def test_less_apart_is_less_high() -> None:
+    drawn = Drawn(make(load("jansen")), 0.5, (640, 420))
+
+    def high(apart: float) -> float:
+        loops = [loop for item in drawn.exploded(apart) if isinstance(item, Layer) for loop in item.loops]
+        return float(np.ptp(np.concatenate(loops).imag))
+
+    assert high(0.0) < high(0.5) < high(1.0)
+
+
+def test_the_page_is_well_formed_but_for_its_head() -> None:
+    text = Sheet(make(load("press"), fit="Letter")).document()
+    body = text[text.index("<body>") : text.index("</body>") + 7]
+    ElementTree.fromstring(body)
