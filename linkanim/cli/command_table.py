@@ -172,6 +172,7 @@ COMMANDS: Mapping[str, tuple[str, ...]] = {
         "linkanim draw crank-rocker --names --names",
         'linkanim draw press -o press.png --angle "87 deg" --vectors v --instant-centres',
         "linkanim draw kite -o kite.svg --poses 12 --no-trace",
+        "linkanim draw lid.toml -o lid.svg --construction",
     ),
     "explain": (
         "work one pose out line by line: vector loops, closed forms, linear equations, with numbers",

@@ -250,6 +250,13 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _SIZE,
         _look("draw"),
         _value("--poses N", values.poses, "N faint poses over the period behind it"),
+        _value(
+            "--construction N",
+            values.count,
+            "instead, how `guide`, `function` or `quick-return` made it; the first N steps of that",
+            nargs="?",
+            const=0,
+        ),
         _usually(hud=False),
     ),
     "explain": (

@@ -45,8 +45,8 @@ _KEY_DIGITS = 5
 class DocumentForm:
     """How one kind of document is written; names of joints are marked in headings and in text.
 
-    `listed` sets what is given: formulas, and what each is. `figure` draws the loops; on a page that is
-    left to who prints pictures. `new_page` begins one.
+    `listed` sets what is given: formulas, and what each is. `figure` draws the loops, `construction` how
+    the linkage was made; on a page that is left to who prints pictures. `new_page` begins one.
     """
 
     how: Notation
@@ -58,6 +58,7 @@ class DocumentForm:
     aligned: Callable[[list[EquationRow]], str]
     listed: Callable[[list[tuple[str, str]]], str]
     figure: Callable[[Solution], str] = lambda _: ""
+    construction: Callable[[Solution], str] = lambda _: ""
     new_page: str = ""
 
 
@@ -80,6 +81,8 @@ def chapters(found: Solution, form: DocumentForm, *, blank: bool = False) -> Ite
         yield form.heading(2, chapter.title)
         if chapter is found.loop_chapter:
             yield form.figure(found)
+        if chapter is found.synthesis_chapter:
+            yield form.construction(found)
         for step in chapter.steps:
             if step.title:
                 yield form.heading(3, step.title)

@@ -12,7 +12,7 @@ from linkanim.explain.expression import Formula, Symbol
 
 _GREEK = {
     "α": "alpha", "β": "beta", "γ": "gamma", "δ": "delta", "θ": "theta", "ω": "omega", "φ": "varphi",
-    "ψ": "psi", "σ": "sigma", "π": "pi", "ℓ": "ell", "→": "rightarrow",
+    "ψ": "psi", "ξ": "xi", "η": "eta", "μ": "mu", "σ": "sigma", "π": "pi", "ℓ": "ell", "→": "rightarrow",
 }  # fmt: skip
 _INDEX = re.compile(r"([^\W\d_]+|\W+|[^\W0-9])|([0-9]+)")
 _NOT_SET = re.compile("[^\0-\u017f]|[ĦħĸĿŀŉŦŧſ]")

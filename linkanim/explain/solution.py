@@ -20,6 +20,7 @@ from linkanim.explain.loops import LoopArrow, VectorLoop, loops_of
 from linkanim.explain.names import SymbolNames, names_of
 from linkanim.explain.parts import centre_of_mass, effort, strut
 from linkanim.explain.rates import BY_INPUT, IN_TIME, ORDERS, Order, Rates
+from linkanim.explain.synthesis import synthesis
 from linkanim.explain.work import ANGLE, LENGTH, Powers, Scale, Work, rounded
 from linkanim.mechanics.facts.register import input_symbol
 from linkanim.mechanics.linkage.linkage import Body
@@ -56,11 +57,18 @@ class Solution:
     results: tuple[Outcome, ...]
     places: dict[str, complex]
     singular: bool
+    made: bool = False
+    """Whether the last chapter says how the linkage was made."""
 
     @property
     def loop_chapter(self) -> Chapter:
         """The chapter of the loops, which has the figure."""
         return self.chapters[1]
+
+    @property
+    def synthesis_chapter(self) -> Chapter | None:
+        """The chapter on how the linkage was made, which has the figure of its construction."""
+        return self.chapters[-1] if self.made else None
 
     @property
     def arrows(self) -> tuple[LoopArrow, ...]:
@@ -182,12 +190,13 @@ class _Draft:
             "Given", (Step("", (*self.work.given.values(), *([Words(_CARRIED)] if rates else ()))),)
         )
         steps = tuple(loop.step for loop in loops) or (Step("", (Words(_NO_LOOP),)),)
-        chapters = (given, Chapter("Vector loops", steps), places, *rest)
+        made = synthesis(self.request.scene, self.work.names)
+        chapters = (given, Chapter("Vector loops", steps), places, *rest, *made)
         known = self.request.scene.quantities
         # of parts with one name the last has the token, as it has among the quantities
         results = tuple({one.token: one for one in self.results if one.token in known}.values())
         at = {joint.name: self.work.place(joint.name) for joint in self.linkage.joints}
-        return Solution(self.request, chapters, loops, results, at, not rates)
+        return Solution(self.request, chapters, loops, results, at, not rates, bool(made))
 
     def _step(self, title: str, write: Callable[[], object]) -> None:
         """Add a step with the lines that are written meanwhile; none where there are none."""

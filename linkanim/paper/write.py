@@ -5,6 +5,7 @@ from __future__ import annotations
 from linkanim.export import csv_head, csv_rows
 from linkanim.manifest import Output
 from linkanim.paper.chart import Page
+from linkanim.paper.construction import ConstructionPage
 from linkanim.paper.curves import table
 from linkanim.paper.figure import Figured
 from linkanim.paper.latex import write_for_latex
@@ -17,7 +18,9 @@ OF_A_FIGURE = (".svg", ".png", ".pdf")
 OF_A_CHART = (*OF_A_FIGURE, ".csv")
 
 
-def write(shown: Figured | Page | ErrorChart, target: Output, *, latex: bool = False) -> None:
+def write(
+    shown: Figured | Page | ErrorChart | ConstructionPage, target: Output, *, latex: bool = False
+) -> None:
     """Write a figure or a chart as SVG, PNG or PDF, a chart also as CSV; a file appears whole or not at all.
 
     The words of a PDF are left to `latex` in a file beside it. `WorkFailed` where disk or folder refuse;
@@ -33,7 +36,7 @@ def write(shown: Figured | Page | ErrorChart, target: Output, *, latex: bool = F
         part.write_bytes(data(shown, suffix))
 
 
-def data(shown: Figured | Page | ErrorChart, suffix: str) -> bytes:
+def data(shown: Figured | Page | ErrorChart | ConstructionPage, suffix: str) -> bytes:
     """Return a figure or a chart as a kind of file."""
     match suffix:
         case ".csv" if isinstance(shown, Page):

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from linkanim.mechanics.linkage.linkage import Linkage
     from linkanim.mechanics.motion.mechanism import Mechanism
     from linkanim.mechanics.motion.motion import Motion, Pose
+    from linkanim.scenes.purpose import Purpose
 
 
 Outline = Literal["bar", "plate", "wheel", "railwheel", "slot", "hook", "pad", "bucket", "none"]
@@ -60,6 +61,8 @@ class Scene:
     """What to watch for, in a sentence."""
     styles: tuple[tuple[str, BodyStyle], ...] = ()
     """How it has its bodies drawn, by their names, of those of which it says anything."""
+    purpose: Purpose | None = None
+    """What it was made for."""
     document: Mapping[str, Any] = field(default_factory=dict, repr=False, compare=False)
     """The scene file as it was read, for editing and writing it back."""
     towards: Scene | None = field(default=None, repr=False, compare=False)

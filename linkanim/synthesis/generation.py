@@ -816,6 +816,9 @@ def checked(task: FunctionTask, design: _Design) -> Generated | None:
         if generator.turning:
             seen = float(scene.solve(angle=start, derivatives=0).angle[generator.output])
             first += math.tau * round((seen - first) / math.tau)
+        points = _zeros(errors, x, sampled) if task.level else function.chebyshev(design.points)
+        stated = {"function": _stated(task, points, (start, wide, first, high))}
+        scene = scene_from({**document, **stated}, name=task.name, where=task.name)
     except (AssemblyError, SceneError):
         return None
     return Generated(
@@ -825,7 +828,7 @@ def checked(task: FunctionTask, design: _Design) -> Generated | None:
         ),
         error=float(np.abs(worst).max()),
         extremes=tuple(zip(extremes.tolist(), worst.tolist(), strict=True)),
-        points=_zeros(errors, x, sampled),
+        points=points,
         input_start=start,
         input_range=wide,
         output_start=first,
@@ -834,6 +837,22 @@ def checked(task: FunctionTask, design: _Design) -> Generated | None:
         chebyshev=design.chebyshev if task.level else float(np.abs(worst).max()),
         task=task,
     )
+
+
+def _stated(task: FunctionTask, points: Real, scales: tuple[float, float, float, float]) -> dict[str, object]:
+    """Return the function and its precision points as the scene's file keeps them."""
+    start, wide, first, high = scales
+    inputs = np.degrees(start + wide * task.function.share(points)).tolist()
+    outputs = first + high * task.function.way(points)
+    turning = task.generator.turning
+    places = (np.degrees(outputs) if turning else outputs).tolist()
+    return {
+        "words": task.function.words,
+        "x": points.tolist(),
+        "y": task.function(points).tolist(),
+        "input": [f"{angle!r} deg" for angle in inputs],
+        "output": [f"{place!r} {'deg' if turning else task.unit}" for place in places],
+    }
 
 
 def _solved_errors(

@@ -65,7 +65,9 @@ _PREFERRED = 2
 _MORE = 4
 """Linkages that are looked at beside those that are asked for: some come to be alike."""
 _ROUNDS, _NARROWER = 8, 0.4
-_TURNING, _DEFECT = 0.3, 1e3
+_USUAL_LEAST = math.radians(40)
+"""A transmission angle below this one, the usual least, counts twice."""
+_TURNING, _DEFECT = 0.5, 1e3
 """What a crank that turns fully is worth, as a size's logarithm, and what a defect costs."""
 _CLOSED = 1e-12
 """By how much a cosine may be beyond 1 at a change point."""
@@ -488,7 +490,9 @@ def _merit(task: GuideTask, judged: _Judged, prefer: str | None) -> Real:
     """Return what is to be small: defects first, then size against the transmission angle."""
     weight = {"compact": 0.5, "angle": 6.0, None: 2.0}[prefer]
     with np.errstate(all="ignore"):
-        found = np.log(judged.size / task.poses.size) - weight * np.log(np.sin(judged.transmission))
+        sine = np.log(np.sin(judged.transmission))
+        found = np.log(judged.size / task.poses.size) - weight * sine
+        found += weight * np.maximum(math.log(math.sin(_USUAL_LEAST)) - sine, 0.0)
         found -= _TURNING * judged.turning
         limits = task.requirements
         slack = limits.slack(task.kind, judged.rows).min(axis=1)
@@ -556,8 +560,9 @@ def _candidates(
 
     The first are, where nothing is preferred, the best, the smallest and that of the best angle.
     """
-    seeds = [seed for pair in ends for seed in _seeds(task, pair, count + _MORE, prefer)]
-    seeds = sorted(seeds, key=lambda seed: seed.merit)[: count + _MORE]
+    many = max(count, COUNT) + _MORE
+    seeds = [seed for pair in ends for seed in _seeds(task, pair, many, prefer)]
+    seeds = sorted(seeds, key=lambda seed: seed.merit)[:many]
     if any(choice.free for pair in ends for choice in pair):
         kinds = [prefer] if prefer else [None, *PREFERENCES]
         seeds = [_followed(task, seed, prefer) for seed in seeds] + [
@@ -667,8 +672,24 @@ def _scene(task: GuideTask, row: Real, closure: float, angles: Real) -> Scene:
     title = f"{task.kind.name.capitalize()} through {task.poses.count} poses"
     stated = {"title": title, "source": task.source, "length_unit": task.unit}
     start = float(angles[0]), float(angles[-1] - angles[0])
-    document = document_of(task.kind, row, float(closure), start, **stated)
+    document = document_of(task.kind, row, float(closure), start, **stated) | {"guide": _stated(task)}
     return scene_from(document, name=task.name, where=task.name)
+
+
+def _stated(task: GuideTask) -> dict[str, object]:
+    """Return the poses as the scene's file keeps them."""
+    poses = task.poses
+    rows = zip(poses.origins.tolist(), poses.angles.tolist(), strict=True)
+    return {
+        "poses": [
+            [
+                f"{place.real!r} {task.unit}",
+                f"{place.imag!r} {task.unit}",
+                f"{round(math.degrees(angle), 12)!r} deg",
+            ]
+            for place, angle in rows
+        ]
+    }
 
 
 def _met(task: GuideTask, scene: Scene, angles: Real, lean: float) -> tuple[Real, Real]:

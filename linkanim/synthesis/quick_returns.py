@@ -237,6 +237,7 @@ def _made(
         **stated,
         "drive": {"joint": "A", "speed": "20 rpm", "start": "0 deg"},
         **tables,
+        "quick-return": {"ratio": round(ratio, _DIGITS), **_stated(family, scale, stated["length_unit"])},
     }
     scene = scene_from(document, name=name, where=name)
     info = scene.info
@@ -251,6 +252,13 @@ def _made(
         transmission_angle=float(family.transmission(np.array([t]))[0]),
         best=t == family.best,
     )
+
+
+def _stated(family: DeadCentreFamily, scale: float, unit: str) -> dict[str, str]:
+    """Return what the output does as the scene's file keeps it."""
+    if family.kind == "slider-crank":
+        return {"stroke": f"{round(scale, _DIGITS)!r} {unit}"}
+    return {"swing": f"{round(math.degrees(family.swing), _DIGITS)!r} deg"}
 
 
 def _slider_crank(lengths: list[float]) -> tuple[dict[str, float], dict[str, Any]]:

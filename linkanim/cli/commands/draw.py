@@ -8,6 +8,7 @@ from linkanim.bounds import MOST_DRAWN
 from linkanim.cli.commands.solve import phase_at
 from linkanim.cli.picture_options import look_of, scene_size_target
 from linkanim.errors import BadInput
+from linkanim.paper.construction import ConstructionPage
 from linkanim.paper.figure import Figured
 from linkanim.paper.latex import labels_of
 from linkanim.paper.write import OF_A_FIGURE, write
@@ -19,6 +20,13 @@ def run(options: Namespace) -> None:
     scene, size, target = scene_size_target(options, OF_A_FIGURE, ".svg")
     look = look_of(scene, options)
     _refuse_many(scene, options.poses or 0)
+    if options.construction is not None:
+        page = ConstructionPage(scene, size, look.theme, options.construction or None)
+        write(page, target, latex=bool(options.text))
+        print(target.path)
+        if options.text:
+            print(labels_of(target).path)
+        return
     phase = options.phase if options.angle is None else phase_at(scene, options.angle)
     phase = None if phase is None else float(phase)
     shown = Figured(scene, size, look, phase, options.poses or 0, options.speed)

@@ -13,12 +13,16 @@ from linkanim.explain.documents import HTML, MARKDOWN, TEX, document
 from linkanim.explain.inputs import PoseRequest
 from linkanim.explain.solution import Solution, solution
 from linkanim.explain.variant import variant
+from linkanim.paper.construction import ConstructionPage
+from linkanim.paper.svg import svg
 from linkanim.paper.vectors import vectors_svg
 from linkanim.picture.figure import figure
 from linkanim.scenes import load
 from linkanim.scenes.editing.shown_unit import in_unit
 from linkanim.scenes.scene import Scene
 
+_CONSTRUCTION = (960, 640)
+"""The size of the figure of a construction."""
 FORMS = {".html": HTML, ".htm": HTML, ".tex": TEX, ".md": MARKDOWN}
 
 
@@ -33,7 +37,7 @@ def run(options: Namespace) -> None:
     )
     found = solution(_request(load(options.scene), options))
     form = MARKDOWN if target is None else FORMS[target.suffix.lower()]
-    form = replace(form, figure=_figure) if form is HTML else form
+    form = replace(form, figure=_figure, construction=_construction) if form is HTML else form
     text = document(found, form, exercise=options.exercise)
     if target is None:
         print(text, end="")
@@ -44,6 +48,12 @@ def run(options: Namespace) -> None:
 
 def _figure(found: Solution) -> str:
     return f"<figure class='vectors'>{vectors_svg(found)}</figure>" if found.loops else ""
+
+
+def _construction(found: Solution) -> str:
+    page = ConstructionPage(found.request.scene, _CONSTRUCTION)
+    drawn = svg(page.size, None, page.groups(), title=page.title)
+    return f"<figure class='vectors'>{drawn[drawn.index('<svg') :]}</figure>"
 
 
 def _request(scene: Scene, options: Namespace) -> PoseRequest:

@@ -19,7 +19,8 @@ _SECTIONED = ("joints", "springs", "dampers")
 """The tables of whose tables each has a head of its own."""
 _MARK = "\x01"
 _INLINE = re.compile(r'"\\u0001(\d+)"')
-_LIST = re.compile(r" = \[\n((?:    .*,\n)+)\]$", re.MULTILINE)
+_LIST = re.compile(r" = \[\n((?:    [^\[\]].*,\n)+)\]$", re.MULTILINE)
+_INNER_LIST = re.compile(r"^    \[\n((?:        .*,\n)+)    \],$", re.MULTILINE)
 
 
 def text(scene: Scene) -> str:
@@ -88,10 +89,11 @@ def _on_a_line(table: Mapping[str, Any]) -> str:
 def _lines(document: Mapping[str, Any]) -> str:
     import tomli_w
 
-    return _LIST.sub(_on_one_line, tomli_w.dumps(document))
+    outer = _LIST.sub(lambda found: f" = {_on_one_line(found)}", tomli_w.dumps(document))
+    return _INNER_LIST.sub(lambda found: f"    {_on_one_line(found)},", outer)
 
 
 def _on_one_line(found: re.Match[str]) -> str:
     """Return a list as people write it, [283, 165], rather than an item a line."""
     items = (line.strip().removesuffix(",") for line in found[1].splitlines())
-    return f" = [{', '.join(items)}]"
+    return f"[{', '.join(items)}]"

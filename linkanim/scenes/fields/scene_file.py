@@ -12,6 +12,7 @@ from linkanim.mechanics.linkage.rigid_bodies import coincide, holding
 from linkanim.scenes.fields.drive import INPUT
 from linkanim.scenes.fields.form import Field, Named, form
 from linkanim.scenes.fields.joints import JOINTS, PINS, aside
+from linkanim.scenes.fields.purposes import PURPOSES
 from linkanim.scenes.fields.shorthands import SHORTHANDS
 from linkanim.scenes.fields.table import Table
 from linkanim.scenes.fields.types import (
@@ -153,6 +154,7 @@ SCENE_FILE = form(
     Field("gravity", GRAVITY, "how fast masses fall, down", None, label="Gravity"),
     INPUT,
     Field("trace", TRACE, "the curves", {}),
+    *(Field(key, one, one.words, None) for key, one in PURPOSES.items()),
     Field("photo", PHOTO, "a photograph to build over", None),
 )
 """The form of a scene file."""

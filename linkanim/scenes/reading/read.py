@@ -12,6 +12,7 @@ from linkanim.mechanics.linkage.joint import Joint
 from linkanim.mechanics.linkage.linkage import Body, Linkage
 from linkanim.mechanics.linkage.pins import Pin
 from linkanim.scenes.fields.drive import read_drive
+from linkanim.scenes.fields.purposes import PURPOSES
 from linkanim.scenes.fields.scene_file import SCENE_FILE, SECTIONS
 from linkanim.scenes.fields.shorthands import SHORTHANDS, Expansion, names_of
 from linkanim.scenes.fields.table import Context, Table
@@ -68,10 +69,17 @@ def read(
     }
     if "photo" in top:
         _part(top, "photo")
+    purposes = [key for key in PURPOSES if key in top]
+    if len(purposes) > 1:
+        reason = (
+            f"was made for one thing, not for [{purposes[0]}] and [{purposes[1]}]; keep one of the tables"
+        )
+        top.context.problems.append(top.wrong(reason))
+    purpose = _part(top, purposes[0]) if purposes else None
     if any(part is None for part in parts.values()):
         return None, top.context.problems
     styles = tuple((name, one.style) for name, one in bodies.items() if one and one.style != FREE_STYLE)
-    parts |= {"styles": styles, "document": document, "towards": towards}
+    parts |= {"purpose": purpose, "styles": styles, "document": document, "towards": towards}
     scene = Scene(name=name, length_unit=top.context.unit, **parts)
     top.attempt(_check_assembly, top, scene, check)
     return scene, top.context.problems

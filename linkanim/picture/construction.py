@@ -1,0 +1,184 @@
+"""The construction of a synthesis on a picture: its marks as thin lines, points and names."""
+
+from __future__ import annotations
+
+import cmath
+from collections.abc import Callable, Iterator, Sequence
+from itertools import pairwise
+
+import numpy as np
+
+from linkanim.picture.diagrams.chart import Pen, line_layer
+from linkanim.picture.items import Caption, Halo, Item
+from linkanim.picture.raster.raster import Colour, Layer, Loop
+from linkanim.picture.raster.shapes import arrows, disc, segments
+from linkanim.picture.theme import mixed
+from linkanim.picture.view import Box, Rect, View
+from linkanim.synthesis.constructions import Mark
+
+_WIDTHS = {"bar": 2.4, "line": 1.1, "thin": 0.8, "dashed": 0.8, "arc": 1.1, "frame": 1.3}
+"""Of lines, in a chart's line; a plate's are a bar's or thin."""
+_DASHES = (7.0, 5.0)
+_DOT, _RING, _CROSS = 3.0, 2.4, 3.2
+"""How large points are, in lines."""
+_POINTS = ("dot", "ring", "cross")
+"""What lies over all lines."""
+_CUT, _JUMP = 1e-6, 4.0
+"""How far pieces of one way may be apart (pixels), and which step goes through infinity (widths)."""
+_ROOM = 0.12
+"""Of the marks' width and height, left free at every side."""
+_AROUND = np.exp(1j * np.pi * np.array([0.25, 0.75, -0.25, -0.75, 0.0, 1.0, 0.5, -0.5]))
+_FARTHER = (1.0, 1.9)
+
+
+def box_of(marks: Sequence[Mark]) -> Box:
+    """Return the rectangle that holds what counts of marks, with room around it."""
+    points = np.concatenate([mark.points for mark in marks if mark.spreads] or [np.zeros(1, np.complex128)])
+    points = points[np.isfinite(points)]
+    left, right = float(points.real.min()), float(points.real.max())
+    low, high = float(points.imag.min()), float(points.imag.max())
+    room = _ROOM * max(right - left, high - low, 1e-12)
+    return Box(left - room, low - room, right + room, high + room)
+
+
+def view_of(box: Box, rect: Rect) -> View:
+    """Return the view in which a box fills a rectangle of the picture."""
+    scale = min(rect.width / (box.right - box.left), rect.height / (box.high - box.low))
+    middle = rect.middle
+    x = middle.real - scale * (box.left + box.right) / 2
+    return View(scale, x, middle.imag + scale * (box.low + box.high) / 2)
+
+
+def construction_items(marks: Sequence[Mark], view: View, area: Rect, pen: Pen) -> Iterator[Item]:
+    """Yield marks, the later over the earlier, and then their names, where they stand free."""
+
+    def pixels(points: Loop) -> Loop:
+        return np.asarray(view.x + view.scale * points.real + 1j * (view.y - view.scale * points.imag))
+
+    def shows(mark: Mark) -> bool:
+        return all(area.holds(place.real, place.imag) for place in pixels(mark.points))
+
+    marks = [mark for mark in marks if mark.spreads or mark.shape not in _POINTS or shows(mark)]
+    for mark in sorted(marks, key=lambda mark: (mark.shape != "plate") + (mark.shape in _POINTS)):
+        yield from _drawn(mark, pixels(mark.points), area, pen)
+    yield from _names(marks, pixels, area, pen)
+
+
+def _tone(mark: Mark, pen: Pen) -> Colour:
+    theme = pen.theme
+    return {
+        "ink": theme.outline,
+        "dim": theme.ground,
+        "first": theme.acceleration,
+        "second": theme.velocity,
+        "third": theme.traces[1],
+        "fourth": theme.traces[0],
+    }[mark.tone]
+
+
+def _drawn(mark: Mark, at: Loop, area: Rect, pen: Pen) -> Iterator[Layer]:
+    colour, line = _tone(mark, pen), pen.line
+    match mark.shape:
+        case "dot":
+            yield Layer(colour, [place + disc(_DOT * line) for place in at])
+        case "ring":
+            yield Layer(colour, [place + disc((_RING + 0.9) * line) for place in at])
+            yield Layer(pen.theme.background, [place + disc((_RING - 0.3) * line) for place in at])
+        case "cross":
+            arm = _CROSS * line * np.exp(0.25j * np.pi)
+            ends = [(place - way, place + way) for place in at for way in (arm, 1j * arm)]
+            yield Layer(colour, [loop for pair in ends for loop in segments(*pair, 1.2 * line)])
+        case "frame":
+            way = at[1] - at[0]
+            reaches = np.array([way, -1j * way])
+            yield Layer(colour, arrows(np.array([at[0], at[0]]), reaches, _WIDTHS["frame"] * line))
+        case "plate":
+            yield Layer(mixed(colour, pen.theme.background, 0.86), [at])
+            width = _WIDTHS["bar" if mark.tone == "ink" else "thin"] * line
+            yield Layer(colour, segments(at, np.roll(at, -1), width))
+        case "line" | "arc":
+            yield line_layer(_clipped(at, area), colour, _WIDTHS[mark.shape] * line)
+        case "dashed":
+            parts = (_inside(one, other, area) for one, other in pairwise(at.tolist()))
+            runs = [np.array(part) for part in parts if part]
+            yield line_layer(runs, colour, _WIDTHS["dashed"] * line, _DASHES)
+        case _:
+            yield Layer(colour, segments(at[:-1], at[1:], _WIDTHS[mark.shape] * line))
+
+
+def _clipped(at: Loop, area: Rect) -> Iterator[Loop]:
+    """Yield the pieces of a way that lie in the picture, cut at its edges; it may run through infinity."""
+    run: list[complex] = []
+    for one, other in pairwise(at.tolist()):
+        part = _inside(one, other, area)
+        if part is None or (run and abs(run[-1] - part[0]) > _CUT):
+            if len(run) > 1:
+                yield np.array(run)
+            run = []
+        if part is not None:
+            run += [*([] if run else [part[0]]), part[1]]
+    if len(run) > 1:
+        yield np.array(run)
+
+
+def _inside(one: complex, other: complex, area: Rect) -> tuple[complex, complex] | None:
+    """Return what of a segment lies in a rectangle, by Liang and Barsky's shares; None where nothing does."""
+    if not (cmath.isfinite(one) and cmath.isfinite(other)) or abs(other - one) > _JUMP * area.width:
+        return None
+    way, first, last = other - one, 0.0, 1.0
+    for step, gap in (
+        (-way.real, one.real - area.x),
+        (way.real, area.right - one.real),
+        (-way.imag, one.imag - area.y),
+        (way.imag, area.bottom - one.imag),
+    ):
+        if step == 0 and gap < 0:
+            return None
+        if step < 0:
+            first = max(first, gap / step)
+        elif step > 0:
+            last = min(last, gap / step)
+    return (one + first * way, one + last * way) if first < last else None
+
+
+def _names(marks: Sequence[Mark], pixels: Callable[[Loop], Loop], area: Rect, pen: Pen) -> Iterator[Caption]:
+    """Yield each mark's name beside it, where it meets no other name and as few points as can be."""
+    points = [pixels(mark.points) for mark in marks if mark.spreads]
+    busy = np.concatenate(points) if points else np.empty(0, np.complex128)
+    placed: list[Rect] = []
+    for mark in marks:
+        if not mark.label:
+            continue
+        at, wide, high = pixels(mark.points), pen.type.width(mark.label, pen.small), 1.2 * pen.small
+        if mark.shape == "thin" and len(at) == 2:
+            # a tick of a scale has its number beyond it
+            way = complex(at[1] - at[0]) / max(abs(at[1] - at[0]), 1e-9)
+            beyond = 0.5 * (wide * abs(way.real) + high * abs(way.imag)) + 0.25 * pen.small
+            tries = [_about(complex(at[1]) + away * beyond * way, wide, high) for away in _FARTHER]
+        else:
+            foot = complex(at[len(at) // 2 if mark.shape == "arc" else 0])
+            ways = [away * pen.small * complex(way) for away in _FARTHER for way in _AROUND]
+            tries = [_about(foot + way, wide, high) for way in ways]
+        inside = [rect for rect in tries if _within(rect, area)] or tries
+        best = min(inside, key=lambda rect: (_meeting(rect, placed), _covering(rect, busy)))
+        placed.append(best)
+        halo = Halo(pen.theme.background, 1.5 * pen.line)
+        yield Caption(mark.label, (best.x, best.y), pen.small, _tone(mark, pen), halo=halo)
+
+
+def _about(at: complex, wide: float, high: float) -> Rect:
+    """Return the rectangle of a name about a place."""
+    return Rect(at.real - wide / 2, at.imag - high / 2, wide, high)
+
+
+def _within(rect: Rect, area: Rect) -> bool:
+    return area.holds(rect.x, rect.y) and area.holds(rect.right, rect.bottom)
+
+
+def _meeting(rect: Rect, placed: Sequence[Rect]) -> int:
+    return sum(rect.meets(other) for other in placed)
+
+
+def _covering(rect: Rect, busy: Loop) -> int:
+    across = (busy.real >= rect.x) & (busy.real <= rect.right)
+    return int((across & (busy.imag >= rect.y) & (busy.imag <= rect.bottom)).sum())

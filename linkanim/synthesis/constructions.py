@@ -1,0 +1,454 @@
+"""The construction of a synthesis as a lecturer draws it: marks in the scene's unit, step by step.
+
+What a scene was made for, its `purpose`, and its joints are all that is read; a scene without one has none.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Iterator
+from itertools import pairwise
+from typing import Literal, NamedTuple
+
+import numpy as np
+
+from linkanim.errors import BadInput
+from linkanim.mechanics.linkage.dyads import RRP, RRR
+from linkanim.mechanics.linkage.pins import Crank
+from linkanim.mechanics.motion.measures import as_complex
+from linkanim.scenes.purpose import FunctionPurpose, PosesPurpose, TimeRatioPurpose
+from linkanim.scenes.scene import Scene
+from linkanim.synthesis.burmester import CentreCurve, Poses, burmester_points, circle_points
+from linkanim.synthesis.kinds import Complex
+
+Shape = Literal["plate", "line", "dashed", "thin", "bar", "dot", "ring", "cross", "frame", "arc"]
+Tone = Literal["ink", "dim", "first", "second", "third", "fourth"]
+
+_NEAR, _FAR = 2.0, 4.0
+"""Of the poses' size: what the picture is fitted to lies so near; a pole farther from there is not drawn."""
+_INNER, _OUTER = 0.6, 1.1
+"""The scales of input and output, in links."""
+_CURVE = 1600
+_ARC = 64
+_SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
+
+
+class Mark(NamedTuple):
+    """What is drawn: a shape through or at points (x + yi), what it is called, and in which tone.
+
+    A frame's points are its origin and the end of its x axis; an arc's are its points one by one. What
+    `spreads` does not count when the picture is fitted.
+    """
+
+    shape: Shape
+    points: Complex
+    label: str = ""
+    tone: Tone = "ink"
+    spreads: bool = False
+
+
+class ConstructionStep(NamedTuple):
+    """A step: what is done, in a sentence, and the marks that it adds."""
+
+    words: str
+    marks: tuple[Mark, ...]
+
+
+def construction(scene: Scene) -> tuple[ConstructionStep, ...]:
+    """Return the steps of a scene's synthesis; BadInput where it was made for nothing that is known."""
+    match scene.purpose if is_synthesised(scene) else None:
+        case PosesPurpose() as purpose:
+            return tuple(_guided(scene, purpose))
+        case FunctionPurpose() as purpose:
+            return tuple(_generated(scene, purpose))
+        case TimeRatioPurpose() as purpose:
+            return tuple(_returning(scene, purpose))
+    raise BadInput(
+        f"{scene.name}: has no construction; one is drawn of what linkanim guide, function and "
+        "quick-return have made"
+    )
+
+
+def is_synthesised(scene: Scene) -> bool:
+    """Tell whether a scene has a crank O2–A and a coupler A–B that ends on a bar to O4, or on a line."""
+    joints = scene.linkage.by_name
+    if scene.purpose is None or not {"O2", "A", "B"} <= joints.keys():
+        return False
+    if isinstance(scene.purpose, PosesPurpose) and not scene.trace:
+        return False
+    crank, end = joints["A"], joints["B"]
+    ours = isinstance(end, RRR) and end.ends == ("A", "O4") and joints["O4"].fixed
+    sliding = isinstance(end, RRP) and end.line.on is None
+    return isinstance(crank, Crank) and crank.pivot == "O2" and joints["O2"].fixed and (ours or sliding)
+
+
+def _step(words: str, *marks: Mark) -> ConstructionStep:
+    return ConstructionStep(words, marks)
+
+
+def _at(*points: complex) -> Complex:
+    return np.array(points, dtype=np.complex128)
+
+
+class GuidedBody(NamedTuple):
+    """Poses, and where the coupler's two joints and what holds them are in the first of them.
+
+    `held` is each joint's pivot; None of a joint that slides, whose line's direction is `line`.
+    """
+
+    poses: Poses
+    joints: Complex
+    held: tuple[complex, complex | None]
+    line: complex | None
+
+
+def guided_body(scene: Scene, purpose: PosesPurpose) -> GuidedBody:
+    """Return a scene's coupler in the first of the poses that it was made for."""
+    rows = np.array(purpose.poses)
+    poses = Poses(rows[:, 0] + 1j * rows[:, 1], rows[:, 2].copy())
+    motion = scene.cycle(720, derivatives=0)
+    phases = np.concatenate([motion.phase, [float(scene.solve(angle=scene.linkage.drive.start).phase)]])
+    motion = scene.solve(phase=phases, derivatives=0)
+    point = as_complex(motion.position[scene.trace[0]])
+    nearest = int(np.abs(point - poses.origins[0]).argmin())
+    body = next(body for body in scene.linkage.bodies if scene.trace[0] in body.joints)
+    joints = np.array([as_complex(motion.position[name])[nearest] for name in body.joints[:2]])
+    pins = {pin.name: complex(*pin.position) for pin in scene.linkage.pins}
+    if "O4" in pins:
+        return GuidedBody(poses, joints, (pins["O2"], pins["O4"]), None)
+    line = scene.linkage.joint("B").line  # type: ignore[attr-defined]
+    return GuidedBody(poses, joints, (pins["O2"], None), cmath.exp(1j * float(line.angle)))
+
+
+def _guided(scene: Scene, purpose: PosesPurpose) -> Iterator[ConstructionStep]:
+    """Yield the steps of a body's guidance."""
+    found = guided_body(scene, purpose)
+    poses = found.poses
+    places = [poses.places(complex(joint)) for joint in found.joints]
+    reach = 0.18 * poses.size
+    frames = [
+        Mark("frame", _at(origin, origin + reach * cmath.exp(1j * angle)), str(n), spreads=True)
+        for n, (origin, angle) in enumerate(zip(poses.origins, poses.angles, strict=True), start=1)
+    ]
+    yield _step(f"The body in its {poses.count} poses.", *frames)
+    bodies = [
+        Mark("plate", _at(places[0][n], places[1][n], poses.origins[n]), tone="dim")
+        for n in range(poses.count)
+    ]
+    tones: tuple[tuple[str, Tone], ...] = (("A", "first"), ("B", "second"))
+    joints = [
+        Mark("ring", _at(place), _numbered(name, n), tone, spreads=True)
+        for (name, tone), each in zip(tones, places, strict=True)
+        for n, place in enumerate(each, start=1)
+    ]
+    yield _step("Two of its joints, A and B, in each pose.", *bodies, *joints)
+    if poses.count <= 3:
+        yield from _midperpendiculars(found, places)
+        yield from _pole_triangle(poses)
+    elif poses.poles:
+        yield from _curves(poses)
+    yield _linkage(found)
+
+
+def _numbered(name: str, *numbers: int) -> str:
+    return name + "".join(map(str, numbers)).translate(_SUBSCRIPTS)
+
+
+def _midperpendiculars(found: GuidedBody, places: list[Complex]) -> Iterator[ConstructionStep]:
+    """Yield the midperpendiculars of each joint's places, which meet in its pivot, or the slider's line."""
+    tones: tuple[Tone, Tone] = ("first", "second")
+    for name, pivot, each, tone, held in zip("AB", ("O2", "O4"), places, tones, found.held, strict=True):
+        chords = [Mark("thin", _at(*pair), tone=tone) for pair in pairwise(each)]
+        if held is None:
+            assert found.line is not None
+            reach = found.poses.size * found.line
+            line = Mark("line", _at(each[0] - reach, each[-1] + reach), tone=tone)
+            yield _step(f"The places of {name} lie on one line: there it slides.", *chords, line)
+            continue
+        lines = []
+        for one, other in pairwise(each):
+            middle = (one + other) / 2
+            lines.append(Mark("dashed", _at(middle, held + 0.12 * (held - middle)), tone=tone))
+        one = len(lines) == 1
+        words = (
+            f"{pivot} is a point of the midperpendicular of {name}₁{name}₂."
+            if one
+            else f"The midperpendiculars of {name}₁{name}₂ and {name}₂{name}₃ meet in {pivot}."
+        )
+        yield _step(words.replace("O2", "O₂").replace("O4", "O₄"), *chords, *lines)
+
+
+def _pole_triangle(poses: Poses) -> Iterator[ConstructionStep]:
+    """Yield the poles: about P₁₂ a turn takes the first pose to the second; three are a triangle."""
+    near = {pair: pole for pair, pole in poses.poles.items() if abs(pole - poses.centre) <= _FAR * poses.size}
+    if not near:
+        return
+    marks = [_pole(poses, pair, pole) for pair, pole in near.items()]
+    if len(near) == 3:
+        corners = list(near.values())
+        marks.append(Mark("dashed", _at(*corners, corners[0]), tone="third"))
+        yield _step("The poles of the poses, the pole triangle: its angles are half of their turns.", *marks)
+    else:
+        yield _step("The pole: a turn about it takes one pose to the other.", *marks)
+
+
+def _pole(poses: Poses, pair: tuple[int, int], pole: complex) -> Mark:
+    near = abs(pole - poses.centre) <= _NEAR * poses.size
+    return Mark("cross", _at(pole), _numbered("P", pair[0] + 1, pair[1] + 1), "third", spreads=near)
+
+
+def _curves(poses: Poses) -> Iterator[ConstructionStep]:
+    """Yield Burmester's curves of four poses with the poles they run through, or the points of five."""
+    four = poses if poses.count == 4 else Poses(poses.origins[:4], poses.angles[:4])
+    curve = CentreCurve(four)
+    phases = np.linspace(0, math.tau, _CURVE)
+    walks = [curve.at(circuit, phases) for circuit in range(len(curve.circuits))]
+    centres = [Mark("line", walk, tone="third") for walk in walks]
+    circles = [Mark("line", circle_points(four, walk), tone="fourth") for walk in walks]
+    which = "" if poses.count == 4 else " of poses 1 to 4"
+    yield _step(
+        f"The curves of the centre points and, in pose 1, of the circle points{which}.", *centres, *circles
+    )
+    near = {pair: pole for pair, pole in four.poles.items() if abs(pole - poses.centre) <= _FAR * poses.size}
+    marks = [_pole(poses, pair, pole) for pair, pole in near.items()]
+    ring = [(0, 1), (1, 2), (2, 3), (0, 3)]
+    if all(pair in near for pair in ring):
+        corners = [near[pair] for pair in (*ring, ring[0])]
+        marks.append(Mark("dashed", _at(*corners), tone="third"))
+    yield _step(
+        "The poles, among them the quadrilateral of two pairs of opposite ones, lie on the former.", *marks
+    )
+    if poses.count > 4:
+        bars = burmester_points(poses)
+        shapes: tuple[tuple[Shape, Complex], ...] = (("dot", bars.centre), ("ring", bars.circle))
+        marks = [
+            Mark(shape, _at(place), tone="ink", spreads=bool(abs(place - poses.centre) <= _NEAR * poses.size))
+            for shape, places in shapes
+            for place in places
+        ]
+        words = f"Of all five poses {len(bars.centre)} of Burmester's four pairs of points are real."
+        yield _step(words, *marks)
+
+
+def _linkage(found: GuidedBody) -> ConstructionStep:
+    """Return the linkage in the first pose."""
+    first, second = (complex(joint) for joint in found.joints)
+    marks = [Mark("plate", _at(first, second, found.poses.origins[0]), tone="ink")]
+    for name, joint, held in zip(("O₂", "O₄"), (first, second), found.held, strict=True):
+        if held is not None:
+            marks += [Mark("bar", _at(held, joint)), Mark("dot", _at(held), name, spreads=True)]
+    return _step("The linkage in pose 1.", *marks)
+
+
+def _generated(scene: Scene, purpose: FunctionPurpose) -> Iterator[ConstructionStep]:
+    """Yield the steps of a function generator: both scales, and the linkage in its precision points."""
+    motion = scene.solve(angle=np.array(purpose.input), derivatives=0)
+    names = ("O2", "A", "B")
+    pivot, pins, ends = (np.broadcast_to(as_complex(motion.position[name]), len(purpose.x)) for name in names)
+    start = complex(pivot[0])
+    crank = abs(pins[0] - start)
+    ticks = [
+        _tick(start, angle, _INNER * crank, f"x = {x:.4g}", "first")
+        for x, angle in zip(purpose.x, purpose.input, strict=True)
+    ]
+    yield _step(
+        f"x is read on the input's angle, on an even scale: {len(purpose.x)} precision points.",
+        Mark("arc", _arc(start, purpose.input[0], purpose.input[-1], _INNER * crank), tone="first"),
+        *ticks,
+        Mark("dot", _at(start), "O₂", spreads=True),
+    )
+    pins_of = {pin.name: complex(*pin.position) for pin in scene.linkage.pins}
+    other = pins_of.get("O4")
+    if other is None:
+        places = [
+            Mark("ring", _at(end), f"y = {y:.4g}", "second", spreads=True)
+            for end, y in zip(ends, purpose.y, strict=True)
+        ]
+        yield _step("y is read on the slider's way, likewise.", Mark("line", ends, tone="second"), *places)
+    else:
+        reach = _OUTER * abs(ends[0] - other)
+        angles = np.unwrap(np.angle(ends - other)).tolist()
+        yield _step(
+            "y is read on the output's angle, likewise.",
+            Mark("arc", _arc(other, angles[0], angles[-1], reach), tone="second"),
+            *(
+                _tick(other, angle, reach, f"y = {y:.4g}", "second")
+                for y, angle in zip(purpose.y, angles, strict=True)
+            ),
+            Mark("dot", _at(other), "O₄", spreads=True),
+        )
+    held = [] if other is None else [other]
+    chains = [_at(start, pin, end, *held) for pin, end in zip(pins, ends, strict=True)]
+    first, *rest = chains
+    marks = [
+        *(Mark("thin", chain, tone="dim", spreads=True) for chain in rest),
+        Mark("bar", first, spreads=True),
+    ]
+    yield _step("The linkage in its precision points: there what it does is y, to the last digit.", *marks)
+    yield from _freudenstein(scene, purpose, sliding=other is None)
+
+
+def _freudenstein(scene: Scene, purpose: FunctionPurpose, *, sliding: bool) -> Iterator[ConstructionStep]:
+    """Yield Freudenstein's equations with their numbers, and the lengths that they lead to."""
+    theta, place = np.array(purpose.input), np.array(purpose.output)
+    if sliding:
+        form, right = "K₁ s cos θ + K₂ sin θ + K₃ = s²", place**2
+        rows = np.column_stack([place * np.cos(theta), np.sin(theta), np.ones_like(theta)])
+    else:
+        form, right = "K₁ cos ψ − K₂ cos θ + K₃ = cos(θ − ψ)", np.cos(theta - place)
+        rows = np.column_stack([np.cos(place), -np.cos(theta), np.ones_like(theta)])
+    k1, k2, k3 = np.linalg.lstsq(rows, right, rcond=None)[0].tolist()
+    said = "; ".join(
+        f"{_signed(a)} K₁ {_joined(b)} K₂ + K₃ = {_signed(c)}"
+        for (a, b, _), c in zip(rows, right, strict=True)
+    )
+    yield _step(f"Freudenstein's equation, {form}, holds in each point: {said}.")
+    bars = {
+        frozenset((joint.name, end)): value for joint in scene.linkage.joints for end, value in joint.bars
+    }
+    r2, r3 = bars[frozenset(("O2", "A"))], bars[frozenset(("A", "B"))]
+    given = f"K₁ = {_signed(k1)}, K₂ = {_signed(k2)}, K₃ = {_signed(k3)}"
+    if sliding:
+        offset = f"e = K₂/K₁ = {_signed(k2 / k1)}"
+        yield _step(f"So {given}; r₂ = K₁/2 = {r2:.4g}, {offset}, r₃ = √(K₃ + r₂² + e²) = {r3:.4g}.")
+    else:
+        r4 = bars[frozenset(("O4", "B"))]
+        yield _step(
+            f"So {given}; r₂ = r₁/K₁ = {r2:.4g}, r₄ = r₁/K₂ = {r4:.4g}, "
+            f"r₃ = √(r₁² + r₂² + r₄² − 2 r₂ r₄ K₃) = {r3:.4g}."
+        )
+
+
+def _signed(value: float) -> str:
+    """Return a number to four digits with a true minus sign."""
+    return f"{value:.4g}".replace("-", "−")
+
+
+def _joined(value: float) -> str:
+    """Return a number behind another one, its sign between them."""
+    return f"{'−' if value < 0 else '+'} {abs(value):.4g}"
+
+
+def _tick(centre: complex, angle: float, reach: float, label: str, tone: Tone) -> Mark:
+    way = cmath.exp(1j * angle)
+    return Mark(
+        "thin", _at(centre + 0.97 * reach * way, centre + 1.03 * reach * way), label, tone, spreads=True
+    )
+
+
+def _arc(centre: complex, first: float, last: float, reach: float) -> Complex:
+    return np.asarray(centre + reach * np.exp(1j * np.linspace(first, last, _ARC)))
+
+
+class InLineCentres(NamedTuple):
+    """A linkage in both dead centres of its output: the crank's pivot, its pins, the output's pins.
+
+    `pivot` is the rocker's, None of a slider; `angle` that between the two directions (rad).
+    """
+
+    crank_pivot: complex
+    pins: tuple[complex, complex]
+    ends: tuple[complex, complex]
+    pivot: complex | None
+    angle: float
+
+
+def dead_centres(scene: Scene) -> InLineCentres:
+    """Return a crank-rocker or slider-crank with crank and coupler in line: overlapping, then stretched."""
+    start = next(complex(*pin.position) for pin in scene.linkage.pins if pin.name == "O2")
+    motion = scene.cycle(1440, derivatives=0)
+    far = np.abs(as_complex(motion.position["B"]) - start)
+    crank = abs(complex(*scene.pose(0.0, 0).position["A"]) - start)
+    ends, pins = [], []
+    for place in (far.argmin(), far.argmax()):
+        phase = _in_line(scene, float(motion.phase[place]), start)
+        end = complex(*scene.pose(phase, 0).position["B"])
+        pin = complex(*scene.pose(phase, 0).position["A"])
+        ends.append(end)
+        pins.append(start + crank * (pin - start) / abs(pin - start))
+    pivot = next((complex(*pin.position) for pin in scene.linkage.pins if pin.name == "O4"), None)
+    turned = abs(cmath.phase((ends[1] - start) / (ends[0] - start)))
+    return InLineCentres(start, (pins[0], pins[1]), (ends[0], ends[1]), pivot, turned)
+
+
+def _in_line(scene: Scene, phase: float, start: complex) -> float:
+    """Return the phase near by at which crank and coupler lie in line, by Newton's steps."""
+    for _ in range(8):
+        pose = scene.pose(phase, 1, speed=1.0)
+        pin, end = (complex(*pose.position[name]) - start for name in "AB")
+        pin_rate, end_rate = (complex(*pose.velocity[name]) for name in "AB")
+        off = (pin.conjugate() * end).imag
+        rate = (pin_rate.conjugate() * end).imag + (pin.conjugate() * end_rate).imag
+        phase -= off / rate
+    return phase
+
+
+def _returning(scene: Scene, purpose: TimeRatioPurpose) -> Iterator[ConstructionStep]:
+    """Yield the steps of Alt's construction."""
+    found = dead_centres(scene)
+    start, (near, far) = found.crank_pivot, found.ends
+    alpha = math.degrees(found.angle)
+    chord = [Mark("ring", _at(near), "B′", "second", True), Mark("ring", _at(far), "B″", "second", True)]
+    if found.pivot is None:
+        chord.append(Mark("line", _at(near, far), tone="second"))
+        yield _step("The slider's stroke, between its dead centres B′ and B″.", *chord)
+    else:
+        arms = [Mark("thin", _at(found.pivot, end), tone="second") for end in found.ends]
+        chord.append(Mark("thin", _at(near, far), tone="second"))
+        pivot = Mark("dot", _at(found.pivot), "O₄", spreads=True)
+        yield _step("The rocker's swing, between its dead centres B′ and B″.", *arms, *chord, pivot)
+    ratio = f"{purpose.ratio:g}"
+    rays = [Mark("dashed", _at(start, end), tone="first") for end in found.ends]
+    pin = Mark("dot", _at(start), "O₂", spreads=True)
+    if found.angle > 1e-6:
+        corner = Mark(
+            "arc",
+            _arc(
+                start,
+                cmath.phase(near - start),
+                cmath.phase(near - start) + cmath.phase((far - start) / (near - start)),
+                0.3 * abs(near - start),
+            ),
+            "α",
+            "first",
+        )
+        yield _step(
+            f"A time ratio Q of {ratio} asks for α = 180° (Q − 1)/(Q + 1) = {alpha:.4g}°: at that angle O₂ "
+            "sees the chord.",
+            *rays,
+            corner,
+            pin,
+        )
+        middle, radius = _circle(start, near, far)
+        circle = Mark(
+            "arc",
+            middle + radius * np.exp(1j * np.linspace(0, math.tau, 2 * _ARC)),
+            tone="third",
+            spreads=True,
+        )
+        yield _step(
+            "All points that see it so lie on Alt's circle through B′ and B″; O₂ is chosen on it.", circle
+        )
+    else:
+        yield _step("Without a quick return O₂ lies on the chord's line.", *rays, pin)
+    joints = [
+        Mark("ring", _at(place), label, "first", True)
+        for place, label in zip(found.pins, ("A′", "A″"), strict=True)
+    ]
+    bars = [
+        Mark("bar", _at(start, found.pins[1], far)),
+        Mark("thin", _at(start, found.pins[0], near)),
+    ]
+    yield _step(
+        "O₂B″ is coupler and crank, O₂B′ coupler less crank: half their difference is the crank.",
+        *bars,
+        *joints,
+    )
+
+
+def _circle(one: complex, two: complex, three: complex) -> tuple[complex, float]:
+    a, b = two - one, three - one
+    across = 2 * (a.conjugate() * b).imag
+    middle = one + 1j * (a * abs(b) ** 2 - b * abs(a) ** 2) / across
+    return middle, abs(middle - one)

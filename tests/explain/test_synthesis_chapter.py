@@ -1,0 +1,84 @@
+"""The chapter on how a linkage was made: each printed line gives the next, and the last its lengths."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+from made_scenes import FEW, MADE
+from printed import checks_of, of_html, of_latex, of_markdown
+
+import linkanim
+from linkanim.cli import main
+from linkanim.explain.documents import HTML, MARKDOWN, TEX, document
+from linkanim.explain.inputs import PoseRequest
+from linkanim.explain.names import names_of
+from linkanim.explain.solution import solution
+from linkanim.explain.synthesis import _Chapter, synthesis
+from linkanim.picture.figure import figure
+from linkanim.scenes.editing.write import text
+
+FORMS = {"Markdown": (MARKDOWN, of_markdown), "LaTeX": (TEX, of_latex), "HTML": (HTML, of_html)}
+
+
+@pytest.mark.parametrize("name", FEW)
+def test_every_printed_line_computes_and_leads_to_the_linkage(name: str) -> None:
+    scene = MADE[name]()
+    found = solution(PoseRequest(scene, "phase", 0.5, 2.0))
+    chapter = found.synthesis_chapter
+    assert chapter is not None
+    assert chapter.title == "Synthesis"
+    for form, read in FORMS.values():
+        printed = document(found, form)
+        checks = list(checks_of(read(printed[printed.index("Synthesis") :])))
+        assert len(checks) > 2
+        assert [check for check in checks if not check.holds] == []
+    draft = _Chapter(scene, names_of(figure(scene)), 9)
+    assert len(draft.compared) >= 2
+    for value, true in draft.compared:
+        assert value.value == pytest.approx(true, rel=5e-6)
+
+
+def test_a_linkage_with_other_lengths_has_no_such_chapter(tmp_path: Path) -> None:
+    path = tmp_path / "scene.toml"
+    path.write_text(
+        text(MADE["guide-3"]()).replace('crank = "O2"\nlength = ', 'crank = "O2"\nlength = 20.5 # '),
+        encoding="utf-8",
+    )
+    changed = linkanim.load(path)
+    assert changed.purpose is not None
+    assert synthesis(changed, names_of(figure(changed))) == ()
+    assert synthesis(linkanim.load("press"), names_of(figure(linkanim.load("press")))) == ()
+
+
+def test_an_exercise_leaves_the_numbers_open_and_the_page_has_the_construction(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "log.toml").write_text(text(MADE["function-3"]()), encoding="utf-8")
+    assert main(["explain", "log.toml", "-o", "solution.html"]) == 0
+    assert main(["explain", "log.toml", "-o", "sheet.html", "--exercise"]) == 0
+    page, sheet = ((tmp_path / name).read_text() for name in ("solution.html", "sheet.html"))
+    assert "its construction" in page
+    assert "its construction" in sheet
+    crank = f"{MADE['function-3']().linkage.crank('A').length:.4f}"
+    exercise, _, key = sheet.partition("<h1>Key")
+    asked = exercise[exercise.index("<h2>Synthesis") :]
+    assert "class='blank'" in asked
+    assert crank[:6] in page[page.index("<h2>Synthesis") :]
+    assert "<h2>Synthesis" in key
+
+
+@pytest.mark.long
+@pytest.mark.skipif(shutil.which("pdflatex") is None, reason="needs pdflatex")
+@pytest.mark.parametrize("name", MADE)
+def test_the_latex_compiles(name: str, tmp_path: Path) -> None:
+    found = solution(PoseRequest(MADE[name](), "phase", 0.5, 2.0))
+    (tmp_path / "made.tex").write_text(document(found, TEX), encoding="utf-8")
+    done = subprocess.run(
+        ["pdflatex", "-interaction=nonstopmode", "-halt-on-error", "made.tex"],
+        cwd=tmp_path, capture_output=True, text=True, check=False, timeout=120,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stdout[-2000:]
