@@ -144,7 +144,7 @@ def test_a_figure_and_a_chart_take_a_unit(tmp_path: Any, capsys: pytest.CaptureF
     assert "= 5 cm" in figure.read_text()
     assert "(m/s)" in chart.read_text()
     assert main(["draw", "crank-rocker", "--unit", "ft", "-o", str(figure)]) == 2
-    assert "'ft'" in capsys.readouterr().err
+    assert '"ft"' in capsys.readouterr().err
 
 
 # In the window: the list, what is typed and nudged there, the file that is saved.

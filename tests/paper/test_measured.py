@@ -84,7 +84,7 @@ def test_a_column_in_another_unit_is_refused_with_the_way_out(tmp_path: Path) ->
     with pytest.raises(BadInput, match="fits as degrees, and is read as seconds; add --over angle"):
         laid(written(tmp_path / "a.csv", angles, noisy), "press", "3.angular_velocity", "time")
     headed = written(tmp_path / "h.csv", [0.1], [1.0], "Time (s),ω\n")
-    with pytest.raises(BadInput, match=r"is headed 'Time \(s\)'"):
+    with pytest.raises(BadInput, match=r'is headed "Time \(s\)"'):
         laid(headed, "press", "3.angular_velocity", None)
 
 
