@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
+from typing import Literal, NamedTuple
 
 import numpy as np
 
@@ -11,12 +13,14 @@ from linkanim.mechanics.motion.measures import as_complex, transmission_angle
 from linkanim.scenes.reading.read import scene_from
 from linkanim.scenes.scene import Scene
 from linkanim.synthesis.curves.drawn import DrawnCurve
-from linkanim.synthesis.fit import Fit, document_of, parameters_of, rounded
+from linkanim.synthesis.fit import Fit, document_of, parameters_of
 from linkanim.synthesis.kinds import Complex, Real
 from linkanim.synthesis.task import PathTask
 
 _POSES = 1440
 """Over the turn, or between the first and the last point, at which the way is compared with the polyline."""
+_STEPPED, _BEYOND = 200, 0.02
+"""Points at the most that are looked for in steps along the curve, and how far beyond its ends they go."""
 _FOOT_STEPS = 12
 _FARTHEST_STEP, _LAST_STEP = 0.1, 1e-9
 _SLACK = 1e-9
@@ -25,72 +29,103 @@ _RUN, _MOST_RUNS = 16, 128
 
 
 def checked(task: PathTask, row: Real, closure: float, angles: Real) -> Fit | None:
-    """Return the answer as written and as the solver runs it; None where it is none after all.
+    """Return the answer as the solver runs it; None where it is none after all.
 
     That is where it does not assemble, does not turn fully or not all the way along an open curve, passes
-    the points out of order, or breaks a limit.
+    the points out of order, or breaks a limit. `angles` (n,) are those of the crank at the points.
     """
-    row = rounded(task, row)
     if not keeps(task, row):
         return None
+    sense = 1.0 if angles[-1] > angles[0] else -1.0
     try:
-        scene = _scene(task, row, closure, angles)
+        scene = _scene(task, row, closure, (angles[0], sense))
         full = scene.info.full_turn
     except (AssemblyError, SceneError):
         return None
     if task.requirements.full_turn and not full:
         return None
-    angles, off = _feet(scene, task, angles)
-    least = _least_transmission(scene, angles, full=full)
-    passes = np.isfinite(off).all() and _in_order(task, angles)
-    if not passes or least < task.requirements.least_angle - _SLACK:
+    return _fit(task, _Answer(scene, row, closure, "angle"), angles)
+
+
+def checked_by_phase(task: PathTask, row: Real, closures: Real, angles: Real) -> Fit | None:
+    """Return an answer that swings through its limits along the curve; None where it is none after all.
+
+    That is where it does not swing, passes the points out of order, or breaks a limit. `closures` and
+    `angles` (n,) are those at the points. No angle that is asked for is kept at a limit, and no timing.
+    """
+    task, closure = task.swinging(), float(closures[0])
+    if task.timing is not None or not keeps(task, row):
         return None
-    stray = _stray(_traced(scene, _between(task.curve, angles)), task.curve)
-    return _fit(task, scene, row, closure, angles, (off, stray, least))
+    try:
+        scene = _scene(task, row, closure, (angles[0], 1.0))
+        if scene.info.full_turn:
+            return None
+        low, high = scene.info.input_range
+        # while the sine of the phase is above zero the closure is the one that is named
+        share = np.remainder(angles - (low + high) / 2 + math.pi, 2 * math.pi) - math.pi
+        forth = np.arccos(np.clip(-share / ((high - low) / 2), -1.0, 1.0))
+        phases = np.where(closures == closure, forth, 2 * math.pi - forth)
+        steps = np.remainder(np.diff(phases) + math.pi, 2 * math.pi) - math.pi
+        if steps.sum() < 0:
+            scene = _scene(task, row, closure, (angles[0], -1.0))
+    except (AssemblyError, SceneError):
+        return None
+    phases = phases[0] + np.append(0.0, np.cumsum(steps))
+    fit = _fit(task, _Answer(scene, row, closure, "phase"), phases)
+    return fit and replace(fit, angles=angles)
 
 
-def _fit(
-    task: PathTask, scene: Scene, row: Real, closure: float, angles: Real, found: tuple[Real, float, float]
-) -> Fit:
-    """Return the answer with its points' distances, how far it strays, and its least transmission angle."""
-    off, stray, least = found
-    return Fit(
-        scene=scene,
-        parameters=parameters_of(task.kind, row),
-        closure=task.kind.sides[closure < 0],
-        angles=angles,
-        rms=float(np.sqrt((off**2).mean())),
-        largest=float(off.max()),
-        stray=stray,
-        transmission_angle=least,
-        size=float(task.kind.link_lengths(row[None])[0].max()),
-        task=task,
-    )
+class _Answer(NamedTuple):
+    """A linkage as a scene, its row of parameters and its closure, and what its places are given by."""
+
+    scene: Scene
+    row: Real
+    closure: float
+    by: Literal["angle", "phase"]
+
+    @property
+    def round(self) -> float:
+        """How far its places go until it has traced its whole curve."""
+        return 2 * math.pi if self.by == "angle" else self.scene.period
+
+    def traced(self, places: Real) -> Complex:
+        """Return the coupler point at places."""
+        motion = self.scene.solve(**{self.by: places}, derivatives=0)
+        return np.asarray(as_complex(motion.position["P"]))
 
 
-def _scene(task: PathTask, row: Real, closure: float, angles: Real) -> Scene:
-    """Return the scene of a linkage, its crank starting at the first point and turning the points' way."""
-    start, stated = (angles[0], angles[-1] - angles[0]), {"source": task.source, "length_unit": task.unit}
+def _scene(task: PathTask, row: Real, closure: float, start: tuple[float, float]) -> Scene:
+    """Return the scene of a linkage, its crank starting at an angle, turning a way (±1)."""
+    stated = {"source": task.source, "length_unit": task.unit}
     document = document_of(task.kind, row, closure, start, **stated)
     return scene_from(document, name=task.name, where=task.name)
 
 
-def checked_by_phase(task: PathTask, row: Real, closure: float, angles: Real) -> Fit | None:
-    """Return an answer that may swing through its limits, the points at their nearest over the true period.
+def _fit(task: PathTask, answer: _Answer, places: Real) -> Fit | None:
+    """Return an answer with how far it is off and strays, and its least transmission angle.
 
-    None where it does not assemble. The row is written as it is; `angles` are those of its crank.
+    None where it does not pass the points near given places, in order, or not above the least angle.
     """
-    try:
-        scene = _scene(task, row, closure, angles)
-        phases = np.linspace(0.0, scene.period, _POSES)
-    except (AssemblyError, SceneError):
+    if not _in_order(task, places, answer.round):
         return None
-    way = _traced(scene, phases, "phase")
-    start = phases[[int(np.abs(way - point).argmin()) for point in task.curve.points]]
-    nearest = _nearest(scene, task.curve.points, start, "phase")
-    off = np.abs(_traced(scene, nearest, "phase") - task.curve.points)
-    least = scene.info.transmission.least if scene.info.transmission else math.pi / 2
-    return _fit(task, scene, row, closure, angles, (off, _stray(way, task.curve), least))
+    places, off = _feet(answer, task, places)
+    if not np.isfinite(off).all():
+        return None
+    least, stray = _least_transmission(answer, task, places), _stray(answer, task, places)
+    if not least >= task.requirements.angle_to_keep(answer.by) - _SLACK or not math.isfinite(stray):
+        return None
+    return Fit(
+        scene=answer.scene,
+        parameters=parameters_of(task.kind, answer.row),
+        closure=task.kind.sides[answer.closure < 0],
+        angles=places,
+        rms=float(np.sqrt((off**2).mean())),
+        largest=float(off.max()),
+        stray=stray,
+        transmission_angle=least,
+        size=float(task.kind.link_lengths(answer.row[None])[0].max()),
+        task=task,
+    )
 
 
 def keeps(task: PathTask, row: Real) -> bool:
@@ -101,46 +136,69 @@ def keeps(task: PathTask, row: Real) -> bool:
     return bool((slack >= -_SLACK * task.curve.size).all() and (given <= _SLACK * task.curve.size).all())
 
 
-def _traced(scene: Scene, places: Real, by: str = "angle") -> Complex:
-    """Return the coupler point at crank angles, or at phases."""
-    motion = scene.solve(**{by: places}, derivatives=0)
-    return np.asarray(as_complex(motion.position["P"]))
-
-
-def _feet(scene: Scene, task: PathTask, angles: Real) -> tuple[Real, Real]:
-    """Return the crank angles at which the points are passed, in order, and how far each one is off.
+def _feet(answer: _Answer, task: PathTask, places: Real) -> tuple[Real, Real]:
+    """Return the places at which the points are passed, in order, and how far each one is off.
 
     Points are as far off as the nearest place of the curve near by, or, with prescribed timing, as where the
     coupler point is then. Neighbours whose nearest places have changed places are in order as long as that
     is by no more than points are off.
     """
-    if task.timing is None:
-        sense = 1.0 if angles[-1] > angles[0] else -1.0
-        nearest = _nearest(scene, task.curve.points, angles, "angle")
-        ordered = sense * _ascending(sense * nearest, closed=task.curve.closed)
-        passed = _traced(scene, nearest)
-        off = np.abs(passed - task.curve.points)
-        if np.abs(_traced(scene, ordered) - passed).max() <= 2 * off.max() + _SLACK * task.curve.size:
-            return ordered, off
-    return angles, np.abs(_traced(scene, angles) - task.curve.points)
+    points = task.curve.points
+    if task.timing is not None:
+        return places, np.abs(answer.traced(places) - points)
+    sense = 1.0 if places[-1] > places[0] else -1.0
+    places = _passed(answer, task, places)
+    nearest = _nearest(answer, points, places)
+    ordered = sense * _ascending(sense * nearest, answer.round if task.curve.closed else math.inf)
+    passed = answer.traced(nearest)
+    off = np.abs(passed - points)
+    if np.abs(answer.traced(ordered) - passed).max() <= 2 * off.max() + _SLACK * task.curve.size:
+        return ordered, off
+    return places, np.abs(answer.traced(places) - points)
 
 
-def _ascending(angles: Real, *, closed: bool) -> Real:
-    """Return angles sorted, those of a closed curve within one turn."""
-    found = np.sort(angles)
-    while closed and found[-1] - found[0] > 2 * math.pi:
-        found[0], found[-1] = found[-1] - 2 * math.pi, found[0] + 2 * math.pi
+def _passed(answer: _Answer, task: PathTask, places: Real) -> Real:
+    """Return the places, of equal steps along the curve, that are nearest to the points in their order.
+
+    That is the least sum of squares of all ways to pass them in order; the given places where it would take
+    more than a round.
+    """
+    chosen = task.thinned(_STEPPED)
+    span = (
+        math.copysign(answer.round, places[-1] - places[0]) if task.curve.closed else places[-1] - places[0]
+    )
+    steps = np.linspace(places[0] - _BEYOND * span, places[0] + (1 + _BEYOND) * span, _POSES)
+    squares = np.abs(answer.traced(steps) - task.curve.points[chosen, None]) ** 2
+    squares, numbers = np.where(np.isfinite(squares), squares, np.inf), np.arange(_POSES)
+    total, before = squares[0], []
+    for square in squares[1:]:
+        least = np.minimum.accumulate(total)
+        before.append(np.maximum.accumulate(np.where(total <= least, numbers, 0)))
+        total = least + square
+    found = [int(total.argmin())]
+    for last in reversed(before):
+        found.append(int(last[found[-1]]))
+    along = task.normal.places
+    passed = np.interp(along, along[chosen], steps[found[::-1]])
+    return passed if _in_order(task, passed, answer.round) else places
+
+
+def _ascending(places: Real, most: float) -> Real:
+    """Return places sorted, those that go on beyond the curve's end where it begins."""
+    found = np.sort(places)
+    while found[-1] - found[0] > most:
+        found[0], found[-1] = found[-1] - most, found[0] + most
         found.sort()
     return found
 
 
-def _nearest(scene: Scene, points: Complex, places: Real, by: str) -> Real:
+def _nearest(answer: _Answer, points: Complex, places: Real) -> Real:
     """Return where, near to given places, the coupler point is nearest to each point: Newton's steps."""
     best = places.copy()
-    least, reach = np.abs(_traced(scene, best, by) - points), np.full(len(best), _FARTHEST_STEP)
+    least, reach = np.abs(answer.traced(best) - points), np.full(len(best), _FARTHEST_STEP)
     left = np.arange(len(best))
     for _ in range(_FOOT_STEPS):
-        motion = scene.solve(**{by: best[left]}, speed=1.0, derivatives=2)
+        motion = answer.scene.solve(**{answer.by: best[left]}, speed=1.0, derivatives=2)
         way = points[left] - as_complex(motion.position["P"])
         rate, turn = as_complex(motion.velocity["P"]), as_complex(motion.acceleration["P"])
         with np.errstate(all="ignore"):
@@ -148,7 +206,7 @@ def _nearest(scene: Scene, points: Complex, places: Real, by: str) -> Real:
             bend = square - (np.conj(turn) * way).real
             step = np.nan_to_num((np.conj(rate) * way).real / np.where(bend > 0, bend, square))
         step = np.clip(step, -reach[left], reach[left])
-        off = np.abs(_traced(scene, best[left] + step, by) - points[left])
+        off = np.abs(answer.traced(best[left] + step) - points[left])
         nearer = off < least[left]
         best[left] += np.where(nearer, step, 0.0)
         least[left] = np.where(nearer, off, least[left])
@@ -159,29 +217,36 @@ def _nearest(scene: Scene, points: Complex, places: Real, by: str) -> Real:
     return best
 
 
-def _in_order(task: PathTask, angles: Real) -> bool:
-    """Return whether the points are passed one after the other, a closed curve in one turn."""
-    steps = np.diff(angles) * (1 if angles[-1] > angles[0] else -1)
-    whole = abs(angles[-1] - angles[0]) < 2 * math.pi + _SLACK
+def _in_order(task: PathTask, places: Real, most: float) -> bool:
+    """Return whether the points are passed one after the other, a closed curve in one round."""
+    steps = np.diff(places) * (1 if places[-1] > places[0] else -1)
+    whole = abs(places[-1] - places[0]) < most + _SLACK
     return task.timing is not None or bool((steps > -_SLACK).all() and whole)
 
 
-def _least_transmission(scene: Scene, angles: Real, *, full: bool) -> float:
-    """Return the least transmission angle: over the turn, of an input that swings over the points' range."""
-    if full:
-        return scene.info.transmission.least if scene.info.transmission else math.pi / 2
-    motion = scene.solve(angle=np.linspace(angles.min(), angles.max(), _POSES), derivatives=0)
+def _least_transmission(answer: _Answer, task: PathTask, places: Real) -> float:
+    """Return the least transmission angle: over the turn, of an input that swings along the curve."""
+    whole = answer.by == "phase" and task.curve.closed
+    if whole or answer.scene.info.full_turn:
+        known = answer.scene.info.transmission
+        return known.least if known else math.pi / 2
+    along = np.linspace(places.min(), places.max(), _POSES)
+    motion = answer.scene.solve(**{answer.by: along}, derivatives=0)
     return float(np.min(transmission_angle(motion, "B")))
 
 
-def _between(curve: DrawnCurve, angles: Real) -> Real:
-    """Return crank angles all along the curve, of an open one between its ends."""
-    last = angles[0] + math.copysign(2 * math.pi, angles[-1] - angles[0]) if curve.closed else angles[-1]
-    return np.linspace(angles[0], last, _POSES)
+def _stray(answer: _Answer, task: PathTask, places: Real) -> float:
+    """Return how far the coupler point goes from the points' polyline all along it, of an open one between
+    its ends.
+    """
+    last = (
+        places[0] + math.copysign(answer.round, places[-1] - places[0]) if task.curve.closed else places[-1]
+    )
+    return _farthest(answer.traced(np.linspace(places[0], last, _POSES)), task.curve)
 
 
-def _stray(way: Complex, curve: DrawnCurve) -> float:
-    """Return how far the coupler point goes from the points' polyline: from the nearest of its segments.
+def _farthest(way: Complex, curve: DrawnCurve) -> float:
+    """Return how far a way goes from the points' polyline: from the nearest of its segments.
 
     Infinite where the way is not closed. Of the segments, taken in runs, only runs are looked at that may
     hold the nearest one.

@@ -8,39 +8,50 @@ a coupler similar to the first one's (Roberts 1875, Chebyshev 1878).
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
-from linkanim.synthesis.check import checked_by_phase
+from linkanim.synthesis.check import checked, checked_by_phase
 from linkanim.synthesis.fit import Fit
-from linkanim.synthesis.kinds import Complex, Linkage4
+from linkanim.synthesis.kinds import Complex, Linkage4, Real
 
-_VANISHING = 1e-9
-"""Of the longest link: a cognate with a shorter one is none."""
+_TIMED = 1e-9
+"""By how much crank angles (rad) may be off those that are given."""
 _Joints = tuple[complex, Complex, Complex, complex]
 """A pivot, the pins of its crank (n,) and of the rocker (n,), and that one's pivot."""
 
 
-def with_cognates(fits: tuple[Fit, ...]) -> tuple[Fit, ...]:
-    """Return each four-bar followed by its two cognates."""
-    return tuple(one for fit in fits for one in (fit, *cognates_of(fit)))
-
-
 def cognates_of(fit: Fit) -> Iterator[Fit]:
-    """Yield a four-bar's two cognates, driven at O6 or O2.
+    """Yield a four-bar's two cognates, driven at O6 or O2, as far as they are answers to the same task.
 
     One may be a double-rocker, whose curve then is that of both its closures; one of which a link would
-    vanish, as where the coupler point is a pin, is left out.
+    vanish, as where the coupler point is a pin, is left out, as is what breaks a limit or the timing.
     """
     point = fit.task.kind.points(fit.row[None], np.array([fit.closure_sign]), fit.angles[None])[0]
     for pivot, crank, rocker, other in _cognates(fit, point):
         first = Linkage4(pivot, crank[0], rocker[0], other, point[0])
         with np.errstate(all="ignore"):
             row = np.array(first.row)
-        if row[[2, 3, 8]].min() > _VANISHING * fit.size:
-            angles = np.unwrap(np.angle(crank - pivot))
-            found = checked_by_phase(fit.task, row, first.closure, angles)
-            yield from [found] if found else []
+        angles = _timed(fit, np.unwrap(np.angle(crank - pivot)))
+        if angles is None or not np.isfinite(row).all():
+            continue
+        closures = np.where((np.conj(other - crank) * (rocker - crank)).imag >= 0, 1.0, -1.0)
+        task = fit.task if fit.task.curve.closed else fit.task.swinging()
+        found = checked(task, row, first.closure, angles) or checked_by_phase(task, row, closures, angles)
+        yield from [replace(found, cognate=True)] if found else []
+
+
+def _timed(fit: Fit, angles: Real) -> Real | None:
+    """Return crank angles at the points, whole turns nearer to those given; None where they are not."""
+    task = fit.task
+    if task.timing is None:
+        return angles
+    late = angles - task.timing
+    if task.free_start:
+        late = late - late[0]
+    turns = np.round(late / (2 * np.pi)) * 2 * np.pi
+    return angles - turns if np.abs(late - turns).max() <= _TIMED else None
 
 
 def _cognates(fit: Fit, point: Complex) -> tuple[_Joints, _Joints]:

@@ -33,11 +33,14 @@ class Fit:
     stray: float
     """How far the coupler point goes from the points' polyline at the most."""
     transmission_angle: float
+    """The least; where the input does not turn fully, along the curve."""
     size: float
-    """The longest link."""
+    """The longest link, or side of the coupler."""
     task: PathTask = field(repr=False)
     exact: Fit | None = field(default=None, repr=False)
     """The answer before its lengths were rounded."""
+    cognate: bool = False
+    """Whether it is a Roberts cognate of an answer before it."""
 
     @property
     def class_name(self) -> str:
@@ -56,8 +59,8 @@ class Fit:
 
     @property
     def sense(self) -> float:
-        """+1 where the crank's angle grows from point to point, else -1."""
-        return 1.0 if self.angles[-1] > self.angles[0] else -1.0
+        """+1 where the drive runs forwards along the points, else -1; a crank's angle then grows."""
+        return math.copysign(1.0, self.scene.linkage.drive.speed)
 
     @cached_property
     def joints(self) -> Complex:

@@ -74,7 +74,7 @@ class LinkageKind(ABC):
 
     @abstractmethod
     def link_lengths(self, rows: Real) -> Real:
-        """Return the lengths of all links (B, m), the coupler point's arm among them."""
+        """Return the lengths of all links (B, m), those of the coupler point's arms among them, B's last."""
 
     def document(self, row: Mapping[str, float], closure: float) -> dict[str, object]:
         """Return the tables [ground], [joints] and [bodies] of a scene with that linkage."""
@@ -186,10 +186,10 @@ class FourBarKind(LinkageKind):
         return _Closed(direction, normal, (normal.real, normal.imag, b))
 
     def link_lengths(self, rows: Real) -> Real:
-        """Return crank, coupler, arm, rocker and ground."""
+        """Return crank, coupler, arm from A, rocker, ground, and arm from B."""
         ground = np.hypot(rows[:, 6] - rows[:, 0], rows[:, 7] - rows[:, 1])
-        arm = np.hypot(rows[:, 4], rows[:, 5])
-        return np.stack([rows[:, 2], rows[:, 3], arm, rows[:, 8], ground], axis=1)
+        arm, other = np.hypot(rows[:, 4], rows[:, 5]), np.hypot(rows[:, 4] - rows[:, 3], rows[:, 5])
+        return np.stack([rows[:, 2], rows[:, 3], arm, rows[:, 8], ground, other], axis=1)
 
     def slack(self, rows: Real, least_angle: float) -> Real:
         """Return how far the two extremes of the transmission angle are from the least."""
@@ -243,8 +243,9 @@ class SliderCrankKind(LinkageKind):
         return _Closed(direction, normal, (place.real + root, np.ones_like(root)))
 
     def link_lengths(self, rows: Real) -> Real:
-        """Return crank, rod and arm."""
-        return np.stack([rows[:, 2], rows[:, 3], np.hypot(rows[:, 4], rows[:, 5])], axis=1)
+        """Return crank, rod, and arms from A and B."""
+        arm, other = np.hypot(rows[:, 4], rows[:, 5]), np.hypot(rows[:, 4] - rows[:, 3], rows[:, 5])
+        return np.stack([rows[:, 2], rows[:, 3], arm, other], axis=1)
 
     def slack(self, rows: Real, least_angle: float) -> Real:
         """Return how far the rod is from too steep, on either side of the line."""

@@ -142,7 +142,8 @@ def _change(problem: PathTask, state: _State, residual: Real, slopes: Real, damp
     diagonal = np.einsum("bii->bi", normal)
     scale = diagonal.mean(axis=1, keepdims=True)
     diagonal += damping[:, None] * (diagonal + 1e-3 * scale) + 1e-15 * scale
-    normal, right = np.nan_to_num(normal), np.nan_to_num(right)
+    nowhere = ~(np.isfinite(normal).all(axis=(1, 2)) & np.isfinite(right).all(axis=1) & (scale[:, 0] > 0))
+    normal[nowhere], right[nowhere] = np.eye(count), 0.0  # one that cannot be closed stays as it is
     mask, _ = problem.requirements.held(problem.kind)
     equations = np.zeros((len(right), len(mask), count))
     equations[:, range(len(mask)), range(len(mask))] = mask

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -11,12 +11,12 @@ from numpy.typing import ArrayLike
 from linkanim import units
 from linkanim.document import meant
 from linkanim.errors import BadInput
-from linkanim.synthesis.cognates import with_cognates
+from linkanim.synthesis.cognates import cognates_of
 from linkanim.synthesis.curves.drawn import DrawnCurve, drawn
 from linkanim.synthesis.fit import Fit
 from linkanim.synthesis.kinds import KINDS, LinkageKind, Real
-from linkanim.synthesis.requirements import LEAST_ANGLE, SHORTEST, Requirements
-from linkanim.synthesis.rounding import with_round_lengths
+from linkanim.synthesis.requirements import SHORTEST, Requirements
+from linkanim.synthesis.rounding import rounded_to, with_round_lengths
 from linkanim.synthesis.search import Progress, found
 from linkanim.synthesis.task import EXACTLY, PathTask
 from linkanim.units import shown
@@ -42,9 +42,10 @@ def path(
     """Return the best few linkages that differ whose coupler point follows points (n, 2), the best first.
 
     A closed curve is passed in one turn of the crank, its points in their order; an open one within the
-    input's range. `cognates` adds each four-bar's two Roberts cognates after it; `rounding` rounds all
-    lengths to that step, each time fitting the rest again. `options` are those of `task_of`. BadInput for
-    points or limits that make no sense, and where nothing was found that keeps to the limits.
+    input's range. `cognates` adds each four-bar's two Roberts cognates after it, as far as they keep to the
+    same options; `rounding` rounds all lengths to that step, each time fitting the rest again. `options` are
+    those of `task_of`. BadInput for points or limits that make no sense, and where nothing was found that
+    keeps to the limits.
     """
     if not isinstance(count, int | np.integer) or not 1 <= count <= MOST_ANSWERS:
         raise BadInput(f"count={shown(count)}: give a whole number from 1 to {MOST_ANSWERS}")
@@ -56,7 +57,14 @@ def path(
     fits = found(task, count, progress)
     if rounding is not None:
         fits = with_round_lengths(fits, rounding)
-    return with_cognates(fits) if cognates else fits
+    return tuple(one for fit in fits for one in (fit, *_cognates(fit, rounding))) if cognates else fits
+
+
+def _cognates(fit: Fit, rounding: float | None) -> Iterator[Fit]:
+    """Yield an answer's cognates, in round lengths where its own are."""
+    for other in cognates_of(fit.exact or fit):
+        found = other if rounding is None else rounded_to(other, rounding)
+        yield from [found] if found else []
 
 
 def task_of(
@@ -81,9 +89,9 @@ def task_of(
 
     `kind` is "four-bar" or "slider-crank". `timing` is the crank's angle at each point, in radians, or one
     step from each point to the next; with `free_start`, the default for a step, all may be shifted by one
-    angle. `box` is x, y, width and height for the pivots, `largest` the longest link in curve sizes,
-    `least_angle` the least transmission angle in radians. `pivots` are O2 and O4, None for one that is
-    free; `lengths` gives some of the kind's parameters. `weights` (n,) say how much points count,
+    angle. `box` is x, y, width and height for the pivots, `largest` the longest link or side of the coupler
+    in curve sizes, `least_angle` the least transmission angle in radians. `pivots` are O2 and O4, None for
+    one that is free; `lengths` gives some of the kind's parameters. `weights` (n,) say how much points count,
     `exactly` which are to be passed through exactly.
     """
     if kind not in KINDS:
@@ -98,7 +106,7 @@ def task_of(
     requirements = Requirements(
         largest=largest * curve.size,
         shortest=SHORTEST * curve.size,
-        least_angle=max(least_angle, LEAST_ANGLE),
+        least_angle=least_angle,
         box=None if box is None else _box(box),
         given=_given(chosen, pivots, lengths or {}),
     )

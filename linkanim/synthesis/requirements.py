@@ -23,13 +23,14 @@ SHORTEST = 1e-3
 class Requirements:
     """Limits in the units of the points they go with.
 
+    `least_angle` is the transmission angle asked for, 0 where none is, and above `LEAST_ANGLE` all the same;
     `box` is x, y, width and height, in which all pivots lie; `given` are values of parameters that stay;
     `full_turn` says whether the crank has to turn fully.
     """
 
     largest: float
     shortest: float
-    least_angle: float = LEAST_ANGLE
+    least_angle: float = 0.0
     box: tuple[float, ...] | None = None
     given: Mapping[str, float] = field(default_factory=dict)
     full_turn: bool = True
@@ -53,7 +54,7 @@ class Requirements:
 
     def slack(self, kind: LinkageKind, rows: Real) -> Real:
         """Return (B, m), negative for each limit that is broken; the two of a full turn come first."""
-        turning = [kind.slack(rows, self.least_angle)] if self.full_turn else []
+        turning = [kind.slack(rows, self.angle_to_keep("angle"))] if self.full_turn else []
         lengths = kind.link_lengths(rows)
         limits = [self.largest - lengths, lengths - self.shortest]
         if self.box is not None:
@@ -61,6 +62,13 @@ class Requirements:
             pivots = kind.pivots(rows)
             limits += [pivots.real - x, x + width - pivots.real, pivots.imag - y, y + height - pivots.imag]
         return np.concatenate([*turning, *limits], axis=1)
+
+    def angle_to_keep(self, by: str) -> float:
+        """Return the least transmission angle of an answer that goes along the curve by its crank's "angle".
+
+        One that goes by "phase", through its limits, keeps what is asked for only: there it is 0.
+        """
+        return max(self.least_angle, LEAST_ANGLE) if by == "angle" else self.least_angle
 
     def held(self, kind: LinkageKind) -> tuple[Real, Real]:
         """Return which parameters are given, as a mask, and their values (0 for the others)."""

@@ -16,14 +16,14 @@ def with_round_lengths(fits: tuple[Fit, ...], step: float) -> tuple[Fit, ...]:
 
     Each knows what it was before (`exact`). BadInput where nothing that follows the curve is left.
     """
-    found = [fit for fit in (_rounded(fit, step) for fit in fits) if fit is not None]
+    found = [fit for fit in (rounded_to(fit, step) for fit in fits) if fit is not None]
     if not found:
         raise BadInput(f"rounded to {step:g} no linkage is left that follows the curve; take a finer step")
     return best_of(found, len(found))
 
 
-def _rounded(fit: Fit, step: float) -> Fit | None:
-    """Return an answer in round lengths; None where none is left."""
+def rounded_to(fit: Fit, step: float) -> Fit | None:
+    """Return an answer in round lengths; None where none is left, as of one that goes through its limits."""
     now: Fit | None = fit
     for name in fit.task.kind.parameters:
         if name == "line_angle" or now is None:
@@ -31,7 +31,7 @@ def _rounded(fit: Fit, step: float) -> Fit | None:
         held = [_holding(now.task, name, value) for value in _near(now.parameters[name], step)]
         tries = [one for task in held if (one := refitted(task, now))]
         now = min(tries, key=lambda one: one.error, default=None)
-    return now and replace(now, task=fit.task, exact=fit)
+    return now and replace(now, task=fit.task, exact=fit, cognate=fit.cognate)
 
 
 def _near(value: float, step: float) -> tuple[float, float]:

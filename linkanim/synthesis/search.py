@@ -13,7 +13,7 @@ from linkanim.errors import BadInput
 from linkanim.synthesis.atlas import CURVES, atlas
 from linkanim.synthesis.check import checked
 from linkanim.synthesis.curves.drawn import DrawnCurve
-from linkanim.synthesis.fit import Fit
+from linkanim.synthesis.fit import Fit, rounded
 from linkanim.synthesis.kinds import Complex, Indices, Real
 from linkanim.synthesis.match import Candidates, joined, matched, matched_few, matched_in_time
 from linkanim.synthesis.refine import merit, refined
@@ -191,7 +191,7 @@ def _checked(task: PathTask, normal: Candidates, chosen: Indices) -> Iterator[Fi
     for (row, closure, angles, _), places in zip(zip(*scaled, strict=True), joints, strict=True):
         if any(np.abs(places - other).max() <= _SAME * task.curve.size for other in known):
             continue
-        if fit := checked(task, row, float(closure), angles):
+        if fit := checked(task, rounded(task, row), float(closure), angles):
             known.append(places)
             yield fit
 

@@ -12,15 +12,19 @@ from typing import Any
 
 import numpy as np
 import pytest
-from random_curves import curves
+from random_curves import curves, linkages
 
 import linkanim
+from linkanim.mechanics.motion.measures import transmission_angle
 from linkanim.synthesis.atlas import atlas
 from linkanim.synthesis.check import checked
+from linkanim.synthesis.cognates import cognates_of
 from linkanim.synthesis.curves.drawn import DrawnCurve
 from linkanim.synthesis.fit import Fit
 from linkanim.synthesis.kinds import FOUR_BAR, Complex, Real
-from linkanim.synthesis.match import matched
+from linkanim.synthesis.match import Candidates, matched
+from linkanim.synthesis.refine import refined
+from linkanim.synthesis.request import task_of
 from linkanim.synthesis.search import best_of, ranked
 
 PERCENT = 0.01
@@ -245,6 +249,92 @@ def test_cognates_trace_the_same_curve() -> None:
             rate = motion.velocity["P"] @ np.array([1.0, 1j])
             start = start + (np.conj(rate) * left).real / np.abs(rate) ** 2
         assert np.abs(traced(other, phase=start) - way[::40]).max() <= 1e-13 * first.task.curve.size
+
+
+def order(fit: Fit, points: Complex) -> Real:
+    """Return where in its period the coupler point is nearest to each point, the way that the drive runs."""
+    speed = fit.scene.linkage.drive.speed
+    period = fit.scene.period
+    way = traced(fit, phase=math.copysign(period, speed) * np.arange(4000) / 4000)
+    places = np.array([int(np.abs(way - point).argmin()) for point in points]) / 4000
+    return np.asarray(np.remainder(places - places[0] + 1e-3, 1.0))
+
+
+def answer(row: Real, angles: Real, *, closed: bool = True, **options: Any) -> Fit:
+    """Return a four-bar as an answer to points of its own coupler curve."""
+    points = FOUR_BAR.points(row[None], np.ones(1), angles[None])[0]
+    task = task_of(points, closed, **options)
+    found = checked(task if closed else task.swinging(), row, 1.0, angles)
+    assert found is not None
+    return found
+
+
+STEP = 2 * math.pi / 40
+TURN: Real = STEP * np.arange(40, dtype=np.float64)
+# What is asked for, and how many cognates of three crank-rockers and drag-links keep to it.
+COGNATES: tuple[tuple[dict[str, Any], int], ...] = (
+    ({}, 12),
+    ({"least_angle": 0.05}, 8),
+    ({"largest": 3.5}, 10),
+    ({"box": (-0.1, -0.1, 2, 0.3)}, 4),
+    ({"pivots": [(0.0, 0.0)]}, 6),
+    ({"timing": STEP}, 6),
+    ({"timing": TURN + 0.5}, 0),
+)
+
+
+@pytest.mark.parametrize(("options", "count"), COGNATES, ids=[next(iter(one), "free") for one, _ in COGNATES])
+def test_cognates_keep_to_what_is_asked_for_and_run_the_way_that_was_drawn(
+    options: dict[str, Any], count: int
+) -> None:
+    found = 0
+    for row in linkages("four-bar", 4, seed=40)[:3]:
+        for way in (1.0, -1.0):
+            timed = {"timing": way * options["timing"]} if "timing" in options else {}
+            first = answer(row, way * (TURN + 0.5), **{"largest": 100.0} | options | timed)
+            for fit in cognates_of(first):
+                found += 1
+                points = fit.task.curve.points
+                assert fit.rms < 1e-9 * fit.task.curve.size
+                assert (np.diff(order(fit, points)) > 0).all()
+                assert fit.transmission_angle >= options.get("least_angle", 0.0) - 1e-9
+                assert fit.size <= options.get("largest", 100.0) * fit.task.curve.size * (1 + 1e-9)
+                if "timing" in options:
+                    turned = np.diff(fit.angles)
+                    assert turned == pytest.approx(np.full(39, way * STEP))
+                    assert np.abs(traced(fit, angle=fit.angles) - points).max() < 1e-9 * fit.task.curve.size
+    assert found == count
+
+
+def test_an_open_curve_of_an_input_that_swings_tells_the_transmission_angle_along_it() -> None:
+    # a triple-rocker: ground 100, crank 60, coupler 50, rocker 70
+    row = np.array([0, 0, 60, 50, 20, 30, 100, 0, 70.0])
+    best = answer(row, np.linspace(-1.2, 0.9, 40), closed=False)
+    motion = best.scene.solve(angle=np.linspace(-1.2, 0.9, 3000), derivatives=0)
+    least = np.min(transmission_angle(motion, "B"))
+    assert best.transmission_angle == pytest.approx(least, abs=1e-4)
+    assert best.scene.info.transmission is not None
+    assert best.scene.info.transmission.least < 1e-6 < least
+
+
+def test_candidates_that_cannot_be_closed_stay_as_they_are() -> None:
+    rows, turn = linkages("four-bar", 2, seed=5), np.linspace(0, 6, 40)
+    points = FOUR_BAR.points(rows[:1], np.ones(1), turn[None])[0]
+    rows[1, 8] = 1e-3
+    task = task_of(points, closed=False).swinging()
+    start = Candidates(rows, np.ones(2), np.tile(turn, (2, 1)), np.ones(2))
+    _, cost = refined(task.problem(np.arange(40)), task.normalised(start), 5)
+    assert cost[0] < 1e-20
+    assert cost[1] == np.inf
+
+
+@pytest.mark.slow
+def test_the_longest_link_is_the_longest_side_of_the_coupler_where_that_is() -> None:
+    for fit in linkanim.path(SQUARE, count=3):
+        pose = fit.scene.pose(0.3, 0).position
+        sides = [math.dist(pose[one], pose[other]) for one, other in ("AB", "AP", "BP")]
+        links = [math.dist(pose[one], pose[other]) for one, other in (("O2", "A"), ("O4", "B"), ("O2", "O4"))]
+        assert fit.size == pytest.approx(max(*sides, *links))
 
 
 @pytest.mark.slow

@@ -23,6 +23,7 @@ from linkanim.synthesis.request import path
 _UNIT = "mm"
 _POOR = 5.0
 """Percent of the curve's size, beyond which an answer hardly follows it."""
+_SAME_ANGLE = 1e-6
 _HANDED_ON = ("kind", "count", "box", "largest", "least_angle", "cognates")
 """Options that are called alike here and there."""
 _TITLES = ("file", f"rms {_UNIT}", "%", f"largest {_UNIT}", "%", "transmission", "longest link", "class")
@@ -51,7 +52,7 @@ def run(options: Namespace) -> None:
         print(json_text([_object(fit, file) for fit, file in found], indent=2))
     else:
         print(columns([_TITLES, *(_cells(fit, file) for fit, file in found)]))
-    _remark(fits)
+    _remark(fits, cognates=options.cognates)
 
 
 def _timing(timing: float | str | None, curve: CurveFile, where: str) -> float | Real | None:
@@ -68,7 +69,9 @@ def _percent(distance: float, fit: Fit) -> float:
 
 def _cells(fit: Fit, file: Path) -> tuple[str, ...]:
     distances = (fit.rms, _percent(fit.rms, fit), fit.largest, _percent(fit.largest, fit))
-    angle = f"{significant(math.degrees(fit.transmission_angle), 3)} deg"
+    whole = fit.scene.info.transmission
+    along = " along it" if whole and whole.least < fit.transmission_angle - _SAME_ANGLE else ""
+    angle = f"{significant(math.degrees(fit.transmission_angle), 3)} deg{along}"
     cells = (significant(distance, 3) for distance in distances)
     return (str(file), *cells, angle, significant(fit.size, 4), fit.class_name)
 
@@ -85,6 +88,8 @@ def _object(fit: Fit, file: Path) -> dict[str, object]:
         "transmission_angle": fit.transmission_angle,
         "largest_link": fit.size,
         "class": fit.class_name,
+        "full_turn": fit.scene.info.full_turn,
+        "cognate": fit.cognate,
         "parameters": {"kind": fit.task.kind.name, **fit.parameters, "closure": fit.closure},
     }
     if fit.exact is not None:
@@ -92,8 +97,8 @@ def _object(fit: Fit, file: Path) -> dict[str, object]:
     return found
 
 
-def _remark(fits: Sequence[Fit]) -> None:
-    """Say on stderr where nothing follows the curve well, and what rounding costs."""
+def _remark(fits: Sequence[Fit], *, cognates: bool) -> None:
+    """Say on stderr where nothing follows it well, what rounding costs, and which cognates are left out."""
     best = fits[0]
     if _percent(best.rms, best) > _POOR:
         found = significant(_percent(best.rms, best), 3)
@@ -101,3 +106,9 @@ def _remark(fits: Sequence[Fit]) -> None:
     if best.exact is not None:
         before, after = (significant(_percent(fit.rms, fit), 3) for fit in (best.exact, best))
         print(f"rounding takes the best from {before} % to {after} %", file=sys.stderr)
+    others = [fit.cognate for fit in fits]
+    if cognates and (missing := 2 * others.count(False) - others.count(True)):
+        print(
+            f"{missing} of {2 * others.count(False)} cognates do not keep to what is asked for",
+            file=sys.stderr,
+        )

@@ -16,6 +16,8 @@ _MOMENTS = 240
 class Worth(NamedTuple):
     """By how much of the curve's size in percent it is off, its links together in curve sizes, and its least
     transmission angle (rad), 0 where the crank does not turn fully.
+
+    Among the links is the coupler point's arm from A.
     """
 
     off: float
@@ -30,8 +32,8 @@ def worth(joints: Linkage4, curve: DrawnCurve) -> Worth:
     curve also of that from the curve, whichever is more; infinite where it draws nothing.
     """
     row = np.array(joints.row)
-    lengths = FOUR_BAR.link_lengths(row[None])[0]
-    return Worth(_off(joints, curve), float(lengths.sum() / curve.size), _least_angle(row))
+    *lengths, _ = FOUR_BAR.link_lengths(row[None])[0]
+    return Worth(_off(joints, curve), float(np.sum(lengths) / curve.size), _least_angle(row))
 
 
 def _off(joints: Linkage4, curve: DrawnCurve) -> float:
