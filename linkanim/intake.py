@@ -38,6 +38,8 @@ _CONTROLS = re.compile(
     r"[\0-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2060-\u206f\ud800-\udfff"
     r"\ufff9-\ufffb\ufffe\uffff\U000e0000-\U000e007f]"
 )
+_PARTED, _LONGEST_NAME = re.compile(r"[/\\]"), 255
+"""What parts the names of a path on any system, and the bytes of a name that a disk holds."""
 _BRACKETS = re.compile(r"[\[\]{}]")
 _MARKS = "=,:[{"
 _OUR_TROUBLE = (EMFILE, ENFILE, ENOMEM)
@@ -145,6 +147,15 @@ def control_in(text: str) -> str | None:
     """
     found = _CONTROLS.search(text)
     return f"the control character U+{ord(found[0]):04X}" if found else None
+
+
+def unnameable(path: str) -> str | None:
+    """Return why no file of ours can name a path, in words; None where it can."""
+    if found := control_in(path):
+        return f"has {found} in its name"
+    if any(len(part.encode()) > _LONGEST_NAME for part in _PARTED.split(path)):
+        return f"has a name of more than {_LONGEST_NAME} letters"
+    return None if path.strip() else "has no name"
 
 
 def named(path: str | os.PathLike[str]) -> str:

@@ -330,3 +330,24 @@ def test_a_name_keeps_its_place_on_its_link_in_an_enlarged_view() -> None:
     assert 0 < shares[0].real < 1
     joints = {label.text for label in labelled(painter).labels}
     assert {"O₂", "A", "B", "O₄", "P"} <= joints
+
+
+@pytest.mark.parametrize("far", [1e6, 1e12, 1e300, math.inf, math.nan])
+def test_words_far_beyond_a_picture_are_not_drawn(far: float) -> None:
+    lettering, surface = Lettering("O", Type(), 20, ((0, 0, 0), (0, 0, 0)), 2.0), offscreen((60, 40))
+    surface.fill((200, 200, 200))
+    bare = pixels(surface).tobytes()
+    for middle in (complex(far, 20), complex(30, -far), complex(-far, far)):
+        lettering.draw(surface, middle)
+    assert pixels(surface).tobytes() == bare
+
+
+def test_words_at_an_edge_are_drawn_as_far_as_they_are_seen() -> None:
+    lettering = Lettering("OOO", Type(), 20, ((0, 0, 0), (0, 0, 0)), 2.0)
+    wide = lettering.size[0] / 2
+    for x in (-wide + 1.5, 59.5 + wide - 1.5):
+        surface = offscreen((60, 40))
+        surface.fill((200, 200, 200))
+        bare = pixels(surface).tobytes()
+        lettering.draw(surface, complex(x, 20))
+        assert pixels(surface).tobytes() != bare

@@ -132,7 +132,7 @@ GREY = 255 - round(0.45 * (255 - 100))
 FORMS = {
     "colours": (Image.new("RGB", (40, 30), (100, 100, 100)), "png", GREY),
     "greys": (Image.new("L", (40, 30), 100), "jpg", GREY),
-    "16 bits": (Image.fromarray(np.full((30, 40), 100 * 257, np.uint16)), "png", GREY),
+    "16 bits": (Image.fromarray(np.full((30, 40), 100 * 256 + 200, np.uint16)), "png", GREY),
     "bits": (Image.new("1", (40, 30), 1), "bmp", 255),
     "a palette": (Image.new("RGB", (40, 30), (100, 100, 100)).convert("P"), "png", GREY),
     "four inks": (Image.new("CMYK", (40, 30), (0, 0, 0, 155)), "jpg", GREY),

@@ -193,6 +193,7 @@ DAMAGED: dict[str, Callable[[], bytes]] = {
     "deep": lambda: b"[" * 100_000,
     "a number of 401 digits": changed("draft", "places", "A", to=[10**400, 0]),
     "a number of 4,401 digits": lambda: json.dumps(four_bar()).encode().replace(b"30", b"3" * 4_401, 1),
+    "a place beyond all others": changed("draft", "places", "A", to=[1e100, 0]),
     "no number": changed("draft", "places", "A", to=[math.nan, 0]),
     "an endless one": lambda: json.dumps(four_bar()).encode().replace(b"30", b"1e999", 1),
     "half a character": changed("draft", "rest", "title", to="\ud800"),

@@ -185,4 +185,4 @@ def test_a_stick_that_is_nowhere_leaves_the_crank_alone(pads: Player, value: flo
     before = push(pads, 1j).phase
     post(pygame.JOYAXISMOTION, axis=0, value=value)
     pads.tick()
-    assert pads.state.phase == before
+    assert (pads.state.phase, pads.state.toast) == (before, None)

@@ -35,6 +35,7 @@ from = ["A", "O4"]
 length = [90, 80]
 """
 ON_B = "coupler_point = [90, 0]\n"
+PHOTO = '[photo]\nfile = "%s"\nplace = [0, 0]\nwidth = 90\n'
 GEARED = '[joints.D]\ncrank = "O4"\nlength = 20\ngear = { with = "A", ratio = %s }\n'
 
 REFUSED: list[tuple[str, str, str, str]] = [
@@ -102,6 +103,13 @@ REFUSED: list[tuple[str, str, str, str]] = [
     ("negative", FOUR_BAR.replace("30", "-30"), "four-bar.crank = -30", "above zero"),
     ("nan", FOUR_BAR.replace("30", "nan"), "four-bar.crank", "finite"),
     ("inf", FOUR_BAR.replace("30", "inf"), "four-bar.crank", "finite"),
+    (
+        "a picture of a name that no disk has",
+        FOUR_BAR + PHOTO % ("n" * 300),
+        "photo.file",
+        "more than 255 letters",
+    ),
+    ("a picture without a name", FOUR_BAR + PHOTO % " ", "photo.file", "has no name"),
     ("far too long", FOUR_BAR.replace("30", "1e101"), "four-bar.crank", "beyond"),
     ("far too short", FOUR_BAR.replace("30", "1e-101"), "four-bar.crank", "beyond"),
     ("far away", "[ground]\nO2 = [-1e101, 0]\n" + FOUR_BAR, "ground.O2[0]", "beyond"),

@@ -7,6 +7,8 @@ from dataclasses import replace
 from typing import Any, NamedTuple, get_args
 
 from linkanim import units
+from linkanim.bounds import LONGEST_TEXT
+from linkanim.intake import unnameable
 from linkanim.mechanics.linkage.linkage import Body, Damper, Spring
 from linkanim.mechanics.linkage.rigid_bodies import coincide, holding
 from linkanim.scenes.fields.drive import INPUT
@@ -128,9 +130,27 @@ SPRING = form(
 _COEFFICIENT = Field("coefficient", DAMPING, "its force by its rate", None, label="damping coefficient")
 DAMPER = form("a damper", _BETWEEN, _COEFFICIENT, make=Damper)
 
+
+def _picture(table: Table, key: str) -> str:
+    """Read the path of a picture, which need not be there; one that no disk can hold is refused."""
+    file = table.text(key)
+    if reason := unnameable(file):
+        raise table.error(key, f"{reason}; rename the picture")
+    return file
+
+
+_PICTURE = replace(
+    TEXT,
+    read=_picture,
+    schema={
+        "type": "string",
+        "maxLength": LONGEST_TEXT,
+        "pattern": r"^(?=.*\S)([^/\\]{0,255}[/\\])*[^/\\]{0,255}$",
+    },
+)
 PHOTO = form(
     "a photograph to build over, behind the sheet",
-    Field("file", TEXT, "its path from the scene file's folder"),
+    Field("file", _PICTURE, "its path from the scene file's folder"),
     Field("place", replace(POINT, measure=None), "x and y of its lower left corner"),
     Field("width", replace(LENGTH, measure=None), "how wide it is"),
     Field("turn", replace(ANGLE, measure=None), "by what angle it is turned about that corner", "0 deg"),

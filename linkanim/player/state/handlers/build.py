@@ -15,7 +15,7 @@ from linkanim.build.origin import building_of
 from linkanim.build.storing import restored, stored
 from linkanim.document import Section
 from linkanim.errors import BadInput
-from linkanim.intake import Intake, control_in, named
+from linkanim.intake import Intake, unnameable
 from linkanim.picture.figure import figure
 from linkanim.picture.shelf import NEW
 from linkanim.picture.view import Box
@@ -28,6 +28,7 @@ from linkanim.player.state.handlers.shelf import put as put_on
 from linkanim.player.state.sheet import HOME, LIVE, BuildSheet, Grip
 from linkanim.player.state.state import State, with_toast
 from linkanim.player.state.tools import TOOLS
+from linkanim.units import shown
 
 Handler = Callable[[State, Any], State]
 
@@ -216,8 +217,8 @@ def photo(state: State, file: str) -> State:
 
     BadInput for a name that no file of ours could hold.
     """
-    if found := control_in(file):
-        raise BadInput(f"{named(file)}: has {found} in its name; rename the picture")
+    if file and (reason := unnameable(file)):
+        raise BadInput(f"{shown(file)}: {reason}; rename the picture")
     state = state if state.building else build(state, None)
     home = sheet_of(state).home
     width = home.right - home.left
