@@ -345,7 +345,7 @@ def test_words_far_beyond_a_picture_are_not_drawn(far: float) -> None:
 def test_words_at_an_edge_are_drawn_as_far_as_they_are_seen() -> None:
     lettering = Lettering("OOO", Type(), 20, ((0, 0, 0), (0, 0, 0)), 2.0)
     wide = lettering.size[0] / 2
-    for x in (-wide + 1.5, 59.5 + wide - 1.5):
+    for x in (4 - wide, 56 + wide):
         surface = offscreen((60, 40))
         surface.fill((200, 200, 200))
         bare = pixels(surface).tobytes()
