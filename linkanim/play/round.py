@@ -44,7 +44,8 @@ def next_question(
     `questions`.
     """
     random = Random(f"{seed} {scene.name}")
-    order = random.sample(sorted(KINDS), len(KINDS))
+    asked = sorted(name for name, kind in KINDS.items() if scene.purpose or not kind.of_making)
+    order = random.sample(asked, len(asked))
     often = [question_id.kind for question_id in before]
     order.sort(key=lambda kind: (kind not in kinds, often.count(kind)))
     known = {(question_id.scene, question_id.kind, question_id.subject) for question_id in before}

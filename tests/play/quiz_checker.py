@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import combinations, pairwise
 from math import degrees, isclose, pi, radians
 from typing import Any
@@ -25,6 +25,7 @@ from linkanim.mechanics.linkage.joint import Joint, Slide
 from linkanim.mechanics.linkage.linkage import Body, Damper, Spring
 from linkanim.mechanics.linkage.pins import Crank
 from linkanim.play.question import QuizAnswer, QuizQuestion
+from linkanim.scenes.purpose import FunctionPurpose, PosesPurpose
 
 REST = 1e-12
 """A rate that is a smaller share of what the input's speed would give the longest length is no rate."""
@@ -578,6 +579,96 @@ class Checked:
             if abs(turn.imag) > 0.01 * abs(turn):
                 yield f"at {angle}° its bars are not in one line"
 
+    # how a linkage was made
+
+    def slow_way(self) -> Iterator[str]:
+        """The crank's way between the output's dead centres, the longer one, as the motion has it."""
+        slow = degrees(max(self.ways_of_output()))
+        for one in self.question.answers:
+            if (abs(number(one.text) - slow) < 0.3) != (one is self.right):
+                yield f"{one.text} of a slow way of {slow}"
+        told = [number(word) for word in re.findall(r"[\d.]+(?=°)", self.question.why)]
+        if not told or abs(told[0] - slow) > 0.3 or abs(sum(told) - 360) > 0.2:
+            yield f"its reason says {told}"
+
+    def ways_of_output(self) -> tuple[float, float]:
+        """Return how far the crank turns on each way of the output, in radians, from near-by poses."""
+        motion = self.question.scene.cycle(3600, derivatives=0)
+        phases, ends = motion.phase, motion.position["B"] @ np.array([1, 1j])
+        pins = [pin.position for pin in self.question.scene.linkage.pins if pin.name == "O4"]
+        along = np.unwrap(np.angle(ends - complex(*pins[0]))) if pins else ends.real
+        between = abs(float(phases[along.argmax()] - phases[along.argmin()]))
+        return between, 2 * pi - between
+
+    def precision_point(self) -> Iterator[str]:
+        """The output is where its scale has y at the right answer alone."""
+        purpose = self.question.scene.purpose
+        assert isinstance(purpose, FunctionPurpose)
+        for one in self.question.answers:
+            x = number(one.text.removeprefix("x = "))
+            exact = [n for n, known in enumerate(purpose.x) if isclose(x, known, rel_tol=SAME, abs_tol=1e-9)]
+            if bool(exact) != (one is self.right):
+                yield f"{one.text} of {purpose.x}"
+            for n in exact:
+                motion = self.question.scene.solve(angle=purpose.input[n], derivatives=0)
+                sliding = "slider" in self.bodies
+                place = motion.travel["slider"] if sliding else motion.angle["rocker"]
+                off = float(place) - purpose.output[n]
+                if abs(off - (0 if sliding else 2 * pi * round(off / (2 * pi)))) > 1e-9 * self.motion.size:
+                    yield f"the output is {off} off"
+
+    @cached_property
+    def two_poses(self) -> tuple[complex, complex, complex]:
+        """The places of the two poses of a question, and the turn between them as a unit number."""
+        found = re.findall(r"\((\S+), (\S+)\) \S+, turned by (\S+),", self.question.text)
+        (x, y, first), (u, v, second) = ([number(word) for word in pose] for pose in found)
+        return complex(x, y), complex(u, v), complex(np.exp(1j * radians(second - first)))
+
+    @staticmethod
+    def told_place(answer: QuizAnswer) -> complex:
+        x, y = (number(word) for word in re.findall(r"[−\d.e]+", answer.text)[:2])
+        return complex(x, y)
+
+    def near(self, answer: QuizAnswer, place: complex) -> bool:
+        one, other, _ = self.two_poses
+        return abs(self.told_place(answer) - place) < 0.01 * abs(other - one)
+
+    def pole_of_poses(self) -> Iterator[str]:
+        """A turn about the right answer alone takes the one pose to the other."""
+        one, other, turn = self.two_poses
+        for answer in self.question.answers:
+            place = self.told_place(answer)
+            off = abs(place + turn * (one - place) - other)
+            if (off < 0.01 * abs(other - one)) != (answer is self.right):
+                yield f"a turn about {answer.text} is {off} off"
+        away = abs(self.told_place(self.right) - (one + other) / 2)
+        yield from self.told(r"way between both places, (\S+) ", away)
+
+    def other_way_round_about(self, answer: QuizAnswer) -> bool:
+        one, other, turn = self.two_poses
+        return self.near(answer, (other - turn.conjugate() * one) / (1 - turn.conjugate()))
+
+    def middle_of_way(self, answer: QuizAnswer) -> bool:
+        one, other, _ = self.two_poses
+        return self.near(answer, (one + other) / 2)
+
+    def pole_of_others(self, answer: QuizAnswer, first: str, second: str) -> bool:
+        purpose = self.question.scene.purpose
+        assert isinstance(purpose, PosesPurpose)
+        (x, y, start), (u, v, end) = (purpose.poses[int(n) - 1] for n in (first, second))
+        turn = np.exp(1j * (end - start))
+        return self.near(answer, complex((complex(u, v) - turn * complex(x, y)) / (1 - turn)))
+
+    def slow_told_as(self, answer: QuizAnswer, share: Callable[[float], float]) -> bool:
+        slow = degrees(max(self.ways_of_output()))
+        return abs(number(answer.text) - share(slow)) < 0.5
+
+    def between_points(self, answer: QuizAnswer) -> bool:
+        purpose = self.question.scene.purpose
+        assert isinstance(purpose, FunctionPurpose)
+        x = number(answer.text.removeprefix("x = "))
+        return any(isclose(x, (low + high) / 2, rel_tol=SAME) for low, high in pairwise(purpose.x))
+
     # numbers that are told
 
     def told(self, pattern: str, value: float) -> Iterator[str]:
@@ -800,6 +891,9 @@ KEYS: dict[str, Held] = {
     "grashof sum": Checked.grashof_sum,
     "curves": Checked.curves,
     "coriolis": Checked.coriolis,
+    "slow way": Checked.slow_way,
+    "precision point": Checked.precision_point,
+    "pole": Checked.pole_of_poses,
 }
 _POWERS = {r"what (.*) does": Checked.with_power}
 MISCONCEPTIONS: dict[str, dict[str, Callable[..., bool]]] = {
@@ -853,6 +947,23 @@ MISCONCEPTIONS: dict[str, dict[str, Callable[..., bool]]] = {
     "coriolis": {
         r"the guide's turning overlooked": Checked.no_turning,
         r"sliding alone taken for a Coriolis term": Checked.no_guide_turns,
+    },
+    "slow way": {
+        r"the quick way taken for the slow one": partial(Checked.slow_told_as, share=lambda slow: 360 - slow),
+        r"half a turn times the time ratio": partial(
+            Checked.slow_told_as, share=lambda slow: 180 * slow / (360 - slow)
+        ),
+        r"the angle between the directions of the dead centres halved": partial(
+            Checked.slow_told_as, share=lambda slow: 90 + slow / 2
+        ),
+    },
+    "precision point": {
+        r"a place between two precision points, where the error is near an extreme": Checked.between_points
+    },
+    "pole": {
+        r"the turn taken the other way round": Checked.other_way_round_about,
+        r"the middle of the way, about which it would be turned by half a turn": Checked.middle_of_way,
+        r"the pole of poses (\d) and (\d)": Checked.pole_of_others,
     },
 }
 

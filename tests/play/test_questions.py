@@ -12,6 +12,8 @@ from typing import Any
 import orjson
 import pytest
 from exact_motion import ExactMotion
+from made_scenes import FEW as FEW_MADE
+from made_scenes import MADE
 from quiz_checker import MISCONCEPTIONS, faults
 from random_scenes import named
 
@@ -20,12 +22,13 @@ from linkanim.errors import LinkanimError
 from linkanim.play.kinds.table import KINDS
 from linkanim.play.kinds.wording import angle, between
 from linkanim.play.question import QuestionId
-from linkanim.play.round import question_of, questions
+from linkanim.play.round import next_question, question_of, questions
 from linkanim.play.sheet import pose_words
 from linkanim.scenes import chapters, load, names
 from linkanim.scenes.reading.read import scene_from
 from linkanim.scenes.scene import Scene
 
+MAKING = ("pole", "slow way", "precision point")
 FEW, MANY = 14, 100
 """Questions about a scene, and about one of a long run."""
 SEED, SOME, EACH = 35, 12, 6
@@ -58,6 +61,15 @@ def about_random(numbers: Iterable[int], count: int) -> tuple[int, list[str]]:
 @pytest.mark.slow
 def test_a_question_holds_against_fifty_digits(name: str) -> None:
     assert about(load(name), FEW) == []
+
+
+@pytest.mark.parametrize("name", FEW_MADE)
+def test_questions_on_how_a_linkage_was_made_hold(name: str) -> None:
+    scene = MADE[name]()
+    asked = [next_question(scene, str(seed), [], MAKING) for seed in range(6)]
+    assert {one.kind for one in asked} & set(MAKING)
+    motion = ExactMotion(scene)
+    assert [fault for one in asked for fault in faults(one, motion)] == []
 
 
 @pytest.mark.parametrize("part", range(2))
@@ -129,6 +141,8 @@ def test_every_misconception_is_named() -> None:
     ending = [scene_from(one, name="ends", where="ends.toml") for one in (back, ENDS["a stroke"][0])]
     asked = [one for seed in range(3) for one in questions([load(name) for name in names()], 57, seed)]
     asked += questions(ending, 2 * FEW, 0)
+    made = [MADE[name]() for name in ("guide-3", "function-5", "stroke")]
+    asked += [next_question(one, str(seed), [], MAKING) for one in made for seed in range(12)]
     slips = {(question.kind, answer.slip) for question in asked for answer in question.answers}
     known = {(kind, pattern) for kind, patterns in MISCONCEPTIONS.items() for pattern in patterns}
     assert [
@@ -154,7 +168,9 @@ def test_every_kind_is_asked() -> None:
     scenes = [
         load(name) for name in ("crank-rocker", "double-rocker", "inverted-slider-crank", "slider-crank")
     ]
+    made = [MADE[name]() for name in ("guide-3", "function-5", "stroke")]
     found = Counter(question.kind for question in questions(scenes, 60, 1))
+    found += Counter(next_question(one, "1", [], MAKING).kind for one in made)
     assert found.keys() == KINDS.keys()
 
 

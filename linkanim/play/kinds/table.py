@@ -5,17 +5,21 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
-from linkanim.play.kinds import gaining, moving, ranging
+from linkanim.play.kinds import gaining, making, moving, ranging
 from linkanim.play.question import Puzzle, QuizQuestion
 
 LEVELS = (1, 2, 3)
 
 
 class QuestionKind(NamedTuple):
-    """What makes a question of a kind, None where a puzzle has none, and the levels that ask it."""
+    """What makes a question of a kind, None where a puzzle has none, and the levels that ask it.
+
+    One `of_making` is about what a linkage was made for, and asked of a scene that says so.
+    """
 
     make: Callable[[Puzzle], QuizQuestion | None]
     levels: tuple[int, ...]
+    of_making: bool = False
 
 
 KINDS: Mapping[str, QuestionKind] = {
@@ -33,6 +37,9 @@ KINDS: Mapping[str, QuestionKind] = {
     "instant centre": QuestionKind(moving.instant_centre, (3,)),
     "force": QuestionKind(gaining.force, (3,)),
     "grashof sum": QuestionKind(ranging.grashof_sum, (3,)),
+    "slow way": QuestionKind(making.slow_way, (1, 2), of_making=True),
+    "precision point": QuestionKind(making.precision_point, (2, 3), of_making=True),
+    "pole": QuestionKind(making.pole, (2, 3), of_making=True),
 }
 
 
