@@ -335,8 +335,12 @@ def found_among(entries: Sequence[Scene | str], sieve: str) -> tuple[int, ...]:
 
 def sifted(texts: Mapping[Key, str], sieve: str) -> tuple[Key, ...]:
     """Return the keys of the texts that have all the sieve's words."""
-    words = sieve.casefold().split()
-    return tuple(key for key, text in texts.items() if all(word in text.casefold() for word in words))
+    if not (words := sieve.casefold().split()):
+        return tuple(texts)
+    found = [(key, text.casefold()) for key, text in texts.items()]
+    for word in words:
+        found = [(key, text) for key, text in found if word in text]
+    return tuple(key for key, _ in found)
 
 
 def _searched(entries: Sequence[Scene | str]) -> Iterator[str]:

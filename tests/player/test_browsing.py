@@ -396,3 +396,16 @@ def test_a_tape_keeps_what_is_picked_and_not_the_way_there(
     assert [action for _, action in tape.actions] == [Action("plot", token), Action("put", 1)]
     *_, last = tape.states()
     assert last.scene.name == names()[1]
+
+
+def test_a_list_of_very_many_files_is_sifted_once_for_its_letters(press: State) -> None:
+    names = "\n".join(f"s{n:05}.toml" for n in range(50_000))
+    opened = after(press, Action("files", names))
+    lists = [overlay(state).quantities for state in (opened, after(opened, Action("move", 3)))]
+    assert [one and one.chosen for one in lists] == [0, 3]
+    rows = [one and one.rows for one in lists]
+    assert rows[0] is rows[1]  # no frame and no key looks at all of them again
+    typed = after(opened, Action("sift", "S49 "), Action("sift", "9999"))
+    assert typed.listing
+    assert typed.listing.found(press.scene) == ("s49999.toml",)
+    assert after(typed, *["unsift"] * 8).listing == opened.listing

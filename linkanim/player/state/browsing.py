@@ -18,18 +18,38 @@ RESOLVED = frozenset({"pick", "row", "scroll", "files_here", "aim", "enter"})
 
 
 @dataclass(frozen=True)
+class FileNames:
+    """Names of files, of which a folder may have a hundred thousand, and the letters that sift them."""
+
+    names: tuple[str, ...]
+    sieve: str = ""
+
+    @cached_property
+    def found(self) -> tuple[str, ...]:
+        """Those that have all the sieve's words."""
+        return sifted({name: name for name in self.names}, self.sieve)
+
+    @cached_property
+    def rows(self) -> tuple[tuple[str, str], ...]:
+        """The same as rows of a list: words, and nothing behind them."""
+        return tuple((name, "") for name in self.found)
+
+
+@dataclass(frozen=True)
 class Listing:
     """The open list: the row that is chosen, and the letters that sift it; of quantities, or of `files`."""
 
     chosen: int
     sieve: str = ""
-    files: tuple[str, ...] | None = None
+    files: FileNames | None = None
 
     def found(self, scene: Scene) -> tuple[str, ...]:
         """Return the files, or a scene's quantities by their tokens, that have all the sieve's words."""
-        if self.files is None:
-            return listed(scene, self.sieve)
-        return sifted({name: name for name in self.files}, self.sieve)
+        return listed(scene, self.sieve) if self.files is None else self.files.found
+
+    def sifted(self, sieve: str) -> Listing:
+        """Return it with other letters, at its top."""
+        return Listing(0, sieve, self.files and replace(self.files, sieve=sieve))
 
 
 @dataclass(frozen=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from contextlib import suppress
 from itertools import count
 from pathlib import Path
@@ -104,3 +105,10 @@ class SceneFile:
             found = self._path.stat()
             return found.st_mtime_ns, found.st_size, found.st_ino
         return None
+
+
+def scene_files() -> list[str]:
+    """Return the names of the scene files in the current folder, none where it is there no more."""
+    with suppress(OSError), os.scandir() as entries:
+        return sorted(one.name for one in entries if one.name.endswith(".toml") and one.name.isprintable())
+    return []

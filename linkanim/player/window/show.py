@@ -111,8 +111,7 @@ def _kept(state: State, items: tuple[Dimension, ...], over: Hover | None = None)
 def _quantities(state: State, listing: Listing) -> Quantities:
     scene = state.displayed
     if listing.files is not None:
-        rows = tuple((name, "") for name in listing.found(scene))
-        return Quantities(rows, listing.chosen, listing.sieve, _FILES_HINT, title=_FILES)
+        return Quantities(listing.files.rows, listing.chosen, listing.sieve, _FILES_HINT, title=_FILES)
     found = [quantity(scene, token) for token in listing.found(scene)]
     # Four times a second while it runs: values that change faster are not read, and each costs its drawing.
     pose = scene.pose(state.clock.at(state.frame // _READ * _READ), speed=state.clock.speed)

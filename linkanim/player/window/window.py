@@ -34,7 +34,7 @@ from linkanim.player.state.state import State, Take
 from linkanim.player.tape.tape import Tape, Taping
 from linkanim.player.window import display, files
 from linkanim.player.window.drafts import DraftFile
-from linkanim.player.window.files import SceneFile
+from linkanim.player.window.files import SceneFile, scene_files
 from linkanim.player.window.halving import Halving
 from linkanim.player.window.keeper import GameKeeper
 from linkanim.player.window.mouse import MOUSE_EVENTS, Mouse, latest
@@ -228,7 +228,7 @@ class Window:
 
     def _files(self) -> Iterator[Action]:
         """Yield what opens the list of the scene files in the current folder."""
-        names = sorted(path.name for path in Path().glob("*.toml") if path.name.isprintable())
+        names = scene_files()
         yield Action("files", "\n".join(names)) if names else Action("note", _NO_FILES)
 
     def _by_keys(self, sheet: BuildSheet, action: Action) -> Iterator[Action]:

@@ -7,7 +7,7 @@ from dataclasses import replace
 from linkanim.errors import LinkanimError
 from linkanim.mechanics.facts.classify import Info
 from linkanim.player.state import editing as edit
-from linkanim.player.state.browsing import Browsing, Listing, listed
+from linkanim.player.state.browsing import Browsing, FileNames, Listing, listed
 from linkanim.player.state.editing import Editing
 from linkanim.player.state.fault import proved
 from linkanim.player.state.glide import glide
@@ -162,12 +162,12 @@ def unsift(state: State, _: None) -> State:
 
 def _relisted(state: State, sieve: str) -> State:
     assert state.listing
-    return replace(state, listing=replace(state.listing, chosen=0, sieve=sieve[:_LONGEST]))
+    return replace(state, listing=state.listing.sifted(sieve[:_LONGEST]))
 
 
 def files(state: State, names: str) -> State:
     """Open the list of files, one name a line."""
-    return replace(state, listing=Listing(0, files=tuple(names.splitlines())), browsing=None)
+    return replace(state, listing=Listing(0, files=FileNames(tuple(names.splitlines()))), browsing=None)
 
 
 def plot(state: State, token: str) -> State:
