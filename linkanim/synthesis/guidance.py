@@ -71,6 +71,7 @@ _TURNING, _DEFECT = 0.5, 1e3
 """What a crank that turns fully is worth, as a size's logarithm, and what a defect costs."""
 _CLOSED = 1e-12
 """By how much a cosine may be beyond 1 at a change point."""
+_FINEST = 720
 _STEP = 0.1
 """The farthest in a step of Newton's, in radians."""
 _ALIKE = 0.15
@@ -628,6 +629,68 @@ def _made(task: GuideTask, seed: _Seed) -> _Pairs:
     first, second = (choice.make(row) for choice, row in zip(seed.ends, seed.rows, strict=True))
     exact = polished(task.poses, second) if isinstance(second, Bars) else second
     return _paired(polished(task.poses, first), exact)
+
+
+def followed(task: GuideTask, before: GuidedLinkage) -> GuidedLinkage | None:
+    """Return the linkage of poses that have moved a little that is nearest to one of before; None for none.
+
+    What was free keeps its pivot, or its place on the curve of pivots; of five poses each bar goes to the
+    nearest of Burmester's.
+    """
+    poses, sliding = task.poses, task.kind is SLIDER_CRANK
+    known = before.bars[:1] if sliding else before.bars
+    choices = _choices(poses)
+    bars = [_nearest_bar(choices, poses, complex(joint), complex(pivot)) for joint, pivot in known]
+    ends = [_nearest_slide(poses, complex(before.bars[1][0]))] if sliding else bars[1:]
+    if bars[0] is None or ends[0] is None:
+        return None
+    return checked(task, _paired(bars[0], ends[0]))
+
+
+def _choices(poses: Poses) -> Bars | CentreCurve | None:
+    """Return what leaves no free choice of a bar's pivot: Burmester's bars, or the curve of the pivots."""
+    if poses.count < 4 or not poses.poles:
+        return None
+    return CentreCurve(poses) if poses.count == 4 else burmester_points(poses)
+
+
+def _nearest_bar(
+    choices: Bars | CentreCurve | None, poses: Poses, joint: complex, pivot: complex
+) -> Bars | None:
+    """Return the bar that is nearest to one with that joint in the first pose, and that pivot."""
+    if isinstance(choices, Bars):
+        off = np.abs(choices.circle - joint) + np.abs(choices.centre - pivot)
+        return choices.take(np.array([off.argmin()])) if len(off) else None
+    if poses.count == 2:
+        one, other = poses.images(pivot)
+        way = other - one
+        along = 1j * way / abs(way) if abs(way) > SAME * poses.size else 0.0
+        middle = (one + other) / 2 if along else joint
+        foot = middle + along * ((joint - middle) * np.conj(along)).real
+        return Bars(np.array([foot]), np.array([pivot]))
+    if choices is not None:
+        pivot = choices.nearest(pivot)
+    found = Bars(circle_points(poses, np.array([pivot])), np.array([pivot]))
+    return polished(poses, found) if np.isfinite(found.circle[0]) else None
+
+
+def _nearest_slide(poses: Poses, joint: complex) -> Slides | None:
+    """Return the sliding point that is nearest to a joint in the first pose."""
+    if poses.count > 3 or not poses.poles:
+        found = ball_point(poses)
+        return found if len(found.point) else None
+    if poses.count == 2:
+        return slides_through(poses, np.array([joint]))
+    ring = slide_points(poses, np.linspace(0.0, math.tau, _FINEST, endpoint=False))
+    if not np.isfinite(ring).any():
+        return None
+    middle = ring.mean()
+    nearest = complex(ring[np.nanargmin(np.abs(ring - joint))])
+    # on the circle to the last digit; a straight line's samples lie close enough
+    radius = abs(nearest - middle)
+    on_circle = np.ptp(np.abs(ring - middle)) <= SAME * radius
+    place = middle + radius * (joint - middle) / abs(joint - middle) if on_circle else nearest
+    return slides_through(poses, np.array([place]))
 
 
 def checked(task: GuideTask, pairs: _Pairs) -> GuidedLinkage | None:

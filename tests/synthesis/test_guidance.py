@@ -15,7 +15,7 @@ import linkanim
 from linkanim.errors import BadInput
 from linkanim.mechanics.motion.measures import as_complex, transmission_angle
 from linkanim.synthesis.burmester import Poses, slide_points
-from linkanim.synthesis.guidance import GuidedLinkage, apart
+from linkanim.synthesis.guidance import GuidedLinkage, answers, apart, followed, task_of
 
 DEGREE = math.pi / 180
 LID = [(0, 0, 0), (40, 10, 35 * DEGREE), (70, -5, 80 * DEGREE)]
@@ -261,3 +261,22 @@ def test_a_pivot_whose_images_lie_in_line_is_refused() -> None:
     (point,) = slide_points(Poses(poses.images(0), -rows[:, 2]), np.array([1.0]))
     with pytest.raises(BadInput, match="it lies in one line in all poses"):
         linkanim.guide(LID, pivots=[(point.real, point.imag)])
+
+
+DRAGGED = [*((count, "four-bar") for count in (2, 3, 4, 5)), (3, "slider-crank")]
+
+
+@pytest.mark.parametrize(("count", "kind"), DRAGGED)
+def test_a_pose_that_is_dragged_takes_the_linkage_with_it(count: int, kind: str) -> None:
+    rows = np.array(FIVE[:count])
+    task = task_of(rows, kind=kind, largest=50)
+    now = answers(task, 1)[0]
+    for step in range(5):
+        rows[1] += (0.01 * task.poses.size, 0.005 * task.poses.size, 0.0015)
+        task = task_of(rows, kind=kind, largest=50)
+        after = followed(task, now)
+        assert after is not None, step
+        # a small step of the pose is a small step of the linkage
+        assert apart(now, after) < 0.5
+        now = after
+    verify(now)
