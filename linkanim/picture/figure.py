@@ -234,7 +234,7 @@ class DrawSetting:
 def figure(scene: Scene) -> Figure:
     """Solve one cycle of the scene, closely enough for a smooth curve at 4K."""
     periods = min(round(scene.period / tau), _MOST_PERIODS)
-    return Figure(scene, scene.cycle(SAMPLES * periods))
+    return Figure(scene, scene.cycle(scene.mechanism.count(SAMPLES * periods)))
 
 
 def _with_plate(

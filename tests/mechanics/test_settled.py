@@ -10,6 +10,7 @@ import pytest
 
 from linkanim.mechanics.facts.register import register
 from linkanim.scenes import load, names
+from linkanim.scenes.editing.closures import other_return
 from linkanim.scenes.reading.read import scene_from
 from linkanim.scenes.scene import Scene
 
@@ -179,6 +180,11 @@ def test_geometry_does_not_ask_how_fast_it_runs() -> None:
 @pytest.mark.sampled
 def test_every_quantity_of_a_pose_holds_the_bits_of_a_batch(name: str) -> None:
     scene = load(name)
+    for one in (scene,) if scene.info.full_turn else (scene, other_return(scene)):
+        _has_the_bits_of_a_batch(one)
+
+
+def _has_the_bits_of_a_batch(scene: Scene) -> None:
     phases = np.linspace(0.0, scene.period, 41)
     batches = [scene.solve(phase=phases), *(scene.solve(phase=[phase]) for phase in phases[::8])]
     poses = [scene.pose(phase) for phase in phases.tolist()]

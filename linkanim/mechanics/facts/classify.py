@@ -334,7 +334,8 @@ def _worst(info: Info, found: Transmission) -> str:
         where = f"{significant(place, 4)} {info.length_unit}"
     else:
         turned = round(math.degrees(place), 1) % 360 if info.full_turn else math.degrees(place)
-        where = f"{significant(turned, 3)}°"
+        told = significant(turned, 3)
+        where = "0°" if info.full_turn and told == "360" else f"{told}°"
     symbol = input_symbol(linkage).translate({ord("{"): None, ord("}"): None})
     return f"μ ≥ {least}, {symbol} = {where}"
 

@@ -38,7 +38,7 @@ _Key = tuple[int, bool, bool]
 """Which poses a program gives: how many derivatives, whether the input accelerates, whether `per_input`."""
 
 
-_FINE, _MOST_SEEN = 24, 20_001
+_FINE, _MOST_SEEN = 24, 10_001
 
 Traced = tuple[tuple[str, ...], Rows]
 """The formulas as traced for one way of asking: the inputs' names, and every quantity."""
@@ -181,13 +181,15 @@ class Mechanism(Setting):
         if phase is not None and self.retraced:
             by_phase, (given, sign) = given, retraced(given)
         (w, a), shape = _rates(speed, acceleration, given.shape)
-        rates, _ = ((w, a), shape) if by_phase is None else _rates(sign * w, sign * a, given.shape)
-        varying = isinstance(rates[0], np.ndarray)
+        varying, back, rates = isinstance(w, np.ndarray), None, (w, a)
+        if by_phase is not None:
+            signs = np.broadcast_to(sign, shape).reshape(-1)
+            back, rates = (None, (signs * w, signs * a)) if varying else (signs < 0, rates)
         variant = Variant(phase is not None, varying or rates[1] != 0.0, varying)
         x = _kept(given, shape)
         distances = self.assembly.path.distances(x) if phase is None else None
         shown = None if by_phase is None else _kept(by_phase, shape)
-        instants = Instants(variant, x, distances, rates, shape, derivatives, shown)
+        instants = Instants(variant, x, distances, rates, shape, derivatives, shown, back)
         return Motion(self, _shaped(w, shape), _shaped(a, shape), instants)
 
     def program(self, variant: Variant, kinds: tuple[str, ...]) -> tuple[Batch, ResultLayout]:

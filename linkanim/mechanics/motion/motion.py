@@ -74,7 +74,8 @@ class Instants(NamedTuple):
     """Instants (N,) with rates w and a, the shape in which to answer, and how many derivatives at most.
 
     `distances` are those of angles of an input that swings from its limits; `phases` those of one that comes
-    back by the way it came, where x are the phases of its way up.
+    back by the way it came, where x are the phases of its way up, and `back` where it is on its way back, at
+    rates of the other sign.
     """
 
     variant: Variant
@@ -84,6 +85,7 @@ class Instants(NamedTuple):
     shape: tuple[int, ...]
     derivatives: int
     phases: Array | None = None
+    back: NDArray[np.bool_] | None = None
 
 
 class Setting(ABC):
@@ -292,6 +294,8 @@ class Motion(Derived[Array, Array]):
         ways = instants.distances
         with np.errstate(all="ignore"):
             results = program(*((instants.x,) if ways is None else path.solved_from(ways)), *rates)
+            if instants.back is not None and instants.back.any():
+                results[:, instants.back] = program(instants.x[instants.back], *(-rate for rate in rates))
             if ways is not None:
                 results[:, ways.outside] = np.nan
                 if ways.at_limit.any() and any(map(DERIVATIVE_OF.__getitem__, kinds)):
@@ -322,7 +326,8 @@ class Motion(Derived[Array, Array]):
         """The same instants, with rates by the input's angle, or travel, instead of those in time."""
         by_phase = self.instants.variant.by_phase
         variant = Variant(by_phase, False, per_input=by_phase and not self.setting.assembly.path.full_turn)
-        return Motion(self.setting, 1.0, 0.0, self.instants._replace(variant=variant, rates=(1.0, 0.0)))
+        instants = self.instants._replace(variant=variant, rates=(1.0, 0.0), back=None)
+        return Motion(self.setting, 1.0, 0.0, instants)
 
     def paced(self, factor: float) -> Motion:
         """Return the same motion run so many times as fast; backwards where the factor is negative.
@@ -350,7 +355,7 @@ class Motion(Derived[Array, Array]):
         """Return the direction of one joint to another at other instants."""
         distances = self.instants.distances and self.setting.assembly.path.distances(x)
         w, a = (np.ones_like(x) if isinstance(rate, np.ndarray) else rate for rate in self.instants.rates)
-        instants = self.instants._replace(x=x, distances=distances, rates=(w, a), shape=x.shape)
+        instants = self.instants._replace(x=x, distances=distances, rates=(w, a), shape=x.shape, back=None)
         found = Motion(self.setting, 1.0, 0.0, instants).position
         return np.asarray(direction(between(found, ends)))
 

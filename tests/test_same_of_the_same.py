@@ -1,0 +1,336 @@
+"""Every output says the same of the same: at limits, at rest, at dead centres, and a hair beside.
+
+What is said is a number to its digits, that it is not bounded, 0, or that there is none. It is held to fifty
+digits where those tell it, and to `Quantity.read`, which all outputs ask.
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+import re
+from collections.abc import Iterator
+from functools import cache
+from random import Random
+from typing import Any
+
+import numpy as np
+import pytest
+import read_tables
+from exact_rates import ExactRates
+from random_scenes import named
+
+from linkanim.cli import table
+from linkanim.cli.solved import leaves, tree
+from linkanim.cli.solved import rows as rows_of_tree
+from linkanim.digits import significant, stepped
+from linkanim.errors import LinkanimError
+from linkanim.explain.inputs import PoseRequest
+from linkanim.explain.solution import solution
+from linkanim.export import csv_head, csv_rows, json_text
+from linkanim.mechanics.facts.register import Quantity, recorded
+from linkanim.mechanics.formulas.circular import STATED
+from linkanim.mechanics.motion.motion import Pose
+from linkanim.mechanics.motion.settled import rounding_of
+from linkanim.paper.curves import Pace
+from linkanim.paper.findings import Instant, Values
+from linkanim.picture.diagrams.chart import pen_for
+from linkanim.picture.diagrams.chart_panel import chart_panel
+from linkanim.picture.figure import figure
+from linkanim.picture.layout import layout
+from linkanim.picture.panels.readings import measured
+from linkanim.picture.panels.readings import rows as hud
+from linkanim.picture.text.text import Type
+from linkanim.picture.theme import LIGHT
+from linkanim.play.kinds.table import KINDS
+from linkanim.play.question import Puzzle
+from linkanim.player.window.show import value_words
+from linkanim.scenes import load, names
+from linkanim.scenes.reading.read import scene_from
+from linkanim.scenes.scene import Scene
+from linkanim.share.figures import parts_of
+from linkanim.share.figures import rows as share_rows
+
+BESIDE = (0.0, *(way * size for size in (1e-15, 1e-12, 1e-9, 1e-3) for way in (1, -1)))
+PERIODS = 2
+"""Of longer true periods so many drive periods are looked at."""
+RANDOM, SEED = 300, 11
+FEW = (
+    "crank-rocker",
+    "double-rocker",
+    "driven-piston",
+    "excavator",
+    "parallelogram",
+    "press",
+    "toggle-press",
+)
+
+
+@cache
+def scene_of(case: str) -> Scene:
+    """Return a scene of the catalogue, or a random one by its number."""
+    if not case.isdecimal():
+        return load(case)
+    return scene_from(named(SEED, int(case)), name=f"random {case}", where="random")
+
+
+@cache
+def good() -> tuple[str, ...]:
+    """Return the numbers of random scenes that go together."""
+    found: list[str] = []
+    for number in range(10 * RANDOM):
+        try:
+            scene_of(str(number))
+        except LinkanimError:
+            continue
+        found.append(str(number))
+        if len(found) == RANDOM:
+            break
+    return tuple(found)
+
+
+def phases(scene: Scene) -> Iterator[float]:
+    """Yield 0, π, 2π and so on, which are the limits of a swing, dead centres, and what is beside them."""
+    turns = min(scene.mechanism.periods, PERIODS)
+    centres = [scene.info.dead_centres, scene.info.swing and scene.info.swing.dead_centres]
+    places = [
+        *(count * math.pi for count in range(2 * turns + 1)),
+        *(at for pair in centres for at in pair or ()),
+    ]
+    for place in dict.fromkeys(places):
+        yield from (place + beside for beside in BESIDE)
+
+
+def is_limit(scene: Scene, phase: float) -> bool:
+    """Whether a phase is an end of a swing, as well as floats can state one."""
+    away = abs(math.remainder(phase, math.pi))
+    return not scene.info.full_turn and away <= STATED * math.hypot(phase, math.pi)
+
+
+# --- what is said, against fifty digits -------------------------------------------------------------
+
+
+def wrong(scene: Scene, phase: float) -> Iterator[str]:
+    """Yield what a pose says of rates that fifty digits do not."""
+    pose, exact, speed = scene.pose(phase), ExactRates(scene, phase), scene.linkage.drive.speed
+    known = scene.quantities
+    greatest = _greatest(scene)
+    for joint in scene.linkage.joints:
+        for order, kind in () if joint.fixed else ((1, "velocity"), (2, "acceleration")):
+            true = exact.of_joint(joint.name, order, speed)
+            least = 1e-12 * greatest[order] + 5 * rounding_of(
+                pose, f"{{}}/s{'²' if order == 2 else ''}", order
+            )
+            for axis, part in (("x", true.real), ("y", true.imag)):
+                token = f"{joint.name}.{kind}.{axis}"
+                if not _near(float(known[token].read(pose)), float(part), least):
+                    yield f"{token}: {known[token].read(pose)!r} is {float(part)!r}"
+    for body in scene.linkage.bodies:
+        if body.slider is None or scene.linkage.joint(body.slider).slides[0].axis is None:
+            yield from _wrong_coefficient(scene, pose, exact, body.name)
+
+
+def _wrong_coefficient(scene: Scene, pose: Pose, exact: ExactRates, name: str) -> Iterator[str]:
+    """Yield what is wrong of a body's coefficient: unbounded at a limit that moves it, or a number."""
+    body = next(body for body in scene.linkage.bodies if body.name == name)
+    said = float(scene.quantities[f"{name}.coefficient"].read(pose))
+    moved, driven = exact.of_body(body, 1), exact.of_input(1)
+    size = 1.0 if body.slider is None else scene.linkage.extent
+    if is_limit(scene, pose.phase) and abs(moved) > 1e-9 * size:
+        if said != math.inf:
+            yield f"{name}.coefficient: {said!r} at a limit"
+    elif abs(driven) > 1e-8 * scene.linkage.extent:
+        true = float(moved / driven)
+        least = 1e-9 * size / min(abs(float(driven)), 1.0) + rounding_of(pose, "rad/rad", 0)
+        if not _near(said, true, least):
+            yield f"{name}.coefficient: {said!r} is {true!r}"
+
+
+def _near(said: float, true: float, least: float) -> bool:
+    return abs(said - true) <= 1e-9 * abs(true) + least
+
+
+@cache
+def _greatest(scene: Scene) -> dict[int, float]:
+    """Return the greatest velocity and acceleration of a cycle."""
+    cycle = scene.cycle(97)
+    kinds = {1: cycle.velocity, 2: cycle.acceleration}
+    return {
+        order: max((float(np.nanmax(np.abs(values))) for values in kind.values()), default=0.0)
+        for order, kind in kinds.items()
+    }
+
+
+# --- what outputs say, against each other -----------------------------------------------------------
+
+
+def apart(scene: Scene, phase: float, rng: Random, charts: int) -> Iterator[str]:
+    """Yield where an output says other than a pose does."""
+    pose = scene.pose(phase)
+    yield from _in_json_and_csv(scene, pose)
+    yield from _in_words(scene, pose)
+    for token in rng.sample(list(scene.quantities), min(charts, len(scene.quantities))):
+        yield from _on_a_chart(scene, scene.quantities[token], pose)
+    yield from _in_the_hud(scene, pose)
+    yield from _in_a_report(scene, pose)
+
+
+def _in_json_and_csv(scene: Scene, pose: Pose) -> Iterator[str]:
+    motion = scene.solve(phase=[pose.phase])
+    found = {"phase": motion.phase, **tree(scene, motion)}
+    printed = json.loads(json_text(next(rows_of_tree(found))))
+    columns, values = zip(*leaves(found), strict=True)
+    cells = next(csv.DictReader((csv_head(columns) + csv_rows(values)).splitlines()))
+    in_cells = dict(zip(columns, cells.values(), strict=True))
+    by_path = dict(leaves(printed))
+    for name, value in by_path.items():
+        cell = in_cells[name]
+        if (value is None) != (cell == "") or (value is not None and float(cell) != value):
+            yield f"{name}: {value} in JSON, {cell!r} in CSV"
+    for quantity in recorded(scene.linkage):
+        said, value = quantity.read(pose), printed
+        for key in quantity.path:
+            value = value[key]
+        none = said is None or not math.isfinite(said)
+        if none != (value is None) or (value is not None and value != float(said)):
+            yield f"{quantity.token}: a pose says {said!r}, JSON {value!r}"
+
+
+def _in_words(scene: Scene, pose: Pose) -> Iterator[str]:
+    """Yield what the tables of `solve` say otherwise: its joints' numbers, and those of the whole."""
+    motion = scene.solve(phase=[pose.phase])
+    found = {"speed": pose.input_speed, "acceleration": 0.0, "phase": motion.phase, **tree(scene, motion)}
+    found[scene.linkage.drive.coordinate.name] = motion.coordinate
+    words = table.of_pose(scene, rows_of_tree(found))
+    for joint in (joint.name for joint in scene.linkage.joints if not joint.fixed):
+        kinds = [scene.quantities[f"{joint}.{kind}.{axis}"] for kind in KIND for axis in "xy"]
+        cells = [significant(float(kind.read(pose)), 7) for kind in kinds]
+        row = r"\s+".join(map(re.escape, (joint, *cells)))
+        if not re.search(f"^{row}$", words, re.MULTILINE):
+            yield f"{joint}: {cells} is not what its row has"
+    for quantity in recorded(scene.linkage):
+        if quantity.path == tuple(quantity.token.split(".")):
+            shown = significant(float(quantity.shown(pose)), 7)
+            if not re.search(rf"^{re.escape(quantity.words)} .*\s{re.escape(shown)}$", words, re.MULTILINE):
+                yield f"{quantity.token}: {shown} is not in the table"
+
+
+KIND = ("position", "velocity", "acceleration")
+
+
+def _on_a_chart(scene: Scene, quantity: Quantity, pose: Pose) -> Iterator[str]:
+    window = layout((1280, 720), chart=True)
+    chart = chart_panel(figure(scene), quantity.token, window, pen_for(window, Type(), LIGHT))
+    values, said = chart.values_at(pose), np.atleast_1d(np.asarray(quantity.shown(pose), float))
+    whole = 360.0 if chart.series.unit == "°" else math.inf
+    for value, own in zip(values.tolist(), said.tolist(), strict=True):
+        far = abs(math.remainder(value - own, whole)) > 1e-9 * abs(own) if math.isfinite(own) else False
+        if far or (not math.isfinite(own) and repr(value) != repr(own)):
+            yield f"{quantity.token}: {own} is {value} on the chart"
+    for word, value in zip(chart.reading(values), values.tolist(), strict=True):
+        if ("∞" in word) != math.isinf(value) or ("–" in word) != math.isnan(value):
+            yield f"{quantity.token}: {value} reads {word!r} on the chart"
+    listed = value_words(scene, quantity, pose)
+    if ("∞" in listed) != bool(np.isinf(said).any()):
+        yield f"{quantity.token}: {said} is {listed!r} in the list"
+
+
+def _in_the_hud(scene: Scene, pose: Pose) -> Iterator[str]:
+    told = dict(hud(scene, pose))
+    for one in measured(scene):
+        value = one.quantity.shown(pose)
+        wanted = f"{stepped(float(value), one.step)} {one.quantity.shown_unit(scene.length_unit)}"
+        if told[one.label] != wanted:
+            yield f"{one.quantity.token}: {value} is {told[one.label]!r} in the HUD"
+
+
+def _in_a_report(scene: Scene, pose: Pose) -> Iterator[str]:
+    instant, pace = Instant(pose.phase, ""), Pace(scene.linkage.drive.speed, "")
+    for quantity in scene.quantities.values():
+        if len(quantity.columns) == 1:
+            told, own = _values(scene).of(quantity, instant, pace), quantity.shown(pose)
+            if repr(float(told)) != repr(float(own)):
+                yield f"{quantity.token}: {own!r} is {told!r} in a report"
+
+
+@cache
+def _values(scene: Scene) -> Values:
+    return Values(scene)
+
+
+def shared_otherwise(scene: Scene, phase: float) -> Iterator[str]:
+    """Yield what the shared page's table says otherwise, read as its script does."""
+    data: Any = _shared(scene)
+    for one in measured(scene):
+        own = float(one.quantity.shown(scene.pose(phase)))
+        value = read_tables.row(data, one.label, phase)
+        near = abs(value - own) <= 1e-2 * abs(own) + one.step if math.isfinite(own) else value == own
+        if not near:
+            yield f"{one.label}: {own} is {value} on a page"
+
+
+@cache
+def _shared(scene: Scene) -> Any:
+    rows = json.loads(json.dumps(list(share_rows(scene, scene.linkage.drive.speed))))
+    known = {"period": scene.period, "parts": parts_of(scene), "retraced": scene.mechanism.retraced}
+    return {**known, "sides": [{"rows": rows}]}
+
+
+def explained_otherwise(scene: Scene, phase: float) -> Iterator[str]:
+    """Yield what a worked solution comes to that a pose does not say."""
+    pose, speed = scene.pose(phase), scene.linkage.drive.speed
+    for result in solution(PoseRequest(scene, "phase", phase, speed)).results:
+        own = float(scene.quantities[result.token].shown(pose))
+        off = abs(result.value.value - own)
+        off = abs(math.remainder(off, 360.0)) if result.unit == "°" else off
+        if not off <= 2e-3 * abs(own) + 2 * result.least:
+            yield f"{result.token}: {own} is worked out as {result.value.value}"
+
+
+def asked_of_nothing(scene: Scene, phase: float, rng: Random) -> Iterator[str]:
+    """Yield questions about what does not move, or whose right answer has the other sign."""
+    pose = scene.pose(phase)
+    for kind in ("turning", "heading", "speeding", "fastest", "curves"):
+        question = KINDS[kind].make(Puzzle(kind, scene, phase, rng))
+        if question is None:
+            continue
+        right = question.answers[question.right].text
+        if kind == "turning":
+            rate = scene.quantities[f"{question.subject}.angular_velocity"].read(pose)
+            if not rate or (rate > 0) != (right == "counterclockwise"):
+                yield f"{kind}: {question.subject} turns at {rate}, answered {right!r}"
+        elif kind in ("heading", "speeding") and not scene.quantities[f"{question.subject}.velocity"].read(
+            pose
+        ):
+            yield f"{kind}: {question.subject} rests"
+        elif kind == "fastest" and not scene.quantities[f"{right}.velocity"].read(pose):
+            yield f"{kind}: {right} rests"
+
+
+# --- the tests --------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", FEW)
+def test_all_outputs_say_what_a_pose_says_beside_what_is_singular(name: str) -> None:
+    scene, rng = scene_of(name), Random(name)
+    for phase in (0.0, math.pi, math.pi - 1e-12, 2 * math.pi + 1e-9):
+        assert [*apart(scene, phase, rng, charts=1), *shared_otherwise(scene, phase)] == [], phase
+        assert [*wrong(scene, phase), *asked_of_nothing(scene, phase, rng)] == [], phase
+
+
+@pytest.mark.long
+@pytest.mark.slow
+@pytest.mark.parametrize("part", range(20))
+def test_all_outputs_of_all_scenes_say_the_same_of_the_same(part: int) -> None:
+    faults: list[str] = []
+    for case in (*names(), *good())[part::20]:
+        scene, rng = scene_of(case), Random(case)
+        exact = not scene.mechanism.retraced
+        for number, phase in enumerate(phases(scene)):
+            found = [*apart(scene, phase, rng, charts=2 if number % 3 == 0 else 0)]
+            found += [*shared_otherwise(scene, phase), *asked_of_nothing(scene, phase, rng)]
+            found += wrong(scene, phase) if exact else ()
+            found += explained_otherwise(scene, phase) if number % len(BESIDE) in (0, 3, 7) else ()
+            faults += [f"{case} at {phase!r}: {one}" for one in found]
+    assert faults == []
