@@ -235,12 +235,8 @@ def _sliding(puzzle: Puzzle) -> Iterator[tuple[str, str, bool]]:
 def _slides(puzzle: Puzzle, slide: Slide) -> bool:
     """Return whether a joint clearly slides along its guide."""
     ends = (slide.start or slide.line.through, slide.point)
-    rates = [
-        np.abs(
-            said(
-                found, growth(*(way_between(at, ends) for at in (found.position, found.velocity))), "{}/s", 1
-            )
-        )
-        for found in (puzzle.cycle, puzzle.pose)
-    ]
+    rates = []
+    for found in (puzzle.cycle, puzzle.pose):
+        way, moving = (way_between(vectors, ends) for vectors in (found.position, found.velocity))
+        rates.append(np.abs(said(found, growth(way, moving), "{}/s", 1)))
     return bool(rates[1] > PLAIN * float(np.nanmax(rates[0])))
