@@ -38,7 +38,8 @@ def pose_words(question: QuizQuestion) -> str:
     drive = scene.linkage.drive
     way = f", {speed_words(scene, drive.speed)}"
     if drive.coordinate.is_angle:
-        turns = "counterclockwise" if pose.coordinate_rate > 0 else "clockwise"
+        # at a limit it stands, and is about to turn back
+        turns = "counterclockwise" if (pose.coordinate_rate or pose.coordinate_second) > 0 else "clockwise"
         way = f", {speed_words(scene, abs(drive.speed))} {turns}"
     at = pose.coordinate % tau if scene.info.full_turn else pose.coordinate
     return f"{scene.title}, {scene.info.input_name} at {driven_words(scene, at)}{way}"

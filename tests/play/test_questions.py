@@ -5,8 +5,9 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Iterable
-from math import tau
+from math import pi, tau
 from pathlib import Path
+from random import Random
 from typing import Any
 
 import orjson
@@ -21,7 +22,7 @@ from linkanim.cli import main
 from linkanim.errors import LinkanimError
 from linkanim.play.kinds.table import KINDS
 from linkanim.play.kinds.wording import angle, between
-from linkanim.play.question import QuestionId
+from linkanim.play.question import Puzzle, QuestionId
 from linkanim.play.round import next_question, question_of, questions
 from linkanim.play.sheet import pose_words
 from linkanim.scenes import chapters, load, names
@@ -125,6 +126,20 @@ def test_a_reason_is_one(token: str, said: str) -> None:
     question = question_of(QuestionId.of(token))
     assert said in question.why
     assert faults(question, ExactMotion(question.scene)) == []
+
+
+@pytest.mark.parametrize("phase", [0.0, 3.1416, pi, tau])
+def test_a_question_at_a_limit_holds(phase: float) -> None:
+    scene = load("chebyshev-line")
+    motion, kinds = ExactMotion(scene), ("turning", "fastest", "heading", "speeding", "instant centre")
+    for kind in kinds:
+        question = KINDS[kind].make(Puzzle(kind, scene, phase, Random(0)))
+        assert question is None or faults(question, motion) == []
+
+
+def test_at_a_limit_the_input_is_about_to_turn_back() -> None:
+    question = question_of(QuestionId.of("fastest@chebyshev-line@0.0@velocity"))
+    assert pose_words(question).endswith("15 swings/min counterclockwise")
 
 
 def test_what_is_rigid_with_its_guide_is_not_asked_about_as_if_it_slid() -> None:

@@ -26,8 +26,7 @@ def turning(puzzle: Puzzle) -> QuizQuestion | None:
         return None
     body = puzzle.random.choice(clear)
     rate = puzzle.value(f"{body.name}.angular_velocity")
-    forward = puzzle.pose.coordinate_rate > 0
-    against = puzzle.scene.linkage.drive.coordinate.is_angle and forward != (rate > 0)
+    against = puzzle.scene.linkage.drive.coordinate.is_angle and puzzle.pose.coordinate_rate * rate < 0
     slip = "the input's direction, handed on along the chain" if against else f"the way it turns {_BACKWARDS}"
     misled = " The input turns the other way: a chain does not hand on directions." if against else ""
     return puzzle.question(
