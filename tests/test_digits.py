@@ -109,3 +109,12 @@ def test_a_set_text_has_true_minus_signs() -> None:
 def test_a_number_too_large_or_small_for_decimals_has_three_digits() -> None:
     assert stepped(1234567.0, 1.0) == "1.23e+06"
     assert stepped(-1.2345e-5, 1e-6) == "−1.23e−05"
+
+
+# What the last digits of a limit leave of nothing: a drag was answered with −6.986e-14°.
+@pytest.mark.parametrize(
+    ("angle", "words"),
+    [(-1.2193e-15, "0°"), (1e-33, "0°"), (0.0, "0°"), (1e-9, "5.73e-08°"), (math.pi, "180°")],
+)
+def test_no_angle_is_what_rounding_leaves_of_none(angle: float, words: str) -> None:
+    assert degrees(angle) == words

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, ClassVar
 
 import numpy as np
@@ -46,11 +46,11 @@ class Turn(InputPath):
 
     def coordinates(self, phases: Array) -> Array:
         """Return the input's angle at phases."""
-        return phases + float(exact_angle(self.start)) if self.start else phases
+        return phases + self.start if self.start else phases
 
     def phases(self, angles: Array, distances: LimitDistances | None) -> Array:
         """Return the phase at angles of the input."""
-        return angles - float(exact_angle(self.start)) if self.start else angles
+        return angles - self.start if self.start else angles
 
     def home(self, start: float) -> float:
         """Return the phase of the start."""
@@ -77,7 +77,7 @@ class Turn(InputPath):
 
     def state(self, phase: Value, pace: Slope) -> InputState:
         """Return the input's state at a phase, in plain floats or symbolic expressions."""
-        return turn(phase, pace, exact_angle(self.start))
+        return replace(turn(phase, pace, exact_angle(self.start)), stated=self.start)
 
     def state_per_input(self, phase: Value) -> InputState:
         """Return the input's state at a phase, its rates those by its own angle."""

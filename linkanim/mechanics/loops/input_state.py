@@ -60,7 +60,7 @@ class InputState:
     `angle` is θ without `origin`; `rate` and `second` are its derivatives in time; `pace` is the
     derivative of what drives it (φ' or θ') with its own derivative; `phase` is φ where a swing is
     driven by it. `within` is how far from zero `angle` comes, where that is known, and `rest` what the float
-    lacks of it.
+    lacks of it. `stated` is the origin as it was stated: its last digit may be another than that of the sum.
     """
 
     angle: Value
@@ -72,10 +72,12 @@ class InputState:
     phase: Value | None = None
     within: float = math.inf
     rest: Value = 0.0
+    stated: float | None = None
 
     def coordinate(self, unscale: float) -> tuple[Value, Value, Value]:
         """Return the input's coordinate with its rates: its angle; of a slider its travel, `unscale`d."""
-        return self.angle + float(self.origin), self.rate, self.second
+        origin = float(self.origin) if self.stated is None else self.stated
+        return self.angle + origin, self.rate, self.second
 
     @property
     def phase_pace(self) -> Slope:
