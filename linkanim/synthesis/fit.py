@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -15,32 +16,25 @@ from linkanim.synthesis.kinds import Complex, LinkageKind, Real
 from linkanim.synthesis.task import FEW, PathTask
 
 
-@dataclass(frozen=True, eq=False)
-class Fit:
-    """A linkage beside the drawn curve; distances in the curve's unit, angles in radians."""
+@dataclass(frozen=True, eq=False, kw_only=True)
+class CouplerLinkage(ABC):
+    """A four-bar or slider-crank that was made for its coupler; lengths in its unit, angles in radians."""
 
     scene: Scene
     parameters: Mapping[str, float]
     """Pivots x, y, x4, y4, lengths, and the coupler point along A -> B and across, to its left."""
     closure: str
     angles: Real
-    """Of the crank, where the coupler point passes each point of the curve, in their order."""
-    rms: float
-    """Root mean square of the points' distances to the curve near where the coupler point passes them; with
-    prescribed timing, to where it is then."""
-    largest: float
-    """The largest of those distances."""
-    stray: float
-    """How far the coupler point goes from the points' polyline at the most."""
+    """Of the crank, where the coupler is at each point or pose that it was made for, in their order."""
     transmission_angle: float
-    """The least; where the input does not turn fully, along the curve."""
+    """The least; where the input does not turn fully, along the way it was made for."""
     size: float
     """The longest link, or side of the coupler."""
-    task: PathTask = field(repr=False)
-    exact: Fit | None = field(default=None, repr=False)
-    """The answer before its lengths were rounded."""
-    cognate: bool = False
-    """Whether it is a Roberts cognate of an answer before it."""
+
+    @property
+    @abstractmethod
+    def kind(self) -> LinkageKind:
+        """What its parameters are."""
 
     @property
     def class_name(self) -> str:
@@ -50,17 +44,40 @@ class Fit:
     @property
     def row(self) -> Real:
         """The parameters as a row of its kind."""
-        return np.array([self.parameters[name] for name in self.task.kind.parameters])
+        return np.array([self.parameters[name] for name in self.kind.parameters])
 
     @property
     def closure_sign(self) -> float:
         """The closure as +1 or -1."""
-        return 1.0 if self.closure == self.task.kind.sides[0] else -1.0
+        return 1.0 if self.closure == self.kind.sides[0] else -1.0
 
     @property
     def sense(self) -> float:
-        """+1 where the drive runs forwards along the points, else -1; a crank's angle then grows."""
+        """+1 where the drive runs forwards along the way, else -1; a crank's angle then grows."""
         return math.copysign(1.0, self.scene.linkage.drive.speed)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Fit(CouplerLinkage):
+    """A linkage beside the drawn curve; distances in the curve's unit."""
+
+    rms: float
+    """Root mean square of the points' distances to the curve near where the coupler point passes them; with
+    prescribed timing, to where it is then."""
+    largest: float
+    """The largest of those distances."""
+    stray: float
+    """How far the coupler point goes from the points' polyline at the most."""
+    task: PathTask = field(repr=False)
+    exact: Fit | None = field(default=None, repr=False)
+    """The answer before its lengths were rounded."""
+    cognate: bool = False
+    """Whether it is a Roberts cognate of an answer before it."""
+
+    @property
+    def kind(self) -> LinkageKind:
+        """What its parameters are."""
+        return self.task.kind
 
     @cached_property
     def joints(self) -> Complex:

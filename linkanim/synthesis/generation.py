@@ -30,6 +30,7 @@ from linkanim.scenes.scene import Scene
 from linkanim.synthesis.burmester import Bars, CentreCurve, Poses, burmester_points, circle_points, polished
 from linkanim.synthesis.given_function import GivenFunction, expression, table
 from linkanim.synthesis.kinds import Real
+from linkanim.synthesis.requirements import refuse_count
 from linkanim.units import shown
 
 COUNT = 3
@@ -65,7 +66,6 @@ _DIGITS = 11
 _FINE = 2001
 """Places at which the solver's errors are looked at."""
 _NARROWEST, _WIDEST = math.radians(1), math.radians(340)
-MOST_ANSWERS = 50
 
 
 @dataclass(frozen=True, eq=False)
@@ -404,8 +404,7 @@ def function(
     table. `options` are those of `task_of`. BadInput for what is no function, for ranges that make no sense,
     and where no linkage was found.
     """
-    if not 1 <= count <= MOST_ANSWERS:
-        raise BadInput(f"count={count!r}: give a whole number from 1 to {MOST_ANSWERS}")
+    refuse_count(count)
     return answers(task_of(given, first, last, **options), count)
 
 

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple
 
@@ -38,15 +38,14 @@ from linkanim.synthesis.burmester import (
     slide_points,
     slides_through,
 )
-from linkanim.synthesis.fit import document_of, parameters_of
+from linkanim.synthesis.fit import CouplerLinkage, document_of, parameters_of
 from linkanim.synthesis.kinds import KINDS, SLIDER_CRANK, Complex, Indices, LinkageKind, Real
-from linkanim.synthesis.requirements import Requirements
+from linkanim.synthesis.requirements import Requirements, refuse_count
 from linkanim.units import shown
 
 LARGEST = 8.0
 """Of a link, in the poses' sizes."""
 COUNT = 6
-MOST_ANSWERS = 50
 DEFECTS = ("circuit", "branch", "order")
 PREFERENCES = ("compact", "angle")
 
@@ -92,15 +91,13 @@ class GuideTask:
     source: str = "made by linkanim for poses"
 
 
-@dataclass(frozen=True, eq=False)
-class GuidedLinkage:
-    """A linkage and the poses that it was made for; lengths in their unit, angles in radians."""
+@dataclass(frozen=True, eq=False, kw_only=True)
+class GuidedLinkage(CouplerLinkage):
+    """A linkage and the poses that it was made for.
 
-    scene: Scene = field(repr=False)
-    parameters: Mapping[str, float]
-    closure: str
-    angles: Real
-    """Of the crank, at each pose."""
+    Its least transmission angle is that from the first pose to the last, of one with defects at the poses.
+    """
+
     phases: Real
     """At which it is nearest to each pose."""
     lean: float
@@ -111,31 +108,12 @@ class GuidedLinkage:
     """The largest deviation: of the origin from a pose's, or of the turn from a pose's at the poses' size."""
     defects: tuple[str, ...]
     """Of `DEFECTS`, those that keep it from running through the poses in their order."""
-    transmission_angle: float
-    """The least on the way from the first pose to the last, of a linkage with defects at the poses."""
-    size: float
-    """The longest link."""
     task: GuideTask = field(repr=False)
 
     @property
-    def class_name(self) -> str:
-        """The linkage's class, in words."""
-        return self.scene.info.class_name
-
-    @property
-    def row(self) -> Real:
-        """The parameters as a row of its kind."""
-        return np.array([self.parameters[name] for name in self.task.kind.parameters])
-
-    @property
-    def closure_sign(self) -> float:
-        """The closure at the first pose as +1 or -1."""
-        return 1.0 if self.closure == self.task.kind.sides[0] else -1.0
-
-    @property
-    def sense(self) -> float:
-        """+1 where the crank's angle grows from pose to pose, else -1."""
-        return 1.0 if self.angles[-1] > self.angles[0] else -1.0
+    def kind(self) -> LinkageKind:
+        """What its parameters are."""
+        return self.task.kind
 
 
 def guide(poses: ArrayLike, *, count: int = COUNT, **options: Any) -> tuple[GuidedLinkage, ...]:
@@ -146,8 +124,7 @@ def guide(poses: ArrayLike, *, count: int = COUNT, **options: Any) -> tuple[Guid
     differs. Further `options` are those of `task_of`. BadInput for poses and limits that make no sense, and
     where no linkage of the kind passes the poses, with the reason.
     """
-    if not 1 <= count <= MOST_ANSWERS:
-        raise BadInput(f"count={count!r}: give a whole number from 1 to {MOST_ANSWERS}")
+    refuse_count(count)
     prefer = options.pop("prefer", None)
     if prefer is not None and prefer not in PREFERENCES:
         raise BadInput(f"prefer={shown(prefer)}: take {' or '.join(PREFERENCES)}, or leave it out")
@@ -497,7 +474,7 @@ def _merit(task: GuideTask, judged: _Judged, prefer: str | None) -> Real:
         found -= _TURNING * judged.turning
         limits = task.requirements
         slack = limits.slack(task.kind, judged.rows).min(axis=1)
-        kept = (slack >= -1e-9 * task.poses.size) & (judged.transmission >= limits.least_angle)
+        kept = (slack >= -1e-9 * task.poses.size) & (judged.transmission >= limits.angle_to_keep("angle"))
     found += _DEFECT * judged.defects.sum(axis=1)
     return np.asarray(np.where(kept & np.isfinite(found), found, np.inf))
 

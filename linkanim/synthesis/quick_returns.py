@@ -26,10 +26,10 @@ from linkanim.errors import BadInput
 from linkanim.scenes.reading.read import scene_from
 from linkanim.scenes.scene import Scene
 from linkanim.synthesis.kinds import Real
+from linkanim.synthesis.requirements import refuse_count
 from linkanim.units import shown
 
 COUNT = 5
-MOST_ANSWERS = 50
 KINDS = ("slider-crank", "crank-rocker")
 LONGEST = 100.0
 """The longest link of a crank-rocker, of which nothing but angles is asked."""
@@ -192,8 +192,7 @@ def quick_return(
     if kind not in KINDS:
         raise BadInput(f"kind={shown(kind)}: take {' or '.join(KINDS)}")
     units.metre(unit)
-    if not 1 <= count <= MOST_ANSWERS:
-        raise BadInput(f"count={count!r}: give a whole number from 1 to {MOST_ANSWERS}")
+    refuse_count(count)
     if not (math.isfinite(ratio) and 1 <= ratio < 10):
         raise BadInput(f"a time ratio of {ratio:g}: give the slow way's time over the quick way's, 1 to 10")
     if stroke is not None and not (math.isfinite(stroke) and stroke > 0):

@@ -15,7 +15,7 @@ from linkanim.synthesis.cognates import cognates_of
 from linkanim.synthesis.curves.drawn import DrawnCurve, drawn
 from linkanim.synthesis.fit import Fit
 from linkanim.synthesis.kinds import KINDS, LinkageKind, Real
-from linkanim.synthesis.requirements import SHORTEST, Requirements
+from linkanim.synthesis.requirements import Requirements, refuse_count
 from linkanim.synthesis.rounding import rounded_to, with_round_lengths
 from linkanim.synthesis.search import Progress, found
 from linkanim.synthesis.task import EXACTLY, PathTask
@@ -24,7 +24,6 @@ from linkanim.units import shown
 LARGEST = 8.0
 """Of a link, in curve sizes."""
 COUNT = 5
-MOST_ANSWERS = 50
 
 Pair = Sequence[float]
 
@@ -47,8 +46,7 @@ def path(
     those of `task_of`. BadInput for points or limits that make no sense, and where nothing was found that
     keeps to the limits.
     """
-    if not isinstance(count, int | np.integer) or not 1 <= count <= MOST_ANSWERS:
-        raise BadInput(f"count={shown(count)}: give a whole number from 1 to {MOST_ANSWERS}")
+    refuse_count(count)
     if cognates and options.get("kind", "four-bar") != "four-bar":
         raise BadInput(f"a {options['kind']} has no cognates; leave them out, or take a four-bar")
     task = task_of(points, closed, **options)  # type: ignore[arg-type]
@@ -99,15 +97,12 @@ def task_of(
     units.metre(unit)
     chosen = KINDS[kind]
     curve = drawn(points, closed=closed, timed=timing is not None)
-    if not (math.isfinite(largest) and largest > 0):
-        raise BadInput(f"largest={largest!r}: give the longest link in curve sizes, a number such as 3")
-    if not 0 <= least_angle < math.pi / 2:
-        raise BadInput(f"a least transmission angle of {math.degrees(least_angle):g} deg: give 0 to 90 deg")
-    requirements = Requirements(
-        largest=largest * curve.size,
-        shortest=SHORTEST * curve.size,
+    requirements = Requirements.of(
+        curve.size,
+        "curve sizes",
+        largest=largest,
         least_angle=least_angle,
-        box=None if box is None else _box(box),
+        box=box,
         given=_given(chosen, pivots, lengths or {}),
     )
     _refuse_contradictions(chosen, requirements)
@@ -115,16 +110,6 @@ def task_of(
     return PathTask(
         curve, chosen, requirements, _weights(weights, exactly, curve), angles, free, unit, name, source
     )
-
-
-def _box(box: Sequence[float]) -> tuple[float, float, float, float]:
-    values = tuple(float(value) for value in box)
-    if len(values) != 4 or not all(map(math.isfinite, values)):
-        raise BadInput(f"box={shown(str(list(box)))}: give x, y, width and height, four numbers")
-    x, y, width, height = values
-    if width <= 0 or height <= 0:
-        raise BadInput(f"the box is {width:g} wide and {height:g} high: nothing fits in it")
-    return x, y, width, height
 
 
 def _given(

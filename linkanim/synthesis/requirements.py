@@ -15,6 +15,7 @@ from linkanim.units import shown
 
 LEAST_ANGLE = math.radians(0.1)
 """Below this transmission angle a linkage is all but at a change point: no answer goes there."""
+MOST_ANSWERS = 50
 SHORTEST = 1e-3
 """Of a link, in curve sizes."""
 
@@ -37,7 +38,14 @@ class Requirements:
 
     @classmethod
     def of(
-        cls, size: float, sizes: str, *, largest: float, least_angle: float, box: Sequence[float] | None
+        cls,
+        size: float,
+        sizes: str,
+        *,
+        largest: float,
+        least_angle: float,
+        box: Sequence[float] | None,
+        given: Mapping[str, float] | None = None,
     ) -> Self:
         """Return limits as they are asked for, the longest link in `sizes`; BadInput where they are none."""
         if not (math.isfinite(largest) and largest > 0):
@@ -48,8 +56,9 @@ class Requirements:
         return cls(
             largest=largest * size,
             shortest=SHORTEST * size,
-            least_angle=max(least_angle, LEAST_ANGLE),
+            least_angle=least_angle,
             box=None if box is None else _box(box),
+            given=given or {},
         )
 
     def slack(self, kind: LinkageKind, rows: Real) -> Real:
@@ -88,6 +97,12 @@ class Requirements:
         given = {name: placed(name, value) for name, value in self.given.items()}
         largest, shortest = self.largest / scale, self.shortest / scale
         return replace(self, largest=largest, shortest=shortest, box=box, given=given)
+
+
+def refuse_count(count: int) -> None:
+    """Refuse to make so many answers: BadInput for none, for too many, and for what is no whole number."""
+    if not isinstance(count, int | np.integer) or not 1 <= count <= MOST_ANSWERS:
+        raise BadInput(f"count={shown(count)}: give a whole number from 1 to {MOST_ANSWERS}")
 
 
 def _box(box: Sequence[float]) -> tuple[float, float, float, float]:
