@@ -47,6 +47,17 @@ def test_coarse_steps_find_what_dense_samples_do(name: str, monkeypatch: pytest.
         assert not near.apart or GAP <= near.distance <= least + 1e-9
 
 
+def test_a_way_that_speeds_do_not_account_for_counts_as_straying() -> None:
+    still = np.zeros(2, complex)
+    jumped = sweep._Placed((np.array([0, 3 + 4j]), still, still), (still + 1, still, still))
+    piece = MovingPiece(GROUND, ((0j, 10 + 0j),), 1.0)
+    first, last = np.array([0]), np.array([1])
+    assert sweep._stray(piece, jumped, first, last, 0.1) == [5.0]
+    turned = sweep._Placed((still, still, still), (np.array([1, 1j]), still, still))
+    # its far end, 10 from the origin, went a quarter turn
+    assert sweep._stray(piece, turned, first, last, 0.1) == pytest.approx([10 * 2**0.5])
+
+
 def test_where_it_is_nearest_is_the_phase_that_is_told() -> None:
     scene = load("crank-rocker")
     cycle = Cycle(scene, 1.0)

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from shapely import MultiPoint, Point, Polygon, box
 
@@ -21,6 +21,7 @@ def points(corners: list[complex]) -> list[tuple[float, float]]:
     return [(corner.real, corner.imag) for corner in corners]
 
 
+@settings(max_examples=40)
 @given(corners=CORNERS, radius=st.sampled_from((0.5, 3.0, 20.0)))
 def test_an_outline_lies_at_its_radius_around_the_hull(corners: list[complex], radius: float) -> None:
     outline = Polygon(points(polygon(rounded(corners, radius), 1e-3)))
