@@ -49,10 +49,11 @@ class FlatPart(NamedTuple):
 def flat_parts(made: MadeLinkage) -> list[FlatPart]:
     """Return every plate, and the rings that keep layers apart, with what the cut takes away allowed for."""
     grown = made.kerf / 2
-    found = [
-        FlatPart(made.label(number), plate.clearest, plate.outline(grown), tuple(plate.cuts(grown)))
-        for number, plate in enumerate(made.plates)
-    ]
+    found = []
+    for number, plate in enumerate(made.plates):
+        # a tongue has no room for its name
+        label = made.numbers[number] if plate.role == "slider" else made.label(number)
+        found.append(FlatPart(label, plate.clearest, plate.outline(grown), tuple(plate.cuts(grown))))
     for pin in made.pins:
         for ring in pin.spacers:
             hole = rounded([0j], made.sizes.hole / 2 - grown)
@@ -326,7 +327,7 @@ def _frame(made: MadeLinkage, number: str) -> Iterator[Item]:
     yield _words(made, "0", complex(-0.9, -9))
     yield _words(
         made,
-        f"{_RULER} mm: print at 100 %, not fitted to the page, and hold a ruler against it",
+        f"{_RULER} mm: print at 100 %, and hold a ruler against it",
         complex(_RULER - 2.5, -9),
     )
     above = complex(0, made.sheet[1] - 2 * MARGIN - FOOT + 6)

@@ -13,7 +13,7 @@ Plates that are made to touch, such as two wheels, lie in one layer: they are on
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from itertools import combinations, count
+from itertools import combinations
 from typing import NamedTuple
 
 from linkanim.workshop.parts import Kit
@@ -24,8 +24,8 @@ Below = tuple[int, int]
 Choice = tuple[tuple[Below, ...], ...]
 """Alternatives of which one must hold, each with all of its pairs."""
 
-_MOST_STEPS = 4_000
-"""After so many choices the search for one layer less is given up."""
+_MOST_WORK = 250_000
+"""After so many looks at a choice the search for one layer less is given up."""
 
 
 class Clash(NamedTuple):
@@ -154,16 +154,24 @@ def _ordered(nodes: int, choices: Sequence[Choice]) -> _Order | None:
     As many layers as nodes suffice where any do: nodes that share a layer can be parted, since whatever
     passes through it passes them both.
     """
-    best = _solved(nodes, choices, nodes)
+    fewest = _clique(nodes, choices)
+    # Most have an order in little more than that: ranges of few layers are soon narrowed.
+    best = _tried(nodes, choices, min(2 * fewest, nodes)) or _solved(nodes, choices, nodes)
     if best is None:
         return None
-    fewest = _clique(nodes, choices)
     try:
-        while max(best) + 1 > fewest and (fewer := _solved(nodes, choices, max(best), _MOST_STEPS)):
+        while max(best) + 1 > fewest and (fewer := _solved(nodes, choices, max(best), _MOST_WORK)):
             best = fewer
     except _GivenUp:
         return _Order(best, least=False)
     return _Order(best, least=True)
+
+
+def _tried(nodes: int, choices: Sequence[Choice], layers: int) -> tuple[int, ...] | None:
+    try:
+        return _solved(nodes, choices, layers, _MOST_WORK)
+    except _GivenUp:
+        return None
 
 
 def _clique(nodes: int, choices: Sequence[Choice]) -> int:
@@ -189,17 +197,18 @@ def _clique(nodes: int, choices: Sequence[Choice]) -> int:
 
 
 def _solved(
-    nodes: int, choices: Sequence[Choice], layers: int, most_steps: int | None = None
+    nodes: int, choices: Sequence[Choice], layers: int, most_work: int | None = None
 ) -> tuple[int, ...] | None:
     """Return the lowest layer of each node that a way through the choices leaves; None where none does.
 
-    `_GivenUp` after so many steps.
+    `_GivenUp` after so many looks at a choice.
     """
-    steps = count(1)
+    work = 0
 
     def search(
         low: list[int], high: list[int], pairs: list[Below], left: Sequence[Choice]
     ) -> tuple[int, ...] | None:
+        nonlocal work
         while True:
             if not _narrowed(low, high, pairs):
                 return None
@@ -217,7 +226,8 @@ def _solved(
                 break
         if not left:
             return tuple(low)
-        if most_steps is not None and next(steps) > most_steps:
+        work += len(left)
+        if most_work is not None and work > most_work:
             raise _GivenUp
         # First the choice that leaves least room.
         first = min(left, key=lambda one: min(high[b] - low[a] for pairs in one for a, b in pairs))

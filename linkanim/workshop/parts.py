@@ -21,13 +21,14 @@ from linkanim.mechanics.linkage.dyads import RPP
 from linkanim.mechanics.linkage.joint import Line
 from linkanim.mechanics.linkage.linkage import Body, Damper, Spring
 from linkanim.workshop.gears import GearWheel, NotFlat, meshes
-from linkanim.workshop.shapes import Outline, moved, rounded
+from linkanim.workshop.shapes import Outline, hull, moved, rounded
 from linkanim.workshop.sweep import GROUND, Cycle, Frame, MovingPiece, Real, hulls_apart
 
 Role = Literal["ground", "link", "slider", "wheel", "ring", "bridge"]
 
 _STILL = 1e-7
 """By so much of the longest link what keeps its place is off for rounding."""
+_MOST_PLATES = 150
 _POSTS = 4
 _RING_CELLS = 48
 _LEAST_BETWEEN = 1.0
@@ -154,24 +155,28 @@ class Plate:
 
     @property
     def clearest(self) -> complex:
-        """The place on it, between its holes or amid its corners, that is farthest from what is cut out."""
+        """The place on it, between holes or amid its corners, that is farthest from its edge and its cuts."""
         cuts = [
             *((hole.at, hole.at) for hole in self.holes),
             *((slot.begin, slot.end) for slot in self.slots),
         ]
-        places = [
-            (a + b) / 2 for a, b in combinations(dict.fromkeys(end for pair in cuts for end in pair), 2)
-        ]
+        ends = dict.fromkeys(end for pair in cuts for end in pair)
+        places = [(a + b) / 2 for a, b in combinations(ends, 2)]
         places += [sum(self.corners) / len(self.corners), *self.corners]
         if self.teeth is not None:
             wheel = self.teeth.wheel
             far = (wheel.root + self.radius) / 2 if wheel.ring else 0.55 * wheel.root
-            round_ = [self.teeth.middle + far * 1j**n for n in range(4)]
-            places = round_ if wheel.ring else [*places, *round_]
-        return max(
-            places,
-            key=lambda place: min((_between((place, place, 0.0), (*cut, 0.0)) for cut in cuts), default=0.0),
-        )
+            around = [self.teeth.middle + far * 1j**n for n in range(4)]
+            places = around if wheel.ring else [*places, *around]
+        edge = hull(self.corners)
+        sides = [pair for pair in zip(edge, edge[1:] + edge[:1], strict=True) if len(edge) > 2]
+
+        def room(place: complex) -> float:
+            within = (((place - a) * (b - a).conjugate()).imag / abs(b - a) for a, b in sides)
+            clear = (_between((place, place, 0.0), (*cut, 0.0)) for cut in cuts)
+            return min((self.radius + min(within, default=0.0)), *clear, math.inf)
+
+        return max(places, key=room)
 
 
 class KitPin(NamedTuple):
@@ -292,6 +297,11 @@ class _Bench:
         self.drafts.append(_PlateDraft("ground", "ground", GROUND, ground))
         self._links()
         self._sliders()
+        if len(self.drafts) > _MOST_PLATES:
+            raise BadInput(
+                f"{self.cycle.scene.name} has {len(self.drafts)} parts, and no more than {_MOST_PLATES} are "
+                "laid in layers; make a share of it"
+            )
         for pair in meshes(self.linkage, self.sizes.scale, max(self.sizes.bar / 4, 1.0)):
             first, second = map(self._wheel, pair)
             self._pair(first, second)
@@ -320,9 +330,11 @@ class _Bench:
     def _link(self, frame: dict[str, complex], named: Sequence[Body]) -> _PlateDraft:
         """Return the plate of a rigid body: its first joint at the origin, x towards its second."""
         first, *others = dict.fromkeys([*(name for body in named for name in body.joints), *frame])
-        second = next(
-            name for name in others if abs(frame[name] - frame[first]) * self.sizes.scale > self.small
-        )
+        apart = (name for name in others if abs(frame[name] - frame[first]) * self.sizes.scale > self.small)
+        second = next(apart, None)
+        if second is None:
+            joints = ", ".join((first, *others))
+            raise NotFlat(f"the joints {joints} of one body lie so close together that no bar joins them")
         along = frame[second] - frame[first]
         turn = self.sizes.scale * (along / abs(along)).conjugate()
         places = {name: (place - frame[first]) * turn for name, place in frame.items()}
@@ -351,15 +363,17 @@ class _Bench:
                 self._yoke(joint, blocks.get(joint.name, f"yoke {joint.name}"))
                 continue
             for slide in joint.slides:
+                guide = self.drafts[self._guide(slide.line)]
+                if slide.point in guide.places:
+                    continue  # it is held there, and slides no way at all
                 if joint.travels:
                     half, name = 0.75 * self.sizes.tongue, blocks.get(joint.name, f"slider {joint.name}")
                     tongue = self._tongue(joint.name, slide.line, (-half, half), name)
                     tongue.places[joint.name] = 0j
                     tongue.bodies = (name,) if joint.name in blocks else ()
                 else:
-                    guide = self._holder((joint.name, str(slide.start)))
-                    self._slot(guide, slide.point, slide.line, (0.0, 0.0), self.sizes.hole / 2)
-                    self.drafts[guide].guided.add(slide.point)
+                    self._slot(slide.point, slide.line, (0.0, 0.0), self.sizes.hole / 2)
+                    guide.guided.add(slide.point)
 
     def _yoke(self, joint: RPP, name: str) -> None:
         """Put down a bar with a slot across its line, on a tongue beyond the pins that lie in its way."""
@@ -377,6 +391,7 @@ class _Bench:
             self._dowel(frame, complex(end), (number, len(self.drafts) - 1))
 
     def _guide(self, line: Line) -> int:
+        """Return the number of the plate that a line lies on."""
         return self._holder((*line.on, line.through)) if line.on else 0
 
     def _travel(self, point: str, line: Line) -> tuple[complex, complex, float, float]:
@@ -389,33 +404,31 @@ class _Bench:
         along = ((self.cycle.seen(point, draft.frame) - base) * way.conjugate()).real
         return base, way, *_range(along)
 
-    def _slot(self, guide: int, point: str, line: Line, ends: tuple[float, float], radius: float) -> None:
+    def _slot(self, point: str, line: Line, ends: tuple[float, float], radius: float) -> None:
         """Cut a slot for what reaches from `ends[0]` to `ends[1]` of a joint that slides along a line."""
         base, way, least, most = self._travel(point, line)
         slot = Slot(base + way * (least + ends[0]), base + way * (most + ends[1]), radius, point)
-        draft = self.drafts[guide]
+        draft = self.drafts[self._guide(line)]
         draft.slots.append(slot)
         draft.reach += [slot.begin, slot.end]
         draft.radius = max(draft.radius, radius + self.sizes.wall)
 
     def _tongue(self, point: str, line: Line, ends: tuple[float, float], name: str) -> _PlateDraft:
         """Put down what slides along a line with a joint, and cut its slot into what guides it."""
-        guide, radius = self._guide(line), self.sizes.tongue / 2
-        self._slot(guide, point, line, ends, radius + self.sizes.clearance / 2)
+        radius = self.sizes.tongue / 2
+        self._slot(point, line, ends, radius + self.sizes.clearance / 2)
         frame = Frame(point, line.on, cmath.rect(1.0, line.angle))
         tongue = _PlateDraft(name, "slider", frame, {}, reach=[complex(end) for end in ends], radius=radius)
         self.drafts.append(tongue)
-        self._pair(guide, len(self.drafts) - 1)
+        self._pair(self._guide(line), len(self.drafts) - 1)
         return tongue
 
     def _free_ends(self, point: str, line: Line, long: float) -> tuple[float, float]:
         """Return where a tongue begins and ends, from a joint on, whose way meets no joint of its guide."""
         base, way, least, most = self._travel(point, line)
-        draft, near = (
-            self.drafts[self._guide(line)],
-            (self.sizes.tongue + self.sizes.hole + self.sizes.bar) / 2,
-        )
-        others = [(place - base) * way.conjugate() for place in draft.places.values()]
+        near = (self.sizes.tongue + self.sizes.hole + self.sizes.bar) / 2
+        places = self.drafts[self._guide(line)].places.values()
+        others = [(place - base) * way.conjugate() for place in places]
         met = [place.real for place in others if abs(place.imag) < near]
 
         def free(begin: float) -> bool:

@@ -78,7 +78,7 @@ class Sheet:
 
     def _overview(self) -> Iterator[Part]:
         scene = self.made.scene
-        pose = Figured(scene, _FIGURE, Look(hud=False, names=1), self.phase)
+        pose = Figured(scene, _FIGURE, Look(hud=False, names=1, background=False), self.phase)
         where = driven_words(scene, scene.pose(self.phase, 0).coordinate)
         words = f"The linkage, its {scene.info.input_name} at {where}: links and joints"
         yield FigurePart(pose.document(), words, 85)
@@ -127,8 +127,8 @@ class Sheet:
 
     def _layers(self) -> Iterator[Part]:
         side, exploded = (Drawn(self.made, self.phase, size) for size in (_SIDE, _EXPLODED))
-        yield _drawing(side.side(), _SIDE, "The layers from the side, in the first pose", 60)
-        yield _drawing(exploded.exploded(), _EXPLODED, "The layers lifted off each other", 100)
+        yield _drawing(side.side(), _SIDE, "The layers from the side, in the first pose", 55)
+        yield _drawing(exploded.exploded(), _EXPLODED, "The layers lifted off each other", 85)
 
     def _steps(self) -> Iterator[Part]:
         """Yield a picture for each step with what to do: the ground first, then layer by layer."""

@@ -8,7 +8,7 @@ speeds account for. Where that does not settle whether two pieces stay apart, th
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -117,48 +117,87 @@ class Cycle:
         self, pieces: Sequence[MovingPiece], pairs: Sequence[tuple[int, int, float]]
     ) -> list[Nearness]:
         """Return how near two pieces come, for each (piece, piece, distance that is asked for)."""
-        found: dict[int, Nearness] = {}
-        finest = 2**_HALVINGS
+        finest, period = 2**_HALVINGS, self.scene.period
         # A step is known by where it begins, counted in the finest steps.
-        open_ = {k: np.arange(self.count) * finest for k in range(len(pairs))}
-        bounds = [np.inf] * len(pairs)
+        whole, unit = np.arange(self.count) * finest, period / (self.count * finest)
+        steps = self._steps(pieces, whole, finest, self._start)
+        found = {k: Nearness(True, far, 0.0) for k, far in steps.far(pairs)}
+        left = {k: whole for k in range(len(pairs)) if k not in found}
+        bounds = dict.fromkeys(left, np.inf)
         for level in range(_HALVINGS + 1):
-            if not open_:
-                break
             width = finest >> level
-            begins = np.unique(np.concatenate(list(open_.values())))
-            rims = np.unique(np.concatenate((begins, begins + width)) % (self.count * finest))
-            step = self.scene.period / (self.count * finest)
-            places = self._at(rims * step) if level else self._start
-            used = {n for k in open_ for n in pairs[k][:2]}
-            placed = {f: _placed(f, places, len(rims)) for f in {pieces[n].frame for n in used}}
-            first, last = (
-                np.searchsorted(rims, some % (self.count * finest)) for some in (begins, begins + width)
-            )
-            strays = {n: _stray(pieces[n], placed[pieces[n].frame], first, last, width * step) for n in used}
-            for k, own in list(open_.items()):
-                i, j, least = pairs[k]
-                rows = np.searchsorted(begins, own)
-                ends, back = np.unique(np.concatenate((first[rows], last[rows])), return_inverse=True)
-                apart = _apart(pieces[i], pieces[j], placed, ends)
-                n = int(apart.argmin())
-                phase = float(rims[ends[n]] * step)
-                if apart[n] < least:
-                    found[k] = Nearness(False, float(apart[n]), phase)
-                    del open_[k]
-                    continue
-                sure = apart[back].reshape(2, -1).min(axis=0) - strays[i][rows] - strays[j][rows]
-                unsure = sure < least
+            if level and left:
+                begins = np.unique(np.concatenate(list(left.values())))
+                steps = self._steps(pieces, begins, width)
+            for k, own in list(left.items()):
+                i, j, asked = pairs[k]
+                near, at, sure = steps.between(i, j, own)
+                unsure = sure < asked
                 bounds[k] = min(bounds[k], float(sure[~unsure].min(initial=np.inf)))
-                if not unsure.any():
-                    found[k] = Nearness(True, bounds[k], phase)
-                    del open_[k]
+                if near < asked:
+                    found[k] = Nearness(False, near, at * unit)
+                elif not unsure.any():
+                    found[k] = Nearness(True, bounds[k], at * unit)
                 elif level == _HALVINGS:
-                    found[k] = Nearness(False, float(sure.min()), phase)
-                    del open_[k]
+                    found[k] = Nearness(False, float(sure.min()), at * unit)
                 else:
-                    open_[k] = np.sort(np.concatenate((own[unsure], own[unsure] + width // 2)))
+                    left[k] = np.sort(np.concatenate((own[unsure], own[unsure] + width // 2)))
+                    continue
+                del left[k]
         return [found[k] for k in range(len(pairs))]
+
+    def _steps(
+        self, pieces: Sequence[MovingPiece], begins: Numbers, width: int, places: _Places | None = None
+    ) -> _Steps:
+        """Return the pieces at both ends of steps; `places` are those of the ends where they are known."""
+        round_ = self.count * 2**_HALVINGS
+        unit = self.scene.period / round_
+        rims = np.unique(np.concatenate((begins, begins + width)) % round_)
+        first, last = (np.searchsorted(rims, some % round_) for some in (begins, begins + width))
+        known = places or self._at(rims * unit)
+        placed = {frame: _placed(frame, known, len(rims)) for frame in {piece.frame for piece in pieces}}
+        strays = [_stray(piece, placed[piece.frame], first, last, width * unit) for piece in pieces]
+        return _Steps(pieces, placed, strays, begins, rims, first, last)
+
+
+class _Steps(NamedTuple):
+    """Steps between phases, by where they begin; the pieces at the phases that are their ends, `rims`.
+
+    Each step goes from the phase `first` to `last` of those; in it a piece strays no farther from where the
+    nearer one has it than `strays` say.
+    """
+
+    pieces: Sequence[MovingPiece]
+    placed: Mapping[Frame, _Placed]
+    strays: Sequence[Real]
+    begins: Numbers
+    rims: Numbers
+    first: Numbers
+    last: Numbers
+
+    def far(self, pairs: Sequence[tuple[int, int, float]]) -> Iterator[tuple[int, float]]:
+        """Yield which pairs are so far apart that the boxes in which they move are, and how far."""
+        lows, highs = [], []
+        for piece, stray in zip(self.pieces, self.strays, strict=True):
+            places = np.concatenate([_corners(piece, self.placed, cell).ravel() for cell in piece.cells])
+            rim = piece.radius + float(stray.max())
+            lows.append((float(places.real.min()) - rim, float(places.imag.min()) - rim))
+            highs.append((float(places.real.max()) + rim, float(places.imag.max()) + rim))
+        for k, (i, j, asked) in enumerate(pairs):
+            gap = max(max(lows[i][n] - highs[j][n], lows[j][n] - highs[i][n]) for n in (0, 1))
+            if gap >= asked:
+                yield k, gap
+
+    def between(self, i: int, j: int, own: Numbers) -> tuple[float, int, Real]:
+        """Return how near two pieces come at the ends of some steps, at which, and a bound for each step."""
+        one, other, rows = self.pieces[i], self.pieces[j], np.searchsorted(self.begins, own)
+        ends, back = np.arange(len(self.rims)), np.concatenate((self.first[rows], self.last[rows]))
+        if len(own) < len(self.begins):
+            ends, back = np.unique(back, return_inverse=True)
+        apart = _apart(one, other, self.placed, ends)
+        n = int(apart.argmin())
+        sure = apart[back].reshape(2, -1).min(axis=0) - self.strays[i][rows] - self.strays[j][rows]
+        return float(apart[n]), int(self.rims[ends[n]]), sure
 
 
 def _quickest(places: _Places, scene: Scene) -> float:
@@ -201,15 +240,20 @@ def _stray(piece: MovingPiece, placed: _Placed, first: Numbers, last: Numbers, s
     return total
 
 
+def _corners(
+    piece: MovingPiece, placed: Mapping[Frame, _Placed], cell: Sequence[complex], rows: Numbers | None = None
+) -> Points:
+    """Return where a cell's corners are, (phases, corners), at some of the phases or at all."""
+    origin, way = placed[piece.frame].origin[0], placed[piece.frame].way[0]
+    if rows is not None:
+        origin, way = origin[rows], way[rows]
+    found: Points = origin[:, None] + way[:, None] * np.asarray(cell)
+    return found
+
+
 def _apart(one: MovingPiece, other: MovingPiece, placed: Mapping[Frame, _Placed], rows: Numbers) -> Real:
     """Return how far apart two pieces are; not above 0 where they overlap."""
-
-    def corners(piece: MovingPiece, cell: Sequence[complex]) -> Points:
-        there = placed[piece.frame]
-        found: Points = there.origin[0][rows, None] + there.way[0][rows, None] * np.asarray(cell)
-        return found
-
-    ones, others = ([corners(piece, cell) for cell in piece.cells] for piece in (one, other))
+    ones, others = ([_corners(piece, placed, cell, rows) for cell in piece.cells] for piece in (one, other))
     least = np.full(len(rows), np.inf)
     for a in ones:
         for b in others:

@@ -185,6 +185,18 @@ def reported(case: Case) -> None:
     assert text.isprintable() or set(text) - {"\n"} == set(text.replace("\n", ""))
 
 
+def laid(case: Case) -> None:
+    """Make it of flat parts, in true size or on a page, or hear in a sentence why not."""
+    words = case.rng.choice(((), ("--fit", "A4"), ("--fit", "Letter", "--bridge"), ("--bridge",)))
+    try:
+        found = json.loads(case.command("make", str(case.path), "--json", *words))
+    except Failure as failure:
+        if ": 2: linkanim: " not in str(failure):
+            raise
+    else:
+        assert (found["refused"] is None) == bool(found["fittings"])
+
+
 def taped(case: Case) -> None:
     """Record a tape that goes far, with names and vectors."""
     actions = [
@@ -254,6 +266,7 @@ OUTPUTS: Mapping[str, Output] = {
         framed,
         recorded,
         reported,
+        laid,
         taped,
         played,
     )

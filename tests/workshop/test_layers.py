@@ -61,7 +61,7 @@ def test_a_search_that_takes_too_long_says_so(monkeypatch: pytest.MonkeyPatch) -
     sure = layers._ordered(NODES, choices)
     assert sure is not None
     assert (max(sure.layers), sure.least) == (2, True)
-    monkeypatch.setattr(layers, "_MOST_STEPS", 0)
+    monkeypatch.setattr(layers, "_MOST_WORK", 0)
     found = layers._ordered(NODES, choices)
     assert found is not None
     assert holds(found.layers, choices)
