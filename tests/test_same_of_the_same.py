@@ -22,7 +22,7 @@ from exact_rates import ExactRates
 from random_scenes import named
 
 from linkanim.cli import table
-from linkanim.cli.solved import leaves, tree
+from linkanim.cli.solved import Tree, leaves, tree
 from linkanim.cli.solved import rows as rows_of_tree
 from linkanim.digits import significant, stepped
 from linkanim.errors import LinkanimError
@@ -37,7 +37,7 @@ from linkanim.paper.curves import Pace
 from linkanim.paper.findings import Instant, Values
 from linkanim.picture.diagrams.chart import pen_for
 from linkanim.picture.diagrams.chart_panel import chart_panel
-from linkanim.picture.figure import figure
+from linkanim.picture.figure import Figure, figure
 from linkanim.picture.layout import layout
 from linkanim.picture.panels.readings import measured
 from linkanim.picture.panels.readings import rows as hud
@@ -167,18 +167,18 @@ def _greatest(scene: Scene) -> dict[int, float]:
 
 def apart(scene: Scene, phase: float, rng: Random, charts: int) -> Iterator[str]:
     """Yield where an output says other than a pose does."""
-    pose = scene.pose(phase)
-    yield from _in_json_and_csv(scene, pose)
-    yield from _in_words(scene, pose)
+    pose, motion = scene.pose(phase), scene.solve(phase=[phase])
+    found = {"phase": motion.phase, **tree(scene, motion)}
+    yield from _in_json_and_csv(scene, pose, found)
+    found[scene.linkage.drive.coordinate.name] = motion.coordinate
+    yield from _in_words(scene, pose, found)
     for token in rng.sample(list(scene.quantities), min(charts, len(scene.quantities))):
         yield from _on_a_chart(scene, scene.quantities[token], pose)
     yield from _in_the_hud(scene, pose)
     yield from _in_a_report(scene, pose)
 
 
-def _in_json_and_csv(scene: Scene, pose: Pose) -> Iterator[str]:
-    motion = scene.solve(phase=[pose.phase])
-    found = {"phase": motion.phase, **tree(scene, motion)}
+def _in_json_and_csv(scene: Scene, pose: Pose, found: Tree) -> Iterator[str]:
     printed = json.loads(json_text(next(rows_of_tree(found))))
     columns, values = zip(*leaves(found), strict=True)
     cells = next(csv.DictReader((csv_head(columns) + csv_rows(values)).splitlines()))
@@ -197,11 +197,9 @@ def _in_json_and_csv(scene: Scene, pose: Pose) -> Iterator[str]:
             yield f"{quantity.token}: a pose says {said!r}, JSON {value!r}"
 
 
-def _in_words(scene: Scene, pose: Pose) -> Iterator[str]:
+def _in_words(scene: Scene, pose: Pose, found: Tree) -> Iterator[str]:
     """Yield what the tables of `solve` say otherwise: its joints' numbers, and those of the whole."""
-    motion = scene.solve(phase=[pose.phase])
-    found = {"speed": pose.input_speed, "acceleration": 0.0, "phase": motion.phase, **tree(scene, motion)}
-    found[scene.linkage.drive.coordinate.name] = motion.coordinate
+    found = {"speed": pose.input_speed, "acceleration": 0.0, **found}
     words = table.of_pose(scene, rows_of_tree(found))
     for joint in (joint.name for joint in scene.linkage.joints if not joint.fixed):
         kinds = [scene.quantities[f"{joint}.{kind}.{axis}"] for kind in KIND for axis in "xy"]
@@ -221,7 +219,7 @@ KIND = ("position", "velocity", "acceleration")
 
 def _on_a_chart(scene: Scene, quantity: Quantity, pose: Pose) -> Iterator[str]:
     window = layout((1280, 720), chart=True)
-    chart = chart_panel(figure(scene), quantity.token, window, pen_for(window, Type(), LIGHT))
+    chart = chart_panel(_figure(scene), quantity.token, window, pen_for(window, Type(), LIGHT))
     values, said = chart.values_at(pose), np.atleast_1d(np.asarray(quantity.shown(pose), float))
     whole = 360.0 if chart.series.unit == "°" else math.inf
     for value, own in zip(values.tolist(), said.tolist(), strict=True):
@@ -234,6 +232,11 @@ def _on_a_chart(scene: Scene, quantity: Quantity, pose: Pose) -> Iterator[str]:
     listed = value_words(scene, quantity, pose)
     if ("∞" in listed) != bool(np.isinf(said).any()):
         yield f"{quantity.token}: {said} is {listed!r} in the list"
+
+
+@cache
+def _figure(scene: Scene) -> Figure:
+    return figure(scene)
 
 
 def _in_the_hud(scene: Scene, pose: Pose) -> Iterator[str]:
