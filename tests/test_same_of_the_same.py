@@ -314,6 +314,7 @@ def asked_of_nothing(scene: Scene, phase: float, rng: Random) -> Iterator[str]:
 # --- the tests --------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", FEW)
 def test_all_outputs_say_what_a_pose_says_beside_what_is_singular(name: str) -> None:
     scene, rng = scene_of(name), Random(name)
