@@ -12,7 +12,7 @@ from functools import cached_property
 from typing import Any
 
 from chain_reference import places
-from mpmath import mp, mpc, mpf
+from mpmath import mp, mpf
 
 from linkanim.mechanics.linkage.drive import Cylinder, Travel
 from linkanim.mechanics.linkage.dyads import RPR, RRP, RRR
@@ -25,6 +25,8 @@ SAMPLES = 180
 """Of a true period, where greatest values are sought."""
 NUDGE = mpf(10) ** -30
 """Added to every phase: where two joints meet neither has a direction from the other."""
+AFTER, NEARLY_ONE = 1e-7, 1e-9
+"""So long after a phase, in radians, closures that are so nearly one, as sines, have come apart."""
 STEP = 2.0**-17
 """Of the differences, in radians of the phase: five points of it are off by its fourth power."""
 _TOUCHING = mpf(10) ** -3
@@ -98,9 +100,13 @@ class ExactMotion:
             return float(mp.im(mp.conj(along) * moving) / abs(along) ** 2)
 
     def travel(self, joint: str, at: dict[str, Place]) -> Any:
-        """Return how far along its fixed line a joint is."""
+        """Return how far along its line a joint is, a fixed one or one that a body carries."""
         line = self.scene.linkage.joint(joint).slides[0].line
-        return mp.re((at[joint] - at[line.through]) * mp.expj(-mpf(line.angle)))
+        along = mp.expj(mpf(line.angle))
+        if line.on is not None:
+            axis = at[line.on[1]] - at[line.on[0]]
+            along *= axis / abs(axis)
+        return mp.re((at[joint] - at[line.through]) / along)
 
     def body_rate(self, body: Body, phase: float, order: int = 1) -> float:
         """Return the angular velocity of a body, or how fast it travels; or how fast that changes."""
@@ -151,7 +157,7 @@ class ExactMotion:
         drive = self.scene.linkage.drive
         assert isinstance(drive.actuator, Cylinder)
         fixed, moving = drive.actuator.between
-        still = places_of_crank(self.scene, mpf(0), self.signs(0.0))
+        still = places(self.scene.linkage, mpf(0), self.signs(0.0))
         pivot = still[self.scene.linkage.crank(drive.joint).pivot]
         arm, ground = still[moving] - pivot, still[fixed] - pivot
         r, g = abs(arm), abs(ground)
@@ -241,33 +247,32 @@ class ExactMotion:
         return None
 
     def signs(self, phase: float) -> dict[str, int]:
-        """Return which of its two closures each dyad has at a phase."""
-        pose = self.scene.pose(phase, 0)
-        at = {name: complex(*place) for name, place in pose.position.items()}
-        return {
-            joint.name: 1 if _ahead(joint, at) >= 0 else -1
-            for joint in self.scene.linkage.joints
-            if isinstance(joint, RRR | RRP | RPR)
-        }
-
-
-def places_of_crank(scene: Scene, angle: Any, signs: dict[str, int]) -> dict[str, Place]:
-    """Return where what turns with the crank lies at an angle, whatever the rest does."""
-    return places(scene.linkage, angle, signs)
+        """Return which of its two closures each dyad has at a phase, or just after one where both are one."""
+        here, after = (self.scene.pose(phase + part, 0).position for part in (0.0, AFTER))
+        places = [{name: complex(*place) for name, place in found.items()} for found in (here, after)]
+        found = {}
+        for joint in self.scene.linkage.joints:
+            if isinstance(joint, RRR | RRP | RPR):
+                ahead, later = (_ahead(joint, at) for at in places)
+                found[joint.name] = 1 if (later if abs(ahead) < NEARLY_ONE else ahead) >= 0 else -1
+        return found
 
 
 def _ahead(joint: Joint, at: dict[str, complex]) -> float:
-    """Return a number whose sign tells the closure of a dyad."""
+    """Return the sine, or the cosine, whose sign tells the closure of a dyad."""
     match joint:
         case RRR():
             p, q = (at[end] for end in joint.ends)
-            return ((q - p).conjugate() * (at[joint.name] - p)).imag
+            turn = (q - p).conjugate() * (at[joint.name] - p)
+            return turn.imag / (joint.lengths[0] * max(joint.lengths))
         case RRP():
-            along = mpc(mp.expj(joint.line.angle))
+            along = complex(mp.expj(joint.line.angle))
             if joint.line.on is not None:
-                along *= at[joint.line.on[1]] - at[joint.line.on[0]]
-            return float(mp.re(mp.conj(along) * (at[joint.name] - at[joint.end])))
+                axis = at[joint.line.on[1]] - at[joint.line.on[0]]
+                along *= axis / abs(axis)
+            return (along.conjugate() * (at[joint.name] - at[joint.end])).real / joint.length
         case RPR():
-            bar = (at[joint.name] - at[joint.pivot]) * (1 if joint.length > 0 else -1)
-            return (bar.conjugate() * (at[joint.through] - at[joint.pivot])).real
+            bar = (at[joint.name] - at[joint.pivot]) / joint.length
+            arm = at[joint.through] - at[joint.pivot]
+            return (bar.conjugate() * arm).real / max(abs(arm), abs(joint.offset), 1e-300)
     raise AssertionError(joint)

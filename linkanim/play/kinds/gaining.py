@@ -162,9 +162,10 @@ def curves(puzzle: Puzzle) -> QuizQuestion | None:
         for n, part in enumerate(scaled)
     ]
     token = f"{body.name}.{tokens[which]}"
+    kind, where = ("", " along its guide") if body.slider else ("angular ", "")
     return puzzle.question(
         token,
-        f"Over one period, which curve is the {right} of {puzzle.name(body)}?",
+        f"Over one period, which curve is the {kind}{right} of {puzzle.name(body)}{where}?",
         answers.pop(which),
         answers,
         f"Where the {_ORDERS[which - 1]} has its extremes the {right}, its steepness, is zero.",

@@ -85,8 +85,10 @@ def _taken_for_fastest(puzzle: Puzzle, names: list[str]) -> Iterator[tuple[str, 
     linkage = puzzle.scene.linkage
     if linkage.drive.coordinate.is_angle:
         pivot = linkage.crank(linkage.drive.joint).pivot
-        far = max(names, key=lambda name: abs(puzzle.apart(pivot, name)))
-        yield far, f"the point farthest from {pivot}, taken for the fastest"
+        ways = {name: abs(puzzle.apart(pivot, name)) for name in names}
+        *_, next_to, far = sorted(names, key=lambda name: ways[name])
+        if ways[far] - ways[next_to] > CLEAR * ways[far]:
+            yield far, f"the point farthest from {pivot}, taken for the fastest"
     yield linkage.drive.joint, "the input taken for the fastest: a chain can speed up on its way"
 
 
