@@ -12,9 +12,8 @@ from linkanim import units
 from linkanim.bench.command import CHART
 from linkanim.cli import values
 from linkanim.picture.look import TOGGLES, Look, Option, Toggle
+from linkanim.workshop.media import WAYS
 
-WAYS = ("cardboard", "laser", "print")
-"""Of making a linkage, as `make` knows them."""
 EVERY_ANGLE = object()
 """What `--phase` without a value stands for: each angle of the sweep."""
 

@@ -12,6 +12,7 @@ from linkanim.bounds import LARGEST_SIDE, MOST_LISTED, MOST_POSES
 from linkanim.errors import BadInput
 from linkanim.picture.look import TOGGLES
 from linkanim.units import shown
+from linkanim.workshop.media import PAGES
 
 MOST_ROWS = 1_000_000
 _MOST_DIGITS = 15
@@ -176,9 +177,12 @@ def millimetres(text: str) -> float:
 
 def sheet(text: str) -> str | tuple[float, float]:
     """Read the size of a sheet in mm, `600x400`, or the name of a page."""
+    if text in PAGES:
+        return text
     found = re.fullmatch(r"\s*([\d.]+)\s*[x×X]\s*([\d.]+)\s*(?:mm)?\s*", text)
     if not found:
-        return text
+        pages = ", ".join(PAGES)
+        raise BadInput(f"{shown(text)} is no sheet: take {pages}, or a size in mm such as 600x400")
     return positive(found[1]), positive(found[2])
 
 

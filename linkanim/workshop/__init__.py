@@ -2,6 +2,7 @@
 
 `made` has the door: `make`, and what it gives, `MadeLinkage`. Each module imports from those before it only:
 
+    media      the ways of making, pages
     shapes     outlines in mm, with arcs
     sweep      how near moving pieces come to each other over the whole period
     gears      which wheels mesh, and their involute teeth

@@ -14,12 +14,10 @@ from linkanim.mechanics.motion.motion import Pose
 from linkanim.picture.figure import figure
 from linkanim.scenes.scene import Scene
 from linkanim.workshop.layers import Stack, Unstackable, stacked
+from linkanim.workshop.media import Size, Way
 from linkanim.workshop.parts import Band, Hole, Kit, Plate, Sizes, kit, refuse_thin
 from linkanim.workshop.shapes import box, polygon
 from linkanim.workshop.sweep import GROUND, Cycle, Frame
-
-Way = Literal["cardboard", "laser", "print"]
-Size = tuple[float, float]
 
 _TRUE = 1e-12
 """By so much a scale of 1 may be off."""

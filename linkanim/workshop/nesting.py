@@ -7,8 +7,6 @@ from typing import NamedTuple
 
 from linkanim.workshop.shapes import Outline, box, polygon, upright
 
-PAGES = {"A4": (210.0, 297.0), "Letter": (215.9, 279.4)}
-"""Sizes of paper, in mm."""
 MARGIN, FOOT = 10.0, 16.0
 """What a page has at each edge that is not printed on, and what the ruler takes at its foot."""
 

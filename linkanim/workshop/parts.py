@@ -17,8 +17,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from linkanim.errors import BadInput
-from linkanim.mechanics.linkage.dyads import RPP
-from linkanim.mechanics.linkage.joint import Line
+from linkanim.mechanics.linkage.joint import Line, Slide
 from linkanim.mechanics.linkage.linkage import Body, Damper, Spring
 from linkanim.workshop.gears import GearWheel, NotFlat, meshes
 from linkanim.workshop.shapes import Outline, hull, moved, rounded
@@ -359,8 +358,9 @@ class _Bench:
     def _sliders(self) -> None:
         blocks = {body.slider: body.name for body in self.linkage.bodies if body.slider is not None}
         for joint in self.linkage.joints:
-            if isinstance(joint, RPP):
-                self._yoke(joint, blocks.get(joint.name, f"yoke {joint.name}"))
+            if len(joint.slides) == 2:
+                bar, pin = joint.slides
+                self._yoke(bar, pin, blocks.get(joint.name, f"yoke {joint.name}"))
                 continue
             for slide in joint.slides:
                 guide = self.drafts[self._guide(slide.line)]
@@ -375,17 +375,20 @@ class _Bench:
                     self._slot(slide.point, slide.line, (0.0, 0.0), self.sizes.hole / 2)
                     guide.guided.add(slide.point)
 
-    def _yoke(self, joint: RPP, name: str) -> None:
-        """Put down a bar with a slot across its line, on a tongue beyond the pins that lie in its way."""
-        frame = Frame(joint.name, joint.line.on, cmath.rect(1.0, joint.line.angle))
-        yoke = _PlateDraft(name, "link", frame, {joint.name: 0j}, (name,))
+    def _yoke(self, bar: Slide, pin: Slide, name: str) -> None:
+        """Put down a bar with a slot across its line, on a tongue beyond the pins that lie in its way.
+
+        `bar` is how it slides along its line, `pin` how a pin slides along its slot.
+        """
+        frame = Frame(bar.point, bar.axis, cmath.rect(1.0, bar.angle))
+        yoke = _PlateDraft(name, "link", frame, {bar.point: 0j}, (name,))
         self.drafts.append(yoke)
-        number, way = len(self.drafts) - 1, cmath.rect(1.0, joint.slot)
-        least, most = _range((self.cycle.seen(joint.pin, frame) * way.conjugate()).real)
-        yoke.slots.append(Slot(way * least, way * most, self.sizes.hole / 2, joint.pin))
-        yoke.guided.add(joint.pin)
-        ends = self._free_ends(joint.name, joint.line, 2.5 * self.sizes.bar)
-        self._tongue(joint.name, joint.line, ends, f"{name} tongue")
+        number, way = len(self.drafts) - 1, cmath.rect(1.0, pin.angle - bar.angle)
+        least, most = _range((self.cycle.seen(pin.point, frame) * way.conjugate()).real)
+        yoke.slots.append(Slot(way * least, way * most, self.sizes.hole / 2, pin.point))
+        yoke.guided.add(pin.point)
+        ends = self._free_ends(bar.point, bar.line, 2.5 * self.sizes.bar)
+        self._tongue(bar.point, bar.line, ends, f"{name} tongue")
         yoke.reach += [way * least, way * most, *map(complex, ends)]
         for end in ends:
             self._dowel(frame, complex(end), (number, len(self.drafts) - 1))

@@ -6,7 +6,7 @@ import math
 import os
 from dataclasses import replace
 from itertools import combinations
-from typing import NamedTuple, get_args
+from typing import NamedTuple
 
 import numpy as np
 
@@ -14,8 +14,9 @@ from linkanim.errors import BadInput
 from linkanim.scenes.scene import Scene
 from linkanim.units import shown
 from linkanim.workshop.gears import NotFlat
-from linkanim.workshop.made import MadeLinkage, Size, Way, laid, true_scale
-from linkanim.workshop.nesting import FOOT, MARGIN, PAGES
+from linkanim.workshop.made import MadeLinkage, laid, true_scale
+from linkanim.workshop.media import PAGES, WAYS, Size, Way
+from linkanim.workshop.nesting import FOOT, MARGIN
 from linkanim.workshop.parts import Plate, Sizes, kit
 from linkanim.workshop.shapes import box, polygon, upright
 from linkanim.workshop.sweep import GROUND, Cycle
@@ -57,11 +58,11 @@ def make(
     back with the reason in `refused`; with an `output` that is BadInput. BadInput for sizes that make no
     sense, and `WorkFailed` where disk or folder refuse.
     """
-    if way not in get_args(Way):
-        raise BadInput(f"way={shown(way)}: take {', '.join(get_args(Way))}")
+    if way not in WAYS:
+        raise BadInput(f"way={shown(way)}: take {', '.join(WAYS)}")
     if fit is not None and fit not in PAGES:
         raise BadInput(f"fit={shown(fit)}: take {' or '.join(PAGES)}")
-    asked = _Asked(way, bar, hole, thickness, clearance, gap, kerf)  # type: ignore[arg-type]
+    asked = _Asked(way, bar, hole, thickness, clearance, gap, kerf)
     asked.check()
     size = _sheet(sheet, fit, asked.way)
     found = MadeLinkage(scene, asked.way, Sizes(true_scale(scene)), kerf, size)

@@ -85,7 +85,7 @@ BAD = [
     (["crank-rocker", "--json", "--thickness", "0"], "thickness=0: give a length in mm"),
     (["crank-rocker", "--json", "--bar", "wide"], '"wide" is not a length'),
     (["crank-rocker", "--json", "--bar", "3 apples"], "is not one of its units, mm, cm, m, in"),
-    (["crank-rocker", "--json", "--sheet", "600"], 'sheet="600": take A4 or Letter, or a size in mm'),
+    (["crank-rocker", "--json", "--sheet", "600"], '"600" is no sheet: take A4, Letter, or a size'),
     (["crank-rocker", "--json", "--sheet", "0x400"], '"0" is not a number greater than zero'),
     (["crank-rocker", "--json", "--fit", "A3"], 'fit="A3": take A4 or Letter'),
     (["excavator", "-o", "made"], "a cylinder drives it, which no flat parts are"),

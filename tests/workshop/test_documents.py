@@ -25,8 +25,9 @@ from linkanim.errors import BadInput
 from linkanim.picture.raster.raster import Layer
 from linkanim.scenes import load
 from linkanim.workshop import documents
-from linkanim.workshop.made import MadeLinkage, Size
-from linkanim.workshop.nesting import PAGES, Laid, nested
+from linkanim.workshop.made import MadeLinkage
+from linkanim.workshop.media import PAGES, Size
+from linkanim.workshop.nesting import Laid, nested
 from linkanim.workshop.request import make
 from linkanim.workshop.shapes import moved, polygon, rounded
 

@@ -18,7 +18,7 @@ from linkanim.scenes.scene import Scene
 from linkanim.units import metre
 from linkanim.workshop.layers import Stack
 from linkanim.workshop.made import MadeLinkage, _reach
-from linkanim.workshop.nesting import PAGES
+from linkanim.workshop.media import PAGES
 from linkanim.workshop.parts import kit
 from linkanim.workshop.request import make
 from linkanim.workshop.shapes import polygon
