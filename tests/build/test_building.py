@@ -114,6 +114,14 @@ def test_a_slider_is_driven_to_both_sides_of_where_it_stands() -> None:
     assert building.draft.drive["slider"] == {"joint": "A", "from": 77.5, "to": 82.5}
 
 
+@pytest.mark.parametrize("x", [59.0, 20.0], ids=["on a bar", "on the ground"])
+def test_a_short_guide_has_whole_degrees_wherever_it_lies(x: float) -> None:
+    # over 15 mm half a degree moves the guide's end by less than half of the grid's step
+    (table,) = gesture(drawn(FOUR_BAR), f"drag guide {x} 41.5 {x + 13} 48").draft.of("guides").values()
+    assert ("on" in table) == (x == 59.0)
+    assert float(table["angle"].removesuffix(" deg")).is_integer()
+
+
 def test_wheels_touch_where_their_radii_are_as_their_ratio() -> None:
     pivots = ("click 0 0", "click 90 0", "drag 0 0 30 0", "drag 90 0 120 0")
     building = drawn((*pivots, "drag gear 120 0 30 0", "type -2"))

@@ -12,7 +12,7 @@ import pytest
 from playing import SIZE, Player
 
 from linkanim.errors import BadInput
-from linkanim.picture.panels.overlay import Overlay
+from linkanim.picture.panels.overlay import GamePanel, Overlay
 from linkanim.play.arcade import Arcade
 from linkanim.play.games import game_of
 from linkanim.play.kinds.table import KINDS
@@ -48,6 +48,12 @@ def right_of(state: State) -> int:
     question = round_of(state).question
     assert question
     return question.right
+
+
+def panel_of(state: State) -> GamePanel:
+    panel = round_of(state).shown(state, Overlay()).game
+    assert panel
+    return panel
 
 
 def answered(state: State, *, well: bool) -> State:
@@ -196,8 +202,13 @@ def test_under_the_help_nothing_is_answered_and_no_other_mechanism_comes() -> No
 
 def test_a_round_asks_ten_and_then_what_was_missed() -> None:
     state = playing(BEGUN)
+    seen = []
     for n in range(COUNT):
+        seen.append(panel_of(state).scores[:2])
         state = answered(state, well=n not in (2, 5))
+    assert seen[0] == ("1 / 10", "0 in a row")
+    assert seen[-1] == ("10 / 10", "3 in a row")
+    assert panel_of(state).scores[0] == "again 1 / 2"
     game = round_of(state)
     assert game.question
     assert game.question.question_id == game.done[2].question_id == game.missed[0]
@@ -242,9 +253,11 @@ def test_a_wrong_answer_is_called_by_its_misconception_if_one_gives_it(named: bo
     wrong = next(
         n for n, one in enumerate(question.answers) if n != question.right and bool(one.slip) == named
     )
+    assert panel_of(state).hint == "1–4 or a click answers   Esc leaves"
     state = advance(state, [Action("option", wrong)])
-    panel = round_of(state).shown(state, Overlay()).game
-    assert panel
+    panel = panel_of(state)
+    assert panel.scores[0] == "1 / 10"  # still that question's, until the next
+    assert panel.hint == "Enter goes on   Esc leaves"
     assert panel.verdict == (f"No: that is {question.answers[wrong].slip}." if named else "No.")
     assert panel.lines_after == (question.why,)
 
