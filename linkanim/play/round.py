@@ -28,21 +28,29 @@ def questions(
     scene has nothing that can be asked, because nothing of it moves clearly.
     """
     found: list[QuizQuestion] = []
+    spent: set[tuple[str, str]] = set()
     for number in range(count):
-        scene = scenes[number % len(scenes)]
-        found.append(next_question(scene, f"{seed} {number}", [one.question_id for one in found]))
+        scene, before = scenes[number % len(scenes)], [one.question_id for one in found]
+        found.append(next_question(scene, f"{seed} {number}", before, spent=spent))
         progress(number + 1, count)
     return tuple(found)
 
 
 def next_question(
-    scene: Scene, seed: str, before: Sequence[QuestionId], kinds: Collection[str] = tuple(KINDS)
+    scene: Scene,
+    seed: str,
+    before: Sequence[QuestionId],
+    kinds: Collection[str] = tuple(KINDS),
+    *,
+    spent: set[tuple[str, str]] | None = None,
 ) -> QuizQuestion:
     """Return a question about a scene, of the kind that was least often, that was not there before.
 
-    Of other kinds than those that are asked for where the scene has nothing to ask of these. WorkFailed as
-    `questions`.
+    Of other kinds than those that are asked for where the scene has nothing to ask of these. Kinds that have
+    nothing new to ask of a scene are `spent`, to which they are added: they are not tried at length again.
+    WorkFailed as `questions`.
     """
+    spent = set() if spent is None else spent
     random = Random(f"{seed} {scene.name}")
     asked = sorted(name for name, kind in KINDS.items() if scene.purpose or not kind.of_making)
     order = random.sample(asked, len(asked))
@@ -51,11 +59,16 @@ def next_question(
     known = {(question_id.scene, question_id.kind, question_id.subject) for question_id in before}
     spare = None
     for kind in order:
+        if spare and (scene.name, kind) in spent:
+            continue
         for _ in range(_TRIES):
             made = _made(kind, scene, round(random.uniform(0.0, scene.period), _DECIMALS))
             if made and (scene.name, kind, made.subject) not in known:
                 return made
             spare = spare or made
+            if spare and (scene.name, kind) in spent:
+                break
+        spent.add((scene.name, kind))
     if spare is None:
         raise WorkFailed(f"{scene.name}: nothing of it moves so clearly that a question can be made of it")
     return spare

@@ -32,8 +32,17 @@ TEXTS = (
     "_{}_{x}",
     "<b>&amp;\"'</b>",
     "=1+2",
+    r"\input{/etc/passwd} $x^2$ % #1 ~ \\",
+    "</script><img src=x onerror=alert(1)>",
+    "*bold* `code` [link](javascript:alert(1)) | # $a$",
 )
-NAMES = ("Q", "机", "é", "שלום", "🦾", "n" * 32, "-1", "a_b", "=A1", "<i>", "P2", "O2'")
+NAMES = (
+    *("Q", "机", "é", "שלום", "🦾", "n" * 32, "-1", "a_b", "=A1", "<i>", "P2", "O2'", "G2", "٣", "Ŀħ", "a b"),
+    *("constructor", "toString", "__proto__", "hasOwnProperty", "valueOf", "length"),  # JavaScript's
+    *(r"\input{x}", "$x$", "%", "#1", "a&b", "~", "^2", "{", "x}", "\\"),  # LaTeX's
+    *("con", "AUX", "nul", "COM1", "a/b", "C:x", "a|b", "a?b", "*", '"'),  # Windows'
+    *("`x`", "[x](y)", "</g>", "]]>", "None", "nan", "1e5"),
+)
 NUMBERS = (1e-300, 5e-324, 1e-30, 1e-28, 1e-12, 1e-7, 1e-6, 1e-3, 1.0, 1e3, 1e6, 1e7, 1e9, 3e14, 1e20, 1e300)
 SCALES = (1e-80, 1e-13, 1e-10, 1e-7, 1e-3, 1e3, 1e6, 1e9, 3e10, 1e12, 1e80)
 UNITS = ("mm", "cm", "m", "in")
@@ -276,6 +285,15 @@ def _unit(rng: Random, document: Document) -> None:
     document["length_unit"] = rng.choice(UNITS)
 
 
+def _photo(rng: Random, document: Document) -> None:
+    document["photo"] = {
+        "file": rng.choice(("photo.png", "photo.png", "none.png", "a folder/of mine/é.png")),
+        "place": [rng.choice((0, -50, 1e6)), 0],
+        "width": rng.choice((100, 1e-3, 1e6)),
+        "turn": rng.choice(CIRCLE),
+    }
+
+
 def _drive(rng: Random, document: Document) -> None:
     drive = document.setdefault("drive", {})
     drive["speed"] = rng.choice(SPEEDS)
@@ -283,7 +301,20 @@ def _drive(rng: Random, document: Document) -> None:
         drive["start"] = rng.choice(CIRCLE)
 
 
-DECORATIONS = (_text, _trace, _trace, _strut, _strut, _meeting, _body, _body, _slider_body, _unit, _drive)
+DECORATIONS = (
+    _text,
+    _trace,
+    _trace,
+    _strut,
+    _strut,
+    _meeting,
+    _body,
+    _body,
+    _slider_body,
+    _unit,
+    _drive,
+    _photo,
+)
 
 
 def _pushed(rng: Random, document: Document) -> None:
