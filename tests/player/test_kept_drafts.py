@@ -215,25 +215,34 @@ DAMAGED: dict[str, Callable[[], bytes]] = {
 def test_a_damaged_draft_is_set_aside_with_a_sentence_and_another_is_kept(
     here: Path, content: Callable[[], bytes]
 ) -> None:
-    kept, text = here / "draft.json", content()
+    kept, text, state = here / "draft.json", content(), begin(load("press"))
     kept.write_bytes(text)
+    drafts = DraftFile(kept)
+    after, said = drafts.offered(state)
+    assert after is state
+    assert said
+    assert said.startswith(f"{kept}: ")
+    assert said.endswith("; it is kept as draft-aside-1.json")
+    drafts.keep(begin_on(drawn(["click 0 0"])))
+    drafts.close()
+    assert (here / "draft-aside-1.json").read_bytes() == text
+    again, _ = drafts.offered(state)
+    drafts.close()
+    assert again.sheet
+    assert list(again.sheet.building.draft.places) == ["O2"]
+
+
+def test_a_window_opens_over_a_damaged_draft_and_says_so(here: Path) -> None:
+    (here / "draft.json").write_bytes(DAMAGED["a number of 401 digits"]())
     with display.opened(SIZE):
-        player = started_again(kept)
-        assert player.state.toast
-        said = player.state.toast.text
-        assert said.startswith(f"{kept}: ")
-        assert said.endswith("; it is kept as draft-aside-1.json")
+        player = started_again(here / "draft.json")
         assert player.state.sheet is None
-        player.press(pygame.K_F2)
-        drawn_on(player, (0.0, 0.0))
+        assert player.state.toast
+        assert player.state.toast.text.endswith("; it is kept as draft-aside-1.json")
         player.window.close()
-        assert (here / "draft-aside-1.json").read_bytes() == text
-        again = started_again(kept)
-        again.press(pygame.K_F2)
-        assert list(sheet_of(again).building.draft.places) == ["O2"]
-        again.window.close()
 
 
+@pytest.mark.slow
 def test_what_windows_draw_at_once_is_in_nobody_s_way_and_is_offered_one_by_one(here: Path) -> None:
     kept = here / "data" / "draft.json"
     with display.opened(SIZE):
