@@ -102,9 +102,12 @@ class View:
 
 
 def view_of(box: Box, room: Rect, share: float = 1.0) -> View:
-    """Return the view in which a box lies in the middle of a room, as large as fits, or a share of that."""
+    """Return the view in which a box lies in the middle of a room, as large as fits, or a share of that.
+
+    A room without extent, as a tiny window leaves, counts as one of a pixel.
+    """
     wide, high = max(box.right - box.left, 1e-9), max(box.high - box.low, 1e-9)
-    scale = share * min(room.width / wide, room.height / high)
+    scale = share * min(max(room.width, 1.0) / wide, max(room.height, 1.0) / high)
     (x, y), middle = box.middle, room.middle
     return View(scale, middle.real - scale * x, middle.imag + scale * y)
 
