@@ -54,7 +54,10 @@ BOUND = re.compile(
     r"|--unit in .*is beyond what can be computed"
 )
 """What says that something is more than is made, before work begins."""
-NOT_OF_ALL = re.compile(r"nothing of it moves so clearly that a question can be made of it")
+NOT_OF_ALL = re.compile(
+    r"nothing of it moves so clearly that a question can be made of it"
+    r"|its input is a slider, which has no angle"
+)
 """Why some output is not made of every scene."""
 
 
