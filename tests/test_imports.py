@@ -255,10 +255,11 @@ NO_WINDOW = ("pygame", "PIL", "imageio", "imageio_ffmpeg")
     ("starts", "absent"),
     [
         pytest.param(
-            ("import linkanim", "main(['--version'])", "main(['--help'])", "main(['record', '--help'])"),
+            ("import linkanim", "main(['--help'])", "main(['record', '--help'])"),
             HEAVY,
             id="--help",
         ),
+        pytest.param(("main(['--version'])",), ("pygame", "PIL", "tqdm"), id="--version"),
         pytest.param(
             (
                 *("from linkanim import load", "from linkanim import path", "main(['scenes'])"),

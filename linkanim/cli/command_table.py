@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import platform
 import sys
-from argparse import Namespace
-from collections.abc import Callable, Mapping, Sequence
-from importlib import import_module
+from argparse import Action, Namespace
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from importlib import import_module, metadata
 from importlib.util import find_spec
 from pathlib import Path
-from typing import cast
+from typing import Any, cast
 
 from linkanim import __version__
 from linkanim.cli.options import ARGUMENTS
@@ -17,7 +18,17 @@ from linkanim.errors import BadInput, WorkFailed
 from linkanim.intake import control_in
 from linkanim.units import shown
 
-_WITHOUT_PYGAME = ("solve", "info", "scenes", "check", "path", "guide", "function", "quick-return")
+_WITHOUT_PYGAME = (
+    "solve",
+    "info",
+    "scenes",
+    "check",
+    "path",
+    "guide",
+    "function",
+    "quick-return",
+    "completion",
+)
 
 
 def parse(argv: Sequence[str] | None = None) -> Namespace:
@@ -52,7 +63,12 @@ def build() -> Parser:
             'linkanim solve press --angle "87 deg"',
         ),
     )
-    parser.add_argument("--version", action="version", version=f"linkanim {__version__}")
+    parser.add_argument(
+        "--version",
+        action=Versions,
+        nargs=0,
+        help="show the versions of linkanim, Python, numpy, pygame and ffmpeg",
+    )
     add = parser.add_subparsers(
         dest="command", metavar="COMMAND", prog="linkanim", parser_class=Parser, title="commands"
     )
@@ -62,6 +78,33 @@ def build() -> Parser:
         for argument in ARGUMENTS[name]:
             argument(made)
     return parser
+
+
+class Versions(Action):
+    """The option that prints what a report of a fault needs: our version and those of what we build on."""
+
+    def __call__(self, parser: Any, *_: object) -> None:
+        """Print a line for each of them, and end the program."""
+        print("\n".join(_versions()))
+        parser.exit()
+
+
+def _versions() -> Iterator[str]:
+    yield f"linkanim {__version__}"
+    yield f"Python {platform.python_version()} on {platform.platform()}"
+    for names in (("numpy",), ("pygame-ce", "pygame")):
+        yield next((f"{name} {found}" for name in names if (found := _installed(name))), f"{names[0]} none")
+    from linkanim.recorder.encode import ffmpeg_version
+
+    yield f"ffmpeg {ffmpeg_version() or 'none'} (imageio-ffmpeg {_installed('imageio-ffmpeg') or 'none'})"
+
+
+def _installed(package: str) -> str:
+    """Return the version of an installed package; empty where it is not installed."""
+    try:
+        return metadata.version(package)
+    except metadata.PackageNotFoundError:
+        return ""
 
 
 def _keys() -> str:
@@ -233,6 +276,11 @@ COMMANDS: Mapping[str, tuple[str, ...]] = {
         "measure speed against error, beside the usual ways to solve a linkage",
         "linkanim bench",
         "linkanim bench --json",
+    ),
+    "completion": (
+        "print a script that lets bash, zsh or fish complete commands, options and scenes",
+        "linkanim completion bash",
+        "linkanim completion fish",
     ),
 }
 """Each command: what it does in a line, and examples of its use."""

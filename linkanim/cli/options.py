@@ -375,6 +375,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _value("--seconds S", values.positive, "of its global search (default: 600)", 600.0),
         _value("--into FOLDER", Path, f"where {CHART} goes (default: recordings)", Path("recordings")),
     ),
+    "completion": (_takes("shell", choices=("bash", "zsh", "fish"), help="the shell to write it for"),),
 }
 """The arguments of each command."""
 

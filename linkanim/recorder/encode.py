@@ -94,6 +94,15 @@ def ffmpeg() -> str:
     return found
 
 
+def ffmpeg_version() -> str:
+    """Return the version that the encoder says it has, such as "7.0.2-static"; empty where there is none."""
+    try:
+        found = re.match(rb"ffmpeg version (\S+)", told([ffmpeg(), "-version"]))
+    except (RecordingFailed, OSError):
+        return ""
+    return found[1].decode(errors="replace") if found else ""
+
+
 def _command(stream: Stream, form: Format, part: Path) -> list[str]:
     width, height = stream.size
     pixels = "pal8" if form == "gif" else "bgra" if stream.alpha else "bgr0"

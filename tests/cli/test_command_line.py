@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from argparse import _SubParsersAction
 from pathlib import Path
@@ -50,7 +51,10 @@ def test_the_process_s_own_words_are_read_where_none_are_given(monkeypatch: pyte
 
 def test_the_version_is_told(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["--version"]) == 0
-    assert capsys.readouterr().out == f"linkanim {linkanim.__version__}\n"
+    said = capsys.readouterr().out.splitlines()
+    assert said[0] == f"linkanim {linkanim.__version__}"
+    assert [line.split()[0] for line in said[1:]] == ["Python", "numpy", "pygame-ce", "ffmpeg"]
+    assert all(re.match(r"[\w-]+ \S*\d", line) for line in said)
 
 
 LONG = "9" * 5_000
