@@ -38,10 +38,12 @@ def changed(building: Building, draft: Draft, chosen: Thing | None, sentence: st
     settled = draft.having_all("sides", sides(draft))
     past = (*building.past, building.draft)[-_KEPT:]
     after = Building(settled, chosen, past=past, sentence=sentence)
-    scene = after.made.scene
-    if scene and (not building.made.scene or _input(draft) != _input(building.draft)):
-        return replace(after, draft=replace(settled, phase=phase_of(scene, settled.places)))
-    return after
+    scene, before = after.made.scene, building.made.scene
+    swung = bool(before and not before.info.full_turn)
+    goes_on = before and not swung and _input(draft) == _input(building.draft)
+    if scene is None or (goes_on and scene.info.full_turn):
+        return after
+    return replace(after, draft=replace(settled, phase=phase_of(scene, settled.places, swung=swung)))
 
 
 def _input(draft: Draft) -> tuple[str | None, object, object]:

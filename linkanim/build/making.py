@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from math import pi
+from functools import partial
+from math import dist, pi
 from typing import Any, NamedTuple
 
 from linkanim.build.draft import Draft
@@ -58,14 +59,23 @@ def made(draft: Draft, name: str = NAME) -> Made:
     return Made(scene, "")
 
 
-def phase_of(scene: Scene, places: Mapping[str, Point]) -> float:
-    """Return the phase at which a scene's input is as it was drawn: 0 of one that turns fully.
+def phase_of(scene: Scene, places: Mapping[str, Point], *, swung: bool) -> float:
+    """Return the phase at which a scene stands as it was drawn.
 
-    Of one that goes there and back it is on its way there, where the closures are those that are named.
+    0 of one that turns fully, which starts where it was drawn, unless it `swung` before. Of one that goes
+    there and back it is the way on which all joints are nearest to where they were drawn.
     """
-    if scene.info.full_turn:
+    if scene.info.full_turn and not swung:
         return 0.0
-    return phase_towards(scene, pi / 2, places[scene.linkage.drive.joint])
+    driven = places[scene.linkage.drive.joint]
+    ways = (0.0,) if scene.info.full_turn else (pi / 2, 3 * pi / 2)
+    return min((phase_towards(scene, way, driven) for way in ways), key=partial(_off, scene, places))
+
+
+def _off(scene: Scene, places: Mapping[str, Point], phase: float) -> float:
+    """Return how far the joint is from its place that is farthest from it."""
+    pose = scene.pose(phase, 0).position
+    return max(dist(place, places[name]) for name, place in pose.items())
 
 
 def _whole(spring: Mapping[str, Any]) -> Mapping[str, Any]:

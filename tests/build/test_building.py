@@ -164,3 +164,24 @@ def test_a_photograph_comes_to_two_known_points_and_into_the_file() -> None:
     assert again.turn == pytest.approx(photo.turn)
     assert undo(undo(building)).draft.photo is None
     assert move_photo(Building(), 0, 0, 5, 6).sentence == "There is no photograph: drop one on the window"
+
+
+@pytest.mark.parametrize(
+    "session",
+    [
+        # Each gesture ends the full turn of a crank: the linkage stands on one of its two ways.
+        ("click 0 0", "click 100 0", "drag 0 0 50 0", "drag 50 0 66 39", "drag 66 39 100 0"),
+        ("click 0 0", "click 100 0", "drag 0 0 50 0", "drag 50 0 66 -39", "drag 66 -39 100 0"),
+        ("click 0 0", "click 100 0", "drag 0 0 40 30", "drag 40 30 60 60", "drag 60 60 100 0"),
+        ("click 0 0", "drag guide 0 40 100 40", "drag 0 0 50 0", "drag 50 0 70 40"),
+        ("click 0 0", "drag guide 0 40 100 40", "drag 0 0 50 0", "drag 50 0 30 40"),
+    ],
+)
+def test_a_linkage_whose_input_no_longer_turns_fully_stands_as_it_was_drawn(session: tuple[str, ...]) -> None:
+    draft = (building := drawn(session)).draft
+    scene = building.made.scene
+    assert scene
+    assert not scene.info.full_turn
+    standing = scene.pose(draft.phase, 0).position
+    for name, place in draft.places.items():
+        assert np.hypot(*np.subtract(standing[name], place)) < 1.5, name  # lengths are whole millimetres

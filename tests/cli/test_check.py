@@ -57,7 +57,7 @@ def test_json_tells_the_same(here: Path, capsys: pytest.CaptureFixture[str]) -> 
         "file": "good.toml",
         "good": True,
         "problems": [],
-        "scene": {"title": "Mine", "class": "Grashof crank-rocker"},
+        "scene": {"title": "Mine", "class": "Grashof crank-rocker", "notes": []},
     }
     assert (bad["good"], bad["scene"]) == (False, None)
     assert [problem["line"] for problem in bad["problems"]] == [4, 8]
@@ -72,3 +72,21 @@ def test_the_schema_is_printed(capsys: pytest.CaptureFixture[str]) -> None:
 def test_without_a_file_there_is_nothing_to_check(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["check"]) == 2
     assert "name the scene files" in capsys.readouterr().err
+
+
+def test_a_start_that_the_input_does_not_come_to_is_said(
+    here: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    swings = GOOD.replace("crank = 30", "crank = 60").replace("rocker = 80", "rocker = 20")
+    Path("swings.toml").write_text(f"{swings}[drive]\nstart = '230 deg'\n")
+    assert main(["check", "swings.toml"]) == 0
+    note = "; drive.start = 230° is not reached: the input "
+    assert note in capsys.readouterr().out
+    assert main(["check", "swings.toml", "--json"]) == 0
+    (told,) = json.loads(capsys.readouterr().out)
+    assert told["scene"]["notes"][0].startswith(note.removeprefix("; "))
+    assert main(["info", "swings.toml"]) == 0
+    assert "230° is not reached" in capsys.readouterr().out
+    Path("reached.toml").write_text(f"{swings}[drive]\nstart = '60 deg'\n")
+    assert main(["check", "reached.toml"]) == 0
+    assert "not reached" not in capsys.readouterr().out

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import random
+from dataclasses import replace
 from itertools import islice
 from pathlib import Path
 
@@ -22,7 +23,9 @@ from whole_rows import whole_rows
 
 from linkanim.cli import main
 from linkanim.mechanics.drive.strokes import CylinderStroke, SliderStroke
-from linkanim.mechanics.motion.mechanism import Mechanism, mechanism
+from linkanim.mechanics.linkage.dyads import RRR
+from linkanim.mechanics.linkage.pins import Pin
+from linkanim.mechanics.motion.mechanism import Mechanism, mechanism, stopped
 from linkanim.scenes import load, names
 from linkanim.scenes.reading.read import scene_from
 from linkanim.scenes.scene import Scene
@@ -132,3 +135,22 @@ def test_a_cylinder_turns_its_crank_around_the_stated_start() -> None:
     scene = scene_from({**document, "drive": drive}, name="my", where="my.toml")
     assert scene.info.input_range == pytest.approx((low + 4 * math.pi, high + 4 * math.pi))
     check_ends(scene.mechanism)
+
+
+@pytest.mark.parametrize(("name", "part", "length"), [("A", 1, 14.4), ("B", 1, 14.4), ("E", 0, 14.4)])
+def test_a_drag_and_loading_tell_one_range(name: str, part: int, length: float) -> None:
+    # Hart's rigid bars are at their limit at every angle at which the loop before them is at its own.
+    hart = load("hart").linkage
+    joints = []
+    for joint in hart.joints:
+        if isinstance(joint, Pin) and joint.name == "Q":
+            joint = replace(joint, position=(48.48, 0.0))
+        elif isinstance(joint, RRR) and joint.name == name:
+            lengths = list(joint.lengths)
+            lengths[part] = length
+            joint = replace(joint, lengths=(lengths[0], lengths[1]))
+        joints.append(joint)
+    linkage = replace(hart, joints=tuple(joints))
+    dragged = stopped(linkage)
+    assert dragged
+    assert dragged.assembly.path.input_range == mechanism(linkage).assembly.path.input_range

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from linkanim import intake
+from linkanim.digits import degrees
 from linkanim.errors import BadInput
 from linkanim.export import json_text
 from linkanim.scenes import load
@@ -58,7 +59,8 @@ def _words(found: Iterable[Checked]) -> str:
     lines = []
     for file, wrong, scene in found:
         if scene is not None:
-            lines.append(f"{file}: good: {scene.title}: {scene.info.class_name}")
+            notes = "".join(f"; {note}" for note in _notes(scene))
+            lines.append(f"{file}: good: {scene.title}: {scene.info.class_name}{notes}")
         for problem in wrong:
             at = "" if problem.line is None else f":{problem.line}"
             lines.append(f"{file}{at}: {problem.message.removeprefix(f'{file}: ')}")
@@ -70,5 +72,17 @@ def _object(one: Checked) -> dict[str, object]:
         {"line": problem.line, "message": problem.message.removeprefix(f"{one.file}: ")}
         for problem in one.problems
     ]
-    scene = one.scene and {"title": one.scene.title, "class": one.scene.info.class_name}
+    scene = one.scene and {
+        "title": one.scene.title,
+        "class": one.scene.info.class_name,
+        "notes": _notes(one.scene),
+    }
     return {"file": one.file, "good": not found, "problems": found, "scene": scene or None}
+
+
+def _notes(scene: Scene) -> list[str]:
+    """Return what a scene states without effect."""
+    start = scene.info.unreached_start
+    if start is None:
+        return []
+    return [f"drive.start = {degrees(start)} is not reached: the input {scene.info.input_words}"]

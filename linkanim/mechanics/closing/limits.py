@@ -47,11 +47,11 @@ CUTS = 8
 
 
 def stopped(assembly: Assembly, linkage: Linkage, found: Separations) -> Assembly:
-    """Return the assembly on the path that its dyads leave to its input, its ends as floats know them.
+    """Return the assembly on the path that its dyads leave to its input.
 
     It says how far the input goes; nothing can be solved on it. Arguments and errors are `restricted`'s.
     """
-    return assembly if found.closes else _cut_back(assembly, linkage, found, exact=False)
+    return assembly if found.closes else _cut_back(assembly, linkage, found)
 
 
 def restricted(assembly: Assembly, linkage: Linkage, found: Separations) -> Assembly:
@@ -69,27 +69,27 @@ def restricted(assembly: Assembly, linkage: Linkage, found: Separations) -> Asse
     if closes:
         # It is on the closures behind a change point that a dyad cannot be closed.
         assembly, found = whole, on_whole
-    return fitted(_cut_back(assembly, linkage, found, exact=True))
+    return fitted(_cut_back(assembly, linkage, found))
 
 
-def _cut_back(assembly: Assembly, linkage: Linkage, found: Separations, *, exact: bool) -> Assembly:
-    """Return the assembly on the widest swing that every dyad lets the input run through, there and back.
-
-    Its ends are `exact`, or as floats know them.
-    """
-    swing, limited, on_limited = _cut(assembly, linkage, found, exact)
+def _cut_back(assembly: Assembly, linkage: Linkage, found: Separations) -> Assembly:
+    """Return the assembly on the widest swing that every dyad lets the input run through, there and back."""
+    swing, limited, on_limited = _cut(assembly, linkage, found)
+    refusal = AssemblyError(NO_RANGE)
     for path in _smooth_paths(swing):
-        if path is not swing:
-            limited, on_limited = _limited(assembly, path)
-        limited, on_limited = through_change_points(limited, on_limited)
+        try:
+            if path is not swing:
+                limited, on_limited = _limited(assembly, path)
+            limited, on_limited = through_change_points(limited, on_limited)
+        except AssemblyError as error:  # behind one limit a dyad may rest at its own
+            refusal = error
+            continue
         if _runs_through(limited, on_limited):
             return limited
-    raise AssemblyError(NO_RANGE)
+    raise refusal
 
 
-def _cut(
-    assembly: Assembly, linkage: Linkage, found: Separations, exact: bool
-) -> tuple[Swing, Assembly, Separations]:
+def _cut(assembly: Assembly, linkage: Linkage, found: Separations) -> tuple[Swing, Assembly, Separations]:
     """Return the swing around the start on which every dyad closes on the way up, and how they fare on it."""
     first = found.shut.argmax(axis=0)
     if found.shut.any(axis=0).all():
@@ -98,7 +98,7 @@ def _cut(
         raise AssemblyError(f"joint {name}: {linkage.joint(name).why_apart(*most, linkage.unit)}")
     on_swing, limited = found, assembly
     for _ in range(CUTS):
-        swing = Swing(*limited.path.cut(*_open_interval(limited, on_swing, exact)))
+        swing = Swing(*limited.path.cut(*_open_interval(limited, on_swing)))
         if swing.amplitude < NO_WAY:
             raise AssemblyError(f"joint {swing.ends[0]}: {ONE_PLACE}")
         limited, on_swing = _limited(assembly, swing)
@@ -153,7 +153,7 @@ def _runs_through(assembly: Assembly, found: Separations) -> bool:
     )
 
 
-def _open_interval(assembly: Assembly, found: Separations, exact: bool) -> tuple[Limit, Limit]:
+def _open_interval(assembly: Assembly, found: Separations) -> tuple[Limit, Limit]:
     """Return the ends of the interval around the start, or of the widest one where the start is shut."""
     phases, shut, home = assembly.path.beside(assembly.linkage.drive.start, found.phases, found.shut)
     is_open = np.asarray(~shut.any(axis=0))
@@ -161,7 +161,7 @@ def _open_interval(assembly: Assembly, found: Separations, exact: bool) -> tuple
         raise AssemblyError(NO_RANGE)
     first, last = _run_around(is_open, home, phases)
     below, above = (
-        _limit(assembly, found, (phases[inside], phases[outside]), shut[:, outside], exact)
+        _limit(assembly, found, (phases[inside], phases[outside]), shut[:, outside])
         if 0 <= outside < len(phases)
         else (Sum(float(phases[inside])), None)
         for inside, outside in ((first, first - 1), (last, last + 1))
@@ -180,7 +180,7 @@ def _run_around(is_open: NDArray[np.bool_], home: int, phases: Array) -> tuple[i
 
 
 def _limit(
-    assembly: Assembly, found: Separations, bracket: tuple[float, float], shut: NDArray[np.bool_], exact: bool
+    assembly: Assembly, found: Separations, bracket: tuple[float, float], shut: NDArray[np.bool_]
 ) -> tuple[Sum, str]:
     """Return the limit between an open phase and the shut one beside it, by bisection, then in all digits."""
     row = _first_shut(shut, found.margins(np.array(bracket[1:]))[:, 0])
@@ -190,7 +190,7 @@ def _limit(
         limit = ends_of(lambda phases: found.margins(phases[:, 0])[row, :, None] >= 0, inside, outside)
         start = Sum(float(limit[0]))
     name = found.names[row]
-    return refined(assembly, name, start) if exact else start, name
+    return refined(assembly, name, start), name
 
 
 def _first_shut(shut: NDArray[np.bool_], margins: Array) -> int:

@@ -87,6 +87,12 @@ class Info:
         return self.mechanism.assembly.path.full_turn
 
     @property
+    def unreached_start(self) -> float | None:
+        """The start that is stated, where the input swings and does not come to it; else None."""
+        start, path = self.mechanism.linkage.drive.stated_start, self.mechanism.assembly.path
+        return None if start is None or self.full_turn or path.holds(start) else start
+
+    @property
     def toggles(self) -> tuple[float, ...]:
         """The input's limits; an end at which it merely turns back is none."""
         path, touched = self.mechanism.assembly.path, tuple(self.mechanism.assembly.change_points)
@@ -304,6 +310,8 @@ def _facts(info: Info) -> Iterator[tuple[str, str | None]]:
     yield "links, joints", f"{links}, {joints}; mobility {mobility}"
     yield "Grashof", info.grashof
     yield "input", info.input_words
+    start = info.unreached_start
+    yield "start", None if start is None else f"{degrees(start)} is not reached"
     kept = "on the same closure; velocities change sign at the limits"
     yield "returns", kept if info.mechanism.retraced else None
     yield "turns fully", ", ".join(f"link {name}" if name.isdecimal() else name for name in turning)
