@@ -362,6 +362,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _value("--kerf K", values.millimetres, "what the cut takes away (default: 0)", 0.0),
         _value("--sheet WxH", values.sheet, "of the material, in mm, or a page, A4 or Letter"),
         _value("--fit PAGE", str, "A4 or Letter: scale all parts to fit one (default: true size)"),
+        _value("--preview PICTURE", Path, "draw the layers, from above and lifted off: .svg, .png or .pdf"),
         _flag("--bridge", "fixed pins may hang from a plate above, where they stand in the way below"),
         _flag("--json", "print parts and pins as one object; lengths in mm"),
     ),

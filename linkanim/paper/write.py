@@ -8,6 +8,7 @@ from linkanim.paper.chart import Page
 from linkanim.paper.construction import ConstructionPage
 from linkanim.paper.curves import table
 from linkanim.paper.figure import Figured
+from linkanim.paper.illustration import Illustration
 from linkanim.paper.latex import write_for_latex
 from linkanim.paper.pdf import pdf, require_pdf
 from linkanim.paper.structural_error import ErrorChart
@@ -18,9 +19,10 @@ OF_A_FIGURE = (".svg", ".png", ".pdf")
 OF_A_CHART = (*OF_A_FIGURE, ".csv")
 
 
-def write(
-    shown: Figured | Page | ErrorChart | ConstructionPage, target: Output, *, latex: bool = False
-) -> None:
+Written = Figured | Page | ErrorChart | ConstructionPage | Illustration
+
+
+def write(shown: Written, target: Output, *, latex: bool = False) -> None:
     """Write a figure or a chart as SVG, PNG or PDF, a chart also as CSV; a file appears whole or not at all.
 
     The words of a PDF are left to `latex` in a file beside it. `WorkFailed` where disk or folder refuse;
@@ -36,7 +38,7 @@ def write(
         part.write_bytes(data(shown, suffix))
 
 
-def data(shown: Figured | Page | ErrorChart | ConstructionPage, suffix: str) -> bytes:
+def data(shown: Written, suffix: str) -> bytes:
     """Return a figure or a chart as a kind of file."""
     match suffix:
         case ".csv" if isinstance(shown, Page):

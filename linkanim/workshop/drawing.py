@@ -8,7 +8,9 @@ from functools import cached_property
 
 import numpy as np
 
-from linkanim.picture.items import Caption, Halo, Item
+from linkanim.paper.illustration import Illustration
+from linkanim.picture.figure import figure
+from linkanim.picture.items import Caption, Halo, Item, grouped
 from linkanim.picture.raster.raster import Colour, Layer, Loop
 from linkanim.picture.raster.shapes import disc, hull, segments, stroke
 from linkanim.picture.text.text import subscripted
@@ -24,6 +26,8 @@ _LEAN, _FLAT = 0.42, 0.5
 """Of an exploded picture: how far right a step back goes, and how far up."""
 _THICK, _EDGE = 5.0, 24.0
 """How thick a plate of an exploded picture is, and what is left free around it, in pixels."""
+_SHADOW = ((2 + 2.5j, 0.16), (3.5 + 4.5j, 0.1))
+"""How far a plate's shadow lies from it, in pixels, and how dark it is: twice, for its soft edge."""
 _LIFTED = 0.62
 """The share of the height for layers to be lifted in."""
 
@@ -80,14 +84,27 @@ class Drawn:
         left = 110 if self.new is None else 12
         width, height = self.size
         view = view_of(self._box, Rect(left, 12, width - left - 12, height - 24))
-        for number in self._order():
-            yield from self._plate(number, view)
+        for layer in range(self.made.layers + 2):
+            lying = [number for number in self._order() if self.made.layer[number] == layer]
+            if layer:
+                # All of a layer before its plates: none throws its shadow on another.
+                for number in lying:
+                    yield from self._shadow(number, view)
+            for number in lying:
+                yield from self._plate(number, view)
         for pin, at in self._pins():
             yield from self._pin(pin, view.place((at.real, at.imag)), view)
         for number in self._order():
             yield from self._number(number, view)
         if self.new is None:
             yield from self._key()
+
+    def _shadow(self, number: int, view: View) -> Iterator[Layer]:
+        """Yield what a plate throws on all below it; one that is pale throws none."""
+        if self.new is None or number in self.new:
+            edge = _in_view(self._loops[number][0], view)
+            for far, alpha in _SHADOW:
+                yield Layer(self.theme.outline, [edge + far], alpha)
 
     def _plate(self, number: int, view: View) -> Iterator[Layer]:
         loops = [_in_view(loop, view) for loop in self._loops[number]]
@@ -252,7 +269,7 @@ class Drawn:
                     yield Layer(self.theme.outline, [place + disc(2.6)])
                 if pin.low <= layer < pin.high:
                     above = complex(seen(np.array([at]), layer + 1)[0])
-                    yield Layer(self.theme.outline, segments(place, above + 1j * _THICK, 1.4), 0.75)
+                    yield Layer(self.theme.outline, segments(place, above, 1.4), 0.75)
                 if layer == pin.high and not pin.stuck:
                     halo = Halo(self.theme.background, 2.5)
                     yield Caption(
@@ -262,6 +279,25 @@ class Drawn:
                         self.theme.ink,
                         halo=halo,
                     )
+
+
+def preview(made: MadeLinkage, size: tuple[int, int] = (1280, 640)) -> Illustration:
+    """Return the layers in one picture: seen from above, and beside that lifted off each other.
+
+    The linkage stands as its joints are farthest apart.
+    """
+    width, height = size
+    drawn = Drawn(made, figure(made.scene).clearest, (width // 2, height))
+    beside = (_moved(item, width / 2) for item in drawn.exploded())
+    groups = grouped("from above", drawn.plan()), grouped("lifted off", beside)
+    return Illustration(f"{made.scene.title}: its layers", size, LIGHT.background, groups)
+
+
+def _moved(item: Item, right: float) -> Item:
+    """Return an item so many pixels farther right."""
+    if isinstance(item, Layer):
+        return item._replace(loops=[loop + right for loop in item.loops])
+    return item._replace(at=(item.at[0] + right, item.at[1]))
 
 
 def _in_view(loop: Loop, view: View) -> Loop:

@@ -78,9 +78,31 @@ def test_what_cannot_be_made_says_so_in_the_object_and_writes_nothing(
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.parametrize("suffix", ["svg", "png", "pdf"])
+def test_a_picture_of_the_layers_needs_no_folder(suffix: str, tmp_path: Path, capsys: Capture) -> None:
+    picture = tmp_path / f"leg.{suffix}"
+    assert main(["make", "jansen", "--preview", str(picture)]) == 0
+    assert capsys.readouterr().out.splitlines() == [
+        str(picture),
+        "8 parts in 3 layers on the ground, in true size",
+    ]
+    assert [*tmp_path.iterdir()] == [picture]
+
+
+def test_a_folder_and_a_picture_are_written_at_once(tmp_path: Path, capsys: Capture) -> None:
+    folder, picture = tmp_path / "made", tmp_path / "layers.svg"
+    assert main(["make", "crank-rocker", "-o", str(folder), "--preview", str(picture), "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["layers"] == 2
+    assert (folder / "assembly.html").exists()
+    assert picture.read_text("utf-8").count('<g id="') == 2
+
+
 # each with what is said of it
 BAD = [
-    (["crank-rocker"], "name a folder for the parts (-o FOLDER), or take --json"),
+    (
+        ["crank-rocker"],
+        "name a folder for the parts (-o FOLDER), a picture (--preview FILE), or take --json",
+    ),
     (["crank-rocker", "--json", "--hole", "9", "--bar", "8"], "a hole of 9 mm is no narrower than its bar"),
     (["crank-rocker", "--json", "--thickness", "0"], "thickness=0: give a length in mm"),
     (["crank-rocker", "--json", "--bar", "wide"], '"wide" is not a length'),
@@ -88,6 +110,8 @@ BAD = [
     (["crank-rocker", "--json", "--sheet", "600"], '"600" is no sheet: take A4, Letter, or a size'),
     (["crank-rocker", "--json", "--sheet", "0x400"], '"0" is not a number greater than zero'),
     (["crank-rocker", "--json", "--fit", "A3"], 'fit="A3": take A4 or Letter'),
+    (["crank-rocker", "--preview", "layers.gif"], "use one of .svg, .png, .pdf"),
+    (["drag-link", "--preview", "layers.svg"], "crank would meet the pin at O4 (phase 0.0 deg)"),
     (["excavator", "-o", "made"], "a cylinder drives it, which no flat parts are"),
     (["press", "-o", "made", "--way", "laser"], "which a sheet of 600 x 400 mm does not hold"),
     (["crank-rocker", "-o", "no/such/folder"], "there is no folder"),

@@ -10,9 +10,10 @@ import pytest
 
 from linkanim.picture.figure import figure
 from linkanim.picture.items import Caption
-from linkanim.picture.raster.raster import Layer
+from linkanim.picture.raster.raster import Colour, Layer
+from linkanim.picture.theme import LIGHT
 from linkanim.scenes import load
-from linkanim.workshop.drawing import Drawn
+from linkanim.workshop.drawing import Drawn, preview
 from linkanim.workshop.request import make
 from linkanim.workshop.sheet import Sheet
 
@@ -66,6 +67,32 @@ def test_pictures_stay_within_their_size_and_show_every_part_and_pin(name: str, 
     if picture != "exploded":
         shown = {n for n, layer in zip(made.numbers, made.layer, strict=True) if layer}
         assert shown <= words
+
+
+@pytest.mark.parametrize("name", ["jansen", "press", "scotch-yoke", "drag-link"])
+def test_both_halves_of_a_preview_stay_in_theirs(name: str) -> None:
+    shown = preview(make(load(name), bridge=True))
+    halves = [
+        np.concatenate([loop for layer in group.layers for loop in layer.loops]) for group in shown.groups()
+    ]
+    width, height = shown.size
+    for left, points in zip((0, width / 2), halves, strict=True):
+        assert left <= points.real.min() <= points.real.max() <= left + width / 2
+        assert 0 <= points.imag.min() <= points.imag.max() <= height
+
+
+def test_the_ground_throws_no_shadow_and_what_lies_on_it_does() -> None:
+    made, theme = make(load("crank-rocker")), LIGHT
+    plates: list[Colour] = []
+    shadows: list[int] = []
+    for item in Drawn(made, 0.5, (640, 420)).plan():
+        if isinstance(item, Layer) and item.alpha < 0.2:
+            shadows.append(len(plates))
+        elif isinstance(item, Layer) and item.alpha == 0.9:
+            plates.append(item.colour)
+    # after the ground, two; before what lies on both of those, one; each twice, for its soft edge
+    assert shadows == [1] * 4 + [3] * 2
+    assert plates == [theme.gear, theme.bodies[0], theme.bodies[0], theme.bodies[1]]
 
 
 def test_less_apart_is_less_high() -> None:

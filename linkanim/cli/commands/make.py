@@ -5,9 +5,14 @@ from __future__ import annotations
 import sys
 from argparse import Namespace
 
+from linkanim.cli.options import inputs_of
 from linkanim.errors import BadInput
 from linkanim.export import json_text
+from linkanim.manifest import checked_output
+from linkanim.paper.write import OF_A_FIGURE
+from linkanim.paper.write import write as write_picture
 from linkanim.scenes import load
+from linkanim.workshop.drawing import preview
 from linkanim.workshop.files import SHEET, write
 from linkanim.workshop.request import make
 
@@ -16,24 +21,31 @@ _HANDED_ON = ("way", "bar", "hole", "thickness", "clearance", "gap", "kerf", "sh
 
 
 def run(options: Namespace) -> None:
-    """Write the parts and print the path of the sheet, or print all numbers.
+    """Write the parts or a picture of their layers and print the path, or print all numbers.
 
     BadInput for sizes that make no sense, and for a linkage that cannot be made flat: with `--json` alone the
     object says so.
     """
-    if options.output is None and not options.json:
-        raise BadInput("name a folder for the parts (-o FOLDER), or take --json")
+    if options.output is None and options.preview is None and not options.json:
+        raise BadInput("name a folder for the parts (-o FOLDER), a picture (--preview FILE), or take --json")
+    picture = options.preview and checked_output(options.preview, "", OF_A_FIGURE, inputs_of(options))
     made = make(load(options.scene), **{name: getattr(options, name) for name in _HANDED_ON})
-    if options.output is not None and made.refused is None:
-        write(made, options.output)
+    if made.refused is None:
+        if options.output is not None:
+            write(made, options.output)
+        if picture:
+            write_picture(preview(made), picture)
     if options.json:
         print(json_text(made.as_object(), indent=2))
-    if options.output is None:
+    if options.output is None and picture is None:
         return
     if made.refused is not None:
         raise BadInput(made.refused)
     if not options.json:
-        print(options.output / SHEET)
+        if options.output is not None:
+            print(options.output / SHEET)
+        if picture:
+            print(picture.path)
         print(f"{len(made.plates)} parts in {made.layers} layers on the ground, {made.size_words}")
     if not made.fewest:
         print("there may be a way with fewer layers; the search was given up", file=sys.stderr)
