@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -13,7 +13,7 @@ from linkanim.picture.figure import figure
 from linkanim.picture.items import Caption, Halo, Item, grouped
 from linkanim.picture.raster.raster import Colour, Layer, Loop
 from linkanim.picture.raster.shapes import disc, hull, segments, stroke
-from linkanim.picture.text.text import subscripted
+from linkanim.picture.text.text import Type, subscripted
 from linkanim.picture.theme import LIGHT, Theme, mixed
 from linkanim.picture.view import Box, Rect, View, view_of
 from linkanim.workshop.made import MadeLinkage, MadePin
@@ -92,10 +92,21 @@ class Drawn:
                     yield from self._shadow(number, view)
             for number in lying:
                 yield from self._plate(number, view)
-        for pin, at in self._pins():
-            yield from self._pin(pin, view.place((at.real, at.imag)), view)
-        for number in self._order():
-            yield from self._number(number, view)
+        numbers = [item for number in self._order() for item in self._number(number, view)]
+        pins = [(pin, view.place((at.real, at.imag))) for pin, at in self._pins()]
+        discs = [item for pin, at in pins for item in self._pin(at, view)]
+        yield from discs
+        yield from numbers
+        radius = self._radius(view)
+        taken = [_around(layer.loops[0]) for layer in (*discs, *numbers) if isinstance(layer, Layer)]
+        yield from self._names(
+            [
+                (pin.name, [(at.real + x, at.imag + y - 0.5 * _TEXT) for x, y in _corner_places(radius)])
+                for pin, at in pins
+                if not pin.stuck
+            ],
+            taken,
+        )
         if self.new is None:
             yield from self._key()
 
@@ -117,14 +128,38 @@ class Drawn:
         )
         yield Layer(edge, [line for loop in loops for line in stroke(loop, 1.6 if new else 1.0, closed=True)])
 
-    def _pin(self, pin: MadePin, at: complex, view: View) -> Iterator[Item]:
-        radius = max(0.5 * self.made.sizes.pin * view.scale, 2.0)
+    def _radius(self, view: View) -> float:
+        """Return a pin's radius in pixels, as it is drawn from above."""
+        return max(0.5 * self.made.sizes.pin * view.scale, 2.0)
+
+    def _pin(self, at: complex, view: View) -> Iterator[Layer]:
+        radius = self._radius(view)
         yield Layer(self.theme.outline, [at + disc(radius)])
         yield Layer(self.theme.metal, [at + disc(max(radius - 1.2, 1.0))])
-        if not pin.stuck:
+
+    def _names(
+        self, wanted: Iterable[tuple[str, Sequence[tuple[float, float]]]], taken: list[Rect]
+    ) -> Iterator[Caption]:
+        """Yield pins' names, each at the first of its places where nothing is yet, or else at the first.
+
+        A place is the middle of a name's upper edge.
+        """
+        room, type_ = Rect(0, 0, *self.size), Type()
+        for name, places in wanted:
+            text = subscripted(name)
+            wide = type_.width(text, _TEXT)
+            boxes = [Rect(x - wide / 2, y, wide, _TEXT) for x, y in places]
+            free = (
+                box
+                for box in boxes
+                if room.holds(box.x, box.y)
+                and room.holds(box.right, box.bottom)
+                and not any(map(box.meets, taken))
+            )
+            found = next(free, boxes[0])
+            taken.append(found)
             halo = Halo(self.theme.background, 2.5)
-            place = (at.real + radius + 3, at.imag - radius - 0.8 * _TEXT)
-            yield Caption(subscripted(pin.name), place, _TEXT, self.theme.ink, halo=halo)
+            yield Caption(text, (found.middle.real, found.y), _TEXT, self.theme.ink, "centre", halo=halo)
 
     def _number(self, number: int, view: View) -> Iterator[Item]:
         """Yield a plate's number in a disc, where it is farthest from holes."""
@@ -181,44 +216,25 @@ class Drawn:
             box = np.array([complex(a, b) for a, b in _corners(begin, end, y(layer + thick), y(layer))])
             yield Layer(self._colour(number), [box], 0.85)
             yield Layer(self.theme.outline, stroke(box, 1.0, closed=True))
-        taken: list[tuple[float, float]] = []
+        named: list[tuple[str, list[tuple[float, float]]]] = []
+        taken: list[Rect] = []
         for pin, at in sorted(self._pins(), key=lambda one: (one[1] * (-1j if across else 1)).real):
             place = x((at * (-1j if across else 1)).real)
-            half = max(0.5 * self.made.sizes.pin * scale, 1.5)
+            half, upper = max(0.5 * self.made.sizes.pin * scale, 1.5), y(pin.high + thick) - 3
             box = np.array(
-                [
-                    complex(a, b)
-                    for a, b in _corners(place - half, place + half, y(pin.high + thick) - 3, y(pin.low) + 3)
-                ]
+                [complex(a, b) for a, b in _corners(place - half, place + half, upper, y(pin.low) + 3)]
             )
             yield Layer(self.theme.outline, [box], 0.9)
+            taken.append(_around(box))
             for ring in pin.spacers:
                 reach = max(0.5 * ring.diameter * scale, half + 2)
-                box = np.array(
-                    [
-                        complex(a, b)
-                        for a, b in _corners(
-                            place - reach, place + reach, y(ring.layer + thick), y(ring.layer)
-                        )
-                    ]
-                )
-                yield Layer(self.theme.metal, [box], 0.8)
+                corners = _corners(place - reach, place + reach, y(ring.layer + thick), y(ring.layer))
+                yield Layer(self.theme.metal, [np.array([complex(a, b) for a, b in corners])], 0.8)
             if not pin.stuck:
-                row = next(
-                    n
-                    for n in range(9)
-                    if all(abs(place - other) > 26 or level != n for other, level in taken)
-                )
-                taken.append((place, row))
-                at_top = (place, y(pin.high + thick) - 3 - 1.05 * _TEXT)
-                yield Caption(
-                    subscripted(pin.name),
-                    at_top,
-                    _TEXT,
-                    self.theme.ink,
-                    "centre",
-                    halo=Halo(self.theme.background, 2.5),
-                )
+                beside = (0, half + 12, -half - 12, half + 22, -half - 22)
+                rows = (1.05 * _TEXT, 2.1 * _TEXT)
+                named.append((pin.name, [(place + dx, upper - dy) for dy in rows for dx in beside]))
+        yield from self._names(named, taken)
         for number in self._order():
             begin, end = (x(place) for place in spans[number])
             middle = complex((begin + end) / 2, y(self.made.layer[number] + thick / 2))
@@ -303,6 +319,19 @@ def _moved(item: Item, right: float) -> Item:
 def _in_view(loop: Loop, view: View) -> Loop:
     found: Loop = view.x + view.scale * loop.real + 1j * (view.y - view.scale * loop.imag)
     return found
+
+
+def _around(loop: Loop) -> Rect:
+    """Return the rectangle around a loop."""
+    left, top = float(loop.real.min()), float(loop.imag.min())
+    return Rect(left, top, float(loop.real.max()) - left, float(loop.imag.max()) - top)
+
+
+def _corner_places(radius: float) -> Iterator[tuple[float, float]]:
+    """Yield where a name may stand beside a pin, from its middle: upper right first, then around it."""
+    for far in (1.0, 1.8):
+        aside, up = far * (radius + 12), far * 0.5 * (radius + _TEXT)
+        yield from ((aside, -up), (aside, up), (-aside, -up), (-aside, up), (0, -1.8 * up), (0, 1.8 * up))
 
 
 def _span(loop: Loop) -> tuple[float, float]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from itertools import combinations, product
 from xml.etree import ElementTree
 
 import numpy as np
@@ -11,7 +12,9 @@ import pytest
 from linkanim.picture.figure import figure
 from linkanim.picture.items import Caption
 from linkanim.picture.raster.raster import Colour, Layer
+from linkanim.picture.text.text import Type
 from linkanim.picture.theme import LIGHT
+from linkanim.picture.view import Rect
 from linkanim.scenes import load
 from linkanim.workshop.drawing import Drawn, preview
 from linkanim.workshop.request import make
@@ -93,6 +96,25 @@ def test_the_ground_throws_no_shadow_and_what_lies_on_it_does() -> None:
     # after the ground, two; before what lies on both of those, one; each twice, for its soft edge
     assert shadows == [1] * 4 + [3] * 2
     assert plates == [theme.gear, theme.bodies[0], theme.bodies[0], theme.bodies[1]]
+
+
+@pytest.mark.parametrize("picture", ["plan", "side"])
+@pytest.mark.parametrize("name", ["press", "crank-shaper", "slider-crank"])
+def test_names_of_pins_do_not_lie_over_each_other_or_numbers(name: str, picture: str) -> None:
+    made = make(load(name))
+    new = range(len(made.plates)) if picture == "plan" else None
+    drawn = Drawn(made, figure(made.scene).clearest, (440, 300), new=new)
+    type_ = Type()
+    names: list[Rect] = []
+    numbers: list[Rect] = []
+    for item in getattr(drawn, picture)():
+        if isinstance(item, Caption) and not item.text.startswith(("layer", "ground")):
+            wide = type_.width(item.text, item.size, strong=item.strong)
+            left = item.at[0] - {"left": 0.0, "centre": wide / 2}.get(item.anchor, wide)
+            (numbers if item.strong else names).append(Rect(left, item.at[1], wide, item.size))
+    assert len(names) == sum(not pin.stuck for pin in made.pins)
+    assert not any(one.meets(other) for one, other in combinations(names, 2))
+    assert picture == "side" or not any(one.meets(other) for one, other in product(names, numbers))
 
 
 def test_less_apart_is_less_high() -> None:
