@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from pathlib import Path
 from typing import Any
 
@@ -65,6 +66,8 @@ def test_the_table_of_functions(here: Path, capsys: pytest.CaptureFixture[str]) 
     titles, row = capsys.readouterr().out.splitlines()
     assert titles.split()[:4] == ["file", "largest", "error", "of"]
     assert row.split()[0] == "function.toml"
+    widths = [float(end) - float(start) for start, end in re.findall(r"(\S+)…(\S+) deg", row)]
+    assert widths == pytest.approx([60, -60], abs=0.1)
 
 
 @pytest.mark.parametrize(

@@ -205,14 +205,21 @@ def test_a_round_asks_ten_and_then_what_was_missed() -> None:
     seen = []
     for n in range(COUNT):
         seen.append(panel_of(state).scores[:2])
-        state = answered(state, well=n not in (2, 5))
+        right = right_of(state)
+        state = advance(state, [Action("option", (right + 1) % 2 if n in (2, 5) else right)])
+        assert not any(str(effect.value).startswith("best=") for effect in state.effects)
+        state = advance(state, [Action("next")])
     assert seen[0] == ("1 / 10", "0 in a row")
     assert seen[-1] == ("10 / 10", "3 in a row")
     assert panel_of(state).scores[0] == "again 1 / 2"
     game = round_of(state)
     assert game.question
     assert game.question.question_id == game.done[2].question_id == game.missed[0]
-    state = answered(answered(state, well=True), well=False)
+    state = answered(state, well=True)
+    state = advance(state, [Action("option", (right_of(state) + 1) % 2)])
+    best = Action("score", f"best=four-bars.1:{round_of(state).score}")
+    assert best in state.effects  # once, with the last answer
+    state = advance(state, [Action("next")])
     assert round_of(state).is_over
     assert round_of(state).question is None
     assert len({one.question_id for one in round_of(state).done}) == COUNT

@@ -184,7 +184,9 @@ def test_every_kind_is_asked() -> None:
         load(name) for name in ("crank-rocker", "double-rocker", "inverted-slider-crank", "slider-crank")
     ]
     made = [MADE[name]() for name in ("guide-3", "function-5", "stroke")]
-    found = Counter(question.kind for question in questions(scenes, 60, 1))
+    asked = questions(scenes, 60, 1)
+    assert max(question.names for question in asked) == 1  # dimensions and angles would tell answers
+    found = Counter(question.kind for question in asked)
     found += Counter(next_question(one, "1", [], MAKING).kind for one in made)
     assert found.keys() == KINDS.keys()
 

@@ -411,3 +411,10 @@ def test_a_button_that_comes_up_does_not_wait(player: Player) -> None:
     player.mouse(pygame.MOUSEBUTTONUP, (x + 30, y), button=1)
     assert player.state.scene is not before
     assert player.state.held is None
+
+
+def test_what_is_dragged_aside_goes_with_the_mouse(player: Player) -> None:
+    screen = player.window.screen
+    x, y = screen.pixel(0.0, 0.0)
+    player.drag((5, 5), (25, 17))
+    assert player.window.screen.pixel(0.0, 0.0) == pytest.approx((x + 20, y + 12), abs=1.0)

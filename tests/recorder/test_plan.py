@@ -30,6 +30,14 @@ CUTS: list[tuple[str, Clip, Format, int, Fraction, float]] = [
     # delays they cannot: the one beside 1/fps that meets the length, else the nearer
     ("2 s at 30 fps: 3 cs would give 201 cs", at(30, fps=30), "gif", 50, Fraction(25), 2.0),
     ("3 s at 30 fps: 3 cs fits", at(20, fps=30), "gif", 100, Fraction(100, 3), 3.0),
+    (
+        "2.01 s at 30 fps: 3 cs fits, 4 cs would be short",
+        at(60 / 2.01, fps=30),
+        "gif",
+        67,
+        Fraction(100, 3),
+        2.01,
+    ),
     ("24 fps: 4 cs and 5 cs fit, 4 is nearer", at(20, fps=24), "gif", 75, Fraction(25), 3.0),
     ("15 fps: 6 cs and 7 cs fit, 7 is nearer", at(20, fps=15, seconds=2.1), "gif", 30, Fraction(100, 7), 2.1),
     ("60 fps: browsers slow down below 2 cs", at(20, fps=60), "gif", 150, Fraction(50), 3.0),
