@@ -15,6 +15,8 @@ from linkanim.picture.text.text import runs, typesetting
 FACES = "'Source Sans Pro', 'Source Sans 3', 'Helvetica Neue', Arial, sans-serif"
 _ANCHORS = {"left": "start", "centre": "middle", "right": "end"}
 _SEMIBOLD = 600
+_SUBSCRIPT_RIM = 0.05
+"""The width of a subscript's rim at most, as a share of an em: less than what is between two letters."""
 
 Paint = Callable[[Colour], str]
 
@@ -98,6 +100,15 @@ def _rim(line: Caption, paint: Paint) -> str:
     return f' {rim} stroke-linejoin="round" paint-order="stroke"'
 
 
+def _lowered(line: Caption) -> str:
+    """Return how a subscript differs; its rim lies over the letter before it, and must not reach that."""
+    how = typesetting(line.size)
+    size = f' font-size="{how.small:.2f}"'
+    if line.halo is None:
+        return size
+    return f'{size} stroke-width="{2 * min(line.halo.width, _SUBSCRIPT_RIM * how.em):.2f}"'
+
+
 def _faded(line: Caption) -> str:
     return f' opacity="{line.strength:.2f}"' if line.strength < 1 else ""
 
@@ -110,6 +121,6 @@ def _spans(line: Caption) -> Iterator[str]:
             yield escape(run.text)
             continue
         shift = (run.lowered - lowered) * how.lower
-        size = f' font-size="{how.small:.2f}"' if run.lowered else ""
-        yield f'<tspan dy="{shift:.2f}"{size}>{escape(run.text)}</tspan>'
+        small = _lowered(line) if run.lowered else ""
+        yield f'<tspan dy="{shift:.2f}"{small}>{escape(run.text)}</tspan>'
         lowered = run.lowered

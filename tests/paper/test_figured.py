@@ -116,6 +116,9 @@ def test_names_are_text_in_a_halo_with_their_subscripts() -> None:
     assert all(text.get("paint-order") == "stroke" for text in names)
     lowered = [span for text in names for span in text if "".join(text.itertext()) == "O2"]
     assert [span.text for span in lowered] == ["2"]
+    # a rim as wide as the letter's own would cover that letter's edge: "O2" read as "C2"
+    (rim,) = (float(span.get("stroke-width", 99)) for span in lowered)
+    assert 0 < rim < 0.5 * min(float(text.get("stroke-width", 0)) for text in names)
 
 
 def test_the_press_is_a_small_file() -> None:
