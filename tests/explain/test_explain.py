@@ -353,7 +353,7 @@ def test_what_is_zero_shows_no_rounding(name: str, degrees: float) -> None:
 @pytest.mark.parametrize("name", ["hart", "peaucellier", "scissor-lift", "pantograph"])
 def test_other_lengths_leave_lines_straight_circles_round_and_what_is_level_so(name: str) -> None:
     scene = load(name)
-    for seed in (1, 2, 3):
+    for seed in (1, 2):
         changed = variant(scene, seed, lambda _: True)
         assert changed.title == f"{scene.title}, with other lengths"
         for one, other in zip(_straightness(scene), _straightness(changed), strict=True):

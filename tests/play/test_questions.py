@@ -20,7 +20,7 @@ from random_scenes import named
 
 from linkanim.cli import main
 from linkanim.errors import LinkanimError
-from linkanim.play.kinds.table import KINDS
+from linkanim.play.kinds.table import KINDS, LEVELS
 from linkanim.play.kinds.wording import angle, between
 from linkanim.play.question import Puzzle, QuestionId
 from linkanim.play.round import next_question, question_of, questions
@@ -32,7 +32,7 @@ from linkanim.scenes.scene import Scene
 MAKING = ("pole", "slow way", "precision point")
 FEW, MANY = 14, 100
 """Questions about a scene, and about one of a long run."""
-SEED, SOME, EACH = 35, 12, 6
+SEED, SOME, EACH = 35, 8, 5
 """Random scenes of the default run, and questions about each."""
 PARTS, MORE, MANY_EACH = 10, 400, 15
 
@@ -189,6 +189,7 @@ def test_every_kind_is_asked() -> None:
     found = Counter(question.kind for question in asked)
     found += Counter(next_question(one, "1", [], MAKING).kind for one in made)
     assert found.keys() == KINDS.keys()
+    assert all({*kind.levels} <= {*LEVELS} for kind in KINDS.values())  # no other level is played
 
 
 def test_right_answers_stand_in_every_place_and_no_question_comes_twice_in_a_row() -> None:

@@ -647,6 +647,14 @@ def test_a_sheet_is_opened_out_of_the_title_and_is_there_again_after_it(here: Pa
         player.window.close()
 
 
+def test_tools_are_as_large_for_their_window_at_every_size(builder: Builder) -> None:
+    layout = builder.window.screen._framing.last.layout
+    sides = [
+        tool_cells(replace(layout, size=(1280 * n, 720 * n), unit=float(n)), 10)[0].width for n in (1, 2, 3)
+    ]
+    assert sides == pytest.approx([40.0, 80.0, 120.0])
+
+
 def test_every_tool_has_its_icon_and_a_key_of_its_own() -> None:
     assert {tool.icon for tool in TOOLS} == set(ICONS)
     assert len({tool.key for tool in TOOLS}) == len(TOOLS)

@@ -177,7 +177,7 @@ def test_windows_opened_one_after_the_other_take_no_more_memory(here: Path) -> N
             player.window.close()
         return resident_mb()
 
-    used = [one_more() for _ in range(5)]
+    used = [one_more() for _ in range(4)]
     assert used[-1] - used[1] < 4
 
 
