@@ -96,6 +96,15 @@ def test_a_stated_theme_is_the_only_one(shared: Any, declared: list[str]) -> Non
     assert [colour for colour in ("#fcfcfa", "#11141a") if f": {colour};" in text] == declared
 
 
+@pytest.mark.parametrize(("names", "angles"), [(0, []), (1, [False]), (2, [True])])
+def test_the_input_s_angle_is_written_beside_its_arc_with_the_dimensions(
+    names: int, angles: list[bool]
+) -> None:
+    (side, *_) = held(document(Shared(load("crank-rocker"), names=names)))["sides"]
+    assert [mover["angle"] for mover in side["movers"] if mover["kind"] == "turning"] == angles
+    assert side["rows"][0]["turn"] == 360
+
+
 def test_both_closures_are_there_and_know_their_names() -> None:
     sides = held(document(Shared(load("crank-rocker"))))["sides"]
     assert [side["name"] for side in sides] == ["open", "crossed"]
