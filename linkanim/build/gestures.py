@@ -11,7 +11,7 @@ from linkanim.build.building import Building, changed, refused
 from linkanim.build.draft import DRIVE, JOINT, Draft, Photo, Thing
 from linkanim.build.making import made
 from linkanim.build.naming import body_name, joint_name, numbered, pin_name
-from linkanim.build.order import line_of, place_of
+from linkanim.build.order import line_of, place_of, plates_of
 from linkanim.build.places import at_on, crank_of, foot, gear_offset, moved
 from linkanim.build.rounding import round_angle, round_length, round_number, snapped
 
@@ -39,6 +39,8 @@ def bar(building: Building, start: str, end: Thing | None, at: complex, *, snap:
             return refused(building, f"{start} and {name} stand on the ground, and that is one body already")
         if known := draft.bar(start, name):
             return refused(building, f"Bar {known} is there already")
+        if any({start, name} <= plate.keys() for plate in plates_of(draft)) and start != name:
+            return refused(building, f"{start} and {name} are points of one body already")
     else:
         if end and end[0] == "bars" and start in draft.ends(end[1]):
             return refused(building, f"{start} is an end of that bar: let go beside it, or on another bar")

@@ -7,13 +7,14 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from linkanim.build.draft import Draft, named_in
+from linkanim.build.freedom import mobility
 from linkanim.build.order import Found, ends_of, plates_of
 from linkanim.errors import BadInput
 
 EMPTY = "An empty sheet: click where the first ground pin stands"
 _WORDS = {"sliders": "guide", "yokes": "slot", "gears": "gear pair"}
-_FREED = {"points": 2, "bars": 1, "sliders": 1, "slots": 1, "yokes": 1, "gears": 1}
-"""How many degrees of freedom each kind takes from the joints that it holds."""
+_HOLDING = ("points", "bars", "sliders", "slots", "yokes", "gears")
+"""The kinds that hold joints."""
 _OWN = ("points", "sliders", "yokes", "gears")
 _APART = re.compile(r"(joint |joints\.)(?P<joint>[^:]+): the bars of (?P<lengths>.*) cannot meet")
 _KEYS = re.compile(r"^draft: (joints: |[a-z-]+: (?=joint )|[a-z_.-]+\.(?P<name>[^:.= ]+)[^:]*: )?")
@@ -28,11 +29,6 @@ def missing(draft: Draft, known: Found) -> str:
     if draft.driven is None:
         return "Nothing is driven: choose a crank or a slider, and make it the drive"
     return _too_many(draft, known) or _unfound(draft, known)
-
-
-def mobility(draft: Draft) -> int:
-    """Return a draft's degrees of freedom: two of each joint, less what its bars, guides and gears take."""
-    return _freedom(draft, {name for name in draft.places if name not in draft.of("pins")})
 
 
 def reworded(draft: Draft, error: BadInput) -> str:
@@ -108,7 +104,7 @@ def _unfound(draft: Draft, known: Found) -> str:
         hanging = next((name for name in stuck if len(list(draft.bars_at(name))) < 2), stuck[0])
         return f"Mobility {free}: {bars}, or a second drive (a gear pair); {hanging} is loose"
     group = _together(draft, stuck)
-    if _freedom(draft, group) < 0 or free < 1:
+    if mobility(draft, group) < 0 or free < 1:
         return f"Mobility {free}: {', '.join(sorted(group))} cannot move; remove a bar"
     begin = next((name for name in stuck if any(end in known for _, end, _ in draft.bars_at(name))), stuck[0])
     others = ", ".join(name for name in draft.places if name in group and name != begin)
@@ -127,24 +123,19 @@ def _together(draft: Draft, stuck: list[str]) -> set[str]:
     group, more = set[str](), {stuck[0]}
     while more:
         group |= more
-        held = (set(names) for _, names in _holds(draft) if names & group)
+        held = (names for names in _holds(draft) if names & group)
         more = {name for names in held for name in names if name in stuck} - group
     return group
 
 
-def _freedom(draft: Draft, group: set[str]) -> int:
-    """Return the degrees of freedom of some joints, all others held."""
-    return 2 * len(group) - sum(taken for taken, names in _holds(draft) if names & group)
-
-
-def _holds(draft: Draft) -> Iterator[tuple[int, set[str]]]:
-    """Yield everything that holds joints: how many degrees of freedom it takes, and which joints it names."""
-    for kind, taken in _FREED.items():
+def _holds(draft: Draft) -> Iterator[set[str]]:
+    """Yield which joints each thing that holds joints names."""
+    for kind in _HOLDING:
         for name, table in draft.of(kind).items():
             guide = draft.of("guides").get(table.get("guide"), {})
             bar = draft.of("bars").get(table.get("bar"), {})
             named = {joint for each in (table, guide, bar) for _, joint in named_in(each)}
-            yield taken, (named | ({name} if kind in _OWN else set())) & draft.places.keys()
+            yield (named | ({name} if kind in _OWN else set())) & draft.places.keys()
 
 
 def _body_of(draft: Draft, one: str, other: str) -> str:

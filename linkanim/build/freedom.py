@@ -1,0 +1,112 @@
+"""The degrees of freedom of a drawing: what its joints may do, less the rank of what holds them."""
+
+from __future__ import annotations
+
+from cmath import rect
+from collections.abc import Iterator, Mapping
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+
+from linkanim import units
+from linkanim.build.draft import Draft
+from linkanim.build.places import crank_of
+
+_ANGLE = 2.399963
+"""By how much each joint is shifted further round than the one before it (rad): the golden angle."""
+_SHIFT = 0.07
+_RANK = 1e-9
+_Row = Mapping[str, complex]
+"""The gradient of a constraint: of each joint the complex g whose Re(conj(g) dz) is its part."""
+_Places = Mapping[str, complex]
+
+
+def mobility(draft: Draft, group: set[str] | None = None) -> int:
+    """Return the degrees of freedom of some joints, all others held; of all that do not stand on the ground.
+
+    They are two of each joint less the rank of the constraints' gradients, in a pose near the drawn one that
+    is not special: a bar too many counts once, and two bars in line are held no less than others.
+    """
+    free = [name for name in draft.places if name not in draft.of("pins") and name in (group or draft.places)]
+    places = _shifted(draft)
+    rows = [[row.get(name, 0j) for name in free] for row in _gradients(draft, places)]
+    if not rows or not free:
+        return 2 * len(free)
+    matrix = np.array(rows)
+    matrix = np.hstack([matrix.real, matrix.imag])
+    size = np.linalg.norm(matrix, axis=1, keepdims=True)
+    return 2 * len(free) - int(np.linalg.matrix_rank(matrix / np.where(size > 0, size, 1.0), tol=_RANK))
+
+
+def _shifted(draft: Draft) -> _Places:
+    """Return the joints near where they are drawn, in sizes of the drawing; points go with their bodies."""
+    drawn = {name: complex(*place) for name, place in draft.places.items()}
+    size = max((abs(one - next(iter(drawn.values()))) for one in drawn.values()), default=0.0) or 1.0
+    places = {}
+    for n, (name, place) in enumerate(drawn.items()):
+        point = draft.of("points").get(name)
+        if point:
+            start, end = (drawn[one] for one in point["on"])
+            share = (place - start) / ((end - start) or 1.0)
+            first, second = (places[one] for one in point["on"])
+            places[name] = (first + share * (second - first)) / size
+        else:
+            places[name] = place / size + (name not in draft.of("pins")) * rect(_SHIFT, n * _ANGLE)
+    return places
+
+
+def _gradients(draft: Draft, places: _Places) -> Iterator[_Row]:
+    """Yield the gradients of all that holds joints."""
+    for table in draft.of("bars").values():
+        first, second = table["joints"]
+        way = _unit(places[second] - places[first])
+        yield {first: -way, second: way}
+    for name, table in draft.of("points").items():
+        first, second = table["on"]
+        share = (places[name] - places[first]) / ((places[second] - places[first]) or 1.0)
+        row = {name: 1 + 0j, first: (share - 1).conjugate(), second: -share.conjugate()}
+        yield from (row, {joint: 1j * part for joint, part in row.items()})
+    for name, table in draft.of("sliders").items():
+        guide = draft.of("guides")[table["guide"]]
+        yield _on_line(places, name, guide["through"], guide, 1 + 0j)
+    for table in draft.of("slots").values():
+        ends = draft.ends(table["bar"])
+        yield _on_line(places, table["through"], ends[0], {"on": ends}, 1 + 0j)
+    for name, table in draft.of("yokes").items():
+        guide = draft.of("guides")[draft.of("sliders")[name]["guide"]]
+        yield _on_line(places, table["pin"], name, guide, rect(1.0, units.angle(table["slot"])))
+    for name, table in draft.of("gears").items():
+        yield _geared(draft, places, name, table)
+
+
+def _on_line(places: _Places, joint: str, through: str, guide: Mapping[str, Any], turn: complex) -> _Row:
+    """Return the gradient of how far a joint lies beside the line through another, along a guide turned."""
+    way = turn * rect(1.0, units.angle(guide.get("angle", "0 deg")))
+    row: dict[str, complex] = {}
+    if "on" in guide:
+        first, second = guide["on"]
+        axis = places[second] - places[first]
+        way *= _unit(axis)
+        along = ((places[joint] - places[through]) * way.conjugate()).real
+        turning = 1j * axis * along / (abs(axis) ** 2 or 1.0)
+        row = {first: turning, second: -turning}
+    for name, part in ((joint, 1j * way), (through, -1j * way)):
+        row[name] = row.get(name, 0j) + part
+    return row
+
+
+def _geared(draft: Draft, places: _Places, joint: str, gear: Mapping[str, Any]) -> _Row:
+    """Return the gradient of a crank's angle less its mate's as often as the ratio says."""
+    row: dict[str, complex] = {}
+    for name, times in ((joint, 1.0), (gear["with"], -float(Fraction(gear["ratio"])))):
+        pivot = crank_of(draft, name)
+        arm = places[name] - places[pivot] if pivot else 0j
+        turning = times * 1j * arm / (abs(arm) ** 2 or 1.0)
+        for end, part in ((name, turning), (pivot or name, -turning)):
+            row[end] = row.get(end, 0j) + part
+    return row
+
+
+def _unit(way: complex) -> complex:
+    return way / (abs(way) or 1.0)
