@@ -9,6 +9,7 @@ from typing import Any
 
 from linkanim.build.building import Building, changed, refused
 from linkanim.build.draft import DRIVE, JOINT, Draft, Thing
+from linkanim.build.order import lengths_within
 from linkanim.build.places import crank_of, fitted, with_number
 from linkanim.build.rounding import round_number
 from linkanim.errors import BadInput
@@ -174,5 +175,8 @@ def _refuse(draft: Draft, key: Key, one: Field, value: object) -> None:
     part, plain = _label(one, key), OFFSET if isinstance(key[-1], int) else one.plain
     holder = Table(str(key[1]), {part: value}, (), Context(draft.unit))
     plain.read(holder, part)
+    if key[0] == "bars" and key[1] in lengths_within(draft):
+        first, second = draft.ends(str(key[1]))
+        raise holder.wrong(f"{first} and {second} are points of one body: move one to set their distance")
     if key[-2:-1] == ("at",) and value == 0 and _stated(draft, (*key[:-1], 1 - int(key[-1]))) == 0:
         raise holder.wrong("lies on the axis' first joint itself; give a place beside it")

@@ -43,7 +43,7 @@ def _shifted(draft: Draft) -> _Places:
     """Return the joints near where they are drawn, in sizes of the drawing; points go with their bodies."""
     drawn = {name: complex(*place) for name, place in draft.places.items()}
     size = max((abs(one - next(iter(drawn.values()))) for one in drawn.values()), default=0.0) or 1.0
-    places = {}
+    places: dict[str, complex] = {}
     for n, (name, place) in enumerate(drawn.items()):
         point = draft.of("points").get(name)
         if point:

@@ -40,7 +40,9 @@ def bar(building: Building, start: str, end: Thing | None, at: complex, *, snap:
         if known := draft.bar(start, name):
             return refused(building, f"Bar {known} is there already")
         if any({start, name} <= plate.keys() for plate in plates_of(draft)) and start != name:
-            return refused(building, f"{start} and {name} are points of one body already")
+            return refused(
+                building, f"{start} and {name} are points of one body: move one to set their distance"
+            )
     else:
         if end and end[0] == "bars" and start in draft.ends(end[1]):
             return refused(building, f"{start} is an end of that bar: let go beside it, or on another bar")

@@ -55,6 +55,19 @@ def plates_of(draft: Draft) -> list[RigidBody]:
     return [body for body in bodies if len(body) > 2]
 
 
+def lengths_within(draft: Draft) -> dict[str, float]:
+    """Return the lengths of the bars between two points of one body, which hold nothing that it does not.
+
+    A bar that a body begins with is none of them. The body sets their lengths, whatever is stated.
+    """
+    return {
+        name: _round(abs(body[one] - body[other]))
+        for name, (one, other) in ((name, table["joints"]) for name, table in draft.of("bars").items())
+        for body in plates_of(draft)
+        if one in body and other in body and {one, other} != {*list(body)[:2]}
+    }
+
+
 def line_of(draft: Draft, guide: Mapping[str, Any]) -> tuple[complex, complex]:
     """Return a point of a guide and its direction, of length 1, where the joints were drawn."""
     start, way = place_of(draft, guide.get("through") or guide["on"][0]), 1 + 0j

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from cmath import polar, rect
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from fractions import Fraction
 from functools import partial
 from math import degrees, sqrt
@@ -11,7 +12,7 @@ from typing import Any
 
 from linkanim import units
 from linkanim.build.draft import DRIVE, Draft
-from linkanim.build.order import line_of, place_of
+from linkanim.build.order import lengths_within, line_of, place_of
 from linkanim.build.rounding import round_angle, round_degrees, round_length, round_number
 from linkanim.scenes.editing.edit import replaced
 
@@ -76,12 +77,21 @@ def gear_offset(draft: Draft, joint: str, gear: Mapping[str, Any], snap: float) 
 def fitted(draft: Draft) -> Draft:
     """Return the draft with its joints where their numbers put them, near where they were drawn.
 
-    Each joint is fitted to those before it; where bars cannot meet, the first of them counts.
+    Each joint is fitted to those before it; where bars cannot meet, the first of them counts. A bar between
+    two points of one body is as long as those are apart.
     """
-    done = draft
+    done = within_bodies(draft)
     for name in draft.places:
         done = done.placing(name, _fitted(done, name))
     return done
+
+
+def within_bodies(draft: Draft) -> Draft:
+    """Return the draft with the bars between two points of one body as long as those are apart."""
+    for name, length in lengths_within(draft).items():
+        key = ("bars", name, "length")
+        draft = replace(with_number(draft, key, length), typed=draft.typed - {key})
+    return draft
 
 
 def _following(

@@ -10,7 +10,7 @@ from linkanim.build.building import Building
 from linkanim.build.chosen import OWN
 from linkanim.build.dimensions import numbers_of
 from linkanim.build.draft import JOINT, Draft, Photo, named_in
-from linkanim.build.places import fitted
+from linkanim.build.places import fitted, within_bodies
 from linkanim.build.pointing import under
 from linkanim.build.shapes import drawn
 from linkanim.document import Section, refuse_controls
@@ -48,7 +48,7 @@ def restored(tables: Mapping[str, Any], where: str = "draft") -> Building:
     refuse_controls(section)
     _refuse_far(tables, section)
     try:
-        building = Building(_draft(tables))
+        building = Building(within_bodies(_draft(tables)))
         _ask(building)
     except Exception as error:  # whatever meets a table that is not as it should be
         raise section.wrong(f"is no draft of linkanim: {type(error).__name__}") from None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -12,6 +13,7 @@ from hand import drawn, gesture
 from linkanim.build import shapes
 from linkanim.build.building import Building, posed, redo, undo
 from linkanim.build.chosen import choose_thing
+from linkanim.build.dimensions import numbers_of
 from linkanim.build.draft import Photo
 from linkanim.build.gestures import fit_photo, lay_photo, move_photo
 from linkanim.build.origin import draft_of
@@ -57,6 +59,20 @@ def test_undo_goes_back_to_the_empty_sheet_and_redo_on_again() -> None:
 def test_a_draft_that_is_stored_comes_back() -> None:
     draft = replace(drawn(FOUR_BAR).draft, photo=Photo("digger.jpg", (-20.0, 5.0), 300.0, 0.1))
     assert restored(json.loads(json.dumps(stored(draft)))).draft == draft
+
+
+def test_a_bar_within_a_body_that_was_stored_is_as_long_as_its_ends_are_apart() -> None:
+    draft = drawn((*FOUR_BAR, "drag 57 40 40 70")).draft.with_bar("B", "P", 70)
+    building = restored(stored(replace(draft, typed=draft.typed | {("bars", "B–P", "length")})))
+    moved = gesture(choose_thing(building, "joints", "P"), "move 30 75")
+    for step in (building, moved):
+        scene = step.made.scene
+        assert scene
+        apart = math.dist(*(scene.pose(0.3).position[name] for name in "BP"))
+        assert numbers_of(step.draft, ("bars", "B–P"))[0].value == pytest.approx(apart, abs=1e-8)
+    typed = gesture(choose_thing(building, "bars", "B–P"), "type 90")
+    assert typed.sentence == "B–P: B and P are points of one body: move one to set their distance"
+    assert typed.draft == building.draft
 
 
 def test_what_is_no_draft_is_refused() -> None:

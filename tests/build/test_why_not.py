@@ -45,7 +45,10 @@ MISSING = (
         f"{FOUR_BAR}; drag slot 100 0 25 0",
         "The slot of O4 in O2–A is one too many: O4 is held without it; remove one",
     ),
-    (f"{TERNARY}; drag 150 150 60 100", "Mobility 0: B, C, P cannot move; remove a bar"),
+    (
+        f"{TERNARY}; click 300 0; drag 120 95 120 150; drag 120 150 300 0",
+        "Mobility 0: B, C, P, Q cannot move; remove a bar",
+    ),
     (
         f"{FOUR_BAR}; drag guide 0 60 100 60; click slider 60 60; drag slot 60 60 91 39",
         "C is held as no dyad holds it: two bars meet, or a bar and a guide, or a bar and a slot",
@@ -65,6 +68,11 @@ REFUSED = (
     (CRANK, "drag 70 90 10 10", "Begin a bar at a pin or a joint; a click sets a ground pin"),
     (CRANK, "double 70 90", "A point lies on a body: double-click on a bar"),
     (CRANK, "double 1 0", "A point lies on a body: double-click on a bar"),
+    (
+        f"{CRANK}; drag 25 0 25 20",
+        "drag 50 0 25 20",
+        "A and P are points of one body: move one to set their distance",
+    ),
     (CRANK, "drag 25 0 0.3 0", "That is O2 itself: a point of a body lies beside its joints"),
     (CRANK, "drag guide 50 0 50 0", "A guide needs a direction: drag along it"),
     (CRANK, "drag slider 50 0 70 70", "Let the slider go on a guide"),

@@ -80,16 +80,18 @@ def asked(random: np.random.Generator, kind: str, count: int, *, closed: bool) -
 
 
 def words(options: dict[str, Any]) -> list[str]:
-    texts = {
-        "step": lambda step: ["--timing", f"{step!r} rad"],
-        "column": lambda _: ["--timing", "column"],
-        "least_angle": lambda angle: ["--least-angle", f"{angle!r} rad"],
-        "largest": lambda size: ["--largest", repr(float(size))],
-        "box": lambda box: ["--box", ",".join(repr(float(one)) for one in box)],
-        "round": lambda step: ["--round", f"{step} mm"],
-        "cognates": lambda _: ["--cognates"],
-    }
-    return [word for name, value in options.items() for word in texts[name](value)]
+    found = list[str]()
+    for name, value in options.items():
+        text = {
+            "step": f"{value!r} rad",
+            "column": "column",
+            "least_angle": f"{value!r} rad",
+            "box": ",".join(repr(float(one)) for one in value) if name == "box" else "",
+            "round": f"{value} mm",
+        }.get(name, repr(value))
+        option = {"step": "--timing", "column": "--timing"}.get(name, f"--{name.replace('_', '-')}")
+        found += [option] if value is True else [option, text]
+    return found
 
 
 def place(motion: Any, joint: str) -> Complex:
