@@ -79,7 +79,7 @@ THIRD_PARTIES = {
     "mechanics": {"numpy"},
     "scenes": {"numpy", "tomli_w"},
     "synthesis": {"numpy"},
-    "build": set(),
+    "build": {"numpy"},
     "picture": {"numpy", "pygame", "PIL"},
     "explain": {"numpy"},
     "paper": {"numpy", "pygame", "fpdf"},
