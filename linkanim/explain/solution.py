@@ -29,6 +29,8 @@ from linkanim.picture.figure import figure
 _FEWEST, _MOST = 6, 12
 _AGREES = 5e-6
 """A result agrees to that share of itself."""
+_LONG = 100.0
+"""A bar longer than so many times the usual one does not decide how many decimals lengths have."""
 _TINY = 1e-300
 _BY_INPUT = (
     "Primes are derivatives by the input: h of angles, f of ways. Each loop differentiated gives two linear "
@@ -164,7 +166,9 @@ class _Draft:
     ) -> None:
         self.request, self.motion = request, request.motion()
         self.linkage = request.scene.linkage
-        length = max([abs(value) for joint in self.linkage.joints for _, value in joint.bars] or [1.0])
+        bars = sorted(abs(value) for joint in self.linkage.joints for _, value in joint.bars) or [1.0]
+        # one bar far longer than the others does not take their digits
+        length = min(bars[-1], _LONG * bars[len(bars) // 2]) or bars[-1]
         angular = self.linkage.drive.coordinate.is_angle
         rate, second = abs(float(self.motion.coordinate_rate)), abs(float(self.motion.coordinate_second))
         pace = max(rate, math.sqrt(second))

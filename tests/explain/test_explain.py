@@ -379,3 +379,23 @@ def test_a_cylinder_that_drives_is_a_loop_and_where_none_closes_it_says_so() -> 
     assert abs(cylinder) == pytest.approx(math.dist(places["G"], places["H"]))
     text = document(solution(_request("cardan-gears", 50.0)), MARKDOWN)
     assert "There is none to close" in text
+
+
+LONG_SLOT = {
+    "ground": {f"O{n}": [40 * n, 0] for n in range(9)},
+    "joints": {
+        "A": {"crank": "O0", "length": 10},
+        "D1": {"from": ["A", "O1"], "length": [42, 25], "side": "left"},
+        **{
+            f"D{n}": {"from": [f"D{n - 1}", f"O{n}"], "length": [40, 25], "side": "left"} for n in range(2, 9)
+        },
+        "X": {"slot": {"pivot": "D6", "through": "O4"}, "length": 1e7},
+    },
+    "bodies": {f"bar{n}": {"joints": [f"D{n}", f"D{n + 1}"]} for n in range(1, 8)},
+}
+
+
+def test_a_bar_far_longer_than_the_others_does_not_take_their_digits() -> None:
+    found = solution(_request(scene_from(LONG_SLOT, name="my", where="my.toml"), 218.6607))
+    level = {one.token: one.value.value for one in found.results}
+    assert [level[f"bar{n}.angle"] for n in range(1, 8)] == [0.0] * 7

@@ -186,6 +186,7 @@ def test_at_a_limit_the_torque_is_unbounded_and_said_to_be() -> None:
     assert swinging.info.usual_effort == pytest.approx(np.median(torque[np.isfinite(torque)]), rel=1e-2)
     lines = dict(swinging.info.lines)
     assert (lines["work per period"], lines["peak torque"]) == ("0 J", "unbounded")
+    assert lines["mean torque"] == "undefined, since the torque is unbounded at a limit"
 
 
 STRETCHED = """
@@ -251,6 +252,24 @@ def test_at_a_limit_that_takes_no_power_the_force_is_that_beside_it(way: tuple[i
     found, beside = (np.asarray(input_effort(scene.solve(phase=phases + off))) for off in (0.0, 1e-4))
     assert found == pytest.approx(beside, rel=1e-3)
     assert [input_effort(scene.pose(float(phase))) for phase in phases] == pytest.approx(found.tolist())
+
+
+DAMPED = {
+    "drive": {"slider": {"joint": "C", "from": 9, "to": 14.2}},
+    "ground": {"O2": [0, 0]},
+    "joints": {
+        "C": {"line": {"through": "O2", "angle": "0 deg"}},
+        "A": {"from": ["C", "O2"], "length": [26, 35], "side": "left"},
+    },
+    "dampers": {"cushion": {"between": ["O2", "C"], "coefficient": "1e-29 N s/m"}},
+}
+
+
+@pytest.mark.parametrize("half_turns", range(5))
+def test_where_only_what_takes_no_force_moves_on_at_a_limit_the_force_is_0(half_turns: int) -> None:
+    scene = scene_from(DAMPED, name="my", where="my.toml")
+    for beside in (0.0, 1e-15, -1e-15):
+        assert input_effort(scene.pose(half_turns * math.pi + beside)) == 0
 
 
 GEARED = """

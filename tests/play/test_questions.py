@@ -68,7 +68,8 @@ def test_a_question_holds_against_fifty_digits(name: str) -> None:
 def test_questions_on_how_a_linkage_was_made_hold(name: str) -> None:
     scene = MADE[name]()
     asked = [next_question(scene, str(seed), [], MAKING) for seed in range(6)]
-    assert {one.kind for one in asked} & set(MAKING)
+    # no way of the output is the slow one at a time ratio of 1: there is nothing to ask
+    assert {one.kind for one in asked}.isdisjoint(MAKING) == name.endswith("-even")
     motion = ExactMotion(scene)
     assert [fault for one in asked for fault in faults(one, motion)] == []
 

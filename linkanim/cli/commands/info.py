@@ -40,7 +40,7 @@ def as_object(scene: Scene) -> dict[str, object]:
     `time_ratio` are there for a linkage with a slider, and null where they have no meaning, `swing` and
     `time_ratio` for one whose output is a rocker. `link_count` has the ground in it;
     `work_per_period` (J), peak and mean torque (N m; of a cylinder force, N) for one with forces or masses,
-    null where they are unbounded.
+    null where the effort is unbounded.
     """
     info = scene.info
     facts: dict[str, object] = {"scene": scene.name}

@@ -325,8 +325,9 @@ def _facts(info: Info) -> Iterator[tuple[str, str | None]]:
     if info.demand is not None:
         (work, *efforts), (name, unit) = info.demand, info.effort
         yield "work per period", f"{significant(work, 6)} J"
-        for word, value in zip(("peak", "mean"), efforts, strict=True):
-            yield f"{word} {name}", "unbounded" if value is None else f"{significant(value, 6)} {unit}"
+        unknown = ("unbounded", f"undefined, since the {name} is unbounded at a limit")
+        for word, value, without in zip(("peak", "mean"), efforts, unknown, strict=True):
+            yield f"{word} {name}", without if value is None else f"{significant(value, 6)} {unit}"
     turns = "one drive period" if info.true_period == 1 else f"{info.true_period} drive periods"
     yield "true period", f"{turns}, {short(info.period_seconds)} s"
 

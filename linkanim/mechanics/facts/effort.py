@@ -108,7 +108,9 @@ def _aside(motion: Any, effort: Array, ends: NDArray[np.bool_]) -> Array:
         weight * input_effort(solve(phase=phase + n * way, speed=speed, acceleration=second))
         for n, weight in enumerate(weights, start=1)
     ]
-    effort[ends] = np.where(np.abs(there.total) <= _IDLE * there.weight, sum(read), effort[ends])
+    found = settled(sum(read), _IDLE * sum(map(np.abs, read)))
+    idle = np.abs(there.total) <= _IDLE * there.weight + there.rounding
+    effort[ends] = np.where(idle, found, effort[ends])
     return effort
 
 
@@ -186,7 +188,8 @@ class Demand(NamedTuple):
     """What one true period asks of the input: work (J), and its effort (N m, or N).
 
     The work is what dampers use up: springs and masses give back what they took.
-    `peak` is the effort of the greatest size, `mean` that over time, both None where it is not bounded.
+    `peak` is the effort of the greatest size, `mean` that over time, both None where it is not bounded: its
+    integral does not converge then, and no mean follows from the work, since the input turns back.
     """
 
     work: float
