@@ -89,11 +89,13 @@ class FileSet:
 class Output:
     """A file to be written: under a name that its user gave, or else under one that we choose.
 
-    What is there under a name that was given is replaced; under another only what we wrote.
+    What is there under a name that was given is replaced; under another only what we wrote. The `way_out`
+    of a refusal is said where -o cannot give that name.
     """
 
     path: Path
     named: bool = True
+    way_out: str = ""
 
     @contextmanager
     def replacing(self) -> Iterator[Path]:
@@ -108,12 +110,13 @@ class Output:
     def refuse_foreign(self) -> None:
         """Refuse, as `BadInput`, a name that we choose where a file has it that we did not write."""
         if not self.named:
-            option = f"give -o {self.path} to replace it, or another name"
-            self._files.refuse_foreign([self.path.name], option)
+            usual = f"give -o {self.path} to replace it, or another name"
+            self._files.refuse_foreign([self.path.name], self.way_out or usual)
 
     def beside(self, name: str) -> Output:
         """Return a file of another name in its folder, which nobody gave."""
-        return Output(self.path.with_name(name), named=False)
+        way_out = f"move it away, or give another name than {self.path.name} with -o"
+        return Output(self.path.with_name(name), named=False, way_out=way_out)
 
     @property
     def _files(self) -> FileSet:

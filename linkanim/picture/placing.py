@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, reduce
 from typing import NamedTuple
 
 import numpy as np
@@ -246,14 +246,16 @@ def touching(places: Loop, size: tuple[float, float], solids: Solids) -> _Bools:
     hit = _straddles(corners.real, places.real[..., None], wide / 2 + half)
     hit &= _straddles(corners.imag, places.imag[..., None], high / 2 + half)
     moment, place_, solid = hit.nonzero()
-    near, half = corners[moment if len(corners) > 1 else 0, solid], half[solid, None]
-    along = near - np.roll(near, 1, axis=1)
-    length = np.abs(along)
-    back = -1j * along.conj() / np.where(length > 0, length, 1)
-    reach = np.abs(back.real) * wide / 2 + np.abs(back.imag) * high / 2 + half
-    across, middle = (back[..., None] * near[:, None]).real, (back * places[moment, place_, None]).real
-    apart = (across.min(axis=2) - middle >= reach) | (middle - across.max(axis=2) >= reach)
-    hit[moment, place_, solid] = ~apart.any(axis=1)
+    near = corners[moment if len(corners) > 1 else 0, solid] - places[moment, place_, None]
+    half = half[solid]
+    parted = np.zeros(len(near), bool)
+    for end in range(near.shape[1]):
+        along = near[:, end] - near[:, end - 1]
+        reach = np.abs(along.imag) * wide / 2 + np.abs(along.real) * high / 2 + np.abs(along) * half
+        across = [along.real * near[:, n].imag - along.imag * near[:, n].real for n in range(near.shape[1])]
+        lowest, highest = reduce(np.minimum, across), reduce(np.maximum, across)
+        parted |= (along != 0) & ((lowest >= reach) | (-highest >= reach))
+    hit[moment, place_, solid] = ~parted
     return hit
 
 

@@ -135,7 +135,9 @@ def test_the_words_beside_a_pdf_take_nobody_s_place(folder: Path, capsys: pytest
     (folder / "fig.pdf_tex").write_text("mine")
     before = contents(folder)
     assert main(words) == 2
-    assert "fig.pdf_tex is not known to be linkanim's" in capsys.readouterr().err
+    said = capsys.readouterr().err
+    assert "fig.pdf_tex is not known to be linkanim's" in said
+    assert said.endswith("; move it away, or give another name than fig.pdf with -o\n")
     assert contents(folder) == before
     (folder / "fig.pdf_tex").unlink()
     (folder / "fig.pdf").write_text("named, and so replaced")

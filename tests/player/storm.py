@@ -129,9 +129,12 @@ class Storm:
         random = self._random
         self._there()
         keeper = Arcade(self._folder / "data" / "scores.json", random)
-        (self._here / "mine.toml").write_text(text(load(random.choice(names()))), encoding="utf-8")
+        own = self._here / "mine.toml"
+        if own.is_dir():
+            own.rmdir()
+        own.write_text(text(load(random.choice(names()))), encoding="utf-8")
         mine = random.random() < 0.5
-        scene = load(self._here / "mine.toml" if mine else random.choice(names()))
+        scene = load(own if mine else random.choice(names()))
         state = replace(begin(scene), games=keeper.game_of, attract=random.random() < 0.3)
         if random.random() < 0.3:
             words = random.choice(("title", "lobby", "menu", "match", "predict", "follow"))

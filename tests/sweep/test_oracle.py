@@ -108,6 +108,7 @@ PINS: Document = FOUR_BAR | {"ground": {"G": [0, 0], "H": [30, 0]}}
 FOUND: dict[str, tuple[Document, str]] = {
     "a traced ground pin": (FOUR_BAR | {"trace": {"joints": ["O4"]}}, "drawn painted recorded played"),
     "a blank title": (FOUR_BAR | {"title": " "}, "recorded played"),
+    "a sentence of a blank": (FOUR_BAR | {"look_at": " "}, "drawn painted latexed recorded played"),
     "a title of two hundred words": (FOUR_BAR | {"title": "long " * 199}, "recorded"),
     "a spring whose ends are one pin": (
         PINS | {"springs": {"s": {"between": ["O2", "G"]}}},

@@ -190,6 +190,12 @@ def _fraction(value: object) -> Fraction | None:
     return Fraction(value) if isinstance(value, int) or math.isfinite(value) else None
 
 
+def _text(table: Table, key: str) -> str:
+    """Read a text; one of blanks alone says nothing, as an empty one."""
+    text = table.text(key)
+    return text if text.strip() else ""
+
+
 def _colour(table: Table, key: str) -> tuple[int, int, int]:
     value = table.text(key)
     if not _HEX.fullmatch(value):
@@ -224,7 +230,7 @@ RATIO = ValueType(
 )
 POINT = listed(OFFSET, 2)
 
-TEXT = ValueType(Table.text, "a text", {"type": "string", "maxLength": LONGEST_TEXT})
+TEXT = ValueType(_text, "a text", {"type": "string", "maxLength": LONGEST_TEXT})
 TEXTS = ValueType(Table.texts, "a list of texts", {"type": "array", "items": {"type": "string"}})
 COLOUR = ValueType(_colour, 'a colour, `"#d55e00"`', {"type": "string", "pattern": r"^#[0-9a-fA-F]{6}$"})
 NAME = ValueType(Table.text, "a joint", {"type": "string", "minLength": 1, "maxLength": 32})
