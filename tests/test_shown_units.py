@@ -26,6 +26,7 @@ from linkanim.scenes import load
 from linkanim.scenes.editing.edit import dimensions
 from linkanim.scenes.editing.shown_unit import in_unit
 from linkanim.scenes.editing.write import text
+from linkanim.scenes.reading.read import scene_from
 from linkanim.scenes.scene import Scene
 from linkanim.units import LENGTH_UNITS, metre
 
@@ -134,6 +135,14 @@ def test_a_unit_that_is_none_and_a_scene_without_a_file_are_refused() -> None:
     bare = Scene(scene.name, scene.title, "", "mm", scene.linkage)
     with pytest.raises(SceneError, match="stays in mm"):
         in_unit(bare, "cm")
+
+
+def test_a_length_too_small_for_a_unit_is_refused_with_the_least_in_that_unit() -> None:
+    links = {"ground": 4e-12, "crank": 1.2e-12, "coupler": 3.6e-12, "rocker": 3.2e-12}
+    scene = scene_from({"four-bar": links}, name="tiny", where="tiny.toml")
+    said = r'four-bar\.ground = "4e-12 mm": .*; 1e-12 in is the least; show it in another unit$'
+    with pytest.raises(SceneError, match=said):
+        in_unit(scene, "in")
 
 
 def test_a_figure_and_a_chart_take_a_unit(tmp_path: Any, capsys: pytest.CaptureFixture[str]) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+import pygame
 import pytest
 
 from linkanim.cli import main
@@ -90,3 +91,13 @@ def test_a_start_that_the_input_does_not_come_to_is_said(
     Path("reached.toml").write_text(f"{swings}[drive]\nstart = '60 deg'\n")
     assert main(["check", "reached.toml"]) == 0
     assert "not reached" not in capsys.readouterr().out
+
+
+def test_a_photograph_that_is_left_out_is_noted(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    Path("over.toml").write_text(f"{GOOD}[photo]\nfile = 'digger.png'\nplace = [0, 0]\nwidth = 100\n")
+    assert main(["check", "over.toml"]) == 0
+    left_out = "; digger.png: is not there; the sheet goes on without the photograph\n"
+    assert capsys.readouterr().out.endswith(left_out)
+    pygame.image.save(pygame.Surface((8, 6)), "digger.png")
+    assert main(["check", "over.toml"]) == 0
+    assert "photograph" not in capsys.readouterr().out

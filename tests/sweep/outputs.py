@@ -49,10 +49,7 @@ WAYS: tuple[tuple[str, ...], ...] = (
     ("--unit", "in"),
 )
 FORMS = ("html", "tex", "md")
-BOUND = re.compile(
-    r"(is|are) the most|at the most|(figure|report) holds|page of it would take .* is the most"
-    r"|--unit in .*is beyond what can be computed"
-)
+BOUND = re.compile(r"(is|are) the (most|least)|at the most|(figure|report) holds")
 """What says that something is more than is made, before work begins."""
 NOT_OF_ALL = re.compile(
     r"nothing of it moves so clearly that a question can be made of it"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from argparse import Namespace
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import NamedTuple
 
@@ -82,7 +82,19 @@ def _object(one: Checked) -> dict[str, object]:
 
 def _notes(scene: Scene) -> list[str]:
     """Return what a scene states without effect."""
+    return [*_unreached(scene), *_unshown(scene)]
+
+
+def _unreached(scene: Scene) -> Iterator[str]:
     start = scene.info.unreached_start
-    if start is None:
-        return []
-    return [f"drive.start = {degrees(start)} is not reached: the input {scene.info.input_words}"]
+    if start is not None:
+        yield f"drive.start = {degrees(start)} is not reached: the input {scene.info.input_words}"
+
+
+def _unshown(scene: Scene) -> Iterator[str]:
+    """Yield why the photograph is left out, where it is."""
+    if photo := scene.document.get("photo"):
+        from linkanim.picture.building.photograph import lack
+
+        if reason := lack(photo["file"]):
+            yield reason

@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 from linkanim import units
-from linkanim.errors import SceneError
+from linkanim.errors import BadInput, SceneError
 from linkanim.scenes.editing.edit import replaced
 from linkanim.scenes.editing.numbers import numbers
 from linkanim.scenes.fields.types import LENGTHS
@@ -37,5 +37,8 @@ def _read_in(scene: Scene, unit: str) -> Scene:
         if not isinstance(number.written, str) or not units.split(number.written)[1]:
             document = replaced(document, number.key, f"{number.written} {scene.length_unit}")
     towards = scene.towards and in_unit(scene.towards, unit)
-    found = scene_from(document, name=scene.name, where=scene.name, towards=towards)
+    try:
+        found = scene_from(document, name=scene.name, where=scene.name, towards=towards)
+    except BadInput as error:
+        raise SceneError(f"{error}; show it in another unit") from None
     return replace(found, title=scene.title, original_title=scene.original_title)

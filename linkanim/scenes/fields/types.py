@@ -62,24 +62,24 @@ def never(sentence: str) -> ValueType:
     return ValueType(read, sentence)
 
 
-def _far(number: float, most: float = _LONGEST) -> str:
-    """Say that a number is too large to be computed with, if it is."""
-    return f"is beyond what can be computed; write less than {most:g}" if abs(number) > most else ""
+def _far(number: float, unit: str, most: float = _LONGEST) -> str:
+    """Say that a number of a unit is too large to be computed with, if it is."""
+    return f"is beyond what can be computed; {most:g} {unit} is the most" if abs(number) > most else ""
 
 
-def _not_above(number: float, most: float = _LONGEST) -> str:
-    """Say that a number is not above zero, or too large or small to be computed with, if it is."""
+def _not_above(number: float, unit: str, most: float = _LONGEST) -> str:
+    """Say that a number of a unit is not above zero, or too large or small to be computed with, if it is."""
     if 0.0 < number < 1.0 / most:
-        return f"is beyond what can be computed; write more than {1.0 / most:g}"
-    return _far(number, most) or ("" if number > 0.0 else "must be above zero")
+        return f"is beyond what can be computed; {1.0 / most:g} {unit} is the least"
+    return _far(number, unit, most) or ("" if number > 0.0 else "must be above zero")
 
 
-def _many_turns(angle: float) -> str:
+def _many_turns(angle: float, _: str) -> str:
     too_many = abs(angle) > _MOST_TURNS * math.tau
     return f"is more than {_MOST_TURNS} turns; leave whole turns out" if too_many else ""
 
 
-def _standstill(speed: float) -> str:
+def _standstill(speed: float, _: str) -> str:
     return "" if speed else 'a speed of zero moves nothing; write "20 rpm" (or "-20 rpm", clockwise)'
 
 
@@ -88,18 +88,22 @@ def _quantity(
     words: str,
     parse: Callable[[object, str], float],
     names: tuple[str, ...],
-    refusal: Callable[[float], str],
+    refusal: Callable[[float, str], str],
     *,
     bare: bool = False,
+    base: str = "",
 ) -> ValueType:
-    """Return the type of a number with one of the units `names`, or without where it may be bare."""
+    """Return the type of a number with one of the units `names`, or without where it may be bare.
+
+    It is read in the unit `base`; without one in the file's unit of length.
+    """
 
     def read(table: Table, key: str) -> float:
         try:
             number = parse(table.values[key], table.context.unit)
         except UnitError as error:
             raise table.at(f"{table.key(key)}: {error}", key) from None
-        if reason := refusal(number):
+        if reason := refusal(number, base or table.context.unit):
             raise table.error(key, reason)
         return number
 
@@ -213,7 +217,8 @@ SPEED = _quantity("speed", 'a speed, `"20 rpm"`', _with_unit(units.angular_speed
 
 def _above(measure: Measure, words: str, of: units.Units) -> ValueType:
     refusal = partial(_not_above, most=_LARGEST)
-    return _quantity(measure, words, _with_unit(of.read), tuple(of.factors), refusal)
+    base = next(name for name, factor in of.factors.items() if factor == 1)
+    return _quantity(measure, words, _with_unit(of.read), tuple(of.factors), refusal, base=base)
 
 
 STIFFNESS = _above("stiffness", 'a stiffness, `"4000 N/m"`', units.STIFFNESS)
