@@ -23,14 +23,15 @@ _Places = Mapping[str, complex]
 
 
 def mobility(draft: Draft, group: set[str] | None = None) -> int:
-    """Return the degrees of freedom of some joints, all others held; of all that do not stand on the ground.
+    """Return the degrees of freedom of all joints, or of some of them as if the others were not there.
 
     They are two of each joint less the rank of the constraints' gradients, in a pose near the drawn one that
     is not special: a bar too many counts once, and two bars in line are held no less than others.
     """
-    free = [name for name in draft.places if name not in draft.of("pins") and name in (group or draft.places)]
-    places = _shifted(draft)
-    rows = [[row.get(name, 0j) for name in free] for row in _gradients(draft, places)]
+    there = {*draft.places} if group is None else group | draft.of("pins").keys()
+    free = [name for name in draft.places if name in there and name not in draft.of("pins")]
+    gradients = (row for row in _gradients(draft, _shifted(draft)) if row.keys() <= there)
+    rows = [[row.get(name, 0j) for name in free] for row in gradients]
     if not rows or not free:
         return 2 * len(free)
     matrix = np.array(rows)

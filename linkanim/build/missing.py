@@ -103,9 +103,10 @@ def _unfound(draft: Draft, known: Found) -> str:
         bars = "one more bar" if free == 2 else f"{free - 1} more bars"
         hanging = next((name for name in stuck if len(list(draft.bars_at(name))) < 2), stuck[0])
         return f"Mobility {free}: {bars}, or a second drive (a gear pair); {hanging} is loose"
-    group = _together(draft, stuck)
-    if mobility(draft, group) < 0 or free < 1:
-        return f"Mobility {free}: {', '.join(sorted(group))} cannot move; remove a bar"
+    for group in (_together(draft, stuck, name) for name in stuck):
+        if mobility(draft, group | known.keys()) < 1:
+            return f"Mobility {free}: {', '.join(sorted(group))} cannot move; remove a bar"
+    group = _together(draft, stuck, stuck[0])
     begin = next((name for name in stuck if any(end in known for _, end, _ in draft.bars_at(name))), stuck[0])
     others = ", ".join(name for name in draft.places if name in group and name != begin)
     if not others:
@@ -118,9 +119,9 @@ def _unfound(draft: Draft, known: Found) -> str:
     )
 
 
-def _together(draft: Draft, stuck: list[str]) -> set[str]:
-    """Return the joints that hang together with the first one that is not found."""
-    group, more = set[str](), {stuck[0]}
+def _together(draft: Draft, stuck: list[str], begin: str) -> set[str]:
+    """Return the joints that hang together with one of those that are not found."""
+    group, more = set[str](), {begin}
     while more:
         group |= more
         held = (names for names in _holds(draft) if names & group)
