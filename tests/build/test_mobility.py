@@ -84,7 +84,7 @@ Places = Mapping[str, Dual]
 
 def pivot(draft: Draft, joint: str) -> str:
     bars = (table["joints"] for table in draft.of("bars").values())
-    ends = [one if other == joint else other for one, other in bars if joint in (one, other)]
+    ends: list[str] = [one if other == joint else other for one, other in bars if joint in (one, other)]
     return next((end for end in ends if end in draft.of("pins")), ends[0])
 
 
@@ -141,8 +141,8 @@ def freedom(draft: Draft, joints: set[str]) -> int:
             at[name] = Dual(0) - (Dual(0) - at[one] - way)
     there, rows = joints | pins.keys(), list[list[int]]()
     for joint in joints - pins.keys():
-        for way in ((1, 0), (0, 1)):
-            moved = {**at, joint: Dual(*at[joint][:2], *way)}
+        for dx, dy in ((1, 0), (0, 1)):
+            moved = {**at, joint: at[joint]._replace(dx=dx, dy=dy)}
             changes = (
                 (value.dy,) if one else (value.dx, value.dy)
                 for named, value, one in residuals(draft, moved, shapes)
