@@ -26,7 +26,7 @@ from linkanim.mechanics.facts.register import input_symbol
 from linkanim.mechanics.linkage.linkage import Body
 from linkanim.picture.figure import figure
 
-_FEWEST, _MOST = 6, 12
+_FEWEST, _MOST = 6, 14
 _AGREES = 5e-6
 """A result agrees to that share of itself."""
 _LONG = 100.0

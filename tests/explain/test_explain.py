@@ -399,3 +399,22 @@ def test_a_bar_far_longer_than_the_others_does_not_take_their_digits() -> None:
     found = solution(_request(scene_from(LONG_SLOT, name="my", where="my.toml"), 218.6607))
     level = {one.token: one.value.value for one in found.results}
     assert [level[f"bar{n}.angle"] for n in range(1, 8)] == [0.0] * 7
+
+
+ACROSS = {
+    "four-bar": {"ground": 8, "crank": 3, "coupler": 1, "rocker": 6, "ground_angle": "45 deg"}
+    | {"assembly": "crossed", "coupler_point": [0, 6]},
+    "ground": {"G": {"length": 7, "angle": "0 deg"}},
+    "joints": {
+        "S": {"from": "P", "length": 3, "line": {"through": "G", "angle": "90 deg", "offset": 3}}
+        | {"side": "backward"},
+        "near": {"on": ["O4", "B"], "at": [0, 1e-6]},
+    },
+    "bodies": {"rod": {"joints": ["P", "S"]}, "short": {"joints": ["O4", "near"]}},
+}
+
+
+def test_digits_that_a_short_bar_needs_leave_a_rod_across_its_guide_there() -> None:
+    found = solution(_request(scene_from(ACROSS, name="my", where="my.toml"), 0.0))
+    (rod,) = (one for one in found.results if one.token == "rod.angle")
+    assert abs(rod.value.value) <= 2 * rod.least

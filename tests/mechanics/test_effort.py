@@ -272,6 +272,29 @@ def test_where_only_what_takes_no_force_moves_on_at_a_limit_the_force_is_0(half_
         assert input_effort(scene.pose(half_turns * math.pi + beside)) == 0
 
 
+SPRUNG = """
+length_unit = "mm"
+[four-bar]
+ground = 90
+crank = 170
+coupler = 130
+rocker = 80
+[springs.coil]
+between = ["A", "O4"]
+stiffness = "4 N/mm"
+free_length = 30
+"""
+
+
+def test_what_stands_with_the_input_at_a_limit_takes_what_it_takes_beside() -> None:
+    scene = scene_of(SPRUNG)
+    for limit in (math.pi, 2 * math.pi):
+        beside = input_effort(scene.pose(limit + 1e-4))
+        assert [input_effort(scene.pose(limit + off)) for off in (0.0, 1e-15, -1e-15)] == pytest.approx(
+            [beside] * 3, rel=1e-6
+        )
+
+
 GEARED = """
 length_unit = "mm"
 [drive]

@@ -109,13 +109,16 @@ def _aside(motion: Any, effort: Array, ends: NDArray[np.bool_]) -> Array:
         for n, weight in enumerate(weights, start=1)
     ]
     found = settled(sum(read), _IDLE * sum(map(np.abs, read)))
-    idle = np.abs(there.total) <= _IDLE * there.weight + there.rounding
+    idle = np.abs(there.total) <= _IDLE * there.weight
     effort[ends] = np.where(idle, found, effort[ends])
     return effort
 
 
 class _Power(NamedTuple):
-    """The power of all forces and inertia, in W, the sizes of its terms together, and its rounding errors."""
+    """The power of all forces and inertia, in W, its weight, and its rounding errors.
+
+    The weight is the sum of its terms' sizes, each as if what moves ran with the input's speed as well.
+    """
 
     total: Any
     weight: Any
@@ -135,7 +138,7 @@ def _power(motion: Any, way: _Way) -> _Power:
 def _strut_power(motion: Any, way: _Way, struts: Iterable[Spring | Damper]) -> Iterator[tuple[Any, Any, Any]]:
     """Yield what each spring and damper takes, its weight, and its rounding errors."""
     linkage, points = motion.setting.linkage, getattr(motion, way.points)
-    metre = linkage.metre
+    metre, usual = linkage.metre, linkage.extent * abs(motion.input_speed)
     for strut in struts:
         # what keeps its length takes nothing
         if strut.forceful and holding(linkage.rigid_bodies, strut.between) is None:
@@ -144,7 +147,7 @@ def _strut_power(motion: Any, way: _Way, struts: Iterable[Spring | Damper]) -> I
             rate = growth(between(motion.position, strut.between), moving)
             speeds = sum(size(components(points[end])) for end in strut.between)
             noise = ROUNDING * abs(force) * speeds + force_rounding(motion, strut) * abs(rate)
-            yield force * metre * rate, abs(force) * metre * size(moving), noise * metre
+            yield force * metre * rate, abs(force) * metre * (size(moving) + usual), noise * metre
 
 
 def _body_power(motion: Any, way: _Way) -> Iterator[tuple[Any, Any, Any]]:
@@ -152,6 +155,7 @@ def _body_power(motion: Any, way: _Way) -> Iterator[tuple[Any, Any, Any]]:
     linkage = motion.setting.linkage
     metre = linkage.metre
     jolt, jerk = rounding_of(motion, "{}/s²", 2) * metre, rounding_of(motion, "rad/s²", 2)
+    usual = abs(motion.input_speed)
     for body in linkage.bodies:
         prefix, centre = ("com_", body.name) if body.slider is None else ("", body.slider)
         if body.mass is not None:
@@ -159,11 +163,13 @@ def _body_power(motion: Any, way: _Way) -> Iterator[tuple[Any, Any, Any]]:
             a, b = components(getattr(motion, f"{prefix}acceleration")[centre])
             pull, moved = size((a, b)) * metre + abs(linkage.gravity), body.mass * metre * size((u, v))
             power = body.mass * metre * ((a * u + b * v) * metre + linkage.gravity * v)
-            yield power, moved * pull, moved * (ROUNDING * pull + jolt)
+            weight = (moved + body.mass * metre * linkage.extent * usual) * pull
+            yield power, weight, moved * (ROUNDING * pull + jolt)
         if body.inertia is not None:
             turning = body.inertia * getattr(motion, way.turning)[body.name]
-            power = turning * motion.angular_acceleration[body.name]
-            yield power, abs(power), ROUNDING * abs(power) + abs(turning) * jerk
+            gained = motion.angular_acceleration[body.name]
+            weight = (abs(turning) + body.inertia * usual) * abs(gained)
+            yield turning * gained, weight, ROUNDING * abs(turning * gained) + abs(turning) * jerk
 
 
 def _pace(motion: Any, way: _Way) -> Any:
