@@ -272,8 +272,10 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _look("explain"),
     ),
     "quiz": (
-        _scene("; or a chapter, as sliders", metavar="SCENE|CHAPTER"),
+        _scene("; or a chapter, as sliders; or all", metavar="SCENE|CHAPTER"),
         _output("SHEET.html (default: text on stdout)"),
+        _value("--moodle OUT.xml", Path, "for Moodle: a category for each chapter, figures and all"),
+        _value("--qti OUT.zip", Path, "for Canvas and other learning platforms: a package of QTI 1.2"),
         _value("-n N", values.whole, "how many questions (default: 10)", 10, dest="count"),
         _value("--seed N", values.whole, "a number gives the same questions always (default: 0)", 0),
         _flag("--json", "as a list of objects"),

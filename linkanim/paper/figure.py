@@ -14,6 +14,7 @@ from linkanim.paper.svg import svg
 from linkanim.picture.figure import figure
 from linkanim.picture.items import Group
 from linkanim.picture.look import Look
+from linkanim.picture.panels.overlay import Overlay
 from linkanim.picture.parts.driven import driven_words
 from linkanim.picture.picture import Picture
 from linkanim.picture.raster.offscreen import offscreen
@@ -28,7 +29,7 @@ class Figured:
 
     Without a phase it is that at which the joints are farthest apart.
     Its words are for `speed`, the scene's own where none is given. Names stand as is best for its pose alone,
-    or `as_seen` in a window.
+    or `as_seen` in a window. The `overlay` lies over it.
     """
 
     scene: Scene
@@ -38,6 +39,7 @@ class Figured:
     poses: int = 0
     speed: float | None = None
     as_seen: bool = False
+    overlay: Overlay = Overlay()  # noqa: RUF009 -- frozen
 
     @cached_property
     def shown_phase(self) -> float:
@@ -66,12 +68,12 @@ class Figured:
     def groups(self) -> Iterator[Group]:
         """Yield all that is drawn, back to front."""
         pose, faint = self._poses
-        return self.picture.groups(pose, faint=faint)
+        return self.picture.groups(pose, self.overlay, faint=faint)
 
     def surface(self) -> pygame.Surface:
         """Return the figure drawn; clear where nothing is, without a background."""
         surface, (pose, faint) = offscreen(self.size, alpha=not self.look.background), self._poses
-        SurfacePrinter().paint(surface, self.picture, pose, faint=faint)
+        SurfacePrinter().paint(surface, self.picture, pose, self.overlay, faint=faint)
         return surface
 
     def document(self) -> str:

@@ -8,12 +8,20 @@ from math import tau
 
 from linkanim.paper.figure import Figured
 from linkanim.paper.html import embedded
+from linkanim.paper.svg import svg
 from linkanim.picture.look import Look
+from linkanim.picture.panels.overlay import Overlay, Spot
 from linkanim.picture.parts.driven import driven_words, speed_words
+from linkanim.picture.raster.offscreen import offscreen, png_bytes
+from linkanim.picture.raster.raster import Layer, paint
+from linkanim.picture.raster.shapes import stroke
 from linkanim.play.question import QuizAnswer, QuizQuestion
 
 _CURVE = (160, 34)
 """The size of a curve on a sheet."""
+_SHARPER = 3
+"""A curve as pixels has so many of them for each of its own."""
+_INK, _AXIS = (27, 31, 35), (140, 149, 159)
 _PRINTED = 12
 """So many of a curve's values stand in plain text."""
 LETTERS = "abcd"
@@ -45,6 +53,25 @@ def pose_words(question: QuizQuestion) -> str:
     return f"{scene.title}, {scene.info.input_name} at {driven_words(scene, at)}{way}"
 
 
+def question_figure(question: QuizQuestion) -> Figured:
+    """Return the figure of a question as it stands on paper: answers that are places are lettered dots."""
+    look = Look(hud=False, trace=False, names=question.names)
+    spots = (
+        Spot(letter, one.place)
+        for n, (letter, one) in enumerate(zip(LETTERS, question.answers, strict=False))
+        if one.place and answer_text(question, n) != one.text
+    )
+    return Figured(question.scene, _SIZE, look, question.phase, overlay=Overlay(spots=tuple(spots)))
+
+
+def answer_text(question: QuizQuestion, number: int) -> str:
+    """Return an answer's words; of a place that nothing names in the figure, the dot that shows it there."""
+    answer = question.answers[number]
+    joints = {joint.name for joint in question.scene.linkage.joints}
+    named = answer.place is None or answer.text in joints
+    return answer.text if named else f"at {LETTERS[number]}"
+
+
 def as_text(round_: Sequence[QuizQuestion]) -> str:
     """Return a round in plain text, the key below."""
     lines = []
@@ -72,11 +99,12 @@ def as_html(
 
 def _sections(round_: Sequence[QuizQuestion], progress: Callable[[int, int], None]) -> Iterator[str]:
     for number, question in enumerate(round_, 1):
-        drawn = Figured(
-            question.scene, _SIZE, Look(hud=False, trace=False, names=question.names), question.phase
-        ).document()
+        drawn = question_figure(question).document()
         words = pose_words(question)
-        answers = "".join(f"<li>{escape(one.text)}{_drawn(one.curve)}</li>" for one in question.answers)
+        answers = "".join(
+            f"<li>{escape(answer_text(question, n))}{_drawn(one.curve)}</li>"
+            for n, one in enumerate(question.answers)
+        )
         yield (
             f"<section><h2>{number}. {escape(question.text)}</h2>"
             f"<figure>{embedded(drawn, words)}<figcaption>{escape(words)}</figcaption></figure>"
@@ -104,13 +132,28 @@ def _drawn(curve: Sequence[float]) -> str:
     """Return a curve as an SVG of its own; nothing where there is none."""
     if not curve:
         return ""
-    wide, high = _CURVE
-    step = wide / (len(curve) - 1)
-    points = " ".join(f"{n * step:.1f},{high / 2 * (1 - 0.94 * value):.1f}" for n, value in enumerate(curve))
-    return (
-        f"<br><svg class='curve' width='{wide}' height='{high}' fill='none' stroke='currentColor'>"
-        f"<path d='M0 {high / 2}H{wide}' stroke-width='.4'/><polyline points='{points}'/></svg>"
-    )
+    return f"<br>{embedded(svg(_CURVE, None, _curve_layers(curve), title='a curve'), 'a curve')}"
+
+
+def curve_png(curve: Sequence[float]) -> bytes:
+    """Return a curve that is an answer as a PNG file's bytes, on white."""
+    width, height = _CURVE
+    surface = offscreen((_SHARPER * width, _SHARPER * height))
+    surface.fill((255, 255, 255))
+    paint(surface, _curve_layers(curve, _SHARPER))
+    return png_bytes(surface)
+
+
+def _curve_layers(curve: Sequence[float], scale: float = 1.0) -> list[Layer]:
+    """Return a curve of values from −1 to 1 over its axis, a pixel of its size `scale` wide."""
+    width, height = _CURVE
+    step = width / (len(curve) - 1)
+    path = [complex(n * step, height / 2 * (1 - 0.94 * value)) for n, value in enumerate(curve)]
+    axis = [complex(0, height / 2), complex(width, height / 2)]
+    lines = ((_AXIS, axis, 0.5), (_INK, path, 1.1))
+    return [
+        Layer(colour, stroke([scale * place for place in line], scale * wide)) for colour, line, wide in lines
+    ]
 
 
 def _slips(question: QuizQuestion) -> str:

@@ -3,46 +3,84 @@
 from __future__ import annotations
 
 from argparse import Namespace
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
 
-from linkanim.atomic_files import checked_target, write_text
+from linkanim.atomic_files import checked_target, replacing
 from linkanim.bounds import MOST_ASKED
 from linkanim.cli.commands.record import bar
 from linkanim.cli.options import inputs_of
 from linkanim.errors import BadInput
 from linkanim.export import json_text
+from linkanim.play.chapters import ALL
+from linkanim.play.platforms import Rounds, moodle, qti
 from linkanim.play.question import QuizQuestion
 from linkanim.play.round import questions
 from linkanim.play.sheet import as_html, as_text
-from linkanim.scenes import chapters, load
+from linkanim.scenes import chapter_of, chapters, load, names
 from linkanim.scenes.scene import Scene
 
-SUFFIXES = (".html", ".htm")
 _MOST = 200
+
+Printer = Callable[[Sequence[QuizQuestion], str, Callable[[int, int], None]], bytes]
+
+
+def _sheet(asked: Sequence[QuizQuestion], title: str, progress: Callable[[int, int], None]) -> bytes:
+    return as_html(asked, f"{title}: {len(asked)} questions", progress).encode()
+
+
+def _moodle(asked: Sequence[QuizQuestion], title: str, progress: Callable[[int, int], None]) -> bytes:
+    return moodle(_by_chapter(asked, title), progress)
+
+
+def _qti(asked: Sequence[QuizQuestion], title: str, progress: Callable[[int, int], None]) -> bytes:
+    return qti(_by_chapter(asked, title), title, progress)
+
+
+OUTPUTS: Mapping[str, tuple[tuple[str, ...], Printer]] = {
+    "output": ((".html", ".htm"), _sheet),
+    "moodle": ((".xml",), _moodle),
+    "qti": ((".zip",), _qti),
+}
+"""What a round is written as, by its option: the endings of its file, and what makes the file's bytes."""
 
 
 def run(options: Namespace) -> None:
-    """Print the round, or write it as a sheet and print its path.
+    """Print the round, or write it as the files that are asked for and print their paths.
 
     `BadInput` for an output that cannot be, and for no questions or too many of so large scenes, before any
     is made.
     """
-    target = None if options.output is None else checked_target(options.output, SUFFIXES, inputs_of(options))
+    targets: list[tuple[Path, Printer]] = []
+    for name, (suffixes, printer) in OUTPUTS.items():
+        path = getattr(options, name)
+        if path is not None:
+            targets.append((checked_target(path, suffixes, inputs_of(options)), printer))
     if not 1 <= options.count <= _MOST:
         raise BadInput(f"-n {options.count}: give a number of questions from 1 to {_MOST}")
-    if target and options.json:
-        raise BadInput("-o writes a sheet, --json prints a list; leave one of them out")
+    if targets and options.json:
+        raise BadInput("-o, --moodle and --qti write files, --json prints a list; leave one of them out")
     scenes, title = _scenes(options.scene)
     _refuse_many(scenes, options.count)
     with bar(unit=" questions") as progress:
         found = questions(scenes, options.count, options.seed, progress)
-    if target is None:
+    if not targets:
         print(json_text([_as_object(one) for one in found], indent=2) if options.json else as_text(found))
-        return
-    with bar(unit=" figures") as progress:
-        page = as_html(found, f"{title}: {len(found)} questions", progress)
-    write_text(target, page)
-    print(target)
+    for target, printer in targets:
+        with bar(unit=" figures") as progress:
+            content = printer(found, title, progress)
+        with replacing(target) as part:
+            part.write_bytes(content)
+        print(target)
+
+
+def _by_chapter(asked: Sequence[QuizQuestion], title: str) -> Rounds:
+    """Return questions by the chapter of their scene; those of a scene of one's own by its title."""
+    found: dict[str, list[QuizQuestion]] = {}
+    for question in asked:
+        chapter = chapter_of(question.scene.name)
+        found.setdefault(chapter[:1].upper() + chapter[1:] if chapter else title, []).append(question)
+    return found
 
 
 def _refuse_many(scenes: Sequence[Scene], count: int) -> None:
@@ -57,7 +95,9 @@ def _refuse_many(scenes: Sequence[Scene], count: int) -> None:
 
 
 def _scenes(name: str) -> tuple[tuple[Scene, ...], str]:
-    """Return the scenes of a chapter, named as `linkanim scenes` does or with dashes, or one scene."""
+    """Return the scenes of a chapter, named as `linkanim scenes` does or with dashes, all, or one scene."""
+    if name == ALL:
+        return tuple(map(load, names())), "All mechanisms"
     by_name = {chapter.replace(" ", "-"): names for chapter, names in chapters().items()}
     chosen = by_name.get(name.replace(" ", "-"))
     if chosen is None:
