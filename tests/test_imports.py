@@ -38,7 +38,7 @@ RANK = {
                 "atomic_files",
                 "user_data",
             ),
-            ("manifest",),
+            ("manifest", "manual"),
             ("mechanics",),
             ("scenes",),
             ("synthesis", "build"),
@@ -52,7 +52,7 @@ RANK = {
             ("recorder",),
             ("bench",),
             ("cli",),
-            ("linkanim", "notebook"),
+            ("linkanim", "notebook", "examples"),
         ]
     )
     for room in rooms
@@ -76,6 +76,7 @@ THIRD_PARTIES = {
     "units": set(),
     "atomic_files": set(),
     "manifest": set(),
+    "manual": set(),
     "mechanics": {"numpy"},
     "scenes": {"numpy", "tomli_w"},
     "synthesis": {"numpy"},
@@ -93,6 +94,7 @@ THIRD_PARTIES = {
     "cli": {"numpy", "tqdm"},
     "linkanim": set(),
     "notebook": {"numpy"},
+    "examples": {"numpy", "pandas", "scipy", "matplotlib"},
 }
 
 # The version is text in __init__, which imports nothing by itself.
