@@ -6,38 +6,19 @@ coupler passes them, `function` a function into linkages that generate it, `quic
 into linkages that have it, `make` a scene into parts to cut and pin together. Everything is imported when
 first asked for: `import linkanim` alone brings in neither a window nor an encoder.
 
-`mechanics`, from the ground up; each room imports from those before it only:
+`mechanics`, `scenes`, `synthesis`, `explain` and `bench` list their modules in their own docstrings, in the
+order in which they are read; `mechanics.solver` is for `mechanics` alone.
 
-    formulas/  arithmetic that knows no linkage: expressions, their programs, exact sums, half angles
-    linkage/   what a linkage is, as data: joints, rigid bodies, lines of travel, the drive
-    loops/     a dyad on a crank pin and something fixed: its signed root, its triangle
-    drive/     the input: how far it goes, how its phase moves it, when everything is back
-    closing/   how each kind of joint closes, a walk over all of them, limits down the chain
-    motion/    a linkage made ready, and what solving it gives: arrays, or one pose of floats
-    facts/     what a linkage is called and can do: class, transmission angle, forces, all quantities
+`build`, `picture`, `paper`, `share`, `player`, `play`, `workshop` and `recorder` list their modules in their
+own docstrings, in the order in which they are read.
 
-`build`: a linkage drawn by hand: a `draft` and the `gestures` that change it, the dyads in it (`order`),
-the scene that it comes to (`making`), and what is `missing` before it comes to one.
+`explain`: a pose worked out by hand: formulas, steps, joints, chapters, and the document that they make.
 
-`picture`, likewise; what stands between `text` and `parts` (`figure`, `items`, `layout`, `look`, `placing`,
-`theme`, `view`) is its floor, and `picture.py` with its printers stands on all of them:
-
-    raster/       outlines, and filling them exactly
-    text/         fonts, and lines of text
-    parts/        what is drawn of a linkage: bodies, springs, wheels, the ground, traces, arrows
-    diagrams/     charts, polygons, instant centres
-    panels/       the words about a scene, and what lies over the picture: lists, help, marks
-    building/     a linkage that is being built: the sheet, the draft on it, the tools
-    labels/       names, dimensions and dead centres on the scene
-    arrangement/  what stands where in a window
-
-`explain`: a pose worked out by hand: `expression` and `lines` are what it consists of, `kinds` the steps of
-each kind of joint, `inputs` those of what drives, `solution` puts them in order, `documents` prints it.
-
-A kind of joint is its data in `linkage/dyads`, how it closes in `closing/kinds`, how it is written in
-`scenes/fields/joints`, how it is worked out in `explain/kinds`; what is drawn of it follows from its bars and
-from what slides. A kind of input is its data in `linkage/drive`, its path in `drive/`, how it is written in
-`scenes/fields/drive`, how it is worked out in `explain/inputs`.
+A kind of joint is its data in `mechanics/linkage`, how it closes in `mechanics/solver/closing`, how it is
+written in `scenes/file_form`, how it is worked out in `explain/joints`; what is drawn of it follows from its
+bars and from what slides. A kind of input is its data in `mechanics/linkage`, its path in
+`mechanics/solver/strokes`, how it is written in `scenes/file_form`, how it is worked out in
+`explain/solution`.
 
 `play`: what is asked about linkages, printed or played, and other games: pure values over the player's state.
 
@@ -52,13 +33,13 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from linkanim.errors import LinkanimError
     from linkanim.picture.look import Look
-    from linkanim.recorder.scene_frames import record
+    from linkanim.recorder.recording import record
     from linkanim.scenes import load, names
     from linkanim.scenes.scene import Scene
     from linkanim.synthesis.generation import function
     from linkanim.synthesis.guidance import guide
+    from linkanim.synthesis.path import path
     from linkanim.synthesis.quick_returns import quick_return
-    from linkanim.synthesis.request import path
     from linkanim.workshop.request import make
 
 # Here, because every import of pygame comes after it: its greeting would stand among a command's output.
@@ -90,9 +71,9 @@ _HOME = {
     "load": "linkanim.scenes",
     "make": "linkanim.workshop.request",
     "names": "linkanim.scenes",
-    "path": "linkanim.synthesis.request",
+    "path": "linkanim.synthesis.path",
     "quick_return": "linkanim.synthesis.quick_returns",
-    "record": "linkanim.recorder.scene_frames",
+    "record": "linkanim.recorder.recording",
 }
 
 

@@ -1,11 +1,9 @@
-"""Files that appear under their name when they are whole, or not at all.
+"""Write files that appear under their name when they are whole, or not at all.
 
-Work goes into a scratch folder beside the target, `.linkanim-TOKEN.part`, and takes the target's name at
-the end, when its bytes are on the disk. A lock held on `lock` in it says that its run is alive; what a
-killed run left behind is cleared by the next one in that folder. Everything that is written goes through
-here: `BadInput` for a target that is not ours to replace, `WorkFailed` where disk or folder refuse.
+Its parts, in reading order:
 
-A file that several runs change is changed under a `Claim`: read, changed and written without another between.
+- Files that appear under their name when they are whole, or not at all.
+- The user's data folder, where what outlasts a window is kept.
 """
 
 from __future__ import annotations
@@ -22,6 +20,16 @@ from itertools import chain
 from pathlib import Path
 
 from linkanim.errors import BadInput, WorkFailed
+
+# Files that appear under their name when they are whole, or not at all.
+#
+# Work goes into a scratch folder beside the target, `.linkanim-TOKEN.part`, and takes the target's name at
+# the end, when its bytes are on the disk. A lock held on `lock` in it says that its run is alive; what a
+# killed run left behind is cleared by the next one in that folder. Everything that is written goes through
+# here: `BadInput` for a target that is not ours to replace, `WorkFailed` where disk or folder refuse.
+#
+# A file that several runs change is changed under a `Claim`: read, changed and written without another
+# between.
 
 if sys.platform == "win32":
     import msvcrt
@@ -372,3 +380,19 @@ def _reason(error: OSError) -> str:
     if getattr(error, "winerror", None) in _IN_USE:
         return "it is open in another program; close it there, or choose another name"
     return (error.strerror or str(error)).lower()
+
+
+# The user's data folder, where what outlasts a window is kept.
+
+
+def kept_as(name: str) -> Path:
+    """Return the path under which something is kept in the user's data folder; neither need be there.
+
+    Of a user without a home it is kept as long as the system keeps temporary files.
+    """
+    from tempfile import gettempdir
+
+    from platformdirs import user_data_path
+
+    folder = user_data_path("linkanim", appauthor=False)
+    return (folder if folder.is_absolute() else Path(gettempdir()) / "linkanim") / name

@@ -1,22 +1,33 @@
-"""Files from outside: read whole or refused, and weighed before a parser is let loose on them.
+"""Take in files from outside: read whole or refused, their tables and documents checked key by key.
 
-Parsers of TOML and JSON take a time that grows with the square of a key's depth, and a memory many
-times the text's size where it is all brackets. A look at the marks outside of texts and comments tells.
+Its parts, in reading order:
+
+- Files from outside: read whole or refused, and weighed before a parser is let loose on them.
+- A document's tables read key by key; what is wrong is said with its file, key, value and way out.
+- Tables of numbers as they come: commas, tabs, blanks or semicolons between, with or without a heading.
 """
 
 from __future__ import annotations
 
+import csv
+import math
 import os
 import re
 import stat
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
 from errno import EMFILE, ENFILE, ENOMEM
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar, NamedTuple, Self, TypeVar
 
-from linkanim.bounds import MOST_DIGITS
+from linkanim.bounds import LONGEST_TEXT, MOST_DIGITS, MOST_ROWS_READ
 from linkanim.errors import BadInput, OtherVersion, WorkFailed
 from linkanim.units import shown
+
+# Files from outside: read whole or refused, and weighed before a parser is let loose on them.
+#
+# Parsers of TOML and JSON take a time that grows with the square of a key's depth, and a memory many
+# times the text's size where it is all brackets. A look at the marks outside of texts and comments tells.
 
 DEEPEST = 16
 """Keys within keys, or brackets within brackets; a scene needs four."""
@@ -172,3 +183,281 @@ def _depth(bare: str) -> int:
         if deepest > DEEPEST:
             break
     return deepest
+
+
+# A document's tables read key by key; what is wrong is said with its file, key, value and way out.
+#
+# Scene files and tapes are such documents: TOML and JSON come as the same tables, lists and values.
+
+Option = TypeVar("Option", bound=str)
+
+_FEW = 12
+_LONG = 60
+_BREAK = re.compile(r"\s*[\t\n\r]\s*")
+_BARE_KEY = re.compile(r"[A-Za-z0-9_-]+(\[\d+\])?")
+
+
+@dataclass(frozen=True)
+class Section:
+    """One table of a document: its values, and the keys that lead to it.
+
+    Every reader raises `refusal` where the key is missing or its value is of another kind.
+    """
+
+    refusal: ClassVar[type[BadInput]] = BadInput
+
+    where: str
+    values: Mapping[str, Any]
+    keys: tuple[str, ...] = ()
+
+    @property
+    def path(self) -> str:
+        """The keys as TOML writes them."""
+        return ".".join(map(_written, self.keys))
+
+    def __contains__(self, key: str) -> bool:
+        return key in self.values
+
+    def key(self, key: str) -> str:
+        """Return the key's full path, as TOML writes it."""
+        return ".".join(map(_written, (*self.keys, key)))
+
+    def error(self, key: str, reason: str) -> BadInput:
+        """Return (not raise) the error about one key: file, key, value if it has one, and the reason."""
+        value = self.values.get(key)
+        shown_value = "" if value is None or isinstance(value, Mapping | list) else f" = {shown(value)}"
+        return self.at(f"{self.key(key)}{shown_value}: {reason}", key)
+
+    def wrong(self, reason: str) -> BadInput:
+        """Return (not raise) the error about this table as a whole."""
+        return self.at(f"{self.path}: {reason}" if self.path else reason)
+
+    def at(self, message: str, *keys: str) -> BadInput:
+        """Return (not raise) an error about what stands at keys under this table."""
+        error = self.refusal(f"{self.where}: {message}")
+        error.keys = (*self.keys, *keys)
+        return error
+
+    def need(self, key: str) -> Any:
+        """Return the key's value, whatever it is."""
+        if key not in self.values:
+            place = f"{self.path}: " if self.path else ""
+            raise self.at(f'{place}"{key}" is missing', key)
+        return self.values[key]
+
+    def table(self, key: str) -> Self:
+        """Return the table under a key, empty where there is none."""
+        value = self.values.get(key, {})
+        if not isinstance(value, Mapping):
+            raise self.error(key, f"must be a table, [{self.key(key)}] or {{ ... }}")
+        return self.under(key, value)
+
+    def under(self, key: str, values: Mapping[str, Any]) -> Self:
+        """Return a table that stands under a key."""
+        return type(self)(self.where, values, (*self.keys, key))
+
+    def items(self, key: str, count: int | None = None) -> list[Any]:
+        """Return a list, of `count` items if given."""
+        value = self.need(key)
+        if not isinstance(value, list) or count not in (None, len(value)):
+            raise self.error(key, f"must be a list of {count} items" if count else "must be a list")
+        return value
+
+    def listed(self, key: str, count: int | None = None) -> Self:
+        """Return a list's items as a table in the place of this one, under `key[0]`, `key[1]`, ..."""
+        values = {f"{key}[{i}]": value for i, value in enumerate(self.items(key, count))}
+        return replace(self, values=values)
+
+    def text(self, key: str, default: str | None = None) -> str:
+        """Return a text, on one line; `default` where it is missing, an error where that is None."""
+        value = self.need(key) if default is None else self.values.get(key, default)
+        if not isinstance(value, str):
+            raise self.error(key, "must be a text in quotes")
+        if len(value) > LONGEST_TEXT:
+            raise self.error(key, f"is longer than {LONGEST_TEXT:,} characters; cut it")
+        return _BREAK.sub(" ", value)
+
+    def texts(self, key: str) -> tuple[str, ...]:
+        """Return a list of texts, empty where it is missing."""
+        value = self.values.get(key, [])
+        if not isinstance(value, list) or not all(isinstance(text, str) for text in value):
+            raise self.error(key, 'must be a list of texts, such as ["one", "another"]')
+        items = self.listed(key) if value else self
+        return tuple(items.text(item) for item in items.values) if value else ()
+
+    def choice(self, key: str, options: tuple[Option, ...]) -> Option:
+        """Return one of the options, the first where the key is missing."""
+        value = self.values.get(key, options[0])
+        if value not in options:
+            raise self.error(key, f"must be {' or '.join(shown(option) for option in options)}")
+        return options[options.index(value)]
+
+    def flag(self, key: str) -> bool:
+        """Return true or false."""
+        value = self.need(key)
+        if not isinstance(value, bool):
+            raise self.error(key, "must be true or false")
+        return value
+
+    def number(self, key: str) -> float:
+        """Return a finite number."""
+        value = self.need(key)
+        if isinstance(value, bool) or not isinstance(value, int | float) or not _is_finite(value):
+            raise self.error(key, "must be a finite number")
+        return float(value)
+
+    def whole(self, key: str, low: int, high: int) -> int:
+        """Return a whole number from `low` to `high`."""
+        value = self.need(key)
+        if not isinstance(value, int) or isinstance(value, bool) or not low <= value <= high:
+            raise self.error(key, f"must be a whole number from {low} to {high}")
+        return value
+
+
+def refuse_controls(document: Section) -> None:
+    """Refuse a control character in any key or text of a document, wherever it stands in it."""
+    pending: list[tuple[tuple[str, ...], Any]] = [((), document.values)]
+    while pending:
+        keys, value = pending.pop()
+        if isinstance(value, str) and (found := control_in(value)):
+            place = ".".join(map(_written, keys))
+            raise document.at(f"{place} = {shown(value)}: has {found} in it; leave it out", *keys)
+        if isinstance(value, Mapping):
+            for key in value:
+                if found := control_in(key):
+                    place = ".".join(map(_written, (*keys, key)))
+                    raise document.at(f"{place}: has {found} in it; leave it out", *keys, key)
+            pending += [((*keys, key), inner) for key, inner in value.items()]
+        elif isinstance(value, list):
+            start, last = keys[:-1], keys[-1] if keys else ""
+            pending += [((*start, f"{last}[{n}]"), inner) for n, inner in enumerate(value)]
+
+
+def _written(key: str) -> str:
+    return key if len(key) <= _LONG and _BARE_KEY.fullmatch(key) else shown(key)
+
+
+def meant(name: str, known: Iterable[str]) -> str:
+    """Return ' (did you mean "crank"?)' for a name close to a known one, else an empty text."""
+    from difflib import get_close_matches  # for what is wrong only: a window opens sooner without
+
+    # what is far longer than any name is near to none, and takes long to compare
+    near = get_close_matches(name[:_LONG], list(known), n=1, cutoff=0.6)
+    return f" (did you mean {shown(near[0])}?)" if near else ""
+
+
+def few(names: Iterable[str]) -> str:
+    """Return names as a message lists them: a dozen, and how many more there are."""
+    listed = list(names)
+    more = len(listed) - _FEW
+    return ", ".join(listed[:_FEW]) + (f" and {more} more" if more > 0 else "")
+
+
+def _is_finite(value: float) -> bool:
+    try:
+        return math.isfinite(value)
+    except OverflowError:  # a whole number beyond floats
+        return False
+
+
+# Tables of numbers as they come: commas, tabs, blanks or semicolons between, with or without a heading.
+
+_NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?")
+_LONGEST_LINE = 100_000
+_WITH_COMMA = re.compile(r"[+-]?\d+(,\d+)?([eE][+-]?\d+)?")
+
+
+class NumberRow(NamedTuple):
+    """The numbers of a line, and which line it is."""
+
+    line: int
+    numbers: tuple[float, ...]
+
+
+class NumberTable(NamedTuple):
+    """The cells of a table's heading, none where it has no such line, and its rows."""
+
+    heading: tuple[str, ...]
+    rows: tuple[NumberRow, ...]
+
+
+def read_numbers(text: str, where: str, columns: str) -> NumberTable:
+    """Return a text's numbers; `columns` are those that it has to have, in words with commas between.
+
+    Semicolons, tabs, commas or blanks stand between the cells, whichever the table has, the first of them;
+    where they do not, a comma in a number is its decimal mark. Lines without a number before the others are a
+    heading; empty lines and what follows # are passed over. BadInput naming line, column and the cell.
+    """
+    lines = _lines(text, where)
+    between, comma = _form([line for _, line in lines])
+    table = [(number, _cells(line, between)) for number, line in lines]
+    start = next((n for n, (_, cells) in enumerate(table) if not _is_heading(cells)), len(table))
+    if start == len(table):
+        raise BadInput(f"{where}: has no rows; give a table of numbers: {columns}")
+    heading = tuple(cell.strip() for cell in table[start - 1][1]) if start else ()
+    return NumberTable(heading, tuple(_row(*line, columns, where, comma) for line in table[start:]))
+
+
+def _lines(text: str, where: str) -> list[tuple[int, str]]:
+    """Return the lines that hold anything, numbered."""
+    found = []
+    for number, line in enumerate(text.splitlines(), start=1):
+        if control := control_in(line):
+            raise BadInput(f"{where}: line {number} has {control} in it; save it as plain text")
+        if len(line) > _LONGEST_LINE:
+            raise BadInput(
+                f"{where}: line {number} has more than {_LONGEST_LINE:,} characters; give fewer cells"
+            )
+        bare = line.partition("#")[0].strip(" ")
+        if bare.strip(" \t;,"):
+            found.append((number, bare))
+    if len(found) > MOST_ROWS_READ + 1:
+        count = f"{len(found):,} rows; {MOST_ROWS_READ:,} are the most that are read"
+        raise BadInput(f"{where}: has {count}: keep every tenth or so")
+    return found
+
+
+def _form(lines: list[str]) -> tuple[str, bool]:
+    """Return what stands between the cells, " " for blanks, and whether a comma is the decimal mark."""
+    mark = next((mark for mark in ";\t," if any(mark in line for line in lines)), " ")
+    if mark != ",":
+        return mark, True
+    cells = [line.split() for line in lines if _NUMBER.match(_plain(line))]
+    decimal = all(len(row) > 1 and all(map(_WITH_COMMA.fullmatch, row)) for row in cells)
+    return (" ", True) if cells and decimal else (mark, False)
+
+
+def _cells(line: str, between: str) -> list[str]:
+    return line.split() if between == " " else next(csv.reader([line], delimiter=between))
+
+
+def _is_heading(cells: list[str]) -> bool:
+    """Whether no cell is a number, and the first one does not begin as one, such as 87 deg."""
+    return not (_NUMBER.match(_plain(cells[0])) or any(_NUMBER.fullmatch(_plain(cell)) for cell in cells))
+
+
+def _plain(cell: str) -> str:
+    return cell.strip().removesuffix("°").replace("−", "-").replace("\N{NO-BREAK SPACE}", "")
+
+
+def _row(line: int, cells: list[str], columns: str, where: str, comma: bool) -> NumberRow:
+    place, needed = f"{where}: line {line}", columns.count(",") + 1
+    while len(cells) > needed and not cells[-1].strip():
+        cells = cells[:-1]
+    if len(cells) < needed:
+        text = shown(" ".join(cells))
+        raise BadInput(f"{place} has {len(cells)} of {needed} columns ({columns}): {text}")
+    numbers = [_number(cell, comma) for cell in cells]
+    for column, (cell, number) in enumerate(zip(cells, numbers, strict=True), start=1):
+        if not math.isfinite(number):
+            way_out = "; give a number" if cell.strip() else "; give a number, or leave the line out"
+            raise BadInput(f"{place}, column {column}: {shown(cell)} is not a finite number{way_out}")
+    return NumberRow(line, tuple(numbers))
+
+
+def _number(cell: str, comma: bool) -> float:
+    """Return a cell's number, NaN where it has none."""
+    plain = _plain(cell)
+    if not _NUMBER.fullmatch(plain) or ("," in plain and not comma):
+        return math.nan
+    return float(plain.replace(",", "."))

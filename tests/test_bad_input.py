@@ -24,13 +24,13 @@ from linkanim.cli import main
 from linkanim.cli.command_table import parse as parse_arguments
 from linkanim.cli.exits import one_line
 from linkanim.errors import BadInput
-from linkanim.player.state.state import begin
-from linkanim.player.tape.tape import Tape
-from linkanim.player.tape.tape_file import from_document, read, to_document
+from linkanim.player.state import begin
+from linkanim.player.tape import Tape
+from linkanim.player.tape_file import from_document, read, to_document
 from linkanim.scenes import load, names
-from linkanim.scenes.editing.toml import parse
-from linkanim.scenes.reading.read import scene_from
+from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
+from linkanim.scenes.toml import parse
 
 FEW, MANY = 200, 5_000
 """Cases of each of the four tests: together 800, or 20,000 on request."""

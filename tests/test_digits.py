@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from linkanim.digits import degrees, rounded, rpm, short, significant, stepped, three_digits, typeset
+from linkanim.units import degrees, rounded, rpm, short, significant, stepped, three_digits, typeset
 
 
 @pytest.mark.parametrize(

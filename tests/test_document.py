@@ -8,8 +8,8 @@ from typing import Any
 
 import pytest
 
-from linkanim.document import Section, few, meant
 from linkanim.errors import BadInput
+from linkanim.intake import Section, few, meant
 
 Read = Callable[[Section], Any]
 

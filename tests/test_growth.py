@@ -13,9 +13,9 @@ from generated import SHAPES, geared, series
 from linkanim.errors import AssemblyError
 from linkanim.picture.look import Look
 from linkanim.picture.picture import Picture
-from linkanim.scenes.editing.toml import parse
-from linkanim.scenes.reading.read import scene_from
+from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
+from linkanim.scenes.toml import parse
 
 FEW, MANY = 5, 20
 LINEAR = 1.3 * MANY / FEW

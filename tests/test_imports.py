@@ -29,16 +29,12 @@ RANK = {
             (
                 "bounds",
                 "child",
-                "digits",
-                "document",
                 "export",
                 "intake",
-                "number_table",
                 "units",
                 "atomic_files",
-                "user_data",
             ),
-            ("manifest", "manual"),
+            ("manifest",),
             ("mechanics",),
             ("scenes",),
             ("synthesis", "build"),
@@ -52,16 +48,10 @@ RANK = {
             ("recorder",),
             ("bench",),
             ("cli",),
-            ("linkanim", "notebook", "examples"),
+            ("linkanim", "notebook"),
         ]
     )
     for room in rooms
-}
-
-# Rooms within a room, from the top down; what lies beside them under the name of the room itself.
-WITHIN = {
-    "player": ("state", "sound", "input", "tape", "window"),
-    "cli": ("cli", "commands"),
 }
 
 THIRD_PARTIES = {
@@ -69,14 +59,10 @@ THIRD_PARTIES = {
     "bounds": set(),
     "child": set(),
     "export": {"numpy", "orjson"},
-    "digits": set(),
-    "document": set(),
     "intake": set(),
-    "number_table": set(),
     "units": set(),
-    "atomic_files": set(),
+    "atomic_files": {"platformdirs"},
     "manifest": set(),
-    "manual": set(),
     "mechanics": {"numpy"},
     "scenes": {"numpy", "tomli_w"},
     "synthesis": {"numpy"},
@@ -87,14 +73,12 @@ THIRD_PARTIES = {
     "share": {"numpy"},
     "player": {"numpy", "pygame"},
     "play": {"numpy"},
-    "user_data": {"platformdirs"},
     "workshop": {"numpy", "ezdxf", "manifold3d"},
     "recorder": {"numpy", "imageio", "imageio_ffmpeg"},
     "bench": {"numpy", "mpmath", "pylinkage", "scipy", "matplotlib"},
     "cli": {"numpy", "tqdm"},
     "linkanim": set(),
     "notebook": {"numpy"},
-    "examples": {"numpy", "pandas", "scipy", "matplotlib"},
 }
 
 # The version is text in __init__, which imports nothing by itself.
@@ -142,53 +126,6 @@ def test_a_file_imports_only_from_its_own_room_and_those_above() -> None:
     assert lower == []
 
 
-# From the ground up, as the map in the package's docstring has them.
-INNER_ROOMS = {
-    "mechanics": ("formulas", "linkage", "loops", "drive", "closing", "motion", "facts"),
-}
-
-
-PICTURE = (
-    "raster",
-    "text",
-    "floor",
-    "parts",
-    "diagrams",
-    "panels",
-    "building",
-    "labels",
-    "arrangement",
-    "picture",
-)
-FLOOR = {"figure", "items", "layout", "look", "placing", "theme", "view"}
-
-
-def test_the_picture_s_rooms_import_downwards() -> None:
-    def floor(name: str) -> int:
-        return PICTURE.index(name if name in PICTURE else "floor" if name in FLOOR else "picture")
-
-    above = []
-    for path in (path for path in SOURCES if room_of(path) == "picture"):
-        own = path.relative_to(PACKAGE).parts[1].removesuffix(".py")
-        inner = {name.split(".")[2] for name in imported(path) if name.startswith("linkanim.picture.")}
-        above += [(path, name) for name in inner if floor(name) > floor(own)]
-    assert above == []
-    folders = {path.name for path in (PACKAGE / "picture").iterdir() if (path / "__init__.py").is_file()}
-    lines = [line.split()[0].removesuffix("/") for line in str(linkanim.__doc__).splitlines() if line.strip()]
-    assert [word for word in lines if word in folders] == [room for room in PICTURE if room in folders]
-
-
-@pytest.mark.parametrize("room", INNER_ROOMS)
-def test_rooms_within_a_room_import_downwards(room: str) -> None:
-    order, above = INNER_ROOMS[room], []
-    for path in SOURCES:
-        first, second, *_ = [*path.relative_to(PACKAGE).parts, "", ""]
-        if first == room and second in order:
-            inner = {name.split(".")[2] for name in imported(path) if name.startswith(f"linkanim.{room}.")}
-            above += [(path, one) for one in inner if order.index(one) > order.index(second)]
-    assert above == []
-
-
 def test_no_modules_import_each_other_in_a_circle() -> None:
     modules = {".".join([*module_of(path), path.stem]).removesuffix(".__init__"): path for path in SOURCES}
     graph = {}
@@ -198,31 +135,21 @@ def test_no_modules_import_each_other_in_a_circle() -> None:
     TopologicalSorter(graph).prepare()  # CycleError names the modules
 
 
-@pytest.mark.parametrize("room", INNER_ROOMS)
-def test_the_map_names_every_room_in_order(room: str) -> None:
-    folders = {path.name for path in (PACKAGE / room).iterdir() if (path / "__init__.py").is_file()}
-    assert folders == set(INNER_ROOMS[room])
-    lines = [line.split()[0].removesuffix("/") for line in str(linkanim.__doc__).splitlines() if line.strip()]
-    assert [word for word in lines if word in folders] == list(INNER_ROOMS[room])
+READ = ("build", "picture", "paper", "share", "player", "recorder")
 
 
-@pytest.mark.parametrize("room", WITHIN)
-def test_a_room_within_imports_only_from_itself_and_those_above(room: str) -> None:
-    def inner(parts: tuple[str, ...]) -> int:
-        return WITHIN[room].index(parts[1] if parts[1] in WITHIN[room] else room)
-
-    lower, seen = [], 0
-    for path in SOURCES:
-        if room_of(path) != room or (room not in WITHIN[room] and path.parent == PACKAGE / room):
-            continue
-        own = inner(path.relative_to(PACKAGE).parts)
-        for name in imported(path):
-            parts = tuple(name.split(".")[1:])
-            seen += parts[:1] == (room,)
-            if parts[:1] == (room,) and inner((*parts, "")) > own:
-                lower.append((path, name))
-    assert lower == []
-    assert seen > 5
+@pytest.mark.parametrize("room", READ)
+def test_a_room_lists_its_modules_in_the_order_in_which_they_import(room: str) -> None:
+    """The docstring of a room is its map: each module stands after those that it imports from."""
+    text = ast.get_docstring(ast.parse((PACKAGE / room / "__init__.py").read_text(encoding="utf-8"))) or ""
+    order = re.findall(r"^    (\w+) {2,}\S", text, re.MULTILINE)
+    assert sorted(order) == sorted(path.stem for path in (PACKAGE / room).glob("*.py") if path.stem[0] != "_")
+    above = []
+    for place, module in enumerate(order):
+        parts = [name.split(".") for name in imported(PACKAGE / room / f"{module}.py")]
+        inner = {part[2] for part in parts if part[:2] == ["linkanim", room] and len(part) > 2}
+        above += [(module, one) for one in inner & set(order) if order.index(one) > place]
+    assert above == []
 
 
 def test_a_third_party_stays_in_its_rooms() -> None:
@@ -323,8 +250,8 @@ def test_the_first_frame_loads_nothing_that_it_does_not_need() -> None:
     assert set(loaded.split()) & set(UNSEEN) == set()
     assert "linkanim.picture.surface" in loaded
     assert not any(
-        name in loaded for name in ("labels.names", "polygons", "diagrams.centres", "dead_centres")
+        name in loaded for name in ("picture.labels", "polygons", "picture.centres", "dead_centres")
     )
     assert not any(
-        name in loaded for name in ("linkanim.recorder", "linkanim.paper", "tape_file", "rendering")
+        name in loaded for name in ("linkanim.recorder", "linkanim.paper", "tape_file", "player.beside")
     )

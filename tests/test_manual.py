@@ -13,9 +13,9 @@ from platformdirs.api import PlatformDirsABC
 
 from linkanim.atomic_files import Claim, set_aside
 from linkanim.bounds import LARGEST_SIDE
-from linkanim.picture.building.photograph import _MILLIONS, _MOST_BYTES
+from linkanim.picture.photograph import _MILLIONS, _MOST_BYTES
 from linkanim.play.scores import _MOST_BEST, _MOST_MISSED
-from linkanim.player.window.drafts import DraftFile
+from linkanim.player.files import DraftFile
 
 PAGE = (files("linkanim") / "manual" / "files.md").read_text(encoding="utf-8")
 WORDS = " ".join(PAGE.split())

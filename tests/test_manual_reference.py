@@ -20,12 +20,13 @@ import pytest
 import linkanim
 from linkanim.cli import main
 from linkanim.cli.command_table import COMMANDS, build
-from linkanim.mechanics.facts.register import Quantity, register
-from linkanim.mechanics.linkage.linkage import Linkage
-from linkanim.player.input.keys import as_markdown
+from linkanim.mechanics.linkage import Linkage
+from linkanim.mechanics.quantities import Quantity, register
+from linkanim.player.keys import as_markdown
 from linkanim.scenes import chapters, files, load, names, titles
-from linkanim.scenes.fields.reference import reference
-from linkanim.synthesis import generation, guidance, request
+from linkanim.scenes.schema import reference
+from linkanim.synthesis import generation, guidance
+from linkanim.synthesis import path as request
 
 MANUAL = Path(linkanim.__file__).parent / "manual"
 CHANGED = "out of date; LINKANIM_GOLDENS=write pytest tests/test_manual_reference.py writes it anew"

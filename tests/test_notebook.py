@@ -15,8 +15,8 @@ import pytest
 
 from linkanim.notebook import register
 from linkanim.scenes import load, names
-from linkanim.scenes.editing.toml import parse
-from linkanim.scenes.reading.read import scene_from
+from linkanim.scenes.reading import scene_from
+from linkanim.scenes.toml import parse
 from linkanim.share.page import Shared, document
 
 SVG = "{http://www.w3.org/2000/svg}"

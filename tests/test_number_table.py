@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from linkanim.errors import BadInput
-from linkanim.number_table import read_numbers
+from linkanim.intake import read_numbers
 
 ROWS = [(87.0, 3.3271), (306.0, -0.25)]
 # what a spreadsheet, Matlab, a solver or a hand writes

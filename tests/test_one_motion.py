@@ -17,22 +17,21 @@ import numpy as np
 import pytest
 
 from linkanim.cli import main
-from linkanim.cli.solved import leaves, tree
-from linkanim.cli.solved import rows as rows_of_tree
+from linkanim.cli.commands.solve import leaves, tree
+from linkanim.cli.commands.solve import rows as rows_of_tree
 from linkanim.export import csv_head, csv_rows, json_text
-from linkanim.mechanics.facts.register import Quantity, register
-from linkanim.mechanics.motion.motion import Pose
-from linkanim.picture.diagrams.chart import pen_for
-from linkanim.picture.diagrams.chart_panel import ChartPanel, chart_panel
-from linkanim.picture.diagrams.quantities import series_of
+from linkanim.mechanics.motion import Pose
+from linkanim.mechanics.quantities import Quantity, register
+from linkanim.picture.chart import ChartPanel, chart_panel, pen_for
 from linkanim.picture.figure import Figure, figure
+from linkanim.picture.hud import rows
 from linkanim.picture.layout import layout
-from linkanim.picture.panels.readings import rows
-from linkanim.picture.text.text import Type
+from linkanim.picture.quantities import series_of
+from linkanim.picture.text import Type
 from linkanim.picture.theme import LIGHT
-from linkanim.player.window.show import value_words
+from linkanim.player.shown import value_words
 from linkanim.scenes import load, names
-from linkanim.scenes.reading.read import scene_from
+from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
 
 SPEEDS = (0.3, 2 * math.pi / 3, 11.0)

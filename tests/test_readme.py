@@ -10,9 +10,9 @@ import pytest
 
 import linkanim
 from linkanim.cli.command_table import COMMANDS, parse
-from linkanim.player.input.keys import as_markdown
+from linkanim.player.keys import as_markdown
 from linkanim.scenes import chapters
-from linkanim.scenes.fields.reference import reference
+from linkanim.scenes.schema import reference
 
 ROOT = Path(__file__).parent.parent
 README = (ROOT / "README.md").read_text(encoding="utf-8")

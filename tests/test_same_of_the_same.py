@@ -21,36 +21,34 @@ import read_tables
 from exact_rates import ExactRates
 from random_scenes import named
 
-from linkanim.cli import table
-from linkanim.cli.solved import Tree, leaves, tree
-from linkanim.cli.solved import rows as rows_of_tree
-from linkanim.digits import significant, stepped
+from linkanim.cli.commands import solve
+from linkanim.cli.commands.solve import Tree, leaves, tree
+from linkanim.cli.commands.solve import rows as rows_of_tree
 from linkanim.errors import LinkanimError
-from linkanim.explain.inputs import PoseRequest
-from linkanim.explain.solution import solution
+from linkanim.explain.solution import PoseRequest, solution
 from linkanim.export import csv_head, csv_rows, json_text
-from linkanim.mechanics.facts.register import Quantity, recorded
-from linkanim.mechanics.formulas.circular import STATED
-from linkanim.mechanics.motion.motion import Pose
-from linkanim.mechanics.motion.settled import rounding_of
+from linkanim.mechanics.angles import STATED
+from linkanim.mechanics.measures import rounding_of
+from linkanim.mechanics.motion import Pose
+from linkanim.mechanics.quantities import Quantity, recorded
 from linkanim.paper.curves import Pace
 from linkanim.paper.findings import Instant, Values
-from linkanim.picture.diagrams.chart import pen_for
-from linkanim.picture.diagrams.chart_panel import chart_panel
+from linkanim.picture.chart import chart_panel, pen_for
 from linkanim.picture.figure import Figure, figure
+from linkanim.picture.hud import measured
+from linkanim.picture.hud import rows as hud
 from linkanim.picture.layout import layout
-from linkanim.picture.panels.readings import measured
-from linkanim.picture.panels.readings import rows as hud
-from linkanim.picture.text.text import Type
+from linkanim.picture.text import Type
 from linkanim.picture.theme import LIGHT
-from linkanim.play.kinds.table import KINDS
+from linkanim.play.kinds import KINDS
 from linkanim.play.question import Puzzle
-from linkanim.player.window.show import value_words
+from linkanim.player.shown import value_words
 from linkanim.scenes import load, names
-from linkanim.scenes.reading.read import scene_from
+from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
-from linkanim.share.figures import parts_of
-from linkanim.share.figures import rows as share_rows
+from linkanim.share.page import parts_of
+from linkanim.share.page import rows as share_rows
+from linkanim.units import significant, stepped
 
 BESIDE = (0.0, *(way * size for size in (1e-15, 1e-12, 1e-9, 1e-3) for way in (1, -1)))
 PERIODS = 2
@@ -200,7 +198,7 @@ def _in_json_and_csv(scene: Scene, pose: Pose, found: Tree) -> Iterator[str]:
 def _in_words(scene: Scene, pose: Pose, found: Tree) -> Iterator[str]:
     """Yield what the tables of `solve` say otherwise: its joints' numbers, and those of the whole."""
     found = {"speed": pose.input_speed, "acceleration": 0.0, **found}
-    words = table.of_pose(scene, rows_of_tree(found))
+    words = solve.of_pose(scene, rows_of_tree(found))
     for joint in (joint.name for joint in scene.linkage.joints if not joint.fixed):
         kinds = [scene.quantities[f"{joint}.{kind}.{axis}"] for kind in KIND for axis in "xy"]
         cells = [significant(float(kind.read(pose)), 7) for kind in kinds]

@@ -14,20 +14,19 @@ import pytest
 
 from linkanim.cli import main
 from linkanim.errors import SceneError
+from linkanim.picture.hud import rows
 from linkanim.picture.look import Look
-from linkanim.picture.panels.overlay import Panel
-from linkanim.picture.panels.readings import rows
+from linkanim.picture.overlay import Panel
 from linkanim.picture.picture import Picture
-from linkanim.player.state.action import Action
-from linkanim.player.state.advance import advance
-from linkanim.player.state.state import State, begin
-from linkanim.player.window.show import overlay
+from linkanim.player.action import Action
+from linkanim.player.actions import advance
+from linkanim.player.shown import overlay
+from linkanim.player.state import State, begin
 from linkanim.scenes import load
-from linkanim.scenes.editing.edit import dimensions
-from linkanim.scenes.editing.shown_unit import in_unit
-from linkanim.scenes.editing.write import text
-from linkanim.scenes.reading.read import scene_from
+from linkanim.scenes.editing import dimensions, in_unit
+from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
+from linkanim.scenes.toml import text
 from linkanim.units import LENGTH_UNITS, metre
 
 SCENES = ("press", "excavator", "driven-piston", "scotch-yoke", "crank-rocker")

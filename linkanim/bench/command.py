@@ -27,14 +27,14 @@ def run(options: Namespace, progress: Progress | None = None) -> None:
         _run_paths(options, progress)
         return
     require_extra()
-    from linkanim.bench import drawing, report, result
+    from linkanim.bench import drawing, result
     from linkanim.manifest import single
 
     chart = made_folder(options.into) / CHART
     single(chart).refuse_foreign([CHART])
 
     found = result.run(progress)
-    form = report.as_json if options.json else report.as_markdown if options.markdown else report.as_text
+    form = result.as_json if options.json else result.as_markdown if options.markdown else result.as_text
     print(form(found))
     print(drawing.draw(found, chart), file=sys.stderr)
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from linkanim.atomic_files import checked_target
-from linkanim.bench.accuracy import Score
+from linkanim.bench.reference import Score
 from linkanim.bench.result import Measured, Result
 from linkanim.manifest import replacing, single
 

@@ -1,24 +1,28 @@
-"""The usual ways to solve a chain of dyads, as they are usually written, and this project's own.
+"""Solve chains of dyads in the usual ways, in other people's packages, and in this one.
 
-Closed forms and tables take whole arrays; what goes on from the previous pose goes pose by pose in plain
-floats, as a frame loop does. None of the usual ones is improved here: what they lose near limits and
-change points is what is measured. Rates follow from the differentiated equations of each dyad, solved at the
-pose found (Norton, Design of Machinery, chapters on velocity and acceleration analysis).
+Its parts, in reading order:
+
+- The usual ways to solve a chain of dyads, as they are usually written, and this project's own.
+- The same linkages in other people's packages: pylinkage (Assur groups, numba) and scipy (root finding).
+- The methods compared: who answers, from which source, and what of each is timed.
 """
 
 from __future__ import annotations
 
 import cmath
 import math
+from collections import deque
 from collections.abc import Callable, Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from linkanim.bench.chain import (
+from linkanim.bench.questions import (
+    FOUR_BAR,
     TURN,
+    CaseSet,
     Complexes,
     Dyad,
     DyadChain,
@@ -27,12 +31,22 @@ from linkanim.bench.chain import (
     Orders,
     Places,
     Question,
+    SlideStep,
     TurnStep,
+    circle_dyad,
     joined,
     placed,
     point_on,
 )
-from linkanim.mechanics.linkage.dyads import RRR
+from linkanim.bench.reference import Solve, answer
+from linkanim.mechanics.linkage import RRR
+
+# The usual ways to solve a chain of dyads, as they are usually written, and this project's own.
+#
+# Closed forms and tables take whole arrays; what goes on from the previous pose goes pose by pose in plain
+# floats, as a frame loop does. None of the usual ones is improved here: what they lose near limits and
+# change points is what is measured. Rates follow from the differentiated equations of each dyad, solved at
+# the pose found (Norton, Design of Machinery, chapters on velocity and acceleration analysis).
 
 INTERVALS = 360
 """Of a table, to one turn."""
@@ -273,3 +287,267 @@ def single(question: Question) -> Orders:
         }
         for order, quantity in enumerate(QUANTITIES[:1] if question.by_angle else QUANTITIES)
     )
+
+
+# The same linkages in other people's packages: pylinkage (Assur groups, numba) and scipy (root finding).
+
+
+class Model(NamedTuple):
+    """A pylinkage linkage, its cranks with their ratios, and the row of each joint in its answers."""
+
+    linkage: Any
+    cranks: tuple[tuple[Any, float], ...]
+    rows: dict[str, int]
+
+    def run_at(self, speed: float, gain: float) -> None:
+        """Have the input turn at this speed and acceleration, for the rates."""
+        for crank, ratio in self.cranks:
+            self.linkage.set_input_velocity(crank, ratio * speed, ratio * gain)
+
+
+def pylinkage_model(question: Question, rate: float) -> Model:
+    """Return the linkage at the question's first pose; its input turns by `rate` radians at every step."""
+    from pylinkage.components import Ground
+    from pylinkage.simulation import Linkage
+
+    made: dict[str, Any] = {name: Ground(at.real, at.imag) for name, at in question.chain.pins.items()}
+    parts, cranks = [*made.values()], []
+    rows = {name: row for row, name in enumerate(made)}
+    for step in question.chain.steps:
+        ends = (step.base, step.base + step.along) if isinstance(step, SlideStep) else ()
+        guide = [Ground(at.real, at.imag) for at in ends]
+        parts += guide
+        part = _part(step, made, question, rate, guide)
+        if isinstance(step, TurnStep):
+            cranks.append((part, step.ratio))
+        rows[step.name] = len(parts)
+        parts.append(part)
+        made[step.name] = part.output if isinstance(step, TurnStep) else part
+    model = Model(Linkage(parts), tuple(cranks), rows)
+    model.run_at(1.0, 0.0)
+    return model
+
+
+def _part(step: Any, made: dict[str, Any], question: Question, rate: float, guide: list[Any]) -> Any:
+    from pylinkage.actuators import Crank
+    from pylinkage.dyads import FixedDyad, RRPDyad, RRRDyad
+
+    start = question.start[step.name]
+    match step:
+        case TurnStep():
+            angle = step.ratio * float(question.angles[0]) + step.offset
+            return Crank(made[step.pivot], step.length, step.ratio * rate, angle)
+        case RRR():
+            ends = [made[end] for end in step.ends]
+            return RRRDyad(*ends, *step.lengths, start.real, start.imag)
+        case SlideStep():
+            return RRPDyad(made[step.end], *guide, step.length, start.real, start.imag)
+    return FixedDyad(*(made[name] for name in step.on), abs(step.at), cmath.phase(step.at))
+
+
+def pylinkage_fast(substeps: int) -> Callable[[Question], Orders]:
+    """Return step_fast from pose to pose, with so many of its own equal steps from one input to the next.
+
+    Inputs at unequal distances are one step apart. The first pose is given; the next ones lie nearest to
+    their predecessor, as its solver decides.
+    """
+
+    def solve(question: Question) -> Orders:
+        ways = np.diff(question.angles)
+        count = substeps if np.allclose(ways, ways[0], rtol=1e-3, atol=0.0) else 1
+
+        def take(linkage: Any, way: float) -> Any:
+            orders = linkage.step_fast_with_kinematics(count, dt=way / count)
+            return [order[-1] for order in orders]
+
+        return _walked(question, take)
+
+    return solve
+
+
+def pylinkage_step(question: Question) -> Orders:
+    """Do the same with step(); what it refuses as unbuildable is NaN."""
+    from pylinkage.exceptions import UnbuildableError
+
+    def take(linkage: Any, way: float) -> Any:
+        try:
+            orders = next(linkage.step_with_derivatives(1, dt=way))
+        except UnbuildableError:
+            return np.full((3, len(linkage.components), 2), np.nan)
+        return [[(np.nan, np.nan) if value is None else value for value in values] for values in orders]
+
+    return _walked(question, take)
+
+
+def _walked(question: Question, take: Callable[[Any, float], Any]) -> Orders:
+    """Return the poses from input to input, of each order all places as `take` gives them."""
+    model, found = pylinkage_model(question, 1.0), []
+    ways = np.diff(question.angles, prepend=question.angles[0]).tolist()
+    for way, speed, gain in zip(ways, *(rate.tolist() for rate in question.rates), strict=True):
+        model.run_at(speed, gain)
+        found.append(take(model.linkage, way))
+    orders = np.moveaxis(joined(np.array(found)), 1, 0)
+    return tuple({name: order[:, row] for name, row in model.rows.items()} for order in orders)
+
+
+def fsolve(question: Question) -> Orders:
+    """Solve each dyad's equations from its previous place; NaN where it says it did not converge."""
+    before, rows = dict(question.start), range(question.angles.size)
+
+    def close(dyad: Dyad, at: Places) -> Any:
+        return np.array([_found(dyad, at, row, before) for row in rows])
+
+    return (placed(question.chain, question.angles, close),)
+
+
+def _found(dyad: Dyad, at: Places, row: int, before: dict[str, complex]) -> complex:
+    from scipy.optimize import fsolve as find
+
+    ends = dyad.ends if isinstance(dyad, RRR) else (dyad.end,)
+    lengths = dyad.lengths if isinstance(dyad, RRR) else (dyad.length,)
+    places = [complex(at[end][row]) if np.ndim(at[end]) else complex(at[end]) for end in ends]
+    largest = max(lengths) ** 2
+
+    def equations(guess: Any) -> list[float]:
+        here = complex(guess[0], guess[1])
+        ways = [abs(here - place) ** 2 - length**2 for place, length in zip(places, lengths, strict=True)]
+        off = [] if isinstance(dyad, RRR) else [((here - dyad.base) * dyad.along.conjugate()).imag]
+        return [way / largest for way in ways] + [way / max(lengths) for way in off]
+
+    start = before[dyad.name]
+    root, _, flag, _ = find(equations, (start.real, start.imag), full_output=True)
+    if flag != 1:
+        return NOWHERE
+    before[dyad.name] = complex(root[0], root[1])
+    return before[dyad.name]
+
+
+# The methods compared: who answers, from which source, and what of each is timed.
+
+FEW, MANY = 10_000, 1_000_000
+ONE_BY_ONE = 720
+"""Poses to a timing of methods that take one at a time."""
+_DYADS = "each dyad's equations"
+
+
+@dataclass(frozen=True)
+class Timed:
+    """Work to be timed, and how many poses it gives."""
+
+    work: Callable[[], object]
+    poses: int
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A row: the method, its accuracy's `solve`, and the work for positions and with derivatives.
+
+    `key` names it for ratios. Rows that share a `solve` are solved once.
+    """
+
+    mechanism: str
+    key: str
+    name: str
+    source: str
+    solve: Solve
+    position: Timed
+    derivatives: Timed | None = None
+
+
+def entries(mechanism: CaseSet) -> tuple[Entry, ...]:
+    """Return all rows of a mechanism in the order of the table."""
+    first = answer(replace(mechanism.easy, inputs=mechanism.easy.inputs[:1])).question
+    counts = (FEW, MANY) if mechanism is FOUR_BAR else (FEW,)
+    turns = {count: _one_turn(first, count) for count in (*counts, ONE_BY_ONE, 180)}
+    many = [turns[count] for count in counts]
+    rows = (*_own(many, turns[ONE_BY_ONE]), *_usual(turns[FEW], turns[ONE_BY_ONE]))
+    packages = _packages(many, turns[ONE_BY_ONE], turns[180])
+    return tuple(replace(row, mechanism=mechanism.name) for row in (*rows, *packages))
+
+
+def _one_turn(first: Question, count: int) -> Question:
+    """Return one turn of the easy cycle in so many poses."""
+    angles = np.arange(count, dtype=np.float64) * (TURN / count)
+    sides = {name: np.full(count, side[0]) for name, side in first.sides.items()}
+    rates = (np.ones(count), np.zeros(count))
+    return replace(first, angles=angles, phases=angles, rates=rates, sides=sides)
+
+
+def _timed(solve: Callable[[Question], object], question: Question) -> Timed:
+    return Timed(lambda: solve(question), question.angles.size)
+
+
+def _own(turns: list[Question], one: Question) -> Iterator[Entry]:
+    here = "linkanim, this solver"
+    for key, turn in zip(("batch", "batch, many"), turns, strict=False):
+        name, runs = f"linkanim, {turn.angles.size:,} at once", (_timed(_solved(n), turn) for n in (0, 2))
+        yield Entry("", key, name, here, batch, *runs)
+    runs = (_timed(_posed(derivatives), one) for derivatives in (0, 2))
+    yield Entry("", "single", "linkanim, one pose a call", here, single, *runs)
+
+
+def _solved(derivatives: int) -> Callable[[Question], object]:
+    """Return the solver with what it gives read, which is worked out only then."""
+    read = QUANTITIES[derivatives]
+    return lambda question: getattr(
+        question.scene.solve(angle=question.angles, derivatives=derivatives), read
+    )
+
+
+def _posed(derivatives: int) -> Callable[[Question], object]:
+    def run(question: Question) -> None:
+        pose = question.scene.pose
+        for phase in question.phases.tolist():
+            pose(phase, derivatives)
+
+    return run
+
+
+def _usual(few: Question, one: Question) -> Iterator[Entry]:
+    """Yield closed forms, what goes on from pose to pose, and tables."""
+    norton = "Norton, Design of Machinery"
+    yield _rated("half-angle", "half-angle formula", norton, closed(half_angle_dyad), few)
+    yield _rated("circles", "circle intersection", "Bourke 1997", closed(circle_dyad), few)
+    for count in (1, 2, 3):
+        name = f"Newton, {count} iteration{'s' if count > 1 else ''}"
+        yield _rated(f"newton {count}", name, _DYADS, newton(count), one)
+    rk4 = runge_kutta
+    yield Entry("", "rk4", "RK4 on the velocity", _DYADS, rk4, _timed(rk4, one))
+    table = table_of(few)
+    for key, words, read in (
+        ("linear", "straight lines", linear),
+        ("cubic", "Hermite's cubics", cubic),
+    ):
+        name, looked_up = f"table of 1° steps, {words}", _timed(_reading(read, table), few)
+        yield Entry("", key, name, "poses of this solver", _reading(read), looked_up)
+
+
+def _rated(key: str, name: str, source: str, places: Callable[[Question], Places], turn: Question) -> Entry:
+    """Return the row of a method that gives positions, its rates being those of `rated`."""
+    solve = rated(places)
+    return Entry("", key, name, source, solve, _timed(places, turn), _timed(solve, turn))
+
+
+def _reading(read: Callable[[Samples, Question], Orders], table: Samples | None = None) -> Solve:
+    """Return what reads a table, the question's own where none is given."""
+    return lambda question: read(table or table_of(question), question)
+
+
+def _packages(turns: list[Question], one: Question, fewest: Question) -> Iterator[Entry]:
+    for key, turn in zip(("pylinkage", "pylinkage, many"), turns, strict=False):
+        count = turn.angles.size
+        model = pylinkage_model(turn, TURN / count).linkage
+        runs = (
+            Timed(partial(work, count), count) for work in (model.step_fast, model.step_fast_with_kinematics)
+        )
+        solve, name = pylinkage_fast(round(count / 360)), f"pylinkage step_fast, {count:,} at once"
+        yield Entry("", key, name, "pylinkage, numba", solve, *runs)
+    count = one.angles.size
+    model = pylinkage_model(one, TURN / count).linkage
+    runs = (Timed(_walked_entries(work, count), count) for work in (model.step, model.step_with_derivatives))
+    yield Entry("", "pylinkage step", "pylinkage step()", "pylinkage", pylinkage_step, *runs)
+    yield Entry("", "fsolve", "scipy fsolve", "scipy.optimize", fsolve, _timed(fsolve, fewest))
+
+
+def _walked_entries(work: Callable[[int], Iterator[object]], count: int) -> Callable[[], object]:
+    return lambda: deque(work(count), maxlen=0)

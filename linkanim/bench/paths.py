@@ -17,9 +17,9 @@ import numpy as np
 
 from linkanim.bench.result import Progress
 from linkanim.export import columns, json_text, markdown
-from linkanim.synthesis.curves.drawn import drawn
-from linkanim.synthesis.kinds import FOUR_BAR, Complex, Real
-from linkanim.synthesis.request import path
+from linkanim.synthesis.curves import drawn
+from linkanim.synthesis.linkages import FOUR_BAR, Complex, Real
+from linkanim.synthesis.path import path
 
 CURVES = 200
 TITLES = ("problem", "measure", "linkanim", "beside it", "seconds")

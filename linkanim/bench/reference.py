@@ -1,13 +1,14 @@
-"""Answers of many digits by the plainest closed forms: where circles and lines cross.
+"""Answer with many digits by the plainest closed forms, and score others by these answers.
 
-Nothing is shared with the solver. The square root of a difference may lose half of the digits and still have
-more than a float holds; rates are central differences of a step so small, at so many digits, that they are
-exact to far more than a float has.
+Its parts, in reading order:
+
+- Answers of many digits by the plainest closed forms: where circles and lines cross.
+- What a method's answers are worth beside the exact ones.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -15,13 +16,14 @@ from typing import Any
 import numpy as np
 from mpmath import mp, mpc, mpf, workdps
 
-from linkanim.bench.cases import Case
-from linkanim.bench.chain import (
+from linkanim.bench.questions import (
+    Case,
     Complexes,
     Dyad,
     DyadChain,
     FixedStep,
     Floats,
+    Orders,
     Places,
     Question,
     SlideStep,
@@ -32,7 +34,13 @@ from linkanim.bench.chain import (
     longest_of,
     placed,
 )
-from linkanim.mechanics.linkage.dyads import RRR
+from linkanim.mechanics.linkage import RRR
+
+# Answers of many digits by the plainest closed forms: where circles and lines cross.
+#
+# Nothing is shared with the solver. The square root of a difference may lose half of the digits and still
+# have more than a float holds; rates are central differences of a step so small, at so many digits, that
+# they are exact to far more than a float has.
 
 DIGITS = 140
 STEP = mpf(10) ** -22
@@ -218,4 +226,90 @@ def _exact(values: list[Any]) -> Exact:
     high = _rounded(values)
     return Exact(
         high, _rounded([value - mpc(near) for value, near in zip(values, high.tolist(), strict=True)])
+    )
+
+
+# What a method's answers are worth beside the exact ones.
+
+Solve = Callable[[Question], Orders]
+
+APART = 1e-8
+"""In longest links: closures nearer than this count as one."""
+
+
+@dataclass(frozen=True)
+class Score:
+    """How many poses; the worst errors among those on the right closure; the others, counted.
+
+    Errors are those of position, velocity and acceleration, of the joint that is farthest off: positions in
+    longest links, rates in longest links or the pose's largest rate, whichever is more. NaN where no pose is
+    right or the method gives none. A pose is `wrong` where a dyad's joint lies at most half as far from its
+    other closure, `nan` where a position is not a number.
+    """
+
+    poses: int
+    error: float
+    velocity_error: float
+    acceleration_error: float
+    wrong: int
+    nan: int
+
+    @property
+    def errors(self) -> tuple[float, float, float]:
+        """The worst errors of position, velocity and acceleration."""
+        return self.error, self.velocity_error, self.acceleration_error
+
+
+def score(solve: Solve, answer: Answer) -> Score:
+    """Return what one method's answer is worth."""
+    with np.errstate(all="ignore"):
+        found = solve(answer.question)
+        longest = answer.question.longest
+        error = _farthest(found[0], answer.orders[0]) / longest
+        wrong, missing = _elsewhere(found[0], answer), ~np.isfinite(error)
+        right = ~wrong & ~missing
+        rates = [
+            _farthest(places, exact) / np.maximum(_largest(exact), longest)
+            for places, exact in zip(found[1:], answer.orders[1:], strict=False)
+        ]
+    position, velocity, acceleration, *_ = (*(_worst(one, right) for one in (error, *rates)), np.nan, np.nan)
+    return Score(error.size, position, velocity, acceleration, int(wrong.sum()), int(missing.sum()))
+
+
+def together(scores: Sequence[Score]) -> Score:
+    """Return the worst errors and the sums of several scores."""
+    errors = zip(*(score.errors for score in scores), strict=True)
+    position, velocity, acceleration = (
+        max((error for error in order if not np.isnan(error)), default=float("nan")) for order in errors
+    )
+    poses, wrong, nan = map(sum, zip(*((one.poses, one.wrong, one.nan) for one in scores), strict=True))
+    return Score(poses, position, velocity, acceleration, wrong, nan)
+
+
+def _worst(errors: Floats, right: Any) -> float:
+    """Return the largest error of the right poses; a rate that is no number there is unboundedly wrong."""
+    kept = errors[right]
+    if not kept.size or np.isnan(errors).all():
+        return float("nan")
+    return float(np.nan_to_num(kept, nan=np.inf).max())
+
+
+def _farthest(found: Places, exact: Mapping[str, Exact]) -> Floats:
+    return np.max([place.distance(found[name]) for name, place in exact.items()], axis=0)  # type: ignore[no-any-return]
+
+
+def _largest(exact: Mapping[str, Exact]) -> Floats:
+    return np.max([np.abs(place.high) for place in exact.values()], axis=0)  # type: ignore[no-any-return]
+
+
+def _elsewhere(found: Places, answer: Answer) -> Any:
+    """Return which poses lie on another closure than the right one."""
+    here, apart = answer.orders[0], APART * answer.question.longest
+    return np.any(
+        [
+            (np.abs(other - here[name].high) > apart)
+            & (2 * np.abs(found[name] - other) < here[name].distance(found[name]))
+            for name, other in answer.other.items()
+        ],
+        axis=0,
     )

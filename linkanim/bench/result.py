@@ -1,24 +1,94 @@
-"""What a run of the benchmark found: rows of speed and error."""
+"""Measure speed and error, and show them as a table or as JSON.
+
+Its parts, in reading order:
+
+- Times of many pieces of work, taken in turn, so that a busy machine slows all of them alike.
+- What a run of the benchmark found: rows of speed and error.
+- A result as a table for the terminal or the README, and as JSON.
+"""
 
 from __future__ import annotations
 
+import math
 import os
 import platform
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Any, NamedTuple
+from statistics import median
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
-from linkanim.bench.accuracy import Score, Solve, score, together
-from linkanim.bench.cases import MECHANISMS, CaseSet
-from linkanim.bench.entries import Entry, Timed, entries
-from linkanim.bench.reference import answer
-from linkanim.bench.timing import nanoseconds
+from linkanim.bench.methods import Entry, Timed, entries
+from linkanim.bench.questions import MECHANISMS, CaseSet
+from linkanim.bench.reference import Score, Solve, answer, score, together
+from linkanim.export import columns, json_text, markdown
+
+# Times of many pieces of work, taken in turn, so that a busy machine slows all of them alike.
+#
+# What counts is the processor's time: all of the work is done in one thread, and what other processes
+# take from it is not its own.
+
+Key = TypeVar("Key")
+
+ROUNDS = 21
+FEWEST = 3
+LEAST_SECONDS = 0.02
+"""A timing repeats short work until it is at least as long."""
+
+
+def nanoseconds(
+    work: Mapping[Key, Timed],
+    *,
+    rounds: int = ROUNDS,
+    budget: float = math.inf,
+    clock: Callable[[], float] = time.process_time,
+    wall: Callable[[], float] = time.perf_counter,
+    progress: Callable[[int, int], None] | None = None,
+) -> dict[Key, float]:
+    """Return the median time of each piece of work in ns a pose.
+
+    Each is run before, to see how often it must be repeated; then, `rounds` times, all of them in
+    turn: fewer where `budget` seconds are over by the `wall`'s clock, but three. `progress` is told
+    (rounds done, rounds in all).
+    """
+    repeats = {key: _repeats(timed, clock) for key, timed in work.items()}
+    taken: dict[Key, list[float]] = {key: [] for key in work}
+    start = wall()
+    for done in range(rounds):
+        if done >= FEWEST and wall() - start > budget:
+            break
+        for key, timed in work.items():
+            taken[key].append(_seconds(timed, repeats[key], clock) / (timed.poses * repeats[key]))
+        if progress is not None:
+            progress(done + 1, rounds)
+    return {key: median(times) * 1e9 for key, times in taken.items()}
+
+
+def _repeats(timed: Timed, clock: Callable[[], float]) -> int:
+    once = _seconds(timed, 1, clock)
+    return max(round(LEAST_SECONDS / once), 1) if once > 0 else 1
+
+
+def _seconds(timed: Timed, repeats: int, clock: Callable[[], float]) -> float:
+    """Return the time of the repeats; the first is run once more before, and not timed.
+
+    Memory that lay idle between rounds may have gone back to the machine below a virtual one, and
+    what it takes to get it again is not the work's own.
+    """
+    timed.work()
+    start = clock()
+    for _ in range(repeats):
+        timed.work()
+    return clock() - start
+
+
+# What a run of the benchmark found: rows of speed and error.
 
 Progress = Callable[[int, int], None]
-Key = tuple[str, str, int]
+Row = tuple[str, str, int]
 """A timed piece of work: mechanism, row, and the number of derivatives."""
 
 BUDGET = 150.0
@@ -88,7 +158,7 @@ def run(
     return Result(this_machine(), found)
 
 
-def _work(methods: Sequence[Entry]) -> dict[Key, Timed]:
+def _work(methods: Sequence[Entry]) -> dict[Row, Timed]:
     """Return all that is timed."""
     work = {(entry.mechanism, entry.key, 0): entry.position for entry in methods}
     rates = {(entry.mechanism, entry.key, 2): entry.derivatives for entry in methods if entry.derivatives}
@@ -102,7 +172,7 @@ def _scores(mechanism: CaseSet, methods: Sequence[Entry]) -> dict[Solve, dict[st
     return {solve: {name: score(solve, exact) for name, exact in answers.items()} for solve in solves}
 
 
-def _row(entry: Entry, times: Mapping[Key, float], scores: Mapping[str, Score]) -> Measured:
+def _row(entry: Entry, times: Mapping[Row, float], scores: Mapping[str, Score]) -> Measured:
     easy, *hard = scores.values()
     nanos = [times.get((entry.mechanism, entry.key, order)) for order in (0, 2)]
     assert nanos[0] is not None
@@ -128,3 +198,76 @@ def _cpu() -> str:
         lines = []
     named = (line.partition(":")[2].strip() for line in lines if line.startswith("model name"))
     return next(named, "") or platform.processor() or platform.machine()
+
+
+# A result as a table for the terminal or the README, and as JSON.
+
+TITLES = (
+    "method",
+    "ns a pose",
+    "with derivatives",
+    "easy: position, velocity, acceleration",
+    "hard",
+    "wrong closure",
+    "NaN",
+)
+NOTE = (
+    "ns a pose: processor time, medians of runs in turn. Errors against 50 digits and more, the worst of all "
+    "joints: positions in longest links, rates in longest links or the pose's largest rate, of poses on the "
+    "right closure; wrong closure and NaN: of {poses} hard poses."
+)
+
+
+def as_text(result: Result) -> str:
+    """Return the machine and the tables in aligned columns."""
+    tables = [f"{name}\n{columns([TITLES, *rows])}" for name, rows in _by_mechanism(result)]
+    return "\n\n".join([result.machine.line, *tables, _note(result)])
+
+
+def as_markdown(result: Result) -> str:
+    """Return the table, its mechanisms one after the other, and where it was measured, for the README."""
+    blank = [""] * (len(TITLES) - 1)
+    rows = [line for name, lines in _by_mechanism(result) for line in ([f"**{name}**", *blank], *lines)]
+    return f"{markdown([TITLES, *rows])}\n\n{_note(result)} Measured on {result.machine.line}.\n"
+
+
+def _by_mechanism(result: Result) -> Iterator[tuple[str, list[Sequence[str]]]]:
+    """Yield each mechanism's name and its lines."""
+    for name in dict.fromkeys(row.mechanism for row in result.rows):
+        yield name, [_line(row) for row in result.rows if row.mechanism == name]
+
+
+def _note(result: Result) -> str:
+    poses = {row.mechanism: row.hard.poses for row in result.rows}
+    return NOTE.format(poses=", ".join(f"{count:,} ({name})" for name, count in poses.items()))
+
+
+def _line(row: Measured) -> Sequence[str]:
+    times = (_time(row.ns_position), "" if row.ns_derivatives is None else _time(row.ns_derivatives))
+    return (
+        row.method,
+        *times,
+        _errors(row.easy),
+        _errors(row.hard),
+        f"{row.hard.wrong:,}",
+        f"{row.hard.nan:,}",
+    )
+
+
+def _time(nanos: float) -> str:
+    return f"{nanos:,.1f}" if nanos < 100 else f"{float(f'{nanos:.3g}'):,.0f}"
+
+
+def _errors(score: Score) -> str:
+    """Return the errors of position and, where there are any, of rates; beyond 1 they mean nothing."""
+    if math.isnan(score.error):
+        return "none right"
+    return ", ".join(
+        "> 1" if error > 1 else f"{error:.1e}" for error in score.errors if not math.isnan(error)
+    )
+
+
+def as_json(result: Result) -> str:
+    """Return one object: machine, rows with every case; null where there is no number."""
+    found = {"machine": result.machine._asdict(), "rows": [asdict(row) for row in result.rows]}
+    return json_text(found, indent=2)

@@ -1,12 +1,23 @@
 """A linkage built by hand on an empty sheet: a frozen draft, the gestures that change it, what it comes to.
 
-The window keeps one `Building` (`building.py`): the `draft`, the `chosen` thing, the digits `typed` for its
+From the ground up; a module imports from those before it only:
+
+    draft       what has been drawn, and how its things are named
+    places      which dyad each joint is; places to numbers and back; the shapes to be seen of a draft
+    freedom     the degrees of freedom of a drawing: what its joints may do, less the rank of what holds the
+    scene_form  a draft as the document of a scene file, and why there is none yet
+    building    a drawing at work: what is chosen and typed, the scene made, undo; a scene taken apart
+    gestures    what a hand draws, what is done to the chosen thing, what lies under the pointer
+    dimensions  the numbers of the chosen thing, and digits typed for one of them
+    storing     a draft as plain data, and back
+
+The window keeps one `Building`: the `draft`, the `chosen` thing, the digits `typed` for its
 number `row`, `past` and `future`, and a `sentence` of what the last gesture did or why not. Every gesture is
 a pure function that returns another Building; its parameters are names, numbers and texts, as tapes keep
 them. A thing is a pair (kind, name): ("joints", "A"), ("bars", "A–B"), ("guides", "1"), ("springs", "s"),
 ("drive", "input"), ... Points are in the draft's unit of length, y upwards.
 
-By pointer (`pointing.py`): `reach` is how near counts as on it, `snap` the step of places, lengths and
+By pointer: `reach` is how near counts as on it, `snap` the step of places, lengths and
 (so that ends move less than it) angles: 1 or 10 for a grid, 0.1 with Shift, 0 with Alt. Tools: see `TOOLS`.
 
     click(building, tool, x, y, reach=, snap=)    a ground pin on paper; else chooses what is there
@@ -14,7 +25,7 @@ By pointer (`pointing.py`): `reach` is how near counts as on it, `snap` the step
     drag(building, tool, x, y, to_x, to_y, reach=, snap=)    a bar, a guide, a spring, ... as the tool says
     under(draft, x, y, reach)                                what is there: a thing, or None
 
-On the chosen thing, also by keys (`chosen.py`, `dimensions.py`, `building.py`):
+On the chosen thing:
 
     choose(building, further)      the next thing, or the one before    choose_thing(building, kind, name)
     move(building, x, y, snap=)    what is chosen goes to a point       delete(building)
@@ -23,7 +34,7 @@ On the chosen thing, also by keys (`chosen.py`, `dimensions.py`, `building.py`):
     choose_number(building, further)                                    the next number of it
     undo(building), redo(building)
 
-A photograph behind it (`gestures.py`): `lay_photo(building, file, x, y, width)`, `move_photo(building, x, y,
+A photograph behind it: `lay_photo(building, file, x, y, width)`, `move_photo(building, x, y,
 to_x, to_y)`, `fit_photo(building, x, y, to_x, to_y, x2, y2, to_x2, to_y2)`, by two known points.
 
 `numbers_of(draft, chosen)` are its numbers (label, value, unit), `row` the one that digits are for.
@@ -31,10 +42,7 @@ to_x, to_y)`, `fit_photo(building, x, y, to_x, to_y, x2, y2, to_x2, to_y2)`, by 
 What comes of it: `building.made.scene` (a Scene, or None) and `building.made.missing` (why there is none).
 The scene's document is its file: `scenes.editing.write.save` writes it. While there is a scene, the window
 draws that, and calls `posed(building, phase)` before a gesture, so that places are those of the pose on
-the screen. Without a scene it draws `drawn(draft)` (`shapes.py`). `building_of(scene)` (`origin.py`) begins
+the screen. Without a scene it draws `drawn(draft)`. `building_of(scene)` begins
 with a scene; `stored(draft)` is the draft as plain data, for JSON, `restored(tables)` a building with it
 (`storing.py`).
-
-`order` finds the dyads in a draft, `making` its scene, `shorthand` the few lines that say the same; `places`
-is numbers to places and back, `missing` what to say before it moves.
 """

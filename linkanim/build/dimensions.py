@@ -9,27 +9,22 @@ from typing import Any
 
 from linkanim.build.building import Building, changed, refused
 from linkanim.build.draft import DRIVE, JOINT, Draft, Thing
-from linkanim.build.order import lengths_within
-from linkanim.build.places import crank_of, fitted, with_number
-from linkanim.build.rounding import round_number
+from linkanim.build.places import crank_of, fitted, lengths_within, round_number, with_number
 from linkanim.errors import BadInput
-from linkanim.scenes.editing.edit import Dimension, dimension_of, written
-from linkanim.scenes.fields import drive, scene_file
-from linkanim.scenes.fields import joints as forms
-from linkanim.scenes.fields.form import Field, Form, Key
-from linkanim.scenes.fields.table import Context, Table
-from linkanim.scenes.fields.types import LENGTHS, OFFSET
+from linkanim.scenes import file_form
+from linkanim.scenes.editing import Dimension, dimension_of, written
+from linkanim.scenes.form import LENGTHS, OFFSET, Context, Field, Form, Key, Table
 
 _FORMS: Mapping[str, Form] = {
-    "bars": Form((forms.CRANK.field("length"),)),
-    "points": forms.BODY_POINT,
-    "guides": forms.LINE,
-    "slots": Form((forms.SLOT.field("offset"),)),
-    "yokes": Form((forms.SLIDE.field("slot"),)),
-    "gears": forms.GEAR,
-    "springs": scene_file.SPRING,
-    "dampers": scene_file.DAMPER,
-    "drive": drive.DRIVE,
+    "bars": Form((file_form.CRANK.field("length"),)),
+    "points": file_form.BODY_POINT,
+    "guides": file_form.LINE,
+    "slots": Form((file_form.SLOT.field("offset"),)),
+    "yokes": Form((file_form.SLIDE.field("slot"),)),
+    "gears": file_form.GEAR,
+    "springs": file_form.SPRING,
+    "dampers": file_form.DAMPER,
+    "drive": file_form.DRIVE,
 }
 """What may be said of each kind, as a scene file has it."""
 _UNITS = {"angle": "deg", "speed": "rpm", "stiffness": "N/m", "damping": "N s/m", "ratio": ""}
@@ -91,8 +86,8 @@ def _fields(draft: Draft, thing: Thing | None) -> Iterator[tuple[Key, Field]]:
     kind, name = thing
     if kind == JOINT:
         if name in draft.of("pins"):
-            yield from ((("pins", name, part), forms.PLACE) for part in (0, 1))
-            yield from ((("pins", name, one.key), one) for one in forms.POLAR_PIN.fields)
+            yield from ((("pins", name, part), file_form.PLACE) for part in (0, 1))
+            yield from ((("pins", name, one.key), one) for one in file_form.POLAR_PIN.fields)
         for own in ("points", "yokes", "gears"):
             if name in draft.of(own):
                 yield from _of_form(_FORMS[own], draft.of(own)[name], (own, name))

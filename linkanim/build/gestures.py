@@ -1,19 +1,50 @@
-"""What a hand draws, by name: each gesture gives another building, or the same and why it cannot be."""
+"""What a hand does on the sheet; each gesture gives another building, or the same and why it cannot be.
+
+First what a hand draws, by name; then what is done to the chosen thing; last what a click or a drag does at
+a place, by what lies under the pointer and the tool in hand.
+"""
 
 from __future__ import annotations
 
 from cmath import phase, rect
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from typing import Any
+from math import floor, inf, log10
+from typing import Any, Final
 
-from linkanim.build.building import Building, changed, refused
-from linkanim.build.draft import DRIVE, JOINT, Draft, Photo, Thing
-from linkanim.build.making import made
-from linkanim.build.naming import body_name, joint_name, numbered, pin_name
-from linkanim.build.order import line_of, place_of, plates_of
-from linkanim.build.places import at_on, crank_of, foot, gear_offset, moved
-from linkanim.build.rounding import round_angle, round_length, round_number, snapped
+from linkanim.build.building import Building, changed, choosing, refused
+from linkanim.build.draft import (
+    DRIVE,
+    JOINT,
+    Draft,
+    Photo,
+    Thing,
+    body_name,
+    joint_name,
+    named_in,
+    numbered,
+    pin_name,
+)
+from linkanim.build.places import (
+    at_on,
+    crank_of,
+    fitted,
+    foot,
+    from_span,
+    gear_offset,
+    line_of,
+    moved,
+    place_of,
+    plates_of,
+    round_angle,
+    round_length,
+    round_number,
+    snapped,
+    with_number,
+)
+from linkanim.build.scene_form import made
+
+# What a hand draws, by name: each gesture gives another building, or the same and why it cannot be.
 
 SPEED = "20 rpm"
 SHARES = (0.25, 0.12, 0.06, 0.03, 0.015)
@@ -272,3 +303,260 @@ def _with_slider(draft: Draft, joint: str, name: str) -> Draft:
 
 def _with_slot(draft: Draft, name: str, joint: str) -> Draft:
     return draft.having("slots", f"{joint} in {name}", {"bar": name, "through": joint})
+
+
+# What is done to the chosen thing: it is moved, driven, traced, removed; and the next one is chosen.
+
+OWN = ("pins", "points", "sliders", "yokes", "gears", "sides")
+"""The kinds of tables whose names are those of joints."""
+_HELD = ("pins", "points", "sliders")
+_WORDS = {JOINT: "joint", "drive": "drive"}
+
+
+def choose(building: Building, further: int) -> Building:
+    """Return the building with the next thing chosen, or one so many further: joints, bars, guides, ..."""
+    things = list(building.draft.things())
+    if not things:
+        return refused(building, "Nothing is drawn yet: a click sets a ground pin")
+    now = things.index(building.chosen) if building.chosen in things else -1 if further > 0 else 0
+    return choosing(building, things[(now + further) % len(things)])
+
+
+def choose_thing(building: Building, kind: str, name: str) -> Building:
+    """Return the building with a thing chosen; with nothing where there is none of that name."""
+    thing = (kind, name)
+    return choosing(building, thing if thing in set(building.draft.things()) else None)
+
+
+def move(building: Building, x: float, y: float, *, snap: float) -> Building:
+    """Return the building with what is chosen at a point: a joint, or a guide that then runs through it.
+
+    Numbers follow, but for typed ones.
+    """
+    draft, thing = building.draft, building.chosen
+    place = snapped(complex(x, y), snap)
+    if thing and thing[0] == JOINT:
+        scene = building.made.scene
+        phase = draft.phase if scene is None or scene.info.full_turn else None
+        return changed(building, moved(draft, thing[1], place, snap, phase), thing)
+    if thing and thing[0] == "guides" and (*thing, "offset") not in draft.typed:
+        table = {**draft.of("guides")[thing[1]], "offset": 0}
+        start, way = line_of(draft, table)
+        offset = round_number(((place - start) * way.conjugate()).imag, snap)
+        return changed(building, fitted(with_number(draft, (*thing, "offset"), offset)), thing)
+    return refused(building, "Choose a joint or a guide to move it")
+
+
+def trace(building: Building) -> Building:
+    """Return the building with the curve of the chosen joint drawn, or no longer."""
+    draft, thing = building.draft, building.chosen
+    if not thing or thing[0] != JOINT:
+        return refused(building, "Choose a joint to draw its curve")
+    left = [name for name in draft.trace if name != thing[1]]
+    joints = left if thing[1] in draft.trace else [*left, thing[1]]
+    return changed(building, replace(draft, rest={**draft.rest, "trace": {"joints": joints}}), thing)
+
+
+def drive(building: Building) -> Building:
+    """Return the building with the chosen thing as the drive: a crank, its bar, or a slider."""
+    draft = building.draft
+    joint = _drivable(draft, building.chosen)
+    if joint is None:
+        return refused(building, "Choose a crank (a bar on a ground pin) or a slider to drive it")
+    draft = draft.having("gears", joint, None)
+    if joint in draft.of("sliders"):
+        tables = _slider_drives(draft, joint)
+    else:
+        pivot = str(crank_of(draft, joint))
+        tables = [
+            crank_drive(draft, pivot, joint, abs(place_of(draft, joint) - place_of(draft, pivot)) / 100)
+        ]
+    return driven(building, draft, tables, building.chosen, f"{joint} is driven")
+
+
+def delete(building: Building) -> Building:
+    """Return the building without the chosen thing, and without what hangs on it alone."""
+    draft, thing = building.draft, building.chosen
+    if thing is None:
+        return refused(building, "Choose what is to be removed")
+    left = _without(draft, thing)
+    kept = {*left.things(), thing, DRIVE}
+    gone = (one for one in draft.things() if one not in kept)
+    first, *others = (f"{_WORDS.get(kind, kind[:-1])} {name}" for kind, name in (thing, *gone))
+    with_it = f", with {', '.join(others)}" if others else ""
+    return changed(building, left, None, f"Removed {first}{with_it}")
+
+
+def _drivable(draft: Draft, thing: Thing | None) -> str | None:
+    """Return the joint that is driven where a thing is: the moving end of a crank, or a slider."""
+    pins = draft.of("pins")
+    if thing and thing[0] == "bars":
+        first, second = draft.ends(thing[1])
+        return second if first in pins else first if second in pins else None
+    if thing and thing[0] == JOINT and thing[1] not in pins:
+        is_crank = any(end in pins for _, end, _ in draft.bars_at(thing[1]))
+        return thing[1] if is_crank or thing[1] in draft.of("sliders") else None
+    return None
+
+
+def _slider_drives(draft: Draft, joint: str) -> list[dict[str, Any]]:
+    """Return drives of a slider that goes to both sides by a share of its longest bar."""
+    guide = draft.of("guides")[draft.of("sliders")[joint]["guide"]]
+    start, way = line_of(draft, {**guide, "offset": 0})
+    travel = ((place_of(draft, joint) - start) * way.conjugate()).real
+    bars = [abs(place_of(draft, end) - place_of(draft, joint)) for _, end, _ in draft.bars_at(joint)]
+    longest = max(bars, default=0.0) or abs(travel) or 100.0
+    drives = []
+    for part in SHARES:
+        reach, step = longest * part, 10.0 ** floor(log10(longest * part) - 1)
+        limits = {"from": round_number(travel - reach, step), "to": round_number(travel + reach, step)}
+        drives.append({"speed": draft.drive.get("speed", SPEED), "slider": {"joint": joint, **limits}})
+    return drives
+
+
+def _without(draft: Draft, thing: Thing) -> Draft:
+    """Return the draft without a thing, what names it, and joints that nothing holds any longer."""
+    gone = {thing}
+    while more := {*_hanging(draft, gone), *_loose(draft, gone)} - gone:
+        gone |= more
+    joints = {name for kind, name in gone if kind == JOINT}
+    tables = {
+        kind: {name: table for name, table in every.items() if (kind, name) not in gone}
+        for kind, every in draft.tables.items()
+    }
+    bodies = {name: _shorter(table, joints) for name, table in tables.get("bodies", {}).items()}
+    tables["bodies"] = {name: table for name, table in bodies.items() if len(table.get("joints", "  ")) > 1}
+    places = {name: place for name, place in draft.places.items() if name not in joints}
+    trace = {"joints": [name for name in draft.trace if name not in joints]}
+    typed = frozenset(key for key in draft.typed if str(key[1]) in tables.get(str(key[0]), {}))
+    rest = {**draft.rest, "trace": trace} if draft.trace else draft.rest
+    return replace(draft, places=places, tables=tables, typed=typed, rest=rest)
+
+
+def _shorter(body: Mapping[str, Any], gone: set[str]) -> Mapping[str, Any]:
+    kept = [joint for joint in body.get("joints", ()) if joint not in gone]
+    return {**body, "joints": kept} if "joints" in body else body
+
+
+def _hanging(draft: Draft, gone: set[Thing]) -> Iterator[Thing]:
+    """Yield the tables that say nothing without things that are gone; the drive where its crank is."""
+    bars = draft.of("bars")
+    axes = [set(bars[name]["joints"]) for kind, name in gone if kind == "bars"]
+    for kind, every in draft.tables.items():
+        for name, table in every.items():
+            own = {(JOINT, name)} if kind in OWN else set()
+            if kind == "bodies":
+                lost = ("sliders", table.get("slider")) in gone or any(
+                    axis <= set(table.get("joints", ())) for axis in axes
+                )
+            else:
+                axis = set(table.get("on", ())) if isinstance(table, Mapping) else set()
+                lost = bool(gone & {*named_in(table), *own}) or axis in axes
+            if lost:
+                yield kind, name
+    bars_left = [end for name, end, _ in draft.bars_at(draft.driven or "") if ("bars", name) not in gone]
+    if draft.driven and "slider" not in draft.drive and not draft.of("pins").keys() & set(bars_left):
+        yield DRIVE
+
+
+def _loose(draft: Draft, gone: set[Thing]) -> Iterator[Thing]:
+    """Yield the joints that nothing holds: no pin, no point of a body, no slider, without a bar."""
+    for joint in draft.places:
+        held = any(joint in draft.of(kind) and (kind, joint) not in gone for kind in _HELD)
+        if not held and all(("bars", name) in gone for name, _, _ in draft.bars_at(joint)):
+            yield JOINT, joint
+
+
+# What lies under the pointer, and what a click or a drag there does with the tool in hand.
+
+TOOLS: Final = ("bar", "guide", "slider", "slot", "gear", "spring", "damper", "cylinder", "move")
+"""The tools, in the order of their icons."""
+_TARGETS = {"slider": "on a guide", "slot": "on a bar, or on a slider"}
+
+
+def under(draft: Draft, x: float, y: float, reach: float) -> Thing | None:
+    """Return what lies within `reach` of a point: the nearest joint, else bar or strut, else guide."""
+    point = complex(x, y)
+    joints = [((JOINT, name), abs(place_of(draft, name) - point)) for name in draft.places]
+    spans = [
+        (thing, abs(from_span(place_of(draft, one), place_of(draft, other), point)))
+        for thing, (one, other) in _spans(draft)
+    ]
+    guides = [(("guides", name), abs(foot(draft, name, point) - point)) for name in draft.of("guides")]
+    for kind in (joints, spans, guides):
+        thing, off = min(kind, key=lambda pair: pair[1], default=((JOINT, ""), inf))
+        if off <= reach:
+            return thing
+    return None
+
+
+def click(building: Building, tool: str, x: float, y: float, *, reach: float, snap: float) -> Building:
+    """Return the building after a click: what is there is chosen; on paper there is a ground pin.
+
+    With the slider as the tool, a click on a guide gives a joint that slides there.
+    """
+    thing = under(building.draft, x, y, reach)
+    if thing is None:
+        return pin(building, complex(x, y), snap=snap)
+    if tool == "slider" and thing[0] == "guides":
+        return slider(building, None, thing[1], complex(x, y), snap=snap)
+    return choose_thing(building, *thing)
+
+
+def double_click(building: Building, x: float, y: float, *, reach: float, snap: float) -> Building:
+    """Return the building with a point on the body that lies there."""
+    thing = under(building.draft, x, y, reach)
+    if thing is None or thing[0] != "bars":
+        return refused(building, "A point lies on a body: double-click on a bar")
+    return point(building, thing[1], snapped(complex(x, y), snap), snap=snap)
+
+
+def drag(
+    building: Building, tool: str, x: float, y: float, to_x: float, to_y: float, *, reach: float, snap: float
+) -> Building:
+    """Return the building after a drag with a tool, from what lies at its start to what lies at its end."""
+    draft, to = building.draft, complex(to_x, to_y)
+    start, end = under(draft, x, y, reach), under(draft, to_x, to_y, reach)
+    if tool == "move":
+        chosen = choose_thing(building, *start) if start else building
+        return move(chosen, to_x, to_y, snap=snap)
+    if tool == "guide":
+        begin = place_of(draft, start[1]) if start and start[0] == JOINT else complex(x, y)
+        return guide(building, start, begin, snapped(to, snap), snap=snap)
+    if tool == "bar" and start and start[0] == "bars":
+        return point(building, start[1], snapped(to, snap), snap=snap)
+    if start is None or start[0] != JOINT:
+        return refused(building, f"Begin a {tool} at a pin or a joint; a click sets a ground pin")
+    return _from_joint(building, tool, start[1], end, to, snap)
+
+
+def _from_joint(
+    building: Building, tool: str, start: str, end: Thing | None, at: complex, snap: float
+) -> Building:
+    """Return the building after a drag from a joint."""
+    kind, name = end or ("", "")
+    other = name if kind == JOINT else None
+    if tool == "bar":
+        return bar(building, start, end, at, snap=snap)
+    if tool in ("spring", "damper"):
+        return strut(building, tool, start, other, at, snap=snap)
+    if tool == "slider" and kind == "guides":
+        return slider(building, start, name, at, snap=snap)
+    if tool == "slot" and end:
+        return slot(building, start, end)
+    if tool == "gear" and other:
+        return gear(building, start, other, snap=snap)
+    if tool == "cylinder" and other:
+        return cylinder(building, start, other, snap=snap)
+    return refused(building, f"Let the {tool} go {_TARGETS.get(tool, 'on a joint')}")
+
+
+def _spans(draft: Draft) -> Iterator[tuple[Thing, tuple[str, str]]]:
+    """Yield the straight edges of what lies between joints: bars, their plates, springs and dampers."""
+    for name, table in draft.of("bars").items():
+        yield ("bars", name), tuple(table["joints"])
+    for point, table in draft.of("points").items():
+        if bar := draft.bar(*table["on"]):
+            yield from ((("bars", bar), (end, point)) for end in table["on"])
+    for kind in ("springs", "dampers"):
+        yield from (((kind, name), tuple(table["between"])) for name, table in draft.of(kind).items())

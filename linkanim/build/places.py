@@ -1,4 +1,9 @@
-"""Places and numbers: what numbers are where a joint is drawn, and where joints are by their numbers."""
+"""Places and numbers: which dyad each joint is, which numbers it has where it is drawn, and the way back.
+
+`ordered` finds the joints' order, each as a scene file says how it is found from those before it. From
+there numbers follow from places and places from numbers, rounded as a person would write them. `drawn`
+gives the shapes that are seen of a draft that does not move yet.
+"""
 
 from __future__ import annotations
 
@@ -6,15 +11,216 @@ from cmath import polar, rect
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from fractions import Fraction
-from functools import partial
-from math import degrees, sqrt
-from typing import Any
+from functools import partial, reduce
+from itertools import combinations
+from math import atan2, cos, degrees, radians, sin, sqrt
+from typing import Any, NamedTuple
 
 from linkanim import units
-from linkanim.build.draft import DRIVE, Draft
-from linkanim.build.order import lengths_within, line_of, place_of
-from linkanim.build.rounding import round_angle, round_degrees, round_length, round_number
-from linkanim.scenes.editing.edit import replaced
+from linkanim.build.draft import DRIVE, JOINT, Draft, Thing, named_in
+from linkanim.mechanics.linkage import RRP, RRR, Point, Rigid, RigidBody
+from linkanim.scenes.editing import replaced
+
+# Round numbers: places on a grid, lengths and angles as a person would write them.
+
+FREE = 1e-3
+"""The step of what is drawn without snapping, in its unit."""
+_ANGLES = (1.0, 0.1, 0.01, 0.001)
+
+
+def snapped(place: complex, step: float) -> complex:
+    """Return the nearest place, x + yi, whose coordinates are multiples of a step; 0 is the finest."""
+    return complex(_multiple(place.real, step or FREE), _multiple(place.imag, step or FREE))
+
+
+def round_number(value: float, step: float) -> int | float:
+    """Return the nearest multiple of a step, whole numbers as such; 0 is the finest."""
+    number = _multiple(value, step or FREE)
+    return int(number) if number.is_integer() else number
+
+
+def round_length(value: float, step: float) -> int | float:
+    """Return the nearest multiple of a step above zero; of a finer one where that would be zero."""
+    step = step or FREE
+    while not (number := round_number(abs(value), step)) and step > 1e-9:
+        step /= 10
+    return number or step
+
+
+def round_angle(way: complex, step: float) -> str:
+    """Return a way's direction in the roundest degrees that keep its end within half a step."""
+    return f"{round_degrees(degrees(atan2(way.imag, way.real)), abs(way), step):g} deg"
+
+
+def round_degrees(angle: float, reach: float, step: float) -> int | float:
+    """Return the roundest degrees that keep what lies so far away within half a step."""
+    off = (step or FREE) / 2
+    fine = next(
+        (fine for fine in _ANGLES if reach * radians(abs(angle - round_number(angle, fine))) <= off), FREE
+    )
+    return round_number(angle, fine)
+
+
+def _multiple(value: float, step: float) -> float:
+    """Return the nearest multiple of a step as a decimal, never -0."""
+    return float(f"{round(value / step) * step:.9f}") + 0.0
+
+
+# The dyads of a drawing: each joint as a scene file says how it is found from joints before it.
+
+Found = Mapping[str, Mapping[str, Any]]
+"""Tables of joints by their names, in solvable order."""
+
+
+def found(draft: Draft) -> dict[str, dict[str, Any]]:
+    """Return how each joint is found, as [joints] of a scene file; those that cannot be are left out.
+
+    A joint is found from the first things drawn that do: the drive or a gear, its body, a slot, a guide,
+    two bars. Of its two closures it is on the one where it was drawn.
+    """
+    tables: dict[str, dict[str, Any]] = {}
+    known, plates = set(draft.of("pins")), plates_of(draft)
+    waiting = [name for name in draft.places if name not in known]
+    while table := next(((name, way) for name in waiting for way in _ways(draft, name, known, plates)), None):
+        name, tables[table[0]] = table[0], table[1]
+        known.add(name)
+        waiting.remove(name)
+    return tables
+
+
+def sides(draft: Draft) -> dict[str, dict[str, Any]]:
+    """Return the closures of a draft's dyads: of which joints each is one, and what it is called."""
+    tables = ((name, table) for name, table in found(draft).items() if "side" in table)
+    return {name: {"joints": ends_of(table), "side": table["side"]} for name, table in tables}
+
+
+def plates_of(draft: Draft) -> list[RigidBody]:
+    """Return the bodies of three joints or more, each in its own frame, along its first bar."""
+    bars = (
+        {first: 0j, second: complex(units.length(table["length"], unit=draft.unit))}
+        for table in draft.of("bars").values()
+        for first, second in [table["joints"]]
+    )
+    points = []
+    for name, table in draft.of("points").items():
+        along, left = (units.length(part, unit=draft.unit) for part in table["at"])
+        points.append(Rigid(name, tuple(table["on"]), (along, left)))
+    bodies = reduce(lambda bodies, point: point.placed(bodies), points, tuple(bars))
+    return [body for body in bodies if len(body) > 2]
+
+
+def lengths_within(draft: Draft) -> dict[str, float]:
+    """Return the lengths of the bars between two points of one body, which hold nothing that it does not.
+
+    A bar that a body begins with is none of them. The body sets their lengths, whatever is stated.
+    """
+    return {
+        name: _round(abs(body[one] - body[other]))
+        for name, (one, other) in ((name, table["joints"]) for name, table in draft.of("bars").items())
+        for body in plates_of(draft)
+        if one in body and other in body and {one, other} != {*list(body)[:2]}
+    }
+
+
+def line_of(draft: Draft, guide: Mapping[str, Any]) -> tuple[complex, complex]:
+    """Return a point of a guide and its direction, of length 1, where the joints were drawn."""
+    start, way = place_of(draft, guide.get("through") or guide["on"][0]), 1 + 0j
+    if "on" in guide:
+        first, second = (place_of(draft, name) for name in guide["on"])
+        way = (second - first) / (abs(second - first) or 1.0)
+    angle = units.angle(guide.get("angle", "0 deg"))
+    way *= complex(cos(angle), sin(angle))
+    return start + 1j * way * units.length(guide.get("offset", 0), unit=draft.unit), way
+
+
+def place_of(draft: Draft, joint: str) -> complex:
+    """Return where a joint was drawn, as x + yi."""
+    return complex(*draft.places[joint])
+
+
+def _ways(draft: Draft, name: str, known: set[str], plates: list[RigidBody]) -> Iterator[dict[str, Any]]:
+    """Yield the ways in which a joint can be found from those that are known."""
+    bars = [(end, length) for _, end, length in draft.bars_at(name) if end in known]
+    guide = draft.of("guides").get(draft.of("sliders").get(name, {}).get("guide"))
+    line = guide if guide and known.issuperset(joint for _, joint in named_in(guide)) else None
+    gear, point, yoke = (draft.of(kind).get(name) for kind in ("gears", "points", "yokes"))
+    if name == draft.driven:
+        yield from _driven(draft, bars, line)
+    elif gear and gear["with"] in known:
+        yield from ({"crank": end, "length": length, "gear": gear} for end, length in bars)
+    if point and known.issuperset(point["on"]):
+        yield dict(point)
+    held = [(body, [end for end in body if end in known]) for body in plates if name in body]
+    for body, ends in held:
+        bars += [(end, _round(abs(body[end] - body[name]))) for end in ends[:1] if end not in dict(bars)]
+        if ends[1:]:
+            way = (body[name] - body[ends[0]]) * (body[ends[1]] - body[ends[0]]).conjugate()
+            way /= abs(body[ends[1]] - body[ends[0]])
+            yield {"on": ends[:2], "at": [_round(way.real), _round(way.imag)]}
+    yield from _slotted(draft, name, known, bars)
+    if yoke and line and yoke["pin"] in known:
+        yield {"slide": {"pin": yoke["pin"], "line": line, "slot": yoke["slot"]}}
+    for each in [line] if line else _carried(draft, name, known):
+        for end, length in bars:
+            if end not in each.get("on", ()):
+                yield _with_side(draft, name, {"from": end, "length": length, "line": each})
+    for (one, a), (other, b) in combinations(bars, 2):
+        yield _with_side(draft, name, {"from": [one, other], "length": [a, b]})
+
+
+def _driven(draft: Draft, bars: list[tuple[str, Any]], line: Any) -> Iterator[dict[str, Any]]:
+    if "slider" in draft.drive:
+        yield from [{"line": line}] if line and "on" not in line else []
+    else:
+        yield from ({"crank": end, "length": length} for end, length in bars if end in draft.of("pins"))
+
+
+def _slotted(
+    draft: Draft, name: str, known: set[str], bars: list[tuple[str, Any]]
+) -> Iterator[dict[str, Any]]:
+    """Yield the joint as the end of a bar that slides through a joint."""
+    for slot in draft.of("slots").values():
+        (one, other), through = draft.ends(slot["bar"]), slot["through"]
+        pivot = other if name == one else one
+        if name in (one, other) and {pivot, through} <= known:
+            length = dict(bars)[pivot]
+            aside = {"offset": slot["offset"]} if slot.get("offset") else {}
+            yield {"slot": {"pivot": pivot, "through": through, **aside}, "length": length}
+
+
+def _carried(draft: Draft, name: str, known: set[str]) -> Iterator[dict[str, Any]]:
+    """Yield the lines of the slots in known bars that a joint runs in."""
+    for slot in draft.of("slots").values():
+        ends = draft.ends(slot["bar"])
+        if slot["through"] == name and known.issuperset(ends):
+            yield {"on": ends, "through": ends[0], "offset": slot.get("offset", 0)}
+
+
+def _round(length: float) -> float:
+    """Return a length that follows from others without what rounding left in its last digits."""
+    return round(length, 9)
+
+
+def _with_side(draft: Draft, name: str, table: dict[str, Any]) -> dict[str, Any]:
+    """Return a dyad with its closure: as it is known of the same dyad, else where the joint was drawn."""
+    known = draft.of("sides").get(name)
+    if known and known["joints"] == ends_of(table):
+        return {**table, "side": known["side"]}
+    place, names = place_of(draft, name), ends_of(table)
+    if "line" in table:
+        start, way = place_of(draft, names[0]), line_of(draft, table["line"])[1]
+        return {**table, "side": RRP.sides[((place - start) * way.conjugate()).real < 0]}
+    start, end = (place_of(draft, each) for each in names)
+    return {**table, "side": RRR.sides[((place - start) * (end - start).conjugate()).imag < 0]}
+
+
+def ends_of(table: Mapping[str, Any]) -> list[str]:
+    """Return the other ends of the bars by which a joint's table finds it."""
+    ends = table.get("from", table.get("crank", table.get("slot", {}).get("pivot", [])))
+    return [ends] if isinstance(ends, str) else list(ends)
+
+
+# Places and numbers: what numbers are where a joint is drawn, and where joints are by their numbers.
 
 
 def moved(draft: Draft, joint: str, place: complex, snap: float, phase: float | None = 0.0) -> Draft:
@@ -170,3 +376,79 @@ def _meeting(place: complex, one: tuple[complex, float], other: tuple[complex, f
         return None
     ends = (a + way * complex(share, part * sqrt(height)) for part in (1, -1))
     return min(ends, key=lambda end: abs(end - place))
+
+
+# What is to be seen of a draft that does not move yet: shapes with their places.
+
+
+class Shape(NamedTuple):
+    """What is drawn of one thing: its kind says how, `places` where, in the draft's unit.
+
+    "pins", "joints": one place; "bars": the two ends, then the points of the same body; "guides": a place on
+    it, another one 1 unit further, then what slides on it; "springs", "dampers", "cylinder": two ends;
+    "gears": the two pivots of the wheels, and where they touch; "sliders", "slots", "yokes": what slides, and
+    a place further along its guide or slot. `label` is its name.
+    """
+
+    thing: Thing
+    kind: str
+    places: tuple[Point, ...]
+    label: str
+
+
+def drawn(draft: Draft) -> tuple[Shape, ...]:
+    """Return what is to be seen of a draft, from the back to the front."""
+    return tuple(_shapes(draft))
+
+
+def _shapes(draft: Draft) -> Iterator[Shape]:
+    for name, guide in draft.of("guides").items():
+        start, way = line_of(draft, guide)
+        on_it = [draft.places[joint] for joint, one in draft.of("sliders").items() if one["guide"] == name]
+        yield Shape(("guides", name), "guides", (as_point(start), as_point(start + way), *on_it), name)
+    for name, gear in draft.of("gears").items():
+        yield from _wheels(draft, name, gear["with"], float(Fraction(gear["ratio"])))
+    for name, table in draft.of("bars").items():
+        points = [end for end in draft.of("points") if draft.of("points")[end]["on"] == table["joints"]]
+        places = tuple(draft.places[end] for end in (*table["joints"], *points))
+        yield Shape(("bars", name), "bars", places, draft.body_of(table["joints"]) or name)
+    for kind in ("springs", "dampers"):
+        for name, table in draft.of(kind).items():
+            yield Shape((kind, name), kind, tuple(draft.places[end] for end in table["between"]), name)
+    if between := draft.drive.get("cylinder", {}).get("between"):
+        yield Shape(DRIVE, "cylinder", tuple(draft.places[end] for end in between), "cylinder")
+    yield from _blocks(draft)
+    for name, place in draft.places.items():
+        yield Shape((JOINT, name), "pins" if name in draft.of("pins") else JOINT, (place,), name)
+
+
+def _wheels(draft: Draft, joint: str, mate: str, ratio: float) -> Iterator[Shape]:
+    """Yield the wheels of a gear pair, which roll on each other where their pivots are apart."""
+    pivots = [crank_of(draft, one) for one in (joint, mate)]
+    if None in pivots or pivots[0] == pivots[1]:
+        return
+    own, other = (place_of(draft, str(pivot)) for pivot in pivots)
+    touching = own + (other - own) / (1 + abs(ratio))
+    yield Shape(("gears", joint), "gears", (as_point(own), as_point(other), as_point(touching)), joint)
+
+
+def _blocks(draft: Draft) -> Iterator[Shape]:
+    """Yield what slides along guides and in slots."""
+    for joint, slider in draft.of("sliders").items():
+        way = line_of(draft, draft.of("guides")[slider["guide"]])[1]
+        yield Shape(
+            (JOINT, joint), "sliders", (draft.places[joint], as_point(place_of(draft, joint) + way)), joint
+        )
+    for name, slot in draft.of("slots").items():
+        first, second = (place_of(draft, end) for end in draft.ends(slot["bar"]))
+        at = place_of(draft, slot["through"])
+        yield Shape(("slots", name), "slots", (as_point(at), as_point(at + second - first)), name)
+    for joint, yoke in draft.of("yokes").items():
+        pin, own = place_of(draft, yoke["pin"]), place_of(draft, joint)
+        further = pin + (pin - own if pin != own else 1)
+        yield Shape(("yokes", joint), "yokes", (as_point(pin), as_point(further)), joint)
+
+
+def as_point(place: complex) -> Point:
+    """Return a place, x + yi, by its coordinates."""
+    return place.real, place.imag

@@ -7,13 +7,11 @@ from dataclasses import replace
 from typing import Any
 
 from linkanim.build.building import Building
-from linkanim.build.chosen import OWN
 from linkanim.build.dimensions import numbers_of
 from linkanim.build.draft import JOINT, Draft, Photo, named_in
-from linkanim.build.places import fitted, within_bodies
-from linkanim.build.pointing import under
-from linkanim.build.shapes import drawn
-from linkanim.document import Section, refuse_controls
+from linkanim.build.gestures import OWN, under
+from linkanim.build.places import drawn, fitted, within_bodies
+from linkanim.intake import Section, refuse_controls
 
 _FARTHEST = 1e30
 """No number of a draft is beyond it: squares of squares are still numbers."""

@@ -12,8 +12,7 @@ from pathlib import Path
 from typing import Any, cast
 
 from linkanim import __version__
-from linkanim.cli.options import ARGUMENTS
-from linkanim.cli.parser import Parser, join_negative
+from linkanim.cli.options import ARGUMENTS, Parser, join_negative
 from linkanim.errors import BadInput, WorkFailed
 from linkanim.intake import control_in
 from linkanim.units import shown
@@ -108,7 +107,7 @@ def _installed(package: str) -> str:
 
 
 def _keys() -> str:
-    from linkanim.player.input.keys import as_text
+    from linkanim.player.keys import as_text
 
     return f"keys in the window:\n{as_text()}\n"
 
@@ -127,7 +126,7 @@ def _with_command(words: list[str]) -> list[str]:
 
 def _refuse_misspelt(word: str) -> None:
     """Raise `BadInput` for a first word that is neither a command, a scene nor a path."""
-    from linkanim.document import meant
+    from linkanim.intake import meant
     from linkanim.scenes import names
 
     known = (*COMMANDS, *names())
@@ -278,18 +277,6 @@ COMMANDS: Mapping[str, tuple[str, ...]] = {
         "measure speed against error, beside the usual ways to solve a linkage",
         "linkanim bench",
         "linkanim bench --json",
-    ),
-    "manual": (
-        "open the manual as one page that can be searched, or print what it says on a word",
-        "linkanim manual",
-        "linkanim manual torque",
-        "linkanim manual first-hour",
-    ),
-    "examples": (
-        "list numbered examples to copy and change, or copy them",
-        "linkanim examples",
-        "linkanim examples 06",
-        "linkanim examples all -o examples",
     ),
     "completion": (
         "print a script that lets bash, zsh or fish complete commands, options and scenes",

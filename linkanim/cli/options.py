@@ -1,18 +1,281 @@
-"""Which arguments each command takes, in the order of its help; those that several take are written once."""
+"""Say which arguments each command takes, in the order of its help, and what their texts mean.
+
+Arguments that several commands take are written once. Each reader of a text raises `BadInput` in one
+sentence. The parser is argparse with one line for a usage error and `-30 deg` taken as a value.
+"""
 
 from __future__ import annotations
 
+import argparse
+import math
+import re
 from argparse import Action, BooleanOptionalAction, Namespace, _ActionsContainer
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from decimal import Decimal, InvalidOperation
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
 
 from linkanim import units
 from linkanim.bench.command import CHART
-from linkanim.cli import values
+from linkanim.bounds import LARGEST_SIDE, MOST_LISTED, MOST_POSES
+from linkanim.errors import BadInput
 from linkanim.picture.look import TOGGLES, Look, Option, Toggle
-from linkanim.workshop.media import WAYS
+from linkanim.units import shown
+from linkanim.workshop.media import PAGES, WAYS
+
+# What the options' texts mean: sizes, counts, sweeps; each raises `BadInput` in one sentence.
+
+MOST_ROWS = 1_000_000
+_MOST_DIGITS = 15
+
+
+def sweep(text: str) -> tuple[Decimal, Decimal, int]:
+    """Read `a:b:step` in degrees, exact as it is typed: the first, the step, and how many there are.
+
+    b is included where it falls on a step.
+    """
+    parts = text.split(":")
+    if len(parts) != 3:
+        raise BadInput(f"{shown(text)} is not FIRST:LAST:STEP in degrees, such as 0:360:1")
+    first, last, step = (_decimal(part, text) for part in parts)
+    if step == 0 or (last - first) * step < 0:
+        raise BadInput(f"the step of {shown(text)} does not lead from {first} to {last}; give one that does")
+    if abs(last - first) >= abs(step) * MOST_ROWS:
+        raise BadInput(f"{shown(text)} has more than {MOST_ROWS:,} rows; take a longer step")
+    return first, step, int((last - first) / step) + 1
+
+
+def _decimal(part: str, text: str) -> Decimal:
+    try:
+        value = Decimal(part.strip())
+    except InvalidOperation:
+        raise BadInput(f"{shown(part)} in {shown(text)} is not a number of degrees") from None
+    if not value.is_finite() or abs(value) > Decimal("1e12"):
+        raise BadInput(f"{shown(part)} in {shown(text)} is not a number of degrees between -1e12 and 1e12")
+    return value
+
+
+def size(text: str) -> tuple[int, int]:
+    """Read `1280x720`: whole numbers of pixels, width first."""
+    found = re.fullmatch(r"\s*(\d{1,6})\s*[x×X]\s*(\d{1,6})\s*", text)
+    if not found or "0" in (found[1].lstrip("0") or "0", found[2].lstrip("0") or "0"):
+        raise BadInput(f"{shown(text)} is not a size; write width x height in pixels, such as 1280x720")
+    width, height = int(found[1]), int(found[2])
+    if max(width, height) > LARGEST_SIDE:
+        raise BadInput(f"{shown(text)} is too large; a side has {LARGEST_SIDE:,} pixels at the most")
+    return width, height
+
+
+def number(text: str) -> float:
+    """Read a finite number."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise BadInput(f"{shown(text)} is not a finite number")
+    return value
+
+
+def positive(text: str) -> float:
+    """Read a finite number greater than zero."""
+    try:
+        value = number(text)
+    except BadInput:
+        value = 0.0
+    if value <= 0:
+        raise BadInput(f"{shown(text)} is not a number greater than zero")
+    return value
+
+
+def count(text: str) -> int:
+    """Read a whole number of at least one."""
+    if not re.fullmatch(r"\d{1,6}", text) or int(text) == 0:
+        raise BadInput(f"{shown(text)} is not a whole number from 1 to 999999")
+    return int(text)
+
+
+def whole(text: str) -> int:
+    """Read a whole number of at most 18 digits."""
+    if not re.fullmatch(r"[+-]?[0-9]{1,18}", text):
+        raise BadInput(f"{shown(text)} is not a whole number of at most 18 digits")
+    return int(text)
+
+
+def digits(text: str) -> int:
+    """Read how many significant digits a number is written with."""
+    found = count(text)
+    if found > _MOST_DIGITS:
+        raise BadInput(f"{shown(text)} digits are too many; a number has {_MOST_DIGITS} at the most")
+    return found
+
+
+def speeds(text: str) -> dict[str, float]:
+    """Read angular speeds with commas between (rad/s), by their words; none is zero."""
+    found = _several(text, units.angular_speed)
+    if not found or not all(found.values()):
+        raise BadInput(f'{shown(text)}: give speeds other than zero, such as "5 rad/s,10 rad/s"')
+    return found
+
+
+def angles(text: str) -> tuple[float, ...]:
+    """Read angles with commas between, in radians."""
+    found = _several(text, units.angle)
+    if not found:
+        raise BadInput(f'{shown(text)}: give angles with their unit, such as "87 deg,306 deg"')
+    return tuple(found.values())
+
+
+def _several(text: str, read: Callable[[str], float]) -> dict[str, float]:
+    parts = [" ".join(part.split()) for part in text.split(",") if part.strip()]
+    if len(parts) > MOST_LISTED:
+        raise BadInput(f"{len(parts)} values are too many; a list has {MOST_LISTED} at the most")
+    return {part: read(part) for part in parts}
+
+
+def poses(text: str) -> int:
+    """Read how many poses a figure has behind its own."""
+    found = count(text)
+    if found > MOST_POSES:
+        raise BadInput(
+            f"{shown(text)} is too many; a figure has {MOST_POSES} poses behind its own at the most"
+        )
+    return found
+
+
+def box(text: str) -> tuple[float, ...]:
+    """Read four numbers with commas between: x, y, width and height."""
+    try:
+        found = tuple(float(part) for part in text.split(","))
+    except ValueError:
+        found = ()
+    if len(found) != 4 or not all(map(math.isfinite, found)):
+        raise BadInput(f"{shown(text)} is not X,Y,W,H: four numbers with commas between, such as 0,0,200,100")
+    return found
+
+
+def pair(text: str) -> tuple[float, float]:
+    """Read two numbers with a comma between: x and y."""
+    try:
+        found = tuple(float(part) for part in text.split(","))
+    except ValueError:
+        found = ()
+    if len(found) != 2 or not all(map(math.isfinite, found)):
+        raise BadInput(f"{shown(text.strip())} is not X,Y: two numbers with a comma between, such as 20,-40")
+    return found
+
+
+def length(text: str) -> float:
+    """Read a length above zero in mm, which needs no unit."""
+    found = units.length(text, unit="mm")
+    if found <= 0:
+        raise BadInput(f"{shown(text)} is no length above zero; give one such as 80 mm")
+    return found
+
+
+def step(text: str) -> float:
+    """Read a length above zero in mm, such as `0.1 mm`."""
+    found = units.length(text, unit="mm")
+    if found <= 0:
+        raise BadInput(f"{shown(text)} is no length to round to; give one above zero, such as 0.1 mm")
+    return found
+
+
+def millimetres(text: str) -> float:
+    """Read a length, `12` or `1.2 cm`, in mm."""
+    return units.length(text, unit="mm")
+
+
+def sheet(text: str) -> str | tuple[float, float]:
+    """Read the size of a sheet in mm, `600x400`, or the name of a page."""
+    if text in PAGES:
+        return text
+    found = re.fullmatch(r"\s*([\d.]+)\s*[x×X]\s*([\d.]+)\s*(?:mm)?\s*", text)
+    if not found:
+        pages = ", ".join(PAGES)
+        raise BadInput(f"{shown(text)} is no sheet: take {pages}, or a size in mm such as 600x400")
+    return positive(found[1]), positive(found[2])
+
+
+def timing(text: str) -> float | str:
+    """Read an angle, or `column`."""
+    return "column" if text.strip() == "column" else units.angle(text)
+
+
+def vectors(text: str) -> frozenset[str]:
+    """Read a list such as `v,a`: which of velocity and acceleration are drawn."""
+    chosen = frozenset(part.strip() for part in text.split(","))
+    if not chosen <= set(TOGGLES["vectors"].steps):
+        raise BadInput(f"{shown(text)} is not a list of vectors; take v (velocity), a (acceleration) or v,a")
+    return chosen
+
+
+# argparse as this command needs it: one line for a usage error, `-30 deg` taken as a value.
+
+_NEGATIVE = re.compile(r"-\.?\d")
+_NEGATIVE_LIST = re.compile(r"-\.?\d[^,]*,")
+
+
+class Parser(argparse.ArgumentParser):
+    """A parser that raises `BadInput` for a usage error and whose help ends in its examples."""
+
+    def __init__(
+        self, *, examples: Sequence[str] = (), before: Callable[[], str] | None = None, **options: object
+    ) -> None:
+        super().__init__(
+            formatter_class=argparse.RawDescriptionHelpFormatter,
+            allow_abbrev=False,
+            **options,  # type: ignore[arg-type]
+        )
+        self._examples = examples
+        self._before = before
+
+    def error(self, message: str) -> NoReturn:
+        """Raise the usage error as one sentence that names the help to read."""
+        raise BadInput(f"{message} (see `{self.prog} --help`)")
+
+    def _get_value(self, action: argparse.Action, arg_string: str) -> Any:
+        # argparse's own knows no `BadInput`, and would let it go without the option's name
+        try:
+            return super()._get_value(action, arg_string)
+        except BadInput as error:
+            raise argparse.ArgumentError(action, str(error)) from error
+
+    def _check_value(self, action: argparse.Action, value: Any) -> None:
+        # argparse's own says the value whole, however long it is
+        if action.choices is not None and value not in action.choices:
+            choices = ", ".join(map(shown, action.choices))
+            raise argparse.ArgumentError(action, f"{shown(value)} is none of its choices: {choices}")
+
+    def format_help(self) -> str:
+        """Return argparse's help, what `before` adds, and the examples as its last lines."""
+        added = f"\n{self._before()}" if self._before else ""
+        examples = "".join(f"  {line}\n" for line in self._examples)
+        return f"{super().format_help()}{added}\nexamples:\n{examples}"
+
+    def _print_message(self, message: str, file: Any = None) -> None:
+        # argparse's own swallows the error of a full disk or of a reader that left
+        print(message, end="", file=file)
+
+
+def join_negative(words: Sequence[str]) -> list[str]:
+    """Write `--angle -30deg` as `--angle=-30deg`, or argparse would take -30deg for an option.
+
+    -3,4 gets a blank in front, which does the same for an option that takes several of them.
+    """
+    joined: list[str] = []
+    for word in words:
+        if _NEGATIVE_LIST.match(word):
+            joined.append(f" {word}")
+        elif joined and joined[-1].startswith("--") and "=" not in joined[-1] and _NEGATIVE.match(word):
+            joined[-1] += f"={word}"
+        else:
+            joined.append(word)
+    return joined
+
+
+# Which arguments each command takes, in the order of its help; those that several take are written once.
 
 EVERY_ANGLE = object()
 """What `--phase` without a value stands for: each angle of the sweep."""
@@ -94,7 +357,7 @@ def _output(text: str) -> Argument:
 
 def _speeds(what: str) -> Argument:
     words = f'{what}, such as "5 rad/s,10 rad/s" (default: the scene\'s)'
-    return _value("--speeds SPEED[,SPEED...]", values.speeds, words)
+    return _value("--speeds SPEED[,SPEED...]", speeds, words)
 
 
 def _look(command: str) -> Argument:
@@ -118,13 +381,13 @@ def _reading(option: Option, toggle: Toggle, usual: object) -> dict[str, Any]:
         case int():
             return {"action": Further, "const": option.step, "nargs": 0}
         case frozenset():
-            return {"type": values.vectors, "metavar": option.metavar}
+            return {"type": vectors, "metavar": option.metavar}
     return {"choices": toggle.steps} if toggle.steps else {"metavar": option.metavar}
 
 
 _SCENE = _scene()
-_SIZE = _value("--size WxH", values.size, "pixels (default: 1280x720)")
-_WINDOW_SIZE = _value("--size WxH", values.size, "the window's, in pixels")
+_SIZE = _value("--size WxH", size, "pixels (default: 1280x720)")
+_WINDOW_SIZE = _value("--size WxH", size, "the window's, in pixels")
 _TEXT = _takes("--text", choices=("latex",), help="leave a PDF's words to LaTeX, in FIG.pdf_tex beside it")
 _ANGLE = _value("--angle ANGLE", units.angle, 'crank angle, such as "87 deg"')
 _PHASE = _value("--phase PHASE", units.angle, "phase instead (default: joints farthest apart)")
@@ -134,8 +397,8 @@ _SPEED = _value("--speed SPEED", units.angular_speed, 'such as "30 rpm" (default
 def _limits(sizes: str) -> tuple[Argument, ...]:
     """Return the limits of what is synthesised."""
     return (
-        _value("--box X,Y,W,H", values.box, "in which all fixed pins lie"),
-        _value("--largest F", values.positive, f"link, in {sizes} (default: 8)", 8.0),
+        _value("--box X,Y,W,H", box, "in which all fixed pins lie"),
+        _value("--largest F", positive, f"link, in {sizes} (default: 8)", 8.0),
         _value("--least-angle ANGLE", units.angle, "of transmission", 0.0),
     )
 
@@ -163,11 +426,11 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _output("OUT.gif, OUT.mp4 or OUT.png (default: SCENE.gif here)"),
         _takes("--for", dest="preset", choices=tuple(PRESETS), help="size, fps and format for a purpose"),
         _SIZE,
-        _value("--fps N", values.positive, "frames a second (default: 25)"),
+        _value("--fps N", positive, "frames a second (default: 25)"),
         _SPEED,
         _either(
-            _value("--periods N", values.count, "true periods (default: 1)"),
-            _value("--seconds S", values.positive, "the clip's length; it need not close"),
+            _value("--periods N", count, "true periods (default: 1)"),
+            _value("--seconds S", positive, "the clip's length; it need not close"),
         ),
         _flag("--reverse", "run backwards"),
         _look("record"),
@@ -186,7 +449,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
             nargs="?",
             const=EVERY_ANGLE,
         ),
-        _value("--sweep A:B:STEP", values.sweep, "a row for each angle from A to B, in degrees"),
+        _value("--sweep A:B:STEP", sweep, "a row for each angle from A to B, in degrees"),
         _SPEED,
         _value(
             "--acceleration ACC", units.ANGULAR_ACCELERATION.read, 'such as "2 rad/s^2" (default: 0)', 0.0
@@ -218,11 +481,11 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _value("-o --output DIR", Path, "the folder to make, or to make anew", required=True),
         _value(
             "--angles ANGLE[,ANGLE...]",
-            values.angles,
+            angles,
             'where to tell every quantity, such as "87 deg,306 deg" (default: the start and the extremes)',
         ),
         _speeds("for tables and charts"),
-        _value("--digits N", values.digits, "of the tables' numbers (default: 4)", 4),
+        _value("--digits N", digits, "of the tables' numbers (default: 4)", 4),
         _flag("--all", "every quantity, and a chart of each, as well"),
         _look("report"),
     ),
@@ -248,10 +511,10 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _SPEED,
         _SIZE,
         _look("draw"),
-        _value("--poses N", values.poses, "N faint poses over the period behind it"),
+        _value("--poses N", poses, "N faint poses over the period behind it"),
         _value(
             "--construction N",
-            values.count,
+            count,
             "instead, how `guide`, `function` or `quick-return` made it; the first N steps of that",
             nargs="?",
             const=0,
@@ -266,7 +529,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _flag("--exercise", "leave the numbers open, with a key on a page of its own"),
         _value(
             "--seed N",
-            values.whole,
+            whole,
             "other round lengths, the same kind of motion; a number gives the same ones always",
         ),
         _look("explain"),
@@ -276,8 +539,8 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _output("SHEET.html (default: text on stdout)"),
         _value("--moodle OUT.xml", Path, "for Moodle: a category for each chapter, figures and all"),
         _value("--qti OUT.zip", Path, "for Canvas and other learning platforms: a package of QTI 1.2"),
-        _value("-n N", values.whole, "how many questions (default: 10)", 10, dest="count"),
-        _value("--seed N", values.whole, "a number gives the same questions always (default: 0)", 0),
+        _value("-n N", whole, "how many questions (default: 10)", 10, dest="count"),
+        _value("--seed N", whole, "a number gives the same questions always (default: 0)", 0),
         _flag("--json", "as a list of objects"),
     ),
     "share": (
@@ -292,10 +555,10 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _value("curve CURVE", Path, "two columns x and y (a third with the crank's angles), or an SVG"),
         _output("NAME.toml of the best; the others are NAME-2.toml, ... (default: CURVE.toml here)"),
         _takes("--kind", choices=("four-bar", "slider-crank"), default="four-bar", help="default: four-bar"),
-        _value("--timing STEP", values.timing, 'the crank\'s angle a point, "20 deg", or `column`'),
-        _value("--count N", values.count, "answers (default: 5)", 5),
+        _value("--timing STEP", timing, 'the crank\'s angle a point, "20 deg", or `column`'),
+        _value("--count N", count, "answers (default: 5)", 5),
         *_limits("sizes of the curve"),
-        _value("--round LENGTH", values.step, 'round lengths to, such as "0.1 mm", and fit the rest again'),
+        _value("--round LENGTH", step, 'round lengths to, such as "0.1 mm", and fit the rest again'),
         _flag("--open", "the curve does not close"),
         _flag("--cognates", "each four-bar's two Roberts cognates, too"),
         _flag("--json", "a list of objects; angles in radians"),
@@ -308,16 +571,16 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
             "of the best; the others are NAME-2.toml, ... (default: POSES.toml)",
         ),
         _takes("--kind", choices=("four-bar", "slider-crank"), default="four-bar", help="default: four-bar"),
-        _value("--pivots X,Y", values.pair, "fixed pins that are given, one or two", (), nargs="+"),
+        _value("--pivots X,Y", pair, "fixed pins that are given, one or two", (), nargs="+"),
         *_limits("sizes of the poses"),
         _takes("--prefer", choices=("compact", "angle"), help="small links, or a large transmission angle"),
-        _value("--count N", values.count, "answers (default: 6)", 6),
+        _value("--count N", count, "answers (default: 6)", 6),
         _flag("--json", "a list of objects; angles in radians"),
     ),
     "function": (
         _takes("given", metavar="FUNCTION", help='such as "y = log10(x)", or a table of x and y'),
-        _value("--from A", values.number, "the first x", dest="first"),
-        _value("--to B", values.number, "the last x", dest="last"),
+        _value("--from A", number, "the first x", dest="first"),
+        _value("--to B", number, "the last x", dest="last"),
         _takes(
             *("-o", "--file"),
             dest="output_file",
@@ -336,19 +599,19 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
             str,
             'likewise of the rocker, or of the slider "80 mm" (default: any, or 100 mm)',
         ),
-        _value("--points N", values.count, "precision points, 3 to 5 (default: as many as there can be)"),
+        _value("--points N", count, "precision points, 3 to 5 (default: as many as there can be)"),
         _flag("--chebyshev", "keep the precision points where Chebyshev has them"),
-        _value("--count N", values.count, "answers (default: 3)", 3),
+        _value("--count N", count, "answers (default: 3)", 3),
         _value("--chart ERROR", Path, "draw the best one's structural error, as SVG, PNG, PDF or CSV"),
         _flag("--json", "a list of objects; angles in radians"),
     ),
     "quick-return": (
-        _value("--ratio Q", values.positive, "the slow way's time over the quick way's", required=True),
-        _value("--stroke L", values.length, "of the slider, in mm; of a rocker's pin, the chord"),
+        _value("--ratio Q", positive, "the slow way's time over the quick way's", required=True),
+        _value("--stroke L", length, "of the slider, in mm; of a rocker's pin, the chord"),
         _value("--swing ANGLE", units.angle, 'of the rocker, such as "60 deg"'),
         _takes("--kind", choices=("slider-crank", "crank-rocker"), help="default: what the output is"),
-        _value("--place S", values.number, "one member of the family, from 0 to 1, instead of the best"),
-        _value("--count N", values.count, "answers: the best, and others of its family (default: 5)", 5),
+        _value("--place S", number, "one member of the family, from 0 to 1, instead of the best"),
+        _value("--count N", count, "answers: the best, and others of its family (default: 5)", 5),
         _output("NAME.toml of the best; the others are NAME-2.toml, ... (default: quick-return.toml here)"),
         _flag("--json", "a list of objects; angles in radians"),
     ),
@@ -356,13 +619,13 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _SCENE,
         _value("-o --output FOLDER", Path, "the folder to make, or to make anew"),
         _takes("--way", choices=WAYS, default=WAYS[0], help="of making it (default: cardboard)"),
-        _value("--bar W", values.millimetres, "how wide bars are, in mm (default: for the scene's size)"),
-        _value("--hole D", values.millimetres, "how wide holes are (default: two fifths of a bar, or 6)"),
-        _value("--thickness T", values.millimetres, "of the material (default: 1.5, 3 or 4, by the way)"),
-        _value("--clearance C", values.millimetres, "of a pin in its hole (default: 0, 0.2 or 0.4)"),
-        _value("--gap G", values.millimetres, "at which parts pass in a layer (default: 0.5)", 0.5),
-        _value("--kerf K", values.millimetres, "what the cut takes away (default: 0)", 0.0),
-        _value("--sheet WxH", values.sheet, "of the material, in mm, or a page, A4 or Letter"),
+        _value("--bar W", millimetres, "how wide bars are, in mm (default: for the scene's size)"),
+        _value("--hole D", millimetres, "how wide holes are (default: two fifths of a bar, or 6)"),
+        _value("--thickness T", millimetres, "of the material (default: 1.5, 3 or 4, by the way)"),
+        _value("--clearance C", millimetres, "of a pin in its hole (default: 0, 0.2 or 0.4)"),
+        _value("--gap G", millimetres, "at which parts pass in a layer (default: 0.5)", 0.5),
+        _value("--kerf K", millimetres, "what the cut takes away (default: 0)", 0.0),
+        _value("--sheet WxH", sheet, "of the material, in mm, or a page, A4 or Letter"),
         _value("--fit PAGE", str, "A4 or Letter: scale all parts to fit one (default: true size)"),
         _value("--preview PICTURE", Path, "draw the layers, from above and lifted off: .svg, .png or .pdf"),
         _flag("--bridge", "fixed pins may hang from a plate above, where they stand in the way below"),
@@ -375,18 +638,8 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
             _flag("--markdown", "the table of speed and error as in the README"),
         ),
         _flag("--path", "measure what `linkanim path` finds instead"),
-        _value("--seconds S", values.positive, "of its global search (default: 600)", 600.0),
+        _value("--seconds S", positive, "of its global search (default: 600)", 600.0),
         _value("--into FOLDER", Path, f"where {CHART} goes (default: recordings)", Path("recordings")),
-    ),
-    "manual": (
-        _takes(
-            "word", nargs="*", metavar="WORD", help="print the chapter of that name, or what it says on it"
-        ),
-        _output("OUT.html, the whole manual; it is not opened then"),
-    ),
-    "examples": (
-        _takes("names", nargs="*", metavar="NAME", help="a number, a file's name, or `all` (default: list)"),
-        _value("-o --output DIR", Path, "the folder to copy to (default: the current one)"),
     ),
     "completion": (_takes("shell", choices=("bash", "zsh", "fish"), help="the shell to write it for"),),
 }

@@ -9,13 +9,12 @@ from linkanim.atomic_files import refuse_input
 from linkanim.cli.options import inputs_of
 from linkanim.errors import BadInput
 from linkanim.manifest import Output, checked_output
-from linkanim.mechanics.motion.measures import coupler_body
+from linkanim.mechanics.measures import coupler_body
 from linkanim.paper.latex import refuse_latex
 from linkanim.picture.look import TOGGLES, Look
 from linkanim.recorder.plan import refuse_size
 from linkanim.scenes import load
-from linkanim.scenes.editing.closures import other_closure
-from linkanim.scenes.editing.shown_unit import in_unit
+from linkanim.scenes.editing import in_unit, other_closure
 from linkanim.scenes.scene import Scene
 
 _SIZE = (1280, 720)

@@ -1,20 +1,125 @@
-"""A worked solution as a document: HTML with MathML, LaTeX, or Markdown with LaTeX's formulas."""
+"""Print a worked solution as a document: HTML with MathML, LaTeX, or Markdown with LaTeX's formulas.
+
+Its parts, in reading order:
+
+- The rows of one item of a worked solution in a notation: sides of equations, one below the other.
+- The vectors of a solution's loops as a TikZ picture.
+- A worked solution as a document: HTML with MathML, LaTeX, or Markdown with LaTeX's formulas.
+"""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from functools import reduce
 from html import escape
-from itertools import groupby
+from itertools import groupby, pairwise
+from typing import NamedTuple
 
-from linkanim.explain.drawing import tikz
-from linkanim.explain.expression import Formula
-from linkanim.explain.lines import MARKED, Equation, Given, Item, Unknown, ValueLine, Words
-from linkanim.explain.notation import LATEX, MATHML, Notation, plain_latex, typeset
-from linkanim.explain.rows import EquationRow, rows
+import numpy as np
+
+from linkanim.explain.formula import LATEX, MATHML, Formula, Notation, plain_latex, typeset
 from linkanim.explain.solution import Solution
-from linkanim.explain.work import decimals, rounded
+from linkanim.explain.steps import (
+    MARKED,
+    Equation,
+    Given,
+    Item,
+    System,
+    Unknown,
+    ValueLine,
+    Words,
+    decimals,
+    rounded,
+)
+
+# The rows of one item of a worked solution in a notation: sides of equations, one below the other.
+
+_SHORT, _MIDDLING = 2, 6
+"""So many symbols a formula has that stands in one row with its numbers and value, or with its value."""
+
+
+class EquationRow(NamedTuple):
+    """One row of an aligned equation: what stands left of the sign of equality, and right of it."""
+
+    left: str
+    right: str
+
+
+def rows(item: Item, how: Notation, *, blank: bool = False) -> Iterator[EquationRow]:
+    """Yield the rows of an item that has any; where `blank` the numbers that are asked for are left open."""
+    match item:
+        case ValueLine():
+            yield from _line(item, how, blank)
+        case Equation():
+            yield EquationRow(typeset(item.left, how), typeset(item.right, how))
+        case System():
+            yield from _system(item, how, blank)
+
+
+def _line(line: ValueLine, how: Notation, blank: bool) -> Iterator[EquationRow]:
+    """Yield a line's sides, as many of them in a row as a reader takes in."""
+    sides = [typeset(line.formula, how)] if line.formula.symbolic else []
+    if not blank and line.formula.operation != "leaf":
+        sides.append(typeset(line.formula, how, numbers=True))
+    sides.append((how.blank if blank else how.number(line.value.shown, False)) + how.unit(line.unit))
+    leaves = len(list(line.formula.leaves))
+    together = 3 if leaves <= _SHORT else 2 if leaves <= _MIDDLING else 1
+    left = typeset(line.value, how)
+    # the last row is the fullest one: it is the numbers and what they come to that belong together
+    for begin, end in pairwise(
+        [0, *range(len(sides) % together or together, len(sides), together), len(sides)]
+    ):
+        yield EquationRow(left, reduce(lambda a, b: how.infix("=", a, b), sides[begin:end]))
+        left = ""
+
+
+def _system(system: System, how: Notation, blank: bool) -> Iterator[EquationRow]:
+    unknowns = how.matrix([[how.symbol(unknown)] for unknown in system.unknowns])
+    ways = [(system.formulas, False), (system.formulas, True), (system.values, True)]
+    if not system.worked_out:
+        del ways[1]
+    for entries, numbers in ways[:1] if blank else ways:
+        set_ = [[typeset(entry, how, numbers=numbers) for entry in row] for row in entries]
+        yield EquationRow(
+            how.matrix([row[:2] for row in set_]) + unknowns, how.matrix([row[2:] for row in set_])
+        )
+
+
+# The vectors of a solution's loops as a TikZ picture.
+
+_WIDE, _HIGH = 13.0, 9.0
+"""The picture's greatest width and height in centimetres."""
+_NEAR = 0.02
+"""A joint that is nearer to the end of a vector, in centimetres, is one of its ends."""
+
+
+def tikz(found: Solution) -> str:
+    """Return the vectors of all loops with their names and their joints'; nothing where there are none."""
+    return "\n".join(_lines(found)) if found.loops else ""
+
+
+def _lines(found: Solution) -> Iterator[str]:
+    ends = np.array([(one.begin, one.end) for one in found.arrows])
+    scale = min(_WIDE / max(float(np.ptp(ends.real)), 1e-9), _HIGH / max(float(np.ptp(ends.imag)), 1e-9))
+    yield r"\begin{center}\begin{tikzpicture}[>=latex]"
+    for one in found.arrows:
+        begin, end, name = _at(scale * one.begin), _at(scale * one.end), LATEX.symbol(one.symbol)
+        yield rf"\draw[->,thick] {begin} -- node[auto,blue] {{${name}$}} {end};"
+    for name, at in found.places.items():
+        if np.abs(ends - at).min() * scale < _NEAR:
+            fill = "black" if found.request.scene.linkage.joint(name).fixed else "white"
+            label = f"node[below right] {{{LATEX.name(name)}}}"
+            yield rf"\draw[fill={fill}] {_at(scale * at)} circle[radius=2pt] {label};"
+    yield r"\end{tikzpicture}\end{center}"
+
+
+def _at(place: complex) -> str:
+    return f"({place.real:.2f},{place.imag:.2f})"
+
+
+# A worked solution as a document: HTML with MathML, LaTeX, or Markdown with LaTeX's formulas.
 
 _STYLE = """
 body { font: 16px/1.5 "Source Sans Pro", "Source Sans 3", "Helvetica Neue", Arial, sans-serif;

@@ -1,7 +1,10 @@
-"""The worked solution of a pose: its chapters, and the results that they lead to.
+"""Work out a pose: the chapters of the solution, and the results that they lead to.
 
-It carries as few digits as let every result agree with solving to five significant digits. What is zero shows
-none of their rounding, and of a force or a torque, from which nothing follows, only those that are right.
+Its parts, in reading order:
+
+- Where the input is and how it moves: as it was asked for, or from the phase.
+- What hangs on a linkage, worked out: centres of mass, springs and dampers, what the input delivers.
+- The worked solution of a pose: its chapters, and the results that they lead to.
 """
 
 from __future__ import annotations
@@ -11,20 +14,299 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
+from typing import Any, Literal
 
-from linkanim.explain.expression import ONE, Symbol
-from linkanim.explain.inputs import PoseRequest, place_input
-from linkanim.explain.kinds import KINDS
-from linkanim.explain.lines import Chapter, Outcome, Step, Words, marked
-from linkanim.explain.loops import LoopArrow, VectorLoop, loops_of
-from linkanim.explain.names import SymbolNames, names_of
-from linkanim.explain.parts import centre_of_mass, effort, strut
-from linkanim.explain.rates import BY_INPUT, IN_TIME, ORDERS, Order, Rates
+from linkanim.explain.formula import (
+    ONE,
+    TWO,
+    ZERO,
+    Formula,
+    Symbol,
+    arccos,
+    cos,
+    dot,
+    number,
+    sin,
+    sqrt,
+    square,
+)
+from linkanim.explain.joints import KINDS, LoopArrow, VectorLoop, body_point, loops_of
+from linkanim.explain.steps import (
+    ANGLE,
+    BY_INPUT,
+    IN_TIME,
+    LENGTH,
+    ORDERS,
+    RATIO,
+    Chapter,
+    Order,
+    Outcome,
+    Powers,
+    Rates,
+    Scale,
+    Step,
+    SymbolNames,
+    Words,
+    Work,
+    marked,
+    names_of,
+    rounded,
+)
 from linkanim.explain.synthesis import synthesis
-from linkanim.explain.work import ANGLE, LENGTH, Powers, Scale, Work, rounded
-from linkanim.mechanics.facts.register import input_symbol
-from linkanim.mechanics.linkage.linkage import Body
+from linkanim.mechanics.forces import effort_token
+from linkanim.mechanics.linkage import Body, Crank, Damper, Spring
+from linkanim.mechanics.quantities import input_symbol, link_labels
+from linkanim.mechanics.solver.strokes import CylinderStroke, Stroke
 from linkanim.picture.figure import figure
+from linkanim.scenes.scene import Scene
+
+# Where the input is and how it moves: as it was asked for, or from the phase.
+
+_PI = Formula("leaf", symbol=Symbol("π"), shown="3.14159265359")
+_ONCE = Powers(rate=1)
+
+
+@dataclass(frozen=True)
+class PoseRequest:
+    """Which pose of a scene is worked out: `by` its "angle" or "phase", in rad, at its speed."""
+
+    scene: Scene
+    by: Literal["angle", "phase"]
+    value: float
+    speed: float
+
+    def motion(self) -> Any:
+        """Return the pose as solving gives it."""
+        return self.scene.solve(**{self.by: self.value}, speed=self.speed)  # type: ignore[arg-type]
+
+    @property
+    def swings(self) -> bool:
+        """Whether the phase is asked for of an input that turns back."""
+        return self.by == "phase" and not self.scene.info.full_turn
+
+
+def place_input(request: PoseRequest, rates: Rates) -> None:
+    """Add the lines of the input's place, and put its rates where they stand."""
+    work = rates.work
+    joint = work.linkage.joint(work.linkage.drive.joint)
+    ends = (joint.pivot, joint.name) if isinstance(joint, Crank) else None
+    symbol = work.angle_symbol(*ends) if ends else work.names.slide(joint.name)
+    found = (_swinging if request.swings else _stated)(request, rates, symbol)
+    if ends:
+        work.angles[ends] = found
+    else:
+        work.slides[joint.name] = found
+
+
+def _stated(request: PoseRequest, rates: Rates, symbol: Symbol) -> Formula:
+    """Take the angle as it is asked for, or from the start and the phase."""
+    work = rates.work
+    rates.start(work.known(rates.symbol(work.driver, 1), request.speed, _ONCE, "the input"))
+    if request.by == "angle":
+        return work.known(symbol, request.value, ANGLE, "the input")
+    phase = work.known(Symbol("φ"), request.value, ANGLE, "phase")
+    start = work.stated(Symbol("θ", "0"), request.scene.linkage.drive.start, ANGLE, "start")
+    return work.let(symbol, start + phase, ANGLE)
+
+
+def _swinging(request: PoseRequest, rates: Rates, symbol: Symbol) -> Formula:
+    """Add the law of an input that runs there and back: mid - amp cos φ."""
+    work = rates.work
+    phase = work.known(Symbol("φ"), request.value, ANGLE, "phase")
+    pace = work.known(Symbol("φ", mark="˙"), request.speed, _ONCE, "rate of the phase")
+    path = request.scene.mechanism.assembly.path
+    if isinstance(path, Stroke):
+        return _stroke(path, rates, (phase, pace), symbol)
+    low, high = path.input_range
+    middle = work.known(Symbol("θ", "m"), (low + high) / 2, ANGLE, "middle of the swing")
+    amplitude = work.known(Symbol("A"), (high - low) / 2, ANGLE, "half of the swing")
+    found = work.let(symbol, middle - amplitude * cos(phase), ANGLE)
+    reach = work.let(Symbol("a"), amplitude * _PI / number("180", in_degrees=True), RATIO)
+    once, twice = _cosine_rates(reach, phase, pace)
+    rates.let_rate(work.driver, once, 1)
+    rates.let_rate(work.driver, twice, 2)
+    return found
+
+
+def _cosine_rates(reach: Formula, phase: Formula, pace: Formula) -> tuple[Formula, Formula]:
+    """Return the rates of mid - reach·cos φ."""
+    return reach * sin(phase) * pace, reach * cos(phase) * square(pace)
+
+
+def _stroke(path: Stroke, rates: Rates, phase: tuple[Formula, Formula], symbol: Symbol) -> Formula:
+    """Add the way of what drives in a straight line, and of a cylinder the crank's angle."""
+    work = rates.work
+    letter = "ℓ" if isinstance(path, CylinderStroke) else symbol.letter
+    index = "" if letter == "ℓ" else symbol.sub
+    ends = (path.first * path.unscale, path.last * path.unscale)
+    middle = work.stated(Symbol(letter, "m"), sum(ends) / 2, LENGTH, "middle of the stroke")
+    reach = work.known(Symbol("a"), (ends[1] - ends[0]) / 2, LENGTH, "half of the stroke")
+    way = work.let(Symbol(letter, index), middle - reach * cos(phase[0]), LENGTH)
+    formulas = _cosine_rates(reach, *phase)
+    once = work.let(Symbol(letter, index, "˙"), formulas[0], Powers(1, 1))
+    twice = work.let(Symbol(letter, index, "¨"), formulas[1], Powers(1, 2))
+    if isinstance(path, CylinderStroke):
+        return _cylinder(path, rates, (way, once, twice), symbol)
+    rates.start(once, twice)
+    return way
+
+
+def _cylinder(
+    path: CylinderStroke, rates: Rates, way: tuple[Formula, Formula, Formula], symbol: Symbol
+) -> Formula:
+    """Add the crank's angle and its rates from a cylinder's length."""
+    work, between = rates.work, rates.work.linkage.drive.actuator.along
+    assert between is not None
+    length, once, twice = way
+    pivot = work.linkage.crank(work.linkage.drive.joint).pivot
+    sides = [side * path.unscale for side in path.sides]
+    g, r = (
+        work.known(Symbol(name), side, LENGTH, f"{marked(pivot)}–{marked(end)}")
+        for name, side, end in zip("gc", sides, between, strict=True)
+    )
+    base = work.known(
+        Symbol("θ", "b"), float(path.base), ANGLE, "the crank's angle with the cylinder's ends in line"
+    )
+    work.say("The cylinder is one side of a triangle with the crank's pivot:")
+    corner = work.let(Symbol("ψ"), arccos((square(g) + square(r) - square(length)) / (TWO * g * r)), ANGLE)
+    found = work.let(symbol, base + corner if path.side > 0 else base - corner, ANGLE)
+    arm = g * r * sin(corner)
+    turning = rates.let_rate(work.driver, (length * once if path.side > 0 else -(length * once)) / arm, 1)
+    bend = square(once) + length * twice - g * r * cos(corner) * square(turning)
+    rates.let_rate(work.driver, (bend if path.side > 0 else -bend) / arm, 2)
+    return found
+
+
+# What hangs on a linkage, worked out: centres of mass, springs and dampers, what the input delivers.
+
+_WORDS = ("com_position", "com_velocity", "com_acceleration")
+
+
+def centre_of_mass(body: Body, rates: Rates) -> Iterator[Outcome]:
+    """Add where a body's centre of mass is and how it moves, and yield it."""
+    assert body.com is not None
+    work, on = rates.work, (body.joints[0], body.joints[1])
+    name = centre_name(body, rates)
+    arm = body_point(work, on, body.com, (Symbol("p", name), Symbol("q", name)))
+    work.let_point(name, work.points[on[0]] + arm)
+    yield from work.scale.outcomes(f"{body.name}.{_WORDS[0]}", work.points[name], 0)
+    for order in ORDERS:
+        rates.let_carried(name, on, work.points[name] - work.points[on[0]], order)
+        yield from work.scale.outcomes(f"{body.name}.{_WORDS[order]}", rates.of(name, order), order)
+
+
+def centre_name(body: Body, rates: Rates) -> str:
+    """Return what a body's centre of mass is called: G3, or GG3 where a joint has that name."""
+    linkage = rates.work.linkage
+    name = f"G{link_labels(linkage)[body.name]}"
+    while any(joint.name == name for joint in linkage.joints):
+        name = f"G{name}"
+    return name
+
+
+def strut(item: Spring | Damper, rates: Rates) -> Iterator[Outcome]:
+    """Add the length of a spring or damper, its rate and its force, and yield them."""
+    work, (start, end), name = rates.work, item.between, item.name
+    way, moving = work.points[end] - work.points[start], rates.of(end, 1) - rates.of(start, 1)
+    length = work.let(Symbol("L", name), sqrt(square(way.x) + square(way.y)), LENGTH)
+    yield work.scale.outcome(f"{name}.length", length, LENGTH)
+    if length.value == 0:
+        work.say("Its ends meet, so that its rate does not follow from this.")
+        return
+    rate = rates.let(Symbol("L", name, "˙"), dot(way, moving) / length, Powers(1, 1))
+    yield work.scale.outcome(f"{name}.rate", rate, Powers(1, 1))
+    if item.forceful:
+        force = work.let_plain(Symbol("F", name), _force(item, rates, length, rate), "N")
+        rates.struts[item] = force, rate
+        yield Outcome(f"{name}.force", force, last=True)
+
+
+def _force(item: Spring | Damper, rates: Rates, length: Formula, rate: Formula) -> Formula:
+    work, metre = rates.work, _metre(rates)
+    if isinstance(item, Damper):
+        assert item.coefficient is not None
+        return work.quoted(Symbol("c", item.name), f"{item.coefficient:.12g}", "N s/m") * rate * metre
+    assert item.stiffness is not None
+    assert item.free_length is not None
+    free = work.stated(Symbol("L", f"{item.name}0"), item.free_length, LENGTH, "its length without force")
+    return work.quoted(Symbol("k", item.name), f"{item.stiffness:.12g}", "N/m") * (length - free) * metre
+
+
+def _metre(rates: Rates) -> Formula:
+    """Return one unit of length in metres."""
+    return number(f"{rates.work.linkage.metre:.12g}")
+
+
+def effort(rates: Rates, known: Mapping[str, Formula]) -> Iterator[Outcome]:
+    """Add the power of all forces and masses, and what the input delivers, which is yielded.
+
+    `known` are the quantities worked out so far, by their tokens.
+    """
+    work, linkage = rates.work, rates.work.linkage
+    if not rates.struts.keys() >= set(_forceful(rates)):
+        work.say("The rate of a spring or damper does not follow, so that what the input delivers does not.")
+        return
+    work.say("The input delivers the power of springs, dampers and masses, over its own rate:")
+    powers = [*_strut_powers(rates), *_body_powers(rates, known)]
+    total = work.let_plain(Symbol("P"), sum(powers, ZERO), "W")
+    name, unit = linkage.drive.actuator.effort
+    pace = _pace(rates)
+    if pace.value == 0:
+        work.say("The input rests here, so that this does not follow from power.")
+        return
+    delivered = work.let_plain(Symbol(name[0].upper(), "in"), total / pace, unit)
+    yield Outcome(effort_token(linkage), delivered, last=True)
+
+
+def _pace(rates: Rates) -> Formula:
+    """Return the rate of what drives: an angular velocity, or a velocity in m/s."""
+    work, drive = rates.work, rates.work.linkage.drive
+    if drive.actuator.along:
+        way, moving = (
+            work.points[drive.actuator.along[1]] - work.points[drive.actuator.along[0]],
+            rates.of(drive.actuator.along[1], 1) - rates.of(drive.actuator.along[0], 1),
+        )
+        length = sqrt(square(way.x) + square(way.y))
+        return rates.let(Symbol("ℓ", "", "˙"), dot(way, moving) / length, Powers(1, 1)) * _metre(rates)
+    pace = rates.rate(work.driver, 1)
+    return pace if isinstance(work.driver, int) else pace * _metre(rates)
+
+
+def _forceful(rates: Rates) -> list[Spring | Damper]:
+    return [item for item in rates.work.linkage.springs + rates.work.linkage.dampers if item.forceful]
+
+
+def _strut_powers(rates: Rates) -> Iterator[Formula]:
+    for item in _forceful(rates):
+        force, rate = rates.struts[item]
+        power = force * rate * _metre(rates)
+        yield rates.work.let_plain(Symbol("P", item.name), power, "W")
+
+
+def _body_powers(rates: Rates, known: Mapping[str, Formula]) -> Iterator[Formula]:
+    work, metre = rates.work, _metre(rates)
+    for body in work.linkage.bodies:
+        label = link_labels(work.linkage)[body.name]
+        if body.mass is not None:
+            at = body.slider or centre_name(body, rates)
+            velocity, acceleration = rates.of(at, 1), rates.of(at, 2)
+            pull = dot(acceleration, velocity) * square(metre)
+            if work.linkage.gravity:
+                fall = work.quoted(Symbol("g"), f"{work.linkage.gravity:.12g}", "m/s²")
+                pull = pull + fall * velocity.y * metre
+            mass = work.quoted(Symbol("m", label), f"{body.mass:.12g}", "kg")
+            yield work.let_plain(Symbol("P", label), mass * pull, "W")
+        if body.inertia is not None:
+            inertia = work.quoted(Symbol("I", label), f"{body.inertia:.12g}", "kg m²")
+            turning = known[f"{body.name}.angular_acceleration"] * known[f"{body.name}.angular_velocity"]
+            yield work.let_plain(Symbol("P", f"{label}turn"), inertia * turning, "W")
+
+
+# The worked solution of a pose: its chapters, and the results that they lead to.
+#
+# It carries as few digits as let every result agree with solving to five significant digits. What is zero
+# shows none of their rounding, and of a force or a torque, from which nothing follows, only those that are
+# right.
 
 _FEWEST, _MOST = 6, 14
 _AGREES = 5e-6

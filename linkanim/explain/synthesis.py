@@ -12,22 +12,22 @@ from contextlib import suppress
 from functools import partial
 from itertools import combinations
 
-from linkanim.explain.expression import (
-    TWO,
-    Formula,
-    Symbol,
-    arccos,
-    cos,
-    number,
-    sin,
-    sqrt,
-    square,
+from linkanim.explain.formula import TWO, Formula, Symbol, arccos, cos, number, sin, sqrt, square
+from linkanim.explain.steps import (
+    ANGLE,
+    LENGTH,
+    RATIO,
+    Chapter,
+    Equation,
+    Powers,
+    Scale,
+    Step,
+    SymbolNames,
+    System,
+    Work,
+    marked,
 )
-from linkanim.explain.lines import Chapter, Equation, Step, System, marked
-from linkanim.explain.names import SymbolNames
-from linkanim.explain.work import ANGLE, LENGTH, RATIO, Powers, Scale, Work
-from linkanim.scenes.purpose import FunctionPurpose, PosesPurpose, TimeRatioPurpose
-from linkanim.scenes.scene import Scene
+from linkanim.scenes.scene import FunctionPurpose, PosesPurpose, Scene, TimeRatioPurpose
 from linkanim.synthesis.constructions import dead_centres, guided_body, is_synthesised
 
 _FEWEST, _MOST = 6, 12

@@ -10,9 +10,8 @@ from random import Random
 import numpy as np
 
 from linkanim.errors import LinkanimError
-from linkanim.scenes.editing.edit import dimensions, with_dimensions
-from linkanim.scenes.fields.form import Key
-from linkanim.scenes.fields.types import LENGTHS
+from linkanim.scenes.editing import dimensions, with_dimensions
+from linkanim.scenes.form import LENGTHS, Key
 from linkanim.scenes.scene import Scene
 
 _TRIES = 60

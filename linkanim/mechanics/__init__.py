@@ -1,1 +1,18 @@
-"""What a linkage is and how it moves; numpy is all it needs."""
+"""What a linkage is and how it moves; numpy is all it needs.
+
+From the ground up; a module imports from those before it only:
+
+    arithmetic  formulas written once, for floats, arrays and blocks
+    angles      circular functions, unit vectors, exact sums of two floats
+    precise     fifty digits, for what is worked out once
+    program     formulas compiled: a function of floats, passes over arrays
+    search      where a condition ends, a function changes sign, is highest
+    linkage     what a linkage is, as data
+    solver      closing it; no other room imports this one
+    measures    what follows from solved quantities
+    motion      a linkage made ready; its motion and its poses
+    forces      what the input has to deliver
+    quantities  the register of all that is known of a linkage
+    polygons    velocity and acceleration polygons
+    analysis    class, names, transmission angles, solving steps
+"""

@@ -14,7 +14,7 @@ def register(shell: Any) -> None:
         return
     page = shell.display_formatter.formatters["text/html"]
     page.for_type_by_name("linkanim.scenes.scene", "Scene", _scene)
-    page.for_type_by_name("linkanim.mechanics.motion.motion", "Motion", _motion)
+    page.for_type_by_name("linkanim.mechanics.motion", "Motion", _motion)
 
 
 def _scene(scene: Any) -> str:

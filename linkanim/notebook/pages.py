@@ -9,26 +9,25 @@ from typing import Any
 
 import numpy as np
 
-from linkanim.digits import significant, typeset
 from linkanim.errors import BadInput
-from linkanim.mechanics.facts.naming import link_names, turning_bodies
-from linkanim.mechanics.facts.register import Quantity, register
-from linkanim.mechanics.motion.measures import output_body
-from linkanim.mechanics.motion.mechanism import mechanism
-from linkanim.mechanics.motion.motion import Motion
+from linkanim.mechanics.analysis import link_names, turning_bodies
+from linkanim.mechanics.measures import output_body
+from linkanim.mechanics.motion import Motion, mechanism
+from linkanim.mechanics.quantities import Quantity, register
 from linkanim.paper.figure import Figured
 from linkanim.paper.html import symbol
 from linkanim.paper.svg import svg
-from linkanim.picture.diagrams.axis import around
-from linkanim.picture.diagrams.chart import Plot, axes, curve_layer, pen_for, plot_area, x_title
+from linkanim.picture.chart import Plot, axes, curve_layer, pen_for, plot_area, x_title
 from linkanim.picture.items import Caption, Item
 from linkanim.picture.layout import layout
 from linkanim.picture.look import Look
-from linkanim.picture.text.text import Type
+from linkanim.picture.quantities import around
+from linkanim.picture.text import Type
 from linkanim.picture.theme import LIGHT
 from linkanim.picture.view import Rect
 from linkanim.scenes.scene import Scene
 from linkanim.share.page import Shared, document
+from linkanim.units import significant, typeset
 
 _FIGURE, _CHART, _FRAME = (560, 360), (640, 260), (720, 560)
 _ENDS = 5

@@ -1,1 +1,18 @@
-"""What goes onto paper: figures, charts and reports, from the same description as the window's picture."""
+"""What goes onto paper: figures, charts and reports, from the same description as the window's picture.
+
+From the ground up; a module imports from those before it only:
+
+    illustration  a picture of groups that are at hand, to be written as a file
+    svg           items as SVG
+    pdf           items as PDF
+    latex         a PDF whose words LaTeX sets
+    curves        quantities over one true period, beside a measured table
+    chart         a chart on a page
+    figure        one pose of a scene
+    vectors       the vectors of a worked solution's loops
+    construction  how a linkage was synthesised, and its structural error
+    write         a figure or a chart as a file: its name's ending says which
+    findings      what a report says of a scene: facts, tables, which charts
+    html          a report as one page
+    report        the report of a scene
+"""

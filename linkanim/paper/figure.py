@@ -8,17 +8,16 @@ from functools import cached_property
 
 import pygame
 
-from linkanim.mechanics.facts.register import input_symbol
-from linkanim.mechanics.motion.motion import Pose
+from linkanim.mechanics.motion import Pose
+from linkanim.mechanics.quantities import input_symbol
 from linkanim.paper.svg import svg
 from linkanim.picture.figure import figure
 from linkanim.picture.items import Group
 from linkanim.picture.look import Look
-from linkanim.picture.panels.overlay import Overlay
-from linkanim.picture.parts.driven import driven_words
+from linkanim.picture.overlay import Overlay
 from linkanim.picture.picture import Picture
-from linkanim.picture.raster.offscreen import offscreen
-from linkanim.picture.raster.raster import Colour
+from linkanim.picture.quantities import driven_words
+from linkanim.picture.raster import Colour, offscreen
 from linkanim.picture.surface import SurfacePrinter
 from linkanim.scenes.scene import Scene
 

@@ -14,8 +14,7 @@ from itertools import count
 from typing import Literal
 
 from linkanim.explain.documents import MATH_STYLE
-from linkanim.paper.findings import Finding
-from linkanim.paper.tables import Column, ValueTable
+from linkanim.paper.findings import Column, Finding, ValueTable
 
 _STYLE = """
 :root { color-scheme: light; }

@@ -7,10 +7,9 @@ from typing import NamedTuple
 import pygame
 
 from linkanim.picture.items import Group
-from linkanim.picture.raster.offscreen import offscreen
-from linkanim.picture.raster.raster import Colour
+from linkanim.picture.raster import Colour, offscreen
 from linkanim.picture.surface import printed
-from linkanim.picture.text.text import Type
+from linkanim.picture.text import Type
 
 
 class Illustration(NamedTuple):

@@ -10,13 +10,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from linkanim.errors import BadInput
-from linkanim.explain.notation import plain_latex
+from linkanim.explain.formula import plain_latex
 from linkanim.manifest import Output
 from linkanim.paper.pdf import pdf
 from linkanim.paper.svg import flat
 from linkanim.picture.items import Caption, Group, Item
-from linkanim.picture.raster.raster import Colour, Layer
-from linkanim.picture.text.text import runs, typesetting
+from linkanim.picture.raster import Colour, Layer
+from linkanim.picture.text import runs, typesetting
 from linkanim.units import shown
 
 _ANCHORS = {"left": "l", "centre": "c", "right": "r"}

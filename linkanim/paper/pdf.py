@@ -14,9 +14,8 @@ from unicodedata import normalize
 from linkanim.errors import BadInput
 from linkanim.paper.svg import flat, hexadecimal
 from linkanim.picture.items import Caption, Group, Item
-from linkanim.picture.raster.raster import Colour, Layer
-from linkanim.picture.text.fonts import REGULAR, SEMIBOLD, file_of
-from linkanim.picture.text.text import runs, typesetting
+from linkanim.picture.raster import Colour, Layer
+from linkanim.picture.text import REGULAR, SEMIBOLD, file_of, runs, typesetting
 
 if TYPE_CHECKING:
     from fpdf import FPDF

@@ -9,22 +9,29 @@ from functools import cached_property
 from itertools import chain
 
 from linkanim.explain.documents import HTML, chapters
-from linkanim.explain.inputs import PoseRequest
-from linkanim.explain.solution import Solution, solution
+from linkanim.explain.solution import PoseRequest, Solution, solution
 from linkanim.export import csv_head, csv_rows
 from linkanim.paper import html
 from linkanim.paper.chart import Page
 from linkanim.paper.curves import Pace, curves_of
 from linkanim.paper.figure import Figured
-from linkanim.paper.findings import Instant, Values, charted, paces_of, place_of, sheet, table
+from linkanim.paper.findings import (
+    Instant,
+    Values,
+    charted,
+    paces_of,
+    place_of,
+    sheet,
+    table,
+    topics,
+    value_tables,
+)
 from linkanim.paper.html import Beside, FigurePart, Part
 from linkanim.paper.svg import svg
-from linkanim.paper.tables import value_tables
-from linkanim.paper.topics import topics
 from linkanim.paper.vectors import vectors_svg
 from linkanim.picture.figure import figure
 from linkanim.picture.look import Look
-from linkanim.scenes.editing.edit import dimensions
+from linkanim.scenes.editing import dimensions
 from linkanim.scenes.scene import Scene
 
 _CHART = (400, 170)

@@ -9,8 +9,8 @@ from xml.sax.saxutils import escape, quoteattr
 import numpy as np
 
 from linkanim.picture.items import Caption, Group, Item, clipped
-from linkanim.picture.raster.raster import Colour, Layer, Loop
-from linkanim.picture.text.text import runs, typesetting
+from linkanim.picture.raster import Colour, Layer, Loop
+from linkanim.picture.text import runs, typesetting
 
 FACES = "'Source Sans Pro', 'Source Sans 3', 'Helvetica Neue', Arial, sans-serif"
 _ANCHORS = {"left": "start", "centre": "middle", "right": "end"}

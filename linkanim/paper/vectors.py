@@ -11,14 +11,14 @@ import numpy as np
 from linkanim.explain.solution import Solution
 from linkanim.paper.figure import Figured
 from linkanim.paper.svg import svg
-from linkanim.picture.diagrams.chart import Pen, pen_for
+from linkanim.picture.chart import Pen, pen_for
 from linkanim.picture.items import Caption, Group, Halo, Item, grouped
 from linkanim.picture.look import Look
 from linkanim.picture.picture import Picture
 from linkanim.picture.placing import Clutter, LabelPlaces, Solid, place
-from linkanim.picture.raster.raster import Colour, Layer
-from linkanim.picture.raster.shapes import arrows
-from linkanim.picture.text.text import subscripted
+from linkanim.picture.raster import Colour, Layer
+from linkanim.picture.shapes import arrows
+from linkanim.picture.text import subscripted
 from linkanim.picture.view import Rect
 
 _SIZE = (760, 560)

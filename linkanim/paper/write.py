@@ -5,15 +5,14 @@ from __future__ import annotations
 from linkanim.export import csv_head, csv_rows
 from linkanim.manifest import Output
 from linkanim.paper.chart import Page
-from linkanim.paper.construction import ConstructionPage
+from linkanim.paper.construction import ConstructionPage, ErrorChart
 from linkanim.paper.curves import table
 from linkanim.paper.figure import Figured
 from linkanim.paper.illustration import Illustration
 from linkanim.paper.latex import write_for_latex
 from linkanim.paper.pdf import pdf, require_pdf
-from linkanim.paper.structural_error import ErrorChart
 from linkanim.paper.svg import svg
-from linkanim.picture.raster.offscreen import png_bytes
+from linkanim.picture.raster import png_bytes
 
 OF_A_FIGURE = (".svg", ".png", ".pdf")
 OF_A_CHART = (*OF_A_FIGURE, ".csv")

@@ -1,1 +1,41 @@
-"""The picture: everything between a pose and the pixels of a surface."""
+"""The picture: everything between a pose and the pixels of a surface.
+
+From the ground up; a module imports from those before it only:
+
+    raster        filling outlines with exact coverage
+    shapes        outlines, and rigid parts that are turned and placed
+    text          fonts and lines of text
+    theme         colours
+    view          the only conversion between the scene's lengths and pixels
+    items         what pictures are made of: shapes and captions, in groups
+    layout        where things stand in the window, and how large they are for its size
+    look          what is shown of a scene, and how users change it
+    figure        what of a linkage is drawn
+    fittings      sliders and guides, springs, dampers, the ground
+    bodies        bars, plates, pins, centres of mass, the causal chain
+    gears         wheels, teeth, belts
+    motion_marks  traces, the input's arrow, velocity and acceleration arrows
+    dimensions    symbols of dimensions, and dimension lines
+    quantities    quantities over one true period, and axes
+    chart         charts, and the chart beside the scene
+    construction  the construction of a synthesis
+    placing       one place for each label
+    polygons      the velocity and the acceleration polygon
+    centres       instant centres and centrodes
+    dead_centres  a slider's dead centres on its guide
+    labels        names and dimensions, and where there is room for them
+    drawing       a linkage drawn in one view, back to front
+    hud           the words about a scene
+    arrangement   where scene and words stand
+    overlay       what lies over the picture, as data
+    board         what every panel is drawn on
+    game_panel    what a game shows
+    panels        help, lists, chips, marks of state
+    marks         the bar being edited, handles, a ram's lane
+    photograph    a photograph behind a sheet
+    tools         the bar of tools
+    build_sheet   the sheet: its grid, a draft, the pencil's path
+    picture       the one description of a picture, for every printer
+    surface       the printer for surfaces
+    shelf         linkages as small live pictures
+"""

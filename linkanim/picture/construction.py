@@ -8,10 +8,10 @@ from itertools import pairwise
 
 import numpy as np
 
-from linkanim.picture.diagrams.chart import Pen, line_layer
+from linkanim.picture.chart import Pen, line_layer
 from linkanim.picture.items import Caption, Halo, Item
-from linkanim.picture.raster.raster import Colour, Layer, Loop
-from linkanim.picture.raster.shapes import arrows, disc, segments
+from linkanim.picture.raster import Colour, Layer, Loop
+from linkanim.picture.shapes import arrows, disc, segments
 from linkanim.picture.theme import mixed
 from linkanim.picture.view import Box, Rect, View
 from linkanim.synthesis.constructions import Mark

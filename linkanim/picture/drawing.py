@@ -9,28 +9,33 @@ from itertools import groupby, zip_longest
 from math import isfinite
 from typing import TYPE_CHECKING
 
-from linkanim.mechanics.motion.motion import Pose
+from linkanim.mechanics.motion import Pose
+from linkanim.picture.bodies import body_parts, mark_stamp, mass_stamp, pin_stamp
+from linkanim.picture.dimensions import Symbols, leg_part, pivots, symbols
 from linkanim.picture.figure import DrawSetting
+from linkanim.picture.fittings import Bench, Coil, Damping, coils, dampings, ground_layers, ground_line
+from linkanim.picture.gears import wheel_layers, wheel_parts
 from linkanim.picture.items import Group
-from linkanim.picture.labels.dimensions import Symbols, leg_part, pivots, symbols
 from linkanim.picture.look import ACCELERATION, VELOCITY
-from linkanim.picture.parts.bodies import body_parts, mark_stamp, mass_stamp, pin_stamp
-from linkanim.picture.parts.fittings import Bench
-from linkanim.picture.parts.gears import wheel_layers, wheel_parts
-from linkanim.picture.parts.ground import ground_layers, ground_line
-from linkanim.picture.parts.struts import Coil, Damping, coils, dampings
-from linkanim.picture.parts.trace import Trace, traces
-from linkanim.picture.parts.turning import Sliding, Turning, motion_of
-from linkanim.picture.parts.vectors import Arrows, arrow_layers, arrows_of
-from linkanim.picture.raster.parts import Part, Places, Stamp, by_depth, placed
-from linkanim.picture.raster.raster import Layer
+from linkanim.picture.motion_marks import (
+    Arrows,
+    Sliding,
+    Trace,
+    Turning,
+    arrow_layers,
+    arrows_of,
+    motion_of,
+    traces,
+)
+from linkanim.picture.raster import Layer
+from linkanim.picture.shapes import Part, Places, Stamp, by_depth, placed
 from linkanim.picture.theme import mixed
 from linkanim.picture.view import View
 
 if TYPE_CHECKING:
-    from linkanim.picture.diagrams.centres import Centres
-    from linkanim.picture.labels.dead_centres import DeadCentres
-    from linkanim.picture.parts.causal_chain import CausalChain
+    from linkanim.picture.bodies import CausalChain
+    from linkanim.picture.centres import Centres
+    from linkanim.picture.dead_centres import DeadCentres
 
 # What only some looks ask for is imported where they do: the first frame does not wait for it.
 
@@ -85,7 +90,7 @@ class Drawing:
 
     def dead_centres_in(self, view: View) -> DeadCentres | None:
         """Return the ticks on a slider's guide in a view; None where there are none."""
-        from linkanim.picture.labels.dead_centres import dead_centres_of
+        from linkanim.picture.dead_centres import dead_centres_of
 
         bench = Bench(self.setting.figure, view, self.setting.gauge, self.setting.theme)
         return dead_centres_of(bench, self.setting.layout, sized=self.setting.look.names > 1)
@@ -218,14 +223,14 @@ def _parts(setting: DrawSetting, known: Symbols | None) -> Parts:
 
 
 def _centres(setting: DrawSetting) -> Centres:
-    from linkanim.picture.diagrams.centres import Centres
+    from linkanim.picture.centres import Centres
 
     return Centres(setting)
 
 
 def _chain(setting: DrawSetting) -> CausalChain:
-    from linkanim.mechanics.facts.solving_steps import solving_steps
-    from linkanim.picture.parts.causal_chain import CausalChain
+    from linkanim.mechanics.analysis import solving_steps
+    from linkanim.picture.bodies import CausalChain
 
     return CausalChain(solving_steps(setting.figure.linkage), setting.theme)
 

@@ -9,13 +9,12 @@ from math import tau
 
 import numpy as np
 
-from linkanim.mechanics.linkage.linkage import Body, Damper, Linkage, Spring
-from linkanim.mechanics.linkage.rigid_bodies import Brace, holding
-from linkanim.mechanics.motion.motion import Motion
+from linkanim.mechanics.linkage import Body, Brace, Damper, Linkage, Spring, holding
+from linkanim.mechanics.motion import Motion
 from linkanim.picture.layout import Gauge, Layout
 from linkanim.picture.look import Look
-from linkanim.picture.raster.raster import Loop
-from linkanim.picture.text.text import Type
+from linkanim.picture.raster import Loop
+from linkanim.picture.text import Type
 from linkanim.picture.theme import Theme
 from linkanim.picture.view import Box, View
 from linkanim.scenes.scene import FREE_STYLE, Scene

@@ -7,9 +7,9 @@ from typing import NamedTuple, Protocol
 
 import pygame
 
-from linkanim.picture.raster.raster import Colour, Layer
-from linkanim.picture.raster.shapes import cut
-from linkanim.picture.text.text import Anchor
+from linkanim.picture.raster import Colour, Layer
+from linkanim.picture.shapes import cut
+from linkanim.picture.text import Anchor
 from linkanim.picture.view import Rect
 
 

@@ -8,37 +8,41 @@ from functools import cached_property
 from itertools import islice
 from typing import TYPE_CHECKING, NamedTuple
 
-from linkanim.mechanics.motion.motion import Pose
-from linkanim.picture.arrangement.fit import FitRequest, SceneFit, fitted, request_of
-from linkanim.picture.arrangement.words import caption_lines
-from linkanim.picture.building.sheet import drafted, hand, home_view, loose, paper
-from linkanim.picture.diagrams.chart import pen_for
-from linkanim.picture.diagrams.chart_panel import ChartPanel, chart_panel
+from linkanim.mechanics.motion import Pose
+from linkanim.picture.arrangement import FitRequest, SceneFit, fitted, request_of
+from linkanim.picture.build_sheet import (
+    dashed,
+    drafted,
+    drawn_line,
+    hand,
+    handles,
+    home_view,
+    loose,
+    paper,
+    sheet,
+)
+from linkanim.picture.chart import ChartPanel, chart_panel, pen_for
 from linkanim.picture.drawing import Drawing
 from linkanim.picture.figure import DrawSetting, Figure, figure
+from linkanim.picture.hud import Hud, Legend, caption_lines, legend_for, measured
 from linkanim.picture.items import Caption, Group, Item, grouped
 from linkanim.picture.layout import CAPTION_STEP, Gauge, Layout, gauge
 from linkanim.picture.look import Look
-from linkanim.picture.panels.hud import Hud
-from linkanim.picture.panels.legend import Legend, legend_for
-from linkanim.picture.panels.marks import glow, grip, measure, spots
-from linkanim.picture.panels.overlay import Lane, Overlay, PathShown
-from linkanim.picture.panels.path import dashed, drawn_line, handles, sheet
-from linkanim.picture.panels.readings import measured
-from linkanim.picture.parts.turning import motion_of
-from linkanim.picture.raster.parts import Part
-from linkanim.picture.text.text import Type
+from linkanim.picture.marks import glow, grip, measure, spots
+from linkanim.picture.motion_marks import motion_of
+from linkanim.picture.overlay import Lane, Overlay, PathShown
+from linkanim.picture.shapes import Part
+from linkanim.picture.text import Type
 from linkanim.picture.theme import Theme, theme_of
 from linkanim.picture.view import Box, Rect, View, moved
-from linkanim.scenes.editing.closures import ghost_of
-from linkanim.scenes.editing.shown_unit import in_unit
+from linkanim.scenes.editing import ghost_of, in_unit
 from linkanim.scenes.scene import Scene
 
 if TYPE_CHECKING:
     from linkanim.build.draft import Photo
-    from linkanim.picture.diagrams.polygons import Polygon
-    from linkanim.picture.labels.names import Names
-    from linkanim.synthesis.curves.drawn import DrawnCurve
+    from linkanim.picture.labels import Names
+    from linkanim.picture.polygons import Polygon
+    from linkanim.synthesis.curves import DrawnCurve
 
 
 class Earlier(NamedTuple):
@@ -227,7 +231,7 @@ class Picture:
         yield from self._handled(pose, overlay)
 
     def _lane(self, shown: Lane) -> Group:
-        from linkanim.picture.panels.lane import lane
+        from linkanim.picture.marks import lane
 
         return lane(self.drawing.setting, shown)
 
@@ -423,7 +427,7 @@ class Picture:
     def _polygons(self) -> tuple[Polygon, ...]:
         if not self.layout.polygons:
             return ()
-        from linkanim.picture.diagrams.polygons import polygons_of
+        from linkanim.picture.polygons import polygons_of
 
         pen = pen_for(self.layout, self.type, self.theme)
         return polygons_of(self.figure, self.layout.polygons, pen, self._moment)
@@ -440,8 +444,7 @@ class Picture:
             unit, scale = self.scene.length_unit, self.view.scale
             self.names = names and names.measuring(self.drawing.symbols, unit, scale)
             return
-        from linkanim.picture.labels.candidates import Surroundings
-        from linkanim.picture.labels.names import names_of
+        from linkanim.picture.labels import Surroundings, names_of
 
         known, (figure_, _, gauge, theme) = self.drawing.symbols, self.drawing.setting.known
         # placed in the view as it fits; a zoom only carries them along
@@ -462,7 +465,7 @@ class Picture:
 
     def _table_size(self) -> tuple[int, float]:
         """Return how many rows a table of all dimensions has, and how wide they are."""
-        from linkanim.picture.labels.names import table_width
+        from linkanim.picture.labels import table_width
 
         assert self.drawing.symbols
         unit = self.scene.length_unit

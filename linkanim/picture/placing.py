@@ -17,7 +17,7 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import ArrayLike, NDArray
 
-from linkanim.picture.raster.raster import Loop
+from linkanim.picture.raster import Loop
 from linkanim.picture.view import Rect
 
 _Floats = NDArray[np.float64]

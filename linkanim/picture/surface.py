@@ -9,16 +9,15 @@ from operator import attrgetter
 
 import pygame
 
-from linkanim.mechanics.motion.motion import Pose
+from linkanim.mechanics.motion import Pose
+from linkanim.picture.board import Board
+from linkanim.picture.build_sheet import SHEET
 from linkanim.picture.items import Caption, Group, flat
-from linkanim.picture.panels.board import Board
-from linkanim.picture.panels.overlay import Overlay
-from linkanim.picture.panels.panels import Panels
-from linkanim.picture.panels.path import SHEET
+from linkanim.picture.overlay import Overlay
+from linkanim.picture.panels import Panels
 from linkanim.picture.picture import Picture
-from linkanim.picture.raster.raster import Cover, Shapes, covers, in_turn, is_clear, keep_memory, paints
-from linkanim.picture.text.lettering import Lettering
-from linkanim.picture.text.text import Type
+from linkanim.picture.raster import Cover, Shapes, covers, in_turn, is_clear, keep_memory, paints
+from linkanim.picture.text import Lettering, Type
 
 _MOST_PICTURES = 8
 """What is kept of shapes that come again takes no more memory than so many pictures."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from linkanim.picture.raster.raster import Colour
+from linkanim.picture.raster import Colour
 
 ORANGE = (230, 159, 0)
 SKY = (86, 180, 233)

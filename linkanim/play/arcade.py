@@ -7,11 +7,10 @@ from pathlib import Path
 from random import Random
 from typing import TYPE_CHECKING
 
+from linkanim.atomic_files import kept_as
 from linkanim.errors import LinkanimError
-from linkanim.play.games import game_of
-from linkanim.play.words import GameWords
-from linkanim.player.state.state import Game
-from linkanim.user_data import kept_as
+from linkanim.play.games import GameWords, game_of
+from linkanim.player.state import Game
 
 if TYPE_CHECKING:
     from linkanim.play.question import QuestionId
@@ -51,7 +50,7 @@ class Arcade:
             case "title":
                 return str(found.having(door=scores.door or "play"))
             case "menu":
-                from linkanim.play.menu import is_round
+                from linkanim.play.menus import is_round
 
                 rounds = (f"{name}:{score}" for name, score in scores.best.items() if is_round(name))
                 return str(found.having(best=",".join(rounds)))
@@ -60,8 +59,8 @@ class Arcade:
 
                 return str(found.having(best=scores.best.get(run_of(found).kept_as, 0)))
             case "match":
-                from linkanim.play.match.game import first_unsolved
-                from linkanim.play.match.game import read as level_of
+                from linkanim.play.match import first_unsolved
+                from linkanim.play.match import read as level_of
 
                 found = found if "level" in found.fields else found.having(level=first_unsolved(scores.best))
                 return str(found.having(best=scores.best.get(level_of(found).kept_as, 0)))
@@ -72,9 +71,9 @@ class Arcade:
 
     def _again(self, words: GameWords, scores: Scores) -> list[QuestionId]:
         """Return what was missed of a chapter and level and can still be asked, the longest ago first."""
-        from linkanim.play.chapters import ALL, members
-        from linkanim.play.kinds.table import of_level
-        from linkanim.play.round import is_question
+        from linkanim.play.games import ALL, members
+        from linkanim.play.kinds import of_level
+        from linkanim.play.quiz import is_question
 
         scenes = members(words.text("chapter", ALL))
         kinds = of_level(words.whole("level", 1, 1, 3))

@@ -1,18 +1,97 @@
-"""The table of games, read from their words."""
+"""Read a game from its words, and give games what they share: words, chapters, levels, choosing a row.
+
+A game's words are its kind and its parameters, as `predict chapter=four-bars level=2 seed=7`. A game's
+module is imported when it is first played.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from dataclasses import replace
 from importlib import import_module
-from typing import cast
+from shlex import quote, shlex
+from typing import NamedTuple, Self, cast
 
 from linkanim.errors import BadInput
-from linkanim.play.words import GameWords
-from linkanim.player.state.state import Game
+from linkanim.picture.look import Look
+from linkanim.picture.overlay import Choice
+from linkanim.player.action import Action
+from linkanim.player.state import Game, State, with_effect
+from linkanim.scenes import chapters, names, titles
 from linkanim.units import shown
 
-_MODULES = ("title", "lobby", "menu", "predict", "follow", "match.game")
-GAMES = {module.partition(".")[0]: f"linkanim.play.{module}" for module in _MODULES}
+# A game's words: its kind, then its parameters, as `predict chapter=four-bars level=2 seed=7`.
+
+
+class GameWords(NamedTuple):
+    """What a game is begun with."""
+
+    kind: str
+    fields: dict[str, str]
+
+    @classmethod
+    def of(cls, text: str) -> Self:
+        """Read them; BadInput where a parameter is not written as name=value.
+
+        A value may have quotes, as in a shell; without any, words that have no name belong to the one before.
+        """
+        kind, parts = "", list[str]()
+        for part in _split(text):
+            if not kind:
+                kind = part
+            elif "=" not in part and parts:
+                parts[-1] += f" {part}"
+            else:
+                parts.append(part)
+        if not all("=" in part for part in parts):
+            raise BadInput(f"{shown(text)} is no game; one is written as predict level=1 seed=7")
+        return cls(kind, dict(part.split("=", 1) for part in parts))
+
+    def __str__(self) -> str:
+        return " ".join([self.kind, *(quote(f"{name}={value}") for name, value in self.fields.items())])
+
+    def text(self, name: str, usual: str = "") -> str:
+        """Return a parameter, spaces for its underscores."""
+        return self.fields.get(name, usual).replace("_", " ")
+
+    def whole(self, name: str, usual: int = 0, low: int = 0, high: int = 10**9) -> int:
+        """Return a parameter that is a whole number within bounds; BadInput for any other."""
+        value = self.fields.get(name, str(usual))
+        try:
+            number = int(value)
+        except ValueError:
+            number = low - 1
+        if not low <= number <= high:
+            raise BadInput(f"{self.kind}: {name}={shown(value)} is no whole number from {low} to {high}")
+        return number
+
+    def having(self, **fields: object) -> Self:
+        """Return them with other parameters; what is "" is left out."""
+        given = {name: str(value) for name, value in fields.items() if value != ""}
+        return self._replace(fields={**self.fields, **given})
+
+
+def _split(text: str) -> list[str]:
+    """Return what spaces part, but those in quotes; a backslash is a character as others."""
+    lexer = shlex(text, posix=True)
+    lexer.whitespace_split, lexer.escape, lexer.commenters = True, "", ""
+    try:
+        return [*lexer]
+    except ValueError:
+        raise BadInput(f"{shown(text)} has a quote that does not end") from None
+
+
+# The table of games, read from their words.
+
+_MODULES = {"title": "menus", "lobby": "menus", "menu": "menus"}
+GAMES = {
+    kind: f"linkanim.play.{_MODULES.get(kind, kind)}"
+    for kind in ("title", "lobby", "menu", "predict", "follow", "match")
+}
 """Where each kind lives, imported when it is first played: a module with `read(words)`."""
+
+LEVELS = (1, 2, 3)
+"""Of rounds of questions."""
 
 
 def game_of(text: str) -> Game:
@@ -21,3 +100,78 @@ def game_of(text: str) -> Game:
     if words.kind not in GAMES:
         raise BadInput(f"there is no game {shown(words.kind)}; there are {', '.join(GAMES)}")
     return cast(Game, import_module(GAMES[words.kind]).read(words))
+
+
+# What rounds are about: a chapter, all of them together, or one scene.
+
+ALL = "all"
+
+
+def members(chapter: str) -> tuple[str, ...]:
+    """Return the scenes of a chapter, of all, or the one scene of that name; BadInput for another name."""
+    if chapter == ALL:
+        return names()
+    found = chapters().get(chapter, [chapter] if chapter in names() else [])
+    if not found:
+        raise BadInput(f"there is no chapter {shown(chapter)}; there are {ALL}, {', '.join(chapters())}")
+    return tuple(found)
+
+
+def titled(chapter: str) -> str:
+    """Return a chapter's or a scene's name as a heading."""
+    return "All mechanisms" if chapter == ALL else titles().get(chapter, chapter[:1].upper() + chapter[1:])
+
+
+# What games share: how they begin one another, and how one of several rows is chosen.
+
+
+class Chosen(NamedTuple):
+    """The row that is chosen now, and whether it is taken."""
+
+    row: int
+    taken: bool
+
+
+def chosen_by(action: Action, row: int, count: int) -> Chosen | None:
+    """Return what an action chooses of so many rows where one is chosen; None where it chooses nothing."""
+    match action:
+        case Action("option", int() as place) if 0 <= place < count:
+            return Chosen(place, taken=True)
+        case Action("raise", int() as steps):
+            return Chosen((row + (-1 if steps > 0 else 1)) % count, taken=False)
+        case Action("next"):
+            return Chosen(row, taken=True)
+    return None
+
+
+class Door(NamedTuple):
+    """A way on: what it is called by, and in words."""
+
+    name: str
+    text: str
+    about: str
+
+
+def choices_of(doors: Iterable[Door]) -> tuple[Choice, ...]:
+    """Return doors as a panel shows them, numbered."""
+    return tuple(Choice(f"{n}", door.text, below=door.about) for n, door in enumerate(doors, 1))
+
+
+def begun(state: State, kind: str, **fields: object) -> State:
+    """Return the state that asks for a game, which begins once its words are completed."""
+    return with_effect(state, "begin", str(GameWords(kind, {}).having(**fields)))
+
+
+class OverWhatRuns:
+    """What the choices of a game and of a round share: what is on runs on bare behind them."""
+
+    covers = True
+
+    def entered(self, state: State) -> State:
+        """Let what is on run behind it."""
+        clock = state.clock.pause(state.frame, False)
+        return replace(state, look=Look(hud=False, theme=state.look.theme), clock=clock)
+
+    def aged(self, state: State) -> State:
+        """Return the state as it is: time does nothing here."""
+        return state

@@ -17,9 +17,9 @@ from io import BytesIO
 from typing import NamedTuple
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
-from linkanim.picture.raster.offscreen import png_bytes
+from linkanim.picture.raster import png_bytes
 from linkanim.play.question import QuizAnswer, QuizQuestion
-from linkanim.play.sheet import LETTERS, answer_text, curve_png, pose_words, question_figure
+from linkanim.play.quiz import LETTERS, answer_text, curve_png, pose_words, question_figure
 
 Rounds = Mapping[str, Sequence[QuizQuestion]]
 """Questions by the name of their chapter."""

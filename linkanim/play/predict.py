@@ -8,19 +8,15 @@ from typing import NamedTuple
 
 from linkanim.errors import BadInput
 from linkanim.picture.look import Look
-from linkanim.picture.panels.overlay import Choice, GamePanel, Mood, Overlay, Spot
-from linkanim.play.chapters import ALL, members, titled
-from linkanim.play.choosing import begun
-from linkanim.play.kinds.table import LEVELS, of_level
+from linkanim.picture.overlay import Choice, GamePanel, Mood, Overlay, Spot
+from linkanim.play.games import ALL, LEVELS, GameWords, begun, members, titled
+from linkanim.play.kinds import of_level
 from linkanim.play.question import QuestionId, QuizQuestion
-from linkanim.play.round import next_question, question_of
-from linkanim.play.sheet import pose_words
-from linkanim.play.words import GameWords
-from linkanim.player.state.action import Action
-from linkanim.player.state.clock import FRAMES_PER_SECOND
-from linkanim.player.state.fault import proved
-from linkanim.player.state.handlers.games import with_scene
-from linkanim.player.state.state import State, with_effect
+from linkanim.play.quiz import next_question, pose_words, question_of
+from linkanim.player.action import Action
+from linkanim.player.actions import with_scene
+from linkanim.player.clock import FRAMES_PER_SECOND
+from linkanim.player.state import State, proved, with_effect
 from linkanim.scenes import load
 from linkanim.scenes.scene import Scene
 from linkanim.units import shown

@@ -1,26 +1,30 @@
-"""A question about a linkage at a pose, and what it is made from."""
+"""Make a question about a linkage at a pose: its text, its answers, what it is made from.
+
+How numbers and ways stand in questions, and how many answers there are, stands here, too.
+"""
 
 from __future__ import annotations
 
+from cmath import phase
 from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from math import isfinite
+from math import degrees, isfinite, pi
 from random import Random
 from typing import NamedTuple, Self
 
 import numpy as np
 
 from linkanim.errors import BadInput
-from linkanim.mechanics.formulas.program import Array
-from linkanim.mechanics.linkage.joint import Point
-from linkanim.mechanics.linkage.linkage import Body
-from linkanim.mechanics.linkage.rigid_bodies import holding
-from linkanim.mechanics.motion.motion import Motion, Pose
+from linkanim.mechanics.linkage import Body, Point, holding
+from linkanim.mechanics.motion import Motion, Pose
+from linkanim.mechanics.program import Array
 from linkanim.picture.figure import Figure, figure
 from linkanim.picture.look import Look
 from linkanim.scenes.scene import Scene
-from linkanim.units import shown
+from linkanim.units import short, shown, significant, typeset
+
+# A question about a linkage at a pose, and what it is made from.
 
 CLEAR = 0.02
 """Two values that differ by less of their range look alike; below as much a value is as good as zero."""
@@ -212,3 +216,55 @@ class Puzzle:
         about = (self.kind, self.scene, self.phase, subject)
         given = (text, tuple(answers), answers.index(right), why)
         return QuizQuestion(*about, *given, shows, tuple(arrows), stops, names)
+
+
+# How numbers and ways stand in questions, and how many answers.
+
+MOST = 4
+"""So many answers a question has at most."""
+
+WAYS = ("to the right", "up", "to the left", "down")
+"""The compass points of `quarter`, as ways to move, and as places beside something."""
+SIDES = ("to the right of", "above", "to the left of", "below")
+BESIDE = ("on the right", "above", "on the left", "below")
+TURNS = ("counterclockwise", "clockwise")
+
+
+def quarter(vector: complex) -> int:
+    """Return the compass point that is nearest to a vector: 0 right, 1 up, 2 left, 3 down."""
+    return round(phase(vector) / (pi / 2)) % 4
+
+
+def obliquity(vector: complex) -> float:
+    """Return the angle between a vector and the nearest compass point, 0 to π/4."""
+    return abs(phase(vector * (1, -1j, -1, 1j)[quarter(vector)]))
+
+
+def number(value: float) -> str:
+    """Return a number as it is read in a question."""
+    return typeset(short(value) if abs(value) >= 0.1 or not value else significant(value, 3))
+
+
+def angle(value: float) -> str:
+    """Return an angle of a full turn, in degrees."""
+    return f"{round(value, 1) % 360:.1f}°"
+
+
+def swing(low: float, high: float) -> str:
+    """Return between which angles, in degrees, something swings."""
+    return f"it swings between {tenths(low)} and {tenths(high)}"
+
+
+def tenths(value: float) -> str:
+    """Return an angle in degrees, of either sign."""
+    return typeset(f"{round(value, 1) + 0.0:.1f}°")  # -0.0 + 0.0 is 0.0
+
+
+def between(one: float, other: float) -> float:
+    """Return how far two angles in degrees are from each other, 0 to 180."""
+    return abs((one - other + 180) % 360 - 180)
+
+
+def crank_degrees(puzzle: Puzzle, at: float) -> float:
+    """Return the input's angle at a phase, 0 to 360."""
+    return round(degrees(puzzle.scene.pose(at, 0).coordinate), 9) % 360

@@ -9,9 +9,8 @@ from pathlib import Path
 from types import MappingProxyType
 
 from linkanim import atomic_files, intake
-from linkanim.document import Section, refuse_controls
 from linkanim.errors import BadInput, OtherVersion
-from linkanim.intake import Intake
+from linkanim.intake import Intake, Section, refuse_controls
 from linkanim.play.question import QuestionId
 
 VERSION = 1

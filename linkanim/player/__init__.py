@@ -1,1 +1,23 @@
-"""The window: keys, the pure state behind it, tapes and the loop."""
+"""The window: keys, the pure state behind it, tapes and the loop.
+
+From the ground up; a module imports from those before it only:
+
+    clock      phase as a closed form of the integer frame
+    action     what can be asked of the player, as plain data
+    keys       the one table of keys and gamepad buttons
+    state      all that one frame of the window shows
+    edits      another scene is put on; dimensions are edited
+    pencil     a stroke is drawn, answers come, one is kept
+    building   a linkage is built on the sheet
+    actions    the table of actions, and `advance(state, actions)`
+    tape       what was done, frame by frame
+    tape_file  a tape as a file
+    sound      cues, their waves, the loudspeaker
+    shown      the state in the words of the overlay
+    framing    the picture that fits a state, and the way to the next one
+    screen     the display, and what is on it
+    devices    keyboard, touch, gamepads, mouse
+    files      files that the window writes
+    beside     processes beside the window: a search, a recording
+    window     the loop
+"""

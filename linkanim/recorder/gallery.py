@@ -15,12 +15,11 @@ from linkanim.atomic_files import checked_folder
 from linkanim.errors import RecordingFailed
 from linkanim.manifest import FileSet, replacing
 from linkanim.picture.figure import figure
+from linkanim.picture.gears import teeth_a_second
 from linkanim.picture.look import Look
-from linkanim.picture.parts.wheels import teeth_a_second
 from linkanim.recorder.palette import Bytes, make_palette, nearest, rgb
 from linkanim.recorder.plan import Clip, make_plan
-from linkanim.recorder.recording import Progress, Recording
-from linkanim.recorder.scene_frames import SceneFrames, record
+from linkanim.recorder.recording import Progress, Recording, SceneFrames, record
 from linkanim.recorder.tape_frames import record_tape
 from linkanim.scenes import load
 from linkanim.scenes.scene import Scene

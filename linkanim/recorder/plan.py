@@ -8,8 +8,8 @@ from fractions import Fraction
 from typing import Literal, NamedTuple
 
 from linkanim.bounds import LARGEST_SIDE, MOST_FRAMES, MOST_PIXELS
-from linkanim.digits import rpm, short
 from linkanim.errors import BadInput
+from linkanim.units import rpm, short
 
 Format = Literal["gif", "mp4", "png"]
 

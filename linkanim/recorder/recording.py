@@ -1,4 +1,4 @@
-"""From frames that can be drawn to a file that loops."""
+"""Record frames that can be drawn to a file that loops; `record` does so with a scene's motion."""
 
 from __future__ import annotations
 
@@ -7,20 +7,32 @@ import os
 import re
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 from functools import partial
 from pathlib import Path
-from typing import Protocol, cast
+from typing import TYPE_CHECKING, Protocol, cast
 
 import numpy as np
 
 from linkanim import manifest
 from linkanim.atomic_files import checked_target
 from linkanim.errors import BadInput, RecordingFailed, WorkFailed
-from linkanim.recorder.encode import Stream, count_frames, encoding
+from linkanim.picture.look import Look
+from linkanim.picture.overlay import Overlay
+from linkanim.picture.picture import Picture
+from linkanim.picture.raster import offscreen, pixel_view
+from linkanim.picture.surface import SurfacePrinter
+from linkanim.picture.theme import theme_of
+from linkanim.recorder.encode import Frame, Stream, count_frames, encoding
 from linkanim.recorder.palette import Colour, make_palette
-from linkanim.recorder.plan import Format, Plan, refuse_size
-from linkanim.recorder.process import Frame
+from linkanim.recorder.plan import Clip, Format, Plan, make_plan, refuse_size
+
+if TYPE_CHECKING:
+    from linkanim.recorder.encode import Frame
+    from linkanim.recorder.palette import Colour
+    from linkanim.scenes.scene import Scene
+
+# From frames that can be drawn to a file that loops.
 
 SUFFIXES = (".gif", ".mp4", ".png")
 Progress = Callable[[int, int], None]
@@ -171,3 +183,65 @@ def palette_of(frames: Frames, count: int) -> list[Colour]:
     samples = (np.frombuffer(frames.draw(k), np.uint8) for k in chosen)
     palette = make_palette(samples, frames.colours, alpha=frames.alpha).tolist()
     return [(red, green, blue) for red, green, blue in palette]
+
+
+# A scene's motion as frames, and `record`.
+
+
+class SceneFrames:
+    """Pictures of a scene at the phases of a plan; `noted` as in the overlay."""
+
+    def __init__(
+        self, scene: Scene, plan: Plan, size: tuple[int, int], look: Look, *, noted: bool = False
+    ) -> None:
+        self.size = size
+        self.alpha = not look.background
+        self.colours = theme_colours(look.theme)
+        self._plan = plan
+        self._over = Overlay(noted=noted)
+        self._picture, self._printer = Picture(scene, size, look), SurfacePrinter()
+        self._surface = offscreen(size, alpha=self.alpha)
+
+    def draw(self, frame: int) -> Frame:
+        """Return the bytes of a frame, to be let go before the next is drawn in their place."""
+        phase, speed = self._plan.phase(frame), self._plan.speed
+        self._printer.print(self._surface, self._picture, phase, speed, self._over)
+        return pixel_view(self._surface)
+
+
+def record(
+    scene: Scene,
+    path: Target,
+    *,
+    size: tuple[int, int] = (1280, 720),
+    fps: float = 25.0,
+    speed: float | None = None,
+    periods: int = 1,
+    seconds: float | None = None,
+    reverse: bool = False,
+    start: float = 0.0,
+    look: Look = Look(),  # noqa: B008 -- frozen
+    noted: bool = False,
+    progress: Progress | None = None,
+) -> Recording:
+    """Record whole periods of a scene's motion as a GIF, MP4 or numbered PNG, by the path's ending.
+
+    `size` in pixels; `speed` is dφ/dt in rad/s, the scene's own where None; `seconds` sets the length
+    instead of `periods` (true periods), and the clip need not close then; `start` is the first frame's
+    phase. With `noted` the HUD says where a limit or a change point is near. `progress` is called with
+    (frames done, frames in all). The file appears when it is whole, or not at all. `BadInput` for what
+    cannot be recorded, before any work; `RecordingFailed` where disk or encoder give up.
+    """
+    _, form = checked_path(path)
+    refuse_size(size)
+    rate = scene.linkage.drive.speed if speed is None else speed
+    plan = make_plan(Clip(rate, scene.period, fps, periods, seconds, reverse, start), form)
+    return write(SceneFrames(scene, plan, size, look, noted=noted), plan, path, progress)
+
+
+def theme_colours(theme: str) -> tuple[Colour, ...]:
+    """Return every colour of a theme, flat areas of which a GIF has to show exactly."""
+    plain: list[Colour] = []
+    for value in astuple(theme_of(theme)):
+        plain += value if isinstance(value[0], tuple) else [value]
+    return tuple(dict.fromkeys(plain))

@@ -10,23 +10,30 @@ from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from linkanim.picture.answer_row import RowPrinter
-from linkanim.picture.building.photograph import refuse_lacking
-from linkanim.picture.panels.overlay import Overlay
-from linkanim.picture.raster.offscreen import offscreen, pixel_view
+from linkanim.picture.overlay import Overlay
+from linkanim.picture.photograph import refuse_lacking
+from linkanim.picture.raster import offscreen, pixel_view
+from linkanim.picture.shelf import RowPrinter
 from linkanim.picture.surface import SurfacePrinter
 from linkanim.play.games import game_of
-from linkanim.player.tape import tape_file
-from linkanim.player.window.approach import Framing
-from linkanim.player.window.show import overlay
+from linkanim.player import tape_file
+from linkanim.player.framing import Framing
+from linkanim.player.shown import overlay
 from linkanim.recorder.plan import SIDES, Clip, make_plan, refuse_size
-from linkanim.recorder.recording import Progress, Recording, Target, checked_path, write
-from linkanim.recorder.scene_frames import record, theme_colours
+from linkanim.recorder.recording import (
+    Progress,
+    Recording,
+    Target,
+    checked_path,
+    record,
+    theme_colours,
+    write,
+)
 
 if TYPE_CHECKING:
-    from linkanim.player.state.state import State
-    from linkanim.player.tape.tape import Tape
-    from linkanim.recorder.process import Frame
+    from linkanim.player.state import State
+    from linkanim.player.tape import Tape
+    from linkanim.recorder.encode import Frame
 
 
 _LONGER = 1280

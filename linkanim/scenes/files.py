@@ -11,10 +11,10 @@ from pathlib import Path
 from types import MappingProxyType
 
 from linkanim import intake
-from linkanim.document import meant
 from linkanim.errors import BadInput
-from linkanim.scenes.editing.toml import SCENE_FILE, parse
+from linkanim.intake import meant
 from linkanim.scenes.scene import Scene
+from linkanim.scenes.toml import SCENE_FILE, parse
 from linkanim.units import shown
 
 
@@ -52,7 +52,7 @@ def load(name_or_path: str | os.PathLike[str]) -> Scene:
     A path is anything with a folder in it or the suffix .toml. BadInput for an unknown name, SceneError
     for a file that is not a scene, AssemblyError for lengths that cannot be assembled.
     """
-    from linkanim.scenes.reading.read import scene_from
+    from linkanim.scenes.reading import scene_from
 
     text, path = os.fspath(name_or_path), path_of(name_or_path)
     if path is None:

@@ -1,4 +1,10 @@
-"""A scene: a linkage with its title, its source and what to trace, ready to be solved."""
+"""Hold a scene: a linkage with its title, its source and what it was made for, ready to be solved.
+
+Its parts, in reading order:
+
+- What a linkage was made for, as its file keeps it: poses, a function, or a stroke and its time ratio.
+- A scene: a linkage with its title, its source and what to trace, ready to be solved.
+"""
 
 from __future__ import annotations
 
@@ -13,13 +19,48 @@ from linkanim.errors import BadInput
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
-    from linkanim.mechanics.facts.classify import Info
-    from linkanim.mechanics.facts.register import Quantity
-    from linkanim.mechanics.linkage.linkage import Linkage
-    from linkanim.mechanics.motion.mechanism import Mechanism
-    from linkanim.mechanics.motion.motion import Motion, Pose
-    from linkanim.scenes.purpose import Purpose
+    from linkanim.mechanics.analysis import Info
+    from linkanim.mechanics.linkage import Linkage
+    from linkanim.mechanics.motion import Mechanism, Motion, Pose
+    from linkanim.mechanics.quantities import Quantity
 
+# What a linkage was made for, as its file keeps it: poses, a function, or a stroke and its time ratio.
+#
+# It says nothing of the motion; what explains and draws the synthesis reads it.
+
+
+class PosesPurpose(NamedTuple):
+    """Poses of the coupler: x, y (the scene's unit) and angle (rad); its origin is the first traced joint."""
+
+    poses: tuple[tuple[float, float, float], ...]
+
+
+class FunctionPurpose(NamedTuple):
+    """A function in words, with its precision points.
+
+    At each x the function has a y, the crank stands at an angle `input` (rad), and the output at an angle
+    (rad), or a slider at a way along its line (the scene's unit).
+    """
+
+    words: str
+    x: tuple[float, ...]
+    y: tuple[float, ...]
+    input: tuple[float, ...]
+    output: tuple[float, ...]
+
+
+class TimeRatioPurpose(NamedTuple):
+    """The slow way's time over the quick way's, and the slider's stroke, or the rocker's swing (rad)."""
+
+    ratio: float
+    stroke: float | None = None
+    swing: float | None = None
+
+
+Purpose = PosesPurpose | FunctionPurpose | TimeRatioPurpose
+
+
+# A scene: a linkage with its title, its source and what to trace, ready to be solved.
 
 Outline = Literal["bar", "plate", "wheel", "railwheel", "slot", "hook", "pad", "bucket", "none"]
 """How a body may be drawn: a bar through its joints, a plate around them, a wheel about its first one, one on
@@ -74,7 +115,7 @@ class Scene:
     @cached_property
     def mechanism(self) -> Mechanism:
         """The linkage put together; AssemblyError where it cannot be."""
-        from linkanim.mechanics.motion.mechanism import mechanism, passing
+        from linkanim.mechanics.motion import mechanism, passing
 
         free = self.towards is not None and not self.towards.mechanism.hindered
         return passing(self.linkage) if free else mechanism(self.linkage)
@@ -86,7 +127,7 @@ class Scene:
     @cached_property
     def info(self) -> Info:
         """The linkage's class, input range, toggles, change points and what else is told of it."""
-        from linkanim.mechanics.facts.classify import Info
+        from linkanim.mechanics.analysis import Info
 
         if self.towards is not None:
             return self.towards.info
@@ -95,14 +136,14 @@ class Scene:
     @cached_property
     def quantities(self) -> Mapping[str, Quantity]:
         """All quantities by their tokens, bodies called by what they do."""
-        from linkanim.mechanics.facts.register import register
+        from linkanim.mechanics.quantities import register
 
         return register(self.linkage, self.info.link_names)
 
     @cached_property
     def telling(self) -> tuple[str, ...]:
         """The tokens of the six to ten quantities that say most of it, the most telling first."""
-        from linkanim.mechanics.facts.register import key_quantities
+        from linkanim.mechanics.quantities import key_quantities
 
         return key_quantities(self.cycle(self.mechanism.count(96)), self.trace)
 

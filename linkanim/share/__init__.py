@@ -1,1 +1,8 @@
-"""One page that moves in any browser: a scene's picture and motion in one file."""
+"""One page that moves in any browser: a scene's picture and motion in one file.
+
+From the ground up; a module imports from those before it only:
+
+    movers  what of a picture moves, how, and in which colours
+    page    the page itself
+    site    every scene as a page, and an index of them
+"""

@@ -1,26 +1,291 @@
-"""What of a picture moves on a page, and how: each group of it as SVG, and what its script moves it by."""
+"""Tell what of a picture moves on a page, how, and in which colours.
+
+Each group is SVG, and has what its script moves it by. Tracks say where joints run in pixels, as nodes
+between which a quintic is close enough for the largest screens. Colours are pairs, of light and of dark.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass, replace
+import base64
+import math
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from linkanim.mechanics.motion.motion import Pose
-from linkanim.paper.svg import flat
-from linkanim.picture.items import Caption, Group
-from linkanim.picture.labels.names import Label, Names
-from linkanim.picture.parts.struts import BACK, CORE, EDGE, TILT, Coil, Damping
-from linkanim.picture.parts.trace import RECENT, SWELL, Trace
-from linkanim.picture.parts.turning import AHEAD, SWEEP, Sliding, Turning
-from linkanim.picture.parts.vectors import ORDER, Arrows
+from linkanim.mechanics.motion import Motion, Pose
+from linkanim.paper.svg import drawn, flat, hexadecimal
+from linkanim.picture.figure import DOWN
+from linkanim.picture.fittings import BACK, CORE, EDGE, TILT, Coil, Damping
+from linkanim.picture.items import Caption, Group, Item
+from linkanim.picture.labels import Label, Names
+from linkanim.picture.look import ThemeName
+from linkanim.picture.motion_marks import AHEAD, ORDER, RECENT, SWEEP, SWELL, Arrows, Sliding, Trace, Turning
 from linkanim.picture.picture import Picture
-from linkanim.picture.raster.parts import Part, Places, Stamp
-from linkanim.share.pairs import Pairs
-from linkanim.share.tracks import centre, packed
+from linkanim.picture.raster import Colour, Loop
+from linkanim.picture.shapes import Part, Places, Stamp
+from linkanim.picture.theme import theme_of
+from linkanim.picture.view import View
+from linkanim.scenes.scene import Scene
+
+# Colours of a page that goes by its reader's setting: each is one of a pair, of light and of dark.
+
+
+@dataclass(frozen=True)
+class Pairs:
+    """The colours met so far, numbered in their order; a page's styles have them as --c0, --c1 and on."""
+
+    numbers: dict[tuple[Colour, Colour], int] = field(default_factory=dict)
+
+    def variable(self, light: Colour, dark: Colour) -> str:
+        """Return the pair as a style's value."""
+        return f"var(--c{self._number(light, dark)})"
+
+    def variables(self, light: Iterable[Colour], dark: Iterable[Colour]) -> list[str]:
+        """Return colours of both themes as a style's values."""
+        return [self.variable(*pair) for pair in zip(light, dark, strict=True)]
+
+    def elements(self, light: Iterable[Item], dark: Iterable[Item]) -> str:
+        """Return the same items, described in both themes, as SVG."""
+        coded = [self._coded(*pair) for pair in zip(light, dark, strict=True)]
+        return "".join(map(_shorter, drawn(coded, lambda colour: f"var(--c{int.from_bytes(colour)})")))
+
+    def styles(self, themes: tuple[ThemeName, ThemeName], stated: ThemeName | None) -> str:
+        """Return the style sheet of the colours, ink and background among them by their names.
+
+        A theme that is stated holds whatever its reader's is.
+        """
+        pair = [theme_of(name) for name in themes]
+        ink = self.variable(pair[0].ink, pair[1].ink)
+        back = self.variable(pair[0].background, pair[1].background)
+        named = f"--ink: {ink}; --back: {back};"
+        light, dark = (self._declared(n) for n in range(2))
+        if stated:
+            return f":root {{ color-scheme: {stated}; {named} {light} }}"
+        return (
+            f":root {{ color-scheme: light dark; {named} {light} }}\n"
+            f"@media (prefers-color-scheme: dark) {{ :root:not([data-theme=light]) {{ {dark} }} }}\n"
+            f":root[data-theme=light] {{ color-scheme: light; }}\n"
+            f":root[data-theme=dark] {{ color-scheme: dark; {dark} }}"
+        )
+
+    def _declared(self, which: int) -> str:
+        colours = (hexadecimal(pair[which]) for pair in self.numbers)
+        return " ".join(f"--c{n}: {colour};" for n, colour in enumerate(colours))
+
+    def _number(self, light: Colour, dark: Colour) -> int:
+        return self.numbers.setdefault((light, dark), len(self.numbers))
+
+    def _coded(self, light: Item, dark: Item) -> Item:
+        """Return an item with the number of its pair for its colour."""
+        colour = self._code(light.colour, dark.colour)
+        if not (isinstance(light, Caption) and isinstance(dark, Caption)):
+            return light._replace(colour=colour)
+        halo = light.halo
+        if halo and dark.halo:
+            halo = halo._replace(colour=self._code(halo.colour, dark.halo.colour))
+        return light._replace(colour=colour, halo=halo)
+
+    def _code(self, light: Colour, dark: Colour) -> Colour:
+        red, green, blue = self._number(light, dark).to_bytes(3)
+        return red, green, blue
+
+
+def _shorter(element: str) -> str:
+    """Return a path with its points from one to the next, in half the letters; another element as it is."""
+    return _LOOP.sub(_stepwise, element) if element.startswith("<path") else element
+
+
+def _stepwise(loop: re.Match[str]) -> str:
+    points = [tuple(map(float, point.split())) for point in loop[1].split("L")]
+    steps = (_number(to - begin) for pair in pairwise(points) for begin, to in zip(*pair, strict=True))
+    short = " ".join(steps).replace(" -", "-")
+    return f"M{points[0][0]:g} {points[0][1]:g}" + (f"l{short}Z" if short else "Z")
+
+
+def _number(step: float) -> str:
+    text = f"{round(step, 2) + 0.0:g}"  # -0.0 + 0.0 is 0.0
+    return text.replace("0.", ".", 1) if text.startswith(("0.", "-0.")) else text
+
+
+_LOOP = re.compile("M([^MZ]*)Z")
+
+
+# Where joints run in pixels, as nodes between which a quintic is close enough for the largest screens.
+#
+# A node has the position and its first two derivatives by phase, from the solver; between two nodes runs the
+# polynomial of fifth degree that has them at both ends (Hermite). Nodes lie where they are needed. Of a
+# scene that comes back by the way it came they are those of the way there: at its ends rates change sign at
+# once.
+
+GRID = 1 << 16
+"""Nodes lie at whole numbers of so many parts of the true period."""
+NEAR = 3e-4
+"""How far off a curve may be between its nodes, in pixels of the picture: 0.0012 at 3840 × 2160."""
+_FIRST = 16
+"""Into how many parts of a drive's turn a curve is cut at first, at the least."""
+_PROBES = (0.25, 0.5, 0.75)
+"""Where between two nodes is looked how far off it is."""
+_STEPS = 1 << 30
+"""Of positions, to the farthest of all."""
+LARGEST_SINGLE = float(np.finfo(np.float32).max)
+"""What 32 bits hold at the most: of rates beside a place where they are unbounded no more is kept."""
+_NOWHERE = complex(-1e4, -1e4)
+"""Where a joint lies that is nowhere (NaN)."""
+
+Whole = NDArray[np.int64]
+
+
+def centre(body: str) -> str:
+    """Return what a body's centre of mass is called among the points."""
+    return f"{body} (centre of mass)"
+
+
+@dataclass(frozen=True)
+class Track:
+    """A point's nodes: places on the grid (n,), positions in pixels x + yi (n,), derivatives (2, n)."""
+
+    nodes: Whole
+    places: Loop
+    rates: Loop
+
+
+def tracks(scene: Scene, view: View) -> dict[str, Track]:
+    """Return the tracks of all joints and centres of mass over one true period of phase, or its way there."""
+    joints = scene.linkage.joints
+    centres = (centre(body.name) for body in scene.linkage.bodies if body.com is not None)
+    names, fixed = (*(one.name for one in joints), *centres), {one.name for one in joints if one.fixed}
+    first = min(max(_FIRST, 1 << math.ceil(math.log2(_FIRST * scene.period / math.tau))), GRID)
+    step = GRID // first
+    end = GRID // 2 if scene.mechanism.retraced else GRID
+    begins = {name: np.arange(0, end if name not in fixed else 1, step) for name in names}
+    nodes = {name: [some] for name, some in begins.items()}
+    open_ = {name: some for name, some in begins.items() if name not in fixed}
+    while open_ and step >= 1 / min(_PROBES):
+        open_ = dict(_halved(open_, _Solved(scene, view, names, _looked_at(open_, step)), step))
+        step //= 2
+        for name, some in open_.items():
+            nodes[name].append(some)
+    for name in begins.keys() - fixed if end < GRID else ():
+        nodes[name].append(np.array([end]))
+    kept = {name: np.unique(np.concatenate(some)) for name, some in nodes.items()}
+    solved = _Solved(scene, view, names, np.unique(np.concatenate([*kept.values()])))
+    return {name: solved.track(name, some) for name, some in kept.items()}
+
+
+def _looked_at(open_: Mapping[str, Whole], step: int) -> Whole:
+    """Return the places on the grid at which stretches begin and end, and are looked at between."""
+    shares = np.array((0.0, *_PROBES, 1.0)) * step
+    begins = np.unique(np.concatenate([*open_.values()]))
+    found: Whole = np.unique(np.add.outer(begins, shares.astype(np.int64)) % GRID)
+    return found
+
+
+def _halved(open_: Mapping[str, Whole], solved: _Solved, step: int) -> Iterator[tuple[str, Whole]]:
+    """Yield both halves of the stretches that are too far off."""
+    width = solved.scene.period * step / GRID
+    for name, begins in open_.items():
+        ends = (begins + step) % GRID
+        course = quintic(solved.at(name, begins), solved.at(name, ends), width)
+        shares = np.array(_PROBES)[:, None]
+        true = solved.at(name, begins + (shares * step).astype(np.int64))[0]
+        off = np.abs(evaluated(course, shares) - true).max(axis=0)
+        far = begins[off > NEAR]
+        if far.size:
+            yield name, np.sort(np.concatenate((far, far + step // 2)))
+
+
+class _Solved:
+    """The points at places on the grid, solved at once."""
+
+    def __init__(self, scene: Scene, view: View, names: Sequence[str], grid: Whole) -> None:
+        self.scene, self._grid = scene, grid
+        motion = scene.solve(phase=grid * (scene.period / GRID), speed=1.0)
+        self._known = dict(zip(names, _pixels(motion, scene, view), strict=True))
+
+    def at(self, name: str, places: Whole) -> Loop:
+        """Return position and derivatives (3, …) at places on the grid."""
+        found: Loop = self._known[name][:, np.searchsorted(self._grid, places)]
+        return found
+
+    def track(self, name: str, nodes: Whole) -> Track:
+        """Return a point's track through nodes."""
+        found = self.at(name, nodes)
+        return Track(nodes, found[0], found[1:])
+
+
+def _pixels(motion: Motion, scene: Scene, view: View) -> Iterator[Loop]:
+    """Yield each point's position and derivatives (3, n) in pixels; what is not known does not move."""
+    joints = (joint.name for joint in scene.linkage.joints)
+    centres = (body.name for body in scene.linkage.bodies if body.com is not None)
+    kinds: tuple[Any, ...] = (motion.position, motion.velocity, motion.acceleration)
+    of_mass: tuple[Any, ...] = (motion.com_position, motion.com_velocity, motion.com_acceleration)
+    for some, names in ((kinds, joints), (of_mass, centres)):
+        for name in names:
+            found = np.stack([np.broadcast_to(kind[name] @ DOWN, motion.phase.shape) for kind in some])
+            found = view.scale * found + np.array([[complex(view.x, view.y)], [0], [0]])
+            yield np.where(np.isfinite(found), found, np.array([[_NOWHERE], [0], [0]]))
+
+
+def quintic(begin: Loop, end: Loop, width: float) -> Loop:
+    """Return the coefficients (6, n), lowest first, of what runs from 0 to 1 between two nodes (3, n)."""
+    scale = np.array([1.0, width, 0.5 * width * width])[:, None]
+    (p, v, a), (q, w, b) = scale * begin, scale * end
+    way = q - p
+    return np.stack(
+        (
+            p,
+            v,
+            a,
+            10 * way - 6 * v - 4 * w - 3 * a + b,
+            -15 * way + 8 * v + 7 * w + 3 * a - 2 * b,
+            6 * way - 3 * (v + w) - a + b,
+        )
+    )
+
+
+def evaluated(coefficients: Loop, share: Any) -> Any:
+    """Return a polynomial's values (Horner)."""
+    value = coefficients[-1]
+    for one in coefficients[-2::-1]:
+        value = value * share + one
+    return value
+
+
+def packed_tracks(found: Mapping[str, Track]) -> dict[str, Any]:
+    """Return tracks as a page holds them: whole steps of a `grain` in 32 bits, rates as 32-bit floats."""
+    farthest = max((float(np.abs(_parts(track.places)).max()) for track in found.values()), default=1.0)
+    grain = farthest / _STEPS
+    return {
+        "grain": grain,
+        "points": {
+            name: [
+                packed(track.nodes, "<u2"),
+                packed(np.rint(_parts(track.places) / grain), "<i4"),
+                packed(np.clip(_parts(track.rates.T), -LARGEST_SINGLE, LARGEST_SINGLE), "<f4"),
+            ]
+            for name, track in found.items()
+        },
+    }
+
+
+def _parts(values: Loop) -> NDArray[np.float64]:
+    """Return real and imaginary parts one after the other."""
+    found: NDArray[np.float64] = np.ascontiguousarray(values).view(np.float64)
+    return found
+
+
+def packed(values: Any, kind: str) -> str:
+    """Return numbers of a kind, such as "<f4", in base 64."""
+    return base64.b64encode(np.ascontiguousarray(values, kind).tobytes()).decode("ascii")
+
+
+# What of a picture moves on a page, and how: each group of it as SVG, and what its script moves it by.
 
 Mover = dict[str, Any]
 """What a group is moved by: its `kind`, the points it follows, its measures in pixels, its colours."""

@@ -14,10 +14,10 @@ from linkanim.picture.items import clipped
 from linkanim.picture.look import Look
 from linkanim.picture.picture import Picture
 from linkanim.scenes import load
-from linkanim.scenes.editing.shown_unit import in_unit
+from linkanim.scenes.editing import in_unit
 from linkanim.scenes.scene import Scene
+from linkanim.share.movers import Pairs
 from linkanim.share.page import Shared, document, packaged
-from linkanim.share.pairs import Pairs
 
 INDEX = "index.html"
 _SIZE = (240, 150)

@@ -1,1 +1,18 @@
-"""A drawn path to the linkages that follow it."""
+"""Linkages for what they are to do: a path, poses, a function, a time ratio.
+
+From the ground up; a module imports from those before it only:
+
+    linkages       many four-bars and slider-cranks at once; limits on them
+    curves         a curve to be followed: points, or a stroke by hand
+    curve_files    a curve's file: numbers, or an SVG's first path
+    atlas          coupler curves to start from
+    fitting        what is asked for; least squares over many candidates
+    answers        answers checked by the solver; cognates; files
+    path           `linkanim.path`: a drawn path
+    follower       the same beside the window, while a stroke is drawn
+    burmester      points of a body that stay on a circle through its poses
+    guidance       `linkanim.guide`: poses of the coupler
+    generation     `linkanim.function`: a function of the input
+    quick_returns  `linkanim.quick_return`: a time ratio
+    constructions  how each was made, drawn step by step
+"""

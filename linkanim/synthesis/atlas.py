@@ -1,18 +1,29 @@
-"""An atlas of coupler curves: many linkages from one seed, each curve at points equally far along it.
+"""Keep an atlas of coupler curves, and find those in it that are most like a drawn one.
 
-It is made once in a process, in about a second, and is the same every time. Only one closure is in it: the
-other one's curves are its mirror images.
+Its parts, in reading order:
+
+- An atlas of coupler curves: many linkages from one seed, each curve at points equally far along it.
+- Which curves of the atlas are most like a drawn one: over shift along, turn, scale, sense and mirror
+  image.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Iterator
 from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
-from linkanim.synthesis.kinds import Complex, LinkageKind, Real
+from linkanim.synthesis.curves import DrawnCurve
+from linkanim.synthesis.linkages import Complex, Indices, LinkageKind, Real
+
+# An atlas of coupler curves: many linkages from one seed, each curve at points equally far along it.
+#
+# It is made once in a process, in about a second, and is the same every time. Only one closure is in it: the
+# other one's curves are its mirror images.
 
 CURVES = 20_000
 POINTS = 64
@@ -90,3 +101,178 @@ def _along(kind: LinkageKind, rows: Real, first: int) -> tuple[Real, Complex]:
     ravelled = points.ravel()
     between = ravelled[after - 1] + share * (ravelled[after] - ravelled[after - 1])
     return angles, between.reshape(len(rows), POINTS)
+
+
+# Which curves of the atlas are most like a drawn one: over shift along, turn, scale, sense and mirror image.
+#
+# With curves centred, the best turn and scale of one onto the other leave 1 - |c|² of the mean square, where
+# c is their inner product; over all shifts along the curve the products are one Fourier transform.
+
+_SHARES = (0.12, 0.2, 0.3, 0.42, 0.56, 0.72, 0.9)
+"""Of a coupler curve, that an open curve is looked for as."""
+_FEW_SEED, _FEW_TRIES = 6, 2
+_TIMED, _TIMED_POINTS, _STARTS = 4_000, 24, 36
+"""Curves, points and starts that are tried with prescribed timing."""
+VARIANTS = tuple((mirrored, reverse) for mirrored in (False, True) for reverse in (False, True))
+
+
+class Candidates(NamedTuple):
+    """Linkages (B, p), their closures (B,), and the crank angles (B, n) at which they pass the points.
+
+    Angles go one way all along; `sense` (B,) is +1 where they grow.
+    """
+
+    rows: Real
+    closure: Real
+    angles: Real
+    sense: Real
+
+    def take(self, chosen: Indices | NDArray[np.bool_]) -> Candidates:
+        """Return some of them."""
+        return Candidates(*(part[chosen] for part in self))
+
+
+def matched(atlas: Atlas, curve: DrawnCurve, count: int) -> Candidates:
+    """Return the best `count` candidates for free timing, the best first."""
+    return _best(_hits(atlas, curve, count), count)
+
+
+def matched_in_time(
+    atlas: Atlas, points: Complex, timing: Real, count: int, *, free_start: bool
+) -> Candidates:
+    """Return the best candidates of those that pass each point at its crank angle, or all shifted by one.
+
+    Where the start is not free a linkage may only be turned with its crank.
+    """
+    rows, found = atlas.rows[:_TIMED], list[tuple[Real, Candidates]]()
+    chosen = np.linspace(0, len(points) - 1, min(len(points), _TIMED_POINTS)).round().astype(np.intp)
+    for mirrored in (False, True):
+        own, angles = (np.conj(points), -timing) if mirrored else (points, timing)
+        score, start = _timed(atlas, own[chosen], angles[chosen], free_start=free_start)
+        best = np.argpartition(-score, count)[:count]
+        own_angles = angles + start[best, None]
+        placed = _laid(atlas, rows[best], own, own_angles, np.ones(count), mirrored=mirrored)
+        placed = placed if free_start else placed._replace(angles=np.tile(timing, (count, 1)))
+        found.append((score[best], placed))
+    return _best(found, count)
+
+
+def matched_few(atlas: Atlas, curve: DrawnCurve, count: int) -> Candidates:
+    """Return candidates for points too few to say what lies between: crank angles are tried at random."""
+    random = np.random.default_rng(_FEW_SEED)
+    found, points = list[tuple[Real, Candidates]](), curve.points
+    reach = 2 * math.pi * (1.0 if curve.closed else 0.8)
+    sought = points - points.mean()
+    for mirrored, _ in _FEW_TRIES * VARIANTS:
+        own = np.conj(points) if mirrored else points
+        angles = np.sort(random.uniform(0.0, reach, (len(atlas.rows), len(points))), axis=1)
+        angles += random.uniform(0.0, 2 * math.pi, (len(atlas.rows), 1))
+        shape = atlas.kind.points(atlas.rows, np.ones(len(atlas.rows)), angles)
+        shape -= shape.mean(axis=1, keepdims=True)
+        product = np.conj(shape) @ (np.conj(sought) if mirrored else sought)
+        score = np.abs(product) ** 2 / (np.abs(shape) ** 2).sum(axis=1)
+        best = np.argpartition(-score, count)[:count]
+        placed = _laid(atlas, atlas.rows[best], own, angles[best], np.ones(count), mirrored=mirrored)
+        found.append((score[best], placed))
+    return _best(found, count)
+
+
+def _best(found: Iterable[tuple[Real, Candidates]], count: int) -> Candidates:
+    """Return the best `count` of sets of candidates with their scores."""
+    scores, parts = zip(*found, strict=True)
+    return joined(parts).take(np.argsort(-np.concatenate(scores), kind="stable")[:count])
+
+
+def _timed(atlas: Atlas, points: Complex, timing: Real, *, free_start: bool) -> tuple[Real, Real]:
+    """Return each curve's best score over all starts, and the start."""
+    rows = atlas.rows[:_TIMED]
+    best, where = np.full(len(rows), -1.0), np.zeros(len(rows))
+    sought = points - points.mean()
+    for start in np.arange(_STARTS) * (2 * math.pi / _STARTS):
+        shape = atlas.kind.points(rows, np.ones(len(rows)), np.tile(timing + start, (len(rows), 1)))
+        shape -= shape.mean(axis=1, keepdims=True)
+        product = np.conj(shape) @ sought
+        size = np.abs(product) if free_start else np.maximum((product * np.exp(1j * start)).real, 0.0)
+        score = size**2 / (np.abs(shape) ** 2).sum(axis=1)
+        better = score > best
+        best, where = np.where(better, score, best), np.where(better, start, where)
+    return best, where
+
+
+def joined(parts: Iterable[Candidates]) -> Candidates:
+    """Return several sets of candidates as one."""
+    return Candidates(*(np.concatenate(column) for column in zip(*parts, strict=True)))
+
+
+def _hits(atlas: Atlas, curve: DrawnCurve, count: int) -> Iterator[tuple[Real, Candidates]]:
+    """Yield the best of each variant, and for an open curve of each share of the curve that it may be."""
+    for share in (1.0,) if curve.closed else _SHARES:
+        steps = POINTS if curve.closed else round(share * POINTS)
+        last = steps if curve.closed else steps - 1
+        sought = curve.at(np.arange(steps) / last)
+        sought = sought - sought.mean()
+        sought /= np.sqrt((np.abs(sought) ** 2).sum())
+        size = None if curve.closed else _window(atlas, steps)
+        for mirrored, reverse in VARIANTS:
+            way = np.conj(sought) if mirrored else sought
+            score, start = _correlated(atlas, way[::-1] if reverse else way, size)
+            best = np.argpartition(-score, count)[:count]
+            places = (1.0 if curve.closed else curve.places[-1]) - curve.places if reverse else curve.places
+            angles = _angles(atlas, best, start[best, None] + last * places)
+            points = np.conj(curve.points) if mirrored else curve.points
+            sense = np.full(len(best), -1.0 if reverse else 1.0)
+            yield score[best], _laid(atlas, atlas.rows[best], points, angles, sense, mirrored=mirrored)
+
+
+def _window(atlas: Atlas, steps: int) -> Real:
+    """Return the root of the square sum (J, POINTS) of each stretch of points about its own centre."""
+    twice = np.concatenate([atlas.shape, atlas.shape[:, :steps]], axis=1)
+    total = np.cumsum(twice, axis=1)
+    square = np.cumsum(twice.real**2 + twice.imag**2, axis=1)
+    total = total[:, steps:] - total[:, :-steps]
+    square = square[:, steps:] - square[:, :-steps]
+    spread = np.roll(square - np.abs(total) ** 2 / steps, 1, axis=1)
+    return np.asarray(np.sqrt(np.maximum(spread, 1e-4 * spread.mean())))
+
+
+def _correlated(atlas: Atlas, sought: Complex, size: Real | None) -> tuple[Real, Indices]:
+    """Return each curve's best score over all shifts, and the shift."""
+    spectrum = np.conj(np.fft.fft(sought.astype(np.complex64), POINTS))
+    product = np.fft.ifft(atlas.spectrum * spectrum, axis=1)
+    score: Real = product.real**2 + product.imag**2
+    if size is not None:
+        score /= size**2
+    start = score.argmax(axis=1)
+    return np.take_along_axis(score, start[:, None], axis=1)[:, 0], start
+
+
+def _laid(
+    atlas: Atlas, rows: Real, points: Complex, angles: Real, sense: Real, *, mirrored: bool
+) -> Candidates:
+    """Return linkages laid over points that they pass at crank angles of their own, then mirrored back."""
+    kind, closure = atlas.kind, np.ones(len(rows))
+    turn, shift = overlaid(kind.points(rows, closure, angles), points)
+    rows, angles = kind.placed(rows, turn, shift), angles + np.angle(turn)[:, None]
+    if not mirrored:
+        return Candidates(rows, closure, angles, sense)
+    return Candidates(*kind.mirrored(rows, closure), -angles, -sense)
+
+
+def _angles(atlas: Atlas, which: Indices, places: Real) -> Real:
+    """Return the crank angles at places along curves, in points and beyond the last one."""
+    before = np.floor(places).astype(np.intp)
+
+    def at(index: Indices) -> Real:
+        turns, own = np.divmod(index, POINTS)
+        return np.asarray(atlas.angles[which[:, None], own] + 2 * math.pi * turns)
+
+    low = at(before)
+    return np.asarray(low + (places - before) * (at(before + 1) - low))
+
+
+def overlaid(shape: Complex, points: Complex) -> tuple[Complex, Complex]:
+    """Return the factors and shifts (B,) that lay shapes (B, n) over points (n,) with the least squares."""
+    centre, middle = shape.mean(axis=1), points.mean()
+    arms = shape - centre[:, None]
+    turn = (np.conj(arms) * (points - middle)).sum(axis=1) / (np.abs(arms) ** 2).sum(axis=1)
+    return turn, middle - turn * centre

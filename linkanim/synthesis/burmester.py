@@ -30,8 +30,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from linkanim.errors import BadInput
-from linkanim.mechanics.formulas.precise import context, sine_and_cosine
-from linkanim.synthesis.kinds import Complex, Indices, Real
+from linkanim.mechanics.precise import context, sine_and_cosine
+from linkanim.synthesis.linkages import Complex, Indices, Real
 
 FEWEST, MOST = 2, 5
 """Poses."""

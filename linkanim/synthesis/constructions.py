@@ -14,13 +14,11 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from linkanim.errors import BadInput
-from linkanim.mechanics.linkage.dyads import RRP, RRR
-from linkanim.mechanics.linkage.pins import Crank
-from linkanim.mechanics.motion.measures import as_complex
-from linkanim.scenes.purpose import FunctionPurpose, PosesPurpose, TimeRatioPurpose
-from linkanim.scenes.scene import Scene
+from linkanim.mechanics.linkage import RRP, RRR, Crank
+from linkanim.mechanics.measures import as_complex
+from linkanim.scenes.scene import FunctionPurpose, PosesPurpose, Scene, TimeRatioPurpose
 from linkanim.synthesis.burmester import CentreCurve, Poses, burmester_points, circle_points
-from linkanim.synthesis.kinds import Complex
+from linkanim.synthesis.linkages import Complex
 
 Shape = Literal["plate", "line", "dashed", "thin", "bar", "dot", "ring", "cross", "frame", "arc"]
 Tone = Literal["ink", "dim", "first", "second", "third", "fourth"]

@@ -16,13 +16,10 @@ from threading import Thread
 from typing import NamedTuple, TextIO
 
 from linkanim.errors import LinkanimError
-from linkanim.synthesis.answer import NAME, answer_of
+from linkanim.synthesis.answers import NAME, Fit, answer_of, cognates_of
 from linkanim.synthesis.atlas import atlas
-from linkanim.synthesis.cognates import cognates_of
-from linkanim.synthesis.fit import Fit
-from linkanim.synthesis.kinds import FOUR_BAR
-from linkanim.synthesis.request import task_of
-from linkanim.synthesis.search import found, glimpsed, ranked, refitted
+from linkanim.synthesis.linkages import FOUR_BAR
+from linkanim.synthesis.path import found, glimpsed, ranked, refitted, task_of
 
 COUNT = 6
 """Answers for a stroke."""

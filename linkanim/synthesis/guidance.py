@@ -21,10 +21,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from linkanim import units
 from linkanim.errors import AssemblyError, BadInput, SceneError
-from linkanim.mechanics.motion.measures import as_complex
-from linkanim.scenes.reading.read import scene_from
+from linkanim.mechanics.measures import as_complex
+from linkanim.scenes.editing import phase_along
+from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
-from linkanim.scenes.steering import phase_along
+from linkanim.synthesis.answers import CouplerLinkage, document_of, parameters_of
 from linkanim.synthesis.burmester import (
     SAME,
     Bars,
@@ -38,9 +39,16 @@ from linkanim.synthesis.burmester import (
     slide_points,
     slides_through,
 )
-from linkanim.synthesis.fit import CouplerLinkage, document_of, parameters_of
-from linkanim.synthesis.kinds import KINDS, SLIDER_CRANK, Complex, Indices, LinkageKind, Real
-from linkanim.synthesis.requirements import Requirements, refuse_count
+from linkanim.synthesis.linkages import (
+    KINDS,
+    SLIDER_CRANK,
+    Complex,
+    Indices,
+    LinkageKind,
+    Real,
+    Requirements,
+    refuse_count,
+)
 from linkanim.units import shown
 
 LARGEST = 8.0

@@ -23,10 +23,9 @@ import numpy as np
 
 from linkanim import units
 from linkanim.errors import BadInput
-from linkanim.scenes.reading.read import scene_from
+from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
-from linkanim.synthesis.kinds import Real
-from linkanim.synthesis.requirements import refuse_count
+from linkanim.synthesis.linkages import Real, refuse_count
 from linkanim.units import shown
 
 COUNT = 5

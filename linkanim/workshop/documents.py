@@ -13,8 +13,8 @@ import numpy as np
 from linkanim.errors import BadInput
 from linkanim.paper.pdf import pages
 from linkanim.picture.items import Caption, Item
-from linkanim.picture.raster.raster import Layer
-from linkanim.picture.raster.shapes import cut, segments, stroke
+from linkanim.picture.raster import Layer
+from linkanim.picture.shapes import cut, segments, stroke
 from linkanim.workshop.made import MadeLinkage, MadePin
 from linkanim.workshop.nesting import FOOT, MARGIN, Laid, Oversize, nested
 from linkanim.workshop.shapes import Outline, arc, box, moved, polygon, rounded, upright

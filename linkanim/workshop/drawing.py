@@ -11,9 +11,9 @@ import numpy as np
 from linkanim.paper.illustration import Illustration
 from linkanim.picture.figure import figure
 from linkanim.picture.items import Caption, Halo, Item, grouped
-from linkanim.picture.raster.raster import Colour, Layer, Loop
-from linkanim.picture.raster.shapes import disc, hull, segments, stroke
-from linkanim.picture.text.text import Type, subscripted
+from linkanim.picture.raster import Colour, Layer, Loop
+from linkanim.picture.shapes import disc, hull, segments, stroke
+from linkanim.picture.text import Type, subscripted
 from linkanim.picture.theme import LIGHT, Theme, mixed
 from linkanim.picture.view import Box, Rect, View, view_of
 from linkanim.workshop.made import MadeLinkage, MadePin

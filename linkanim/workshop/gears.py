@@ -8,8 +8,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from linkanim.errors import BadInput
-from linkanim.mechanics.linkage.linkage import Linkage
-from linkanim.mechanics.linkage.pins import Crank
+from linkanim.mechanics.linkage import Crank, Linkage
 from linkanim.workshop.shapes import Outline, straight
 
 _PRESSURE = math.radians(20)

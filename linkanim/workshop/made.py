@@ -10,7 +10,7 @@ from typing import Literal, NamedTuple
 
 from linkanim import units
 from linkanim.errors import BadInput
-from linkanim.mechanics.motion.motion import Pose
+from linkanim.mechanics.motion import Pose
 from linkanim.picture.figure import figure
 from linkanim.scenes.scene import Scene
 from linkanim.workshop.layers import Stack, Unstackable, stacked

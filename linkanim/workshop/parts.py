@@ -17,8 +17,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from linkanim.errors import BadInput
-from linkanim.mechanics.linkage.joint import Line, Slide
-from linkanim.mechanics.linkage.linkage import Body, Damper, Spring
+from linkanim.mechanics.linkage import Body, Damper, Line, Slide, Spring
 from linkanim.workshop.gears import GearWheel, NotFlat, meshes
 from linkanim.workshop.shapes import Outline, hull, moved, rounded
 from linkanim.workshop.sweep import GROUND, Cycle, Frame, MovingPiece, Real, hulls_apart

@@ -9,7 +9,6 @@ from functools import cached_property
 
 import numpy as np
 
-from linkanim.digits import significant
 from linkanim.errors import WorkFailed
 from linkanim.paper import html
 from linkanim.paper.figure import Figured
@@ -18,11 +17,11 @@ from linkanim.paper.svg import svg
 from linkanim.picture.figure import figure
 from linkanim.picture.items import Item
 from linkanim.picture.look import Look
-from linkanim.picture.parts.driven import driven_words
-from linkanim.picture.text.text import subscripted
+from linkanim.picture.quantities import driven_words
+from linkanim.picture.text import subscripted
 from linkanim.play.question import QuizQuestion
-from linkanim.play.round import next_question
-from linkanim.play.sheet import LETTERS, pose_words
+from linkanim.play.quiz import LETTERS, next_question, pose_words
+from linkanim.units import significant
 from linkanim.workshop.drawing import Drawn
 from linkanim.workshop.made import MadeLinkage, MadePin
 

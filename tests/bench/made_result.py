@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import inf, nan
 
-from linkanim.bench.accuracy import Score
+from linkanim.bench.reference import Score
 from linkanim.bench.result import Machine, Measured, Result
 
 EASY = Score(360, 3e-16, 4e-16, 5e-16, 0, 0)

@@ -9,7 +9,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from linkanim.bench.cases import FOUR_BAR
+from linkanim.bench.questions import FOUR_BAR
 from linkanim.bench.result import Measured, run
 from linkanim.export import columns
 

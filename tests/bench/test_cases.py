@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 from mpmath import mp, workdps
 
-from linkanim.bench.cases import FOUR_BAR, MECHANISMS, TOGGLE, Case
-from linkanim.bench.chain import TURN
+from linkanim.bench.questions import FOUR_BAR, MECHANISMS, TOGGLE, TURN, Case
 
 CASES = [(mechanism, case) for mechanism in MECHANISMS for case in (mechanism.easy, *mechanism.hard)]
 NAMED = {case.name: case for case in FOUR_BAR.hard}

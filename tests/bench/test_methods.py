@@ -9,11 +9,19 @@ from functools import cache
 import numpy as np
 import pytest
 
-from linkanim.bench import methods, others
-from linkanim.bench.accuracy import Solve, score
-from linkanim.bench.cases import FOUR_BAR, MECHANISMS, SLIDER_CRANK, Case, CaseSet, degrees
-from linkanim.bench.chain import Orders, Question, circle_dyad
-from linkanim.bench.reference import Answer, answer
+from linkanim.bench import methods
+from linkanim.bench.questions import (
+    FOUR_BAR,
+    MECHANISMS,
+    SLIDER_CRANK,
+    Case,
+    CaseSet,
+    Orders,
+    Question,
+    circle_dyad,
+    degrees,
+)
+from linkanim.bench.reference import Answer, Solve, answer, score
 
 EPS = 2.0**-52
 HARD = [(mechanism, case) for mechanism in MECHANISMS for case in mechanism.hard]
@@ -63,11 +71,11 @@ def test_a_method_is_right_on_the_easy_cycle(
 
 
 @pytest.mark.parametrize(
-    "solve", [others.pylinkage_fast(1), others.pylinkage_fast(4), others.pylinkage_step, others.fsolve]
+    "solve", [methods.pylinkage_fast(1), methods.pylinkage_fast(4), methods.pylinkage_step, methods.fsolve]
 )
 @pytest.mark.parametrize("mechanism", MECHANISMS, ids=lambda mechanism: mechanism.name)
 def test_other_packages_are_right_on_the_easy_cycle(solve: Solve, mechanism: CaseSet) -> None:
-    pytest.importorskip("scipy" if solve is others.fsolve else "pylinkage")
+    pytest.importorskip("scipy" if solve is methods.fsolve else "pylinkage")
     found = score(solve, answer(replace(mechanism.easy, inputs=degrees(0, 20))))
     assert (found.wrong, found.nan) == (0, 0)
     assert found.error < 1e-9

@@ -9,10 +9,9 @@ import numpy as np
 import pytest
 from mpmath import mp, mpc, mpf, workdps
 
-from linkanim.bench.cases import FOUR_BAR, MECHANISMS, Case, CaseSet, degrees
-from linkanim.bench.chain import SlideStep, chain_of
+from linkanim.bench.questions import FOUR_BAR, MECHANISMS, Case, CaseSet, SlideStep, chain_of, degrees
 from linkanim.bench.reference import DIGITS, CasePath, answer, crossing
-from linkanim.mechanics.linkage.dyads import RRR
+from linkanim.mechanics.linkage import RRR
 
 CASES = [
     pytest.param(case, id=f"{mechanism.name}, {case.name}")

@@ -9,10 +9,10 @@ from pathlib import Path
 import pytest
 from made_result import result, row
 
-from linkanim.bench import drawing, report
-from linkanim.bench.cases import FOUR_BAR, MECHANISMS, CaseSet
-from linkanim.bench.entries import Entry, Timed
-from linkanim.bench.methods import batch
+from linkanim.bench import drawing
+from linkanim.bench import result as report
+from linkanim.bench.methods import Entry, Timed, batch
+from linkanim.bench.questions import FOUR_BAR, MECHANISMS, CaseSet
 from linkanim.bench.result import run
 from linkanim.errors import BadInput
 from linkanim.export import columns

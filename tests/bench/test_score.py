@@ -8,10 +8,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from linkanim.bench.accuracy import Score, score, together
-from linkanim.bench.cases import FOUR_BAR, degrees
-from linkanim.bench.chain import Complexes, Orders, Question
-from linkanim.bench.reference import Answer, answer
+from linkanim.bench.questions import FOUR_BAR, Complexes, Orders, Question, degrees
+from linkanim.bench.reference import Answer, Score, answer, score, together
 
 
 @pytest.fixture(scope="module")

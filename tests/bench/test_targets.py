@@ -8,7 +8,7 @@ import pytest
 from made_result import row
 from targets import Target, target_lines, targets
 
-from linkanim.bench.accuracy import Score
+from linkanim.bench.reference import Score
 
 
 def test_a_line_says_what_was_measured_and_whether_that_will_do() -> None:

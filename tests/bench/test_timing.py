@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from linkanim.bench.entries import Timed
-from linkanim.bench.timing import LEAST_SECONDS, nanoseconds
+from linkanim.bench.methods import Timed
+from linkanim.bench.result import LEAST_SECONDS, nanoseconds
 
 
 class Bench:

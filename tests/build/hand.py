@@ -6,14 +6,23 @@ from collections.abc import Iterable
 from functools import reduce
 
 from linkanim.build.building import Building, posed, redo, undo
-from linkanim.build.chosen import choose, choose_thing, delete, drive, move, trace
 from linkanim.build.dimensions import choose_number, take, write
 from linkanim.build.draft import Thing
-from linkanim.build.pointing import click, double_click, drag
-from linkanim.player.state.action import Action
-from linkanim.player.state.advance import advance
-from linkanim.player.state.state import begin
-from linkanim.player.tape.tape import Tape, Taping
+from linkanim.build.gestures import (
+    choose,
+    choose_thing,
+    click,
+    delete,
+    double_click,
+    drag,
+    drive,
+    move,
+    trace,
+)
+from linkanim.player.action import Action
+from linkanim.player.actions import advance
+from linkanim.player.state import begin
+from linkanim.player.tape import Tape, Taping
 
 REACH, SNAP = 3.0, 1.0
 

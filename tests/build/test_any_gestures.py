@@ -9,16 +9,13 @@ from hand import drawn as drawn_so_far
 from hand import gesture, gestures
 from test_sessions import SESSIONS
 
-from linkanim.build.building import Building, undo
-from linkanim.build.missing import EMPTY
-from linkanim.build.order import line_of
-from linkanim.build.origin import building_of
-from linkanim.build.pointing import TOOLS
-from linkanim.build.shapes import drawn
+from linkanim.build.building import Building, building_of, undo
+from linkanim.build.gestures import TOOLS
+from linkanim.build.places import drawn, line_of
+from linkanim.build.scene_form import EMPTY
 from linkanim.build.storing import restored, stored
-from linkanim.scenes.editing.toml import parse
-from linkanim.scenes.editing.write import text
-from linkanim.scenes.reading.read import scene_from
+from linkanim.scenes.reading import scene_from
+from linkanim.scenes.toml import parse, text
 
 _PLAIN = ("trace", "drive", "delete", "undo", "redo", "next")
 _TYPED = ("0", "55", "-20", "12.5", "60 deg", "3 cm", "1/3", "x", "", "1e99", "-1")

@@ -10,19 +10,16 @@ import numpy as np
 import pytest
 from hand import drawn, gesture
 
-from linkanim.build import shapes
-from linkanim.build.building import Building, posed, redo, undo
-from linkanim.build.chosen import choose_thing
+from linkanim.build import places as shapes
+from linkanim.build.building import Building, draft_of, posed, redo, undo
 from linkanim.build.dimensions import numbers_of
 from linkanim.build.draft import Photo
-from linkanim.build.gestures import fit_photo, lay_photo, move_photo
-from linkanim.build.origin import draft_of
+from linkanim.build.gestures import choose_thing, fit_photo, lay_photo, move_photo
 from linkanim.build.storing import restored, stored
 from linkanim.errors import BadInput
 from linkanim.scenes import load
-from linkanim.scenes.editing.toml import parse
-from linkanim.scenes.editing.write import text
-from linkanim.scenes.reading.read import scene_from
+from linkanim.scenes.reading import scene_from
+from linkanim.scenes.toml import parse, text
 
 FOUR_BAR = ("click 0 0", "click 100 0", "drag 0 0 50 0", "drag 50 0 68 83", "drag 68 83 100 0")
 SLIDES = ("choose joints A", "drive", "number 2", "type 70", "type 82")

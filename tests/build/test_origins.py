@@ -8,9 +8,9 @@ import pytest
 from hand import drawn
 
 import linkanim
-from linkanim.build.origin import building_of
-from linkanim.scenes.editing.write import text
+from linkanim.build.building import building_of
 from linkanim.scenes.scene import Scene
+from linkanim.scenes.toml import text
 
 
 @pytest.mark.sampled

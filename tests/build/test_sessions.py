@@ -10,7 +10,7 @@ import pytest
 from hand import drawn, gestures, taped
 
 import linkanim
-from linkanim.player.tape.tape_file import read, write
+from linkanim.player.tape_file import read, write
 from linkanim.scenes.scene import Scene
 
 

@@ -9,7 +9,7 @@ import pygame
 import pytest
 
 from linkanim.cli import main
-from linkanim.scenes.fields.schema import SCHEMA
+from linkanim.scenes.schema import SCHEMA
 
 GOOD = "title = 'Mine'\n[four-bar]\nground = 100\ncrank = 30\ncoupler = 90\nrocker = 80\n"
 BAD = GOOD.replace("crank = 30", "crank = -30") + "[drive]\nspeed = '0 rpm'\n"

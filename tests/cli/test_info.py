@@ -12,7 +12,7 @@ import pytest
 import linkanim
 from linkanim.cli import main
 from linkanim.scenes import chapter_of, chapters
-from linkanim.scenes.editing.write import save
+from linkanim.scenes.toml import save
 
 KEYS = {
     "class",

@@ -48,7 +48,7 @@ import sys
 from pathlib import Path
 from linkanim.cli.exits import guarded
 from linkanim.scenes import load
-from linkanim.scenes.editing.write import save
+from linkanim.scenes.toml import save
 def work():
     scene = load("kite")
     for _ in range(100):

@@ -19,10 +19,10 @@ from linkanim.cli.command_table import parse
 from linkanim.cli.commands.record import advance, bar
 from linkanim.cli.picture_options import look_of
 from linkanim.errors import BadInput
-from linkanim.player.state.action import Action
-from linkanim.player.state.state import begin
-from linkanim.player.tape import tape_file
-from linkanim.player.tape.tape import Tape
+from linkanim.player import tape_file
+from linkanim.player.action import Action
+from linkanim.player.state import begin
+from linkanim.player.tape import Tape
 
 SMALL = ["--size", "96x54", "--fps", "10"]
 

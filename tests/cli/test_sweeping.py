@@ -11,9 +11,10 @@ import pytest
 
 import linkanim
 from linkanim import units
-from linkanim.cli import main, solved
-from linkanim.cli.solved import Steps, blocks, leaves
-from linkanim.cli.values import sweep
+from linkanim.cli import main
+from linkanim.cli.commands import solve as solved
+from linkanim.cli.commands.solve import Steps, blocks, leaves
+from linkanim.cli.options import sweep
 from linkanim.scenes.scene import Scene
 
 # what is typed: whole degrees, decimals, negative, many digits, beyond whole floats

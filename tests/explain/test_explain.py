@@ -15,18 +15,16 @@ import pytest
 from printed import checks_of, of_html, of_latex, of_markdown
 
 from linkanim.cli import main
-from linkanim.digits import significant
 from linkanim.explain.documents import HTML, MARKDOWN, TEX, DocumentForm, document
-from linkanim.explain.inputs import PoseRequest
-from linkanim.explain.lines import System, ValueLine
-from linkanim.explain.solution import Solution, solution
+from linkanim.explain.solution import PoseRequest, Solution, solution
+from linkanim.explain.steps import System, ValueLine
 from linkanim.explain.variant import variant
-from linkanim.mechanics.facts.effort import effort_token
+from linkanim.mechanics.forces import effort_token
 from linkanim.scenes import load, names
-from linkanim.scenes.editing.edit import dimensions
-from linkanim.scenes.editing.shown_unit import in_unit
-from linkanim.scenes.reading.read import scene_from
+from linkanim.scenes.editing import dimensions, in_unit
+from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
+from linkanim.units import significant
 
 DIGITS = 5.1e-5
 """Four significant digits, and what is in the last place of a float."""

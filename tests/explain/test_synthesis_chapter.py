@@ -13,12 +13,11 @@ from printed import checks_of, of_html, of_latex, of_markdown
 import linkanim
 from linkanim.cli import main
 from linkanim.explain.documents import HTML, MARKDOWN, TEX, document
-from linkanim.explain.inputs import PoseRequest
-from linkanim.explain.names import names_of
-from linkanim.explain.solution import solution
+from linkanim.explain.solution import PoseRequest, solution
+from linkanim.explain.steps import names_of
 from linkanim.explain.synthesis import _Chapter, synthesis
 from linkanim.picture.figure import figure
-from linkanim.scenes.editing.write import text
+from linkanim.scenes.toml import text
 
 FORMS = {"Markdown": (MARKDOWN, of_markdown), "LaTeX": (TEX, of_latex), "HTML": (HTML, of_html)}
 

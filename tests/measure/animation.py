@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from linkanim.mechanics.motion.motion import Motion
+from linkanim.mechanics.motion import Motion
 from linkanim.scenes import load
 from linkanim.scenes.scene import Scene
 

@@ -23,8 +23,7 @@ from linkanim.errors import WorkFailed
 from linkanim.picture.look import Look
 from linkanim.recorder.encode import Stream, encoding, ffmpeg
 from linkanim.recorder.plan import Clip, Format, Plan, make_plan
-from linkanim.recorder.recording import palette_of, write
-from linkanim.recorder.scene_frames import SceneFrames
+from linkanim.recorder.recording import SceneFrames, palette_of, write
 from linkanim.scenes import load
 from linkanim.scenes.scene import Scene
 

@@ -8,12 +8,11 @@ from math import sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from linkanim.mechanics.motion.motion import Pose
+from linkanim.mechanics.motion import Pose
 from linkanim.picture.look import Look
 from linkanim.picture.picture import Picture
-from linkanim.picture.raster.offscreen import offscreen, pixel_view
-from linkanim.picture.raster.raster import Layer, paint
-from linkanim.picture.raster.shapes import rounded
+from linkanim.picture.raster import Layer, offscreen, paint, pixel_view
+from linkanim.picture.shapes import rounded
 from linkanim.picture.surface import SurfacePrinter
 from linkanim.scenes.scene import Scene
 

@@ -12,18 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkanim.atomic_files import checked_target, replacing
-from linkanim.bench.cases import FOUR_BAR
-from linkanim.bench.chain import TURN
-from linkanim.bench.entries import ONE_BY_ONE, Timed
-from linkanim.bench.result import Machine, this_machine
-from linkanim.bench.timing import nanoseconds
+from linkanim.bench.methods import ONE_BY_ONE, Timed
+from linkanim.bench.questions import FOUR_BAR, TURN
+from linkanim.bench.result import Machine, nanoseconds, this_machine
 from linkanim.export import columns
-from linkanim.mechanics.linkage.drive import Drive
-from linkanim.mechanics.linkage.dyads import RPP, RRP, RRR
-from linkanim.mechanics.linkage.joint import Line
-from linkanim.mechanics.linkage.linkage import Linkage
-from linkanim.mechanics.linkage.pins import Crank, Pin
-from linkanim.mechanics.motion.mechanism import Mechanism, mechanism
+from linkanim.mechanics.linkage import RPP, RRP, RRR, Crank, Drive, Line, Linkage, Pin
+from linkanim.mechanics.motion import Mechanism, mechanism
 
 COUNTS = (100, 1_000, 10_000, 100_000, 1_000_000, 10_000_000)
 DYADS = (1, 2, 5, 10, 20, 50)

@@ -10,7 +10,7 @@ import pytest
 from cost import _decibels
 from fidelity import Pixels
 
-from linkanim.mechanics.motion.motion import Pose
+from linkanim.mechanics.motion import Pose
 from linkanim.picture.look import Look
 from linkanim.scenes import load
 from linkanim.scenes.scene import Scene

@@ -18,12 +18,12 @@ from linkanim.bench.result import Machine, this_machine
 from linkanim.errors import WorkFailed
 from linkanim.export import columns
 from linkanim.picture.look import Look
-from linkanim.player.state.advance import advance
-from linkanim.player.state.clock import FRAMES_PER_SECOND
-from linkanim.player.state.state import begin
-from linkanim.player.window import display
-from linkanim.player.window.screen import Screen
-from linkanim.player.window.show import overlay
+from linkanim.player import screen as display
+from linkanim.player.actions import advance
+from linkanim.player.clock import FRAMES_PER_SECOND
+from linkanim.player.screen import Screen
+from linkanim.player.shown import overlay
+from linkanim.player.state import begin
 from linkanim.scenes import load
 
 SCENE = "press"

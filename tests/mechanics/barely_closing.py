@@ -32,9 +32,9 @@ from mpmath import mp, mpf
 from reference import unit
 
 from linkanim.errors import BadInput
-from linkanim.mechanics.drive.swing import Swing
-from linkanim.mechanics.motion.mechanism import Mechanism
-from linkanim.scenes.reading.read import scene_from
+from linkanim.mechanics.motion import Mechanism
+from linkanim.mechanics.solver.input import Swing
+from linkanim.scenes.reading import scene_from
 
 Random = random.Random
 GAPS = (-3.0, -12.0)

@@ -5,12 +5,21 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from linkanim.mechanics.linkage.drive import Drive
-from linkanim.mechanics.linkage.dyads import RPR, RRP, RRR
-from linkanim.mechanics.linkage.joint import Joint, Line, Point
-from linkanim.mechanics.linkage.linkage import Body, Linkage
-from linkanim.mechanics.linkage.pins import Crank, Pin, Polar
-from linkanim.mechanics.linkage.rigid_bodies import Rigid
+from linkanim.mechanics.linkage import (
+    RPR,
+    RRP,
+    RRR,
+    Body,
+    Crank,
+    Drive,
+    Joint,
+    Line,
+    Linkage,
+    Pin,
+    Point,
+    Polar,
+    Rigid,
+)
 
 BARS = (Body("crank", ("O2", "A")), Body("coupler", ("A", "B")), Body("rocker", ("O4", "B")))
 

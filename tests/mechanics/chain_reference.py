@@ -12,11 +12,19 @@ from mpmath import mp, mpf
 from reference import on_line, unit
 
 from linkanim.bench.reference import crossing
-from linkanim.mechanics.linkage.dyads import RPP, RPR, RRP, RRR
-from linkanim.mechanics.linkage.joint import Joint, Line
-from linkanim.mechanics.linkage.linkage import Linkage
-from linkanim.mechanics.linkage.pins import Crank, DrivenSlider, Pin
-from linkanim.mechanics.linkage.rigid_bodies import Rigid
+from linkanim.mechanics.linkage import (
+    RPP,
+    RPR,
+    RRP,
+    RRR,
+    Crank,
+    DrivenSlider,
+    Joint,
+    Line,
+    Linkage,
+    Pin,
+    Rigid,
+)
 
 Places = dict[str, Any]
 

@@ -21,11 +21,10 @@ from reference import HIGHEST_FIRST, derivatives, sign_of, unit
 
 from linkanim.bench.reference import crossing
 from linkanim.errors import BadInput
-from linkanim.mechanics.drive.swing import Swing
-from linkanim.mechanics.motion.measures import transmission_angle
-from linkanim.mechanics.motion.mechanism import Mechanism
-from linkanim.mechanics.motion.motion import Motion
-from linkanim.scenes.reading.read import scene_from
+from linkanim.mechanics.measures import transmission_angle
+from linkanim.mechanics.motion import Mechanism, Motion
+from linkanim.mechanics.solver.input import Swing
+from linkanim.scenes.reading import scene_from
 
 Random = random.Random
 DIGITS = 110

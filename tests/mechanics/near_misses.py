@@ -19,12 +19,9 @@ from chain_reference import places
 from mpmath import mp, mpf
 from numpy.typing import NDArray
 
-from linkanim.mechanics.drive.swing import Swing
-from linkanim.mechanics.linkage.dyads import RRR
-from linkanim.mechanics.linkage.linkage import Linkage
-from linkanim.mechanics.linkage.pins import Crank, Gear, Pin
-from linkanim.mechanics.linkage.rigid_bodies import Rigid
-from linkanim.mechanics.motion.mechanism import Mechanism, mechanism
+from linkanim.mechanics.linkage import RRR, Crank, Gear, Linkage, Pin, Rigid
+from linkanim.mechanics.motion import Mechanism, mechanism
+from linkanim.mechanics.solver.input import Swing
 
 Random = random.Random
 Array = NDArray[np.float64]

@@ -24,17 +24,27 @@ from mpmath import mp, mpf
 from reference import DIGITS, HIGHEST_FIRST, NUDGE, derivatives, sign_of
 
 from linkanim.errors import AssemblyError
-from linkanim.mechanics.closing.chain import Touch
-from linkanim.mechanics.drive.strokes import CylinderStroke
-from linkanim.mechanics.drive.swing import Swing
-from linkanim.mechanics.drive.turn import Turn
-from linkanim.mechanics.linkage.drive import Cylinder, Drive, Travel
-from linkanim.mechanics.linkage.dyads import RPP, RPR, RRP, RRR
-from linkanim.mechanics.linkage.joint import Joint, Line
-from linkanim.mechanics.linkage.linkage import Linkage
-from linkanim.mechanics.linkage.pins import Crank, DrivenSlider, Gear, Pin
-from linkanim.mechanics.linkage.rigid_bodies import Rigid
-from linkanim.mechanics.motion.mechanism import Mechanism, mechanism
+from linkanim.mechanics.linkage import (
+    RPP,
+    RPR,
+    RRP,
+    RRR,
+    Crank,
+    Cylinder,
+    Drive,
+    DrivenSlider,
+    Gear,
+    Joint,
+    Line,
+    Linkage,
+    Pin,
+    Rigid,
+    Travel,
+)
+from linkanim.mechanics.motion import Mechanism, mechanism
+from linkanim.mechanics.solver.closing import Touch
+from linkanim.mechanics.solver.input import Swing, Turn
+from linkanim.mechanics.solver.strokes import CylinderStroke
 
 Random = random.Random
 Make = Callable[[Random], Linkage]

@@ -16,13 +16,10 @@ from numpy.typing import NDArray
 from reference import DIGITS, HIGHEST_FIRST, NUDGE, FourBar, Points, Pose, derivatives, on_line, sign_of, unit
 
 from linkanim.bench.reference import crossing
-from linkanim.mechanics.closing.chain import Touch
-from linkanim.mechanics.drive.swing import Swing
-from linkanim.mechanics.linkage.drive import Drive
-from linkanim.mechanics.linkage.linkage import Linkage
-from linkanim.mechanics.linkage.pins import Crank, Gear, Pin
-from linkanim.mechanics.motion.mechanism import Mechanism, mechanism
-from linkanim.mechanics.motion.motion import Motion
+from linkanim.mechanics.linkage import Crank, Drive, Gear, Linkage, Pin
+from linkanim.mechanics.motion import Mechanism, Motion, mechanism
+from linkanim.mechanics.solver.closing import Touch
+from linkanim.mechanics.solver.input import Swing
 from linkanim.scenes import load
 
 EPS = 2.0**-52

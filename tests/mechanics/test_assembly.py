@@ -12,13 +12,9 @@ import pytest
 from build import four_bar, rocker_driven, slider_crank, slotted, with_joints
 
 from linkanim.errors import AssemblyError
-from linkanim.mechanics.linkage.drive import Drive
-from linkanim.mechanics.linkage.dyads import RPR, RRP, RRR
-from linkanim.mechanics.linkage.joint import Line
-from linkanim.mechanics.linkage.linkage import Linkage
-from linkanim.mechanics.linkage.pins import Crank, Gear, Pin, Polar
-from linkanim.mechanics.motion.mechanism import Mechanism, mechanism
-from linkanim.scenes.reading.read import scene_from
+from linkanim.mechanics.linkage import RPR, RRP, RRR, Crank, Drive, Gear, Line, Linkage, Pin, Polar
+from linkanim.mechanics.motion import Mechanism, mechanism
+from linkanim.scenes.reading import scene_from
 
 Lengths = tuple[float, float, float, float]
 Point = tuple[float, float]

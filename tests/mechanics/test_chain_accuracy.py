@@ -15,13 +15,10 @@ from mpmath import mp, mpf
 from reference import DIGITS, NUDGE, Points, Pose, derivatives, sign_of, unit
 
 from linkanim.bench.reference import crossing
-from linkanim.mechanics.closing.chain import Touch
-from linkanim.mechanics.drive.swing import Swing
-from linkanim.mechanics.linkage.drive import Drive
-from linkanim.mechanics.linkage.dyads import RRR
-from linkanim.mechanics.linkage.linkage import Body, Linkage
-from linkanim.mechanics.linkage.pins import Crank, Gear, Pin
-from linkanim.mechanics.motion.mechanism import Mechanism, mechanism
+from linkanim.mechanics.linkage import RRR, Body, Crank, Drive, Gear, Linkage, Pin
+from linkanim.mechanics.motion import Mechanism, mechanism
+from linkanim.mechanics.solver.closing import Touch
+from linkanim.mechanics.solver.input import Swing
 
 EPS = 2.0**-52
 Lengths = tuple[float, float, float, float]

@@ -11,17 +11,13 @@ from build import four_bar, six_bar
 from limits import Limits
 
 from linkanim.errors import LinkanimError
-from linkanim.mechanics.closing.chain import Touch
-from linkanim.mechanics.drive.swing import Swing
-from linkanim.mechanics.linkage.drive import Drive
-from linkanim.mechanics.linkage.dyads import RRP, RRR
-from linkanim.mechanics.linkage.joint import Line
-from linkanim.mechanics.linkage.linkage import Linkage
-from linkanim.mechanics.linkage.pins import Crank, Pin
-from linkanim.mechanics.motion.mechanism import Mechanism, mechanism
+from linkanim.mechanics.linkage import RRP, RRR, Crank, Drive, Line, Linkage, Pin
+from linkanim.mechanics.motion import Mechanism, mechanism
+from linkanim.mechanics.solver.closing import Touch
+from linkanim.mechanics.solver.input import Swing
 from linkanim.scenes import load
-from linkanim.scenes.editing.edit import with_dimensions
-from linkanim.scenes.reading.read import scene_from
+from linkanim.scenes.editing import with_dimensions
+from linkanim.scenes.reading import scene_from
 
 Lengths = tuple[float, float, float, float]
 Key = tuple[str | int, ...]

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from mpmath import mp, mpf
 
-from linkanim.mechanics.formulas.circular import (
+from linkanim.mechanics.angles import (
     PI_PARTS,
     Half,
     cosine_within,
@@ -24,7 +24,7 @@ from linkanim.mechanics.formulas.circular import (
     sine_within,
     tangent,
 )
-from linkanim.mechanics.formulas.expression import Value, nearest_whole
+from linkanim.mechanics.arithmetic import Value, nearest_whole
 
 EPS = 2.0**-52
 RANDOM = np.random.default_rng(10)
@@ -211,7 +211,7 @@ def test_floats_and_arrays_get_the_same_bits(form: str) -> None:
 
 def _on_arrays(form: Callable[..., Any], angles: Any, size: float) -> Any:
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("linkanim.mechanics.formulas.circular.rint", np.rint)
+        patch.setattr("linkanim.mechanics.angles.rint", np.rint)
         return values(form(angles, 0.0), size)
 
 

@@ -11,16 +11,12 @@ import pytest
 from build import four_bar, six_bar, slider_crank, slotted, with_joints
 
 from linkanim.errors import AssemblyError
-from linkanim.mechanics.facts.classify import Info
-from linkanim.mechanics.linkage.drive import Drive
-from linkanim.mechanics.linkage.dyads import RPR, RRR
-from linkanim.mechanics.linkage.linkage import Body, Linkage
-from linkanim.mechanics.linkage.pins import Crank, Gear, Pin, Polar
-from linkanim.mechanics.linkage.rigid_bodies import Rigid
-from linkanim.mechanics.motion.mechanism import mechanism
+from linkanim.mechanics.analysis import Info
+from linkanim.mechanics.linkage import RPR, RRR, Body, Crank, Drive, Gear, Linkage, Pin, Polar, Rigid
+from linkanim.mechanics.motion import mechanism
 from linkanim.scenes import load
-from linkanim.scenes.editing.toml import parse
-from linkanim.scenes.reading.read import scene_from
+from linkanim.scenes.reading import scene_from
+from linkanim.scenes.toml import parse
 
 # Ground, crank, coupler, rocker -> class, whether the crank turns, circuits.
 CLASSES = [

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from build import four_bar, slider_crank, slotted
 
-from linkanim.mechanics.facts.classify import Info
-from linkanim.mechanics.linkage.dyads import RRR
-from linkanim.mechanics.motion.mechanism import mechanism
+from linkanim.mechanics.analysis import Info
+from linkanim.mechanics.linkage import RRR
+from linkanim.mechanics.motion import mechanism
 
 TURN = np.linspace(-7.0, 7.0, 201)
 

@@ -11,13 +11,9 @@ from near_misses import BESIDE, is_right, near_miss, rows
 from whole_rows import whole_rows
 
 from linkanim.errors import AssemblyError
-from linkanim.mechanics.drive.swing import Swing
-from linkanim.mechanics.linkage.drive import Drive
-from linkanim.mechanics.linkage.dyads import RRP, RRR
-from linkanim.mechanics.linkage.joint import Line
-from linkanim.mechanics.linkage.linkage import Linkage
-from linkanim.mechanics.linkage.pins import Crank, Pin
-from linkanim.mechanics.motion.mechanism import Mechanism, mechanism
+from linkanim.mechanics.linkage import RRP, RRR, Crank, Drive, Line, Linkage, Pin
+from linkanim.mechanics.motion import Mechanism, mechanism
+from linkanim.mechanics.solver.input import Swing
 
 
 def knee(second: float, start_deg: float) -> Linkage:

@@ -5,10 +5,9 @@ from __future__ import annotations
 from decimal import Decimal, localcontext
 from fractions import Fraction
 
-from linkanim.mechanics.formulas.constant import Constant, digits_of, root
-from linkanim.mechanics.formulas.expression import Graph, Value
-from linkanim.mechanics.formulas.precise import context
-from linkanim.mechanics.formulas.program import decimals, scalar
+from linkanim.mechanics.arithmetic import Constant, Graph, Value, digits_of, root
+from linkanim.mechanics.precise import context
+from linkanim.mechanics.program import decimals, scalar
 
 THIRD = Constant(1 / 3, Fraction(1, 3))
 

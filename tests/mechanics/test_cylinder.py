@@ -15,16 +15,23 @@ from mpmath import mp, mpf
 from reference import DIGITS, HIGHEST_FIRST, derivatives
 
 from linkanim.errors import AssemblyError, SceneError
-from linkanim.mechanics.linkage.drive import Cylinder, Drive
-from linkanim.mechanics.linkage.dyads import RRP, RRR
-from linkanim.mechanics.linkage.joint import Joint, Line
-from linkanim.mechanics.linkage.linkage import Body, Linkage
-from linkanim.mechanics.linkage.pins import Crank, Gear, Pin
-from linkanim.mechanics.linkage.rigid_bodies import Rigid
-from linkanim.mechanics.motion.mechanism import Mechanism, mechanism
-from linkanim.scenes.editing.toml import parse
-from linkanim.scenes.editing.write import text
-from linkanim.scenes.reading.read import scene_from
+from linkanim.mechanics.linkage import (
+    RRP,
+    RRR,
+    Body,
+    Crank,
+    Cylinder,
+    Drive,
+    Gear,
+    Joint,
+    Line,
+    Linkage,
+    Pin,
+    Rigid,
+)
+from linkanim.mechanics.motion import Mechanism, mechanism
+from linkanim.scenes.reading import scene_from
+from linkanim.scenes.toml import parse, text
 
 PHASES = np.array([0.0, 0.4, 1.9, math.pi, 4.0, 5.5])
 

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from linkanim.mechanics.facts.register import key_quantities, register
-from linkanim.mechanics.linkage.linkage import Damper, Linkage, Spring
-from linkanim.mechanics.motion.measures import dyads_of
-from linkanim.mechanics.motion.mechanism import mechanism
+from linkanim.mechanics.linkage import Damper, Linkage, Spring
+from linkanim.mechanics.measures import dyads_of
+from linkanim.mechanics.motion import mechanism
+from linkanim.mechanics.quantities import key_quantities, register
 from linkanim.scenes import load, names
 from linkanim.scenes.scene import Scene
 

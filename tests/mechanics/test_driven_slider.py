@@ -14,20 +14,27 @@ from mpmath import mp, mpf
 from reference import DIGITS, HIGHEST_FIRST, NUDGE, derivatives
 
 from linkanim.errors import AssemblyError, BadInput, SceneError
-from linkanim.mechanics.facts.effort import input_effort
-from linkanim.mechanics.facts.register import register
-from linkanim.mechanics.linkage.drive import Drive, Travel
-from linkanim.mechanics.linkage.dyads import RPR, RRP, RRR
-from linkanim.mechanics.linkage.joint import Joint, Line
-from linkanim.mechanics.linkage.linkage import Body, Linkage
-from linkanim.mechanics.linkage.pins import DrivenSlider, Pin
-from linkanim.mechanics.linkage.rigid_bodies import Rigid
-from linkanim.mechanics.motion.mechanism import mechanism
+from linkanim.mechanics.forces import input_effort
+from linkanim.mechanics.linkage import (
+    RPR,
+    RRP,
+    RRR,
+    Body,
+    Drive,
+    DrivenSlider,
+    Joint,
+    Line,
+    Linkage,
+    Pin,
+    Rigid,
+    Travel,
+)
+from linkanim.mechanics.motion import mechanism
+from linkanim.mechanics.quantities import register
 from linkanim.scenes import load
-from linkanim.scenes.editing.edit import dimensions, with_dimensions
-from linkanim.scenes.editing.toml import parse
-from linkanim.scenes.editing.write import text
-from linkanim.scenes.reading.read import scene_from
+from linkanim.scenes.editing import dimensions, with_dimensions
+from linkanim.scenes.reading import scene_from
+from linkanim.scenes.toml import parse, text
 
 EPS = 2.0**-52
 PHASES = np.array([0.0, 0.3, 1.9, math.pi, 4.0, 5.9])

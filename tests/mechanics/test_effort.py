@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from linkanim.mechanics.facts.effort import input_effort, input_power
-from linkanim.mechanics.facts.register import register
-from linkanim.mechanics.linkage.linkage import Damper, Linkage, Spring
+from linkanim.mechanics.forces import input_effort, input_power
+from linkanim.mechanics.linkage import Damper, Linkage, Spring
+from linkanim.mechanics.quantities import register
 from linkanim.scenes import load, names
-from linkanim.scenes.editing.toml import parse
-from linkanim.scenes.reading.read import scene_from
+from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
+from linkanim.scenes.toml import parse
 
 PHASES = np.linspace(0.3, 6.1, 17)
 ENGINE = """

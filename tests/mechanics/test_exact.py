@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from mpmath import mp, mpf
 
-from linkanim.mechanics.formulas.exact import (
+from linkanim.mechanics.angles import (
     FULL_TURN,
     HALF_TURN,
     Sum,

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from bits import rows
 
-from linkanim.mechanics.motion.measures import FAMILIES
-from linkanim.mechanics.motion.motion import COORDINATE
+from linkanim.mechanics.measures import FAMILIES
+from linkanim.mechanics.motion import COORDINATE
 from linkanim.scenes import load
 
 KINDS = tuple(kind for family in FAMILIES for kind in family)

@@ -22,12 +22,11 @@ from random_joints import (
 from whole_rows import whole_rows
 
 from linkanim.cli import main
-from linkanim.mechanics.drive.strokes import CylinderStroke, SliderStroke
-from linkanim.mechanics.linkage.dyads import RRR
-from linkanim.mechanics.linkage.pins import Pin
-from linkanim.mechanics.motion.mechanism import Mechanism, mechanism, stopped
+from linkanim.mechanics.linkage import RRR, Pin
+from linkanim.mechanics.motion import Mechanism, mechanism, stopped
+from linkanim.mechanics.solver.strokes import CylinderStroke, SliderStroke
 from linkanim.scenes import load, names
-from linkanim.scenes.reading.read import scene_from
+from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
 
 DOUBLE_ROCKER = {"ground": 100, "crank": 80, "coupler": 40, "rocker": 90}

@@ -23,8 +23,8 @@ from random_joints import (
 from reference import DIGITS
 
 import linkanim
-from linkanim.mechanics.closing.kinds import CLOSERS
-from linkanim.mechanics.linkage.joint import Joint
+from linkanim.mechanics.linkage import Joint
+from linkanim.mechanics.solver.closing import CLOSERS
 
 EPS = 2.0**-52
 POSITION, RATE = 1e-12, 1e-10
@@ -80,8 +80,8 @@ def test_every_kind_of_joint_is_known_to_close() -> None:
     assert found == {kind.__name__ for kind in CLOSERS}
 
 
-JOINT_FILES = {"mechanics/linkage/dyads", "mechanics/closing/kinds", "scenes/fields/joints", "explain/kinds"}
-INPUT_FILES = {"mechanics/linkage/drive", "mechanics/drive/strokes", "scenes/fields/drive", "explain/inputs"}
+JOINT_FILES = {"mechanics/linkage", "mechanics/solver/closing", "scenes/file_form", "explain/joints"}
+INPUT_FILES = {"mechanics/linkage", "mechanics/solver/strokes", "scenes/file_form", "explain/solution"}
 
 
 @pytest.mark.parametrize(

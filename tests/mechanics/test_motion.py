@@ -12,12 +12,12 @@ import pytest
 from build import four_bar, slider_crank
 
 from linkanim.errors import AssemblyError
-from linkanim.mechanics.facts.register import register
-from linkanim.mechanics.motion.mechanism import Mechanism, mechanism
+from linkanim.mechanics.motion import Mechanism, mechanism
+from linkanim.mechanics.quantities import register
 from linkanim.scenes import load, names
-from linkanim.scenes.editing.toml import parse
-from linkanim.scenes.reading.read import scene_from
+from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
+from linkanim.scenes.toml import parse
 
 STEP = 1e-4
 OFFSETS = STEP * np.arange(-3, 4)

@@ -9,14 +9,9 @@ import numpy as np
 import pytest
 from build import four_bar, with_joints
 
-from linkanim.mechanics.linkage.drive import Drive
-from linkanim.mechanics.linkage.dyads import RPR, RRP
-from linkanim.mechanics.linkage.joint import Line
-from linkanim.mechanics.linkage.linkage import Linkage
-from linkanim.mechanics.linkage.pins import Crank, Gear, Pin
-from linkanim.mechanics.linkage.rigid_bodies import Rigid
-from linkanim.mechanics.motion.measures import transmission_angle
-from linkanim.mechanics.motion.mechanism import mechanism
+from linkanim.mechanics.linkage import RPR, RRP, Crank, Drive, Gear, Line, Linkage, Pin, Rigid
+from linkanim.mechanics.measures import transmission_angle
+from linkanim.mechanics.motion import mechanism
 
 DRIVE = Drive("A", 1.0)
 

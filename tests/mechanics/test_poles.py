@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from linkanim.mechanics.linkage.linkage import Body
-from linkanim.mechanics.motion.measures import centrodes, coupler_body, pole
-from linkanim.mechanics.motion.motion import Motion
+from linkanim.mechanics.linkage import Body
+from linkanim.mechanics.measures import centrodes, coupler_body, pole
+from linkanim.mechanics.motion import Motion
 from linkanim.scenes import load
 from linkanim.scenes.scene import Scene
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import linkanim
-from linkanim.mechanics.facts.polygon import Chain, Order, chains, image
+from linkanim.mechanics.polygons import Chain, Order, chains, image
 from linkanim.scenes import load, names
 from linkanim.scenes.scene import Scene
 

@@ -10,11 +10,9 @@ import numpy as np
 import pytest
 from scaling import chain
 
-from linkanim.mechanics.formulas.constant import Constant
-from linkanim.mechanics.formulas.expression import Expr, Graph, Value, maximum, minimum, rint, select, sqrt
-from linkanim.mechanics.formulas.program import BLOCK, CACHE_LINE, aligned_rows, batch, needed, scalar
-from linkanim.mechanics.motion.mechanism import mechanism
-from linkanim.mechanics.motion.motion import Variant
+from linkanim.mechanics.arithmetic import Constant, Expr, Graph, Value, maximum, minimum, rint, select, sqrt
+from linkanim.mechanics.motion import Variant, mechanism
+from linkanim.mechanics.program import BLOCK, CACHE_LINE, aligned_rows, batch, needed, scalar
 from linkanim.scenes import load, names
 
 

@@ -12,10 +12,9 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from linkanim.errors import AssemblyError
-from linkanim.mechanics.drive.swing import Swing
-from linkanim.mechanics.linkage.linkage import Linkage
-from linkanim.mechanics.motion.mechanism import Mechanism, mechanism
-from linkanim.mechanics.motion.motion import Motion
+from linkanim.mechanics.linkage import Linkage
+from linkanim.mechanics.motion import Mechanism, Motion, mechanism
+from linkanim.mechanics.solver.input import Swing
 
 Lengths = tuple[float, float, float, float]
 PHASES = np.linspace(0.0, 4 * math.pi, 161)

@@ -8,11 +8,8 @@ import numpy as np
 import pytest
 from build import BARS, four_bar, slider_crank
 
-from linkanim.mechanics.linkage.drive import Drive
-from linkanim.mechanics.linkage.dyads import RRR
-from linkanim.mechanics.linkage.linkage import Linkage
-from linkanim.mechanics.linkage.pins import Crank, Pin
-from linkanim.mechanics.motion.mechanism import mechanism
+from linkanim.mechanics.linkage import RRR, Crank, Drive, Linkage, Pin
+from linkanim.mechanics.motion import mechanism
 from linkanim.scenes import load
 
 # Term report on a punch press (Matlab, checked with RecurDyn), tables 3.1 and 3.2: crank at 87 degrees

@@ -9,9 +9,8 @@ import numpy as np
 import pytest
 
 from linkanim.errors import BadInput
-from linkanim.mechanics.facts.register import link_labels, look_up, register
-from linkanim.mechanics.linkage.drive import Drive
-from linkanim.mechanics.linkage.linkage import Body, Linkage
+from linkanim.mechanics.linkage import Body, Drive, Linkage
+from linkanim.mechanics.quantities import link_labels, look_up, register
 from linkanim.scenes import load, names
 
 # token, symbol, words, unit

@@ -10,8 +10,8 @@ import pytest
 import linkanim
 from linkanim.errors import SceneError
 from linkanim.scenes import names
-from linkanim.scenes.editing.closures import other_return
-from linkanim.scenes.reading.read import scene_from
+from linkanim.scenes.editing import other_return
+from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
 
 SWINGING = [name for name in names() if not linkanim.load(name).info.full_turn]

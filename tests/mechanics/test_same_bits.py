@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from bits import KEPT, PHASES, hashes, rows
 
-from linkanim.mechanics.drive.turn import Turn
+from linkanim.mechanics.solver.input import Turn
 from linkanim.scenes import load, names
 
 MANY = np.random.default_rng(1).uniform(-100.0, 100.0, 20_000)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from linkanim.mechanics.closing.search import BLOCK, around, changes_by_row, ends_of, own_rows, sign_changes
+from linkanim.mechanics.search import BLOCK, around, changes_by_row, ends_of, own_rows, sign_changes
 
 
 def test_every_bracket_ends_at_the_last_float_that_holds() -> None:

@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from linkanim.mechanics.facts.register import register
+from linkanim.mechanics.quantities import register
 from linkanim.scenes import load, names
-from linkanim.scenes.editing.closures import other_return
-from linkanim.scenes.reading.read import scene_from
+from linkanim.scenes.editing import other_return
+from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
 
 SIMPLE = {

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from linkanim.mechanics.facts.solving_steps import solving_steps
+from linkanim.mechanics.analysis import solving_steps
 from linkanim.scenes import load, names
 
 # By hand, from the vector loops of each.

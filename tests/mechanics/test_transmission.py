@@ -11,14 +11,10 @@ import pytest
 from build import four_bar, rocker_driven, six_bar, slider_crank, slotted, with_joints
 from numpy.typing import NDArray
 
-from linkanim.mechanics.facts.transmission import transmission
-from linkanim.mechanics.linkage.dyads import RPR, RRP, RRR
-from linkanim.mechanics.linkage.joint import Joint, Line
-from linkanim.mechanics.linkage.linkage import Linkage
-from linkanim.mechanics.linkage.pins import Crank, Gear, Pin
-from linkanim.mechanics.motion.measures import transmission_angle
-from linkanim.mechanics.motion.mechanism import mechanism
-from linkanim.mechanics.motion.motion import Motion
+from linkanim.mechanics.analysis import transmission
+from linkanim.mechanics.linkage import RPR, RRP, RRR, Crank, Gear, Joint, Line, Linkage, Pin
+from linkanim.mechanics.measures import transmission_angle
+from linkanim.mechanics.motion import Motion, mechanism
 
 Array = NDArray[np.float64]
 EXACT = 1e-9

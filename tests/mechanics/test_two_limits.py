@@ -11,11 +11,9 @@ from build import slider_crank, with_joints
 from chain_reference import places
 from mpmath import mp, mpf
 
-from linkanim.mechanics.drive.swing import Swing
-from linkanim.mechanics.linkage.dyads import RRR
-from linkanim.mechanics.linkage.linkage import Linkage
-from linkanim.mechanics.linkage.pins import Pin
-from linkanim.mechanics.motion.mechanism import mechanism
+from linkanim.mechanics.linkage import RRR, Linkage, Pin
+from linkanim.mechanics.motion import mechanism
+from linkanim.mechanics.solver.input import Swing
 
 SMALL = mpf(10) ** -10
 RIGHT = 1e-9

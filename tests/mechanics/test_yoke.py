@@ -11,13 +11,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from mpmath import mp, mpf
 
-from linkanim.mechanics.facts.classify import Info
-from linkanim.mechanics.linkage.drive import Drive
-from linkanim.mechanics.linkage.dyads import RPP, RRP
-from linkanim.mechanics.linkage.joint import Line
-from linkanim.mechanics.linkage.linkage import Body, Linkage
-from linkanim.mechanics.linkage.pins import Crank, Pin
-from linkanim.mechanics.motion.mechanism import mechanism
+from linkanim.mechanics.analysis import Info
+from linkanim.mechanics.linkage import RPP, RRP, Body, Crank, Drive, Line, Linkage, Pin
+from linkanim.mechanics.motion import mechanism
 
 EPS = 2.0**-52
 ANGLES = np.concatenate([np.linspace(-7.0, 7.0, 141), np.arange(5) * (math.pi / 2), [1e6, -1e9]])

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from linkanim.mechanics.linkage.pins import Pin
-from linkanim.mechanics.motion.mechanism import Mechanism
+from linkanim.mechanics.linkage import Pin
+from linkanim.mechanics.motion import Mechanism
 
 
 def whole_rows(solved: Mechanism, angles: NDArray[np.float64]) -> NDArray[np.bool_]:

@@ -8,12 +8,11 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 
-from linkanim.paper.annotations import _apart
-from linkanim.paper.chart import Page
+from linkanim.paper.chart import Page, _apart
 from linkanim.paper.curves import Curve, Pace, curves_of, extremes
 from linkanim.picture.items import Caption, Item
 from linkanim.picture.look import Over
-from linkanim.picture.raster.raster import Layer
+from linkanim.picture.raster import Layer
 from linkanim.picture.view import Rect
 from linkanim.scenes import load, names
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from linkanim.errors import BadInput
-from linkanim.mechanics.facts.register import register
+from linkanim.mechanics.quantities import register
 from linkanim.paper.curves import Curves, Pace, curves_of, extremes, table
 from linkanim.picture.look import Over
 from linkanim.scenes import load

@@ -13,11 +13,11 @@ import pytest
 from fidelity import psnr
 
 from linkanim.paper.figure import Figured
-from linkanim.picture.diagrams.quantities import quantity
 from linkanim.picture.look import Look
-from linkanim.picture.panels.overlay import Overlay
+from linkanim.picture.overlay import Overlay
 from linkanim.picture.picture import Picture
-from linkanim.picture.raster.offscreen import offscreen
+from linkanim.picture.quantities import quantity
+from linkanim.picture.raster import offscreen
 from linkanim.picture.surface import SurfacePrinter
 from linkanim.scenes import load
 

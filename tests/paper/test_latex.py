@@ -15,7 +15,7 @@ from linkanim.paper.figure import Figured
 from linkanim.paper.latex import words
 from linkanim.picture.items import Caption
 from linkanim.picture.look import Look
-from linkanim.picture.text.text import typesetting
+from linkanim.picture.text import typesetting
 from linkanim.scenes import load
 
 PUT = re.compile(

@@ -9,8 +9,7 @@ import pytest
 from numpy.typing import ArrayLike
 
 from linkanim.errors import BadInput, OutOfRange
-from linkanim.paper.curves import Pace, curves_of
-from linkanim.paper.measured import MeasuredCurve, beside, read_table, usual_over
+from linkanim.paper.curves import MeasuredCurve, Pace, beside, curves_of, read_table, usual_over
 from linkanim.picture.look import Over
 from linkanim.scenes import load
 

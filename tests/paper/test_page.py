@@ -11,16 +11,14 @@ import numpy as np
 import pygame
 import pytest
 
-from linkanim.number_table import NumberRow
+from linkanim.intake import NumberRow
 from linkanim.paper.chart import Page
-from linkanim.paper.curves import Pace, curves_of
-from linkanim.paper.measured import MeasuredTable, beside
+from linkanim.paper.curves import MeasuredTable, Pace, beside, curves_of
 from linkanim.paper.svg import svg
 from linkanim.picture.items import Caption, Group, Halo
-from linkanim.picture.raster.offscreen import offscreen
-from linkanim.picture.raster.raster import Layer
+from linkanim.picture.raster import Layer, offscreen
 from linkanim.picture.surface import printed
-from linkanim.picture.text.text import typesetting
+from linkanim.picture.text import typesetting
 from linkanim.scenes import load, names
 
 SIZE = (800, 450)

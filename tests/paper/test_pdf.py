@@ -16,8 +16,8 @@ from linkanim.paper.pdf import pdf, require_pdf
 from linkanim.paper.write import data
 from linkanim.picture.items import Caption, Group, Halo
 from linkanim.picture.look import Look
-from linkanim.picture.raster.raster import Layer
-from linkanim.picture.text.text import Anchor, Type, typesetting
+from linkanim.picture.raster import Layer
+from linkanim.picture.text import Anchor, Type, typesetting
 from linkanim.scenes import load
 
 SQUARE = np.array([10, 30, 30 + 20j, 10 + 20j], complex)

@@ -17,7 +17,7 @@ from linkanim.paper.svg import svg
 from linkanim.picture.items import Group
 from linkanim.picture.look import Look
 from linkanim.picture.picture import Picture
-from linkanim.picture.raster.offscreen import offscreen
+from linkanim.picture.raster import offscreen
 from linkanim.picture.surface import SurfacePrinter
 from linkanim.scenes import load, names
 

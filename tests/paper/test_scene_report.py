@@ -16,10 +16,8 @@ import pytest
 from browser import PROGRAM
 
 from linkanim.cli import main
-from linkanim.digits import rounded, significant, typeset
-from linkanim.explain.inputs import PoseRequest
-from linkanim.explain.solution import solution
-from linkanim.mechanics.facts.register import register
+from linkanim.explain.solution import PoseRequest, solution
+from linkanim.mechanics.quantities import register
 from linkanim.paper.curves import Pace
 from linkanim.paper.findings import (
     Instant,
@@ -30,10 +28,11 @@ from linkanim.paper.findings import (
     place_of,
     sheet,
     usual_instants,
+    value_tables,
 )
-from linkanim.paper.tables import value_tables
 from linkanim.paper.vectors import vectors_svg
 from linkanim.scenes import load, names
+from linkanim.units import rounded, significant, typeset
 
 PACES = tuple(Pace(speed, f"{speed:g} rad/s") for speed in (5.0, 10.0, 20.0))
 PRESS = ("report", "press", "--angles", "87 deg,306 deg", "--speeds", "5 rad/s,10 rad/s,20 rad/s")

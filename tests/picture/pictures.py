@@ -8,15 +8,14 @@ import numpy as np
 import pygame
 from fidelity import Pixels
 
-from linkanim.mechanics.motion.motion import Pose
+from linkanim.mechanics.motion import Pose
 from linkanim.picture.items import Caption
-from linkanim.picture.labels.names import Names
+from linkanim.picture.labels import Names
 from linkanim.picture.look import Look
 from linkanim.picture.picture import Picture
-from linkanim.picture.raster.offscreen import offscreen
-from linkanim.picture.raster.raster import Colour, Layer, Shapes, covers
+from linkanim.picture.raster import Colour, Layer, Shapes, covers, offscreen
 from linkanim.picture.surface import SurfacePrinter
-from linkanim.picture.text.text import Type
+from linkanim.picture.text import Type
 from linkanim.picture.view import Rect
 from linkanim.scenes.scene import Scene
 

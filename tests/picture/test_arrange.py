@@ -12,21 +12,18 @@ import pygame
 import pytest
 from pictures import pixels
 
-from linkanim.picture.arrangement.arrange import arranged
-from linkanim.picture.arrangement.fit import FitRequest, fitted
-from linkanim.picture.arrangement.sweep import Sweep
+from linkanim.picture.arrangement import FitRequest, Sweep, arranged, fitted
 from linkanim.picture.layout import layout
 from linkanim.picture.look import Look
-from linkanim.picture.panels.overlay import EditRow, Fading, Overlay, Panel
+from linkanim.picture.overlay import EditRow, Fading, Overlay, Panel
 from linkanim.picture.picture import Picture
-from linkanim.picture.raster.offscreen import offscreen
+from linkanim.picture.raster import offscreen
 from linkanim.picture.surface import SurfacePrinter
-from linkanim.picture.text.text import Type
+from linkanim.picture.text import Type
 from linkanim.picture.theme import theme_of
 from linkanim.picture.view import Rect
 from linkanim.scenes import load, names
-from linkanim.scenes.editing.closures import ghost_of
-from linkanim.scenes.editing.titles import beyond_title
+from linkanim.scenes.editing import beyond_title, ghost_of
 
 FORMATS = ((1280, 720), (1024, 768), (720, 1280), (320, 180))
 BACKGROUND = theme_of("light").background

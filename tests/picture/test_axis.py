@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from linkanim.picture.diagrams.axis import around, linear, zeros_level
+from linkanim.picture.quantities import around, linear, zeros_level
 
 
 @pytest.mark.parametrize(

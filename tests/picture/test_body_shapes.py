@@ -8,18 +8,16 @@ import numpy as np
 import pytest
 
 from linkanim.errors import SceneError
-from linkanim.picture.arrangement.sweep import sweep_of
+from linkanim.picture.arrangement import sweep_of
+from linkanim.picture.bodies import SHAPES, WHEELS, body_parts, colours_of, wheel_radius
 from linkanim.picture.figure import Figure, figure
+from linkanim.picture.fittings import Bench, fittings, ground_layers, rail_reach, rails_of
 from linkanim.picture.layout import Gauge
-from linkanim.picture.parts.bodies import body_parts, colours_of
-from linkanim.picture.parts.body_shapes import SHAPES, WHEELS, wheel_radius
-from linkanim.picture.parts.fittings import Bench, fittings, rail_reach, rails_of
-from linkanim.picture.parts.ground import ground_layers
-from linkanim.picture.raster.raster import Loop
+from linkanim.picture.raster import Loop
 from linkanim.picture.theme import DARK, LIGHT
 from linkanim.picture.view import View
 from linkanim.scenes import load
-from linkanim.scenes.reading.read import scene_from
+from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Outline, Scene
 
 GAUGE = Gauge(8.0, 1.0, 1.0, 3.0)

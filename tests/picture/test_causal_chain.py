@@ -8,9 +8,9 @@ import pygame
 import pytest
 from pictures import contrast, painted
 
-from linkanim.mechanics.facts.solving_steps import solving_steps
+from linkanim.mechanics.analysis import solving_steps
+from linkanim.picture.bodies import CausalChain
 from linkanim.picture.look import Look
-from linkanim.picture.parts.causal_chain import CausalChain
 from linkanim.picture.picture import Picture
 from linkanim.picture.theme import DARK, LIGHT, Theme
 from linkanim.scenes import load, names

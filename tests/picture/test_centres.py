@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from linkanim.picture.diagrams.centres import Centres, clipped
+from linkanim.picture.centres import Centres, clipped
 from linkanim.picture.drawing import Drawing
 from linkanim.picture.figure import figure
 from linkanim.picture.look import Look

@@ -7,11 +7,11 @@ import math
 import numpy as np
 import pytest
 
-from linkanim.picture.diagrams.axis import linear
-from linkanim.picture.diagrams.chart import Pen, Plot, axes, curve_layer, dot, right_axis
+from linkanim.picture.chart import Pen, Plot, axes, curve_layer, dot, right_axis
 from linkanim.picture.items import Caption
-from linkanim.picture.raster.raster import Layer
-from linkanim.picture.text.text import Type
+from linkanim.picture.quantities import linear
+from linkanim.picture.raster import Layer
+from linkanim.picture.text import Type
 from linkanim.picture.theme import LIGHT
 from linkanim.picture.view import Rect
 

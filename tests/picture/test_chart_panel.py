@@ -14,19 +14,17 @@ import pytest
 from fidelity import Pixels
 from pictures import pixels
 
-from linkanim.mechanics.facts.register import input_symbol
-from linkanim.mechanics.motion.mechanism import Mechanism
-from linkanim.mechanics.motion.motion import Motion, Pose
-from linkanim.picture.diagrams.chart import pen_for
-from linkanim.picture.diagrams.chart_panel import ChartPanel, chart_panel
+from linkanim.mechanics.motion import Mechanism, Motion, Pose
+from linkanim.mechanics.quantities import input_symbol
+from linkanim.picture.chart import ChartPanel, chart_panel, pen_for
 from linkanim.picture.figure import figure
 from linkanim.picture.items import Caption
 from linkanim.picture.layout import Layout, layout
 from linkanim.picture.look import Look, Over
 from linkanim.picture.picture import Picture
-from linkanim.picture.raster.offscreen import offscreen
+from linkanim.picture.raster import offscreen
 from linkanim.picture.surface import SurfacePrinter
-from linkanim.picture.text.text import Type
+from linkanim.picture.text import Type
 from linkanim.picture.theme import LIGHT
 from linkanim.picture.view import Rect
 from linkanim.scenes import load, names

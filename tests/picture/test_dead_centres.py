@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from pictures import labelled
 
+from linkanim.picture.dead_centres import DeadCentres
 from linkanim.picture.drawing import Drawing
-from linkanim.picture.labels.dead_centres import DeadCentres
 from linkanim.picture.look import Look
 from linkanim.picture.picture import Picture
 from linkanim.scenes import load

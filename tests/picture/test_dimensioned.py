@@ -10,14 +10,14 @@ import numpy as np
 import pytest
 from pictures import labelled
 
-from linkanim.mechanics.motion.motion import Pose
+from linkanim.mechanics.motion import Pose
+from linkanim.picture.bodies import WHEELS
+from linkanim.picture.dimensions import Measurement, symbols
 from linkanim.picture.figure import figure
-from linkanim.picture.labels.dimensions import Measurement, symbols
-from linkanim.picture.labels.names import Label
+from linkanim.picture.labels import Label
 from linkanim.picture.look import Look, ThemeName
-from linkanim.picture.parts.body_shapes import WHEELS
 from linkanim.picture.picture import Picture
-from linkanim.picture.text.text import subscripted
+from linkanim.picture.text import subscripted
 from linkanim.picture.view import Rect
 from linkanim.scenes import load, names
 

@@ -8,16 +8,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from linkanim.mechanics.linkage.drive import Drive
-from linkanim.mechanics.linkage.dyads import RPP, RPR, RRP
-from linkanim.mechanics.linkage.joint import Line
-from linkanim.mechanics.linkage.linkage import Linkage
-from linkanim.mechanics.linkage.pins import Crank, Pin
-from linkanim.picture.arrangement.sweep import sweep_of
+from linkanim.mechanics.linkage import RPP, RPR, RRP, Crank, Drive, Line, Linkage, Pin
+from linkanim.picture.arrangement import sweep_of
+from linkanim.picture.bodies import body_parts, colours_of
 from linkanim.picture.figure import figure
 from linkanim.picture.layout import gauge
-from linkanim.picture.parts.bodies import body_parts, colours_of
-from linkanim.picture.raster.raster import Loop
+from linkanim.picture.raster import Loop
 from linkanim.picture.theme import LIGHT
 from linkanim.picture.view import View
 from linkanim.scenes import load

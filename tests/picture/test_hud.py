@@ -8,20 +8,19 @@ import numpy as np
 import pytest
 from pictures import inked, place_of
 
-from linkanim.mechanics.facts.effort import input_effort
-from linkanim.picture.arrangement.fit import FitRequest, fitted
+from linkanim.mechanics.forces import input_effort
+from linkanim.picture.arrangement import FitRequest, fitted
+from linkanim.picture.hud import Hud, Reading, note, rows
 from linkanim.picture.items import Group
 from linkanim.picture.look import Look
-from linkanim.picture.panels.hud import Hud
-from linkanim.picture.panels.overlay import Overlay
-from linkanim.picture.panels.readings import Reading, note, rows
+from linkanim.picture.overlay import Overlay
 from linkanim.picture.picture import Picture
-from linkanim.picture.raster.offscreen import offscreen
+from linkanim.picture.raster import offscreen
 from linkanim.picture.surface import printed
-from linkanim.picture.text.text import Type
+from linkanim.picture.text import Type
 from linkanim.picture.theme import LIGHT
 from linkanim.scenes import load, names
-from linkanim.scenes.reading.read import scene_from
+from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
 
 

@@ -9,16 +9,16 @@ import numpy as np
 import pytest
 from pictures import inked
 
-from linkanim.bench.cases import four_bar
-from linkanim.picture.arrangement.fit import FitRequest, fitted
+from linkanim.bench.questions import four_bar
+from linkanim.picture.arrangement import FitRequest, fitted
 from linkanim.picture.figure import figure
+from linkanim.picture.hud import Legend, legend_for
 from linkanim.picture.layout import gauge, layout
 from linkanim.picture.look import ACCELERATION, VELOCITY
-from linkanim.picture.panels.legend import Legend, legend_for
-from linkanim.picture.parts.vectors import arrows_of
-from linkanim.picture.raster.offscreen import offscreen
+from linkanim.picture.motion_marks import arrows_of
+from linkanim.picture.raster import offscreen
 from linkanim.picture.surface import printed
-from linkanim.picture.text.text import Type
+from linkanim.picture.text import Type
 from linkanim.picture.theme import LIGHT
 from linkanim.picture.view import Rect
 from linkanim.scenes import load

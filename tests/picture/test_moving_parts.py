@@ -12,28 +12,22 @@ import numpy as np
 import pytest
 from pictures import contrast, pixels
 
-from linkanim.mechanics.linkage.drive import Drive
-from linkanim.mechanics.linkage.linkage import Damper, Linkage
-from linkanim.mechanics.linkage.pins import Crank, Gear, Pin
-from linkanim.picture.arrangement.sweep import sweep_of
+from linkanim.mechanics.linkage import Crank, Damper, Drive, Gear, Linkage, Pin
+from linkanim.picture.arrangement import sweep_of
 from linkanim.picture.figure import Figure, figure
+from linkanim.picture.fittings import Bench, Coil, Damping, coils, dampings, fittings
+from linkanim.picture.gears import WheelPair, pairs, teeth_a_second, wheel_layers, wheel_parts, wheels
 from linkanim.picture.layout import gauge
 from linkanim.picture.look import Look
-from linkanim.picture.parts.fittings import Bench, fittings
-from linkanim.picture.parts.gears import wheel_layers, wheel_parts
-from linkanim.picture.parts.struts import Coil, Damping, coils, dampings
-from linkanim.picture.parts.trace import Trace, traces
-from linkanim.picture.parts.vectors import LONGEST, arrow_layers, arrows_of
-from linkanim.picture.parts.wheels import WheelPair, pairs, teeth_a_second, wheels
+from linkanim.picture.motion_marks import LONGEST, Trace, arrow_layers, arrows_of, traces
 from linkanim.picture.picture import Picture
-from linkanim.picture.raster.directions import directions, folded
-from linkanim.picture.raster.offscreen import offscreen
-from linkanim.picture.raster.raster import Layer, Loop
+from linkanim.picture.raster import Layer, Loop, offscreen
+from linkanim.picture.shapes import directions, folded
 from linkanim.picture.surface import SurfacePrinter
 from linkanim.picture.theme import DARK, LIGHT, Theme
 from linkanim.picture.view import View
 from linkanim.scenes import load
-from linkanim.scenes.reading.read import scene_from
+from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
 
 VIEW = View(1.0, 0.0, 0.0)

@@ -10,20 +10,19 @@ import numpy as np
 import pytest
 from pictures import BARE, labelled, painted, pixels, standing
 
+from linkanim.picture.dimensions import leg_part, symbols
 from linkanim.picture.figure import figure
-from linkanim.picture.labels.dimensions import leg_part, symbols
 from linkanim.picture.layout import Gauge
 from linkanim.picture.look import Look
-from linkanim.picture.parts.turning import Sliding, Turning
+from linkanim.picture.motion_marks import Sliding, Turning
 from linkanim.picture.picture import Picture
-from linkanim.picture.raster.offscreen import offscreen
+from linkanim.picture.raster import offscreen
 from linkanim.picture.surface import SurfacePrinter
-from linkanim.picture.text.lettering import Lettering
-from linkanim.picture.text.text import Type
+from linkanim.picture.text import Lettering, Type
 from linkanim.picture.view import Rect, View
 from linkanim.scenes import load, names
-from linkanim.scenes.editing.edit import with_dimensions
-from linkanim.scenes.reading.read import scene_from
+from linkanim.scenes.editing import with_dimensions
+from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
 
 SIZES = [(320, 180), (1280, 720), (720, 1280)]

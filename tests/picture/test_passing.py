@@ -11,15 +11,15 @@ import pygame
 import pytest
 from pictures import inked, pixels
 
+from linkanim.picture.board import Board
 from linkanim.picture.layout import layout
 from linkanim.picture.look import Look
-from linkanim.picture.panels.board import Board
-from linkanim.picture.panels.edit_list import edit_list
-from linkanim.picture.panels.overlay import DimensionLine, EditRow, Fading, Overlay, Panel
+from linkanim.picture.overlay import DimensionLine, EditRow, Fading, Overlay, Panel
+from linkanim.picture.panels import edit_list
 from linkanim.picture.picture import Picture
-from linkanim.picture.raster.offscreen import offscreen
+from linkanim.picture.raster import offscreen
 from linkanim.picture.surface import SurfacePrinter
-from linkanim.picture.text.text import Type
+from linkanim.picture.text import Type
 from linkanim.picture.theme import LIGHT
 from linkanim.picture.view import Rect
 from linkanim.scenes import load

@@ -15,7 +15,7 @@ from PIL import Image
 
 from linkanim.build.draft import Photo
 from linkanim.errors import BadInput
-from linkanim.picture.building.photograph import Photograph, lack, refuse_lacking
+from linkanim.picture.photograph import Photograph, lack, refuse_lacking
 from linkanim.picture.view import View
 
 PAPER = (255, 255, 255)

@@ -8,15 +8,15 @@ import numpy as np
 import pytest
 from pictures import standing
 
-from linkanim.mechanics.motion.motion import Pose
-from linkanim.picture.labels.candidates import Surroundings
-from linkanim.picture.labels.dimensions import symbols
+from linkanim.mechanics.motion import Pose
+from linkanim.picture.dimensions import symbols
+from linkanim.picture.fittings import Bench, rail_reach
+from linkanim.picture.labels import Surroundings
 from linkanim.picture.look import Look
-from linkanim.picture.parts.fittings import Bench, rail_reach
-from linkanim.picture.parts.turning import Turning
+from linkanim.picture.motion_marks import Turning
 from linkanim.picture.picture import Picture
 from linkanim.picture.placing import MOMENTS, Clutter, LabelPlaces, Placed, Solid, Solids, place, touching
-from linkanim.picture.raster.shapes import hull
+from linkanim.picture.shapes import hull
 from linkanim.picture.view import Rect
 from linkanim.scenes import load
 

@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 from pictures import painted, pixels
 
-from linkanim.mechanics.facts.polygon import Order, chains, image
-from linkanim.picture.diagrams.chart import pen_for
-from linkanim.picture.diagrams.polygons import Polygon, polygons_of
+from linkanim.mechanics.polygons import Order, chains, image
+from linkanim.picture.chart import pen_for
 from linkanim.picture.figure import figure
 from linkanim.picture.items import Group
 from linkanim.picture.layout import Layout, layout
 from linkanim.picture.look import Look
-from linkanim.picture.text.text import Type
+from linkanim.picture.polygons import Polygon, polygons_of
+from linkanim.picture.text import Type
 from linkanim.picture.theme import LIGHT
 from linkanim.scenes import load, names
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from linkanim.errors import BadInput
-from linkanim.picture.diagrams import quantities
+from linkanim.picture import quantities
 from linkanim.scenes import Scene, load, names
 
 

@@ -9,12 +9,12 @@ from typing import Any, NamedTuple
 import pygame
 import pytest
 
+from linkanim.picture.board import STEP, Board
 from linkanim.picture.layout import layout
-from linkanim.picture.panels.board import STEP, Board
-from linkanim.picture.panels.overlay import Quantities
-from linkanim.picture.panels.quantity_list import quantity_list, quantity_rows
-from linkanim.picture.raster.raster import Colour
-from linkanim.picture.text.text import Type
+from linkanim.picture.overlay import Quantities
+from linkanim.picture.panels import quantity_list, quantity_rows
+from linkanim.picture.raster import Colour
+from linkanim.picture.text import Type
 from linkanim.picture.theme import LIGHT
 
 ROWS = tuple((f"Link {n}: angle", f"θ{n} (°)") for n in range(60))

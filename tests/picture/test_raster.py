@@ -11,10 +11,9 @@ import pytest
 from fidelity import Pixels, averaged, centre, jitter, psnr
 from pictures import alphas, coverage, filled
 
-from linkanim.picture.raster import raster
-from linkanim.picture.raster.offscreen import offscreen
-from linkanim.picture.raster.raster import Layer, Loop, Shapes, covers, in_turn, paint, paints
-from linkanim.picture.raster.shapes import box, cut, disc, rounded
+from linkanim.picture import raster
+from linkanim.picture.raster import Layer, Loop, Shapes, covers, in_turn, offscreen, paint, paints
+from linkanim.picture.shapes import box, cut, disc, rounded
 
 WHITE = (255, 255, 255)
 

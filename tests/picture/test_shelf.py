@@ -10,12 +10,12 @@ import pytest
 from fidelity import Pixels
 from pictures import pixels
 
+from linkanim.picture.board import Board
 from linkanim.picture.layout import layout
-from linkanim.picture.panels.board import Board
-from linkanim.picture.panels.overlay import Shelf
+from linkanim.picture.overlay import Shelf
 from linkanim.picture.picture import Picture
 from linkanim.picture.shelf import ShelfPrinter, grid, titled
-from linkanim.picture.text.text import Type
+from linkanim.picture.text import Type
 from linkanim.picture.theme import theme_of
 from linkanim.picture.view import Rect
 from linkanim.scenes import names, titles

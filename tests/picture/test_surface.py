@@ -16,21 +16,20 @@ from fidelity import frame_decibels
 from pictures import BARE, SMALL, alphas, painted, pixels
 
 from linkanim.errors import BadInput
-from linkanim.picture.arrangement import fit
+from linkanim.picture import arrangement
+from linkanim.picture.bodies import colours_of
 from linkanim.picture.figure import figure
 from linkanim.picture.items import Caption, Group, Halo
 from linkanim.picture.look import Look, ThemeName
-from linkanim.picture.panels.overlay import EditRow, GamePanel, Overlay, Panel, Quantities
-from linkanim.picture.parts.bodies import colours_of
+from linkanim.picture.overlay import EditRow, GamePanel, Overlay, Panel, Quantities
 from linkanim.picture.picture import Picture
-from linkanim.picture.raster.offscreen import offscreen, pixel_view
-from linkanim.picture.raster.shapes import hull
+from linkanim.picture.raster import offscreen, pixel_view
+from linkanim.picture.shapes import hull
 from linkanim.picture.surface import SurfacePrinter
-from linkanim.picture.text.fonts import Fonts
+from linkanim.picture.text import Fonts
 from linkanim.picture.theme import theme_of
 from linkanim.scenes import load, names
-from linkanim.scenes.editing.closures import ghost_of
-from linkanim.scenes.editing.edit import passing
+from linkanim.scenes.editing import ghost_of, passing
 from linkanim.scenes.scene import Scene
 
 FULL = Look(vectors=frozenset("va"), chart="B.velocity")
@@ -143,7 +142,7 @@ def test_a_step_of_a_pan_measures_the_hud_no_more(monkeypatch: pytest.MonkeyPatc
         raise AssertionError("the scene is measured again")
 
     for name in ("widest_rows", "sweep_of", "figure", "arranged"):
-        monkeypatch.setattr(fit, name, refused)
+        monkeypatch.setattr(arrangement, name, refused)
     after = Picture(scene, (640, 360), replace(Look(), pan=(0.1, 0.2), zoom=2.0), before=before)
     assert after.view != before.view
     Picture(scene, (640, 360), replace(Look(), theme="dark"), before=before)
@@ -437,9 +436,7 @@ def _distance(point: complex, one: complex, other: complex) -> float:
 
 
 def test_beside_an_open_list_no_words_are_measured(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(
-        "linkanim.picture.arrangement.fit.widest_rows", lambda *_: pytest.fail("no HUD is shown")
-    )
+    monkeypatch.setattr("linkanim.picture.arrangement.widest_rows", lambda *_: pytest.fail("no HUD is shown"))
     Picture(load("press"), (640, 360), Look(), listed=True)
 
 
@@ -470,7 +467,7 @@ from resource import RUSAGE_SELF, getrusage
 from linkanim.picture.items import Caption, Group, Halo
 from linkanim.picture.look import Look
 from linkanim.picture.picture import Picture
-from linkanim.picture.raster.offscreen import offscreen
+from linkanim.picture import raster as offscreen
 from linkanim.picture.surface import SurfacePrinter
 from linkanim.scenes import load
 scene, size = load("crank-rocker"), (1280, 720)

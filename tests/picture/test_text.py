@@ -11,10 +11,10 @@ import pytest
 from fidelity import Pixels
 from pictures import pixels
 
-from linkanim.picture.arrangement.fit import FitRequest, fitted
-from linkanim.picture.raster.offscreen import offscreen
-from linkanim.picture.text import fonts
-from linkanim.picture.text.text import Type, runs, subscripted, typesetting
+from linkanim.picture import text as fonts
+from linkanim.picture.arrangement import FitRequest, fitted
+from linkanim.picture.raster import offscreen
+from linkanim.picture.text import Type, runs, subscripted, typesetting
 from linkanim.scenes import load
 
 SIZE = 21

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from pictures import contrast
 
-from linkanim.picture.raster.raster import Colour
+from linkanim.picture.raster import Colour
 from linkanim.picture.theme import DARK, LIGHT, Theme, mixed, theme_of
 
 THEMES = pytest.mark.parametrize("theme", [LIGHT, DARK], ids=["light", "dark"])

@@ -14,10 +14,7 @@ from typing import Any
 from chain_reference import places
 from mpmath import mp, mpf
 
-from linkanim.mechanics.linkage.drive import Cylinder, Travel
-from linkanim.mechanics.linkage.dyads import RPR, RRP, RRR
-from linkanim.mechanics.linkage.joint import Joint
-from linkanim.mechanics.linkage.linkage import Body
+from linkanim.mechanics.linkage import RPR, RRP, RRR, Body, Cylinder, Joint, Travel
 from linkanim.scenes.scene import Scene
 
 DIGITS = 60

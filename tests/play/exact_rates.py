@@ -10,7 +10,7 @@ from typing import Any
 from exact_motion import DIGITS, ExactMotion
 from mpmath import mp, mpf
 
-from linkanim.mechanics.linkage.linkage import Body
+from linkanim.mechanics.linkage import Body
 from linkanim.scenes.scene import Scene
 
 STEP = 2.0**-17

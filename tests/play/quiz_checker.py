@@ -19,13 +19,21 @@ import numpy as np
 from exact_motion import SAMPLES, ExactMotion
 from mpmath import mp
 
-from linkanim.mechanics.linkage.drive import Cylinder, Travel
-from linkanim.mechanics.linkage.dyads import RPR, RRP, RRR
-from linkanim.mechanics.linkage.joint import Joint, Slide
-from linkanim.mechanics.linkage.linkage import Body, Damper, Spring
-from linkanim.mechanics.linkage.pins import Crank
+from linkanim.mechanics.linkage import (
+    RPR,
+    RRP,
+    RRR,
+    Body,
+    Crank,
+    Cylinder,
+    Damper,
+    Joint,
+    Slide,
+    Spring,
+    Travel,
+)
 from linkanim.play.question import QuizAnswer, QuizQuestion
-from linkanim.scenes.purpose import FunctionPurpose, PosesPurpose
+from linkanim.scenes.scene import FunctionPurpose, PosesPurpose
 
 REST = 1e-12
 """A rate that is a smaller share of what the input's speed would give the longest length is no rate."""

@@ -15,18 +15,16 @@ import pytest
 from playing import SIZE, Player
 
 from linkanim.errors import BadInput
-from linkanim.picture.panels.overlay import Overlay
+from linkanim.picture.overlay import Overlay
 from linkanim.play.arcade import Arcade
-from linkanim.play.follow import FollowRun, read
-from linkanim.play.games import game_of
-from linkanim.play.track import LENGTH, LEVELS, RamTrack, is_track, track_of, tracks
-from linkanim.play.words import GameWords
-from linkanim.player.state.action import Action
-from linkanim.player.state.advance import advance
-from linkanim.player.state.state import State, begin
-from linkanim.player.tape.tape import Taping
-from linkanim.player.tape.tape_file import from_document, to_document
-from linkanim.player.window import display
+from linkanim.play.follow import LENGTH, LEVELS, FollowRun, RamTrack, is_track, read, track_of, tracks
+from linkanim.play.games import GameWords, game_of
+from linkanim.player import screen
+from linkanim.player.action import Action
+from linkanim.player.actions import advance
+from linkanim.player.state import State, begin
+from linkanim.player.tape import Taping
+from linkanim.player.tape_file import from_document, to_document
 from linkanim.scenes import load
 from linkanim.scenes.scene import Scene
 
@@ -175,7 +173,7 @@ def test_words_that_make_no_sense_are_refused(words: str) -> None:
 @pytest.fixture
 def player(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Player]:
     monkeypatch.chdir(tmp_path)
-    with display.opened((2 * SIZE[0], 2 * SIZE[1])):
+    with screen.opened((2 * SIZE[0], 2 * SIZE[1])):
         player = Player(on("follow scene=slider-crank"), keeper=Arcade(tmp_path / "scores.json"))
         yield player
         player.window.close()

@@ -16,22 +16,20 @@ import pytest
 from playing import Player
 
 from linkanim.errors import BadInput
-from linkanim.picture.panels.overlay import Overlay
+from linkanim.picture.overlay import Overlay
 from linkanim.play.arcade import Arcade
 from linkanim.play.games import game_of
-from linkanim.play.match.game import MatchGame, shares
-from linkanim.play.match.level import level_names, level_of, made
-from linkanim.play.match.worth import trace, worth
-from linkanim.player.state.action import Action
-from linkanim.player.state.advance import advance
-from linkanim.player.state.state import State, begin
-from linkanim.player.tape.tape import Taping
-from linkanim.player.tape.tape_file import from_document, read, to_document
-from linkanim.player.window import display
+from linkanim.play.match import MatchGame, level_names, level_of, made, shares, trace, worth
+from linkanim.player import screen as display
+from linkanim.player.action import Action
+from linkanim.player.actions import advance
+from linkanim.player.state import State, begin
+from linkanim.player.tape import Taping
+from linkanim.player.tape_file import from_document, read, to_document
 from linkanim.scenes import load
-from linkanim.synthesis.curves.drawn import drawn
-from linkanim.synthesis.kinds import FOUR_BAR, Linkage4
-from linkanim.synthesis.request import LARGEST, path
+from linkanim.synthesis.curves import drawn
+from linkanim.synthesis.linkages import FOUR_BAR, Linkage4
+from linkanim.synthesis.path import LARGEST, path
 
 TAPES = Path(__file__).parent / "match_tapes"
 LEVELS = level_names()

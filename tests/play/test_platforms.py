@@ -16,7 +16,7 @@ import pytest
 from linkanim.cli import main
 from linkanim.play.platforms import moodle, qti
 from linkanim.play.question import QuestionId, QuizQuestion
-from linkanim.play.round import question_of, questions
+from linkanim.play.quiz import question_of, questions
 from linkanim.scenes import chapters, load, names
 
 CENTRE = question_of(QuestionId.of("instant_centre@crank-rocker@4.6593@coupler"))

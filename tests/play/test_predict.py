@@ -12,20 +12,20 @@ import pytest
 from playing import SIZE, Player
 
 from linkanim.errors import BadInput
-from linkanim.picture.panels.overlay import GamePanel, Overlay
+from linkanim.picture.overlay import GamePanel, Overlay
 from linkanim.play.arcade import Arcade
 from linkanim.play.games import game_of
-from linkanim.play.kinds.table import KINDS
-from linkanim.play.menu import Menu
+from linkanim.play.kinds import KINDS
+from linkanim.play.menus import Menu
 from linkanim.play.predict import COUNT, QUICK, GivenAnswer, Predict, points
 from linkanim.play.question import QuestionId
 from linkanim.play.scores import load as load_scores
-from linkanim.player.state.action import Action
-from linkanim.player.state.advance import advance, carried
-from linkanim.player.state.state import State, begin
-from linkanim.player.tape.tape import Tape, Taping, resumed, starting
-from linkanim.player.tape.tape_file import read, write
-from linkanim.player.window import display
+from linkanim.player import screen
+from linkanim.player.action import Action
+from linkanim.player.actions import advance, carried
+from linkanim.player.state import State, begin
+from linkanim.player.tape import Tape, Taping, resumed, starting
+from linkanim.player.tape_file import read, write
 from linkanim.scenes import chapters, load, names
 
 BEGUN = "predict chapter=four-bars level=1 seed=7"
@@ -68,7 +68,7 @@ def player(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Player]:
     """A window on the title, scores in a folder of its own."""
     monkeypatch.chdir(tmp_path)
     arcade = Arcade(tmp_path / "scores.json", Random(3))
-    with display.opened(SIZE):
+    with screen.opened(SIZE):
         state = replace(begin(load("press")), games=game_of)
         player = Player(carried(state, Action("play", arcade.completed("title"))), keeper=arcade)
         yield player

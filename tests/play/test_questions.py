@@ -20,13 +20,12 @@ from random_scenes import named
 
 from linkanim.cli import main
 from linkanim.errors import LinkanimError
-from linkanim.play.kinds.table import KINDS, LEVELS
-from linkanim.play.kinds.wording import angle, between
-from linkanim.play.question import Puzzle, QuestionId
-from linkanim.play.round import next_question, question_of, questions
-from linkanim.play.sheet import pose_words
+from linkanim.play.games import LEVELS
+from linkanim.play.kinds import KINDS
+from linkanim.play.question import Puzzle, QuestionId, angle, between
+from linkanim.play.quiz import next_question, pose_words, question_of, questions
 from linkanim.scenes import chapters, load, names
-from linkanim.scenes.reading.read import scene_from
+from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
 
 MAKING = ("pole", "slow way", "precision point")

@@ -12,19 +12,17 @@ from pathlib import Path
 
 import pytest
 
-from linkanim.atomic_files import Claim
+from linkanim.atomic_files import Claim, kept_as
 from linkanim.cli import main
 from linkanim.errors import BadInput
 from linkanim.play.arcade import Arcade
-from linkanim.play.match.game import MatchGame
-from linkanim.play.match.level import FOLDER
-from linkanim.play.menu import Menu
+from linkanim.play.games import GameWords
+from linkanim.play.match import FOLDER, MatchGame
+from linkanim.play.menus import Menu
 from linkanim.play.predict import Predict
 from linkanim.play.question import QuestionId
-from linkanim.play.round import is_question
+from linkanim.play.quiz import is_question
 from linkanim.play.scores import Scores, load, save
-from linkanim.play.words import GameWords
-from linkanim.user_data import kept_as
 
 MISSED = QuestionId("dead centre", "slider-crank", 6.075, "slider")
 KEPT = Scores("play", {"four-bars.1": 1200, "all.3": 40}, (MISSED,))

@@ -12,11 +12,11 @@ import pytest
 
 from linkanim.play.arcade import Arcade
 from linkanim.play.games import GAMES
-from linkanim.player.state.action import Action, Value
-from linkanim.player.state.advance import advance, carried
-from linkanim.player.state.state import State, begin
-from linkanim.player.tape.tape import resumed, starting
-from linkanim.player.window.show import overlay
+from linkanim.player.action import Action, Value
+from linkanim.player.actions import advance, carried
+from linkanim.player.shown import overlay
+from linkanim.player.state import State, begin
+from linkanim.player.tape import resumed, starting
 
 # What is pressed in games, what begins one, and what belongs to the window beneath.
 PRESSED: dict[str, Callable[[Random], Value]] = {

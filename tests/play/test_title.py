@@ -13,14 +13,14 @@ from playing import SIZE, Player
 
 from linkanim.errors import BadInput
 from linkanim.play.games import GAMES, game_of
-from linkanim.play.title import EACH, Title
-from linkanim.player.state.action import Action
-from linkanim.player.state.advance import advance, carried
-from linkanim.player.state.state import ATTRACT_AFTER, State, begin
-from linkanim.player.tape.tape import Tape, resumed, starting
-from linkanim.player.tape.tape_file import read, write
-from linkanim.player.window import display
-from linkanim.player.window.approach import Framing
+from linkanim.play.menus import EACH, Title
+from linkanim.player import screen
+from linkanim.player.action import Action
+from linkanim.player.actions import advance, carried
+from linkanim.player.framing import Framing
+from linkanim.player.state import ATTRACT_AFTER, State, begin
+from linkanim.player.tape import Tape, resumed, starting
+from linkanim.player.tape_file import read, write
 from linkanim.scenes import load, names
 
 
@@ -33,7 +33,7 @@ def titled() -> State:
 @pytest.fixture
 def player(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Player]:
     monkeypatch.chdir(tmp_path)
-    with display.opened(SIZE):
+    with screen.opened(SIZE):
         player = Player(titled())
         yield player
         player.window.close()
@@ -130,8 +130,8 @@ def test_a_kiosk_goes_back_to_its_title(actions: tuple[Action, ...], back: bool)
 
 def test_esc_leaves_full_screen_but_in_a_kiosk(player: Player, monkeypatch: pytest.MonkeyPatch) -> None:
     filled: list[object] = []
-    monkeypatch.setattr(display, "is_full", lambda: True)
-    monkeypatch.setattr(display, "fill", filled.append)
+    monkeypatch.setattr(screen, "is_full", lambda: True)
+    monkeypatch.setattr(screen, "fill", filled.append)
     player.window.state = replace(player.state, kiosk=True)
     player.press(pygame.K_ESCAPE)
     assert not filled
@@ -187,7 +187,7 @@ def test_every_game_is_where_the_table_has_it() -> None:
 
 
 def test_a_mouse_that_moves_before_the_first_picture_does_no_harm() -> None:
-    with display.opened((320, 180)):
+    with screen.opened((320, 180)):
         for kind, more in (
             (pygame.MOUSEMOTION, {"rel": (0, 0), "buttons": (0, 0, 0)}),
             (pygame.MOUSEWHEEL, {"y": 1}),

@@ -9,8 +9,8 @@ import pygame
 import pytest
 from playing import SIZE, Player
 
-from linkanim.player.state.state import begin
-from linkanim.player.window import display
+from linkanim.player import screen
+from linkanim.player.state import begin
 from linkanim.scenes import load
 
 
@@ -24,7 +24,7 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 @pytest.fixture
 def player(here: Path) -> Iterator[Player]:
     """The crank-rocker's window, some frames in and paused, small so that tests are quick."""
-    with display.opened(SIZE):
+    with screen.opened(SIZE):
         player = Player(begin(load("crank-rocker")))
         player.tick(20)
         player.press(pygame.K_SPACE)

@@ -7,11 +7,10 @@ from typing import Any
 
 import pygame
 
-from linkanim.player.state.state import CHIP_FRAMES, State
-from linkanim.player.window import display
-from linkanim.player.window.files import SceneFile
-from linkanim.player.window.keeper import GameKeeper
-from linkanim.player.window.window import Window
+from linkanim.player import screen
+from linkanim.player.files import SceneFile
+from linkanim.player.state import CHIP_FRAMES, State
+from linkanim.player.window import GameKeeper, Window
 from linkanim.synthesis.follower import Follow, Reply
 
 SIZE = (320, 180)
@@ -31,7 +30,7 @@ class Player:
 
     @property
     def pixels(self) -> bytes:
-        return pygame.image.tobytes(display.surface(), "RGB")
+        return pygame.image.tobytes(screen.display_surface(), "RGB")
 
     def tick(self, frames: int = 1) -> bool:
         return self.window.tick(frames)

@@ -16,18 +16,17 @@ import pytest
 from playing import NoSearch, fake_start
 
 from linkanim.play.arcade import Arcade
-from linkanim.player.input.keyboard import code
-from linkanim.player.input.keys import key_names
-from linkanim.player.state.action import Action
-from linkanim.player.state.advance import carried
-from linkanim.player.state.state import begin
-from linkanim.player.window import files, following, rendering
-from linkanim.player.window.drafts import DraftFile
-from linkanim.player.window.files import SceneFile
-from linkanim.player.window.window import Window
+from linkanim.player import beside, files
+from linkanim.player.action import Action
+from linkanim.player.actions import carried
+from linkanim.player.devices import code
+from linkanim.player.files import DraftFile, SceneFile
+from linkanim.player.keys import key_names
+from linkanim.player.state import begin
+from linkanim.player.window import Window
 from linkanim.scenes import load, names
-from linkanim.scenes.editing.write import text
-from linkanim.synthesis.answer import PathAnswer
+from linkanim.scenes.toml import text
+from linkanim.synthesis.answers import PathAnswer
 from linkanim.synthesis.follower import Follow, Reply
 
 SIZES = ((320, 180), (640, 200), (180, 320), (64, 36), (2, 700), (700, 2), (1, 1), (500, 400))
@@ -94,8 +93,8 @@ class Storm:
         self._here = folder / "here"
         self._there()
         self._is_full = False
-        patch.setattr(rendering, "_start", fake_start([]))
-        patch.setattr(following, "Following", lambda: Search(self._random))
+        patch.setattr(beside, "_start", fake_start([]))
+        patch.setattr(beside, "Following", lambda: Search(self._random))
         patch.setattr(pygame.joystick, "Joystick", Pad)
         synced = os.fsync
 

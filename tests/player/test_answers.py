@@ -10,17 +10,16 @@ import pygame
 import pytest
 from playing import SIZE, Player
 
-from linkanim.picture.panels.overlay import DimensionLine, Overlay
-from linkanim.player.state.action import Action
-from linkanim.player.state.advance import advance
-from linkanim.player.state.state import CHIP_FRAMES, FADE_FRAMES, SHUTTER_FRAMES, State, begin
-from linkanim.player.window import display
-from linkanim.player.window.approach import Framing
-from linkanim.player.window.fade import Fade
-from linkanim.player.window.show import kept, overlay
-from linkanim.player.window.window import Window
+from linkanim.picture.overlay import DimensionLine, Overlay
+from linkanim.player import screen as display
+from linkanim.player.action import Action
+from linkanim.player.actions import advance
+from linkanim.player.framing import Fade, Framing
+from linkanim.player.shown import kept, overlay
+from linkanim.player.state import CHIP_FRAMES, FADE_FRAMES, SHUTTER_FRAMES, State, begin
+from linkanim.player.window import Window
 from linkanim.scenes import load, names
-from linkanim.scenes.editing.closures import closure_name
+from linkanim.scenes.editing import closure_name
 
 
 def after(state: State, *actions: Action | str) -> State:

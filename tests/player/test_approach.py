@@ -9,7 +9,7 @@ from playing import Player
 
 from linkanim.picture.look import Look
 from linkanim.picture.view import View, moved
-from linkanim.player.window.approach import APPROACH_FRAMES, Approach, between
+from linkanim.player.framing import APPROACH_FRAMES, Approach, between
 
 A, B = View(2.0, 100.0, 300.0), View(1.0, 260.0, 200.0)
 

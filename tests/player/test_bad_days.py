@@ -13,12 +13,13 @@ import pygame
 import pytest
 from playing import SIZE, Player, fake_start
 
-from linkanim.player.state.state import State, begin
-from linkanim.player.tape.tape_file import read
-from linkanim.player.window import display, rendering
-from linkanim.player.window.files import SceneFile
+from linkanim.player import beside
+from linkanim.player import screen as display
+from linkanim.player.files import SceneFile
+from linkanim.player.state import State, begin
+from linkanim.player.tape_file import read
 from linkanim.scenes import load
-from linkanim.scenes.editing.write import save
+from linkanim.scenes.toml import save
 
 fault = pytest.mark.withstands("faults survived")
 
@@ -27,7 +28,7 @@ fault = pytest.mark.withstands("faults survived")
 def started(monkeypatch: pytest.MonkeyPatch) -> list[list[str]]:
     """The commands of the processes that would have been started."""
     commands: list[list[str]] = []
-    monkeypatch.setattr(rendering, "_start", fake_start(commands))
+    monkeypatch.setattr(beside, "_start", fake_start(commands))
     return commands
 
 
@@ -102,7 +103,7 @@ def resized(count: int, largest: tuple[int, int]) -> None:
         size = chance.randint(1, largest[0]), chance.randint(1, largest[1])
         pygame.display.set_mode(size, pygame.RESIZABLE)
         assert player.tick()
-        assert display.surface().get_size() == size
+        assert display.display_surface().get_size() == size
     for last, picture in (((240, 200), small), (SIZE, before)):
         pygame.display.set_mode(last, pygame.RESIZABLE)
         assert player.settle() == picture
@@ -165,9 +166,9 @@ def test_a_window_too_small_to_show_anything_takes_keys_and_mouse(here: Path, si
 def test_a_window_as_large_as_an_8k_screen_is_painted(here: Path) -> None:
     with display.opened((7680, 4320)):
         player = Player(begin(load("crank-rocker")))
-        corners = [display.surface().get_at(at) for at in ((0, 0), (7679, 4319))]
+        corners = [display.display_surface().get_at(at) for at in ((0, 0), (7679, 4319))]
         assert corners[0] == corners[1]
-        assert len(set(pygame.transform.scale(display.surface(), (480, 270)).get_view("2").raw)) > 5
+        assert len(set(pygame.transform.scale(display.display_surface(), (480, 270)).get_view("2").raw)) > 5
         player.window.close()
 
 
@@ -291,7 +292,7 @@ def test_a_changed_file_at_which_the_solver_fails_is_refused_with_a_report(
 
     good = opened.state.scene
     written(here, "crank = 50", "crank = 45")
-    monkeypatch.setattr("linkanim.player.window.window.renewed", failing)
+    monkeypatch.setattr("linkanim.player.window.renewed", failing)
     opened.press(pygame.K_F5)
     assert message(opened).startswith("recordings/my-fault-1.json holds what a report".replace("/", os.sep))
     assert opened.state.scene is good
@@ -341,7 +342,7 @@ def test_a_window_fits_its_screen(
     monkeypatch.setattr(pygame.display, "get_desktop_sizes", lambda: [screen])
     with display.opened():
         player = Player(begin(load("kite")))
-        assert display.surface().get_size() == size
+        assert display.display_surface().get_size() == size
         assert len(set(player.pixels)) > 20
 
 

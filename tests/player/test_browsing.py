@@ -9,14 +9,13 @@ import pygame
 import pytest
 from playing import Player, fake_start
 
-from linkanim.picture.diagrams.quantities import quantity
+from linkanim.picture.quantities import quantity
 from linkanim.picture.shelf import Grid
-from linkanim.player.state.action import Action
-from linkanim.player.state.advance import advance
-from linkanim.player.state.browsing import listed
-from linkanim.player.state.state import State, begin
-from linkanim.player.tape.tape_file import read
-from linkanim.player.window.show import overlay
+from linkanim.player.action import Action
+from linkanim.player.actions import advance
+from linkanim.player.shown import overlay
+from linkanim.player.state import State, begin, listed
+from linkanim.player.tape_file import read
 from linkanim.scenes import Scene, load, names
 
 
@@ -382,7 +381,7 @@ def test_the_shelf_is_alive_and_still_while_paused(player: Player) -> None:
 def test_a_tape_keeps_what_is_picked_and_not_the_way_there(
     player: Player, here: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("linkanim.player.window.rendering._start", fake_start([]))
+    monkeypatch.setattr("linkanim.player.beside._start", fake_start([]))
     player.type("g")
     player.type("k")
     player.type("rocker vel")

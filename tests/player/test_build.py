@@ -14,25 +14,22 @@ from playing import CTRL, SHIFT, NoSearch, Player
 
 from linkanim.build.draft import Photo
 from linkanim.errors import BadInput
-from linkanim.picture.building.photograph import lack
-from linkanim.picture.building.tools import ICONS, tool_cells
+from linkanim.picture.photograph import lack
 from linkanim.picture.shelf import NEW
+from linkanim.picture.tools import ICONS, tool_cells
 from linkanim.play.arcade import Arcade
-from linkanim.player.state.action import Action
-from linkanim.player.state.advance import advance, carried
-from linkanim.player.state.sheet import BuildSheet, Grip
-from linkanim.player.state.state import TOAST_FRAMES, begin
-from linkanim.player.state.tools import TOOLS
-from linkanim.player.tape.tape import Tape, Taping
-from linkanim.player.tape.tape_file import read, write
-from linkanim.player.window import display, following
-from linkanim.player.window.drafts import DraftFile
-from linkanim.player.window.show import overlay
+from linkanim.player import beside, screen
+from linkanim.player.action import TOOLS, Action
+from linkanim.player.actions import advance, carried
+from linkanim.player.files import DraftFile
+from linkanim.player.shown import overlay
+from linkanim.player.state import TOAST_FRAMES, BuildSheet, Grip, begin
+from linkanim.player.tape import Tape, Taping
+from linkanim.player.tape_file import read, write
 from linkanim.recorder.tape_frames import _lasting, record_tape
 from linkanim.scenes import load
-from linkanim.scenes.editing.toml import parse
-from linkanim.scenes.editing.write import save
-from linkanim.synthesis.answer import PathAnswer
+from linkanim.scenes.toml import parse, save
+from linkanim.synthesis.answers import PathAnswer
 
 WINDOW = (640, 360)
 
@@ -64,7 +61,7 @@ class Builder(Player):
 
 @pytest.fixture
 def builder(here: object) -> Iterator[Builder]:
-    with display.opened(WINDOW):
+    with screen.opened(WINDOW):
         player = Builder(begin(load("crank-rocker")))
         player.press(pygame.K_F2)
         yield player
@@ -433,7 +430,7 @@ def photo_of(builder: Builder) -> Photo:
 
 def seen_at(builder: Builder, x: float, y: float) -> tuple[int, ...]:
     at = builder.at(x, y)
-    return tuple(display.surface().get_at((round(at[0]), round(at[1]))))[:3]
+    return tuple(screen.display_surface().get_at((round(at[0]), round(at[1]))))[:3]
 
 
 def test_a_photograph_that_is_dropped_is_fitted_by_two_known_points(
@@ -523,7 +520,7 @@ def test_a_photograph_that_is_gone_or_none_is_a_sentence_and_does_no_harm(
 def test_a_photograph_dropped_while_linkages_are_looked_for_lays_the_pencil_down(
     builder: Builder, photograph: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(following, "Following", NoSearch)
+    monkeypatch.setattr(beside, "Following", NoSearch)
     builder.press(pygame.K_F2)
     before = builder.state.scene
     builder.press(pygame.K_w, text="w")
@@ -636,7 +633,7 @@ def test_a_kept_draft_has_its_photograph_from_another_folder_too(
 def test_a_sheet_is_opened_out_of_the_title_and_is_there_again_after_it(here: Path) -> None:
     keeper = Arcade(here / "scores.json")
     state = replace(begin(), games=keeper.game_of)
-    with display.opened(WINDOW):
+    with screen.opened(WINDOW):
         player = Builder(carried(state, Action("play", keeper.completed("title"))))
         player.press(pygame.K_F2)
         player.click(0, 0)

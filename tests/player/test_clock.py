@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 import pytest
 
-from linkanim.player.state.clock import STEP, Clock, factor
+from linkanim.player.clock import STEP, Clock, factor
 
 RATE = 2.0
 CHANGES: dict[str, Callable[[Clock, int], Clock]] = {

@@ -25,25 +25,22 @@ from PIL import Image
 from playing import SIZE
 from test_sessions import SESSIONS
 
-from linkanim.build.building import Building
-from linkanim.build.origin import building_of
+from linkanim.build.building import Building, building_of
 from linkanim.errors import LinkanimError
-from linkanim.picture.building.photograph import refuse_lacking
+from linkanim.picture.photograph import refuse_lacking
 from linkanim.picture.surface import SurfacePrinter
 from linkanim.play.arcade import Arcade
-from linkanim.play.games import game_of
-from linkanim.play.match.level import FOLDER, level_of
+from linkanim.play.games import GameWords, game_of
+from linkanim.play.match import FOLDER, level_of
 from linkanim.play.scores import load as scores_of
-from linkanim.play.words import GameWords
-from linkanim.player.state.action import Action
-from linkanim.player.state.advance import advance, carried
-from linkanim.player.state.handlers.build import DRAFT, restored_sheet, stored_text
-from linkanim.player.state.state import State, begin
-from linkanim.player.state.tools import TOOLS
-from linkanim.player.tape.tape import Tape, Taping
-from linkanim.player.tape.tape_file import read, to_document
-from linkanim.player.window.approach import Framing
-from linkanim.player.window.show import overlay
+from linkanim.player.action import TOOLS, Action
+from linkanim.player.actions import advance, carried
+from linkanim.player.building import DRAFT, restored_sheet, stored_text
+from linkanim.player.framing import Framing
+from linkanim.player.shown import overlay
+from linkanim.player.state import State, begin
+from linkanim.player.tape import Tape, Taping
+from linkanim.player.tape_file import read, to_document
 from linkanim.recorder.tape_frames import TapeFrames
 from linkanim.scenes import load
 

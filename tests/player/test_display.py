@@ -8,7 +8,7 @@ import sys
 import pygame
 import pytest
 
-from linkanim.player.window import display
+from linkanim.player import screen
 
 
 # screens, and the window that suits the first of them: its shape kept, some room left
@@ -26,7 +26,7 @@ def test_a_window_is_as_large_as_suits_the_smallest_screen(
     screens: list[tuple[int, int]], size: tuple[int, int], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(pygame.display, "get_desktop_sizes", lambda: screens)
-    assert display._suiting() == size
+    assert screen._suiting() == size
 
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="what SDL is told on Linux")
@@ -39,7 +39,7 @@ def test_sdl_is_told_what_is_quick_and_quiet(monkeypatch: pytest.MonkeyPatch) ->
     for name in (*expected, "XDG_RUNTIME_DIR"):
         monkeypatch.setenv(name, "")
         monkeypatch.delenv(name)
-    display._prepare()
+    screen._prepare()
     assert {name: os.environ.get(name) for name in expected} == expected
 
 
@@ -49,19 +49,19 @@ def test_pictures_go_past_opengl_where_they_can(
 ) -> None:
     monkeypatch.setenv("SDL_FRAMEBUFFER_ACCELERATION", "")
     monkeypatch.delenv("SDL_FRAMEBUFFER_ACCELERATION")
-    display._hasten(driver)
+    screen._hasten(driver)
     assert os.environ.get("SDL_FRAMEBUFFER_ACCELERATION") == setting
 
 
 def test_what_is_set_stays_as_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
-    display._prepare()
+    screen._prepare()
     assert os.environ["SDL_VIDEODRIVER"] == "dummy"
 
 
 def test_an_opened_window_has_been_prepared(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
     monkeypatch.delenv("SDL_NO_SIGNAL_HANDLERS", raising=False)
-    with display.opened((64, 64)):
+    with screen.opened((64, 64)):
         assert os.environ["SDL_NO_SIGNAL_HANDLERS"] == "1"
-        assert display.surface().get_size() == (64, 64)
+        assert screen.display_surface().get_size() == (64, 64)

@@ -10,24 +10,20 @@ import pygame
 import pytest
 from playing import SIZE, Player
 
-from linkanim.mechanics.motion.mechanism import mechanism
+from linkanim.mechanics.motion import mechanism
 from linkanim.picture.items import Group
 from linkanim.picture.look import Look
-from linkanim.player.state.action import Action
-from linkanim.player.state.advance import advance
-from linkanim.player.state.editing import loss_of_turning
-from linkanim.player.state.state import State, begin
-from linkanim.player.tape.tape import Tape, starting
-from linkanim.player.window.approach import Framing
-from linkanim.player.window.halving import Halving
+from linkanim.player.action import Action
+from linkanim.player.actions import advance
+from linkanim.player.framing import Framing, Halving
+from linkanim.player.state import State, begin, loss_of_turning
+from linkanim.player.tape import Tape, starting
 from linkanim.scenes import load, names
-from linkanim.scenes.editing.edit import dimensions, with_document
-from linkanim.scenes.editing.handles import handles
-from linkanim.scenes.editing.stretches import Stretch, stretches
-from linkanim.scenes.editing.toml import parse
-from linkanim.scenes.fields.form import Key
-from linkanim.scenes.reading.read import scene_from
+from linkanim.scenes.editing import Stretch, dimensions, handles, stretches, with_document
+from linkanim.scenes.form import Key
+from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
+from linkanim.scenes.toml import parse
 
 
 def after(state: State, *actions_: Action | str) -> State:
@@ -164,7 +160,7 @@ def test_a_refusal_says_how_far_the_input_goes_before_the_linkage_is_worked_out(
     whole = with_document(state.scene, document)
     assert refused.editing.refusal == loss_of_turning(state.scene.info, whole.info) is not None
     mechanism.cache_clear()
-    monkeypatch.setattr("linkanim.mechanics.closing.limits.fitted", None)
+    monkeypatch.setattr("linkanim.mechanics.solver.limits.fitted", None)
     assert drag(state, joint, by).editing.refusal == refused.editing.refusal
 
 

@@ -7,15 +7,13 @@ from typing import Any
 
 import pytest
 
-from linkanim.player.state.action import Action
-from linkanim.player.state.advance import advance
-from linkanim.player.state.editing import chosen
-from linkanim.player.state.glide import EVERY, FRAMES, closes
-from linkanim.player.state.state import FLASH_FRAMES, State, begin
-from linkanim.player.window.show import overlay
+from linkanim.player.action import Action
+from linkanim.player.actions import advance
+from linkanim.player.shown import overlay
+from linkanim.player.state import EVERY, FLASH_FRAMES, FRAMES, State, begin, chosen, closes
 from linkanim.scenes import load
-from linkanim.scenes.editing.edit import dimensions, passing
-from linkanim.scenes.reading.read import scene_from
+from linkanim.scenes.editing import dimensions, passing
+from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
 
 
@@ -375,8 +373,8 @@ def test_nothing_is_classified_on_the_way(monkeypatch: pytest.MonkeyPatch) -> No
     def never(*_: object) -> None:
         raise AssertionError("classified on the way")
 
-    monkeypatch.setattr("linkanim.mechanics.motion.mechanism.separations", never)
-    monkeypatch.setattr("linkanim.mechanics.facts.classify.Info", never)
+    monkeypatch.setattr("linkanim.mechanics.motion.separations", never)
+    monkeypatch.setattr("linkanim.mechanics.analysis.Info", never)
     seen = set()
     while state.glide:
         seen.add(state.shown.linkage)
@@ -397,7 +395,7 @@ def test_a_scene_on_the_way_is_worked_out_in_the_frame_before_it_is_drawn(
         worked.append(state.frame)
         return passing(*given)
 
-    monkeypatch.setattr("linkanim.player.state.glide.passing", recorded)
+    monkeypatch.setattr("linkanim.player.state.passing", recorded)
     while state.glide:
         before, state = state.shown, advance(state)
         drawn += [state.frame] if state.shown is not before else []

@@ -23,29 +23,28 @@ from test_sessions import SESSIONS, Session
 
 from linkanim.build.building import Building
 from linkanim.build.draft import Draft
-from linkanim.player.state.action import Action
-from linkanim.player.state.advance import carried
-from linkanim.player.state.handlers.build import stored_text
-from linkanim.player.state.sheet import BuildSheet
-from linkanim.player.state.state import begin
-from linkanim.player.tape.tape import Tape
-from linkanim.player.tape.tape_file import write
-from linkanim.player.window import display
-from linkanim.player.window.drafts import DraftFile
-from linkanim.player.window.window import Window
+from linkanim.player import screen
+from linkanim.player.action import Action
+from linkanim.player.actions import carried
+from linkanim.player.building import stored_text
+from linkanim.player.files import DraftFile
+from linkanim.player.state import BuildSheet, begin
+from linkanim.player.tape import Tape
+from linkanim.player.tape_file import write
+from linkanim.player.window import Window
 from linkanim.scenes import load
 
 PLAYED = """
 import sys
 from pathlib import Path
-from linkanim.player.tape.tape_file import read
-from linkanim.player.window import display
-from linkanim.player.window.approach import Framing
-from linkanim.player.window.drafts import DraftFile
-from linkanim.player.window.show import overlay
-from linkanim.player.window.window import Window
+from linkanim.player.tape_file import read
+from linkanim.player import screen
+from linkanim.player.framing import Framing
+from linkanim.player.files import DraftFile
+from linkanim.player.shown import overlay
+from linkanim.player.window import Window
 tape, step = read(Path(sys.argv[1])), int(sys.argv[3])
-with display.opened((160, 90)):
+with screen.opened((160, 90)):
     window = Window(tape.begun, tape, drafts=DraftFile(Path(sys.argv[2])))
     for _ in range(tape.frames // step):
         window.tick(step)
@@ -102,7 +101,7 @@ def test_of_a_window_that_is_killed_what_was_drawn_is_offered_but_for_the_last_s
         tape, here / "draft.json", Random(session.scene).randrange(2 * SECOND, tape.frames - SECOND)
     )
     assert last < tape.frames - STEP
-    with display.opened(SIZE):
+    with screen.opened(SIZE):
         player = started_again(here / "draft.json")
         assert player.state.toast
         assert "F2" in player.state.toast.text
@@ -117,7 +116,7 @@ def test_of_a_window_that_is_killed_what_was_drawn_is_offered_but_for_the_last_s
 def test_what_was_drawn_is_kept_while_the_hand_is_down(here: Path, tool: str) -> None:
     click = ("hand_down", (0.0, 0.0, 3.0, 1.0)), ("hand_up", None)
     dragged = ("tool", tool), ("hand_down", (0.0, 0.0, 3.0, 1.0)), ("hand_to", (40.0, 0.0, 3.0, 1.0))
-    with display.opened(SIZE):
+    with screen.opened(SIZE):
         player = started_again(here / "draft.json")
         for name, value in (("sheet", None), *click, *dragged):
             player.window.state = carried(player.state, Action(name, value))
@@ -138,7 +137,7 @@ def test_a_draft_that_is_offered_stays_until_it_is_let_go_of(here: Path) -> None
     drafts = DraftFile(kept)
     drafts.keep(state.sheet)
     drafts.close()
-    with display.opened(SIZE):
+    with screen.opened(SIZE):
         player = started_again(kept)
         player.tick(120)
         assert kept.exists()
@@ -234,7 +233,7 @@ def test_a_damaged_draft_is_set_aside_with_a_sentence_and_another_is_kept(
 
 def test_a_window_opens_over_a_damaged_draft_and_says_so(here: Path) -> None:
     (here / "draft.json").write_bytes(DAMAGED["a number of 401 digits"]())
-    with display.opened(SIZE):
+    with screen.opened(SIZE):
         player = started_again(here / "draft.json")
         assert player.state.sheet is None
         assert player.state.toast
@@ -245,7 +244,7 @@ def test_a_window_opens_over_a_damaged_draft_and_says_so(here: Path) -> None:
 @pytest.mark.slow
 def test_what_windows_draw_at_once_is_in_nobody_s_way_and_is_offered_one_by_one(here: Path) -> None:
     kept = here / "data" / "draft.json"
-    with display.opened(SIZE):
+    with screen.opened(SIZE):
         windows = [started_again(kept) for _ in range(3)]
         assert not kept.parent.exists()
         for count, player in enumerate(windows, 1):
@@ -286,7 +285,7 @@ def test_a_draft_that_a_full_disk_does_not_take_is_kept_when_there_is_room(
     here: Path, full: Callable[[bool], None]
 ) -> None:
     kept = here / "draft.json"
-    with display.opened(SIZE):
+    with screen.opened(SIZE):
         player = started_again(kept)
         player.press(pygame.K_F2)
         full(True)
@@ -307,7 +306,7 @@ def test_a_draft_that_a_full_disk_does_not_take_is_kept_when_there_is_room(
 
 
 def test_closing_does_not_promise_what_a_full_disk_prevents(here: Path, full: Callable[[bool], None]) -> None:
-    with display.opened(SIZE):
+    with screen.opened(SIZE):
         player = started_again(here / "draft.json")
         player.press(pygame.K_F2)
         full(True)
@@ -324,7 +323,7 @@ def test_closing_does_not_promise_what_a_full_disk_prevents(here: Path, full: Ca
 
 def test_a_folder_that_takes_no_drafts_is_a_sentence(here: Path) -> None:
     (here / "data").write_text("a file where the folder would be")
-    with display.opened(SIZE):
+    with screen.opened(SIZE):
         player = started_again(here / "data" / "draft.json")
         player.press(pygame.K_F2)
         drawn_on(player, (0.0, 0.0))

@@ -7,12 +7,14 @@ import sys
 
 import pytest
 
+from linkanim.picture.board import Board
 from linkanim.picture.layout import layout
-from linkanim.picture.panels.board import Board
-from linkanim.picture.panels.help_sheet import help_sheet
-from linkanim.picture.text.text import Type
+from linkanim.picture.panels import help_sheet
+from linkanim.picture.text import Type
 from linkanim.picture.theme import theme_of
-from linkanim.player.input.keys import (
+from linkanim.player.action import Action, Mode
+from linkanim.player.actions import is_known
+from linkanim.player.keys import (
     KEYS,
     MODES,
     Bind,
@@ -24,9 +26,7 @@ from linkanim.player.input.keys import (
     help_groups,
     key_names,
 )
-from linkanim.player.state.action import Action, Mode
-from linkanim.player.state.actions import is_known
-from linkanim.player.state.browsing import RESOLVED
+from linkanim.player.state import RESOLVED
 
 TABLES: dict[Mode, Table] = {"play": KEYS, **MODES}
 ROWS = {name: [row for rows in table.values() for row in rows] for name, table in TABLES.items()}
@@ -222,7 +222,7 @@ def test_key_names_are_pygame_constants() -> None:
 
 
 def test_the_table_is_read_without_pygame() -> None:
-    code = "import sys, linkanim.player.input.keys as k; k.as_text(); print('pygame' in sys.modules)"
+    code = "import sys, linkanim.player.keys as k; k.as_text(); print('pygame' in sys.modules)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "False"
 

@@ -14,17 +14,16 @@ import pygame
 import pytest
 
 from linkanim.errors import BadInput, NoDisplay
-from linkanim.player.state.action import Action
-from linkanim.player.state.advance import advance
-from linkanim.player.state.state import begin
-from linkanim.player.tape.tape import Tape, starting
-from linkanim.player.tape.tape_file import write
-from linkanim.player.window import display
-from linkanim.player.window.display import Connection
-from linkanim.player.window.loop import frames, run
-from linkanim.player.window.window import Window
+from linkanim.player import screen
+from linkanim.player.action import Action
+from linkanim.player.actions import advance
+from linkanim.player.screen import Connection
+from linkanim.player.state import begin
+from linkanim.player.tape import Tape, starting
+from linkanim.player.tape_file import write
+from linkanim.player.window import Window, frames, run
 from linkanim.scenes import Scene, load
-from linkanim.scenes.editing.write import save
+from linkanim.scenes.toml import save
 
 
 class Time:
@@ -115,7 +114,7 @@ def test_without_a_display_it_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv("SDL_VIDEODRIVER")
     monkeypatch.setattr(pygame.display, "get_driver", lambda: "offscreen")
     monkeypatch.setattr(Window, "tick", lambda window, count: False)
-    monkeypatch.setattr(display, "_prepare", lambda: os.environ.update(SDL_VIDEODRIVER="dummy"))
+    monkeypatch.setattr(screen, "_prepare", lambda: os.environ.update(SDL_VIDEODRIVER="dummy"))
     with pytest.raises(NoDisplay, match="no display to open a window on"):
         run("press")
     assert "SDL_VIDEODRIVER" not in os.environ
@@ -149,7 +148,7 @@ def test_only_under_x_a_picture_goes_past_opengl(
     del os.environ["SDL_FRAMEBUFFER_ACCELERATION"]
     monkeypatch.setattr(pygame.display, "get_driver", lambda: driver)
     monkeypatch.setattr(Connection, "check", lambda connection: None)
-    with display.opened((320, 180)):
+    with screen.opened((320, 180)):
         assert os.environ.get("SDL_FRAMEBUFFER_ACCELERATION") == setting
 
 
@@ -168,7 +167,7 @@ def tape() -> Tape:
 
 def test_a_tape_plays_over_and_over(tape: Tape, here: Path) -> None:
     states = list(tape.states())
-    with display.opened((320, 180)):
+    with screen.opened((320, 180)):
         window = Window(tape.start, tape)
         for frame in (*range(1, 11), *range(1, 11)):
             window.tick()
@@ -176,7 +175,7 @@ def test_a_tape_plays_over_and_over(tape: Tape, here: Path) -> None:
 
 
 def test_a_key_leaves_the_tape(tape: Tape, here: Path) -> None:
-    with display.opened((320, 180)):
+    with screen.opened((320, 180)):
         window = Window(tape.start, tape)
         pygame.event.post(pygame.event.Event(pygame.KEYDOWN, key=pygame.K_t, mod=0, unicode="t"))
         window.tick(8)
@@ -186,7 +185,7 @@ def test_a_key_leaves_the_tape(tape: Tape, here: Path) -> None:
 
 def test_escape_on_a_tape_closes_no_window(tape: Tape, here: Path) -> None:
     closing = replace(tape, actions=((2, Action("back")),))
-    with display.opened((320, 180)):
+    with screen.opened((320, 180)):
         window = Window(tape.start, closing)
         assert window.tick(5)
 

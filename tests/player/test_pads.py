@@ -13,10 +13,9 @@ import pygame
 import pytest
 from playing import SIZE, Player
 
-from linkanim.player.input.keys import help_groups
-from linkanim.player.input.pad_buttons import PAD
-from linkanim.player.state.state import State, begin
-from linkanim.player.window import display
+from linkanim.player import screen
+from linkanim.player.keys import PAD, help_groups
+from linkanim.player.state import State, begin
 from linkanim.scenes import load
 
 SOUTH, EAST, START, RB = 0, 1, 7, 5
@@ -42,7 +41,7 @@ class Pad:
 def pads(request: pytest.FixtureRequest, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Player]:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(pygame.joystick, "Joystick", Pad)
-    with display.opened(SIZE):
+    with screen.opened(SIZE):
         player = Player(begin(load(request.param)))
         yield player
         player.window.close()

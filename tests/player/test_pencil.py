@@ -12,19 +12,17 @@ import pygame
 import pytest
 from playing import CTRL, SHIFT, NoSearch, Player
 
-from linkanim.player.state.action import Action
-from linkanim.player.state.advance import advance
-from linkanim.player.state.glide import FRAMES
-from linkanim.player.state.sketch import Sketch
-from linkanim.player.state.state import FADE_FRAMES, TOAST_FRAMES, State, begin
-from linkanim.player.tape.tape import Tape, Taping
-from linkanim.player.tape.tape_file import read, write
-from linkanim.player.window import following
-from linkanim.player.window.following import action_of, request_of
+from linkanim.player import beside as following
+from linkanim.player.action import Action
+from linkanim.player.actions import advance
+from linkanim.player.beside import action_of, request_of
+from linkanim.player.state import FADE_FRAMES, FRAMES, TOAST_FRAMES, Sketch, State, begin
+from linkanim.player.tape import Tape, Taping
+from linkanim.player.tape_file import read, write
 from linkanim.scenes import load
-from linkanim.synthesis.answer import PathAnswer
+from linkanim.synthesis.answers import PathAnswer
 from linkanim.synthesis.follower import Reply
-from linkanim.synthesis.kinds import FOUR_BAR
+from linkanim.synthesis.linkages import FOUR_BAR
 
 ROW = (9.0, 7.0, 30.0, 90.0, 45.0, 30.0, 100.0, 0.0, 80.0)
 WIDER = (8.0, 9.0, 32.0, 95.0, 45.0, 30.0, 105.0, 5.0, 85.0)
@@ -250,7 +248,7 @@ NONSENSE = {
 
 @pytest.mark.parametrize("action", NONSENSE.values(), ids=NONSENSE)
 def test_nonsense_leaves_the_scene_as_it_is(answered: State, action: Action) -> None:
-    from linkanim.player.state.actions import is_taped
+    from linkanim.player.actions import is_taped
 
     if is_taped(action):
         state = after(answered, action)

@@ -9,16 +9,16 @@ import pygame
 import pytest
 from playing import Player
 
-from linkanim.picture.panels.board import Rows
-from linkanim.player.state.action import Action
-from linkanim.player.state.advance import advance
-from linkanim.player.state.state import State, begin
-from linkanim.player.tape.tape import Tape, starting
-from linkanim.player.tape.tape_file import from_document, to_document
-from linkanim.player.window import display
-from linkanim.player.window.show import overlay
+from linkanim.picture.board import Rows
+from linkanim.player import screen as display
+from linkanim.player.action import Action
+from linkanim.player.actions import advance
+from linkanim.player.shown import overlay
+from linkanim.player.state import State, begin
+from linkanim.player.tape import Tape, starting
+from linkanim.player.tape_file import from_document, to_document
 from linkanim.scenes import load
-from linkanim.scenes.editing.edit import dimensions
+from linkanim.scenes.editing import dimensions
 
 SIZES = [(320, 180), (640, 360), (1280, 720)]
 

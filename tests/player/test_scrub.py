@@ -7,8 +7,7 @@ import math
 import pytest
 
 from linkanim.scenes import load, names
-from linkanim.scenes.editing.edit import with_dimensions
-from linkanim.scenes.steering import phase_towards
+from linkanim.scenes.editing import phase_towards, with_dimensions
 
 
 @pytest.mark.parametrize("name", names())

@@ -13,12 +13,12 @@ from playing import SIZE, Player
 
 from linkanim.play.arcade import Arcade
 from linkanim.play.scores import load as scores_of
-from linkanim.player.state.action import Action
-from linkanim.player.state.advance import carried
-from linkanim.player.state.state import begin
-from linkanim.player.window import display
-from linkanim.player.window.drafts import DraftFile
-from linkanim.player.window.window import Window
+from linkanim.player import screen
+from linkanim.player.action import Action
+from linkanim.player.actions import carried
+from linkanim.player.files import DraftFile
+from linkanim.player.state import begin
+from linkanim.player.window import Window
 from linkanim.scenes import load
 
 # Draws a ground pin further right, keeps the draft and a best score, again and again; then ends as if killed.
@@ -26,10 +26,10 @@ PROCESS = """
 import os, sys
 from pathlib import Path
 from linkanim.play.arcade import Arcade
-from linkanim.player.state.action import Action
-from linkanim.player.state.advance import carried
-from linkanim.player.state.state import begin
-from linkanim.player.window.drafts import DraftFile
+from linkanim.player.action import Action
+from linkanim.player.actions import carried
+from linkanim.player.state import begin
+from linkanim.player.files import DraftFile
 from linkanim.scenes import load
 data, who, count = Path(sys.argv[1]), sys.argv[2], int(sys.argv[3])
 arcade, drafts = Arcade(data / "scores.json"), DraftFile(data / "draft.json")
@@ -73,7 +73,7 @@ def kept(each: int, here: Path) -> None:
     """Let two windows and three processes keep so many changes each, and look for all of them."""
     data, names = here / "data", ("ann", "bob", "cy", "dee", "eve")
     runs = [subprocess.Popen([sys.executable, "-c", PROCESS, data, who, str(each)]) for who in names[2:]]
-    with display.opened(SIZE):
+    with screen.opened(SIZE):
         windows = [Sharing(data, who) for who in names[:2]]
         for n in range(each):
             for window in windows:

@@ -21,11 +21,11 @@ import pygame
 import pytest
 from playing import SIZE, NoSearch, Player, fake_start
 
-from linkanim.mechanics.motion.mechanism import mechanism
-from linkanim.player.state.action import Action
-from linkanim.player.state.advance import advance
-from linkanim.player.state.state import State, begin
-from linkanim.player.window import display, following, rendering
+from linkanim.mechanics.motion import mechanism
+from linkanim.player import beside, screen
+from linkanim.player.action import Action
+from linkanim.player.actions import advance
+from linkanim.player.state import State, begin
 from linkanim.scenes import load, names
 
 SEED = 20261121
@@ -161,9 +161,9 @@ def test_states_stay_finite_whatever_is_asked(record_property: Callable[[str, ob
 @pytest.mark.withstands("frames run", 60)
 @pytest.mark.slow
 def test_a_window_withstands_keys_and_mouse(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(rendering, "_start", fake_start([]))
-    monkeypatch.setattr(following, "Following", NoSearch)
-    with display.opened(SIZE):
+    monkeypatch.setattr(beside, "_start", fake_start([]))
+    monkeypatch.setattr(beside, "Following", NoSearch)
+    with screen.opened(SIZE):
         painted(60, here, scenes=SOME)
 
 
@@ -171,7 +171,7 @@ def test_a_window_withstands_keys_and_mouse(here: Path, monkeypatch: pytest.Monk
 @pytest.mark.slow
 def test_windows_opened_one_after_the_other_take_no_more_memory(here: Path) -> None:
     def one_more() -> float:
-        with display.opened(SIZE):
+        with screen.opened(SIZE):
             player = Player(begin(load("press")))
             player.type("n")
             player.window.close()
@@ -201,9 +201,9 @@ def test_a_million_frames_take_no_more_memory(record_property: Callable[[str, ob
 def test_twenty_thousand_painted_frames_take_no_more_memory(
     here: Path, monkeypatch: pytest.MonkeyPatch, record_property: Callable[[str, object], None]
 ) -> None:
-    monkeypatch.setattr(rendering, "_start", fake_start([]))
-    monkeypatch.setattr(following, "Following", NoSearch)
-    with display.opened(SIZE):
+    monkeypatch.setattr(beside, "_start", fake_start([]))
+    monkeypatch.setattr(beside, "Following", NoSearch)
+    with screen.opened(SIZE):
         painted(6_000, here, 0.2)
         before = resident_mb()
         painted(20_000, here, 0.2)

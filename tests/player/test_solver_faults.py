@@ -12,13 +12,12 @@ import pygame
 import pytest
 from playing import Player
 
-from linkanim.mechanics.formulas.program import Batch
+from linkanim.mechanics.program import Batch
 from linkanim.picture.picture import Picture
 from linkanim.picture.surface import SurfacePrinter
-from linkanim.player.state.action import Action
-from linkanim.player.state.actions import ACTIONS
-from linkanim.player.state.advance import advance
-from linkanim.player.state.state import State, begin
+from linkanim.player.action import Action
+from linkanim.player.actions import ACTIONS, advance
+from linkanim.player.state import State, begin
 from linkanim.scenes import load
 from linkanim.scenes.scene import Scene
 
@@ -67,7 +66,7 @@ def crank() -> State:
 def test_a_value_at_which_the_solver_fails_is_refused_in_a_sentence(
     crank: State, error: Exception, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("linkanim.player.state.handlers.edits.with_dimensions", raising(error))
+    monkeypatch.setattr("linkanim.player.edits.with_dimensions", raising(error))
     state = advance(advance(crank, [Action("type", "47")]), [Action("take")])
     assert state.scene is crank.scene
     assert type(error).__name__ in str(state.editing.refusal)
@@ -82,10 +81,10 @@ WAYS = {
     "the other closure": (Action("closure"), None),
     "Tab": (Action("mechanism", 1), None),
     "a number": (Action("select", 3), None),
-    "an unreadable scene": (Action("mechanism", 1), "linkanim.player.state.handlers.shelf.load"),
+    "an unreadable scene": (Action("mechanism", 1), "linkanim.player.edits.load"),
     "a closure that cannot be worked out": (
         Action("closure"),
-        "linkanim.player.state.handlers.shelf.other_closure",
+        "linkanim.player.edits.other_closure",
     ),
 }
 
@@ -118,7 +117,7 @@ def test_a_scene_that_cannot_be_solved_is_not_put_on(
 
 def test_a_way_that_fails_is_left_out(crank: State, monkeypatch: pytest.MonkeyPatch) -> None:
     state = advance(crank, [Action("nudge", 1)])
-    monkeypatch.setattr("linkanim.player.state.glide.passing", raising(HOLES[0]))
+    monkeypatch.setattr("linkanim.player.state.passing", raising(HOLES[0]))
     after = advance(state)
     assert (after.glide, after.shown) == (None, state.scene)
     assert [effect.name for effect in after.effects] == ["report"]
@@ -143,7 +142,7 @@ def test_a_report_holds_what_is_needed_to_find_the_hole(
     player.press(ord("e"), 0, "e")
     player.press(pygame.K_DOWN)
     player.type("47")
-    monkeypatch.setattr("linkanim.player.state.handlers.edits.with_dimensions", raising(HOLES[0]))
+    monkeypatch.setattr("linkanim.player.edits.with_dimensions", raising(HOLES[0]))
     assert player.press(pygame.K_RETURN)
     assert player.tick()
     found = report_of(here)

@@ -11,11 +11,9 @@ import pygame
 import pytest
 from playing import Player
 
-from linkanim.player.sound.cues import Cue, cues
-from linkanim.player.sound.speaker import Speaker
-from linkanim.player.sound.waves import RATE, wave
-from linkanim.player.state.advance import advance
-from linkanim.player.state.state import State, begin
+from linkanim.player.actions import advance
+from linkanim.player.sound import RATE, Cue, Speaker, cues, wave
+from linkanim.player.state import State, begin
 from linkanim.scenes import load
 
 

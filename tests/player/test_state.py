@@ -9,9 +9,9 @@ from dataclasses import replace
 import pytest
 
 from linkanim.picture.look import Look
-from linkanim.player.state.action import Action
-from linkanim.player.state.advance import advance
-from linkanim.player.state.state import ATTRACT_AFTER, State, begin
+from linkanim.player.action import Action
+from linkanim.player.actions import advance
+from linkanim.player.state import ATTRACT_AFTER, State, begin
 from linkanim.scenes import load, names
 
 

@@ -10,13 +10,13 @@ from pathlib import Path
 import pytest
 from storm import SIZES, Storm
 
-from linkanim.player.window import display
+from linkanim.player import screen
 
 
 def blown(events: int, seed: int, here: Path, patch: pytest.MonkeyPatch, *, calm: bool = False) -> Storm:
     """Let so many events come; whatever a window raises, or has to report."""
     storm = Storm(seed, here, patch, calm=calm)
-    with display.opened(SIZES[0]):
+    with screen.opened(SIZES[0]):
         storm.blow(events)
     return storm
 

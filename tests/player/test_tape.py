@@ -12,11 +12,11 @@ import pytest
 
 from linkanim.bounds import MOST_ACTIONS
 from linkanim.errors import BadInput
-from linkanim.player.state.action import Action
-from linkanim.player.state.advance import advance
-from linkanim.player.state.state import State, begin
-from linkanim.player.tape.tape import Tape, starting, taped
-from linkanim.player.tape.tape_file import from_document, read, to_document, write
+from linkanim.player.action import Action
+from linkanim.player.actions import advance
+from linkanim.player.state import State, begin
+from linkanim.player.tape import Tape, starting, taped
+from linkanim.player.tape_file import from_document, read, to_document, write
 from linkanim.scenes import load
 
 SESSION = (

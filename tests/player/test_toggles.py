@@ -11,11 +11,11 @@ import pytest
 from linkanim.cli.command_table import parse
 from linkanim.cli.picture_options import look_of
 from linkanim.picture.look import TOGGLES, Look
-from linkanim.player.input.keys import Press, as_text, bind_of
-from linkanim.player.state.advance import advance
-from linkanim.player.state.state import State, begin
-from linkanim.player.tape.tape import Tape
-from linkanim.player.tape.tape_file import from_document, to_document
+from linkanim.player.actions import advance
+from linkanim.player.keys import Press, as_text, bind_of
+from linkanim.player.state import State, begin
+from linkanim.player.tape import Tape
+from linkanim.player.tape_file import from_document, to_document
 from linkanim.scenes import load
 
 KEYS = [(name, key) for name, toggle in TOGGLES.items() for key in toggle.keys]

@@ -17,20 +17,20 @@ import pytest
 from playing import CTRL, SHIFT, SIZE, Player, fake_start
 
 from linkanim.picture.look import Look
-from linkanim.picture.panels.overlay import Quantities
+from linkanim.picture.overlay import Quantities
 from linkanim.picture.placing import Placer
-from linkanim.player.state.action import Action
-from linkanim.player.state.advance import carried
-from linkanim.player.state.clock import STEP
-from linkanim.player.state.glide import FRAMES
-from linkanim.player.state.state import TOAST_FRAMES, State, begin
-from linkanim.player.tape.tape_file import read
-from linkanim.player.window import display, rendering
-from linkanim.player.window.approach import Framing
-from linkanim.player.window.show import _FILES_HINT, overlay
+from linkanim.player import beside
+from linkanim.player import screen as display
+from linkanim.player.action import Action
+from linkanim.player.actions import carried
+from linkanim.player.clock import STEP
+from linkanim.player.framing import Framing
+from linkanim.player.shown import _FILES_HINT, overlay
+from linkanim.player.state import FRAMES, TOAST_FRAMES, State, begin
+from linkanim.player.tape_file import read
 from linkanim.scenes import load, names
-from linkanim.scenes.editing.edit import dimensions
-from linkanim.scenes.editing.write import save
+from linkanim.scenes.editing import dimensions
+from linkanim.scenes.toml import save
 
 Key = tuple[int, int, str]
 
@@ -266,7 +266,7 @@ def test_escape_leaves_full_screen_then_stops_the_recording(
     player: Player, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     started: list[list[str]] = []
-    monkeypatch.setattr(rendering, "_start", fake_start(started))
+    monkeypatch.setattr(beside, "_start", fake_start(started))
     player.press(*bare(pygame.K_F11))
     player.press(*plain("g"))
     player.press(*plain("h"))
@@ -280,7 +280,7 @@ def test_escape_leaves_full_screen_then_stops_the_recording(
 
 
 def test_q_asks_once_while_something_is_recorded(player: Player, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(rendering, "_start", fake_start([]))
+    monkeypatch.setattr(beside, "_start", fake_start([]))
     player.press(*plain("g"))
     assert player.press(*plain("q"))
     assert player.state.toast is not None
@@ -369,7 +369,7 @@ def test_a_key_is_carried_out_once(player: Player, monkeypatch: pytest.MonkeyPat
         carried_out.append(action)
         return carried(state, action)
 
-    monkeypatch.setattr("linkanim.player.window.window.carried", counted)
+    monkeypatch.setattr("linkanim.player.window.carried", counted)
     player.press(*plain("e"))
     player.press(*bare(pygame.K_RIGHT))
     assert carried_out == [Action("edit"), Action("nudge", 1)]
@@ -562,7 +562,7 @@ def test_a_recording_is_taped_and_rendered_beside(
     player: Player, here: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     started: list[list[str]] = []
-    monkeypatch.setattr("linkanim.player.window.rendering._start", fake_start(started))
+    monkeypatch.setattr("linkanim.player.beside._start", fake_start(started))
     player.press(*plain("g"))
     player.tick(10)
     player.press(*plain("t"))
@@ -583,7 +583,7 @@ def test_closing_the_window_finishes_a_recording(
     player: Player, here: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     started: list[list[str]] = []
-    monkeypatch.setattr("linkanim.player.window.rendering._start", fake_start(started))
+    monkeypatch.setattr("linkanim.player.beside._start", fake_start(started))
     player.press(*plain("m"))
     player.tick(9)
     assert player.press(*plain("q"))
@@ -594,10 +594,10 @@ def test_closing_the_window_finishes_a_recording(
 
 
 def test_the_picture_follows_the_windows_size(player: Player) -> None:
-    pixels, background = player.pixels, display.surface().get_at((0, 0))
+    pixels, background = player.pixels, display.display_surface().get_at((0, 0))
     pygame.display.set_mode((400, 300), pygame.RESIZABLE)
     player.tick()
-    assert display.surface().get_at((399, 299)) == background
+    assert display.display_surface().get_at((399, 299)) == background
     pygame.display.set_mode(SIZE, pygame.RESIZABLE)
     player.tick()
     assert player.pixels == pixels

@@ -14,12 +14,11 @@ from dataclasses import replace
 from pathlib import Path
 
 from linkanim.picture.look import Look
-from linkanim.player.state.action import Action
-from linkanim.player.state.state import begin
-from linkanim.player.tape.tape import Tape
+from linkanim.player.action import Action
+from linkanim.player.state import begin
+from linkanim.player.tape import Tape
 from linkanim.recorder.plan import Clip, make_plan
-from linkanim.recorder.recording import palette_of
-from linkanim.recorder.scene_frames import SceneFrames
+from linkanim.recorder.recording import SceneFrames, palette_of
 from linkanim.recorder.tape_frames import TapeFrames
 from linkanim.scenes import load
 

@@ -16,7 +16,7 @@ from moving_disc import TWO_SECONDS, MovingDisc, disc
 
 from linkanim.errors import BadInput, RecordingFailed
 from linkanim.recorder import encode, recording
-from linkanim.recorder import process as processes
+from linkanim.recorder import encode as processes
 from linkanim.recorder.plan import Format
 from linkanim.recorder.recording import write
 

@@ -17,22 +17,22 @@ from linkanim.bench.command import CHART
 from linkanim.errors import BadInput, RecordingFailed
 from linkanim.manifest import single
 from linkanim.picture.figure import figure
+from linkanim.picture.gears import teeth_a_second
 from linkanim.picture.look import Look
-from linkanim.picture.panels.overlay import Overlay
-from linkanim.picture.parts.wheels import teeth_a_second
+from linkanim.picture.overlay import Overlay
 from linkanim.picture.picture import Picture
-from linkanim.picture.raster.offscreen import offscreen, pixel_view
+from linkanim.picture.raster import offscreen, pixel_view
 from linkanim.picture.surface import SurfacePrinter
 from linkanim.picture.theme import theme_of
-from linkanim.player.state.action import Action
-from linkanim.player.state.state import begin
-from linkanim.player.tape import tape_file
-from linkanim.player.tape.tape import Tape
-from linkanim.player.window.show import overlay
-from linkanim.recorder import gallery, scene_frames, tape_frames
+from linkanim.player import tape_file
+from linkanim.player.action import Action
+from linkanim.player.shown import overlay
+from linkanim.player.state import begin
+from linkanim.player.tape import Tape
+from linkanim.recorder import gallery, recording, tape_frames
 from linkanim.recorder.gallery import make_gallery, reduced
 from linkanim.recorder.plan import Clip, make_plan
-from linkanim.recorder.scene_frames import SceneFrames, record
+from linkanim.recorder.recording import SceneFrames, record
 from linkanim.recorder.tape_frames import TapeFrames, record_tape
 from linkanim.scenes import load, names
 
@@ -150,7 +150,7 @@ def test_what_cannot_be_recorded_is_refused_and_nothing_is_written(
 def test_a_size_is_refused_before_anything_is_made_of_it(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(scene_frames, "SceneFrames", lambda *_, **__: pytest.fail("it is drawn"))
+    monkeypatch.setattr(recording, "SceneFrames", lambda *_, **__: pytest.fail("it is drawn"))
     with pytest.raises(BadInput, match="100000x100000"):
         record(load("crank-rocker"), tmp_path / "out.gif", size=(100_000, 100_000))
 

@@ -8,10 +8,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from linkanim.mechanics.linkage.dyads import RPR, RRP, RRR
-from linkanim.mechanics.linkage.pins import Crank
-from linkanim.mechanics.linkage.rigid_bodies import Rigid
-from linkanim.mechanics.motion.motion import Motion
+from linkanim.mechanics.linkage import RPR, RRP, RRR, Crank, Rigid
+from linkanim.mechanics.motion import Motion
 from linkanim.scenes import load, names
 from linkanim.scenes.files import titles
 from linkanim.scenes.scene import Scene

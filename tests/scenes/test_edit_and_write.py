@@ -14,14 +14,13 @@ from hypothesis import strategies as st
 
 from linkanim.errors import AssemblyError, SceneError, WorkFailed
 from linkanim.intake import control_in
-from linkanim.mechanics.linkage.pins import Crank
+from linkanim.mechanics.linkage import Crank
 from linkanim.scenes import load, names
-from linkanim.scenes.editing.edit import dimensions, with_dimensions
-from linkanim.scenes.editing.toml import parse
-from linkanim.scenes.editing.write import save, text
-from linkanim.scenes.fields.form import Key
-from linkanim.scenes.reading.read import scene_from
+from linkanim.scenes.editing import dimensions, with_dimensions
+from linkanim.scenes.form import Key
+from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
+from linkanim.scenes.toml import parse, save, text
 
 COUPLER: Key = ("four-bar", "coupler")
 

@@ -8,14 +8,13 @@ from typing import Any
 
 import pytest
 
-from linkanim.mechanics.linkage.joint import Joint
+from linkanim.mechanics.linkage import Joint
 from linkanim.scenes import load, names
-from linkanim.scenes.editing.edit import dimensions
-from linkanim.scenes.fields.form import Field, Form, Named
-from linkanim.scenes.fields.joints import JOINTS
-from linkanim.scenes.fields.scene_file import SCENE_FILE
-from linkanim.scenes.fields.schema import SCHEMA
-from linkanim.scenes.reading.read import read, scene_from
+from linkanim.scenes.editing import dimensions
+from linkanim.scenes.file_form import JOINTS, SCENE_FILE
+from linkanim.scenes.form import Field, Form, Named
+from linkanim.scenes.reading import read, scene_from
+from linkanim.scenes.schema import SCHEMA
 
 
 def fields(what: Form | Named) -> Iterator[Field]:

@@ -11,18 +11,25 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from linkanim.errors import AssemblyError, SceneError
-from linkanim.mechanics.linkage.drive import Drive
-from linkanim.mechanics.linkage.dyads import RPP, RPR, RRP, RRR
-from linkanim.mechanics.linkage.joint import Line
-from linkanim.mechanics.linkage.linkage import Body, Damper, Spring
-from linkanim.mechanics.linkage.pins import Crank, Gear, Pin, Polar
-from linkanim.mechanics.linkage.rigid_bodies import Rigid
+from linkanim.mechanics.linkage import (
+    RPP,
+    RPR,
+    RRP,
+    RRR,
+    Body,
+    Crank,
+    Damper,
+    Drive,
+    Gear,
+    Line,
+    Pin,
+    Polar,
+    Rigid,
+    Spring,
+)
 from linkanim.scenes import load
-from linkanim.scenes.editing.closures import closure_name
-from linkanim.scenes.editing.edit import dimensions, with_dimensions
-from linkanim.scenes.editing.handles import handles
-from linkanim.scenes.editing.stretches import Stretch, stretches
-from linkanim.scenes.reading.read import scene_from
+from linkanim.scenes.editing import Stretch, closure_name, dimensions, handles, stretches, with_dimensions
+from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
 
 PINS = "[ground]\nO2 = [0, 0]\nO4 = [100, 0]\n"

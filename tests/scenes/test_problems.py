@@ -13,13 +13,10 @@ from test_refusals import FOUR_BAR, GEARED, LONG, REFUSED
 
 from linkanim.errors import BadInput
 from linkanim.scenes import load, names
-from linkanim.scenes.editing.toml import parse
-from linkanim.scenes.fields.joints import JOINTS
-from linkanim.scenes.fields.schema import SCHEMA, schema_of
-from linkanim.scenes.fields.shorthands import SHORTHANDS
-from linkanim.scenes.reading.line_numbers import line_numbers
-from linkanim.scenes.reading.problems import Problem, problems
-from linkanim.scenes.reading.read import scene_from
+from linkanim.scenes.file_form import JOINTS, SHORTHANDS
+from linkanim.scenes.reading import Problem, problems, scene_from
+from linkanim.scenes.schema import SCHEMA, schema_of
+from linkanim.scenes.toml import line_numbers, parse
 
 MANY = """\
 title = "x"

@@ -18,8 +18,8 @@ from limits import Limits
 import linkanim.scenes
 from linkanim.errors import AssemblyError, BadInput, SceneError
 from linkanim.scenes import load
-from linkanim.scenes.editing.toml import parse
-from linkanim.scenes.reading.read import scene_from
+from linkanim.scenes.reading import scene_from
+from linkanim.scenes.toml import parse
 
 FOUR_BAR = "[four-bar]\nground = 100\ncrank = 30\ncoupler = 90\nrocker = 80\n"
 CATALOGUE = Path(linkanim.scenes.__file__).with_name("catalogue")

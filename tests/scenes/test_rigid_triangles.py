@@ -9,13 +9,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from linkanim.mechanics.linkage.rigid_bodies import holding
+from linkanim.mechanics.linkage import holding
+from linkanim.picture.dimensions import symbols
 from linkanim.picture.figure import figure
-from linkanim.picture.labels.dimensions import symbols
 from linkanim.scenes import load
-from linkanim.scenes.editing.edit import dimensions, with_dimensions
-from linkanim.scenes.editing.handles import handles
-from linkanim.scenes.reading.read import scene_from
+from linkanim.scenes.editing import dimensions, handles, with_dimensions
+from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
 
 FOUR_BAR: dict[str, Any] = {

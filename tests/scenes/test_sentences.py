@@ -13,15 +13,14 @@ from numpy.typing import NDArray
 
 from linkanim.cli import main
 from linkanim.errors import AssemblyError
-from linkanim.mechanics.facts.naming import GRASHOF, TRIPLE_ROCKERS
-from linkanim.mechanics.motion.measures import transmission_angle
-from linkanim.picture.diagrams.quantities import quantity
+from linkanim.mechanics.analysis import GRASHOF, TRIPLE_ROCKERS
+from linkanim.mechanics.measures import transmission_angle
 from linkanim.picture.figure import figure
-from linkanim.player.state.editing import loss_of_turning
+from linkanim.picture.quantities import quantity
+from linkanim.player.state import loss_of_turning
 from linkanim.scenes import load, names
-from linkanim.scenes.editing.closures import other_closure
-from linkanim.scenes.editing.edit import dimensions, with_dimensions
-from linkanim.scenes.reading.read import scene_from
+from linkanim.scenes.editing import dimensions, other_closure, with_dimensions
+from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
 
 SAMPLES = 7200

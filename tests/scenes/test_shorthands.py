@@ -7,13 +7,8 @@ import tomllib
 
 import pytest
 
-from linkanim.mechanics.linkage.drive import Drive
-from linkanim.mechanics.linkage.dyads import RRP, RRR
-from linkanim.mechanics.linkage.joint import Joint, Line, Point
-from linkanim.mechanics.linkage.linkage import Body
-from linkanim.mechanics.linkage.pins import Crank, Pin, Polar
-from linkanim.mechanics.linkage.rigid_bodies import Rigid
-from linkanim.scenes.reading.read import scene_from
+from linkanim.mechanics.linkage import RRP, RRR, Body, Crank, Drive, Joint, Line, Pin, Point, Polar, Rigid
+from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
 
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from linkanim.mechanics.facts.register import register
+from linkanim.mechanics.quantities import register
 from linkanim.scenes import load
 
 EPS = 2.0**-52

@@ -23,11 +23,11 @@ from shared_page import (
     shown,
 )
 
-from linkanim.picture.panels.readings import rows as readings
+from linkanim.picture.hud import rows as readings
 from linkanim.scenes import load, names
-from linkanim.scenes.editing.closures import ghost_of
-from linkanim.scenes.editing.toml import parse
-from linkanim.scenes.reading.read import scene_from
+from linkanim.scenes.editing import ghost_of
+from linkanim.scenes.reading import scene_from
+from linkanim.scenes.toml import parse
 from linkanim.share.page import Shared, document
 
 pytestmark = [pytest.mark.window, pytest.mark.skipif(not PROGRAM, reason="needs Chromium")]

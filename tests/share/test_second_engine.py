@@ -11,7 +11,7 @@ from second_engine import FIREFOX, SecondPage, second_browser
 from shared_page import FINEST, PHASES, SAMPLE, centre_of, farthest, handle_of, phase, pressed, put
 
 from linkanim.scenes import load, names
-from linkanim.scenes.editing.closures import ghost_of
+from linkanim.scenes.editing import ghost_of
 from linkanim.share.page import Shared
 
 pytestmark = [pytest.mark.window, pytest.mark.skipif(not FIREFOX, reason="needs Firefox")]

@@ -17,12 +17,12 @@ import read_tables
 
 from linkanim.cli import main
 from linkanim.errors import BadInput
-from linkanim.picture.panels.readings import measured
+from linkanim.picture.hud import measured
 from linkanim.scenes import load
-from linkanim.scenes.editing.closures import other_return
-from linkanim.scenes.editing.toml import parse
-from linkanim.scenes.reading.read import scene_from
+from linkanim.scenes.editing import other_return
+from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
+from linkanim.scenes.toml import parse
 from linkanim.share.page import LARGEST, Shared, document
 from linkanim.share.site import INDEX, write_site
 

@@ -11,9 +11,9 @@ import pytest
 from linkanim.picture.figure import DOWN, figure
 from linkanim.picture.view import View
 from linkanim.scenes import load, names
-from linkanim.scenes.editing.closures import ghost_of, other_return
+from linkanim.scenes.editing import ghost_of, other_return
 from linkanim.scenes.scene import Scene
-from linkanim.share.tracks import GRID, packed_tracks, tracks
+from linkanim.share.movers import GRID, packed_tracks, tracks
 
 WIDTH = 960.0
 FINEST = 0.01 * WIDTH / 3840

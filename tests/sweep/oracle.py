@@ -22,7 +22,7 @@ from random_scenes import scene
 from typed_linkages import Document
 
 from linkanim import child
-from linkanim.player.window import rendering
+from linkanim.player import beside
 
 ALWAYS = ("checked", "solved", "swept")
 SHARES = {
@@ -135,6 +135,6 @@ def main(seed: int, first: int, step: int, most: int, folder: Path) -> None:
 
 
 if __name__ == "__main__":
-    rendering._start = start_nothing
+    beside._start = start_nothing
     seed, first, step, most = map(int, sys.argv[1:5])
     main(seed, first, step, most, Path(sys.argv[5]))

@@ -22,14 +22,14 @@ from typed_linkages import Document
 
 from linkanim.cli import main
 from linkanim.errors import BadInput
-from linkanim.player.state.action import Action
-from linkanim.player.state.state import begin
-from linkanim.player.tape.tape import Tape
-from linkanim.player.tape.tape_file import write
-from linkanim.player.window import display
-from linkanim.player.window.window import Window
+from linkanim.player import screen
+from linkanim.player.action import Action
+from linkanim.player.state import begin
+from linkanim.player.tape import Tape
+from linkanim.player.tape_file import write
+from linkanim.player.window import Window
 from linkanim.scenes import load
-from linkanim.scenes.reading.read import scene_from
+from linkanim.scenes.reading import scene_from
 
 SECONDS, MEGABYTES = 10.0, 400
 """What each output of a scene may take: processor time, and memory beside what was there before."""
@@ -336,7 +336,7 @@ def taped(case: Case) -> None:
 
 def played(case: Case) -> None:
     """Open the window and press keys at random, several within one frame."""
-    with chdir(case.folder), display.opened((160, 90)):
+    with chdir(case.folder), screen.opened((160, 90)):
         window = Window(begin(load(case.path)))
         try:
             _play(window, case.rng)

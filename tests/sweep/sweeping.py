@@ -11,7 +11,7 @@ import numpy as np
 from motion_checks import Array, kinks, not_back, not_finite, unclosed
 
 from linkanim.errors import LinkanimError
-from linkanim.scenes.reading.read import scene_from
+from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
 
 STEPS = 360

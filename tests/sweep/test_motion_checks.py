@@ -14,7 +14,7 @@ from sweeping import outcome
 from typed_linkages import BASES, EXTRAS, linkages
 
 from linkanim.errors import SceneError
-from linkanim.scenes.reading.read import scene_from
+from linkanim.scenes.reading import scene_from
 
 TURN = 2 * math.pi
 Path = Callable[[Array], Array]

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from linkanim.synthesis.kinds import KINDS, Complex, Real
+from linkanim.synthesis.linkages import KINDS, Complex, Real
 
 
 def linkages(kind: str, count: int, seed: int) -> Real:

@@ -10,9 +10,9 @@ from typing import NamedTuple
 import mpmath
 import numpy as np
 
-from linkanim.mechanics.motion.measures import as_complex
+from linkanim.mechanics.measures import as_complex
 from linkanim.scenes.scene import Scene
-from linkanim.synthesis.kinds import Complex, Real
+from linkanim.synthesis.linkages import Complex, Real
 
 
 class KnownPoses(NamedTuple):

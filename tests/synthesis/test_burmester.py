@@ -21,7 +21,7 @@ from linkanim.synthesis.burmester import (
     slide_points,
     slides_through,
 )
-from linkanim.synthesis.kinds import Real
+from linkanim.synthesis.linkages import Real
 
 DEGREE = math.pi / 180
 

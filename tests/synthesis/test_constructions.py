@@ -17,9 +17,9 @@ from linkanim.paper.construction import ConstructionPage
 from linkanim.paper.write import data
 from linkanim.picture.items import Caption
 from linkanim.picture.view import Rect
-from linkanim.scenes.editing.shown_unit import in_unit
-from linkanim.scenes.editing.write import text
-from linkanim.scenes.purpose import FunctionPurpose, PosesPurpose, TimeRatioPurpose
+from linkanim.scenes.editing import in_unit
+from linkanim.scenes.scene import FunctionPurpose, PosesPurpose, TimeRatioPurpose
+from linkanim.scenes.toml import text
 from linkanim.synthesis.constructions import Mark, construction, dead_centres, guided_body
 
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from linkanim.errors import BadInput
-from linkanim.synthesis.curves.reading import read_curve
+from linkanim.synthesis.curve_files import read_curve
 
 TABLES = {
     "commas": "1,2\n3,4\n5,6\n",

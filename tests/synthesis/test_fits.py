@@ -15,17 +15,13 @@ import pytest
 from random_curves import curves, linkages
 
 import linkanim
-from linkanim.mechanics.motion.measures import transmission_angle
-from linkanim.synthesis.atlas import atlas
-from linkanim.synthesis.check import checked
-from linkanim.synthesis.cognates import cognates_of
-from linkanim.synthesis.curves.drawn import DrawnCurve
-from linkanim.synthesis.fit import Fit
-from linkanim.synthesis.kinds import FOUR_BAR, Complex, Real
-from linkanim.synthesis.match import Candidates, matched
-from linkanim.synthesis.refine import refined
-from linkanim.synthesis.request import task_of
-from linkanim.synthesis.search import best_of, ranked
+from linkanim.mechanics.measures import transmission_angle
+from linkanim.synthesis.answers import Fit, checked, cognates_of
+from linkanim.synthesis.atlas import Candidates, atlas, matched
+from linkanim.synthesis.curves import DrawnCurve
+from linkanim.synthesis.fitting import refined
+from linkanim.synthesis.linkages import FOUR_BAR, Complex, Real
+from linkanim.synthesis.path import best_of, ranked, task_of
 
 PERCENT = 0.01
 KUNJUR = [

@@ -12,12 +12,11 @@ import pytest
 import linkanim
 from linkanim.errors import BadInput
 from linkanim.manifest import Output
-from linkanim.mechanics.motion.measures import transmission_angle
-from linkanim.paper.structural_error import ErrorChart
+from linkanim.mechanics.measures import transmission_angle
+from linkanim.paper.construction import ErrorChart
 from linkanim.paper.write import data, write
-from linkanim.synthesis.generation import Generated
-from linkanim.synthesis.given_function import FUNCTIONS, expression, table
-from linkanim.synthesis.kinds import Real
+from linkanim.synthesis.generation import FUNCTIONS, Generated, expression, table
+from linkanim.synthesis.linkages import Real
 
 DEGREE = math.pi / 180
 

@@ -13,7 +13,7 @@ from random_poses import of_four_bars, of_slider_cranks, runs_through
 
 import linkanim
 from linkanim.errors import BadInput
-from linkanim.mechanics.motion.measures import as_complex, transmission_angle
+from linkanim.mechanics.measures import as_complex, transmission_angle
 from linkanim.synthesis.burmester import Poses, slide_points
 from linkanim.synthesis.guidance import GuidedLinkage, answers, apart, followed, task_of
 

@@ -7,8 +7,8 @@ import pytest
 from random_curves import linkages
 
 import linkanim
-from linkanim.scenes.reading.read import scene_from
-from linkanim.synthesis.kinds import KINDS
+from linkanim.scenes.reading import scene_from
+from linkanim.synthesis.linkages import KINDS
 
 STEP = 1e-6
 

@@ -17,7 +17,7 @@ from random_curves import curves
 import linkanim
 from linkanim.cli import main
 from linkanim.scenes.scene import Scene
-from linkanim.synthesis.kinds import FOUR_BAR, Complex, Real
+from linkanim.synthesis.linkages import FOUR_BAR, Complex, Real
 
 STEPS = 8000
 PAIRS = {

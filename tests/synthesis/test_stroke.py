@@ -11,12 +11,10 @@ import pytest
 from random_curves import curves
 
 from linkanim.errors import BadInput
-from linkanim.synthesis.answer import NUMBERS, answer_from
-from linkanim.synthesis.curves.drawn import DrawnCurve
-from linkanim.synthesis.curves.stroke import bent, stroke_of, trace_of
+from linkanim.synthesis.answers import NUMBERS, answer_from
+from linkanim.synthesis.curves import DrawnCurve, bent, stroke_of, trace_of
 from linkanim.synthesis.follower import COUNT, Follow, Follower, Reply
-from linkanim.synthesis.request import task_of
-from linkanim.synthesis.search import found, glimpsed, refitted
+from linkanim.synthesis.path import found, glimpsed, refitted, task_of
 
 
 @pytest.mark.slow

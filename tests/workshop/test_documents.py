@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from linkanim.errors import BadInput
-from linkanim.picture.raster.raster import Layer
+from linkanim.picture.raster import Layer
 from linkanim.scenes import load
 from linkanim.workshop import documents
 from linkanim.workshop.made import MadeLinkage

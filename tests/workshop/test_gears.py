@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from solids import Solids
 
 from linkanim.scenes import load
-from linkanim.scenes.reading.read import scene_from
+from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
 from linkanim.workshop.gears import meshes
 from linkanim.workshop.request import make

@@ -13,7 +13,7 @@ from solids import Solids
 import linkanim
 from linkanim.errors import BadInput
 from linkanim.scenes import load, names
-from linkanim.scenes.reading.read import scene_from
+from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
 from linkanim.units import metre
 from linkanim.workshop.layers import Stack

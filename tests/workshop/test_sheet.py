@@ -11,8 +11,8 @@ import pytest
 
 from linkanim.picture.figure import figure
 from linkanim.picture.items import Caption
-from linkanim.picture.raster.raster import Colour, Layer
-from linkanim.picture.text.text import Type
+from linkanim.picture.raster import Colour, Layer
+from linkanim.picture.text import Type
 from linkanim.picture.theme import LIGHT
 from linkanim.picture.view import Rect
 from linkanim.scenes import load

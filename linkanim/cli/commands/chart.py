@@ -6,14 +6,13 @@ import sys
 from argparse import Namespace
 
 from linkanim.cli.picture_options import scene_size_target
-from linkanim.digits import rpm, stepped
 from linkanim.errors import BadInput
 from linkanim.paper.chart import Page
-from linkanim.paper.curves import Curves, Pace, curves_of
+from linkanim.paper.curves import Curves, MeasuredCurve, Pace, beside, curves_of, read_table, usual_over
 from linkanim.paper.latex import labels_of
-from linkanim.paper.measured import MeasuredCurve, beside, read_table, usual_over
 from linkanim.paper.write import OF_A_CHART, write
 from linkanim.scenes.scene import Scene
+from linkanim.units import rpm, stepped
 
 
 def run(options: Namespace) -> None:

@@ -8,14 +8,14 @@ from pathlib import Path
 from typing import NamedTuple
 
 from linkanim import intake
-from linkanim.digits import degrees
 from linkanim.errors import BadInput
 from linkanim.export import json_text
 from linkanim.scenes import load
-from linkanim.scenes.editing.toml import SCENE_FILE
-from linkanim.scenes.fields.schema import SCHEMA
-from linkanim.scenes.reading.problems import Problem, problems
+from linkanim.scenes.reading import Problem, problems
 from linkanim.scenes.scene import Scene
+from linkanim.scenes.schema import SCHEMA
+from linkanim.scenes.toml import SCENE_FILE
+from linkanim.units import degrees
 
 
 class Checked(NamedTuple):
@@ -94,7 +94,7 @@ def _unreached(scene: Scene) -> Iterator[str]:
 def _unshown(scene: Scene) -> Iterator[str]:
     """Yield why the photograph is left out, where it is."""
     if photo := scene.document.get("photo"):
-        from linkanim.picture.building.photograph import lack
+        from linkanim.picture.photograph import lack
 
         if reason := lack(photo["file"]):
             yield reason

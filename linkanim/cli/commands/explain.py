@@ -10,15 +10,14 @@ from linkanim.atomic_files import checked_target, write_text
 from linkanim.cli.commands.solve import phase_at
 from linkanim.cli.options import inputs_of
 from linkanim.explain.documents import HTML, MARKDOWN, TEX, document
-from linkanim.explain.inputs import PoseRequest
-from linkanim.explain.solution import Solution, solution
+from linkanim.explain.solution import PoseRequest, Solution, solution
 from linkanim.explain.variant import variant
 from linkanim.paper.construction import ConstructionPage
 from linkanim.paper.svg import svg
 from linkanim.paper.vectors import vectors_svg
 from linkanim.picture.figure import figure
 from linkanim.scenes import load
-from linkanim.scenes.editing.shown_unit import in_unit
+from linkanim.scenes.editing import in_unit
 from linkanim.scenes.scene import Scene
 
 _CONSTRUCTION = (960, 640)

@@ -9,14 +9,13 @@ from pathlib import Path
 
 from linkanim import units
 from linkanim.atomic_files import checked_target
-from linkanim.digits import significant
 from linkanim.errors import BadInput
 from linkanim.export import columns, json_text
-from linkanim.intake import Intake, named
+from linkanim.intake import Intake, named, read_numbers
 from linkanim.manifest import Output
-from linkanim.number_table import read_numbers
-from linkanim.synthesis.files import file_set, write
+from linkanim.synthesis.answers import file_set, write
 from linkanim.synthesis.generation import Generated, function
+from linkanim.units import significant
 
 _TABLE_FILE = Intake("a table of x and y", most_bytes=1_000_000, most_values=100_000)
 _SUFFIXES = (".csv", ".txt", ".tsv", ".dat")
@@ -86,7 +85,7 @@ def _scale(name: str, text: str | None, read: Callable[[str], float]) -> dict[st
 
 
 def _draw(one: Generated, target: Path) -> None:
-    from linkanim.paper.structural_error import ErrorChart
+    from linkanim.paper.construction import ErrorChart
     from linkanim.paper.write import write as write_figure
 
     write_figure(ErrorChart(one), Output(target))

@@ -11,14 +11,14 @@ from pathlib import Path
 import numpy as np
 
 from linkanim.atomic_files import checked_target
-from linkanim.digits import significant
 from linkanim.errors import BadInput
 from linkanim.export import columns, json_text
 from linkanim.intake import named
-from linkanim.synthesis.curves.reading import read_curve
-from linkanim.synthesis.files import file_set, write
+from linkanim.synthesis.answers import file_set, write
+from linkanim.synthesis.curve_files import read_curve
 from linkanim.synthesis.guidance import GuidedLinkage, guide
-from linkanim.synthesis.kinds import Real
+from linkanim.synthesis.linkages import Real
+from linkanim.units import significant
 
 _UNIT = "mm"
 _TITLES = ("file", "defects", f"off {_UNIT}", "transmission", f"longest link {_UNIT}", "sizes", "class")

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from argparse import Namespace
 
-from linkanim.picture.building.photograph import refuse_lacking
+from linkanim.atomic_files import kept_as
 from linkanim.picture.look import Look
-from linkanim.player.window.loop import run as play
+from linkanim.picture.photograph import refuse_lacking
+from linkanim.player.window import run as play
 from linkanim.scenes import names
-from linkanim.user_data import kept_as
 
 
 def run(options: Namespace) -> None:

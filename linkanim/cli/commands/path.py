@@ -10,15 +10,14 @@ from pathlib import Path
 
 from linkanim.atomic_files import checked_target
 from linkanim.cli.commands.record import bar
-from linkanim.digits import significant
 from linkanim.errors import BadInput
 from linkanim.export import columns, json_text
 from linkanim.intake import named
-from linkanim.synthesis.curves.reading import CurveFile, read_curve
-from linkanim.synthesis.files import file_set, write
-from linkanim.synthesis.fit import Fit
-from linkanim.synthesis.kinds import Real
-from linkanim.synthesis.request import path
+from linkanim.synthesis.answers import Fit, file_set, write
+from linkanim.synthesis.curve_files import CurveFile, read_curve
+from linkanim.synthesis.linkages import Real
+from linkanim.synthesis.path import path
+from linkanim.units import significant
 
 _UNIT = "mm"
 _POOR = 5.0

@@ -5,12 +5,11 @@ from __future__ import annotations
 from argparse import Namespace
 from pathlib import Path
 
-from linkanim.atomic_files import checked_target
+from linkanim.atomic_files import checked_target, kept_as
 from linkanim.errors import BadInput
 from linkanim.picture.look import Look
 from linkanim.play.arcade import Arcade
-from linkanim.player.window.loop import run as play
-from linkanim.user_data import kept_as
+from linkanim.player.window import run as play
 
 
 def run(options: Namespace) -> None:

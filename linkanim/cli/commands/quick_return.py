@@ -7,10 +7,10 @@ from argparse import Namespace
 from pathlib import Path
 
 from linkanim.atomic_files import checked_target
-from linkanim.digits import significant
 from linkanim.export import columns, json_text
-from linkanim.synthesis.files import file_set, write
+from linkanim.synthesis.answers import file_set, write
 from linkanim.synthesis.quick_returns import QuickReturn, quick_return
+from linkanim.units import significant
 
 _TITLES = ("file", "place", "ratio", "output", "transmission", "lengths", "class")
 _HANDED_ON = ("ratio", "stroke", "swing", "kind", "place", "count")

@@ -12,11 +12,10 @@ from linkanim.cli.commands.record import bar
 from linkanim.cli.options import inputs_of
 from linkanim.errors import BadInput
 from linkanim.export import json_text
-from linkanim.play.chapters import ALL
+from linkanim.play.games import ALL
 from linkanim.play.platforms import Rounds, moodle, qti
 from linkanim.play.question import QuizQuestion
-from linkanim.play.round import questions
-from linkanim.play.sheet import as_html, as_text
+from linkanim.play.quiz import as_html, as_text, questions
 from linkanim.scenes import chapter_of, chapters, load, names
 from linkanim.scenes.scene import Scene
 

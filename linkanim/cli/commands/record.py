@@ -20,8 +20,7 @@ from linkanim.cli.picture_options import look_of, refuse_photograph
 from linkanim.errors import BadInput
 from linkanim.manifest import checked_output
 from linkanim.picture.look import TOGGLES
-from linkanim.recorder.recording import SUFFIXES, Progress, Recording
-from linkanim.recorder.scene_frames import record
+from linkanim.recorder.recording import SUFFIXES, Progress, Recording, record
 from linkanim.recorder.tape_frames import record_tape
 from linkanim.scenes import load
 

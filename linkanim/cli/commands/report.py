@@ -12,7 +12,7 @@ from linkanim.manifest import FileSet, replacing
 from linkanim.paper.findings import instants_at, usual_instants
 from linkanim.paper.report import Report
 from linkanim.scenes import load
-from linkanim.scenes.editing.shown_unit import in_unit
+from linkanim.scenes.editing import in_unit
 from linkanim.scenes.scene import Scene
 
 _ALWAYS = ("report.html", "figure.svg")

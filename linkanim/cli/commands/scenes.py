@@ -5,8 +5,8 @@ from __future__ import annotations
 from argparse import Namespace
 from collections.abc import Mapping
 
-from linkanim.document import meant
 from linkanim.errors import BadInput
+from linkanim.intake import meant
 from linkanim.scenes import chapters, load, names, titles
 from linkanim.units import shown
 

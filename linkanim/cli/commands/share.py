@@ -12,7 +12,7 @@ from linkanim.cli.options import inputs_of
 from linkanim.errors import BadInput
 from linkanim.manifest import checked_output
 from linkanim.scenes import load, names
-from linkanim.scenes.editing.shown_unit import in_unit
+from linkanim.scenes.editing import in_unit
 from linkanim.share.page import Shared, document
 from linkanim.share.site import INDEX, write_site
 

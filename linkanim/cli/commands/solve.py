@@ -1,30 +1,303 @@
-"""`linkanim solve`: the motion at an angle or a phase, or over a sweep of them."""
+"""`linkanim solve`: the motion at an angle or a phase, or over a sweep of them.
+
+All that is known at each solved angle is one tree, which JSON, CSV and the tables read. For people it is
+printed as aligned columns, with angles in degrees and seven digits.
+"""
 
 from __future__ import annotations
 
 import math
 import sys
 from argparse import Namespace
-from collections.abc import Iterator
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping
 from contextlib import ExitStack
 from dataclasses import dataclass
-from pathlib import Path
-from typing import TextIO
+from decimal import Decimal
+from fractions import Fraction
+from itertools import repeat
+from pathlib import Path as FilePath
+from typing import Any, NamedTuple, TextIO
 
 import numpy as np
+from numpy.typing import NDArray
 
+from linkanim import units
 from linkanim.atomic_files import checked_target, replacing
 from linkanim.bounds import MOST_NUMBERS, MOST_NUMBERS_READ
-from linkanim.cli import table
 from linkanim.cli.options import EVERY_ANGLE, inputs_of
-from linkanim.cli.solved import Leaf, RowBlock, Steps, Tree, blocks, input_key, leaves, rows, tree
-from linkanim.digits import significant
 from linkanim.errors import BadInput, OutOfRange
-from linkanim.export import csv_head, csv_rows, json_text, lines, mapped
-from linkanim.mechanics.motion.motion import Motion
+from linkanim.export import columns, csv_head, csv_rows, json_text, lines, mapped
+from linkanim.mechanics.linkage import Linkage, Pin
+from linkanim.mechanics.measures import DAMPER, POINT, SPRING, TRAVELLING, TURNING, Measure, coefficients_of
+from linkanim.mechanics.motion import Motion
+from linkanim.mechanics.quantities import Path, plain_unit, recorded
 from linkanim.scenes import load
-from linkanim.scenes.editing.shown_unit import in_unit
+from linkanim.scenes.editing import in_unit
 from linkanim.scenes.scene import Scene
+from linkanim.units import significant
+
+# Everything that is known at each solved angle, as one tree that JSON, CSV and the tables read.
+#
+# The tree is that of `solve --json`; its leaves are arrays (N,), a value for each angle. The rows of a sweep
+# are solved a block at a time: a long one takes no more memory than a short one.
+
+Leaf = NDArray[np.float64]
+Tree = dict[str, Any]
+BLOCK = 4096
+_WHOLE = 2**53
+"""Below this every whole number is a float."""
+
+
+def input_key(scene: Scene) -> str:
+    """Return under which key the tree has the input: its angle, or the travel of a slider that drives."""
+    return scene.linkage.drive.coordinate.name
+
+
+def tree(scene: Scene, motion: Motion) -> Tree:
+    """Return every quantity of N poses under its path, in the scene's unit, radians and seconds."""
+    found: Tree = {"joints": {}, "bodies": {}, "springs": {}, "dampers": {}}
+    for quantity in recorded(scene.linkage):
+        _put(found, quantity.path, _leaf(quantity.read(motion), motion))
+    return found
+
+
+def _put(found: Any, path: Path, leaf: Leaf) -> None:
+    """Put a leaf where a path leads, through tables and lists that are made on the way."""
+    key, *rest = path
+    if isinstance(key, int):
+        found.append(leaf)
+    elif rest:
+        _put(found.setdefault(key, [] if isinstance(rest[0], int) else {}), tuple(rest), leaf)
+    else:
+        found[key] = leaf
+
+
+def _leaf(found: Any, motion: Motion) -> Leaf:
+    """Return what was found at every instant, NaN for what is not known (None)."""
+    return np.broadcast_to(np.asarray(np.nan if found is None else found, np.float64), np.shape(motion.phase))
+
+
+def leaves(node: Any, name: str = "") -> Iterator[tuple[str, Any]]:
+    """Yield ("joints.B.position.x", leaf), ...: the keys on the way joined by dots.
+
+    A pair is told apart by x and y, coefficients by 1 (the first derivative) and 2.
+    """
+    if isinstance(node, list):
+        ends = "12" if name.endswith("coefficients") else "xy"
+        node = dict(zip(ends, node, strict=True))
+    if not isinstance(node, Mapping):
+        yield name, node
+        return
+    for key, part in node.items():
+        yield from leaves(part, f"{name}.{key}" if name else key)
+
+
+def rows(node: Tree) -> Iterator[Tree]:
+    """Yield the tree of each row, its leaves plain floats; what is no array is every row's."""
+    columns = mapped(lambda leaf: iter(leaf.tolist()) if isinstance(leaf, np.ndarray) else repeat(leaf), node)
+    yield from (mapped(next, columns) for _ in node["phase"])
+
+
+class RowBlock(NamedTuple):
+    """Neighbouring rows: the inputs in degrees, and what is known at each; leaves are arrays (N,)."""
+
+    degrees: Leaf
+    found: Tree
+
+
+@dataclass(frozen=True)
+class Steps:
+    """The inputs of a sweep, exact: row k is (first + step·k) / scale degrees, in whole numbers."""
+
+    first: int
+    step: int
+    scale: int
+    rows: int
+
+    @staticmethod
+    def of(first: Decimal, step: Decimal, rows: int) -> Steps:
+        """Return a sweep's decimals in whole numbers of their last digit."""
+        scale = math.lcm(Fraction(first).denominator, Fraction(step).denominator)
+        return Steps(int(Fraction(first) * scale), int(Fraction(step) * scale), scale, rows)
+
+    def degrees(self, start: int, stop: int) -> Leaf:
+        """Return rows in degrees, each rounded once."""
+        return np.array([at / self.scale for at in self._counts(start, stop)])
+
+    def radians(self, start: int, stop: int) -> Leaf:
+        """Return rows in radians, as `units.angle` reads them: by the float π, rounded once."""
+        counts, last = self._counts(start, stop), self.first + self.step * self.rows
+        if max(abs(self.first), abs(last), self.scale) < _WHOLE:
+            above, below = (Fraction(math.pi) / (180 * self.scale)).as_integer_ratio()
+            return np.array([above * at / below for at in counts])
+        return np.array([units.angle(f"{value!r} deg") for value in self.degrees(start, stop).tolist()])
+
+    def _counts(self, start: int, stop: int) -> range:
+        return range(self.first + self.step * start, self.first + self.step * stop, self.step)
+
+
+def blocks(
+    scene: Scene, steps: Steps, by: str, speed: float, solve: Callable[[Leaf], Motion]
+) -> Iterator[RowBlock]:
+    """Yield a sweep's rows; `by` is "angle" or "phase", which runs at `speed` from time 0 in the first row.
+
+    Bodies' angles run on from block to block, which share a row for it.
+    """
+    start, last = steps.radians(0, 1)[0], None
+    for row in range(0, steps.rows, BLOCK):
+        shared, stop = int(row > 0), min(row + BLOCK, steps.rows)
+        inputs = steps.radians(row - shared, stop)
+        motion = solve(inputs)
+        time = (inputs - start) / speed if speed else np.full(len(inputs), np.nan)
+        where = {input_key(scene): motion.coordinate, "phase": motion.phase, by: inputs, "time": time}
+        found = _continued({**where, **tree(scene, motion)}, last)
+        last = found
+        yield RowBlock(steps.degrees(row, stop), _without(found, shared))
+
+
+def _continued(found: Tree, last: Tree | None) -> Tree:
+    """Return rows whose angles and directions go on from the row before, which is their first."""
+    if last is None:
+        return found
+    for part, name, key in _continued_keys(found):
+        known = found[part][name]
+        turns = np.rint((last[part][name][key][-1] - known[key][0]) / math.tau)
+        known[key] = known[key] + math.tau * np.nan_to_num(turns)
+    return found
+
+
+def _continued_keys(found: Tree) -> Iterator[tuple[str, str, str]]:
+    """Yield where angles stand that run on: of bodies, and the directions of springs and dampers."""
+    for part, key in (("bodies", "angle"), ("springs", "direction"), ("dampers", "direction")):
+        yield from ((part, name, key) for name, known in found[part].items() if key in known)
+
+
+def _without(found: Tree, rows: int) -> Tree:
+    return mapped(lambda leaf: leaf[rows:], found)  # type: ignore[no-any-return]
+
+
+# What `solve` prints for people: aligned columns, angles in degrees, seven digits.
+
+
+def of_pose(scene: Scene, found: Iterator[Tree]) -> str:
+    """Return one pose: where it is, then a table each for joints, bodies, sliders, springs and dampers."""
+    pose = next(found)
+    where = (
+        f"{scene.name}: {scene.title}\n"
+        f"{_input(scene, pose)}, phase {_degrees(pose['phase'])} deg, "
+        f"speed {_number(pose['speed'])} rad/s, acceleration {_number(pose['acceleration'])} rad/s^2"
+    )
+    tables = _tables(scene, pose)
+    return "\n\n".join([where, *(columns(lines) for lines in tables if len(lines) > 1)])
+
+
+def _input(scene: Scene, row: Tree) -> str:
+    coordinate = scene.linkage.drive.coordinate
+    if not coordinate.is_angle:
+        return f"{coordinate.name} {_number(row[coordinate.name])} {scene.length_unit}"
+    return f"{scene.info.input_name} angle {_degrees(row['angle'])} deg"
+
+
+def _tables(scene: Scene, pose: Tree) -> Iterator[list[list[str]]]:
+    linkage, unit, called = scene.linkage, scene.length_unit, scene.info.link_names
+    bodies = pose["bodies"].items()
+    coms = [(f"com of {called[name]}", body["com"]) for name, body in bodies if "com" in body]
+    points = [*pose["joints"].items(), *coms]
+    yield [["joint", *_titles(POINT, unit)], *([name, *_cells(POINT, point)] for name, point in points)]
+    turning = (*TURNING, *coefficients_of(linkage, turning=True))
+    sliding = (*TRAVELLING, *coefficients_of(linkage, turning=False))
+    for title, key, measures in (("body", "angle", turning), ("slider", "travel", sliding)):
+        found = [[called[name], *_cells(measures, _flat(body))] for name, body in bodies if key in body]
+        yield [[title, *_titles(measures, unit)], *found]
+    force = slice(3)  # length, rate and force
+    struts = (
+        (linkage.springs, SPRING[force], pose["springs"]),
+        (linkage.dampers, DAMPER[force], pose["dampers"]),
+    )
+    elements = [
+        [linkage.strut_words(item), *_cells(measures, found[item.name])]
+        for items, measures, found in struts
+        for item in items
+    ]
+    yield [["element", *_titles(SPRING[force], unit)], *elements]
+    yield [["whole", "value"], *_whole(linkage, unit, pose)]
+
+
+def _whole(linkage: Linkage, unit: str, pose: Tree) -> Iterator[list[str]]:
+    """Yield what is known of the linkage as a whole: words with the unit, and the value."""
+    for quantity in recorded(linkage):
+        if quantity.path == tuple(quantity.token.split(".")):
+            value: Any = pose
+            for key in quantity.path:
+                value = value[key]
+            words = f"{quantity.words} {plain_unit(quantity.unit, unit)}".rstrip()
+            yield [words, _degrees(value) if quantity.unit == "rad" else _number(value)]
+
+
+def _titles(measures: Iterable[Measure], unit: str) -> Iterator[str]:
+    """Yield a column's title for each number of the measures: a vector of a point has two."""
+    for measure in measures:
+        per = plain_unit(measure.unit, unit)
+        if measure in POINT:
+            letter = measure.heading if measure.order else ""
+            yield from (f"{letter}{axis} {per}" for axis in "xy")
+        else:
+            yield f"{measure.heading} {per}"
+
+
+def _cells(measures: Iterable[Measure], known: Tree) -> Iterator[str]:
+    for measure in measures:
+        value = known[measure.key]
+        if isinstance(value, list):
+            yield from map(_number, value)
+        elif measure.name == "force" and math.isnan(value):
+            yield "not given"
+        else:
+            yield _degrees(value) if measure.unit == "rad" else _number(value)
+
+
+def _flat(body: Tree) -> Tree:
+    """Return a body's tree with its two coefficients under their own keys."""
+    return {**body, **dict(zip("12", body["coefficients"], strict=True))}
+
+
+def of_sweep(scene: Scene, found: Iterator[Tree]) -> str:
+    """Return a row for each input: moving joints, bodies' angles in degrees, sliders' travel."""
+    fixed = {joint.name for joint in scene.linkage.joints if isinstance(joint, Pin)}
+    lines = [list(_sweep_cells(row, fixed, scene)) for row in found]
+    titles = [title for title, _ in lines[0]]
+    return columns([titles, *([cell for _, cell in line] for line in lines)])
+
+
+def _sweep_cells(row: Tree, fixed: Container[str], scene: Scene) -> Iterator[tuple[str, str]]:
+    """Yield (title, cell) along a row."""
+    unit, called = scene.length_unit, scene.info.link_names
+    if "travel" in row:
+        yield f"travel {unit}", _number(row["travel"])
+    else:
+        yield "angle deg", _degrees(row["angle"])
+    yield "phase deg", _degrees(row["phase"])
+    for name, joint in row["joints"].items():
+        if name not in fixed:
+            x, y = joint["position"]
+            yield f"{name}.x {unit}", _number(x)
+            yield f"{name}.y {unit}", _number(y)
+    for name, body in row["bodies"].items():
+        if "travel" in body:
+            yield f"{called[name]} {unit}", _number(body["travel"])
+        else:
+            yield f"{called[name]} deg", _degrees(body["angle"])
+
+
+def _number(value: float) -> str:
+    return significant(value, 7)
+
+
+def _degrees(value: float) -> str:
+    return _number(math.degrees(value))
+
+
+# `linkanim solve`: the motion at an angle or a phase, or over a sweep of them.
 
 _NUMBER = "\0"
 """Stands for a number in the text that the rows share: no name holds it."""
@@ -64,7 +337,7 @@ def run(options: Namespace) -> None:
     if options.json:
         _print_json(trees, inputs.steps is not None)
     else:
-        words = table.of_sweep if inputs.steps else table.of_pose
+        words = of_sweep if inputs.steps else of_pose
         print(words(scene, (row for block in trees for row in rows(block))))
 
 
@@ -153,7 +426,7 @@ def _objects(block: Tree) -> Iterator[str]:
     return (form % tuple(line.split(",")) for line in lines(columns))
 
 
-def _write_csv(target: Path | None, by: str, found: Iterator[RowBlock]) -> None:
+def _write_csv(target: FilePath | None, by: str, found: Iterator[RowBlock]) -> None:
     """Write the input in degrees and then every quantity; what is not known is an empty cell."""
     with ExitStack() as stack:
         file: TextIO = sys.stdout

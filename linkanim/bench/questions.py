@@ -1,0 +1,388 @@
+"""Pose the questions that every method is asked: linkages, their easy cycle and their hard cases.
+
+Its parts, in reading order:
+
+- What every method is asked: the poses of a linkage along a sequence of inputs, as plain steps.
+- The linkages that are compared, the easy cycle and the hard cases of each, before anything is solved.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkanim.mechanics.linkage import RRP, RRR, Crank, Linkage, Pin, Rigid
+from linkanim.scenes import load
+from linkanim.scenes.reading import scene_from
+from linkanim.scenes.scene import Scene
+
+# What every method is asked: the poses of a linkage along a sequence of inputs, as plain steps.
+
+Floats = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+Places = Mapping[str, Any]
+"""Of each joint where it lies: complex numbers, one or an array; NaN where a method has no answer."""
+Orders = tuple[Places, ...]
+"""Positions, then velocities and accelerations where a method gives them."""
+TURN = 2 * math.pi
+
+
+class TurnStep(NamedTuple):
+    """A crank pin: its angle is `ratio` times the input's, and `offset`."""
+
+    name: str
+    pivot: str
+    length: float
+    ratio: float = 1.0
+    offset: float = 0.0
+
+
+class SlideStep(NamedTuple):
+    """A bar to a slider on a line through `base`; of two places the one further along it for side +1."""
+
+    name: str
+    end: str
+    length: float
+    base: complex
+    along: complex
+    side: int
+
+
+class FixedStep(NamedTuple):
+    """A point of a body: `at` along the way of this length from first to second joint, and to its left."""
+
+    name: str
+    on: tuple[str, str]
+    at: complex
+    length: float
+
+
+Step = TurnStep | RRR | SlideStep | FixedStep
+Dyad = RRR | SlideStep
+Closing = Callable[[Dyad, Places], Any]
+"""Gives where a dyad's joint lies, from the places before it."""
+
+
+class DyadChain(NamedTuple):
+    """Pins on the ground, and the steps in the order in which they can be taken."""
+
+    pins: Mapping[str, complex]
+    steps: tuple[Step, ...]
+
+    @property
+    def dyads(self) -> tuple[Dyad, ...]:
+        """The steps that have two closures."""
+        return tuple(step for step in self.steps if isinstance(step, RRR | SlideStep))
+
+
+def chain_of(linkage: Linkage) -> DyadChain:
+    """Return a linkage of pins, cranks, two kinds of dyads on fixed lines, and points of bodies as steps."""
+    lengths = {frozenset((end, joint.name)): length for joint in linkage.joints for end, length in joint.bars}
+    pins: dict[str, complex] = {}
+    steps: list[Step] = []
+    for joint in linkage.joints:
+        match joint:
+            case Pin():
+                pins[joint.name] = complex(*joint.position)
+            case Crank():
+                gear = (float(joint.gear.ratio), joint.gear.offset) if joint.gear else (1.0, 0.0)
+                steps.append(TurnStep(joint.name, joint.pivot, joint.length, *gear))
+            case RRR():
+                steps.append(joint)
+            case RRP():
+                along = cmath.rect(1.0, joint.line.angle)
+                base = pins[joint.line.through] + 1j * along * joint.line.offset
+                steps.append(SlideStep(joint.name, joint.end, joint.length, base, along, joint.side))
+            case Rigid():
+                length = lengths[frozenset(joint.on)]
+                steps.append(FixedStep(joint.name, joint.on, complex(*joint.at), length))
+    return DyadChain(pins, tuple(steps))
+
+
+@dataclass(frozen=True)
+class Question:
+    """A scene, its chain, and a sequence of inputs.
+
+    `angles` are the input's; `phases` the drive's, for methods that take one: a turning input's are its
+    angles. `rates` are the angle's first and second derivative in what rates are asked for, which is the
+    phase, where `by_angle` the angle. `sides` is the closure of each dyad that a caller names at each pose:
+    one who names a constant closure gets it; where the input swings the way back is asked for on the other
+    one. `start` is the first pose, for methods that go on from the previous one. `shown` are the joints
+    that count, `longest` is the longest link, `periods` the turns after which the motion is back.
+    """
+
+    scene: Scene
+    chain: DyadChain
+    angles: Floats
+    phases: Floats
+    rates: tuple[Floats, Floats]
+    sides: Mapping[str, Floats]
+    start: Mapping[str, complex]
+    shown: tuple[str, ...]
+    longest: float
+    periods: int = 1
+    by_angle: bool = False
+
+
+def longest_of(linkage: Linkage) -> float:
+    """Return the longest link, the ground between two pins included."""
+    pins = [complex(*pin.position) for pin in linkage.pins]
+    grounds = (abs(one - other) for one in pins for other in pins)
+    return max(*(length for joint in linkage.joints for _, length in joint.bars), *grounds)
+
+
+def placed(
+    chain: DyadChain, angle: Any, close: Closing, exp: Callable[[Any], Any] = np.exp
+) -> dict[str, Any]:
+    """Return where the joints lie at an input's angle, dyads' as `close` gives them.
+
+    `exp` is that of the numbers: arrays of complex ones, single ones, or those of many digits.
+    """
+    at: dict[str, Any] = dict(chain.pins)
+    for step in chain.steps:
+        if isinstance(step, TurnStep):
+            at[step.name] = at[step.pivot] + step.length * exp(1j * (step.ratio * angle + step.offset))
+        else:
+            at[step.name] = point_on(step, at) if isinstance(step, FixedStep) else close(step, at)
+    return at
+
+
+def point_on(step: FixedStep, at: Places) -> Any:
+    """Return a point of a body by those of its first and second joint, or a derivative of it by theirs."""
+    first, second = (at[name] for name in step.on)
+    return first + (second - first) * (step.at / step.length)
+
+
+def circle_dyad(dyad: Dyad, at: Places, side: Any, root: Callable[[Any], Any] = np.sqrt) -> Any:
+    """Go along the line of centres, then √(r² - x²) to the side; a circle and a line likewise.
+
+    Paul Bourke, Circles and spheres (1997). `root` is that of the numbers.
+    """
+    if isinstance(dyad, RRR):
+        p, q = (at[end] for end in dyad.ends)
+        (a, b), way = dyad.lengths, q - p
+        distance = abs(way)
+        along = (a**2 - b**2 + distance * distance) / (2 * distance)
+        return p + way / distance * (along + 1j * (side * root(a**2 - along * along)))
+    seen = (at[dyad.end] - dyad.base) * dyad.along.conjugate()
+    return dyad.base + dyad.along * (seen.real + side * root(dyad.length**2 - seen.imag**2))
+
+
+def joined(vectors: Floats) -> Complexes:
+    """Return vectors (..., 2) as complex numbers."""
+    numbers: Complexes = vectors[..., 0] + 1j * vectors[..., 1]
+    return numbers
+
+
+# The linkages that are compared, the easy cycle and the hard cases of each, before anything is solved.
+
+Lengths = tuple[float, float, float, float]
+Swing = Callable[[Any], tuple[Any, Any]]
+"""Gives, from mpmath, the ends of an input that swings."""
+
+
+@dataclass(frozen=True)
+class Case:
+    """A scene and its inputs: crank angles, or phases where `by_phase`.
+
+    `flips` says at which phases a dyad on the smooth path goes over to its other closure: in half turns of
+    the phase, within the first `periods` turns; the closure that the scene names is the one just after 0.
+    `swing` gives the ends of an input that swings. `decimal`: the lengths are meant as they are written,
+    which the floats nearest to them are not.
+    """
+
+    name: str
+    scene: Scene
+    inputs: Floats
+    flips: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
+    swing: Swing | None = None
+    by_phase: bool = False
+    periods: int = 1
+    decimal: bool = False
+
+    @property
+    def by_angle(self) -> bool:
+        """Whether an input that swings is given by its angle."""
+        return self.swing is not None and not self.by_phase
+
+
+@dataclass(frozen=True)
+class CaseSet:
+    """A kind of linkage: its easy cycle, and what is hard about it."""
+
+    name: str
+    easy: Case
+    hard: tuple[Case, ...]
+
+
+def degrees(first: int, last: int) -> Floats:
+    """Return every whole degree from first to last, in radians; the last one left out."""
+    return np.radians(np.arange(first, last, dtype=np.float64))
+
+
+def beside(inputs: Floats, *places: float) -> Floats:
+    """Add inputs beside some places, 1e-2 to 1e-12 from them, to either side."""
+    steps = np.logspace(-2, -12, 11)
+    added = [place + steps * side for place in places for side in (-1, 1)]
+    return np.unique(np.concatenate([inputs, *added]))
+
+
+def turned(turns: float) -> Floats:
+    """Return every whole degree of one turn after so many turns."""
+    return turns * TURN + degrees(0, 360)
+
+
+def towards(limit: float) -> Floats:
+    """Return angles that approach a limit to 1e-12 rad, three to a decade."""
+    return limit - np.logspace(-1, -12, 34)
+
+
+def four_bar(lengths: Lengths, assembly: str = "open") -> Scene:
+    """Return a four-bar (ground, crank, coupler, rocker) with a coupler point; it starts at angle 0."""
+    names = ("ground", "crank", "coupler", "rocker")
+    point = [0.5 * lengths[2], 0.25 * lengths[2]]
+    table = dict(zip(names, lengths, strict=True))
+    return _scene({"four-bar": {**table, "coupler_point": point, "assembly": assembly}})
+
+
+def slider_crank(crank: float, rod: float, offset: float) -> Scene:
+    """Return a slider-crank with a point of its rod; it starts at angle 0, the slider in front."""
+    point = [0.5 * rod, 0.25 * rod]
+    table = {"crank": crank, "rod": rod, "offset": offset, "coupler_point": point}
+    return _scene({"slider-crank": table})
+
+
+def six_bar(first: Lengths, second: Lengths) -> Scene:
+    """Return two four-bars in series: the rocker of the first is the crank of the second."""
+    ground, crank, coupler, rocker = second
+    return _scene({"six-bar": {"lengths": [*first, ground, crank, coupler, rocker]}})
+
+
+def _scene(document: Mapping[str, Any]) -> Scene:
+    drive = {"speed": "1 rad/s", "start": "0 deg"}
+    return scene_from({"length_unit": "m", "drive": drive, **document}, name="bench", where="bench")
+
+
+def built_in(name: str) -> Scene:
+    """Return a scene of the catalogue, its input at angle 0 as it begins, at 1 rad/s."""
+    scene = load(name)
+    drive = replace(scene.linkage.drive, start=0.0, speed=1.0)
+    return replace(scene, linkage=replace(scene.linkage, drive=drive))
+
+
+def stretched(lengths: Lengths) -> Swing:
+    """Return the swing of a crank between the two poses in which coupler and rocker are in line."""
+    return lambda mp: (-_in_line(mp, lengths, 1), _in_line(mp, lengths, 1))
+
+
+def between(lengths: Lengths) -> Swing:
+    """Return the swing of a double-rocker above its ground line: folded at one end, stretched after."""
+    return lambda mp: (_in_line(mp, lengths, -1), _in_line(mp, lengths, 1))
+
+
+def _in_line(mp: Any, lengths: Lengths, sign: int) -> Any:
+    """Return the crank's angle with coupler and rocker in line, stretched (`sign` +1) or folded (-1)."""
+    g, r, a, b = map(mp.mpf, lengths)
+    return mp.acos((g * g + r * r - (a + sign * b) ** 2) / (2 * g * r))
+
+
+def upright(crank: float, rod: float) -> Swing:
+    """Return the swing of a slider-crank with a rod shorter than its crank: upright at both ends."""
+    return lambda mp: (-mp.asin(mp.mpf(rod) / crank), mp.asin(mp.mpf(rod) / crank))
+
+
+ONE_TURN = beside(degrees(90, 450), TURN / 2, TURN)
+TWO_TURNS = beside(degrees(90, 810), TURN / 2, TURN, 3 * TURN / 2, 2 * TURN)
+AT_BOTH = AT_LIMITS = {"B": (0.0, 1.0)}
+
+EASY: Lengths = (100.0, 30.0, 90.0, 80.0)
+SQUARE: Lengths = (4.0, 2.0, 4.0, 2.0)
+SWINGS: Lengths = (5.0, 4.0, 3.0, 3.5)
+"""r3 + r4 < r1 + r2: the input swings between ± TOGGLE."""
+TOGGLE = 2 * math.acos(math.sqrt((9.0**2 - 6.5**2) / (4 * 5.0 * 4.0)))
+ROCKERS: Lengths = (5.0, 3.5, 2.0, 4.0)
+CHANGES: Lengths = (5.0, 2.0, 4.0, 3.0)
+"""r1 + r2 = r3 + r4: a change point at half a turn."""
+
+
+def _limited(scene: Scene, limit: float, swing: Swing) -> tuple[Case, Case]:
+    """Return a swinging input towards a limit, and through both."""
+    return (
+        Case("1e-12 rad before a toggle", scene, towards(limit), AT_LIMITS, swing),
+        Case("through two limits", scene, ONE_TURN, AT_LIMITS, swing, by_phase=True),
+    )
+
+
+def _after(scene: Scene, *powers: int) -> tuple[Case, ...]:
+    """Return one turn after ten to so many turns."""
+    return tuple(Case(f"after 1e{power} turns", scene, turned(10.0**power)) for power in powers)
+
+
+FOUR_BAR = CaseSet(
+    "four-bar",
+    Case("easy cycle", four_bar(EASY), degrees(0, 360)),
+    (
+        Case("parallelogram", four_bar(SQUARE), ONE_TURN, AT_BOTH),
+        Case("antiparallelogram", four_bar(SQUARE, "crossed"), ONE_TURN, AT_BOTH),
+        Case("change point at 0", four_bar((4.0, 2.0, 5.0, 3.0)), TWO_TURNS, {"B": (0, 2)}, periods=2),
+        Case("change point at 180 deg", four_bar(CHANGES), TWO_TURNS, {"B": (1, 3)}, periods=2),
+        Case(
+            "s + l = p + q in decimals",
+            four_bar((1.2, 0.3, 0.7, 0.8)),
+            TWO_TURNS,
+            {"B": (1, 3)},
+            periods=2,
+            decimal=True,
+        ),
+        Case("1e-12 from a change point", four_bar((5.0, 2.0, 4.0, 3.0 + 1e-12)), ONE_TURN),
+        *_limited(four_bar(SWINGS), TOGGLE, stretched(SWINGS)),
+        Case("double-rocker", four_bar(ROCKERS), ONE_TURN, AT_LIMITS, between(ROCKERS), True),
+        *_after(four_bar(EASY), 6, 9),
+    ),
+)
+
+QUARTERS = beside(degrees(0, 360), TURN / 4, 3 * TURN / 4)
+
+SLIDER_CRANK = CaseSet(
+    "slider-crank",
+    Case("easy cycle", slider_crank(40.0, 120.0, 20.0), degrees(0, 360)),
+    (
+        Case("rod as long as the crank", slider_crank(50.0, 50.0, 0.0), QUARTERS, {"B": (0.5, 1.5)}),
+        Case("1e-12 from a change point", slider_crank(5.0, 5.0 + 1e-12, 0.0), QUARTERS),
+        *_limited(slider_crank(50.0, 40.0, 0.0), math.asin(0.8), upright(50.0, 40.0)),
+        *_after(slider_crank(40.0, 120.0, 20.0), 9),
+    ),
+)
+
+AFTER: Lengths = (6.0, 1.0, 5.0, 4.0)
+"""A second loop that closes wherever the first one takes it."""
+
+SIX_BAR = CaseSet(
+    "six-bar",
+    Case("easy cycle", built_in("six-bar"), degrees(0, 360)),
+    (
+        Case(
+            "two change points in series",
+            six_bar(SQUARE, CHANGES),
+            TWO_TURNS,
+            {"B": (0, 1, 2, 3), "D": (1, 3)},
+            periods=2,
+        ),
+        *_limited(six_bar(SWINGS, AFTER), TOGGLE, stretched(SWINGS)),
+        *_after(built_in("six-bar"), 9),
+    ),
+)
+
+PRESS = CaseSet(
+    "press",
+    Case("easy cycle", built_in("press"), degrees(0, 360)),
+    _after(built_in("press"), 6, 9),
+)
+
+MECHANISMS = (FOUR_BAR, SLIDER_CRANK, SIX_BAR, PRESS)

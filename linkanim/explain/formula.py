@@ -1,0 +1,466 @@
+"""Build the formulas of a worked solution as trees, and set them in LaTeX or MathML.
+
+Its parts, in reading order:
+
+- Formulas of a worked solution as trees, whose leaves hold the digits that are printed.
+- Formulas set in LaTeX or in MathML, in symbols or with the numbers put in: one walk, two notations.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from html import escape
+from typing import Literal, NamedTuple
+from unicodedata import normalize
+
+# Formulas of a worked solution as trees, whose leaves hold the digits that are printed.
+#
+# A leaf is a symbol with its number in shown digits, or a number alone: whoever puts the digits in gets what
+# the tree evaluates to. Angles are in degrees. What is exactly 0 or 1 drops out as a formula is put
+# together.
+
+
+class Symbol(NamedTuple):
+    """A letter with its index `sub`; `mark` is a dot or two over it, or a prime or two behind it."""
+
+    letter: str
+    sub: str = ""
+    mark: Literal["", "˙", "¨", "′", "″"] = ""
+    bold: bool = False
+
+
+Operation = Literal["leaf", "+", "-", "·", "/", "neg", "sqrt", "square", "cos", "sin", "atan2", "arccos"]
+
+
+@dataclass(frozen=True, slots=True)
+class Formula:
+    """A formula: an operation on others, or a leaf with its `shown` digits, and a symbol if it has one.
+
+    A leaf `in_degrees` is printed with the sign of a degree.
+    """
+
+    operation: Operation
+    parts: tuple[Formula, ...] = ()
+    symbol: Symbol | None = None
+    shown: str = ""
+    in_degrees: bool = False
+
+    @property
+    def constant(self) -> float | None:
+        """The value of a number without a symbol; None of all else."""
+        return float(self.shown) if self.operation == "leaf" and self.symbol is None else None
+
+    @property
+    def value(self) -> float:
+        """What the shown digits evaluate to; ValueError or ZeroDivisionError where that is nothing."""
+        if self.operation == "leaf":
+            return float(self.shown)
+        return _VALUES[self.operation](*(part.value for part in self.parts))
+
+    @property
+    def symbolic(self) -> bool:
+        """Whether any symbol stands in it."""
+        return self.symbol is not None or any(part.symbolic for part in self.parts)
+
+    @property
+    def leaves(self) -> Iterator[Formula]:
+        """The leaves with a symbol, from left to right."""
+        if self.symbol is not None:
+            yield self
+        for part in self.parts:
+            yield from part.leaves
+
+    def __add__(self, other: Formula) -> Formula:
+        if self.constant == 0:
+            return other
+        if other.constant == 0:
+            return self
+        match other.operation:
+            case "neg":
+                return self - other.parts[0]
+            case "+":
+                return (self + other.parts[0]) + other.parts[1]
+            case "-":
+                return (self + other.parts[0]) - other.parts[1]
+        return Formula("+", (self, other))
+
+    def __sub__(self, other: Formula) -> Formula:
+        if other.constant == 0:
+            return self
+        if self.constant == 0:
+            return -other
+        if other.operation == "neg":
+            return self + other.parts[0]
+        return Formula("-", (self, other))
+
+    def __mul__(self, other: Formula) -> Formula:
+        for one, rest in ((self, other), (other, self)):
+            if one.constant == 0:
+                return ZERO
+            if one.constant in (1.0, -1.0):
+                return rest if one.constant == 1 else -rest
+            if one.operation == "neg":
+                return -(one.parts[0] * rest) if one is self else -(rest * one.parts[0])
+        return Formula("·", (self, other))
+
+    def __truediv__(self, other: Formula) -> Formula:
+        if self.constant == 0:
+            return ZERO
+        if other.constant == 1:
+            return self
+        return Formula("/", (self, other))
+
+    def __neg__(self) -> Formula:
+        if self.constant == 0:
+            return self
+        if self.constant is not None:
+            return number(f"-{self.shown}".removeprefix("--"), self.in_degrees)
+        return self.parts[0] if self.operation == "neg" else Formula("neg", (self,))
+
+
+_VALUES: Mapping[str, Callable[..., float]] = {
+    "+": lambda a, b: a + b,
+    "-": lambda a, b: a - b,
+    "·": lambda a, b: a * b,
+    "/": lambda a, b: a / b,
+    "neg": lambda a: -a,
+    "sqrt": math.sqrt,
+    "square": lambda a: a * a,
+    "cos": lambda a: math.cos(math.radians(a)),
+    "sin": lambda a: math.sin(math.radians(a)),
+    "atan2": lambda y, x: math.degrees(math.atan2(y, x)),
+    "arccos": lambda a: math.degrees(math.acos(a)),
+}
+
+
+def number(shown: str, in_degrees: bool = False) -> Formula:
+    """Return a number without a symbol, in the digits given."""
+    return Formula("leaf", shown=shown, in_degrees=in_degrees)
+
+
+ZERO, ONE, TWO = number("0"), number("1"), number("2")
+
+
+def sqrt(e: Formula) -> Formula:
+    """Return the root; of a square what is squared is taken as it is, which is not negative."""
+    return Formula("sqrt", (e,))
+
+
+def square(e: Formula) -> Formula:
+    """Return the square; 0 and 1 of 0 and ±1."""
+    return number(str(int(e.constant) ** 2)) if e.constant in (0.0, 1.0, -1.0) else Formula("square", (e,))
+
+
+def cos(e: Formula) -> Formula:
+    """Return the cosine of degrees; 0, 1 or -1 of a number of right angles."""
+    return _turned("cos", e, ("1", "0", "-1", "0"))
+
+
+def sin(e: Formula) -> Formula:
+    """Return the sine of degrees; 0, 1 or -1 of a number of right angles."""
+    return _turned("sin", e, ("0", "1", "0", "-1"))
+
+
+def _turned(operation: Literal["cos", "sin"], e: Formula, quarters: tuple[str, ...]) -> Formula:
+    if e.constant is not None and e.constant % 90 == 0:
+        return number(quarters[int(e.constant // 90) % 4])
+    return Formula(operation, (e,))
+
+
+def atan2(y: Formula, x: Formula) -> Formula:
+    """Return the angle of a way by its components, in degrees from -180 to 180."""
+    return Formula("atan2", (y, x))
+
+
+def arccos(e: Formula) -> Formula:
+    """Return the angle from 0 to 180 degrees that has this cosine."""
+    return Formula("arccos", (e,))
+
+
+class Components(NamedTuple):
+    """A vector by its components."""
+
+    x: Formula
+    y: Formula
+
+    def __add__(self, other: Components) -> Components:  # type: ignore[override]
+        return Components(self.x + other.x, self.y + other.y)
+
+    def __sub__(self, other: Components) -> Components:
+        return Components(self.x - other.x, self.y - other.y)
+
+    def __neg__(self) -> Components:
+        return Components(-self.x, -self.y)
+
+    def times(self, factor: Formula) -> Components:
+        """Return the vector times a number, which is written first."""
+        return Components(factor * self.x, factor * self.y)
+
+    def left(self) -> Components:
+        """Return the vector turned left by a right angle."""
+        return Components(-self.y, self.x)
+
+
+def dot(one: Components, other: Components) -> Formula:
+    """Return the scalar product."""
+    return one.x * other.x + one.y * other.y
+
+
+NOWHERE = Components(ZERO, ZERO)
+
+
+def along(angle: Formula) -> Components:
+    """Return the direction at an angle."""
+    return Components(cos(angle), sin(angle))
+
+
+# Formulas set in LaTeX or in MathML, in symbols or with the numbers put in: one walk, two notations.
+
+_GREEK = {
+    "α": "alpha", "β": "beta", "γ": "gamma", "δ": "delta", "θ": "theta", "ω": "omega", "φ": "varphi",
+    "ψ": "psi", "ξ": "xi", "η": "eta", "μ": "mu", "σ": "sigma", "π": "pi", "ℓ": "ell", "→": "rightarrow",
+}  # fmt: skip
+_INDEX = re.compile(r"([^\W\d_]+|\W+|[^\W0-9])|([0-9]+)")
+_NOT_SET = re.compile("[^\0-\u017f]|[ĦħĸĿŀŉŦŧſ]")
+"""What LaTeX's standard fonts have no letter for."""
+
+
+@dataclass(frozen=True)
+class Notation:
+    """How formulas are put together in one language; every function takes and gives markup."""
+
+    symbol: Callable[[Symbol], str]
+    number: Callable[[str, bool], str]
+    infix: Callable[[str, str, str], str]
+    fraction: Callable[[str, str], str]
+    root: Callable[[str], str]
+    squared: Callable[[str], str]
+    call: Callable[[str, Sequence[str]], str]
+    group: Callable[[str], str]
+    unit: Callable[[str], str]
+    matrix: Callable[[Sequence[Sequence[str]]], str]
+    name: Callable[[str], str]
+    blank: str
+
+
+def typeset(e: Formula, how: Notation, *, numbers: bool = False) -> str:
+    """Return a formula in symbols, or with the shown digits in their place."""
+    return _Setting(how, numbers).of(e)
+
+
+@dataclass(frozen=True)
+class _Setting:
+    """How a formula is set; a minus that is not the `first` sign of its formula stands in parentheses."""
+
+    how: Notation
+    numbers: bool
+
+    def of(self, e: Formula, first: bool = True) -> str:
+        how = self.how
+        match e.operation:
+            case "leaf":
+                return self._leaf(e, first)
+            case "+" | "-" | "·":
+                return self._infix(e, first)
+            case "neg":
+                return how.infix("-", "", self._grouped(e.parts[0], "+", "-", "neg"))
+            case "/":
+                return how.fraction(*map(self.of, e.parts))
+            case "sqrt":
+                return how.root(self.of(e.parts[0]))
+            case "square":
+                return how.squared(self._base(e.parts[0]))
+            case "atan2":
+                return how.call("atan2", [self.of(part) for part in e.parts])
+            case function:
+                part = e.parts[0]
+                text = self.of(part, first=False)
+                return how.call(function, [text if part.operation == "leaf" else how.group(text)])
+
+    def _leaf(self, e: Formula, first: bool) -> str:
+        if e.symbol is not None and not self.numbers:
+            return self.how.symbol(e.symbol)
+        text = self.how.number(e.shown, e.in_degrees)
+        return self.how.group(text) if e.shown.startswith("-") and not first else text
+
+    def _grouped(self, e: Formula, *kinds: str, first: bool = False) -> str:
+        """Return a part that is not the first, in parentheses if it is of these kinds."""
+        return self.how.group(self.of(e)) if e.operation in kinds else self.of(e, first)
+
+    def _base(self, e: Formula) -> str:
+        """Return what is squared, in parentheses but for a plain leaf."""
+        primed = e.symbol is not None and e.symbol.mark != "" and not self.numbers
+        return self.of(e, first=False) if e.operation == "leaf" and not primed else self.how.group(self.of(e))
+
+    def _infix(self, e: Formula, first: bool) -> str:
+        left, right = e.parts
+        if e.operation == "·":
+            sign = "·" if self._dotted(left, right) else ""
+            before = self._grouped(left, "+", "-", "neg", first=first)
+            return self.how.infix(sign, before, self._grouped(right, "+", "-", "neg"))
+        kinds = ("+", "-", "neg") if e.operation == "-" else ("neg",)
+        return self.how.infix(e.operation, self.of(left, first), self._grouped(right, *kinds))
+
+    def _dotted(self, left: Formula, right: Formula) -> bool:
+        """Whether a product needs its dot: before a number, and behind what a function could swallow."""
+        while right.operation == "·":
+            right = right.parts[0]
+        while left.operation == "·":
+            left = left.parts[1]
+        swallows = left.operation in ("cos", "sin", "atan2", "arccos")
+        return self.numbers or right.constant is not None or swallows
+
+
+def plain_latex(text: str) -> str:
+    """Return words as LaTeX sets them; what its standard fonts have no letter for is a question mark."""
+    return _NOT_SET.sub("?", normalize("NFC", text).translate(_TEXT))
+
+
+_TEXT = str.maketrans(
+    {
+        **{letter: f"$\\{name}$" for letter, name in _GREEK.items()},
+        **{char: f"\\{char}" for char in "#$%&_{}"},
+        **{chr(0x2080 + n): f"$_{n}$" for n in range(10)},
+        "\\": r"\textbackslash{}",
+        "~": r"\textasciitilde{}",
+        "^": r"\textasciicircum{}",
+        "°": r"\textdegree{}",
+        "–": "--",
+        "—": "---",
+        "−": "$-$",
+        "′": "$'$",
+        "²": r"$^{2}$",
+        "·": r"$\cdot$",
+        "’": "'",
+        "ⁿ": "$^{n}$",
+        "ᵗ": "$^{t}$",
+        "ᶜ": "$^{c}$",
+        "∞": r"$\infty$",
+        "≥": r"$\geq$",
+        "×": r"$\times$",
+        "…": r"\dots{}",
+    }
+)
+
+
+def _latex_index(text: str) -> str:
+    """Return an index or a name: letters, each number lowered."""
+    found = [
+        f"_{{{digits}}}" if digits and n else digits or _letters(word)
+        for n, (word, digits) in enumerate(_INDEX.findall(text))
+    ]
+    return "".join(found)
+
+
+def _letters(word: str) -> str:
+    if word in _GREEK:
+        return f"\\{_GREEK[word]} "
+    safe = re.sub(r"([#$%&_{}])", r"\\\1", re.sub(r"[\\~^]", "", normalize("NFC", word)))
+    if not safe.isascii():
+        return f"\\text{{{_NOT_SET.sub(lambda found: f'U{ord(found[0]):X}', safe)}}}"
+    return safe if len(safe) == 1 else f"\\mathrm{{{safe}}}"
+
+
+def _latex_symbol(symbol: Symbol) -> str:
+    letter = f"\\{_GREEK[symbol.letter]}" if symbol.letter in _GREEK else symbol.letter
+    if symbol.bold:
+        letter = f"\\mathbf{{{letter}}}"
+    letter = {"˙": f"\\dot{{{letter}}}", "¨": f"\\ddot{{{letter}}}"}.get(symbol.mark, letter)
+    primes = {"′": "'", "″": "''"}.get(symbol.mark, "")
+    return f"{letter}{primes}" + (f"_{{{_latex_index(symbol.sub)}}}" if symbol.sub else "")
+
+
+def _latex_unit(unit: str) -> str:
+    if unit in ("", "°"):
+        return unit and r"^{\circ}"
+    return r"\,\mathrm{" + unit.replace("²", "^{2}").replace("·", r"\,").replace(" ", r"\,") + "}"
+
+
+def _latex_call(name: str, parts: Sequence[str]) -> str:
+    if name == "atan2":
+        return r"\operatorname{atan2}\left(" + ",\\; ".join(parts) + r"\right)"
+    return f"\\{name} {parts[0]}"
+
+
+LATEX = Notation(
+    symbol=_latex_symbol,
+    number=lambda shown, degrees: shown + (r"^{\circ}" if degrees else ""),
+    infix=lambda sign, a, b: (
+        f"{a} {({'·': chr(92) + 'cdot', '': chr(92) + ','}).get(sign, sign)} {b}".strip()
+    ),
+    fraction=lambda a, b: f"\\frac{{{a}}}{{{b}}}",
+    root=lambda a: f"\\sqrt{{{a}}}",
+    squared=lambda a: f"{{{a}}}^{{2}}",
+    call=_latex_call,
+    group=lambda a: f"\\left({a}\\right)",
+    unit=_latex_unit,
+    matrix=lambda rows: r"\begin{bmatrix}" + r" \\ ".join(map(" & ".join, rows)) + r"\end{bmatrix}",
+    name=lambda name: f"${_latex_index(name)}$",
+    blank=r"\underline{\hspace{22mm}}",
+)
+
+
+def _mathml_index(text: str) -> str:
+    tokens = _INDEX.findall(text)
+    found: list[str] = []
+    for word, digits in tokens:
+        if digits and found:
+            found[-1] = f"<msub>{found[-1]}<mn>{digits}</mn></msub>"
+        else:
+            found.append(f"<mn>{digits}</mn>" if digits else f"<mi mathvariant='normal'>{escape(word)}</mi>")
+    return found[0] if len(found) == 1 else f"<mrow>{''.join(found)}</mrow>"
+
+
+def _mathml_symbol(symbol: Symbol) -> str:
+    letter = ("<mi class='v'>" if symbol.bold else "<mi>") + f"{symbol.letter}</mi>"
+    if symbol.mark in ("˙", "¨"):
+        letter = f"<mover accent='true'>{letter}<mo>{symbol.mark}</mo></mover>"
+    index = _mathml_index(symbol.sub) if symbol.sub else ""
+    prime = f"<mo>{symbol.mark}</mo>" if symbol.mark in ("′", "″") else ""
+    kind = "m" + "sub" * bool(index) + "sup" * bool(prime)
+    return f"<{kind}>{letter}{index}{prime}</{kind}>" if index or prime else letter
+
+
+def _mathml_number(shown: str, degrees: bool) -> str:
+    minus, digits = ("<mo form='prefix'>−</mo>", shown[1:]) if shown.startswith("-") else ("", shown)
+    return f"{minus}<mn>{digits}</mn>" + ("<mo class='u'>°</mo>" if degrees else "")
+
+
+def _mathml_unit(unit: str) -> str:
+    if unit in ("", "°"):
+        return unit and "<mo class='u'>°</mo>"
+    return f"<mspace width='.17em'></mspace><mtext>{escape(unit)}</mtext>"
+
+
+_THIN = "<mspace width='.12em'></mspace>"
+
+
+def _mathml_call(name: str, parts: Sequence[str]) -> str:
+    if name == "atan2":
+        parts = [f"<mo>(</mo>{'<mo>,</mo>'.join(parts)}<mo>)</mo>"]
+    return f"<mrow><mi>{name}</mi><mo>&#x2061;</mo>{_THIN}<mrow>{parts[0]}</mrow></mrow>"
+
+
+_SIGNS = {sign: f"<mo>{sign.replace('-', '−')}</mo>" for sign in "·+-="} | {"": f"<mo>&#x2062;</mo>{_THIN}"}
+
+MATHML = Notation(
+    symbol=_mathml_symbol,
+    number=_mathml_number,
+    infix=lambda sign, a, b: f"{a}{_SIGNS[sign]}{b}",
+    fraction=lambda a, b: f"<mfrac><mrow>{a}</mrow><mrow>{b}</mrow></mfrac>",
+    root=lambda a: f"<msqrt>{a}</msqrt>",
+    squared=lambda a: f"<msup><mrow>{a}</mrow><mn>2</mn></msup>",
+    call=_mathml_call,
+    group=lambda a: f"<mrow><mo>(</mo>{a}<mo>)</mo></mrow>",
+    unit=_mathml_unit,
+    matrix=lambda rows: (
+        "<mrow><mo>[</mo><mtable>"
+        + "".join(f"<mtr>{''.join(f'<mtd>{cell}</mtd>' for cell in row)}</mtr>" for row in rows)
+        + "</mtable><mo>]</mo></mrow>"
+    ),
+    name=lambda name: f"<math>{_mathml_index(name)}</math>",
+    blank="<mspace class='blank' width='6em'></mspace>",
+)

@@ -1,0 +1,541 @@
+"""Work out every kind of joint by hand, and write down the vector loops.
+
+Its parts, in reading order:
+
+- How each kind of joint is worked out by hand, and the one list of them.
+- The vector loops of a linkage: the two ways to each dyad's joint, as equations and as arrows.
+"""
+
+from __future__ import annotations
+
+from cmath import phase
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from itertools import takewhile
+from typing import Any, NamedTuple
+
+from linkanim.explain.formula import (
+    NOWHERE,
+    TWO,
+    ZERO,
+    Components,
+    Formula,
+    Symbol,
+    along,
+    arccos,
+    atan2,
+    cos,
+    number,
+    sin,
+    sqrt,
+    square,
+)
+from linkanim.explain.steps import (
+    ANGLE,
+    LENGTH,
+    Chapter,
+    Equation,
+    GuideLine,
+    LoopSide,
+    Order,
+    Rates,
+    Route,
+    Step,
+    Unknown,
+    UnknownRate,
+    ValueLine,
+    Work,
+    marked,
+    route_of_bar,
+    slide_sides,
+)
+from linkanim.mechanics.linkage import RPP, RPR, RRP, RRR, Brace, Crank, DrivenSlider, Gear, Joint, Pin, Rigid
+
+# How each kind of joint is worked out by hand, and the one list of them.
+
+
+def place_pin(pin: Pin, work: Work) -> None:
+    """Take where the pin stands, or work it out from its length and angle."""
+    if pin.polar is None or not pin.polar.length:
+        places = zip("xy", pin.position, strict=True)
+        x, y = (work.stated(Symbol(letter, pin.name), value, LENGTH) for letter, value in places)
+        work.points[pin.name] = Components(x, y)
+        return
+    base, (length, angle) = pin.polar.base, (pin.polar.length, pin.polar.angle)
+    origin = next((name for name, at in work.points.items() if at == NOWHERE), None)
+    index = work.names.length(start, pin.name) if (start := base or origin) else pin.name
+    arm = along(work.stated(Symbol("θ", index), angle, ANGLE)).times(
+        work.stated(Symbol("r", index), length, LENGTH)
+    )
+    work.let_point(pin.name, (work.points[base] if base else NOWHERE) + arm)
+
+
+def place_crank(crank: Crank, work: Work) -> None:
+    """Add the geared crank's angle, and where its pin lies."""
+    ends = crank.pivot, crank.name
+    if crank.gear is not None:
+        mate = work.linkage.crank(crank.gear.mate)
+        offset = work.stated(Symbol("δ", crank.name), crank.gear.offset, ANGLE, "angle of the gears at θ = 0")
+        driven = _ratio(crank.gear) * work.angle_of(mate.pivot, mate.name) + offset
+        work.angles[ends] = work.let(work.angle_symbol(*ends), driven, ANGLE)
+    work.let_point(crank.name, work.points[crank.pivot] + work.bar(*ends, crank.length))
+
+
+def move_crank(crank: Crank, rates: Rates, order: Order) -> None:
+    """Add how the geared crank turns, and how its pin moves."""
+    ends, work = (crank.pivot, crank.name), rates.work
+    if crank.gear is not None:
+        mate = work.linkage.crank(crank.gear.mate)
+        driver = rates.rate(work.frame((mate.pivot, mate.name)), order)
+        rates.let_rate(work.frame(ends), _ratio(crank.gear) * driver, order)
+    rates.let_carried(crank.name, ends, work.bar(*ends, crank.length), order)
+
+
+def _ratio(gear: Gear) -> Formula:
+    top, bottom = (number(str(part)) for part in gear.ratio.as_integer_ratio())
+    return top / bottom
+
+
+def place_slider(slider: DrivenSlider, work: Work) -> None:
+    """Add where the driven slider lies."""
+    guide = work.guide(slider.line, slider.name)
+    work.let_point(slider.name, on_guide(work, guide, work.slides[slider.name]))
+
+
+def move_slider(slider: DrivenSlider, rates: Rates, order: Order) -> None:
+    """Add how the driven slider moves."""
+    guide = rates.work.guide(slider.line, slider.name)
+    rates.let_moving(slider.name, guide.direction.times(rates.rate(slider.name, order)), order)
+
+
+def route_of_guide(joint: DrivenSlider | RRP | RPP, work: Work) -> Route:
+    """Return the way along a joint's guide."""
+    guide = work.guide(joint.line, joint.name)
+    return Route(guide.through, slide_sides(work, guide, joint.name))
+
+
+def place_point(point: Rigid, work: Work) -> None:
+    """Add where a point of a body lies: along the line of two of its joints, and to the left."""
+    work.let_point(
+        point.name, work.points[point.on[0]] + body_point(work, point.on, point.at, legs(point, work))
+    )
+
+
+def legs(point: Rigid, work: Work) -> tuple[Symbol, Symbol]:
+    """Return the symbols of how far a point lies along its body's line, and to the left."""
+    known = iter(work.names.legs.get(point.name, ()))
+    named = [Symbol("r", next(known, "")) if value else Symbol("") for value in point.at]
+    if point.at[1] == 0 and not named[0].sub:
+        return Symbol("r", work.names.length(point.on[0], point.name)), Symbol("")
+    usual = Symbol("p", point.name), Symbol("q", point.name)
+    return tuple(own if own.sub else other for own, other in zip(named, usual, strict=True))  # type: ignore[return-value]
+
+
+def body_point(
+    work: Work, on: tuple[str, str], at: tuple[float, float], names: tuple[Symbol, Symbol]
+) -> Components:
+    """Return how far a point of a body lies from its first joint."""
+    ahead = along(work.angle_of(*on))
+    about = f"along {marked(on[0])}–{marked(on[1])}", f"to the left of {marked(on[0])}–{marked(on[1])}"
+    p, q = (
+        work.stated(name, value, LENGTH, words) for name, value, words in zip(names, at, about, strict=True)
+    )
+    return ahead.times(p) + ahead.left().times(q)
+
+
+def move_point(point: Rigid, rates: Rates, order: Order) -> None:
+    """Add how a point of a body moves."""
+    points = rates.work.points
+    rates.let_carried(point.name, point.on, points[point.name] - points[point.on[0]], order)
+
+
+def route_of_point(point: Rigid, work: Work) -> Route:
+    """Return the way from its body's first joint."""
+    base, points = point.on[0], work.points
+    name, other = legs(point, work)
+    index = name.sub if not other.letter and name.letter == "r" else base + point.name
+    return Route(base, (LoopSide(Symbol("R", index, bold=True), points[point.name] - points[base]),))
+
+
+def rest(pin: Pin, rates: Rates, order: Order) -> None:
+    """Leave the pin where it is."""
+    rates.moving.setdefault(pin.name, []).append(NOWHERE)
+
+
+def place_bars(joint: RRR, work: Work) -> None:
+    """Add the cosine rule, with the bars' angles and where they meet."""
+    (p, q), name = joint.ends, joint.name
+    way = work.points[q] - work.points[p]
+    work.say(
+        f"From {marked(p)} to {marked(q)} the distance d and its direction δ, then the triangle of both bars "
+        "by the cosine rule:"
+    )
+    d = work.let(Symbol("d", name), sqrt(square(way.x) + square(way.y)), LENGTH)
+    symbol = work.angle_symbol(p, name)
+    if d.value == 0:
+        work.say("Both ends lie in one point, where every direction closes; the motion takes this one:")
+        at = complex(*work.pose.position[name]) - complex(*work.pose.position[p])
+        work.angles[p, name] = work.known(
+            symbol, phase(at), ANGLE, f"from the motion through {marked(p)} = {marked(q)}"
+        )
+    else:
+        work.angles[p, name] = work.let(symbol, _direction_of_bar(joint, work, way, d), ANGLE)
+    work.let_point(name, work.points[p] + work.bar(p, name, joint.lengths[0]))
+    work.angle_of(q, name)
+
+
+def _direction_of_bar(joint: RRR, work: Work, way: Components, d: Formula) -> Formula:
+    """Return the first bar's angle by the cosine rule, to the side on which the joint lies."""
+    a, b = (work.length(end, joint.name, length) for end, length in joint.bars)
+    ahead = work.let(Symbol("δ", joint.name), atan2(way.y, way.x), ANGLE)
+    corner = _corner((square(a) + square(d) - square(b)) / (TWO * a * d), work, joint.name)
+    left = _left(joint, work)
+    work.say(_why_left(joint, left))
+    return ahead + corner if left else ahead - corner
+
+
+def _corner(cosine: Formula, work: Work, name: str) -> Formula:
+    """Add the triangle's angle; at a limit, where rounding takes its cosine past 1, it is 0 or 180°."""
+    if abs(cosine.value) <= 1:
+        return work.let(Symbol("γ", name), arccos(cosine), ANGLE)
+    work.say("To the digits shown the bars lie in one line: the cosine of γ is rounded past 1.")
+    return number("0" if cosine.value > 0 else "180", in_degrees=True)
+
+
+def _left(joint: RRR, work: Work) -> bool:
+    """Tell whether the joint lies left of the way between its bars' ends at this pose."""
+    p, q, at = (complex(*work.pose.position[name]) for name in (*joint.ends, joint.name))
+    return ((q - p).conjugate() * (at - p)).imag >= 0
+
+
+def _why_left(joint: RRR, left: bool) -> str:
+    p, q = joint.ends
+    side, sign = ("left", "added") if left else ("right", "taken off")
+    found = f"Here {marked(joint.name)} lies {side} of {marked(p)} → {marked(q)}, so γ is {sign}"
+    if joint.side_of is not None:
+        return f"{found}: the closure to which the motion leads from its start."
+    if left == (joint.side > 0):
+        return f"{found}: as the scene names it."
+    return f"{found}: the motion came to this closure through a limit or a change point."
+
+
+def move_bars(joint: RRR, rates: Rates, order: Order) -> None:
+    """Add the two equations for how the bars turn, and how their pin moves."""
+    work, (p, q), name = rates.work, joint.ends, joint.name
+    (_, a), (_, b) = joint.bars
+    one, other = work.bar(p, name, a), work.bar(q, name, b)
+    frames = work.frame((p, name)), work.frame((q, name))
+    right = rates.of(q, order) - rates.of(p, order)
+    if order == 2:
+        right = right + rates.centripetal(frames[0], one) - rates.centripetal(frames[1], other)
+    rates.solve(
+        name, (UnknownRate(frames[0], one.left()), UnknownRate(frames[1], -other.left())), right, order
+    )
+    rates.let_carried(name, (p, name), one, order)
+
+
+def loop_of_bars(joint: RRR, work: Work) -> tuple[Route, Route]:
+    """Return both ways to the pin."""
+    return route_of_bar(joint, work), route_of_bar(joint, work, 1)
+
+
+def beside_guide(work: Work, guide: GuideLine, point: str, joint: str) -> tuple[Formula, Formula]:
+    """Add how far a point lies forward along a guide, and to the left of it."""
+    way, u = work.points[point] - work.points[guide.through], guide.direction
+    forward = work.let(Symbol("f", joint), way.x * u.x + way.y * u.y, LENGTH)
+    return forward, work.let(Symbol("n", joint), way.y * u.x - way.x * u.y - guide.offset, LENGTH)
+
+
+def on_guide(work: Work, guide: GuideLine, slide: Formula) -> Components:
+    """Return the place on a guide that is so far along it."""
+    u = guide.direction
+    return work.points[guide.through] + u.times(slide) + u.left().times(guide.offset)
+
+
+def place_slider_on_bar(joint: RRP, work: Work) -> None:
+    """Add the right-angled triangle of bar and guide, and where the slider is."""
+    name, end = joint.name, joint.end
+    guide = work.guide(joint.line, name)
+    work.say(
+        f"How far {marked(end)} lies along the guide from {marked(guide.through)} (f) and to its left (n), "
+        "then the slider's way s:"
+    )
+    forward, aside = beside_guide(work, guide, end, name)
+    margin = square(work.length(end, name, joint.length)) - square(aside)
+    if margin.value < 0:
+        work.say("To the digits shown the bar stands square to the guide: what is under the root is 0.")
+    root = sqrt(margin) if margin.value >= 0 else ZERO
+    ahead = _slider_ahead(joint, work)
+    work.say(_why_ahead(joint, ahead))
+    slide = work.let(work.names.slide(name), forward + root if ahead else forward - root, LENGTH)
+    work.slides[name] = slide
+    work.let_point(name, on_guide(work, guide, slide))
+    work.angle_of(end, name)
+
+
+def _slider_ahead(joint: RRP, work: Work) -> bool:
+    """Tell whether the slider is ahead of the bar's end at this pose."""
+    end, at = (complex(*work.pose.position[name]) for name in (joint.end, joint.name))
+    u = work.guide(joint.line, joint.name).direction
+    return ((at - end) * complex(u.x.value, -u.y.value)).real >= 0
+
+
+def _why_ahead(joint: RRP, ahead: bool) -> str:
+    way, sign = ("ahead of", "plus") if ahead else ("behind", "minus")
+    named = ahead == (joint.side > 0)
+    why = "as the scene names it" if named else "the motion came to it through a limit or a change point"
+    return f"Here {marked(joint.name)} is {way} {marked(joint.end)}, so the root has a {sign}: {why}."
+
+
+def move_slider_on_bar(joint: RRP, rates: Rates, order: Order) -> None:
+    """Add the two equations for how the slider slides and the bar turns, and how the joint moves."""
+    work, name, end = rates.work, joint.name, joint.end
+    guide, frame = work.guide(joint.line, name), work.frame((end, name))
+    bar, u = work.bar(end, name, joint.length), guide.direction
+    unknowns = UnknownRate(name, u), UnknownRate(frame, -bar.left())
+    right = rates.of(end, order) - rates.guided(guide, name, order, unknowns[0])
+    if order == 2:
+        right = right - rates.centripetal(frame, bar)
+    rates.solve(name, unknowns, right, order)
+    if joint.line.on is None:
+        rates.let_moving(name, u.times(rates.rate(name, order)), order)
+    else:
+        rates.let_carried(name, (end, name), bar, order)
+
+
+def loop_of_slider_on_bar(joint: RRP, work: Work) -> tuple[Route, Route]:
+    """Return both ways to the slider."""
+    return route_of_bar(joint, work), route_of_guide(joint, work)
+
+
+def place_slot(joint: RPR, work: Work) -> None:
+    """Add the way along the slot, the slotted bar's angle and where its end is."""
+    name, pivot, pin = joint.name, joint.pivot, joint.through
+    way = work.points[pin] - work.points[pivot]
+    offset = work.stated(Symbol("e", name), joint.offset, LENGTH, "the slot's offset to the left")
+    work.say(
+        f"The slotted bar turns about {marked(pivot)} and its slot passes through {marked(pin)}, "
+        "s ahead of it:"
+    )
+    root = sqrt(square(way.x) + square(way.y) - square(offset))
+    slide = work.let(work.names.slide(name), root if _pin_ahead(joint, work) else -root, LENGTH)
+    work.slides[name] = slide
+    turned = atan2(slide * way.y - offset * way.x, slide * way.x + offset * way.y)
+    work.angles[pivot, name] = work.let(work.angle_symbol(pivot, name), turned, ANGLE)
+    work.let_point(name, work.points[pivot] + work.bar(pivot, name, joint.length))
+
+
+def _pin_ahead(joint: RPR, work: Work) -> bool:
+    """Tell whether the pin is ahead of the pivot along the bar at this pose."""
+    pivot, pin, at = (complex(*work.pose.position[name]) for name in (joint.pivot, joint.through, joint.name))
+    return ((pin - pivot) * (at - pivot).conjugate()).real >= 0
+
+
+def move_slot(joint: RPR, rates: Rates, order: Order) -> None:
+    """Add the two equations for how the bar turns and the pin slides, and how the bar's end moves."""
+    work, name, pivot = rates.work, joint.name, joint.pivot
+    frame, u = work.frame((pivot, name)), along(work.angle_of(pivot, name))
+    arm = work.points[joint.through] - work.points[pivot]
+    right = rates.of(joint.through, order) - rates.of(pivot, order)
+    if order == 2:
+        across = u.left().times(TWO * rates.rate(frame, 1) * rates.rate(name, 1))
+        right = right + rates.centripetal(frame, arm) - across
+    rates.solve(name, (UnknownRate(frame, arm.left()), UnknownRate(name, u)), right, order)
+    rates.let_carried(name, (pivot, name), work.bar(pivot, name, joint.length), order)
+
+
+def loop_of_slot(joint: RPR, work: Work) -> tuple[Route, Route]:
+    """Return both ways to the pin in the slot."""
+    pivot, name, angle = joint.pivot, joint.name, work.angle_of(joint.pivot, joint.name)
+    offset = work.stated(Symbol("e", name), joint.offset, LENGTH)
+    slot = GuideLine(pivot, along(angle), offset, work.frame((pivot, name)), angle)
+    return Route(joint.through, ()), Route(pivot, slide_sides(work, slot, name))
+
+
+def place_yoke(joint: RPP, work: Work) -> None:
+    """Add where the slot crosses the guide, and how far the pin is along the slot."""
+    name = joint.name
+    guide, slot = work.guide(joint.line, name), _slot(joint, work)
+    work.say(
+        f"How far {marked(joint.pin)} lies along the guide from {marked(guide.through)} (f) and to its left "
+        "(n), and where the slot crosses it:"
+    )
+    forward, aside = beside_guide(work, guide, joint.pin, name)
+    work.slides[name] = work.let(work.names.slide(name), forward - aside * (cos(slot) / sin(slot)), LENGTH)
+    work.let_point(name, on_guide(work, guide, work.slides[name]))
+    work.slides["t" + name] = work.let(Symbol("t", work.names.slide(name).sub), aside / sin(slot), LENGTH)
+
+
+def _slot(joint: RPP, work: Work) -> Formula:
+    """Return the slot's direction from the guide's."""
+    return work.stated(Symbol("σ", joint.name), joint.slot, ANGLE, "direction of its slot from its guide")
+
+
+def _along_slot(joint: RPP, work: Work, guide: GuideLine) -> Components:
+    """Return the slot's direction."""
+    slot = _slot(joint, work)
+    if guide.angle.constant is not None and slot.constant is not None:
+        return along(work.stated(Symbol("ψ", joint.name), joint.line.angle + joint.slot, ANGLE))
+    return along(slot + guide.angle)
+
+
+def move_yoke(joint: RPP, rates: Rates, order: Order) -> None:
+    """Add the two equations for how bar and pin slide, and how the joint moves."""
+    work, name = rates.work, joint.name
+    guide = work.guide(joint.line, name)
+    bar = UnknownRate(name, guide.direction)
+    unknowns = bar, UnknownRate(name, _along_slot(joint, work, guide), "t")
+    right = rates.of(joint.pin, order) - rates.guided(guide, joint.pin, order, *unknowns)
+    rates.solve(name, unknowns, right, order)
+    carried = rates.guided(guide, name, order, bar)
+    rates.let_moving(name, carried + bar.column.times(rates.rate(name, order)), order)
+
+
+def loop_of_yoke(joint: RPP, work: Work) -> tuple[Route, Route]:
+    """Return both ways to the pin."""
+    w = _along_slot(joint, work, work.guide(joint.line, joint.name))
+    index = work.names.slide(joint.name).sub
+    last = LoopSide(Symbol("T", index, bold=True), w.times(work.slides["t" + joint.name]))
+    start, sides = route_of_guide(joint, work)
+    return Route(joint.pin, ()), Route(start, (*sides, last))
+
+
+@dataclass(frozen=True, slots=True)
+class KindSteps:
+    """The steps of one kind of joint.
+
+    `place` adds the lines of its position, `move` those of its rates of an order. `route` is the way to it
+    from a joint before it, `loop` of a dyad the two ways that meet.
+    """
+
+    place: Callable[[Any, Work], None]
+    move: Callable[[Any, Rates, Order], None]
+    route: Callable[[Any, Work], Route] | None = None
+    loop: Callable[[Any, Work], tuple[Route, Route]] | None = None
+
+
+KINDS: Mapping[type[Joint], KindSteps] = {
+    Pin: KindSteps(place_pin, rest),
+    Crank: KindSteps(place_crank, move_crank, route_of_bar),
+    DrivenSlider: KindSteps(place_slider, move_slider, route_of_guide),
+    Rigid: KindSteps(place_point, move_point, route_of_point),
+    Brace: KindSteps(place_point, move_point, route_of_point),
+    RRR: KindSteps(place_bars, move_bars, route_of_bar, loop_of_bars),
+    RRP: KindSteps(place_slider_on_bar, move_slider_on_bar, route_of_bar, loop_of_slider_on_bar),
+    RPR: KindSteps(place_slot, move_slot, route_of_bar, loop_of_slot),
+    RPP: KindSteps(place_yoke, move_yoke, route_of_guide, loop_of_yoke),
+}
+"""Every kind that a linkage can be made of."""
+
+
+# The vector loops of a linkage: the two ways to each dyad's joint, as equations and as arrows.
+
+CYLINDER = Symbol("ℓ")
+"""The length of the cylinder that drives."""
+
+
+class LoopArrow(NamedTuple):
+    """A vector of a loop where it lies, x + yi in the scene's unit."""
+
+    symbol: Symbol
+    begin: complex
+    end: complex
+
+
+class VectorLoop(NamedTuple):
+    """A dyad's loop: what is said of it, and its vectors."""
+
+    step: Step
+    arrows: tuple[LoopArrow, ...]
+
+
+class _Chain(NamedTuple):
+    """The way from a fixed pin: the pin, and the vectors with the places at which they begin."""
+
+    root: str
+    sides: tuple[tuple[LoopSide, complex], ...]
+
+
+def loops_of(work: Work, places: Chapter) -> tuple[VectorLoop, ...]:
+    """Return the loop of each dyad, in the order in which they are solved by the lines of their positions."""
+    found = {
+        step.title: {item.value.symbol for item in step.items if isinstance(item, ValueLine)}
+        for step in places.steps
+    }
+    dyads = (joint for joint in work.linkage.joints if KINDS[type(joint)].loop)
+    loops = tuple(_loop(joint, work, found.get(f"Joint {marked(joint.name)}", set())) for joint in dyads)
+    lines = [item for step in places.steps for item in step.items if isinstance(item, ValueLine)]
+    length = next((line.value for line in lines if line.value.symbol == CYLINDER), None)
+    return loops if length is None else (_cylinder(length, work), *loops)
+
+
+def _cylinder(length: Formula, work: Work) -> VectorLoop:
+    """Return the loop of a cylinder that drives the crank, from the crank's pivot over its foot and head."""
+    between, crank = work.linkage.drive.actuator.along, work.linkage.crank(work.linkage.drive.joint)
+    assert between is not None
+    (pivot, foot, head), turned = (crank.pivot, *between), work.angles[crank.pivot, crank.name]
+    ends = [work.place(name) for name in (pivot, foot, head)]
+    tilt = Formula("leaf", symbol=Symbol("θ", CYLINDER.letter), shown="0")
+    names = [Symbol(letter, index, bold=True) for letter, index in (("R", "g"), ("L", ""), ("R", "c"))]
+    base, arm, way = (
+        work.points[foot] - work.points[pivot],
+        work.points[head] - work.points[pivot],
+        along(tilt),
+    )
+    bold = [Formula("leaf", symbol=name, shown="0") for name in names]
+    equations = (
+        Equation(bold[0] + bold[1], bold[2]),
+        Equation(base.x + length * way.x, arm.x),
+        Equation(base.y + length * way.y, arm.y),
+    )
+    arrows = tuple(
+        LoopArrow(name, ends[begin], ends[end])
+        for name, begin, end in zip(names, (0, 1, 0), (1, 2, 2), strict=True)
+    )
+    return VectorLoop(Step("Loop of the cylinder", (*equations, Unknown((turned, tilt)))), arrows)
+
+
+def _loop(joint: Joint, work: Work, found: set[Symbol | None]) -> VectorLoop:
+    close = KINDS[type(joint)].loop
+    assert close is not None
+    one, other = (_from_ground(route, work) for route in close(joint, work))
+    same = sum(
+        1 for _ in takewhile(lambda pair: pair[0] == pair[1], zip(one.sides, other.sides, strict=False))
+    )
+    left, right = list(one.sides[same:]), list(other.sides[same:])
+    if one.root != other.root:
+        right.insert(0, _ground(work, one.root, other.root))
+    sides = [[side for side, _ in way] for way in (left, right)]
+    bold = [sum((Formula("leaf", symbol=side.symbol, shown="0") for side in way), ZERO) for way in sides]
+    parts = [[sum((side.vector[n] for side in way), ZERO) for way in sides] for n in (0, 1)]
+    equations = [Equation(*pair) for pair in (bold, *parts)]
+    arrows = tuple(LoopArrow(side.symbol, at, at + _value(side)) for side, at in (*left, *right))
+    known = {leaf.symbol: leaf for pair in parts for side in pair for leaf in side.leaves}
+    unknown = tuple(leaf for symbol, leaf in known.items() if symbol in found)
+    return VectorLoop(Step(f"Loop of {marked(joint.name)}", (*equations, Unknown(unknown))), arrows)
+
+
+def _ground(work: Work, start: str, end: str) -> tuple[LoopSide, complex]:
+    """Return the way between two fixed pins, by length and angle where it is stated so."""
+    index, way = work.names.length(start, end), work.points[end] - work.points[start]
+    length, angle = (work.given.get(Symbol(letter, index)) for letter in "rθ")
+    if length and angle:
+        way = along(angle.value).times(length.value)
+    return LoopSide(Symbol("R", index, bold=True), way), work.place(start)
+
+
+def _from_ground(route: Route, work: Work) -> _Chain:
+    """Return the whole way to where a route leads, from a fixed pin."""
+    sides, at = [], work.place(route.start)
+    for side in route.sides:
+        sides.append((side, at))
+        at += _value(side)
+    further = KINDS[type(work.linkage.joint(route.start))].route
+    if further is None:
+        return _Chain(route.start, tuple(sides))
+    before = _from_ground(further(work.linkage.joint(route.start), work), work)
+    return _Chain(before.root, (*before.sides, *sides))
+
+
+def _value(side: LoopSide) -> complex:
+    return complex(side.vector.x.value, side.vector.y.value)

@@ -1,0 +1,611 @@
+"""Collect the lines of a worked solution, each number in the digits that it shows.
+
+Its parts, in reading order:
+
+- What a worked solution consists of, whatever it is printed as: chapters, steps, lines.
+- The symbols of a worked solution: those of the figure's dimensions and of the scene's links.
+- A worked solution while it is put together: what is known so far, each number in the digits it shows.
+- Velocities and accelerations, or kinematic coefficients: what is known of them so far, and the lines.
+- Vectors from joint to joint, of which loops are made.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from decimal import Decimal
+from functools import cached_property
+from typing import Literal, NamedTuple
+
+from linkanim.explain.formula import (
+    NOWHERE,
+    TWO,
+    ZERO,
+    Components,
+    Formula,
+    Symbol,
+    along,
+    atan2,
+    number,
+    square,
+)
+from linkanim.mechanics.linkage import Crank, Damper, Joint, Linkage, Spring, holding
+from linkanim.mechanics.linkage import Line as Travel
+from linkanim.mechanics.motion import Pose
+from linkanim.mechanics.quantities import link_labels
+from linkanim.picture.dimensions import symbols
+from linkanim.picture.figure import Figure
+
+# What a worked solution consists of, whatever it is printed as: chapters, steps, lines.
+
+
+@dataclass(frozen=True, slots=True)
+class Words:
+    """A sentence; names of joints in it are `marked`."""
+
+    text: str
+
+
+def marked(joint: str) -> str:
+    """Return a joint's name marked as one in a text, by characters that no text of a scene has in it."""
+    return f"\x02{joint}\x03"
+
+
+MARKED = re.compile("\x02([^\x02\x03]*)\x03")
+"""A name that is marked."""
+
+
+@dataclass(frozen=True, slots=True)
+class ValueLine:
+    """A symbol = a formula = the formula with its numbers = a value, in shown digits, with its unit."""
+
+    formula: Formula
+    value: Formula
+    unit: str
+
+
+@dataclass(frozen=True, slots=True)
+class Given:
+    """A number that the scene states: a symbol = a value with its unit."""
+
+    value: Formula
+    unit: str
+    words: str
+
+
+@dataclass(frozen=True, slots=True)
+class Equation:
+    """Two sides in symbols alone."""
+
+    left: Formula
+    right: Formula
+
+
+@dataclass(frozen=True, slots=True)
+class System:
+    """Two linear equations for two unknowns: formulas, the same with numbers, then the values.
+
+    `formulas` are the rows of the matrix, each with its right side behind it; `values` are leaves.
+    """
+
+    unknowns: tuple[Symbol, Symbol]
+    formulas: tuple[tuple[Formula, Formula, Formula], tuple[Formula, Formula, Formula]]
+    values: tuple[tuple[Formula, Formula, Formula], tuple[Formula, Formula, Formula]]
+
+    @property
+    def worked_out(self) -> bool:
+        """Whether any entry is more than a number that is known already."""
+        return any(entry.operation != "leaf" for row in self.formulas for entry in row)
+
+
+@dataclass(frozen=True, slots=True)
+class Unknown:
+    """The symbols that two equations are solved for."""
+
+    symbols: tuple[Formula, ...]
+
+
+Item = Words | ValueLine | Given | Equation | System | Unknown
+
+
+@dataclass(frozen=True)
+class Step:
+    """One stage of a chapter under a heading, such as a joint; names of joints are marked."""
+
+    title: str
+    items: tuple[Item, ...]
+
+
+@dataclass(frozen=True)
+class Chapter:
+    """A part of the solution."""
+
+    title: str
+    steps: tuple[Step, ...]
+
+    @property
+    def items(self) -> Iterator[Item]:
+        """All that stands in it."""
+        return (item for step in self.steps for item in step.items)
+
+
+NOTHING = 5e-7
+"""Of what a number is at a typical length and rate: less is nothing but rounding."""
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """A number that the solution leads to: of which quantity, and below what it is nothing but rounding.
+
+    It is `last` where no place and no rate follows from it.
+    """
+
+    token: str
+    value: Formula
+    unit: str = ""
+    least: float = NOTHING
+    last: bool = False
+
+
+# The symbols of a worked solution: those of the figure's dimensions and of the scene's links.
+
+Pair = tuple[str, str]
+_PLAIN = str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789")
+
+
+@dataclass(frozen=True)
+class SymbolNames:
+    """What lengths, angles and bodies of a linkage are called.
+
+    `lengths` are the indices of the figure's lengths, by the two joints; `legs` those of a point of a body,
+    along its line and beside it, by its name.
+    """
+
+    linkage: Linkage
+    lengths: Mapping[frozenset[str], str]
+    legs: Mapping[str, tuple[str, ...]]
+
+    def length(self, start: str, end: str) -> str:
+        """Return the index of the length between two joints."""
+        return self.lengths.get(frozenset((start, end)), start + end)
+
+    def angle(self, start: str, end: str) -> str:
+        """Return the index of the angle of the way from one joint to another: its body's, or its own."""
+        return self._angles.get((start, end), start + end)
+
+    def turning(self, frame: int) -> str:
+        """Return the index of the body that a rigid body of the linkage is."""
+        return self._bodies[frame]
+
+    def slide(self, joint: str) -> Symbol:
+        """Return the symbol of a joint's way along its guide."""
+        labels = link_labels(self.linkage)
+        block = next((labels[body.name] for body in self.linkage.bodies if body.slider == joint), "")
+        return Symbol("s", block if block.isdecimal() else joint)
+
+    @cached_property
+    def _angles(self) -> dict[Pair, str]:
+        labels = link_labels(self.linkage)
+        turning = [body for body in self.linkage.bodies if body.slider is None]
+        return {(body.joints[0], body.joints[1]): labels[body.name] for body in reversed(turning)}
+
+    @cached_property
+    def _bodies(self) -> dict[int, str]:
+        found = {n: "".join(list(frame)[:2]) for n, frame in enumerate(self.linkage.rigid_bodies)}
+        for ends, label in self._angles.items():
+            frame = holding(self.linkage.rigid_bodies, ends)
+            if frame is not None:
+                found[frame] = label
+        return found
+
+
+def names_of(figure: Figure) -> SymbolNames:
+    """Return the symbols of a figure's linkage."""
+    found = [length for length in symbols(figure).dimensions if not length.angle]
+    bars = {frozenset(m.frame): m for m in reversed(found) if (m.begin, m.end) == (0, 1)}
+    legs = {
+        point.name: tuple(
+            _index(m.symbol)
+            for m in found
+            if m.own == {*point.on, point.name} and m.frame == point.on and (m.begin, m.end) != (0, 1)
+        )
+        for point in symbols(figure).points
+    }
+    return SymbolNames(
+        figure.linkage, {ends: _index(m.symbol) for ends, m in bars.items() if len(ends) == 2}, legs
+    )
+
+
+def _index(symbol: str) -> str:
+    return symbol.translate(_PLAIN)[1:]
+
+
+# A worked solution while it is put together: what is known so far, each number in the digits it shows.
+#
+# What follows is computed from shown digits alone, so each line gives the next one to its last digit.
+
+
+class Powers(NamedTuple):
+    """What a number measures: powers of a length and of a rate, or an angle in degrees."""
+
+    length: int = 0
+    rate: int = 0
+    angle: bool = False
+
+
+RATIO, LENGTH = Powers(), Powers(1)
+ANGLE = Powers(angle=True)
+
+
+@dataclass(frozen=True)
+class Scale:
+    """How numbers are shown: to so many digits of a typical length, and of what it is at a typical rate.
+
+    A rate is `per` something: s for time; the input's own unit for kinematic coefficients, "" for radians.
+    """
+
+    digits: int
+    unit: str
+    length: float
+    rate: float
+    per: str = "s"
+
+    def decimals(self, measure: Powers) -> int:
+        """Return how many decimals a number of a measure has."""
+        if measure.angle:
+            return self.digits - 2
+        return decimals(self.length**measure.length * self.rate**measure.rate, self.digits)
+
+    def outcome(self, token: str, value: Formula, measure: Powers) -> Outcome:
+        """Return a number as a result: what is less than a share of its usual size is nothing."""
+        size = 100.0 if measure.angle else self.length**measure.length * self.rate**measure.rate
+        return Outcome(token, value, self.unit_of(measure), NOTHING * size)
+
+    def outcomes(self, token: str, vector: Components, order: int) -> Iterator[Outcome]:
+        """Yield the components of a place, or of its rate, as results."""
+        for axis, value in zip("xy", vector, strict=True):
+            yield self.outcome(f"{token}.{axis}", value, Powers(1, order))
+
+    def unit_of(self, measure: Powers) -> str:
+        """Return a measure's unit."""
+        if measure.angle:
+            return "°"
+        powers = [(self.unit, measure.length), (self.per, -measure.rate)]
+        if self.per == self.unit:
+            powers = [(self.unit, measure.length - measure.rate)]
+        above = "·".join(_power(unit, n) for unit, n in powers if unit and n > 0)
+        below = "·".join(_power(unit, -n) for unit, n in powers if unit and n < 0)
+        angular = "rad" if measure.rate and not measure.length and self.per else "1"
+        return f"{above or angular}/{below}" if below else above
+
+
+def _power(unit: str, power: int) -> str:
+    return unit if power == 1 else f"{unit}²"
+
+
+@dataclass
+class Work:
+    """The positions known so far at a pose, and the lines that led to them; vectors by their joints' names.
+
+    `slides` are ways along guides; `given` what the scene states, in the order in which it is needed;
+    `places` the decimals of symbols that have fewer than the scale gives them.
+    """
+
+    linkage: Linkage
+    names: SymbolNames
+    pose: Pose
+    scale: Scale
+    places: Mapping[Symbol, int] = field(default_factory=dict)
+    points: dict[str, Components] = field(default_factory=dict)
+    angles: dict[tuple[str, str], Formula] = field(default_factory=dict)
+    slides: dict[str, Formula] = field(default_factory=dict)
+    given: dict[Symbol, Given] = field(default_factory=dict)
+    items: list[Item] = field(default_factory=list)
+
+    def say(self, text: str) -> None:
+        """Add a sentence."""
+        self.items.append(Words(text))
+
+    def let(self, symbol: Symbol, formula: Formula, measure: Powers, scale: Scale | None = None) -> Formula:
+        """Add the line that gives a symbol its value, and return it; a number alone needs no line."""
+        scale = scale or self.scale
+        return self._line(symbol, formula, scale.decimals(measure), scale.unit_of(measure))
+
+    def let_plain(self, symbol: Symbol, formula: Formula, unit: str) -> Formula:
+        """Add the line of what is neither a length nor a rate: a force, a power, in significant digits."""
+        return self._line(symbol, formula, decimals(formula.value, self.scale.digits), unit)
+
+    def _line(self, symbol: Symbol, formula: Formula, places: int, unit: str) -> Formula:
+        if formula.constant is not None:
+            return formula
+        text = rounded(formula.value, min(places, self.places.get(symbol, places)))
+        found = Formula("leaf", symbol=symbol, shown=text, in_degrees=unit == "°")
+        self.items.append(ValueLine(formula, found, unit))
+        return found
+
+    def stated(self, symbol: Symbol, value: float, measure: Powers, words: str = "") -> Formula:
+        """Return what the scene states as a symbol's value; 0 as the number alone."""
+        text = self.written(value, measure)
+        plain = float(text) == 0 or (measure.angle and float(text) % 90 == 0)
+        return number(text, measure.angle) if plain else self.known(symbol, value, measure, words)
+
+    def known(self, symbol: Symbol, value: float, measure: Powers, words: str = "") -> Formula:
+        """Return a number that is given as a symbol's value, whatever it is."""
+        return self.quoted(symbol, self.written(value, measure), self.scale.unit_of(measure), words)
+
+    def quoted(self, symbol: Symbol, text: str, unit: str, words: str = "") -> Formula:
+        """Return a number that is given as a symbol's value in these digits, an exponent written out."""
+        found = Formula("leaf", symbol=symbol, shown=f"{Decimal(text):f}", in_degrees=unit == "°")
+        self.given.setdefault(symbol, Given(found, unit, words))
+        return found
+
+    def written(self, value: float, measure: Powers) -> str:
+        """Return a number as it was stated, or where that is long in the digits of what is worked out."""
+        value = (math.degrees(value) if measure.angle else value) + 0.0
+        text, places = f"{value:.12g}", self.scale.decimals(measure) + 1
+        short = "e" not in text and len(text.partition(".")[2]) <= places
+        return text if short else rounded(value, places)
+
+    def length(self, start: str, end: str, value: float) -> Formula:
+        """Return the length between two joints, as stated."""
+        return self.stated(Symbol("r", self.names.length(start, end)), value, LENGTH)
+
+    def angle_of(self, start: str, end: str) -> Formula:
+        """Return the angle of the way from one joint to another, worked out where it is not known yet."""
+        found = self.angles.get((start, end))
+        if found is None:
+            way = self.points[end] - self.points[start]
+            found = self.let(self.angle_symbol(start, end), atan2(way.y, way.x), ANGLE)
+            self.angles[start, end] = found
+        return found
+
+    def angle_symbol(self, start: str, end: str) -> Symbol:
+        """Return the symbol of the angle of the way from one joint to another."""
+        return Symbol("θ", self.names.angle(start, end))
+
+    def let_point(self, joint: str, place: Components) -> None:
+        """Add the lines that say where a joint lies."""
+        x = self.let(Symbol("x", joint), place.x, LENGTH)
+        self.points[joint] = Components(x, self.let(Symbol("y", joint), place.y, LENGTH))
+
+    def frame(self, ends: tuple[str, str]) -> int:
+        """Return which rigid body has two joints; 0 is the ground."""
+        found = holding(self.linkage.rigid_bodies, ends)
+        assert found is not None
+        return found
+
+    @property
+    def driver(self) -> int | str:
+        """What drives: the crank by its rigid body, or the slider by its joint."""
+        joint = self.linkage.joint(self.linkage.drive.joint)
+        return self.frame((joint.pivot, joint.name)) if isinstance(joint, Crank) else joint.name
+
+    def guide(self, line: Travel, joint: str) -> GuideLine:
+        """Return a joint's line of travel; its angle is worked out where a body carries it."""
+        if line.on is None:
+            angle = self.stated(Symbol("φ", joint), line.angle, ANGLE, "direction of its guide")
+        else:
+            angle = self.angle_of(*line.on)
+            if line.angle:
+                words = "its guide from the line of its body"
+                own = self.stated(Symbol("β", joint), line.angle, ANGLE, words)
+                angle = self.let(Symbol("φ", joint), angle + own, ANGLE)
+        offset = self.stated(Symbol("e", joint), line.offset, LENGTH, "its guide's offset to the left")
+        frame = self.frame(line.on) if line.on else 0
+        return GuideLine(line.through, along(angle), offset, frame, angle)
+
+    def bar(self, start: str, end: str, value: float) -> Components:
+        """Return a bar as a vector, by its length and its angle."""
+        return along(self.angle_of(start, end)).times(self.length(start, end, value))
+
+    def place(self, joint: str) -> complex:
+        """Return where a joint lies, as x + yi."""
+        return complex(self.points[joint].x.value, self.points[joint].y.value)
+
+
+class GuideLine(NamedTuple):
+    """A line of travel: a joint it runs through, its direction and angle, its offset, and what carries it."""
+
+    through: str
+    direction: Components
+    offset: Formula
+    frame: int
+    angle: Formula
+
+
+def decimals(value: float, digits: int) -> int:
+    """Return with how many decimals a number has so many significant digits at the least."""
+    return max(digits - 1 - math.floor(math.log10(abs(value))), 0) if value else 0
+
+
+def rounded(value: float, places: int) -> str:
+    """Return a number in so many decimals, as far as a float has them, without the sign of a zero."""
+    text = f"{value:.{min(places, decimals(value, _FLOAT_DIGITS)) if value else places}f}"
+    return text if float(text) else text.lstrip("-")
+
+
+_FLOAT_DIGITS = 13
+
+
+# Velocities and accelerations, or kinematic coefficients: what is known of them so far, and the lines.
+#
+# Both are one course of work: in time with rates ω, α, or by the input with h, h′, which are the same rates
+# for an input that runs at 1. Each dyad's two unknowns follow from its loop, differentiated: two linear
+# equations.
+
+Order = Literal[1, 2]
+ORDERS: tuple[Order, Order] = (1, 2)
+Row = tuple[Formula, Formula, Formula]
+Mark = Literal["˙", "¨", "′", "″"]
+
+
+class Letters(NamedTuple):
+    """How rates are written, of the first and of the second order: of angles, of ways, of coordinates."""
+
+    turning: tuple[Symbol, Symbol]
+    sliding: tuple[Symbol, Symbol]
+    moving: tuple[Mark, Mark]
+
+
+IN_TIME = Letters((Symbol("ω"), Symbol("α")), (Symbol("s", mark="˙"), Symbol("s", mark="¨")), ("˙", "¨"))
+BY_INPUT = Letters((Symbol("h"), Symbol("h", mark="′")), (Symbol("f"), Symbol("f", mark="′")), ("′", "″"))
+
+
+Way = int | str
+"""What has a rate: a rigid body by its number, or what slides by its joint."""
+
+
+class UnknownRate(NamedTuple):
+    """An unknown of two equations: the rate of what this is, its column, and the letter of what slides."""
+
+    way: Way
+    column: Components
+    letter: str = "s"
+
+
+_SHORT = 3
+"""So many symbols a right side has that stands in the equations themselves."""
+
+
+@dataclass
+class Rates:
+    """The rates known so far, of the first order and then of the second; each strut's force and rate."""
+
+    work: Work
+    letters: Letters
+    scale: Scale
+    known: dict[tuple[Way, str], list[Formula]] = field(default_factory=lambda: {(0, "s"): [ZERO, ZERO]})
+    moving: dict[str, list[Components]] = field(default_factory=dict)
+    struts: dict[Spring | Damper, tuple[Formula, Formula]] = field(default_factory=dict)
+
+    def let(self, symbol: Symbol, formula: Formula, measure: Powers) -> Formula:
+        """Add the line that gives a symbol its value, and return it."""
+        return self.work.let(symbol, formula, measure, self.scale)
+
+    def start(self, rate: Formula, second: Formula = ZERO) -> None:
+        """Put the input's rates where those of its body, or of its slider, stand."""
+        self.known[self.work.driver, "s"] = [rate, second]
+
+    def let_rate(self, way: Way, formula: Formula, order: Order, letter: str = "s") -> Formula:
+        """Add the line that says how a rigid body turns, or how fast something slides."""
+        measure = Powers(int(isinstance(way, str)), order)
+        found = self.let(self.symbol(way, order, letter), formula, measure)
+        self.known.setdefault((way, letter), []).append(found)
+        return found
+
+    def let_moving(self, joint: str, formula: Components, order: Order) -> None:
+        """Add the lines that say how a joint moves."""
+        mark, measure = self.letters.moving[order - 1], Powers(1, order)
+        x = self.let(Symbol("x", joint, mark), formula.x, measure)
+        y = self.let(Symbol("y", joint, mark), formula.y, measure)
+        self.moving.setdefault(joint, []).append(Components(x, y))
+
+    def let_carried(self, joint: str, on: tuple[str, str], arm: Components, order: Order) -> None:
+        """Add the lines that say how what a rigid body carries moves, `arm` from the first of two joints."""
+        self.let_moving(joint, self.of(on[0], order) + self.carried(self.work.frame(on), arm, order), order)
+
+    def symbol(self, way: Way, order: Order, letter: str = "s") -> Symbol:
+        """Return the symbol of how a rigid body turns, or of how fast something slides."""
+        if isinstance(way, int):
+            return self.letters.turning[order - 1]._replace(sub=self.work.names.turning(way))
+        symbol = self.letters.sliding[order - 1]._replace(sub=self.work.names.slide(way).sub)
+        return symbol._replace(letter=letter) if symbol.letter == "s" else symbol
+
+    def of(self, joint: str, order: Order) -> Components:
+        """Return how a joint moves."""
+        return self.moving[joint][order - 1]
+
+    def rate(self, way: Way, order: Order, letter: str = "s") -> Formula:
+        """Return how a rigid body turns, or how fast something slides."""
+        return self.known[way, letter][order - 1]
+
+    def carried(self, frame: int, arm: Components, order: Order) -> Components:
+        """Return how much more a point of a rigid body moves than another, `arm` before it."""
+        turn = arm.left().times(self.rate(frame, order))
+        return turn if order == 1 else turn - self.centripetal(frame, arm)
+
+    def centripetal(self, frame: int, arm: Components) -> Components:
+        """Return ω² times an arm."""
+        return arm.times(square(self.rate(frame, 1)))
+
+    def guided(self, guide: GuideLine, joint: str, order: Order, *sliding: UnknownRate) -> Components:
+        """Return how the point moves of what carries a guide where a joint is.
+
+        Of the second order with what Coriolis adds for what is `sliding` there.
+        """
+        arm = self.work.points[joint] - self.work.points[guide.through]
+        base = self.of(guide.through, order) + self.carried(guide.frame, arm, order)
+        if order == 1:
+            return base
+        slid = sum((one.column.times(self.rate(one.way, 1, one.letter)) for one in sliding), NOWHERE)
+        return base + slid.left().times(TWO * self.rate(guide.frame, 1))
+
+    def solve(
+        self, index: str, unknowns: tuple[UnknownRate, UnknownRate], right: Components, order: Order
+    ) -> None:
+        """Add the two equations and what they give; ZeroDivisionError where that is nothing."""
+        one, other = (unknown.column for unknown in unknowns)
+        left, beside = (LENGTH if isinstance(unknown.way, int) else RATIO for unknown in unknowns)
+        first, second = (self.symbol(unknown.way, order, unknown.letter) for unknown in unknowns)
+        measures = left, beside, Powers(1, order)
+        right = self._right(right, measures[2])
+        formulas = (one.x, other.x, right.x), (one.y, other.y, right.y)
+        values = self._row(formulas[0], measures, 1), self._row(formulas[1], measures, 2)
+        (a, b, c), (d, e, f) = values
+        self.work.items.append(System((first, second), formulas, values))
+        det = self.let(Symbol("D", index), a * e - b * d, Powers(left.length + beside.length))
+        for unknown, formula in zip(unknowns, (c * e - b * f, a * f - d * c), strict=True):
+            self.let_rate(unknown.way, formula / det, order, unknown.letter)
+
+    def _right(self, right: Components, measure: Powers) -> Components:
+        """Return the right sides; long ones have lines of their own before the equations."""
+        if max(len(list(side.leaves)) for side in right) <= _SHORT:
+            return right
+        return Components(*(self.let(Symbol("b", str(n)), side, measure) for n, side in enumerate(right, 1)))
+
+    def _row(self, formulas: Row, measures: tuple[Powers, Powers, Powers], row: int) -> Row:
+        """Return the entries of a row, a₁₁ a₁₂ b₁, in the digits that they show."""
+        names = Symbol("a", f"{row}1"), Symbol("a", f"{row}2"), Symbol("b", str(row))
+        first, second, right = map(self._entry, formulas, measures, names)
+        return first, second, right
+
+    def _entry(self, formula: Formula, measure: Powers, symbol: Symbol) -> Formula:
+        if formula.constant is not None or (formula.symbol and formula.symbol.letter == "b"):
+            return formula
+        return Formula("leaf", symbol=symbol, shown=rounded(formula.value, self.scale.decimals(measure)))
+
+
+# Vectors from joint to joint, of which loops are made.
+
+
+class LoopSide(NamedTuple):
+    """One vector of a loop: its symbol, and its components as formulas."""
+
+    symbol: Symbol
+    vector: Components
+
+
+class Route(NamedTuple):
+    """A way from a joint, by these vectors."""
+
+    start: str
+    sides: tuple[LoopSide, ...]
+
+
+def route_of_bar(joint: Joint, work: Work, which: int = 0) -> Route:
+    """Return the way to a joint by one of its bars."""
+    start, length = joint.bars[which]
+    symbol = Symbol("R", work.names.length(start, joint.name), bold=True)
+    return Route(start, (LoopSide(symbol, work.bar(start, joint.name, length)),))
+
+
+def slide_sides(work: Work, guide: GuideLine, joint: str) -> tuple[LoopSide, ...]:
+    """Return the ways along a guide, and from it where it is offset."""
+    slide = work.slides[joint]
+    index = work.names.slide(joint).sub
+    found = [LoopSide(Symbol("S", index, bold=True), guide.direction.times(slide))]
+    if guide.offset.constant != 0:
+        found.append(LoopSide(Symbol("E", joint, bold=True), guide.direction.left().times(guide.offset)))
+    return tuple(found)

@@ -1,0 +1,747 @@
+"""Analyse a linkage: its class and names, its transmission angles, the order of its solution.
+
+Its parts, in reading order:
+
+- In which step each joint is solved: the causal chain from the input to the output.
+- The transmission angle of every dyad: the worst over the motion and where it is, and the best.
+- What a linkage is called: by the lengths of its four-bars, its dyads, its gears and what drives it.
+- What kind of linkage it is, how far its input goes, and what a lecturer says of it.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Collection, Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property, partial
+from operator import itemgetter
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkanim.mechanics.arithmetic import Graph, Slope
+from linkanim.mechanics.forces import Demand, demand, usual_effort
+from linkanim.mechanics.linkage import RRR, Body, DrivenSlider, Joint, Linkage, Rigid, holding
+from linkanim.mechanics.measures import output_body, output_slider, pivots_of, said, transmission_angle
+from linkanim.mechanics.motion import Mechanism, Motion
+from linkanim.mechanics.program import Array, batch
+from linkanim.mechanics.quantities import driven_body, input_symbol
+from linkanim.mechanics.search import around, changes_by_row, highest, in_blocks, own_rows, sign_changes
+from linkanim.mechanics.solver.closing import CLOSERS, walk_at
+from linkanim.mechanics.solver.signed_root import Kind
+from linkanim.units import degrees, short, significant
+
+# In which step each joint is solved: the causal chain from the input to the output.
+
+
+def solving_steps(linkage: Linkage) -> Mapping[str, int]:
+    """Return each joint's step: 0 on the ground, 1 the input's, then one more than what it is found from.
+
+    A point of a body comes with the last of the joints that its body is known by; dyads that need nothing
+    of each other share a step.
+    """
+    steps: dict[str, int] = {}
+    for joint in linkage.joints:
+        before = max((steps[name] for name in joint.needs), default=0)
+        with_body = joint.fixed or isinstance(joint, Rigid)
+        steps[joint.name] = before if with_body else before + 1
+    return steps
+
+
+# The transmission angle of every dyad: the worst over the motion and where it is, and the best.
+#
+# It is 90° where the force in a dyad does nothing but drive what follows, and 0 where it drives nothing: see
+# Uicker, Pennock and Shigley, Theory of Machines and Mechanisms. One past 90° between two bars counts as
+# what is left to 180°, here as everywhere: as good as it is near 90°. Each kind of dyad says what it is for
+# the factors U and W of its root; it is at its extremes where what closes the dyad is, and where U = W.
+
+NEARLY = 2.0**-40
+"""How near to an extreme, as a share of the phase: the angle there is off by the square of that."""
+NONE_LEFT = 1e-12
+"""A factor below this share of its greatest value, in a dyad whose bars fall into one line, is none."""
+RIGID = 2.0**-44
+"""A rate below this share of its separation is rounding."""
+
+
+class Transmission(NamedTuple):
+    """The least transmission angle over the motion, of which dyad and at which phase, and the greatest."""
+
+    least: float
+    greatest: float
+    dyad: str
+    phase: float
+
+
+def transmission(mechanism: Mechanism) -> Transmission | None:
+    """Return the least and greatest transmission angle over all dyads; None where there is no dyad.
+
+    Both are exact; of several phases at which the least is reached it is one.
+    """
+    joint = mechanism.assembly.linkage.joint
+    angles = [
+        (angle, name)
+        for name, factors in (*_of_loops(mechanism), *_of_chain(mechanism))
+        for u, w in _emptied(factors, at_end=_reaches_its_end(mechanism, name))
+        if (angle := joint(name).transmission(u, w)) is not None
+    ]
+    if not angles:
+        return None
+    least, dyad = min(angles, key=itemgetter(0))
+    return Transmission(least, max(angles)[0], dyad, _where_least(mechanism, dyad))
+
+
+def _where_least(mechanism: Mechanism, dyad: str) -> float:
+    """Return a phase at which a dyad's transmission angle is least."""
+
+    def negative(phases: Array) -> Array:
+        motion = mechanism.solve(phase=phases, speed=1.0, derivatives=0)
+        return -np.asarray(transmission_angle(motion, dyad), dtype=np.float64)
+
+    count = mechanism.assembly.samples
+    places = around(mechanism.periods, count)
+    worst = float(places[np.nanargmax(np.concatenate([*map(negative, in_blocks(places))]))])
+    return highest(negative, worst, math.tau / count) % (math.tau * mechanism.periods)
+
+
+def _of_loops(mechanism: Mechanism) -> Iterator[tuple[str, Array]]:
+    """Yield U and W of each loop where sin²(ψ/2) is least and greatest, and where they are equal."""
+    for name, loop in mechanism.assembly.loops.items():
+        root, path = loop.root, mechanism.assembly.path
+        reference, ratio = root.reference - loop.gearing.offset, loop.gearing.ratio
+        least, greatest = path.half_squares(reference, ratio)
+        equal = (root.u.most - root.w.least) / (2 * root.spread)
+        spread = np.array([least, min(max(equal, least), greatest), greatest]) * root.spread
+        u = np.ones(3) if root.single else root.u.most - spread
+        yield name, np.column_stack([u, root.w.least + spread])
+
+
+def _of_chain(mechanism: Mechanism) -> Iterator[tuple[str, Array]]:
+    """Yield U and W of each dyad on moving points where its separation, its rate or U - W changes sign."""
+    assembly = mechanism.assembly
+    found = walk_at(assembly, Graph().input("x"), Slope(1.0)).closings
+    if not found:
+        return
+    closings, count = found.values(), len(found)
+    parts = [(one.separation.value, one.separation.rate, one.half_difference) for one in closings]
+    turning = batch({"x": True}, [value for values in parts for value in values])
+    factors = batch({"x": True}, [closing.u for closing in closings] + [closing.w for closing in closings])
+
+    def moving(phases: Array) -> Array:
+        """Return each separation, its rate, none where the ends are carried by one body, and U - W."""
+        values = turning(phases)
+        rates = values[1::3]
+        rates[np.abs(rates) <= RIGID * np.abs(values[::3])] = 0.0
+        return values
+
+    places = around(assembly.path.periods, assembly.samples)
+    with np.errstate(all="ignore"):
+        rows, extremes = changes_by_row(moving, places, NEARLY)
+        whose = np.concatenate([np.arange(count), rows // len(parts[0])])
+        where = np.concatenate([np.repeat(places[:1], count), extremes])
+        u, w = (own_rows(factors, whose + half, where) for half in (0, count))
+    for row, name in enumerate(found):
+        yield name, np.column_stack([u, w])[whose == row]
+
+
+def _reaches_its_end(mechanism: Mechanism, name: str) -> bool:
+    """Tell whether a dyad's bars fall into one line: at a limit of its own, or at a change point."""
+    root = mechanism.assembly.chain.get(name)
+    return bool(root and root.zeros) or name in mechanism.assembly.path.ends
+
+
+def _emptied(factors: Array, *, at_end: bool) -> list[list[float]]:
+    """Return the factors without what rounding leaves of one that vanishes."""
+    least = factors.max(axis=0) * (NONE_LEFT if at_end else 0.0)
+    found: list[list[float]] = np.where(factors > least, factors, 0.0).tolist()
+    return found
+
+
+# What a linkage is called: by the lengths of its four-bars, its dyads, its gears and what drives it.
+
+_EACH_NAMED = 4
+"""Up to this many four-bars in a row each is named, beyond that only the first."""
+TRIPLE_ROCKERS = {
+    "ground": "outward/outward",
+    "input": "outward/inward",
+    "output": "inward/outward",
+    "coupler": "inward/inward",
+}
+GRASHOF = {
+    "ground": "drag-link (double crank)",
+    "input": "crank-rocker",
+    "output": "crank-rocker driven at its rocker",
+    "coupler": "double-rocker",
+}
+
+_PARTS = re.compile(r"(crank|rocker|coupler|drag)\d*")
+"""The names of bodies that say what they do."""
+_ORDINALS = {2: "second", 3: "third"}
+_ENDINGS = {1: "st", 2: "nd", 3: "rd"}
+
+
+@dataclass(frozen=True)
+class FourBar:
+    """The four links of a four-bar by their part, seen from its input, and which of two closures it has.
+
+    `joint` is the one in which coupler and output meet.
+    """
+
+    joint: str
+    links: Mapping[str, float]
+    sign: int
+    change_points: int
+
+    @property
+    def shortest(self) -> str:
+        """The part of the shortest link, the output as the link that it drives."""
+        part = _part(self, min)
+        return "driven link" if part == "output" else part
+
+    @property
+    def margin(self) -> float:
+        """p + q - s - l: positive for Grashof linkages, zero at a change point."""
+        s, p, q, longest = sorted(self.links.values())
+        return 0.0 if self.change_points else math.fsum((p, q, -s, -longest))
+
+
+def _links(*lengths: float) -> Mapping[str, float]:
+    return dict(zip(("ground", "input", "coupler", "output"), lengths, strict=True))
+
+
+def four_bar_of(mechanism: Mechanism) -> FourBar | None:
+    """Return the four-bar loop that the input drives directly, where there is one."""
+    for name, loop in mechanism.assembly.loops.items():
+        joint = mechanism.linkage.joint(name)
+        if isinstance(joint, RRR) and loop.pin == mechanism.linkage.drive.joint and loop.ground:
+            a, b = joint.lengths[::-1] if loop.swapped else joint.lengths
+            sign = mechanism.assembly.signs[name] * (-1 if loop.swapped else 1)
+            scale = mechanism.assembly.unscale
+            touching = (loop.root.u.kind, loop.root.w.kind).count(Kind.CHANGE_POINT)
+            links = _links(loop.ground.length * scale, loop.crank.length * scale, a, b)
+            return FourBar(name, links, sign, touching)
+    return None
+
+
+def class_name(mechanism: Mechanism, four_bar: FourBar | None) -> str:
+    """Return the class of a linkage, `four_bar` being the loop that its input drives directly."""
+    linkage = mechanism.linkage
+    dyads = [joint for joint in linkage.joints if joint.dyad]
+    geared = any(crank.gear for crank in linkage.cranks)
+    slider = " with slider" if any(joint.travels for joint in dyads) else ""
+    if geared and any(isinstance(joint, RRR) for joint in dyads):
+        return f"geared five-bar{slider}"
+    if four_bar is not None:
+        name = _four_bar_name(four_bar)
+        return name if len(dyads) == 1 else f"{_bars(len(dyads))}: {name}{_rest(mechanism, len(dyads))}"
+    if not dyads:
+        return _cranks_name(linkage)
+    if linkage.drive.actuator.noun is not None:
+        return _driven_name(linkage, dyads, linkage.drive.actuator.noun)
+    own = CLOSERS[type(dyads[0])].name(dyads[0], mechanism.assembly) if len(dyads) == 1 else None
+    return own or f"{_bars(len(dyads))} linkage{slider}"
+
+
+def _driven_name(linkage: Linkage, dyads: list[Joint], noun: str) -> str:
+    """Name a linkage by what drives it where that is no crank."""
+    first = dyads[0]
+    ends = set(first.ends) if isinstance(first, RRR) else set()
+    cranked = linkage.drive.joint in ends and any(pin.name in ends for pin in linkage.pins)
+    if cranked and len(dyads) == 1:
+        return f"slider-crank driven at its {noun}"
+    return f"{_bars(len(dyads))} linkage driven by a {noun}"
+
+
+def _cranks_name(linkage: Linkage) -> str:
+    """Name a linkage without dyads by how its cranks turn."""
+    if linkage.drive.actuator.linkage_name is not None:
+        return linkage.drive.actuator.linkage_name
+    geared = [crank for crank in linkage.cranks if crank.gear]
+    if any(not linkage.joint(crank.pivot).fixed for crank in geared):
+        return "epicyclic gear train"
+    return "geared cranks" if geared else "crank"
+
+
+def _bars(dyads: int) -> str:
+    """Name the linkage by its links: ground, crank and two for each dyad."""
+    return {1: "four-bar", 2: "six-bar", 3: "eight-bar"}.get(dyads, f"{2 * dyads + 2}-bar")
+
+
+def _rest(mechanism: Mechanism, dyads: int) -> str:
+    """Name the loops after the first, as far as they are four-bars; else say how many dyads follow."""
+    if dyads <= _EACH_NAMED:
+        further = [_four_bar_name(bar) for bar in _further_loops(mechanism)]
+        if len(further) == dyads - 1:
+            return "".join(f", then {name}" for name in further)
+    return " and a second dyad" if dyads == 2 else f" and {dyads - 1} further dyads"
+
+
+def _further_loops(mechanism: Mechanism) -> Iterator[FourBar]:
+    """Yield the four-bars down the chain: dyads between a fixed pin and one that turns about a fixed pin.
+
+    Their sign tells a parallelogram, whose coupler keeps along the ground, from an antiparallelogram.
+    """
+    linkage = mechanism.linkage
+    cycle = mechanism.solve(phase=in_blocks(mechanism.phases)[0], speed=1.0, derivatives=0)
+    pins = {pin.name: complex(*pin.position) for pin in linkage.pins}
+    for joint in linkage.joints:
+        if not isinstance(joint, RRR) or joint.name in mechanism.assembly.loops:
+            continue
+        for (moving, fixed), (a, b) in ((joint.ends, joint.lengths), (joint.ends[::-1], joint.lengths[::-1])):
+            pivot, crank = _turns_about(linkage, moving)
+            if fixed in pins and pivot is not None:
+                ground = abs(pins[fixed] - pins[pivot])
+                along = cycle.position[joint.name] - cycle.position[moving]
+                apart = along - (cycle.position[fixed] - cycle.position[pivot])
+                sign = 1 if np.abs(apart).max() <= 1e-6 * ground else -1
+                links = _links(ground, crank, a, b)
+                yield FourBar(joint.name, links, sign, _change_point_count(ground, crank, a, b))
+                break
+
+
+def _turns_about(linkage: Linkage, moving: str) -> tuple[str | None, float]:
+    """Return the fixed pin that a joint turns about, and how far from it; None where there is none."""
+    for frame in (frame for frame in linkage.rigid_bodies[1:] if moving in frame):
+        pivot = next((pin.name for pin in linkage.pins if pin.name in frame), None)
+        if pivot is not None and pivot != moving:
+            return pivot, abs(frame[moving] - frame[pivot])
+    return None, 0.0
+
+
+def _change_point_count(g: float, r: float, a: float, b: float) -> int:
+    """Return how many change points the lengths have, each of them rounded: to 1e-12 of the perimeter."""
+    least = 1e-12 * (g + r + a + b)
+    return int(abs(a + b - g - r) <= least) + int(min(abs(g - r - a + b), abs(g - r + a - b)) <= least)
+
+
+def _four_bar_name(bar: FourBar) -> str:
+    if bar.change_points:
+        return _change_point_name(bar)
+    if bar.margin > 0:
+        return "Grashof " + GRASHOF[_part(bar, min)]
+    return f"triple-rocker ({TRIPLE_ROCKERS[_part(bar, max)]})"
+
+
+def _part(bar: FourBar, pick: Callable[..., str]) -> str:
+    """Return the part of the shortest (min) or longest (max) link."""
+    return pick(bar.links, key=lambda part: bar.links[part])
+
+
+def _change_point_name(bar: FourBar) -> str:
+    g, r, a, b = bar.links.values()
+    same = partial(math.isclose, rel_tol=1e-15)
+    if same(g, a) and same(r, b):
+        return "parallelogram" if bar.sign > 0 else "antiparallelogram"
+    if (same(g, r) and same(a, b)) or (same(g, b) and same(a, r)):
+        return "kite (change point)"
+    return "change-point " + GRASHOF[_part(bar, min)]
+
+
+def turning_bodies(mechanism: Mechanism) -> tuple[str, ...]:
+    """Return the bodies that turn fully over one true period: a crank with the input, another as it winds."""
+    linkage, full_turn = mechanism.linkage, mechanism.assembly.path.full_turn
+    bodies = [body for body in linkage.bodies if body.slider is None]
+    turns = {body.name: full_turn for body in bodies if linkage.crank_of(body)}
+    others = [body for body in bodies if body.name not in turns]
+    if others:
+        turns |= dict(zip((body.name for body in others), _windings(mechanism, others), strict=True))
+    return tuple(body.name for body in bodies if turns[body.name])
+
+
+def _windings(mechanism: Mechanism, bodies: list[Body]) -> list[bool]:
+    """Return whether each body's direction has gone round in one true period, a block of it at a time."""
+    gone = np.zeros(len(bodies), np.intp)
+    first: Array = np.empty((len(bodies), 0, 2))
+    last = first
+    for part in in_blocks(mechanism.phases):
+        places = mechanism.solve(phase=part, speed=1.0, derivatives=0).position
+        ways = np.stack([places[body.joints[1]] - places[body.joints[0]] for body in bodies])
+        gone += _crossings(np.concatenate([last, ways], axis=1))
+        first, last = first if first.size else ways[:, :1], ways[:, -1:]
+    gone += _crossings(np.concatenate([last, first], axis=1))
+    return [bool(one) for one in gone]
+
+
+def _crossings(ways: Array) -> NDArray[np.intp]:
+    """Return how often directions (D, N, 2) cross the x axis ahead to the left, less how often back."""
+    (x, x1), (y, y1) = ((ways[:, :-1, n], ways[:, 1:, n]) for n in (0, 1))
+    below, left = y < 0, x * y1 > y * x1
+    up, down = below & left & (y1 >= 0), ~below & ~left & (y1 < 0)
+    return np.asarray(np.count_nonzero(up, axis=1) - np.count_nonzero(down, axis=1))
+
+
+def link_names(mechanism: Mechanism, turning: Collection[str]) -> dict[str, str]:
+    """Return what each body is called: one that a scene names crank, rocker or coupler by what it does.
+
+    `turning` are those that turn fully. A crank turns fully about a fixed pin, a rocker swings about one, a
+    coupler has none. Of cranks the input is the crank, others are driven cranks; of rockers the input is the
+    input rocker. Further ones of a sort are counted: second coupler. Every other name stays.
+    """
+    full_turn = mechanism.assembly.path.full_turn
+    parts = {body.name: _part_of(mechanism, body, turning) for body in mechanism.linkage.bodies}
+    driven = [name for name, (_, drives) in parts.items() if not drives]
+    first = next((noun for noun, drives in parts.values() if drives and noun), None)
+    count: dict[str, int] = {}
+    names = {}
+    for name, (noun, drives) in parts.items():
+        words = noun or name
+        if noun == "crank" and not drives and first != "rocker" and full_turn:
+            words = "driven crank"
+        elif noun == "rocker" and drives and any(parts[other][0] == "rocker" for other in driven):
+            words = "input rocker"
+        count[words] = count.get(words, 0) + 1
+        names[name] = _counted(words, count[words]) if noun else name
+    return names
+
+
+def _part_of(mechanism: Mechanism, body: Body, turning: Collection[str]) -> tuple[str | None, bool]:
+    """Return crank, rocker or coupler, None for a body with another name; and whether it is the input."""
+    linkage = mechanism.linkage
+    own = _PARTS.fullmatch(body.name)
+    if own is None or body.slider is not None:
+        return None, False
+    pivoted = bool(pivots_of(linkage, body))
+    if pivoted == (own[1] == "coupler"):
+        return None, False
+    drives = linkage.drive.joint in linkage.rigid_bodies[holding(linkage.rigid_bodies, body.joints) or 0]
+    if not pivoted:
+        return "coupler", False
+    turns = mechanism.assembly.path.full_turn if drives else body.name in turning
+    return "crank" if turns else "rocker", drives
+
+
+def _counted(words: str, number: int) -> str:
+    if number == 1:
+        return words
+    ending = "th" if number // 10 % 10 == 1 else _ENDINGS.get(number % 10, "th")
+    return f"{_ORDINALS.get(number, f'{number}{ending}')} {words}"
+
+
+# What kind of linkage it is, how far its input goes, and what a lecturer says of it.
+
+SAME_ANGLE = 1e-9
+
+
+@dataclass(frozen=True)
+class Info:
+    """What is known of a linkage; angles in radians, lengths in the scene's unit.
+
+    Where a slider drives, its travel stands for the input's angle.
+
+    Each fact is worked out when it is first read: a length that is dragged changes sixty times a second.
+    """
+
+    mechanism: Mechanism
+    length_unit: str
+
+    @cached_property
+    def class_name(self) -> str:
+        """The class, in words."""
+        return class_name(self.mechanism, self._four_bar)
+
+    @cached_property
+    def grashof(self) -> str | None:
+        """Grashof's rule with the four-bar's numbers; None for other linkages."""
+        if (bar := self._four_bar) is None:
+            return None
+        s, p, q, longest = sorted(bar.links.values())
+        relation = "=" if bar.change_points else "<" if bar.margin > 0 else ">"
+        return f"s + l = {significant(s + longest, 6)} {relation} p + q = {significant(p + q, 6)}"
+
+    @property
+    def why_swinging(self) -> str | None:
+        """What keeps the input from turning fully, lengths or joints; None where nothing does."""
+        stops = tuple(dict.fromkeys(filter(None, self.mechanism.assembly.path.ends)))
+        if not stops:
+            return None
+        if self._four_bar is None or stops != (self._four_bar.joint,):
+            return f"{' and '.join(stops)} cannot close all the way round"
+        if self._four_bar.margin < 0:
+            return self.grashof
+        return f"{self.grashof}, but the shortest is the {self._four_bar.shortest}"
+
+    @property
+    def input_range(self) -> tuple[float, float]:
+        """How far the driven angle, or the travel of a slider that drives, goes."""
+        return self.mechanism.assembly.path.input_range
+
+    @cached_property
+    def ends(self) -> tuple[float, float]:
+        """Where an input that does not turn fully turns back: at phase 0, and half a period on."""
+        first, last = self.mechanism.assembly.path.coordinates(np.array([0.0, math.pi])).tolist()
+        return first, last
+
+    @property
+    def full_turn(self) -> bool:
+        """Whether the input turns fully."""
+        return self.mechanism.assembly.path.full_turn
+
+    @property
+    def unreached_start(self) -> float | None:
+        """The start that is stated, where the input swings and does not come to it; else None."""
+        start, path = self.mechanism.linkage.drive.stated_start, self.mechanism.assembly.path
+        return None if start is None or self.full_turn or path.holds(start) else start
+
+    @property
+    def toggles(self) -> tuple[float, ...]:
+        """The input's limits; an end at which it merely turns back is none."""
+        path, touched = self.mechanism.assembly.path, tuple(self.mechanism.assembly.change_points)
+        ends = (end for end in path.dead_ends if any(path.same(place, end) for place in touched))
+        return (*path.limits, *ends)
+
+    @cached_property
+    def change_points(self) -> tuple[float, ...]:
+        """The input's places at its change points, angles within one turn, each once, the least first."""
+        path, touched = self.mechanism.assembly.path, self.mechanism.assembly.change_points
+        return path.distinct(
+            place for place in touched if not any(path.same(place, end) for end in path.dead_ends)
+        )
+
+    @property
+    def circuits(self) -> int | None:
+        """How many separate motions the lengths allow, two for Grashof; None for more than one four-bar."""
+        if self._four_bar is None or len(self.mechanism.assembly.loops) != 1:
+            return None
+        return 2 if self._four_bar.margin > 0 else 1
+
+    @property
+    def true_period(self) -> int:
+        """The drive periods after which every joint is back."""
+        return self.mechanism.periods
+
+    @property
+    def period_seconds(self) -> float:
+        """The true period at the drive's speed, s."""
+        return 2 * math.pi * self.mechanism.periods / abs(self.mechanism.linkage.drive.speed)
+
+    @cached_property
+    def transmission(self) -> Transmission | None:
+        """The worst transmission angle, where it is, and the best; None where there is none."""
+        return transmission(self.mechanism)
+
+    @property
+    def transmission_angle(self) -> tuple[float, float] | None:
+        """The least and the greatest transmission angle, 90° at the most; None where there is none."""
+        return self.transmission and self.transmission[:2]
+
+    @property
+    def stroke(self) -> float | None:
+        """The output slider's stroke; None without a slider."""
+        return self._slider.stroke if self._slider else None
+
+    @property
+    def time_ratio(self) -> float | None:
+        """The output's slow way's time over its quick way's; None where that is no slider and no rocker."""
+        found = self.swing or self._slider
+        return found.time_ratio if found else None
+
+    @property
+    def output_name(self) -> str:
+        """What the output is called; empty without one."""
+        body = output_body(self.mechanism.linkage)
+        return self.link_names[body.name] if body else ""
+
+    @property
+    def dead_centres(self) -> tuple[float, float] | None:
+        """Phases of the output slider's dead centres, back and then forward; None where it rests."""
+        return self._slider.dead_centres if self._slider else None
+
+    @cached_property
+    def counts(self) -> Counts:
+        """How many links, the ground among them, and joints there are, and the mobility by Grübler.
+
+        A crank or a driven slider is a link and a joint, a dyad or a driving cylinder are two and three.
+        """
+        linkage = self.mechanism.linkage
+        inputs = len(tuple(linkage.cranks)) + isinstance(linkage.joint(linkage.drive.joint), DrivenSlider)
+        pairs = sum(joint.dyad for joint in linkage.joints) + (linkage.drive.actuator.along is not None)
+        links, joints = 1 + inputs + 2 * pairs, inputs + 3 * pairs
+        meshes = sum(crank.gear is not None for crank in linkage.cranks)
+        return Counts(links, joints, 3 * (links - 1) - 2 * joints - meshes)
+
+    @cached_property
+    def swing(self) -> _ToAndFro | None:
+        """How far the output rocker swings (rad), and its time ratio; None where it does not."""
+        body = output_body(self.mechanism.linkage)
+        if body is None or body.slider is not None or body.name in self.turning_links:
+            return None
+        found = _to_and_fro(self.mechanism, body.name, "angle", "angular_velocity")
+        return found if found.stroke else None
+
+    @cached_property
+    def demand(self) -> Demand | None:
+        """What a true period at the drive's speed asks of the input; None where nothing has force or mass."""
+        if not self.mechanism.linkage.forceful:
+            return None
+        return demand(self._driven, self.mechanism.phases)
+
+    @cached_property
+    def usual_effort(self) -> float | None:
+        """The size that the effort at the input has half of the time; None where `demand` is."""
+        if not self.mechanism.linkage.forceful:
+            return None
+        return usual_effort(self._driven, self.mechanism.phases)
+
+    def _driven(self, phases: Array) -> Motion:
+        """Return the motion at the drive's speed."""
+        return self.mechanism.solve(phase=phases, speed=self.mechanism.linkage.drive.speed)
+
+    @property
+    def effort(self) -> tuple[str, str]:
+        """What the input delivers, torque or force, and its unit."""
+        return self.mechanism.linkage.drive.actuator.effort
+
+    @cached_property
+    def turning_links(self) -> tuple[str, ...]:
+        """The bodies that turn fully over one true period."""
+        return turning_bodies(self.mechanism)
+
+    @cached_property
+    def link_names(self) -> Mapping[str, str]:
+        """What each body is called by what it does, by the name that it has in the scene."""
+        return link_names(self.mechanism, self.turning_links)
+
+    @cached_property
+    def input_name(self) -> str:
+        """What the driven bar is called: "crank" if it turns, the slider where one drives.
+
+        One that swings goes by its name in the scene; named crank it is the rocker, or the input rocker.
+        """
+        body, noun = driven_body(self.mechanism.linkage), self.mechanism.linkage.drive.actuator.noun
+        if noun is not None:
+            return noun
+        if self.full_turn:
+            return "crank"
+        return self.link_names[body.name] if body and not body.name.isdecimal() else "rocker"
+
+    @property
+    def input_words(self) -> str:
+        """How far the input goes, in words."""
+        moves = self.mechanism.linkage.drive.actuator.moves
+        return "turns fully" if self.full_turn else f"{moves} {_places(self, self.input_range, '…')}"
+
+    @cached_property
+    def lines(self) -> tuple[tuple[str, str], ...]:
+        """Label and value of each fact, in words."""
+        return tuple((label, value) for label, value in _facts(self) if value)
+
+    @cached_property
+    def _four_bar(self) -> FourBar | None:
+        return four_bar_of(self.mechanism)
+
+    @cached_property
+    def _slider(self) -> _ToAndFro | None:
+        slider = output_slider(self.mechanism.linkage)
+        return _to_and_fro(self.mechanism, slider.name, "travel", "travel_velocity") if slider else None
+
+
+class Counts(NamedTuple):
+    """Links, the ground among them, joints of two links each, M = 3 (links - 1) - 2 joints - gear meshes."""
+
+    links: int
+    joints: int
+    mobility: int
+
+
+class _ToAndFro(NamedTuple):
+    """How a slider or rocker goes to and fro: its time ratio and the phases of its dead centres.
+
+    Both are None where it rests.
+    """
+
+    stroke: float
+    time_ratio: float | None
+    dead_centres: tuple[float, float] | None
+
+
+def _to_and_fro(mechanism: Mechanism, name: str, place: str, rate: str) -> _ToAndFro:
+    """Return how a body goes to and fro; its time ratio is the slow way's over the quick way's.
+
+    In a longer true period it goes so more than once: each way ends at the next dead centre.
+    """
+    whole = 2 * math.pi * mechanism.periods
+    samples = around(mechanism.periods, mechanism.assembly.samples)
+    if _rests(mechanism, name, rate, samples):
+        return _ToAndFro(0.0, None, None)
+    reversals = sign_changes(
+        lambda phase: getattr(mechanism.solve(phase=phase, speed=1.0, derivatives=1), rate)[name], samples
+    )
+    # Among the samples, along which an angle is continuous.
+    order = np.argsort(np.concatenate((reversals, samples)))
+    phases = np.concatenate((reversals, samples))[order]
+    along = getattr(mechanism.solve(phase=phases, speed=1.0, derivatives=0), place)[name]
+    travel = along[np.argsort(order)[: len(reversals)]]
+    if not len(travel):
+        return _ToAndFro(0.0, None, None)
+    span = float(np.ptp(travel))
+    near = SAME_ANGLE * span
+    backs, forwards = (reversals[np.abs(travel - end) <= near] for end in (travel.min(), travel.max()))
+    forth = (forwards - backs[:, None]) % whole
+    row, column = np.unravel_index(int(forth.argmin()), forth.shape)
+    ways = float(forth.min()), float(((backs - forwards[:, None]) % whole).min())
+    return _ToAndFro(span, max(ways) / min(ways), (float(backs[row]), float(forwards[column])))
+
+
+def _rests(mechanism: Mechanism, name: str, rate: str, phases: Array) -> bool:
+    """Return whether a body stands still all along, rounding errors aside."""
+    for part in in_blocks(phases):
+        motion = mechanism.solve(phase=part, speed=1.0, derivatives=1)
+        unit = "{}/s" if rate.startswith("travel") else "rad/s"
+        if np.any(said(motion, getattr(motion, rate)[name], unit, 1)):
+            return False
+    return True
+
+
+def _facts(info: Info) -> Iterator[tuple[str, str | None]]:
+    """Yield label and value of each fact, in words; None where there is none."""
+    links, joints, mobility = info.counts
+    turning = (info.link_names[name] for name in info.turning_links)
+    yield "class", info.class_name
+    yield "links, joints", f"{links}, {joints}; mobility {mobility}"
+    yield "Grashof", info.grashof
+    yield "input", info.input_words
+    start = info.unreached_start
+    yield "start", None if start is None else f"{degrees(start)} is not reached"
+    kept = "on the same closure; velocities change sign at the limits"
+    yield "returns", kept if info.mechanism.retraced else None
+    yield "turns fully", ", ".join(f"link {name}" if name.isdecimal() else name for name in turning)
+    yield "toggles at", _places(info, info.toggles)
+    yield "change points", _places(info, info.change_points)
+    yield "circuits", str(info.circuits or "")
+    yield "transmission angle", info.transmission and _worst(info, info.transmission)
+    yield "stroke", None if info.stroke is None else f"{significant(info.stroke, 6)} {info.length_unit}"
+    yield "swing", info.swing and f"{degrees(info.swing.stroke)} of the {info.output_name}"
+    yield "time ratio", None if info.time_ratio is None else f"{info.time_ratio:.4f}"
+    if info.demand is not None:
+        (work, *efforts), (name, unit) = info.demand, info.effort
+        yield "work per period", f"{significant(work, 6)} J"
+        unknown = ("unbounded", f"undefined, since the {name} is unbounded at a limit")
+        for word, value, without in zip(("peak", "mean"), efforts, unknown, strict=True):
+            yield f"{word} {name}", without if value is None else f"{significant(value, 6)} {unit}"
+    turns = "one drive period" if info.true_period == 1 else f"{info.true_period} drive periods"
+    yield "true period", f"{turns}, {short(info.period_seconds)} s"
+
+
+def _worst(info: Info, found: Transmission) -> str:
+    """Return the least transmission angle in words, its dyad and where the input is then."""
+    least = f"{significant(math.degrees(found.least), 3)}° at {found.dyad}"
+    if found.greatest - found.least <= SAME_ANGLE:
+        return f"μ = {least}, all the way"
+    linkage = info.mechanism.linkage
+    place = float(info.mechanism.solve(phase=found.phase, speed=1.0, derivatives=0).coordinate)
+    if not linkage.drive.coordinate.is_angle:
+        where = f"{significant(place, 4)} {info.length_unit}"
+    else:
+        turned = round(math.degrees(place), 1) % 360 if info.full_turn else math.degrees(place)
+        told = significant(turned, 3)
+        where = "0°" if info.full_turn and told == "360" else f"{told}°"
+    symbol = input_symbol(linkage).translate({ord("{"): None, ord("}"): None})
+    return f"μ ≥ {least}, {symbol} = {where}"
+
+
+def _places(info: Info, places: tuple[float, ...], between: str = ", ") -> str:
+    """Return places of the input in words: its angles, or how far a slider has travelled; "" for none."""
+    if info.mechanism.linkage.drive.coordinate.is_angle:
+        return between.join(map(degrees, places))
+    return f"{between.join(significant(place, 6) for place in places)} {info.length_unit}" if places else ""

@@ -1,1 +1,0 @@
-"""How joints close, one after the other, and where on the way they cannot."""

@@ -1,1 +1,0 @@
-"""The input: its path over the phase, its range, its stroke."""

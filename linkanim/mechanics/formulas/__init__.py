@@ -1,1 +1,0 @@
-"""Arithmetic that knows no linkage: expressions and programs, circular functions, exact sums."""

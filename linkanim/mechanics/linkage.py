@@ -1,0 +1,956 @@
+"""Say what a linkage is, as data: joints, rigid bodies, what drives it; nothing here moves.
+
+Its parts, in reading order:
+
+- What a joint is, whatever its kind: what all kinds have, and the lines along which sliders travel.
+- Dyads as data: two bars, a bar and a slider, a slotted bar, a bar that slides. None is closed here.
+- Rigid bodies: which joints keep their distances, where they lie in the body's own frame, and its points.
+- Joints that are given, not closed: fixed pins, crank pins, the slider that drives.
+- What moves a linkage, as data: a motor on its crank, a cylinder, a slider; and what tells where it is.
+- What a linkage is: frozen values, lengths in the scene's unit, angles in radians, y up.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from functools import cached_property, reduce
+from typing import Any, ClassVar, NamedTuple, Self
+
+from linkanim.errors import BadInput
+from linkanim.units import short, stepped, unit_of
+
+# What a joint is, whatever its kind: what all kinds have, and the lines along which sliders travel.
+#
+# Joints stand in the order in which they can be solved: each one names only joints before it.
+
+Point = tuple[float, float]
+
+RigidBody = dict[str, complex]
+"""Where the joints of one rigid body lie in its own frame, as x + yi."""
+
+
+class Stated:
+    """What is stated by lengths: the fields named `sized` hold them, or what is itself made of them."""
+
+    __slots__ = ()
+    sized: ClassVar[tuple[str, ...]] = ()
+
+    @property
+    def lengths(self) -> tuple[float, ...]:
+        """All of them, of either sign."""
+        return tuple(length for name in self.sized for length in _lengths_in(getattr(self, name)))
+
+    def scaled(self, factor: float) -> Self:
+        """Return the same with every length times a factor."""
+        return replace(self, **{name: _times(getattr(self, name), factor) for name in self.sized})  # type: ignore[type-var]
+
+
+def _lengths_in(value: Any) -> Iterator[float]:
+    if isinstance(value, tuple):
+        yield from (length for part in value for length in _lengths_in(part))
+    elif value is not None:
+        yield from value.lengths if isinstance(value, Stated) else (value,)
+
+
+def _times(value: Any, factor: float) -> Any:
+    if isinstance(value, tuple):
+        return tuple(_times(part, factor) for part in value)
+    if value is None:
+        return None
+    return value.scaled(factor) if isinstance(value, Stated) else value * factor
+
+
+@dataclass(frozen=True, slots=True)
+class Line(Stated):
+    """A line of travel: through the joint `through`, at `angle`, shifted by `offset` to its left.
+
+    A fixed line runs through a fixed pin, its angle is absolute. One that is carried names two joints of
+    the body that carries it, `on`; `through` is a joint of that body, and the angle is from on[0] -> on[1].
+    """
+
+    through: str
+    angle: float = 0.0
+    offset: float = 0.0
+    on: tuple[str, str] | None = None
+
+    sized: ClassVar[tuple[str, ...]] = ("offset",)
+
+    @property
+    def needs(self) -> tuple[str, ...]:
+        """The joints that the line is known by."""
+        return self.through, *(self.on or ())
+
+    @property
+    def body(self) -> tuple[str, ...]:
+        """The joints that must be on one body: those of the axis, and the one it runs through."""
+        return tuple(dict.fromkeys((*self.on, self.through))) if self.on else ()
+
+    def guiding(self, joint: str) -> Slide:
+        """Return how a joint slides along the line."""
+        return Slide(joint, self.on[0] if self.on else None, self)
+
+
+class Slide(NamedTuple):
+    """What slides: the joint `point`, along a line; `start` is a joint of the guide, None of the ground."""
+
+    point: str
+    start: str | None
+    line: Line
+
+    @property
+    def axis(self) -> tuple[str, str] | None:
+        """Two joints of the guide; None where it does not turn, and its angle is absolute."""
+        return self.line.on
+
+    @property
+    def angle(self) -> float:
+        """The line's direction from the guide's axis (rad)."""
+        return self.line.angle
+
+
+@dataclass(frozen=True, slots=True)
+class Joint(Stated):
+    """A joint: how it is found from joints before it.
+
+    A `dyad` is closed from two constraints, which meet in two points as a rule: `sides` names the two
+    closures, +1 first. One that `travels` moves along a line. `fixed` ones belong to the ground.
+    """
+
+    name: str
+
+    sides: ClassVar[tuple[str, str] | None] = None
+    dyad: ClassVar[bool] = False
+    travels: ClassVar[bool] = False
+    fixed: ClassVar[bool] = False
+
+    @property
+    def needs(self) -> tuple[str, ...]:
+        """The joints that this one is found from."""
+        return ()
+
+    @property
+    def body(self) -> tuple[str, ...]:
+        """The joints that must be on one rigid body, the first two of them apart: they show its axis."""
+        return ()
+
+    @property
+    def bars(self) -> tuple[tuple[str, float], ...]:
+        """The bars that end in this joint: from which joint, and how long."""
+        return ()
+
+    @property
+    def spans(self) -> tuple[tuple[str, ...], ...]:
+        """The joints of every rigid length that the joint's definition states."""
+        return tuple((start, self.name) for start, _ in self.bars)
+
+    @property
+    def pins(self) -> tuple[str, ...]:
+        """The joints in which the definition makes bars turn on each other: its bars' ends."""
+        return (*(start for start, _ in self.bars), self.name) if self.bars else ()
+
+    @property
+    def slides(self) -> tuple[Slide, ...]:
+        """What the definition makes slide, and along what."""
+        return ()
+
+    @property
+    def named_sign(self) -> int | None:
+        """The sign of the closure's root where the closure named holds; None where there is no root."""
+        return None
+
+    @property
+    def named_from(self) -> tuple[int, str, str, str] | None:
+        """What names the closure, if not its own side: (+1 left or -1, b, p, q) of b beside p -> q."""
+        return None
+
+    def placed(self, bodies: tuple[RigidBody, ...]) -> tuple[RigidBody, ...]:
+        """Return the rigid bodies with the joint in them: a body of its own for each of its bars."""
+        return (*bodies, *({start: 0j, self.name: complex(length)} for start, length in self.bars))
+
+    def why_apart(self, u: float, w: float, unit: str) -> str:
+        """Say in words and numbers why it cannot be assembled at any angle of the input.
+
+        `u` and `w` are the greatest that its root's factors come to.
+        """
+        return "it cannot be assembled"
+
+    @property
+    def at_limit(self) -> str:
+        """How a dyad stands where it closes no farther, as a clause; empty for what always closes."""
+        return ""
+
+    def transmission(self, u: float, w: float) -> float | None:
+        """Return a dyad's transmission angle where its root's factors are U and W; None of other joints."""
+        return None
+
+    def transmission_at(self, way: Callable[[str, str], tuple[Any, Any]]) -> Any:
+        """Return a dyad's transmission angle where `way` leads from joint to joint: x, y, floats or arrays.
+
+        None of other joints.
+        """
+        return None
+
+
+class Guided(Joint):
+    """A joint that travels along `line`, fixed or carried by a body."""
+
+    __slots__ = ()
+
+    line: Line
+
+    travels: ClassVar[bool] = True
+
+    @property
+    def needs(self) -> tuple[str, ...]:
+        """The far ends of its bars, and the joints of its line."""
+        return *(start for start, _ in self.bars), *self.line.needs
+
+    @property
+    def body(self) -> tuple[str, ...]:
+        """The joints of the body that carries its line."""
+        return self.line.body
+
+    @property
+    def slides(self) -> tuple[Slide, ...]:
+        """The joint, along its line."""
+        return (self.line.guiding(self.name),)
+
+
+# Dyads as data: two bars, a bar and a slider, a slotted bar, a bar that slides. None is closed here.
+
+
+@dataclass(frozen=True, slots=True)
+class RRR(Joint):
+    """Two bars that meet in a pin: `lengths[i]` from `ends[i]`.
+
+    `side` is +1 where the pin lies left of the line from `ends[0]` to `ends[1]`, -1 right.
+    With `side_of = (b, p, q)` it says instead on which side of p -> q the joint b lies just
+    after the start of the drive (a four-bar driven at its rocker is named that way).
+    """
+
+    ends: tuple[str, str]
+    lengths: tuple[float, float]
+    side: int = 1
+    side_of: tuple[str, str, str] | None = None
+
+    sides: ClassVar[tuple[str, str]] = ("left", "right")
+    dyad: ClassVar[bool] = True
+    sized: ClassVar[tuple[str, ...]] = ("lengths",)
+
+    @property
+    def needs(self) -> tuple[str, ...]:
+        """The far ends of its two bars."""
+        return self.ends
+
+    @property
+    def bars(self) -> tuple[tuple[str, float], ...]:
+        """Its two bars."""
+        return (self.ends[0], self.lengths[0]), (self.ends[1], self.lengths[1])
+
+    @property
+    def named_sign(self) -> int:
+        """The sign of the root: left of the line, or of the closure that another joint's side names."""
+        return -self.side if self.side_of else self.side
+
+    @property
+    def named_from(self) -> tuple[int, str, str, str] | None:
+        """The side of a line on which another joint lies, where that names the closure."""
+        return (self.side, *self.side_of) if self.side_of else None
+
+    @property
+    def at_limit(self) -> str:
+        """Its bars lie in one line, stretched or folded."""
+        one, other = (f"{end}–{self.name}" for end in self.ends)
+        return f"the bars {one} and {other} lie in one line"
+
+    def transmission(self, u: float, w: float) -> float:
+        """Return the angle μ between its bars' lines: tan²(μ/2) = W/U or, past 90°, U/W.
+
+        It is the cosine rule in its half-angle form.
+        """
+        return 2 * math.atan2(math.sqrt(min(u, w)), math.sqrt(max(u, w)))
+
+    def transmission_at(self, way: Callable[[str, str], tuple[Any, Any]]) -> Any:
+        """Return the angle between its bars' lines."""
+        # Here, so that reading a scene file loads no arrays.
+        import numpy as np
+
+        (x, y), (u, v) = (way(self.name, end) for end in self.ends)
+        return np.arctan2(abs(x * v - y * u), abs(x * u + y * v))
+
+    def why_apart(self, u: float, w: float, unit: str) -> str:
+        """Say how near its ends come, or how far apart: U = (a + b)² - L², W = L² - (a - b)²."""
+        a, b = self.lengths
+        least, most = math.sqrt(max((a + b) ** 2 - u, 0.0)), math.sqrt(max((a - b) ** 2 + w, 0.0))
+        if w < 0:
+            apart = f"at most {most:.6g} {unit}; these bars need {abs(a - b):g} {unit}"
+        else:
+            apart = f"at least {least:.6g} {unit}; these bars reach {a + b:g} {unit}"
+        ends = "–".join(self.ends)
+        return f"the bars of {a:g} and {b:g} {unit} cannot meet at any angle of the input: {ends} is {apart}"
+
+
+@dataclass(frozen=True, slots=True)
+class RRP(Guided):
+    """A bar from `end` to a slider on `line`; `side` +1 is the closure further forward, -1 back."""
+
+    end: str
+    length: float
+    line: Line
+    side: int = 1
+
+    sides: ClassVar[tuple[str, str]] = ("forward", "backward")
+    dyad: ClassVar[bool] = True
+    sized: ClassVar[tuple[str, ...]] = ("length", "line")
+
+    @property
+    def bars(self) -> tuple[tuple[str, float], ...]:
+        """Its bar."""
+        return ((self.end, self.length),)
+
+    @property
+    def named_sign(self) -> int:
+        """The sign of the root: how far the slider is ahead of the bar's end."""
+        return self.side
+
+    @property
+    def at_limit(self) -> str:
+        """Its bar reaches no farther than the line."""
+        return f"the bar {self.end}–{self.name} stands straight across the line of travel of {self.name}"
+
+    def transmission(self, u: float, w: float) -> float:
+        """Return the angle from its bar to the normal of its line: as much less than 90° as the bar leans.
+
+        The bar leans asin(|e|/b), where U = b - e and W = b + e.
+        """
+        return math.pi / 2 - abs(2 * math.atan2(math.sqrt(w), math.sqrt(u)) - math.pi / 2)
+
+    def transmission_at(self, way: Callable[[str, str], tuple[Any, Any]]) -> Any:
+        """Return the angle from its bar to the normal of its line, as in `transmission`."""
+        # Here, so that reading a scene file loads no arrays.
+        import numpy as np
+
+        (x, y), (u, v) = way(self.end, self.name), (math.cos(self.line.angle), math.sin(self.line.angle))
+        if self.line.on:
+            a, b = way(*self.line.on)
+            u, v = a * u - b * v, a * v + b * u
+        return np.arctan2(abs(x * u + y * v), abs(x * v - y * u))
+
+    def why_apart(self, u: float, w: float, unit: str) -> str:
+        """Say that the bar is too short for its line."""
+        return (
+            f"the bar of {self.length:g} {unit} cannot reach its line of travel from {self.end} "
+            "at any angle of the input; make it longer or the offset smaller"
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class RPR(Joint):
+    """A bar that turns about the joint `pivot`, its slot passing through the joint `through`.
+
+    One of the two may be fixed: a lever whose slot a crank pin drives, or a rod sliding through a swivel.
+
+    through = pivot + s·u + offset·n with s > 0, u the bar's direction and n to its left;
+    the joint itself is pivot + length·u.
+    """
+
+    pivot: str
+    through: str
+    length: float
+    offset: float = 0.0
+
+    dyad: ClassVar[bool] = True
+    sized: ClassVar[tuple[str, ...]] = ("length", "offset")
+
+    @property
+    def needs(self) -> tuple[str, ...]:
+        """The pivot, and the joint in the slot."""
+        return self.pivot, self.through
+
+    @property
+    def bars(self) -> tuple[tuple[str, float], ...]:
+        """The slotted bar."""
+        return ((self.pivot, self.length),)
+
+    @property
+    def pins(self) -> tuple[str, ...]:
+        """The pivot, and the joint in the slot."""
+        return self.pivot, self.through
+
+    @property
+    def slides(self) -> tuple[Slide, ...]:
+        """The joint in the slot, along the bar."""
+        return (Slide(self.through, self.pivot, Line(self.pivot, 0.0, self.offset, (self.pivot, self.name))),)
+
+    @property
+    def named_sign(self) -> int:
+        """The sign of the root: the joint in the slot is always ahead of the pivot."""
+        return 1
+
+    @property
+    def at_limit(self) -> str:
+        """The pin is where the slot is nearest to its pivot."""
+        return f"{self.through} is as near to {self.pivot} as the offset of the slot lets it come"
+
+    def transmission(self, u: float, w: float) -> float:
+        """Return the angle from the slot's normal, along which the pin pushes, to the bar's motion there.
+
+        90° of a slot that runs through its pivot: the pin's push then does nothing but turn the bar.
+        """
+        return math.atan2(math.sqrt(w), abs(self.offset))
+
+    def transmission_at(self, way: Callable[[str, str], tuple[Any, Any]]) -> Any:
+        """Return the angle from the slot's normal to the bar's motion at the pin, as in `transmission`."""
+        # Here, so that reading a scene file loads no arrays.
+        import numpy as np
+
+        x, y = way(self.pivot, self.through)
+        arm = np.sqrt(x * x + y * y)
+        if not self.offset:
+            return np.arccos(0.0 * arm)
+        with np.errstate(divide="ignore"):  # the pin on the pivot, where rounding brings it
+            return np.arccos(np.minimum(abs(self.offset) / arm, 1.0))
+
+    def why_apart(self, u: float, w: float, unit: str) -> str:
+        """Say that the slot's offset is too large."""
+        return (
+            f"the slot's offset {self.offset:g} {unit} is more than the pin {self.through} is ever away "
+            f"from {self.pivot}; make it smaller"
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class RPP(Guided):
+    """A bar sliding along `line`, the joint `pin` in its slot; the joint is where the slot crosses the line.
+
+    `slot` is the slot's direction from the line's, in radians; it must not lie along the line.
+    """
+
+    pin: str
+    line: Line
+    slot: float = math.pi / 2
+
+    dyad: ClassVar[bool] = True
+    sized: ClassVar[tuple[str, ...]] = ("line",)
+
+    @property
+    def needs(self) -> tuple[str, ...]:
+        """The pin in the slot, and the joints of the line."""
+        return self.pin, *self.line.needs
+
+    @property
+    def pins(self) -> tuple[str, ...]:
+        """The pin in the slot."""
+        return (self.pin,)
+
+    @property
+    def slides(self) -> tuple[Slide, ...]:
+        """The bar along its line, and the pin along the bar's slot."""
+        slot = Line(self.name, self.line.angle + self.slot, on=self.line.on)
+        return self.line.guiding(self.name), Slide(self.pin, self.name, slot)
+
+
+# Rigid bodies: which joints keep their distances, where they lie in the body's own frame, and its points.
+#
+# Points of a body, beside its pins, are coupler points, third pins of a plate, corners of a rigid triangle.
+
+_ONE_POINT = 1e-12
+
+
+def rigid_bodies(joints: Iterable[Joint]) -> tuple[RigidBody, ...]:
+    """Return the sets of joints that keep their distances, the ground first; joints in solved order.
+
+    Each maps its joints to their places: x along its first bar, y to the left. Every bar starts a frame
+    of its own, in the order of the joints and of each joint's `bars`.
+    """
+    ground: tuple[RigidBody, ...] = ({},)
+    return reduce(lambda bodies, joint: joint.placed(bodies), joints, ground)
+
+
+def holding(bodies: Iterable[RigidBody], names: Iterable[str]) -> int | None:
+    """Return which frame has all these joints; None where they are on different bodies."""
+    joints = set(names)
+    return next((n for n, frame in enumerate(bodies) if joints <= frame.keys()), None)
+
+
+def coincide(frame: RigidBody, first: str, second: str) -> bool:
+    """Tell whether two joints of a body are one point, so that no direction runs from one to the other."""
+    size = max(abs(frame[first]), abs(frame[second]))
+    return abs(frame[first] - frame[second]) <= _ONE_POINT * size
+
+
+def share_of(frame: RigidBody, on: tuple[str, str], at: tuple[float, float]) -> complex:
+    """Return the point `at` along on[0] -> on[1] and to its left, in lengths of that line."""
+    return complex(*at) / abs(frame[on[1]] - frame[on[0]])
+
+
+@dataclass(frozen=True, slots=True)
+class Rigid(Joint):
+    """A point of a body: `at` = (along `on[0]` -> `on[1]`, to the left of it) from `on[0]`."""
+
+    on: tuple[str, str]
+    at: Point
+
+    sized: ClassVar[tuple[str, ...]] = ("at",)
+
+    @property
+    def needs(self) -> tuple[str, ...]:
+        """The two joints that its body is known by."""
+        return self.on
+
+    @property
+    def body(self) -> tuple[str, ...]:
+        """The two joints that its body is known by."""
+        return self.on
+
+    @property
+    def spans(self) -> tuple[tuple[str, ...], ...]:
+        """The plate of the three joints."""
+        return ((*self.on, self.name),)
+
+    def placed(self, bodies: tuple[RigidBody, ...]) -> tuple[RigidBody, ...]:
+        """Return the bodies with the point on its body; as they are where the two joints show none."""
+        n = holding(bodies, self.on)
+        if n is None or coincide(bodies[n], *self.on):
+            return bodies
+        start, end = (bodies[n][name] for name in self.on)
+        place = start + (end - start) * share_of(bodies[n], self.on, self.at)
+        return (*bodies[:n], {**bodies[n], self.name: place}, *bodies[n + 1 :])
+
+
+@dataclass(frozen=True, slots=True)
+class Brace(Rigid):
+    """A point of a body stated by its distances from two joints of it: a corner of a rigid triangle."""
+
+    reach: tuple[float, float]
+
+    sized: ClassVar[tuple[str, ...]] = ("at", "reach")
+
+    @property
+    def bars(self) -> tuple[tuple[str, float], ...]:
+        """Its two bars."""
+        return (self.on[0], self.reach[0]), (self.on[1], self.reach[1])
+
+    @property
+    def spans(self) -> tuple[tuple[str, ...], ...]:
+        """Its two bars; the body may show them otherwise."""
+        return tuple((start, self.name) for start in self.on)
+
+
+def brace(dyad: RRR, frame: RigidBody) -> Brace:
+    """Return two bars that stand on one body as the corner of a rigid triangle.
+
+    With c from the first end to the second, the corner lies (c² + a² - b²)/(2c) along it and
+    √(((a + b)² - c²)(c² - (a - b)²))/(2c) beside it, each rounded once; bars in one line have no height.
+    """
+    a, b, c = map(Fraction, (*dyad.lengths, abs(frame[dyad.ends[1]] - frame[dyad.ends[0]])))
+    along = (c * c + a * a - b * b) / (2 * c)
+    height = ((a + b) ** 2 - c * c) * (c * c - (a - b) ** 2) / (4 * c**4)
+    beside = math.copysign(math.sqrt(max(height, Fraction(0))) * float(c), dyad.side)
+    return Brace(dyad.name, dyad.ends, (float(along), beside), dyad.lengths)
+
+
+# Joints that are given, not closed: fixed pins, crank pins, the slider that drives.
+
+
+@dataclass(frozen=True, slots=True)
+class Polar(Stated):
+    """Where a fixed pin lies as it was written: `length` at `angle` from `base`.
+
+    `base` names a fixed pin; None is the origin of coordinates. Kept because a length that is
+    read back from coordinates is rounded, and a change point depends on its last bit.
+    """
+
+    length: float
+    angle: float
+    base: str | None = None
+
+    sized: ClassVar[tuple[str, ...]] = ("length",)
+
+
+@dataclass(frozen=True, slots=True)
+class Pin(Joint):
+    """A fixed pin on the ground."""
+
+    position: Point
+    polar: Polar | None = None
+
+    fixed: ClassVar[bool] = True
+    sized: ClassVar[tuple[str, ...]] = ("position", "polar")
+
+    @property
+    def lengths(self) -> tuple[float, ...]:
+        """Its coordinates."""
+        return self.position
+
+    def placed(self, bodies: tuple[RigidBody, ...]) -> tuple[RigidBody, ...]:
+        """Return the bodies with the pin on the ground."""
+        return ({**bodies[0], self.name: complex(*self.position)}, *bodies[1:])
+
+
+@dataclass(frozen=True, slots=True)
+class Gear:
+    """A gear pair: angle = ratio × (angle of the crank `mate`) + offset."""
+
+    mate: str
+    ratio: Fraction
+    offset: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Crank(Joint):
+    """A pin that turns about the fixed pin `pivot`: the input; or about any joint, geared to another crank.
+
+    The angle of a geared crank is absolute, also of one whose pivot moves: a planet.
+    """
+
+    pivot: str
+    length: float
+    gear: Gear | None = None
+
+    sized: ClassVar[tuple[str, ...]] = ("length",)
+
+    @property
+    def needs(self) -> tuple[str, ...]:
+        """Its pivot, and the crank that it is geared to."""
+        return (self.pivot, self.gear.mate) if self.gear else (self.pivot,)
+
+    @property
+    def bars(self) -> tuple[tuple[str, float], ...]:
+        """The crank."""
+        return ((self.pivot, self.length),)
+
+
+@dataclass(frozen=True, slots=True)
+class DrivenSlider(Guided):
+    """A slider on the fixed `line`; the drive gives its travel, from the joint that the line runs through."""
+
+    line: Line
+
+    sized: ClassVar[tuple[str, ...]] = ("line",)
+
+
+# What moves a linkage, as data: a motor on its crank, a cylinder, a slider; and what tells where it is.
+
+
+@dataclass(frozen=True, slots=True)
+class Coordinate:
+    """What tells where the input is: an angle in radians, or a travel in the scene's unit of length.
+
+    `name` is its word and its key in JSON, `letter` its symbol, `velocity` the words for its rate. In `unit`,
+    `{}` stands for the unit of length.
+    """
+
+    name: str
+    letter: str
+    unit: str
+    velocity: str
+
+    @property
+    def is_angle(self) -> bool:
+        """Whether it comes round again after a whole turn."""
+        return self.unit == "rad"
+
+    @property
+    def rate_token(self) -> str:
+        """The token of its rate among the quantities."""
+        return f"input.{self.velocity.replace(' ', '_')}"
+
+    def shown(self, value: Any) -> Any:
+        """Return a value, or an array of them, as people read it: angles in degrees."""
+        return value * (180.0 / math.pi) if self.is_angle else value
+
+    def shown_unit(self, length_unit: str) -> str:
+        """Return the unit that goes with `shown`."""
+        return "°" if self.is_angle else length_unit
+
+    def text(self, value: float, length_unit: str, step: float) -> str:
+        """Return a value in words, to that step: 87.0°, 12.5 mm."""
+        return stepped(self.shown(value), step) + ("°" if self.is_angle else f" {length_unit}")
+
+
+ANGLE = Coordinate("angle", "θ", "rad", "angular velocity")
+TRAVEL = Coordinate("travel", "s", "{}", "velocity")
+
+
+@dataclass(frozen=True, slots=True)
+class Actuator(Stated):
+    """What drives the input: as it is, a motor on the crank.
+
+    `effort` is what it delivers, and its unit. `noun` is the input's name where it is no bar that turns;
+    `moves` says what an input does that turns back, `cycles` what each way there and back is counted as;
+    `linkage_name` is the class of a linkage that has nothing else.
+    """
+
+    coordinate: ClassVar[Coordinate] = ANGLE
+    effort: ClassVar[tuple[str, str]] = ("torque", "N m")
+    noun: ClassVar[str | None] = None
+    moves: ClassVar[str] = "swings"
+    cycles: ClassVar[str] = "swings"
+    linkage_name: ClassVar[str | None] = None
+
+    @property
+    def along(self) -> tuple[str, str] | None:
+        """The two joints whose distance it changes; None where it drives a joint itself."""
+        return None
+
+    def at_ends(self, unit: str) -> str:
+        """Return how it ends the way of an input that turns, as a clause; empty for what has no stroke."""
+        return ""
+
+
+@dataclass(frozen=True, slots=True)
+class Cylinder(Actuator):
+    """A cylinder that turns the crank: its length runs from `first` to `last` and back.
+
+    `between` is a fixed pin and a joint of the crank's body.
+    """
+
+    between: tuple[str, str]
+    first: float
+    last: float
+
+    sized: ClassVar[tuple[str, ...]] = ("first", "last")
+    effort: ClassVar[tuple[str, str]] = ("force", "N")
+    linkage_name: ClassVar[str | None] = "crank driven by a cylinder"
+
+    @property
+    def along(self) -> tuple[str, str]:
+        """The two joints whose distance it changes."""
+        return self.between
+
+    def at_ends(self, unit: str) -> str:
+        """Return the lengths between which it runs."""
+        lengths = f"{short(self.first)} {unit} long at one end and {short(self.last)} {unit} at the other"
+        return f"the cylinder {'–'.join(self.between)} is {lengths}"
+
+
+@dataclass(frozen=True, slots=True)
+class Travel(Actuator):
+    """How far the slider that drives the linkage travels along its line: from `first` to `last` and back."""
+
+    first: float
+    last: float
+
+    sized: ClassVar[tuple[str, ...]] = ("first", "last")
+    coordinate: ClassVar[Coordinate] = TRAVEL
+    effort: ClassVar[tuple[str, str]] = ("force", "N")
+    noun: ClassVar[str | None] = "slider"
+    moves: ClassVar[str] = "slides"
+    cycles: ClassVar[str] = "cycles"
+    linkage_name: ClassVar[str | None] = "slider"
+
+
+MOTOR = Actuator()
+"""What turns the crank itself."""
+
+
+@dataclass(frozen=True, slots=True)
+class Drive(Stated):
+    """What moves the linkage: the input's joint, its speed (rad/s, negative clockwise) and start (rad).
+
+    Where a length runs there and back, `speed` is that of the phase, one there-and-back being 2π. `at_zero`
+    says that a start of 0 was stated, and is not the default. With `retraced` an input that swings comes back
+    by the way it came, on the same closure; else it runs through its limit onto the other one.
+    """
+
+    joint: str
+    speed: float
+    start: float = 0.0
+    actuator: Actuator = MOTOR
+    at_zero: bool = False
+    retraced: bool = False
+
+    sized: ClassVar[tuple[str, ...]] = ("actuator",)
+
+    @property
+    def coordinate(self) -> Coordinate:
+        """What tells where the input is."""
+        return self.actuator.coordinate
+
+    @property
+    def stated_start(self) -> float | None:
+        """The start; None where none was stated."""
+        return self.start if self.start or self.at_zero else None
+
+    def check_angle(self, scene: str, way_out: str) -> None:
+        """Raise BadInput for the angle of an input that has none."""
+        if not self.coordinate.is_angle:
+            noun = self.actuator.noun
+            raise BadInput(f"{scene}: its input is a {noun}, which has no angle; {way_out}")
+
+
+# What a linkage is: frozen values, lengths in the scene's unit, angles in radians, y up.
+#
+# Joints stand in the order in which they can be solved: each one names only joints before it.
+
+
+@dataclass(frozen=True, slots=True)
+class Body(Stated):
+    """A named body: its angle is that of first -> second joint; `com` is its centre of mass.
+
+    `com` is (along first -> second joint, to the left of it) from the first joint. A body with
+    `slider` instead of joints is the block that travels with that joint along its line. `mass` is in kg,
+    `inertia` in kg·m² about the centre of mass; what is None is left out of all forces.
+    """
+
+    name: str
+    joints: tuple[str, ...] = ()
+    com: Point | None = None
+    slider: str | None = None
+    mass: float | None = None
+    inertia: float | None = None
+
+    sized: ClassVar[tuple[str, ...]] = ("com",)
+
+    @property
+    def forceful(self) -> bool:
+        """Whether it takes a force to move it."""
+        return self.mass is not None or self.inertia is not None
+
+
+@dataclass(frozen=True, slots=True)
+class Spring:
+    """A spring between two joints; `stiffness` in N/m, `free_length` in the scene's unit.
+
+    Both are None where the force is not known.
+    """
+
+    name: str
+    between: tuple[str, str]
+    stiffness: float | None = None
+    free_length: float | None = None
+
+    @property
+    def forceful(self) -> bool:
+        """Whether its force is known."""
+        return self.stiffness is not None and self.free_length is not None
+
+
+@dataclass(frozen=True, slots=True)
+class Damper:
+    """A damper between two joints; `coefficient` in N·s/m, None where the force is not known."""
+
+    name: str
+    between: tuple[str, str]
+    coefficient: float | None = None
+
+    @property
+    def forceful(self) -> bool:
+        """Whether its force is known."""
+        return self.coefficient is not None
+
+
+@dataclass(frozen=True)
+class Linkage(Stated):
+    """A planar linkage with one input."""
+
+    joints: tuple[Joint, ...]
+    drive: Drive
+    bodies: tuple[Body, ...] = ()
+    springs: tuple[Spring, ...] = ()
+    dampers: tuple[Damper, ...] = ()
+    metre: float = field(default=1.0)
+    """One unit of length in metres (0.001 for mm); forces need it."""
+    gravity: float = 0.0
+    """How fast masses fall, in m/s², down; 0 where nothing is said of it."""
+
+    sized: ClassVar[tuple[str, ...]] = ("joints", "bodies", "drive")
+
+    @property
+    def unit(self) -> str:
+        """The unit of its lengths, as in sentences."""
+        return unit_of(self.metre)
+
+    @property
+    def forceful(self) -> bool:
+        """Whether the input has to drive anything: a spring or damper of known force, or a mass."""
+        struts = self.springs + self.dampers
+        return any(strut.forceful for strut in struts) or any(body.forceful for body in self.bodies)
+
+    @staticmethod
+    def strut_word(strut: Spring | Damper) -> str:
+        """Return what a strut is called: a damper of which no force is known is a cylinder."""
+        if isinstance(strut, Spring):
+            return "spring"
+        return "damper" if strut.forceful else "cylinder"
+
+    def strut_words(self, strut: Spring | Damper) -> str:
+        """Return what a strut is called with its name: "return spring"; a name that says it stands alone."""
+        word = self.strut_word(strut)
+        return strut.name if word in strut.name.lower().split() else f"{strut.name} {word}"
+
+    def joint(self, name: str) -> Joint:
+        """Return the joint of that name; KeyError where there is none."""
+        return self.by_name[name]
+
+    def pin(self, name: str) -> Pin:
+        """Return the fixed pin of that name, which must be one."""
+        joint = self.by_name[name]
+        assert isinstance(joint, Pin)
+        return joint
+
+    def crank(self, name: str) -> Crank:
+        """Return the crank whose pin has that name, which must be one."""
+        joint = self.by_name[name]
+        assert isinstance(joint, Crank)
+        return joint
+
+    @property
+    def longest(self) -> float:
+        """The longest length that the definition of a joint states; without any that of the drive, or 1."""
+        stated = max((abs(length) for joint in self.joints for length in joint.lengths), default=0.0)
+        return stated or max(map(abs, self.drive.actuator.lengths), default=0.0) or 1.0
+
+    @cached_property
+    def extent(self) -> float:
+        """How far from the origin any joint may come: all lengths together; 1 without any."""
+        return math.fsum(map(abs, self.lengths)) or 1.0
+
+    @cached_property
+    def by_name(self) -> dict[str, Joint]:
+        """Map each joint's name to the joint."""
+        return {joint.name: joint for joint in self.joints}
+
+    @cached_property
+    def unsized(self) -> Linkage:
+        """The linkage with every length 0: what those have in common that differ in lengths alone."""
+        return self.scaled(0.0)
+
+    @cached_property
+    def rigid_bodies(self) -> tuple[RigidBody, ...]:
+        """The rigid bodies, the ground first: where each one's joints lie in its own frame."""
+        return rigid_bodies(self.joints)
+
+    @cached_property
+    def radii(self) -> dict[str, float]:
+        """How far each joint is from the fixed pin that it turns about; infinite where its line is fixed."""
+        found = {slide.point: math.inf for joint in self.joints for slide in joint.slides if not slide.start}
+        for frame in self.rigid_bodies[1:]:
+            if (pivot := self.pivot(frame)) is not None:
+                found |= {name: abs(place - frame[pivot]) for name, place in frame.items() if name != pivot}
+        return {name: radius for name, radius in found.items() if radius}
+
+    def pivot(self, names: Iterable[str]) -> str | None:
+        """Return the fixed pin about which a rigid body turns that has joints; None of others, and of two."""
+        n = holding(self.rigid_bodies, names)
+        pins = [pin.name for pin in self.pins if n and pin.name in self.rigid_bodies[n]]
+        return pins[0] if len(pins) == 1 else None
+
+    @property
+    def cranks(self) -> Iterator[Crank]:
+        """The cranks in the order of the joints, the input among them."""
+        return (joint for joint in self.joints if isinstance(joint, Crank))
+
+    def crank_of(self, body: Body) -> Crank | None:
+        """Return the crank whose bar a body is: of the input, or of one geared to it; None of others."""
+        ends = set(body.joints[:2])
+        return next((crank for crank in self.cranks if ends == {crank.pivot, crank.name}), None)
+
+    @property
+    def pins(self) -> Iterator[Pin]:
+        """The fixed pins in the order of the joints."""
+        return (joint for joint in self.joints if isinstance(joint, Pin))

@@ -1,1 +1,0 @@
-"""What a linkage is, as data: joints, bodies, lines of travel, the drive; nothing here moves."""

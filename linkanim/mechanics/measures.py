@@ -1,0 +1,567 @@
+"""Measure what follows from solved quantities, and say what such a number is worth.
+
+Its parts, in reading order:
+
+- What a solved number says at a phase: a number, that it is not bounded, 0, or nothing.
+- Measures: what follows from solved quantities, and what is known of each joint, body and strut.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+
+from linkanim.mechanics.angles import STATED
+from linkanim.mechanics.linkage import Body, Crank, Damper, Linkage, Spring, holding, share_of
+
+# What a solved number says at a phase: a number, that it is not bounded, 0, or nothing.
+#
+# **How to ask.** `scene.quantities[token].read(motion)`, of a Motion or a Pose, and `.shown(motion)` with
+# angles in degrees. Every output asks them, so that all say the same of the same:
+#
+# - a finite number: that is its value; - `0.0`, without a sign: it is nothing, by geometry or to all digits
+# that it could have; - `math.inf`, without a sign: it is not bounded there, such as a rate by the input at a
+# limit of the input; - `nan`: there is no such thing there, such as the direction of a strut of no length
+# (None: it is not known).
+#
+# Motion's own attributes hold what was computed. Three things make a float say what is not so.
+#
+# **At a limit.** A limit is at a multiple of π in phase, of which no float is one but 0. A phase within its
+# own last digits of one is that limit (`formulas.circular.stated`): there a vanishing rate is 0.0, and what
+# is over it infinite. An angle is held to the limit's own digits (`LimitDistances`).
+#
+# **By rounding.** What vanishes comes out as the rounding errors of what it is made of: so many digits down
+# from the linkage's extent, moved at the input's speed. What is no larger is 0.
+#
+# **By geometry.** A point that keeps its distance from a fixed pin runs on a circle, one that slides on a
+# fixed line runs straight (`Linkage.radii`); a body with a fixed pin turns about it (`Linkage.pivot`); a
+# strut between two joints of one rigid body keeps its length. That holds at rest, too, where velocities say
+# nothing. How other paths bend and where other poles are follows there from the rates by the input, which
+# are the same however fast it runs.
+
+ROUNDING = 1e-13
+"""Of what is as large as the linkage's extent, moved at the input's speed."""
+
+
+def settled(found: Any, rounding: Any) -> Any:
+    """Return numbers with 0.0 for what is no larger than rounding errors, and one infinity for both.
+
+    Floats, pairs of them, or arrays with which `rounding` goes together.
+    """
+    if isinstance(found, tuple):
+        return tuple(settled(part, rounding) for part in found)
+    if isinstance(found, float) and isinstance(rounding, float):
+        size = abs(found)
+        return 0.0 if size <= rounding else math.inf if size == math.inf else found
+    return np.where(np.abs(found) <= rounding, 0.0, np.where(np.isinf(found), np.inf, found))[()]
+
+
+def said(motion: Any, found: Any, unit: str, order: int) -> Any:
+    """Return solved numbers of a motion, vectors in arrays (..., 2) or pairs, as they are told."""
+    rounding = rounding_of(motion, unit, order)
+    vectors = np.ndim(found) == np.ndim(rounding) + 1 if isinstance(rounding, np.ndarray) else False
+    return settled(found, rounding[..., None] if vectors else rounding)
+
+
+def rounding_of(motion: Any, unit: str, order: int) -> Any:
+    """Return how large rounding errors of a quantity may be, from the linkage's extent and the input's speed.
+
+    An array where the speed is one; 0 of what is neither an angle nor a length, nor a rate of one.
+    """
+    size = _size(unit, motion.setting.linkage.extent)
+    if not order:
+        return size
+    speed, acceleration = motion.input_speed, motion.input_acceleration
+    return size * (abs(speed) if order == 1 else speed * speed + abs(acceleration))
+
+
+def unbounded(rate: Any, phase: Any) -> Any:
+    """Return a rate, infinite where it is NaN at a phase that is known: there it is not bounded."""
+    if isinstance(rate, float):
+        return math.inf if math.isnan(rate) and not math.isnan(phase) else rate
+    return np.where(np.isnan(rate) & ~np.isnan(phase), np.inf, rate)[()]
+
+
+def stands(motion: Any) -> Any:
+    """Tell where the input stands: at an end where it turns back, as well as a phase can say it, or at rest.
+
+    There q' is as small as a phase's last digits beside q".
+    """
+    phase, rate, second = motion.phase, motion.coordinate_rate, motion.coordinate_second
+    return np.abs(rate * motion.input_speed) <= STATED * np.hypot(phase, math.pi) * np.abs(second)
+
+
+@lru_cache(maxsize=256)
+def _size(unit: str, extent: float) -> float:
+    """Return the rounding errors of a unit in which `{}` stands for that of length."""
+    above, _, below = unit.partition("/")
+    if not ("{" in above or above.startswith("rad")):
+        return 0.0
+    power = ("{" in above) - ("{" in below) * (2 if "²" in below else 1)
+    with np.errstate(all="ignore"):  # extents to a power may be beyond all floats
+        return float(ROUNDING * np.power(extent, float(power)))
+
+
+# Measures: what follows from solved quantities, and what is known of each joint, body and strut.
+#
+# Every function takes a Motion, and works on arrays, or a Pose, and works on floats: by + - × ÷ and roots of
+# components, and numpy's functions, so that both have the same bits. What has no value at an instant is NaN,
+# what is not bounded is infinite (`settled`). Symbols are those of the textbooks on mechanisms: ω, α, v, a;
+# h and f for first kinematic coefficients.
+
+_STRAIGHT = 1e-12
+"""Below this share a cross product of velocity and acceleration, or of the input's rate, is rounding."""
+_FLAT = 1e-2
+"""Of the rounding errors of accelerations: what they are where all terms of one are small."""
+_SHARP = 1e-3
+"""Above this share such a product keeps its digits."""
+
+
+def components(vector: Any) -> tuple[Any, Any]:
+    """Return x and y of a pair of floats, or of an array (..., 2)."""
+    return vector if isinstance(vector, tuple) else (vector[..., 0], vector[..., 1])
+
+
+def as_complex(vector: Any) -> Any:
+    """Return a pair of floats, or an array (..., 2), as x + yi."""
+    return complex(*vector) if isinstance(vector, tuple) else vector[..., 0] + 1j * vector[..., 1]
+
+
+def over(dividend: Any, divisor: Any) -> Any:
+    """Return a quotient, infinite or NaN where the divisor is 0."""
+    if type(dividend) is type(divisor) is float and divisor:
+        return dividend / divisor
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        return np.true_divide(dividend, divisor)
+
+
+Way = tuple[Any, Any]
+"""The components of a vector from one joint to another, floats or arrays."""
+
+
+def between(vectors: Mapping[str, Any], ends: tuple[str, str]) -> Way:
+    """Return how far one joint's vector is from another's: x and y."""
+    (x0, y0), (x1, y1) = (components(vectors[joint]) for joint in ends)
+    return x1 - x0, y1 - y0
+
+
+def size(way: Way) -> Any:
+    """Return a way's length, by the root that IEEE 754 rounds in one way: the C library has its own hypot."""
+    square = way[0] * way[0] + way[1] * way[1]
+    return math.sqrt(square) if isinstance(square, float) else np.sqrt(square)
+
+
+def cross(way: Way, other: Way) -> Any:
+    """Return the signed area that two ways span."""
+    return way[0] * other[1] - way[1] * other[0]
+
+
+def growth(way: Way, moving: Way) -> Any:
+    """Return how fast the length of a way that moves grows; of one of length 0, how fast it is about to."""
+    length = size(way)
+    rate = over(_dot(way, moving), length)
+    return rate if np.all(length) else np.where(length == 0, size(moving), rate)[()]
+
+
+def direction(way: Way) -> Any:
+    """Return the angle of a way, -π … π; NaN where it has no length."""
+    dx, dy = way
+    if isinstance(dx, float) and not (dx or dy):
+        return math.nan
+    # numpy's of floats, too: a C library's has other bits
+    return np.where((dx == 0) & (dy == 0), np.nan, np.arctan2(dy, dx))[()]
+
+
+def tangential(velocity: Any, acceleration: Any) -> Any:
+    """Return the acceleration along the way a point moves: negative where it slows down; NaN at rest."""
+    return over(_dot(velocity, acceleration), size(velocity))
+
+
+def normal(velocity: Any, acceleration: Any) -> Any:
+    """Return the acceleration towards the centre of curvature of a point's path, not negative."""
+    return over(abs(cross(velocity, acceleration)), size(velocity))
+
+
+def curvature_radius(velocity: Any, acceleration: Any, least: Any) -> Any:
+    """Return the radius of curvature of a point's path, ρ = |v|³/|v × a|; infinite where it is straight.
+
+    Of an acceleration less is known than `least`.
+    """
+    speed, bend = size(velocity), abs(cross(velocity, acceleration))
+    straight = bend <= speed * np.maximum(_STRAIGHT * size(acceleration), least)
+    return over(speed * speed * speed, np.where(straight, 0.0, bend)[()])
+
+
+def _dot(way: Way, other: Way) -> Any:
+    return way[0] * other[0] + way[1] * other[1]
+
+
+def pole(motion: Any, body: Body, other: Body | None = None) -> tuple[Any, Any]:
+    """Return a body's instant centre to another, or to the ground: x and y.
+
+    There both move alike: P = A + i·(v_A - v)/(ω - ω′) with v and ω′ of the other's plane at A, a joint of
+    the body. Those of three bodies lie in one line (Aronhold and Kennedy). Infinite where they turn alike.
+    A fixed pin is the centre of what turns about it, and at rest they are those of the motion by the input.
+    """
+    linkage, still = motion.setting.linkage, 0.0 * motion.phase
+    pin = linkage.pivot(body.joints) if other is None and body.slider is None else None
+    if pin is not None:
+        x, y = linkage.pin(pin).position
+        return x + still, y + still
+    found = _moving_pole(motion, body, other)
+    if np.any(stops := stands(motion)):
+        by_input = _moving_pole(motion.per_input, body, other)
+        known = stops & np.isfinite(by_input[0]) & np.isfinite(by_input[1])
+        return np.where(known, by_input[0], found[0])[()], np.where(known, by_input[1], found[1])[()]
+    return found
+
+
+def _moving_pole(motion: Any, body: Body, other: Body | None) -> tuple[Any, Any]:
+    joint, rate = body.slider or body.joints[0], _rate(motion, body)
+    (x, y), (vx, vy) = (components(kind[joint]) for kind in (motion.position, motion.velocity))
+    if other is not None:
+        there, theirs = other.slider or other.joints[0], _rate(motion, other)
+        (px, py), (wx, wy) = (components(kind[there]) for kind in (motion.position, motion.velocity))
+        rate, vx, vy = rate - theirs, vx - wx + theirs * (y - py), vy - wy - theirs * (x - px)
+    turns = abs(rate) > _STRAIGHT * abs(motion.coordinate_rate)
+    found = x - over(vy, rate), y + over(vx, rate)
+    return np.where(turns, found[0], math.inf)[()], np.where(turns, found[1], math.inf)[()]
+
+
+def _rate(motion: Any, body: Body) -> Any:
+    """Return a body's angular velocity: of what slides that of its guide."""
+    if body.slider is None:
+        return motion.angular_velocity[body.name]
+    (guide, *_) = motion.setting.linkage.joint(body.slider).slides
+    if guide.axis is None:
+        return 0.0 * motion.coordinate_rate
+    arm, moving = between(motion.position, guide.axis), between(motion.velocity, guide.axis)
+    return over(cross(arm, moving), _dot(arm, arm))
+
+
+def centrodes(motion: Any, body: Body) -> tuple[Any, Any]:
+    """Return the path of a body's instant centre on the ground, and on the body: x + yi (n,), breaks NaN.
+
+    The body moves as if the second curve, fixed to it along its first -> second joint, rolled on the first.
+    There is a break wherever the centre goes through infinity: where the body stops turning.
+    """
+    x, y = pole(motion, body)
+    first, second = (as_complex(motion.position[name]) for name in body.joints[:2])
+    turning = np.sign(motion.angular_velocity[body.name])
+    known = np.isfinite(x) & np.isfinite(y)
+    fixed = np.where(known, x, math.nan) + 1j * np.where(known, y, math.nan)
+    rolling = (fixed - first) * (np.conj(second - first) / abs(second - first))
+    through = np.flatnonzero(turning[1:] * turning[:-1] <= 0) + 1
+    return np.insert(fixed, through, math.nan), np.insert(rolling, through, math.nan)
+
+
+def transmission_angle(motion: Any, dyad: str) -> Any:
+    """Return a dyad's transmission angle, 90° at the most, as its kind of joint defines it."""
+
+    def way(start: str, end: str) -> Way:
+        return between(motion.position, (start, end))
+
+    return motion.setting.linkage.joint(dyad).transmission_at(way)
+
+
+def worst_transmission(motion: Any, dyads: tuple[str, ...]) -> Any:
+    """Return the least transmission angle of several dyads."""
+    return np.min([transmission_angle(motion, dyad) for dyad in dyads], axis=0)[()]
+
+
+def dyads_of(linkage: Linkage) -> tuple[str, ...]:
+    """Return the joints of the dyads that have a transmission angle, in the order of solving."""
+    return tuple(joint.name for joint in linkage.joints if joint.transmission(1.0, 1.0) is not None)
+
+
+def output_body(linkage: Linkage) -> Body | None:
+    """Return the body that a linkage is there to move: its first slider not driven, else its last rocker."""
+    own = (None, linkage.drive.joint)
+    slider = next((body for body in linkage.bodies if body.slider not in own), None)
+    fixed = {pin.name for pin in linkage.pins}
+    rockers = [body for body in linkage.bodies if fixed & set(body.joints) and not linkage.crank_of(body)]
+    return slider or (rockers[-1] if rockers else None)
+
+
+def output_slider(linkage: Linkage) -> Body | None:
+    """Return the slider that a linkage is there to move: the first one not driven, or else the driven."""
+    output = output_body(linkage)
+    if output is not None and output.slider is not None:
+        return output
+    return next((body for body in linkage.bodies if body.slider is not None), None)
+
+
+def coupler_body(linkage: Linkage) -> Body | None:
+    """Return the body that turns about nothing fixed: the first one without a fixed pin, None without one."""
+    turning = (body for body in linkage.bodies if body.slider is None)
+    return next((body for body in turning if not pivots_of(linkage, body)), None)
+
+
+def pivots_of(linkage: Linkage, body: Body) -> tuple[str, ...]:
+    """Return the fixed pins of a body that turns, those of what is rigid with it among them."""
+    frame = holding(linkage.rigid_bodies, body.joints)
+    return tuple(pin.name for pin in linkage.pins if frame and pin.name in linkage.rigid_bodies[frame])
+
+
+def mechanical_advantage(motion: Any, output: Body) -> Any:
+    """Return the output's torque over the input's; of sliders the force, at the crank's pin.
+
+    Without losses both are ratios of speeds (Uicker, Pennock and Shigley, Theory of Machines and
+    Mechanisms); not negative, infinite where the output rests, 0 where the input does.
+    """
+    linkage = motion.setting.linkage
+    crank, turning = linkage.joint(linkage.drive.joint), output.slider is None
+    length = crank.length if isinstance(crank, Crank) and not turning else 1.0
+    first, _ = coefficients_of(linkage, turning=turning)
+
+    def by_input(motion: Any) -> Any:
+        return over(rate_of(motion, output), motion.coordinate_rate)
+
+    slope = by_input(motion)
+    if np.any(stops := stands(motion)):
+        slope = np.where(stops, unbounded(by_input(motion.per_input), motion.phase), slope)[()]
+    return abs(over(length, settled(slope, rounding_of(motion, first.unit, 0))) + 0.0 * motion.phase)
+
+
+def rate_of(motion: Any, body: Body) -> Any:
+    """Return how fast a body turns, or a slider travels."""
+    return (motion.travel_velocity if body.slider else motion.angular_velocity)[body.name]
+
+
+def input_rate(motion: Any) -> Any:
+    """Return the input's own velocity, one value an instant: of a swing it is not the phase's."""
+    return motion.coordinate_rate + 0.0 * motion.phase
+
+
+@dataclass(frozen=True, slots=True)
+class Measure:
+    """What is known of each part of one sort, such as the angular velocity of a body.
+
+    `name` ends the token, and is Motion's attribute where that holds it; `key` is the name in JSON and
+    `heading` in a table of plain letters. In `unit`, `{}` stands for the unit of length. `order` counts
+    derivatives in time. `read` takes a Motion or a Pose and the part's name, and says what `settled` tells.
+    Where its `divisor` changes sign it may be unbounded.
+    """
+
+    name: str
+    key: str
+    symbol: str
+    words: str
+    unit: str
+    order: int
+    heading: str
+    read: Callable[[Any, str], Any]
+    divisor: Callable[[Any, str], Any] | None = None
+
+    def divisor_of(self, part: str) -> Callable[[Any], Any] | None:
+        """Return the divisor of one part, if there is one."""
+        divisor = self.divisor
+        if divisor is None:
+            return None
+        return lambda motion: divisor(motion, part)
+
+
+def _solved(name: str, symbol: str, words: str, unit: str, order: int, heading: str = "") -> Measure:
+    """Return the measure that Motion holds under its own name."""
+    key = name.removeprefix("travel_").removeprefix("com_")
+
+    def read(motion: Any, part: str) -> Any:
+        return said(motion, getattr(motion, name)[part], unit, order)
+
+    return Measure(name, key, symbol, words, unit, order, heading or symbol, read)
+
+
+def _of_points(prefix: str) -> tuple[Measure, ...]:
+    """Return the measures of joints, or of centres of mass, by what their names begin with in a motion."""
+    return (
+        _solved(f"{prefix}position", "r", "position", "{}", 0),
+        _solved(f"{prefix}velocity", "v", "velocity", "{}/s", 1),
+        _solved(f"{prefix}acceleration", "a", "acceleration", "{}/s²", 2),
+    )
+
+
+POINT, CENTRE = _of_points(""), _of_points("com_")
+TURNING = (
+    _solved("angle", "θ", "angle", "rad", 0, "angle"),
+    _solved("angular_velocity", "ω", "angular velocity", "rad/s", 1, "omega"),
+    _solved("angular_acceleration", "α", "angular acceleration", "rad/s²", 2, "alpha"),
+)
+TRAVELLING = (
+    _solved("travel", "s", "travel", "{}", 0, "travel"),
+    _solved("travel_velocity", "v", "velocity", "{}/s", 1),
+    _solved("travel_acceleration", "a", "acceleration", "{}/s²", 2),
+)
+
+
+def coefficients_of(linkage: Linkage, *, turning: bool) -> tuple[Measure, ...]:
+    """Return the two kinematic coefficients of bodies that turn, or slide: by the input's angle or travel."""
+    coordinate = linkage.drive.coordinate
+    by, plain = coordinate.unit, "theta" if coordinate.is_angle else coordinate.name
+    slid = f"{{}}/{by}" if coordinate.is_angle else "{0}/{0}"
+    symbol, letter, units = (
+        ("h", "q", (f"rad/{by}", f"rad/{by}²")) if turning else ("f", "s", (slid, f"{slid}²"))
+    )
+    first = "coefficient", "1", symbol, "kinematic coefficient", units[0], 0, f"d{letter}/d{plain}"
+    words = "second kinematic coefficient"
+    second = "second_coefficient", "2", f"{symbol}′", words, units[1], 0, f"d2{letter}/d{plain}2"
+
+    def read(place: int) -> Callable[[Any, str], Any]:
+        return lambda motion, part: said(motion, motion.coefficient[part][place], units[place], 0)
+
+    return Measure(*first, read(0)), Measure(*second, read(1))
+
+
+def measures_of(linkage: Linkage, body: Body) -> tuple[tuple[Measure, ...], tuple[Measure, ...]]:
+    """Return the measures of a body that turns or slides, and its two kinematic coefficients."""
+    turning = body.slider is None
+    return TURNING if turning else TRAVELLING, coefficients_of(linkage, turning=turning)
+
+
+def _strut(motion: Any, item: Spring | Damper, found: Any, name: str) -> Any:
+    """Return what of a strut has that name; of one between two joints of one rigid body the length stays."""
+    value = getattr(found, name)
+    if value is None:
+        return None
+    rigid = holding(motion.setting.linkage.rigid_bodies, item.between) is not None
+    if rigid and (name == "rate" or (name == "force" and isinstance(item, Damper))):
+        return 0.0 * motion.phase
+    if name == "force":
+        return settled(value, force_rounding(motion, item))
+    if name in ("length", "rate"):
+        return said(motion, value, "{}" if name == "length" else "{}/s", int(name == "rate"))
+    nowhere = np.equal(said(motion, found.length, "{}", 0), 0.0)
+    order = int(name == "direction_rate")
+    return np.where(nowhere, np.nan, said(motion, value, "rad/s" if order else "rad", order))[()]
+
+
+def force_rounding(motion: Any, item: Spring | Damper) -> Any:
+    """Return how large the rounding errors of a strut's force may be (N)."""
+    factor = item.stiffness if isinstance(item, Spring) else item.coefficient
+    unit, order = ("{}", 0) if isinstance(item, Spring) else ("{}/s", 1)
+    return rounding_of(motion, unit, order) * (abs(factor or 0.0) * motion.setting.linkage.metre)
+
+
+def _of_struts(kind: str) -> tuple[Measure, ...]:
+    """Return length, rate, force, direction and its rate of the struts of one kind, "spring" or "damper"."""
+
+    def measure(name: str, symbol: str, words: str, unit: str, order: int) -> Measure:
+        def read(motion: Any, strut: str) -> Any:
+            item = next(one for one in getattr(motion.setting.linkage, f"{kind}s") if one.name == strut)
+            return _strut(motion, item, getattr(motion, kind)[strut], name)
+
+        return Measure(name, name, symbol, words, unit, order, name, read)
+
+    return (
+        measure("length", "L", "length", "{}", 0),
+        measure("rate", "v", "rate of length", "{}/s", 1),
+        measure("force", "F", "force", "N", int(kind == "damper")),
+        measure("direction", "θ", "direction", "rad", 0),
+        measure("direction_rate", "ω", "rate of direction", "rad/s", 1),
+    )
+
+
+SPRING, DAMPER = _of_struts("spring"), _of_struts("damper")
+
+
+def _radius(motion: Any, prefix: str, part: str) -> float | None:
+    """Return the radius of the circle on which a joint, or a centre of mass, runs; None where on none."""
+    linkage = motion.setting.linkage
+    if not prefix:
+        found: float | None = linkage.radii.get(part)
+        return found
+    body = motion.setting.body(part)
+    if (pivot := linkage.pivot(body.joints)) is None:
+        return None
+    frame = linkage.rigid_bodies[holding(linkage.rigid_bodies, body.joints) or 0]
+    start, end = (frame[name] for name in body.joints[:2])
+    assert body.com is not None
+    place = start + (end - start) * share_of(frame, (body.joints[0], body.joints[1]), body.com)
+    return float(abs(place - frame[pivot])) or None
+
+
+def _rates(motion: Any, prefix: str, part: str) -> tuple[Way, Way]:
+    kinds = (getattr(motion, f"{prefix}{kind}") for kind in ("velocity", "acceleration"))
+    velocity, acceleration = (components(kind[part]) for kind in kinds)
+    return velocity, acceleration
+
+
+def _radius_of_curvature(motion: Any, prefix: str, part: str) -> Any:
+    """Return how a path bends: known by geometry, or from the rates in time or by the input.
+
+    The path is the same by either. Where the input stops those in time lose their digits, at a limit of it
+    the others: those are taken that keep more, which the angle between velocity and acceleration tells.
+    """
+    radius = _radius(motion, prefix, part)
+    if radius is not None:
+        return radius + 0.0 * motion.phase
+    rates = _rates(motion, prefix, part)
+    found, share = _curved(motion, rates), _share(*rates)
+    steady = motion.setting.assembly.path.full_turn and not np.any(motion.input_acceleration)
+    if (steady and np.all(motion.input_speed)) or not np.any(share < _SHARP):
+        return found
+    others = _rates(motion.per_input, prefix, part)
+    better = (share < _SHARP) & ((_share(*others) > share) | np.isnan(found))
+    return np.where(better, _curved(motion.per_input, others), found)[()]
+
+
+def _curved(motion: Any, rates: tuple[Way, Way]) -> Any:
+    return curvature_radius(*rates, _FLAT * rounding_of(motion, "{}/s²", 2))
+
+
+def _share(velocity: Way, acceleration: Way) -> Any:
+    """Return the sine of the angle between velocity and acceleration; 0 at rest, and of unbounded ones."""
+    with np.errstate(invalid="ignore", over="ignore"):
+        share = over(abs(cross(velocity, acceleration)), size(velocity) * size(acceleration))
+    return np.where(np.isnan(share), 0.0, share)
+
+
+def _along(motion: Any, prefix: str, part: str) -> Any:
+    """Return the tangential acceleration, NaN of a point that rests."""
+    velocity, acceleration = _rates(motion, prefix, part)
+    rests = np.equal(said(motion, size(velocity), "{}/s", 1), 0.0)
+    return np.where(rests, np.nan, tangential(velocity, acceleration))[()]
+
+
+def _across(motion: Any, prefix: str, part: str) -> Any:
+    """Return the normal acceleration, 0 of a point that rests."""
+    velocity, acceleration = _rates(motion, prefix, part)
+    speed, radius = said(motion, size(velocity), "{}/s", 1), _radius(motion, prefix, part)
+    if radius is not None:
+        return speed * speed / radius
+    return np.where(np.equal(speed, 0.0), 0.0, normal(velocity, acceleration))[()]
+
+
+def _of_paths(prefix: str) -> tuple[Measure, ...]:
+    """Return how the paths bend of joints, or of centres of mass, from velocity and acceleration."""
+
+    def bent(name: str, symbol: str, words: str, unit: str, order: int, work: Callable[..., Any]) -> Measure:
+        def read(motion: Any, part: str) -> Any:
+            return said(motion, work(motion, prefix, part), unit, order)
+
+        def turning(motion: Any, part: str) -> Any:
+            return cross(*_rates(motion, prefix, part))
+
+        divisor = None if order else turning
+        return Measure(prefix + name, name, symbol, words, unit, order, name, read, divisor)
+
+    return (
+        bent("normal_acceleration", "aⁿ", "normal acceleration", "{}/s²", 2, _across),
+        bent("tangential_acceleration", "aᵗ", "tangential acceleration", "{}/s²", 2, _along),
+        bent("curvature_radius", "ρ", "radius of curvature", "{}", 0, _radius_of_curvature),
+    )
+
+
+PATH, CENTRE_PATH = _of_paths(""), _of_paths("com_")
+
+FAMILIES = tuple(
+    tuple(measure.name for measure in family) for family in (POINT, CENTRE, TURNING[1:], TRAVELLING)
+)
+"""What is solved, in the families that are worked out together, derivatives after what they are of."""
+VECTORS = tuple(measure.name for measure in (*POINT, *CENTRE))
+NUMBERS = tuple(measure.name for measure in (*TURNING[1:], *TRAVELLING))
+DERIVATIVE_OF = {measure.name: measure.order for measure in (*POINT, *CENTRE, *TURNING, *TRAVELLING)}

@@ -1,0 +1,871 @@
+"""Solve a linkage: the mechanism made ready, its motion in arrays, its pose in floats.
+
+Its parts, in reading order:
+
+- Where solved quantities lie in rows, and how they are read from there.
+- What solving gives: the motion of every joint, body, centre of mass, spring and damper.
+- A linkage made ready to be solved: assembled once, its programs compiled when first needed.
+"""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import FrozenInstanceError, dataclass
+from functools import cached_property, lru_cache, partial
+from types import MappingProxyType
+from typing import Any, Generic, NamedTuple, TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linkanim.mechanics.arithmetic import Graph, Slope, Value
+from linkanim.mechanics.linkage import Body, Damper, Linkage, Spring
+from linkanim.mechanics.measures import (
+    DERIVATIVE_OF,
+    FAMILIES,
+    NUMBERS,
+    VECTORS,
+    between,
+    cross,
+    direction,
+    growth,
+    over,
+    size,
+    unbounded,
+)
+from linkanim.mechanics.program import Array, Batch, batch, scalar
+from linkanim.mechanics.solver import limits
+from linkanim.mechanics.solver.assembly import assemble
+from linkanim.mechanics.solver.closing import Assembly, Walk, walked
+from linkanim.mechanics.solver.input import InputState, LimitDistances, retraced
+from linkanim.mechanics.solver.limits import Separations, separations
+from linkanim.mechanics.solver.loop import Gearing
+
+# Where solved quantities lie in rows, and how they are read from there.
+#
+# How far a direction turns from instant to instant is known by directions alone, not by rates, which near a
+# dead centre grow without bound: between two less than half a turn apart the way is known, so instants are
+# put between neighbours until they are near, in the input and in direction.
+
+Pair = tuple[float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """The first row of a quantity and how many it has; a `fixed` pair has none."""
+
+    row: int
+    count: int
+    fixed: Pair | None = None
+
+
+@dataclass(frozen=True)
+class ResultLayout:
+    """The places of all quantities by kind and name, and the kind that each row holds."""
+
+    places: Mapping[str, Mapping[str, Place]]
+    outputs: tuple[Value, ...]
+    kinds: tuple[str, ...]
+
+
+def layout(
+    rows: Mapping[str, Mapping[str, tuple[Value, ...]]], fixed: Mapping[str, Pair], vectors: tuple[str, ...]
+) -> ResultLayout:
+    """Lay the quantities out in rows, one for each component; what is fixed takes none.
+
+    `fixed` gives where pins stand, `vectors` the kinds of quantity that pins have: their position,
+    then rates, which are zero.
+    """
+    places: dict[str, dict[str, Place]] = {}
+    outputs: list[Value] = []
+    kinds: list[str] = []
+    for kind, values in rows.items():
+        places[kind] = {}
+        for name, components in values.items():
+            if kind in vectors and name in fixed:
+                places[kind][name] = Place(-1, 2, fixed[name] if kind == vectors[0] else (0.0, 0.0))
+                continue
+            places[kind][name] = Place(len(outputs), len(components))
+            outputs.extend(components)
+            kinds.extend([kind] * len(components))
+    return ResultLayout(places, tuple(outputs), tuple(kinds))
+
+
+class Lazy(Mapping[str, Any]):
+    """A mapping whose values are worked out when they are first read; nobody can change them."""
+
+    def __init__(self, names: Iterable[str], find: Callable[[str], Any]) -> None:
+        self._names, self._find = dict.fromkeys(names), find
+        self._found: dict[str, Any] = {}
+
+    def __getitem__(self, name: str) -> Any:
+        if name not in self._found:
+            if name not in self._names:
+                raise KeyError(name)
+            self._found[name] = read_only(self._find(name))
+        return self._found[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._names)
+
+    def __len__(self) -> int:
+        return len(self._names)
+
+
+def columns(places: Mapping[str, Place], results: Array, shape: tuple[int, ...]) -> Mapping[str, Array]:
+    """Return one kind of quantity by name: views of the results.
+
+    A row for each component keeps every pass contiguous; (N, 2) is its transpose, not a copy.
+    """
+
+    def column(name: str) -> Any:
+        place = places[name]
+        if place.fixed is not None:
+            return np.broadcast_to(np.array(place.fixed), (*shape, 2))
+        rows = results[place.row : place.row + place.count]
+        return rows[0].reshape(shape) if place.count == 1 else rows.T.reshape((*shape, 2))
+
+    return Lazy(places, column)
+
+
+def scaled(values: Mapping[str, Array], factor: float) -> Mapping[str, Array]:
+    """Return the same columns, each times a factor."""
+    return Lazy(values, lambda name: values[name] * factor)
+
+
+def read_only(found: Any) -> Any:
+    """Return what was found, its arrays such that nobody can change them any more."""
+    if isinstance(found, tuple):
+        for part in found:
+            read_only(part)
+    elif isinstance(found, np.ndarray):
+        found.flags.writeable = False
+    return found
+
+
+_NEAR = math.pi / 2
+_INPUT_STEP = math.pi / 6
+_MOST_PARTS = 64
+_HALVINGS = 60
+
+
+def turned(
+    inputs: tuple[Array, Array], angles: tuple[Array, Array], at: Callable[[Array], Array], ratio: float
+) -> Array:
+    """Return how far a direction turns on each of N ways from one instant to another, in radians (N,).
+
+    `inputs` are those of the two instants, `angles` the direction's there in any turn; `at` gives them at
+    other inputs; `ratio` is how many times as fast as the input the quickest crank turns. 0 where an angle
+    is NaN.
+    """
+    (low, high), (first, last) = inputs, angles
+    row, total = np.arange(len(low)), np.zeros(len(low))
+    near = np.maximum(_INPUT_STEP / ratio, np.abs(high - low) / _MOST_PARTS)
+    for halving in range(_HALVINGS):
+        step = _shortest(last - first)
+        wide = (np.abs(step) > _NEAR) | (np.abs(high - low) > near[row])
+        wide &= np.isfinite(step) & (halving < _HALVINGS - 1)
+        between = (low + high) / 2
+        middle = np.full_like(between, np.nan)
+        middle[wide] = at(between[wide]) if wide.any() else []
+        wide &= np.isfinite(middle)
+        np.add.at(total, row[~wide], np.nan_to_num(step[~wide]))
+        if not wide.any():
+            break
+        low, between, high = low[wide], between[wide], high[wide]
+        first, middle, last, row = first[wide], middle[wide], last[wide], np.tile(row[wide], 2)
+        low, high = np.concatenate([low, between]), np.concatenate([between, high])
+        first, last = np.concatenate([first, middle]), np.concatenate([middle, last])
+    return total
+
+
+def _shortest(turn: Array) -> Array:
+    """Return an angle less whole turns, at most half a turn either way."""
+    shortest: Array = turn - math.tau * np.rint(turn / math.tau)
+    return shortest
+
+
+# What solving gives: the motion of every joint, body, centre of mass, spring and damper.
+#
+# `Motion` holds arrays, `Pose` the same quantities of one instant as plain floats. Lengths are in the
+# scene's unit, angles in radians, time in seconds, forces in newtons (tension positive).
+
+COORDINATE = ("coordinate", "coordinate_rate", "coordinate_second")
+"""The input's angle, or travel, and its rates: one that does not turn fully moves in its own way."""
+NOTHING: Mapping[str, Any] = MappingProxyType({})
+LOWER = {kind: family[:n] for family in FAMILIES for n, kind in enumerate(family)}
+"""The quantities of its family with fewer derivatives, of each."""
+ORDER: Mapping[str, int] = {**DERIVATIVE_OF, **dict(zip(COORDINATE, range(3), strict=True)), "phase": 0}
+
+
+class Variant(NamedTuple):
+    """One way of asking: by phase or by angle, whether the input accelerates, each instant on its own.
+
+    `per_input`: at phases, with rates by the input's angle, or travel, instead of those in time.
+    """
+
+    by_phase: bool
+    accelerates: bool
+    varying_rate: bool = False
+    per_input: bool = False
+
+
+class Strut(NamedTuple):
+    """Length, its rate, and the force (None where it is not known) of a spring or damper; its direction.
+
+    The direction is that of its first joint to its second, the rate of it in rad/s; where they meet both are
+    NaN, and the rate of the length is that with which it is about to grow.
+    """
+
+    length: Any
+    rate: Any
+    force: Any
+    direction: Any
+    direction_rate: Any
+
+
+class Instants(NamedTuple):
+    """Instants (N,) with rates w and a, the shape in which to answer, and how many derivatives at most.
+
+    `distances` are those of angles of an input that swings from its limits; `phases` those of one that comes
+    back by the way it came, where x are the phases of its way up, and `back` where it is on its way back, at
+    rates of the other sign.
+    """
+
+    variant: Variant
+    x: Array
+    distances: LimitDistances | None
+    rates: tuple[Any, Any]
+    shape: tuple[int, ...]
+    derivatives: int
+    phases: Array | None = None
+    back: NDArray[np.bool_] | None = None
+
+
+class Setting(ABC):
+    """What motions and poses of one linkage share: it, and what solves it."""
+
+    linkage: Linkage
+    assembly: Assembly
+
+    @abstractmethod
+    def program(self, variant: Variant, kinds: tuple[str, ...]) -> tuple[Batch, ResultLayout]:
+        """Return the program over arrays that works quantities out, and where its results lie."""
+
+    @abstractmethod
+    def solve(
+        self, *, phase: ArrayLike, speed: ArrayLike, acceleration: ArrayLike = ..., derivatives: int = ...
+    ) -> Motion:
+        """Return the motion at phases."""
+
+    @abstractmethod
+    def pose_per_input(self, phase: float) -> Pose:
+        """Return one instant, its rates by the input's angle, or travel, instead of those in time."""
+
+    def crank_of(self, body: Body) -> tuple[Gearing, bool] | None:
+        """Return how a crank's body turns with the input, and whether it is named from its pin."""
+        crank = self.linkage.crank_of(body)
+        return (self.assembly.gears[crank.name], body.joints[0] == crank.name) if crank else None
+
+    def body(self, name: str) -> Body:
+        """Return the body of that name; KeyError where there is none."""
+        return next(body for body in self.linkage.bodies if body.name == name)
+
+
+Vector = TypeVar("Vector")
+Number = TypeVar("Number")
+
+
+class Derived(ABC, Generic[Vector, Number]):
+    """What is solved, for a motion and a pose alike, and what follows from it; vectors are x and y.
+
+    `coordinate` is the input's: its angle, or a driving slider's travel.
+    """
+
+    setting: Setting
+    position: Mapping[str, Vector]
+    velocity: Mapping[str, Vector]
+    acceleration: Mapping[str, Vector]
+    com_position: Mapping[str, Vector]
+    com_velocity: Mapping[str, Vector]
+    com_acceleration: Mapping[str, Vector]
+    angular_velocity: Mapping[str, Number]
+    angular_acceleration: Mapping[str, Number]
+    travel: Mapping[str, Number]
+    travel_velocity: Mapping[str, Number]
+    travel_acceleration: Mapping[str, Number]
+    phase: Number
+    input_speed: Any
+    input_acceleration: Any
+    coordinate: Number
+    coordinate_rate: Any
+    coordinate_second: Any
+
+    @property
+    def crank_angle(self) -> Any:
+        """The angle of the bar that is driven; AttributeError where a slider drives, which has none."""
+        if not self.setting.linkage.drive.coordinate.is_angle:
+            raise AttributeError  # which asks __getattr__ for it
+        return self.coordinate
+
+    def _missing(self, what: str, name: str) -> AttributeError:
+        """Return what is raised for an attribute that `what` has not."""
+        if name == "crank_angle":
+            return AttributeError("a slider drives, which has no crank angle; read coordinate")
+        return AttributeError(f"{what} has no {name!r}")
+
+    @cached_property
+    def angle(self) -> Mapping[str, Any]:
+        """Each body's angle, first -> second joint.
+
+        A crank's own angle counts its turns. The others' are in one turn at one instant, and of many
+        instants without jumps along the first axis.
+        """
+        bodies = tuple(body.name for body in self.setting.linkage.bodies if body.slider is None)
+        return Lazy(bodies, self._angle)
+
+    def _angle(self, name: str) -> Any:
+        body = self.setting.body(name)
+        crank = self.setting.crank_of(body)
+        if crank is not None:
+            return _crank_angle(self.coordinate, self.phase, *crank)
+        return self._continuous((body.joints[0], body.joints[1]))
+
+    @abstractmethod
+    def _continuous(self, ends: tuple[str, str]) -> Any:
+        """Return the angle of the way from one joint to another; NaN where they meet."""
+
+    @cached_property
+    def coefficient(self) -> Mapping[str, tuple[Any, Any]]:
+        """Each body's kinematic coefficients, (dq/dθ, d²q/dθ²) with q its angle or travel.
+
+        They are the rates by the input's angle, or a driving slider's travel: at any speed the same. Infinite
+        where a limit of the input leaves them unbounded.
+        """
+        known = self.per_input
+        return Lazy((*known.angular_acceleration, *known.travel_acceleration), self._coefficient)
+
+    def _coefficient(self, name: str) -> tuple[Any, Any]:
+        known = self.per_input
+        if name in known.angular_velocity:
+            rates = known.angular_velocity[name], known.angular_acceleration[name]
+        else:
+            rates = known.travel_velocity[name], known.travel_acceleration[name]
+        return unbounded(rates[0], self.phase), unbounded(rates[1], self.phase)
+
+    @property
+    @abstractmethod
+    def per_input(self) -> Derived[Vector, Number]:
+        """The same instants, with rates by the input's angle, or travel, instead of those in time."""
+
+    @cached_property
+    def spring(self) -> Mapping[str, Strut]:
+        """Each spring's length, rate and force."""
+        return self._struts(self.setting.linkage.springs)
+
+    @cached_property
+    def damper(self) -> Mapping[str, Strut]:
+        """Each damper's length, rate and force."""
+        return self._struts(self.setting.linkage.dampers)
+
+    def _struts(self, items: tuple[Spring, ...] | tuple[Damper, ...]) -> Mapping[str, Strut]:
+        by_name = {item.name: item for item in items}
+        return Lazy(tuple(by_name), lambda name: self._strut(by_name[name]))
+
+    def _strut(self, item: Spring | Damper) -> Strut:
+        apart = between(self.position, item.between)
+        length, rate, turning = size(apart), None, None
+        if self.velocity:
+            moving = between(self.velocity, item.between)
+            rate, turning = growth(apart, moving), over(cross(apart, moving), length * length)
+        force = _force(item, self.setting.linkage.metre, length, rate)
+        return Strut(length, rate, force, self._continuous(item.between), turning)
+
+
+def _force(item: Spring | Damper, metre: float, length: Any, rate: Any) -> Any:
+    if isinstance(item, Damper):
+        known = item.coefficient is not None and rate is not None
+        return item.coefficient * rate * metre if known else None
+    if item.stiffness is None or item.free_length is None:
+        return None
+    return item.stiffness * (length - item.free_length) * metre
+
+
+class Motion(Derived[Array, Array]):
+    """The motion at many instants: vectors are arrays (..., 2), numbers (...).
+
+    Rows outside the input's range are NaN, their phase too. Rates that are truly unbounded (at a
+    limit, per unit of input speed) are infinite. Each quantity is worked out when it is first read.
+    """
+
+    instants: Instants
+
+    def __init__(
+        self, setting: Setting, input_speed: Any, input_acceleration: Any, instants: Instants
+    ) -> None:
+        vars(self).update(
+            setting=setting, input_speed=input_speed, input_acceleration=input_acceleration, instants=instants
+        )
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Go through a pickle as what was asked for, which is worked out anew."""
+        return Motion, (self.setting, self.input_speed, self.input_acceleration, self.instants)
+
+    def __getattr__(self, name: str) -> Any:
+        """Work a quantity out, with those that come out of the same pass."""
+        if name not in ORDER:
+            raise self._missing("a motion", name)
+        vars(self).update(self._read(name))
+        return vars(self)[name]
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        raise FrozenInstanceError(f"a motion is what was solved: its {name} cannot be set")
+
+    def _read(self, name: str) -> dict[str, Any]:
+        """Return a quantity with what comes out of the same pass, but for what is known."""
+        if name not in DERIVATIVE_OF:
+            return self._input()
+        if DERIVATIVE_OF[name] > self.instants.derivatives:
+            return {name: {}}
+        return self._worked_out((*[kind for kind in LOWER[name] if kind not in vars(self)], name))
+
+    @property
+    def every(self) -> Mapping[str, Mapping[str, Array]]:
+        """All quantities by kind and name, from one pass."""
+        kinds: dict[str, Any] = {kind: {} for family in FAMILIES for kind in family}
+        known = (kind for kind in kinds if DERIVATIVE_OF[kind] <= self.instants.derivatives)
+        return kinds | self._worked_out(tuple(known))
+
+    def _worked_out(self, kinds: tuple[str, ...]) -> dict[str, Any]:
+        """Return these quantities."""
+        places, results = self._run(kinds)
+        return {kind: columns(names, results, self.instants.shape) for kind, names in places.places.items()}
+
+    def _run(self, kinds: tuple[str, ...]) -> tuple[ResultLayout, Array]:
+        instants, path = self.instants, self.setting.assembly.path
+        program, places = self.setting.program(instants.variant, kinds)
+        rates = instants.rates if instants.variant.accelerates else instants.rates[:1]
+        ways = instants.distances
+        with np.errstate(all="ignore"):
+            results = program(*((instants.x,) if ways is None else path.solved_from(ways)), *rates)
+            if instants.back is not None and instants.back.any():
+                results[:, instants.back] = program(instants.x[instants.back], *(-rate for rate in rates))
+            if ways is not None:
+                results[:, ways.outside] = np.nan
+                if ways.at_limit.any() and any(map(DERIVATIVE_OF.__getitem__, kinds)):
+                    snapped = program(*path.solved_from(ways.snapped), *rates)
+                    _mark_limits(places, results, snapped, ways.at_limit)
+        results.setflags(write=False)
+        return places, results
+
+    def _input(self) -> dict[str, Any]:
+        """Return the phase, and the input's coordinate with its two rates."""
+        instants, path, names = self.instants, self.setting.assembly.path, ("phase", *COORDINATE)
+        x, rates = instants.x.reshape(instants.shape), (self.input_speed, self.input_acceleration)
+        if not instants.variant.by_phase:
+            with np.errstate(all="ignore"):
+                return dict(
+                    zip(names, (read_only(path.phases(x, instants.distances)), x, *rates), strict=True)
+                )
+        if path.full_turn:
+            return dict(zip(names, (x, read_only(path.coordinates(x)), *rates), strict=True))
+        places, results = self._run(COORDINATE)
+        shown = x if instants.phases is None else instants.phases.reshape(instants.shape)
+        return {"phase": shown} | {
+            kind: row.reshape(instants.shape) for kind, row in zip(places.kinds, results, strict=True)
+        }
+
+    @cached_property
+    def per_input(self) -> Motion:
+        """The same instants, with rates by the input's angle, or travel, instead of those in time."""
+        by_phase = self.instants.variant.by_phase
+        variant = Variant(by_phase, False, per_input=by_phase and not self.setting.assembly.path.full_turn)
+        instants = self.instants._replace(variant=variant, rates=(1.0, 0.0), back=None)
+        return Motion(self.setting, 1.0, 0.0, instants)
+
+    def paced(self, factor: float) -> Motion:
+        """Return the same motion run so many times as fast; backwards where the factor is negative.
+
+        Nothing is solved: first derivatives in time grow with the factor, second ones with its square.
+        """
+        return _Paced(self, factor)
+
+    def _continuous(self, ends: tuple[str, str]) -> Array:
+        principal: Array = np.asarray(direction(between(self.position, ends)))
+        return principal if principal.ndim == 0 else self._unwrapped(principal, ends)
+
+    def _unwrapped(self, principal: Array, ends: tuple[str, str]) -> Array:
+        """Add whole turns, as a direction has turned between neighbours."""
+        steps = np.diff(principal, axis=0)
+        x, at = self.instants.x.reshape(principal.shape), partial(self._direction, ends)
+        rows = [(values[:-1].reshape(-1), values[1:].reshape(-1)) for values in (x, principal)]
+        ways = turned(rows[0], rows[1], at, self.setting.assembly.quickest)
+        turns = np.rint((ways.reshape(steps.shape) - steps) / math.tau)
+        whole = np.zeros_like(principal)
+        np.cumsum(np.nan_to_num(turns), axis=0, out=whole[1:])
+        return principal + math.tau * (whole - _before_stretch(whole, np.isnan(principal)))
+
+    def _direction(self, ends: tuple[str, str], x: Array) -> Array:
+        """Return the direction of one joint to another at other instants."""
+        distances = self.instants.distances and self.setting.assembly.path.distances(x)
+        w, a = (np.ones_like(x) if isinstance(rate, np.ndarray) else rate for rate in self.instants.rates)
+        instants = self.instants._replace(x=x, distances=distances, rates=(w, a), shape=x.shape, back=None)
+        found = Motion(self.setting, 1.0, 0.0, instants).position
+        return np.asarray(direction(between(found, ends)))
+
+
+class _Paced(Motion):
+    """A motion run so many times as fast: its quantities, each times its power of the factor."""
+
+    def __init__(self, motion: Motion, factor: float) -> None:
+        speed, acceleration = motion.input_speed * factor, motion.input_acceleration * factor**2
+        super().__init__(motion.setting, speed, acceleration, motion.instants)
+        vars(self).update(motion=motion, factor=factor, per_input=motion.per_input)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _Paced, (self.motion, self.factor)
+
+    def _read(self, name: str) -> dict[str, Any]:
+        found, power = getattr(self.motion, name), self.factor ** ORDER[name]
+        if not ORDER[name]:
+            return {name: found}
+        return {name: scaled(found, power) if name in DERIVATIVE_OF else read_only(found * power)}
+
+
+def _mark_limits(places: ResultLayout, results: Array, snapped: Array, at_limit: NDArray[np.bool_]) -> None:
+    """Give rates the values they have at the limit itself: infinite where they are unbounded."""
+    for row, kind in enumerate(places.kinds):
+        if DERIVATIVE_OF[kind]:
+            values = snapped[row, at_limit]
+            results[row, at_limit] = np.where(np.isnan(values), np.inf, values)
+
+
+def _before_stretch(whole: Array, gap: NDArray[np.bool_]) -> Array:
+    """Return for each row what stood in the last row of the gap before it, 0 where there is none."""
+    rows = np.arange(len(gap)).reshape(-1, *[1] * (gap.ndim - 1))
+    last = np.maximum.accumulate(np.where(gap, rows, -1), axis=0)
+    return np.where(last < 0, 0.0, np.take_along_axis(whole, np.maximum(last, 0), axis=0))
+
+
+def _crank_angle(input_angle: Any, phase: Any, gearing: Gearing, from_pin: bool) -> Any:
+    """Return a crank's angle; NaN where there is no phase."""
+    angle = input_angle * float(gearing.ratio) + float(gearing.offset)
+    return (angle + math.pi if from_pin else angle) + 0.0 * phase
+
+
+class Pose(Derived[Pair, float]):
+    """The motion at one instant, as plain floats and (x, y) tuples; the attributes are Motion's."""
+
+    def __init__(self, found: dict[str, Any]) -> None:
+        self.__dict__ = found
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Go through a pickle as what was solved, without what follows from it."""
+        kinds = (*ORDER, "setting", "input_speed", "input_acceleration")
+        return Pose, ({kind: vars(self)[kind] for kind in kinds if kind in vars(self)},)
+
+    def __getattr__(self, name: str) -> Any:
+        """Return nothing of a kind that was not solved."""
+        if name not in DERIVATIVE_OF:
+            raise self._missing("a pose", name)
+        return NOTHING
+
+    @cached_property
+    def per_input(self) -> Pose:
+        """The same instant, with rates by the input's angle, or travel, instead of those in time."""
+        rated = self.angular_acceleration or self.travel_acceleration
+        return self.setting.pose_per_input(self.phase) if rated else self
+
+    def _continuous(self, ends: tuple[str, str]) -> float:
+        return float(direction(between(self.position, ends)))
+
+
+# A linkage made ready to be solved: assembled once, its programs compiled when first needed.
+
+Rows = Mapping[str, Mapping[str, tuple[Value, ...]]]
+_Key = tuple[int, bool, bool]
+"""Which poses a program gives: how many derivatives, whether the input accelerates, whether `per_input`."""
+
+
+_FINE, _MOST_SEEN = 24, 10_001
+
+Traced = tuple[tuple[str, ...], Rows]
+"""The formulas as traced for one way of asking: the inputs' names, and every quantity."""
+
+
+@dataclass(frozen=True)
+class Mechanism(Setting):
+    """A linkage with its loops, path and signs, and the programs that solve it.
+
+    One that is `passing` is solved at a few instants only: they come from the program over arrays, which
+    its cycle needs anyway, since a program of their own would cost more than it saves.
+    """
+
+    linkage: Linkage
+    assembly: Assembly
+    passing: bool = False
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Go through a pickle as the linkage, which is made ready anew."""
+        return (passing if self.passing else mechanism), (self.linkage,)
+
+    @property
+    def periods(self) -> int:
+        """The number of drive periods after which every joint is back."""
+        return 1 if self.retraced else self.assembly.path.periods
+
+    @property
+    def phases(self) -> Array:
+        """Phases over one true period, from 0 on at equal steps, as near as what turns fastest needs."""
+        count = self.assembly.samples * self.periods
+        phases: Array = np.arange(count, dtype=np.float64) * (2 * math.pi * self.periods / count)
+        return phases
+
+    def count(self, least: int) -> int:
+        """Return at how many phases of one true period its course is seen: `least`, more of quick gears.
+
+        Of each turn of the quickest crank it is 24 of them, as far as that is not too many.
+        """
+        return max(least, min(math.ceil(_FINE * self.assembly.quickest * self.periods), _MOST_SEEN))
+
+    @property
+    def retraced(self) -> bool:
+        """Whether the input swings and comes back by the way it came: each pose is one of the way up."""
+        return self.linkage.drive.retraced and not self.assembly.path.full_turn
+
+    @property
+    def hindered(self) -> bool:
+        """Whether a dyad down the chain limits the input or touches a change point."""
+        return any(root.zeros for root in self.assembly.chain.values())
+
+    @cached_property
+    def _poses(self) -> dict[_Key, Callable[..., dict[str, Any]]]:
+        return {}
+
+    @cached_property
+    def _traces(self) -> dict[Variant, Traced]:
+        return {}
+
+    @cached_property
+    def _programs(self) -> dict[tuple[Variant, tuple[str, ...]], tuple[Batch, ResultLayout]]:
+        return {}
+
+    def pose(
+        self, phase: float, speed: float, acceleration: float, derivatives: int, per_input: bool = False
+    ) -> Pose:
+        """Return one instant, solved in plain floats; its rates by the input instead of time `per_input`."""
+        at, w, a = phase, speed, acceleration
+        if self.retraced:
+            at, sign = (float(part) for part in retraced(phase))
+            w, a = (w, a) if per_input else (sign * w, sign * a)
+        key = derivatives, a != 0.0, per_input
+        try:
+            program = self._poses.get(key) or self._in_floats(key)
+            pose = Pose(program(at, w, a, self))
+        except (ZeroDivisionError, ValueError):
+            pose = Pose(self._from_arrays(key, at, w, a))
+        if self.retraced and not per_input:
+            vars(pose).update(phase=phase, input_speed=speed, input_acceleration=acceleration)
+        return pose
+
+    def pose_per_input(self, phase: float) -> Pose:
+        """Return one instant, its rates by the input's angle, or travel, instead of those in time."""
+        return self.pose(phase, 1.0, 0.0, 2, not self.assembly.path.full_turn)
+
+    def _in_floats(self, key: _Key) -> Callable[..., dict[str, Any]]:
+        """Return the program of one instant; ValueError where it would cost more than it saves."""
+        if self.passing:
+            raise ValueError("a mechanism on its way is solved from arrays")
+        derivatives, accelerates, per_input = key
+        trace = self.trace(Variant(True, accelerates, per_input=per_input))
+        found = self._poses[key] = _scalar(*trace, derivatives)
+        return found
+
+    def trace(self, variant: Variant) -> Traced:
+        """Record the formulas of all quantities, lengths in the scene's unit."""
+        found = self._traces.get(variant)
+        if found is None:
+            graph = Graph()
+            uniform = not variant.varying_rate
+            second = graph.input("a", uniform=uniform) if variant.accelerates else 0.0
+            pace = Slope(graph.input("w", uniform=uniform), second)
+            names, state = self._state(graph, pace, variant)
+            unscale = self.assembly.unscale
+            places = zip(COORDINATE, state.coordinate(unscale), strict=True)
+            driven = {kind: {"": (value,)} for kind, value in places}
+            rows = dict(_quantities(walked(self.assembly, state), unscale))
+            graph.forget()
+            found = self._traces[variant] = names, driven | rows
+        return found
+
+    def _state(self, graph: Graph, pace: Slope, variant: Variant) -> tuple[tuple[str, ...], InputState]:
+        path = self.assembly.path
+        if variant.per_input:
+            return ("x",), path.state_per_input(graph.input("x"))
+        if variant.by_phase:
+            return ("x",), path.state(graph.input("x"), pace)
+        return path.state_by_angle(graph, pace)
+
+    def _from_arrays(self, key: _Key, phase: float, speed: float, second: float) -> dict[str, Any]:
+        """Return what the scalar program gives, NaN and infinities included, where floats raise."""
+        derivatives, _, per_input = key
+        motion = self.solve(phase=phase, speed=speed, acceleration=second, derivatives=derivatives)
+        motion = motion.per_input if per_input else motion
+        found = {kind: _plain(values) for kind, values in motion.every.items()}
+        inputs = ("phase", "input_speed", "input_acceleration", *COORDINATE)
+        return found | {name: float(getattr(motion, name)) for name in inputs} | {"setting": self}
+
+    def solve(
+        self,
+        *,
+        angle: ArrayLike | None = None,
+        phase: ArrayLike | None = None,
+        speed: ArrayLike,
+        acceleration: ArrayLike = 0.0,
+        derivatives: int = 2,
+    ) -> Motion:
+        """Return the motion at crank angles, or at phases; scalar or any shape."""
+        given = np.asarray(angle if phase is None else phase, dtype=np.float64)
+        by_phase, sign = None, 1.0
+        if phase is not None and self.retraced:
+            by_phase, (given, sign) = given, retraced(given)
+        (w, a), shape = _rates(speed, acceleration, given.shape)
+        varying, back, rates = isinstance(w, np.ndarray), None, (w, a)
+        if by_phase is not None:
+            signs = np.broadcast_to(sign, shape).reshape(-1)
+            back, rates = (None, (signs * w, signs * a)) if varying else (signs < 0, rates)
+        variant = Variant(phase is not None, varying or rates[1] != 0.0, varying)
+        x = _kept(given, shape)
+        distances = self.assembly.path.distances(x) if phase is None else None
+        shown = None if by_phase is None else _kept(by_phase, shape)
+        instants = Instants(variant, x, distances, rates, shape, derivatives, shown, back)
+        return Motion(self, _shaped(w, shape), _shaped(a, shape), instants)
+
+    def program(self, variant: Variant, kinds: tuple[str, ...]) -> tuple[Batch, ResultLayout]:
+        """Return the program over arrays that works quantities out, and where its results lie."""
+        found = self._programs.get((variant, kinds))
+        if found is None:
+            found = self._programs[variant, kinds] = self._compiled(variant, kinds)
+        return found
+
+    def _compiled(self, variant: Variant, kinds: tuple[str, ...]) -> tuple[Batch, ResultLayout]:
+        names, rows = self.trace(variant)
+        rates = ("w", "a") if variant.accelerates else ("w",)
+        varying = {**dict.fromkeys(names, True), **dict.fromkeys(rates, variant.varying_rate)}
+        pins = {joint.name: joint.position for joint in self.linkage.pins}
+        places = layout({kind: rows[kind] for kind in kinds}, pins, VECTORS[:3])
+        made = ((program, laid) for (like, _), (program, laid) in self._programs.items() if like == variant)
+        known = (program for program, laid in made if laid.kinds == places.kinds)
+        return next(known, None) or batch(varying, places.outputs), places
+
+
+def _scalar(names: tuple[str, ...], rows: Rows, derivatives: int) -> Callable[..., dict[str, Any]]:
+    """Return the program of one instant in plain floats."""
+    outputs: list[Value] = []
+    parts = ["'setting': setting, 'phase': x, 'input_speed': w, 'input_acceleration': a"]
+    for kind, values in rows.items():
+        if kind in COORDINATE or (values and DERIVATIVE_OF[kind] <= derivatives):
+            outputs.extend(component for components in values.values() for component in components)
+            parts.append(f"{kind!r}: {'{}' if kind in COORDINATE else _dict_display(values)}")
+    display = f"{{{{{', '.join(parts)}}}}}"
+    return scalar((*names, "w", "a", "setting"), outputs, display)
+
+
+def _plain(values: Mapping[str, Array]) -> dict[str, Any]:
+    """Return one instant's numbers and vectors as floats and pairs of them."""
+    return {
+        name: (float(value[0]), float(value[1])) if value.ndim else float(value)
+        for name, value in values.items()
+    }
+
+
+def _dict_display(values: Mapping[str, tuple[Value, ...]]) -> str:
+    """Return the layout of a dict of the values' names, for str.format."""
+    items = (
+        repr(name).replace("{", "{{").replace("}", "}}") + (": ({}, {})" if len(components) == 2 else ": {}")
+        for name, components in values.items()
+    )
+    return "{{" + ", ".join(items) + "}}"
+
+
+def _rates(
+    speed: float | ArrayLike, acceleration: float | ArrayLike, shape: tuple[int, ...]
+) -> tuple[tuple[Any, Any], tuple[int, ...]]:
+    """Return one speed and acceleration for all instants, or arrays of them, and the shape of the answer."""
+    if isinstance(speed, float) and isinstance(acceleration, float):
+        return (speed, acceleration), shape
+    w, a = (np.asarray(rate, dtype=np.float64) for rate in (speed, acceleration))
+    if w.ndim or a.ndim:
+        shape = np.broadcast_shapes(shape, w.shape, a.shape)
+        return (_kept(w, shape), _kept(a, shape)), shape
+    return (float(w), float(a)), shape
+
+
+def _shaped(rate: Any, shape: tuple[int, ...]) -> Any:
+    """Return a rate in a shape: arrays have it, one number holds for all."""
+    return rate.reshape(shape) if isinstance(rate, np.ndarray) else rate
+
+
+def _kept(values: Array, shape: tuple[int, ...]) -> Array:
+    """Return the values along one axis, repeated to the shape, as nobody can change them any more."""
+    if values.base is not None or values.flags.writeable or values.shape != shape:
+        values = values.copy() if values.shape == shape else np.array(np.broadcast_to(values, shape))
+        values.flags.writeable = False
+    return values if values.ndim == 1 else values.reshape(-1)
+
+
+def _quantities(walk: Walk, unscale: float) -> Iterator[tuple[str, Mapping[str, tuple[Value, ...]]]]:
+    joints, centres = walk.points, walk.centres
+    for kind in VECTORS:
+        part = ("position", "velocity", "acceleration")[DERIVATIVE_OF[kind]]
+        points = (centres if kind.startswith("com_") else joints).items()
+        vectors = ((name, getattr(point, part)) for name, point in points)
+        if unscale != 1.0:
+            vectors = ((name, vector.scaled(unscale)) for name, vector in vectors)
+        yield kind, dict(vectors)
+    turnings = {name: (turning.value, turning.rate) for name, turning in walk.bodies.items()}
+    sliding = ((body.name, walk.travels[body.slider]) for body in walk.linkage.bodies if body.slider)
+    travels = {name: (way.value, way.rate, way.second) for name, way in sliding}
+    for kind in NUMBERS:
+        order = DERIVATIVE_OF[kind]
+        if kind.startswith("angular"):
+            yield kind, {name: (rates[order - 1],) for name, rates in turnings.items()}
+        else:
+            yield kind, {name: (ways[order] * unscale,) for name, ways in travels.items()}
+
+
+@lru_cache(maxsize=1)
+def _assembled(linkage: Linkage) -> tuple[Assembly, Separations | None]:
+    """Return the linkage put together, and how its dyads on moving points fare, if it has any."""
+    assembly = assemble(linkage)
+    chained = not assembly.signs.keys() <= assembly.loops.keys()
+    return assembly, separations(assembly) if chained else None
+
+
+def stopped(linkage: Linkage) -> Mechanism | None:
+    """Return a linkage whose input does not turn fully, for how far it goes; None of others.
+
+    That is known long before all that it takes to solve it. AssemblyError where it cannot be put together.
+    """
+    assembly, found = _assembled(linkage)
+    assembly = limits.stopped(assembly, linkage, found) if found else assembly
+    return None if assembly.path.full_turn else Mechanism(linkage, assembly)
+
+
+@lru_cache(maxsize=8)
+def mechanism(linkage: Linkage) -> Mechanism:
+    """Return the linkage made ready; AssemblyError where it cannot be put together."""
+    assembly, fare = _assembled(linkage)
+    found = Mechanism(linkage, limits.restricted(assembly, linkage, fare) if fare else assembly)
+    found.trace(Variant(True, False))  # which a pose needs, and says what is not one rigid body
+    return found
+
+
+def passing(linkage: Linkage) -> Mechanism:
+    """Return a linkage on the way between two whose dyads down the chain close all along.
+
+    They are not looked at: where one does not close after all, its joints are NaN.
+    """
+    return Mechanism(linkage, assemble(linkage), passing=True)

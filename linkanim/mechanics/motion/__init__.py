@@ -1,1 +1,0 @@
-"""Poses and motions: what is solved, requested, measured and derived."""

@@ -1,0 +1,104 @@
+"""Fifty digits, for what is worked out once: where roots vanish, and the smooth functions next to there."""
+
+from __future__ import annotations
+
+import math
+from decimal import Context, Decimal, getcontext, localcontext
+from functools import lru_cache
+
+from linkanim.mechanics.angles import Sum, exact_angle, unit
+from linkanim.mechanics.arithmetic import DIGITS, Constant, digits_of
+
+PI = Decimal("3.14159265358979323846264338327950288419716939937510582097494459")
+
+_LAST_TERM = Decimal(10) ** -(DIGITS + 5)
+
+
+def context() -> Context:
+    """Return a context of fifty digits, in which what cannot be computed is NaN or infinite."""
+    return Context(prec=DIGITS, traps=[])
+
+
+def exactly(number: Sum | float) -> Decimal:
+    """Return the number with all its digits."""
+    return digits_of(number.high) + digits_of(number.low) if isinstance(number, Sum) else digits_of(number)
+
+
+def nearest_sum(number: Decimal) -> Sum:
+    """Return the sum of two floats nearest a number."""
+    high = float(number)
+    return Sum(high, float(number - Decimal(high)))
+
+
+def square_root(number: Decimal) -> Decimal:
+    """Return the square root; 0 of what is below zero, at most by rounding."""
+    return max(number, Decimal(0)).sqrt()
+
+
+def sine(angle: Decimal) -> Decimal:
+    """Return the sine."""
+    return sine_and_cosine(angle)[0]
+
+
+def cosine(angle: Decimal) -> Decimal:
+    """Return the cosine."""
+    return sine_and_cosine(angle)[1]
+
+
+def sine_and_cosine(angle: Decimal) -> tuple[Decimal, Decimal]:
+    """Return sine and cosine, by their series after whole right angles are taken off."""
+    if not angle.is_finite():
+        return Decimal("NaN"), Decimal("NaN")
+    return _series(angle, getcontext().prec)
+
+
+@lru_cache(maxsize=64)
+def _series(angle: Decimal, _digits: int) -> tuple[Decimal, Decimal]:
+    """Return sine and cosine in the context's digits; formulas ask for the one and then for the other."""
+    count = int((2 * angle / PI).to_integral_value())
+    sums = [Decimal(0), Decimal(0)]
+    term, rest, n = Decimal(1), angle - count * PI / 2, 0
+    while abs(term) > _LAST_TERM and n < 4 * DIGITS:
+        sums[n % 2] += term if n % 4 in (0, 1) else -term
+        n += 1
+        term = term * rest / n
+    cosine, sine = sums
+    return ((sine, cosine), (cosine, -sine), (-sine, -cosine), (-cosine, sine))[count % 4]
+
+
+def sides(angle: float) -> tuple[Decimal, Decimal]:
+    """Return sine and cosine of an angle as it was written, exact at multiples of a right angle."""
+    along, left = unit(angle)
+    if 0.0 in (along, left):
+        return Decimal(left), Decimal(along)
+    with localcontext(context()):
+        return sine_and_cosine(exactly(exact_angle(angle)))
+
+
+def direction(angle: float) -> tuple[Constant, Constant]:
+    """Return (cos, sin) of an angle as it was written."""
+    along, left = unit(angle)
+    return Constant(along, lambda: sides(angle)[1]), Constant(left, lambda: sides(angle)[0])
+
+
+def interpolated(places: list[Decimal], values: list[Decimal]) -> list[float]:
+    """Return the coefficients of the polynomial through the values, the constant one first.
+
+    By Newton's divided differences, multiplied out (Abramowitz and Stegun, Handbook of Mathematical
+    Functions, on interpolation); fifty digits bear what cancels.
+    """
+    divided = list(values)
+    for step in range(1, len(places)):
+        for k in range(len(places) - 1, step - 1, -1):
+            divided[k] = (divided[k] - divided[k - 1]) / (places[k] - places[k - step])
+    found = [divided[-1]]
+    for place, difference in zip(places[-2::-1], divided[-2::-1], strict=True):
+        shifted = [Decimal(0), *found]
+        found = [a - place * b for a, b in zip(shifted, [*found, Decimal(0)], strict=True)]
+        found[0] += difference
+    return [float(coefficient) for coefficient in found]
+
+
+def nodes(count: int) -> list[Decimal]:
+    """Return the zeros of the Chebyshev polynomial of that degree, at which interpolation errs least."""
+    return [Decimal(math.cos(math.pi * (k + 0.5) / count)) for k in range(count)]

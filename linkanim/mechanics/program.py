@@ -1,0 +1,448 @@
+"""Compile symbolic expressions into a function of floats and into passes over blocks of arrays.
+
+Its parts, in reading order:
+
+- Where the values of a block live while its passes run: in result rows, and in buffers beside them.
+- Compile symbolic expressions into a function of floats and into passes over blocks of arrays.
+"""
+
+from __future__ import annotations
+
+import math
+from bisect import bisect_left
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from ctypes import addressof, c_char
+from dataclasses import dataclass, field
+from decimal import Decimal
+from functools import lru_cache
+from types import CodeType
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkanim.mechanics.arithmetic import WHOLE, Expr, Value, digits_of
+from linkanim.mechanics.precise import cosine, sine, square_root
+
+# Where the values of a block live while its passes run: in result rows, and in buffers beside them.
+#
+# A pass costs what it fetches and stores. So what is in use at once has to stay in the cache, and a result
+# is written over one of its arguments wherever one ends there.
+
+Operation = tuple[int, str, tuple[int | str, ...]]
+"""A node as its index, what it does, and with what: other nodes' indices, names of inputs and of numbers.
+
+Linkages of other lengths mostly have the same ones, and with them the same program.
+"""
+
+
+@dataclass(frozen=True)
+class Allocation:
+    """The variable that holds each node's values, what is left to be copied into rows, how many buffers."""
+
+    held: Mapping[int | str, str]
+    copies: tuple[tuple[int, int | str], ...]
+    buffers: int
+
+
+def allocated(operations: Sequence[Operation], outputs: Sequence[int | str]) -> Allocation:
+    """Return where the values of nodes live, which stand in the order in which they are worked out.
+
+    Outputs live in their own rows, `o0` on; the others in rows that are not filled yet and in buffers, `b0`
+    on. An output that is no node, or one of an earlier row, is to be copied.
+    """
+    nodes = [index for index, *_ in operations]
+    held, copies = _rows(set(nodes), outputs)
+    last = {value: at for at, (*_, arguments) in enumerate(operations) for value in arguments}
+    inner = [node for node in nodes if node not in held]
+    heirs = _heirs(nodes, held, last)
+    ending: dict[int, list[int]] = {}
+    for node in inner:
+        ending.setdefault(last[node], []).append(node)
+    free = _Free({held[node]: at for at, node in enumerate(nodes) if node in held})
+    for at, node in enumerate(nodes):
+        free.places += [held[index] for index in ending.get(at, ())]
+        if node in heirs:
+            held[node] = free.take(at, last[node], heirs[node])
+    return Allocation(held, tuple(copies), free.buffers)
+
+
+def _rows(
+    computed: set[int], outputs: Sequence[int | str]
+) -> tuple[dict[int | str, str], list[tuple[int, int | str]]]:
+    """Return the row of each node that is an output, and the outputs that have to be copied into theirs."""
+    held: dict[int | str, str] = {}
+    copies: list[tuple[int, int | str]] = []
+    for row, value in enumerate(outputs):
+        if value in computed and value not in held:
+            held[value] = f"o{row}"
+        else:
+            copies.append((row, value))
+    return held, copies
+
+
+def _heirs(
+    nodes: Sequence[int], held: Mapping[int | str, str], last: Mapping[int | str, int]
+) -> dict[int, tuple[int, str]]:
+    """Return of each inner value until when its place can be handed on, and the row in which that ends."""
+    heirs: dict[int, tuple[int, str]] = {}
+    for node in reversed(nodes):
+        if node not in held:
+            user = nodes[last[node]]
+            heirs[node] = heirs.get(user) or (last[node], held[user])
+    return heirs
+
+
+@dataclass
+class _Free:
+    """The places that are free; `filled` says at which pass each row gets its own values."""
+
+    filled: Mapping[str, int]
+    rows: list[tuple[int, str]] = field(init=False)
+    """Those never used, with when they are filled: the first one to be filled first."""
+    places: list[str] = field(default_factory=list)
+    """Those given back, the last one last."""
+    buffers: int = 0
+
+    def __post_init__(self) -> None:
+        self.rows = sorted((at, row) for row, at in self.filled.items())
+
+    def take(self, at: int, last: int, heir: tuple[int, str]) -> str:
+        """Take the row to which a value is handed down, one free that long, or one free while used."""
+        until, row = heir
+        return self._row(row) or self._until(at, until) or self._until(at, last) or self._new()
+
+    def _row(self, row: str) -> str | None:
+        """Take that row, if it is free."""
+        at = bisect_left(self.rows, (self.filled[row], row))
+        if at < len(self.rows) and self.rows[at][1] == row:
+            return self.rows.pop(at)[1]
+        if row not in self.places:
+            return None
+        self.places.remove(row)
+        return row
+
+    def _until(self, at: int, until: int) -> str | None:
+        """Take the place freed last of those that stay free from one pass to another, if there is any."""
+        for n in range(len(self.places) - 1, -1, -1):
+            end = self.filled.get(self.places[n], until)
+            if end >= until:
+                return self.places.pop(n)
+            if end < at:
+                del self.places[n]
+        first = bisect_left(self.rows, (until, ""))
+        return self.rows.pop(first)[1] if first < len(self.rows) else None
+
+    def _new(self) -> str:
+        self.buffers += 1
+        return f"b{self.buffers - 1}"
+
+
+# Compile symbolic expressions into a function of floats and into passes over blocks of arrays.
+#
+# `scalar` writes straight-line Python on floats, which is how one frame is solved. `Batch` writes the
+# same operations as numpy calls into reused buffers, a block of the array at a time, so that the
+# buffers stay in the cache and memory is taken for the results only.
+
+Array = NDArray[np.float64]
+Bools = NDArray[np.bool_]
+
+
+BLOCK = 16384
+CACHE_LINE = 64
+"""Bytes."""
+
+FORMULAS = {
+    "add": "{} + {}",
+    "sub": "{} - {}",
+    "mul": "{} * {}",
+    "div": "{} / {}",
+    "neg": "-{}",
+    "sqrt": "sqrt({})",
+    "sin": "sin({})",
+    "cos": "cos({})",
+    "rint": f"(({{0}} + {WHOLE!r}) - {WHOLE!r} or {{0}} * 0.0)",
+    "arctan2": "atan2({}, {})",
+    "minimum": "min({}, {})",
+    "maximum": "max({}, {})",
+    "select": "({2} if {0} < {1} else {3})",
+}
+"""In floats and Decimals; only graphs that are `exact` have sines and cosines."""
+_IN_PLACE = frozenset({"add", "sub", "mul", "div", "neg", "sqrt"})
+"""In what a formula may stand as an argument: others are longer, or use theirs twice."""
+UFUNCS: Mapping[str, Callable[..., Any]] = {
+    "add": np.add,
+    "sub": np.subtract,
+    "mul": np.multiply,
+    "div": np.divide,
+    "neg": np.negative,
+    "sqrt": np.sqrt,
+    "rint": np.rint,
+    "arctan2": np.arctan2,
+    "minimum": np.minimum,
+    "maximum": np.maximum,
+}
+
+
+def needed(outputs: Sequence[Value]) -> list[Expr]:
+    """Return the nodes that the outputs depend on, arguments before their users.
+
+    They stand as they were recorded, joint by joint: few values wait long for their use, so that what is in
+    use stays in the cache.
+    """
+    found: dict[int, Expr] = {}
+    stack: list[Expr | float | str] = list(outputs)
+    while stack:
+        node = stack.pop()
+        if isinstance(node, Expr) and node.index not in found:
+            found[node.index] = node
+            stack.extend(node.args)
+    return [found[index] for index in sorted(found)]
+
+
+class _Constants:
+    """Numbers by the names that stand for them in a program, whose text is the same with other numbers."""
+
+    def __init__(self) -> None:
+        self._names: dict[object, str] = {}
+        self.numbers: dict[str, float] = {}
+
+    def name(self, value: Value | str) -> int | str:
+        """Return a node's index, an input's name or a number's; 0.0 and -0.0, which are equal, have two."""
+        if isinstance(value, Expr):
+            return value.index if value.op != "input" else str(value.args[0])
+        key = value or (repr(value), value)
+        name = self._names.get(key)
+        if name is None:
+            name = self._names[key] = f"k{len(self._names)}"
+            self.numbers[name] = value if isinstance(value, float) else float(value)
+        return name
+
+    def operations(self, nodes: Iterable[Expr]) -> tuple[Operation, ...]:
+        """Return what the nodes do, inputs left out."""
+        return tuple(
+            [(node.index, node.op, tuple(map(self.name, node.args))) for node in nodes if node.op != "input"]
+        )
+
+    @property
+    def floats(self) -> dict[str, float]:
+        """The numbers as plain floats: one that knows what it stands for computes many times as long."""
+        return {name: float(number) for name, number in self.numbers.items()}
+
+
+def _variable(value: int | str) -> str:
+    return value if isinstance(value, str) else f"v{value}"
+
+
+def _compiled(name: str, inputs: Iterable[str], lines: Iterable[str]) -> CodeType:
+    """Return the code that defines the function of that name, inputs and lines, which this module wrote."""
+    source = "\n    ".join([f"def {name}({', '.join(inputs)}):", *lines])
+    return compile(source, f"<linkanim {name}>", "exec")
+
+
+def _function(code: CodeType, name: str, names: Mapping[str, Any]) -> Callable[..., Any]:
+    """Return the function that code defines, given what it uses."""
+    space = dict(names)
+    exec(code, space)
+    function: Callable[..., Any] = space.pop(name)
+    return function
+
+
+FLOAT_NAMES = {"sqrt": math.sqrt, "atan2": lambda y, x: float(np.arctan2(y, x))}
+"""An arc tangent is numpy's in floats as in arrays: a C library's has other bits."""
+DEEPEST = 40
+"""Brackets in brackets; Python reads 200."""
+_KEPT = 128
+"""Programs whose code is kept, of each sort: a linkage of other lengths mostly has the same."""
+
+
+def scalar(inputs: Sequence[str], outputs: Sequence[Value], layout: str) -> Callable[..., Any]:
+    """Return a function of float inputs that gives the outputs in `layout`.
+
+    `layout` is a Python expression with one `{}` for each output, which may use the inputs. Raises what
+    `math` raises (ValueError, ZeroDivisionError) where the arrays would hold NaN or infinity.
+    """
+    constants = _Constants()
+    operations, results = constants.operations(needed(outputs)), tuple(map(constants.name, outputs))
+    code = _scalar_code(
+        (*inputs, *(f"{name}={name}" for name in constants.numbers)), operations, results, layout
+    )
+    return _function(code, "pose", FLOAT_NAMES | constants.floats)
+
+
+@lru_cache(maxsize=_KEPT)
+def _scalar_code(
+    inputs: tuple[str, ...], operations: tuple[Operation, ...], outputs: tuple[int | str, ...], layout: str
+) -> CodeType:
+    """Return the code of a pose."""
+    lines, texts = _inlined(operations, outputs)
+    result = layout.format(*(texts.get(value, value) for value in outputs))
+    return _compiled("pose", inputs, [*lines, f"return {result}"])
+
+
+def _inlined(
+    operations: Sequence[Operation], outputs: Sequence[int | str]
+) -> tuple[list[str], dict[int | str, str]]:
+    """Return assignments to variables, and what stands for each node: a name, or in brackets its formula.
+
+    A formula stands where it is used, if that is at one place only.
+    """
+    uses = Counter(outputs)
+    for _, op, arguments in operations:
+        uses.update(arguments * (1 if op in _IN_PLACE else 2))
+    lines, texts, depths = [], dict[int | str, str](), dict[int | str, int]()
+    for index, op, arguments in operations:
+        depth = max([depths.get(argument, 0) for argument in arguments])
+        text = FORMULAS[op].format(*[texts.get(argument, argument) for argument in arguments])
+        if uses[index] == 1 and depth + 1 < DEEPEST:
+            texts[index], depths[index] = f"({text})", depth + 1
+        else:
+            texts[index] = f"v{index}"
+            lines.append(f"v{index} = {text}")
+    return lines, texts
+
+
+DECIMAL_NAMES = {"sqrt": square_root, "sin": sine, "cos": cosine}
+
+
+def decimals(inputs: Sequence[str], outputs: Sequence[Value]) -> Callable[..., tuple[Decimal, ...]]:
+    """Return a function of Decimals that gives the outputs; call it in a `precise.context`."""
+    constants = _Constants()
+    operations, results = constants.operations(needed(outputs)), tuple(map(constants.name, outputs))
+    digits = {name: digits_of(number) for name, number in constants.numbers.items()}
+    return _function(
+        _tuple_code("exact", tuple(inputs), operations, results), "exact", DECIMAL_NAMES | digits
+    )
+
+
+@lru_cache(maxsize=_KEPT)
+def _tuple_code(
+    name: str, inputs: tuple[str, ...], operations: tuple[Operation, ...], outputs: tuple[int | str, ...]
+) -> CodeType:
+    """Return the code of a function that gives the outputs as they stand, a line for each operation."""
+    lines = [f"v{index} = {FORMULAS[op].format(*map(_variable, given))}" for index, op, given in operations]
+    result = "".join(f"{_variable(value)}, " for value in outputs)
+    return _compiled(name, inputs, [*lines, f"return ({result})"])
+
+
+@dataclass(frozen=True)
+class Batch:
+    """A compiled pass over arrays: call it with one value or array (N,) for each input."""
+
+    arrays: tuple[str, ...]
+    outputs: tuple[Value, ...]
+    block: Callable[..., Any]
+    prelude: Callable[..., tuple[float, ...]]
+    constants: tuple[Array, ...]
+    buffers: int
+    spare: list[list[Array]] = field(default_factory=list, compare=False, repr=False)
+    """Buffers of calls that are over; a call takes its own, so that threads do not share any."""
+
+    def __call__(self, *values: Array | float) -> Array:
+        """Return the outputs as rows (outputs, N)."""
+        several = len(self.arrays)
+        arrays: Sequence[Any] = values[:several]
+        numbers = self._numbers(values[several:])
+        count = arrays[0].shape[0]
+        results = aligned_rows(len(self.outputs), count)
+        size = _block_size(count)
+        work = self._buffers(size)
+        if count == size:
+            self.block(*arrays, *numbers, *results, *work)
+        else:
+            for part in (slice(first, min(first + size, count)) for first in range(0, count, size)):
+                inside = [row[: part.stop - part.start] for row in work]
+                self.block(*(array[part] for array in arrays), *numbers, *results[:, part], *inside)
+        self.spare.append(work)
+        return results
+
+    def _numbers(self, values: Sequence[Any]) -> list[Array]:
+        """Return what is the same along the array, without a dimension."""
+        return [*(np.array(value, np.float64) for value in self.prelude(*values)), *self.constants]
+
+    def _buffers(self, size: int) -> list[Array]:
+        """Return buffers for one call, used ones where they fit: fresh memory costs a page at a time."""
+        work = self.spare.pop() if self.spare else []
+        if work and len(work[0]) == size:
+            return work
+        return list(aligned_rows(self.buffers, size))
+
+
+def aligned_rows(rows: int, count: int) -> Array:
+    """Return an array (rows, count) to be filled, each row from a cache line's begin on.
+
+    Vector units take whole cache lines; a row that begins elsewhere costs them two for each.
+    """
+    line = CACHE_LINE // np.dtype(np.float64).itemsize
+    width = -(-count // line) * line
+    memory = np.empty(rows * width + line)
+    skipped = -addressof(c_char.from_buffer(memory.data)) % CACHE_LINE
+    strides = (width * memory.itemsize, memory.itemsize)
+    return np.ndarray((rows, count), np.float64, memory, skipped, strides)
+
+
+def _block_size(count: int) -> int:
+    """Return the size of equal blocks, whole cache lines of them; all where one is enough."""
+    if count <= BLOCK:
+        return count
+    return -(-count // (-(-count // BLOCK) * CACHE_LINE)) * CACHE_LINE
+
+
+def batch(inputs: Mapping[str, bool], outputs: Sequence[Value]) -> Batch:
+    """Compile the outputs; `inputs` says of each name whether it is an array, those first, or uniform."""
+    nodes, constants = needed(outputs), _Constants()
+    arrays = tuple(name for name, array in inputs.items() if array)
+    uniform = tuple(name for name, array in inputs.items() if not array)
+    used = {str(node.args[0]) for node in nodes if node.op == "input"} & set(uniform)
+    prelude, numbers = _prelude(uniform, sorted(used), [node for node in nodes if node.uniform])
+    operations = constants.operations(node for node in nodes if not node.uniform)
+    results = tuple(map(constants.name, outputs))
+    code, buffers = _block_code((*arrays, *numbers, *constants.numbers), operations, results)
+    return Batch(
+        arrays,
+        tuple(outputs),
+        _function(code, "block", {**UFUNCS, "where": np.where}),
+        prelude,
+        tuple(map(np.array, constants.numbers.values())),
+        buffers,
+    )
+
+
+def _prelude(
+    inputs: tuple[str, ...], used: Sequence[str], nodes: Sequence[Expr]
+) -> tuple[Callable[..., tuple[float, ...]], list[str]]:
+    """Return the function that computes from the uniform inputs what is the same along arrays; its names."""
+    constants = _Constants()
+    operations = constants.operations(nodes)
+    outputs: tuple[int | str, ...] = (*used, *(index for index, *_ in operations))
+    code = _tuple_code("prelude", inputs, operations, outputs)
+    return _function(code, "prelude", FLOAT_NAMES | constants.floats), [*map(_variable, outputs)]
+
+
+@lru_cache(maxsize=_KEPT)
+def _block_code(
+    inputs: tuple[str, ...], operations: tuple[Operation, ...], outputs: tuple[int | str, ...]
+) -> tuple[CodeType, int]:
+    """Return the code that runs one block, of its inputs, result rows and buffers, and how many of these."""
+    places = allocated(operations, outputs)
+    rows, buffers = (f"o{row}" for row in range(len(outputs))), (f"b{n}" for n in range(places.buffers))
+    lines = [*_calls(operations, places)] or ["pass"]
+    return _compiled("block", (*inputs, *rows, *buffers), lines), places.buffers
+
+
+def _calls(operations: Sequence[Operation], places: Allocation) -> Iterator[str]:
+    """Yield the numpy calls in order."""
+    held = places.held
+    for index, op, arguments in operations:
+        given, place = [held.get(value) or _variable(value) for value in arguments], held[index]
+        if op == "select":
+            a, b, below, otherwise = given
+            yield f"{place}[...] = where({a} < {b}, {below}, {otherwise})"
+        else:
+            # By keyword costs time at every call; numpy asks it only of these two.
+            target = f"out={place}" if op in ("minimum", "maximum") else place
+            yield f"{op}({', '.join(given)}, {target})"
+    for row, value in places.copies:
+        # a constant is an array of no dimension: numpy would make one of a plain number at every call
+        yield f"o{row}[...] = {held.get(value) or _variable(value)}"

@@ -1,0 +1,427 @@
+"""The register of quantities: what is known of a linkage, in which symbol, words and unit, under which key.
+
+It puts the measures of each part together with what is known of the linkage as a whole; JSON, CSV, tables,
+charts, their lists and refusals, the HUD and notebooks read from here.
+
+Symbols are those of the textbooks; their subscripts are Unicode's digits (ω₃) or stand in braces (v_{B}).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from functools import lru_cache, partial
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+
+from linkanim.errors import BadInput
+from linkanim.mechanics.forces import effort_token, input_effort
+from linkanim.mechanics.linkage import Body, Damper, Linkage, Pin, Spring, holding
+from linkanim.mechanics.measures import (
+    CENTRE,
+    CENTRE_PATH,
+    DAMPER,
+    PATH,
+    POINT,
+    SPRING,
+    TURNING,
+    Measure,
+    between,
+    components,
+    dyads_of,
+    input_rate,
+    measures_of,
+    mechanical_advantage,
+    output_body,
+    pole,
+    rate_of,
+    rounding_of,
+    said,
+    size,
+    transmission_angle,
+    worst_transmission,
+)
+from linkanim.mechanics.motion import Motion
+from linkanim.mechanics.program import Array
+from linkanim.mechanics.search import sign_changes
+from linkanim.units import shown
+
+_STANDARD = {
+    "crank": "2",
+    "coupler": "3",
+    "rod": "3",
+    "rocker": "4",
+    "slider": "4",
+    "coupler2": "5",
+    "rocker2": "6",
+}
+"""The numbers that textbooks give the links of the common linkages; the ground is 1."""
+_SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
+
+
+def indexed(symbol: str, index: str) -> str:
+    """Return a symbol with its subscript: ω₄, v_{B}."""
+    lowered = index.isdecimal() and index.isascii()
+    return symbol + (index.translate(_SUBSCRIPTS) if lowered else f"_{{{index}}}")
+
+
+def plain_unit(unit: str, length_unit: str) -> str:
+    """Return a unit in plain letters, angles in degrees: "rad/s^2", "deg"."""
+    return "deg" if unit == "rad" else unit.format(length_unit).replace("²", "^2")
+
+
+def link_labels(linkage: Linkage) -> dict[str, str]:
+    """Return what each body is called in symbols: its number, by name or by custom; else its name."""
+    named = [body.name for body in linkage.bodies]
+    taken = {name for name in named if name.isdecimal()}
+    labels = {}
+    for name in named:
+        number = _STANDARD.get(name, name)
+        labels[name] = name if name in taken or number in taken else number
+        taken.add(labels[name])
+    return labels
+
+
+def called(body: Body, names: Mapping[str, str]) -> str:
+    """Return what a body is called in words, by its name in `names`: "Rocker", "Link 3", "Slider 5"."""
+    if not body.name.isdecimal():
+        words = names.get(body.name, body.name)
+        return words[:1].upper() + words[1:]
+    return f"{'Slider' if body.slider else 'Link'} {body.name}"
+
+
+def driven_body(linkage: Linkage) -> Body | None:
+    """Return the body that the drive turns: the one of the crank pin and its pivot; None without a name."""
+    ends = {linkage.drive.joint, getattr(linkage.joint(linkage.drive.joint), "pivot", None)}
+    return next((body for body in linkage.bodies if ends <= set(body.joints)), None)
+
+
+def input_symbol(linkage: Linkage) -> str:
+    """Return the input's symbol: θ₂, of a four-bar driven at its rocker θ₄, of a slider s."""
+    coordinate, body = linkage.drive.coordinate, driven_body(linkage)
+    if not coordinate.is_angle:
+        return coordinate.letter
+    return indexed(coordinate.letter, link_labels(linkage)[body.name] if body else "2")
+
+
+NO_NAMES: Mapping[str, str] = MappingProxyType({})
+"""Every body by its own name."""
+_NEAREST = 3
+_LONG = 60
+"""Characters of a token: more take long to compare, and none has them."""
+_LEVEL = 1e-9
+"""Of a quantity's greatest size; what changes less stands still."""
+
+
+Path = tuple[str | int, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Quantity:
+    """A quantity of one linkage: `rocker.angular_velocity`, ω₄, "Rocker: angular velocity", rad/s.
+
+    `read` takes a Motion (arrays) or a Pose (floats) and says what it is, in radians and the scene's unit of
+    length: one value an instant, or one in each of `columns`; 0.0 is nothing, `inf` not bounded, `nan` none
+    (`motion.settled`). `unit`, `order` and `divisor` are as in `Measure`. `path` is where it stands in JSON,
+    numbers being places in a list; what follows from others there has none.
+    """
+
+    token: str
+    symbol: str
+    words: str
+    unit: str
+    order: int
+    read: Callable[[Any], Any]
+    columns: tuple[str, ...] = ("",)
+    path: Path = ()
+    divisor: Callable[[Any], Any] | None = None
+
+    def shown(self, motion: Any) -> Any:
+        """Return the values as people read them: angles in degrees."""
+        found = self.read(motion)
+        return np.degrees(found) if self.unit == "rad" else found
+
+    def unbounded_between(self, cycle: Motion) -> Array:
+        """Return the phases between the instants of a cycle, at equal steps, at which it is not bounded.
+
+        They lie where what it is over changes its sign; what is unbounded all along is so at the instants.
+        """
+        divisor, phases = self.divisor, cycle.phase
+        if divisor is None or len(phases) < 2:
+            return np.empty(0)
+        solve = partial(cycle.setting.solve, speed=1.0)
+        around = np.append(phases, 2 * phases[-1] - phases[-2])
+        found = sign_changes(lambda near: np.asarray(divisor(solve(phase=near))), around)
+        unbounded: Any = np.isinf(self.read(solve(phase=found)))
+        return np.sort(found[unbounded.any(axis=1) if unbounded.ndim > 1 else unbounded])
+
+    def rounding(self, cycle: Any) -> float:
+        """Return how large rounding errors may be over a cycle, from its extent and the input's speed."""
+        return float(np.max(rounding_of(cycle, self.unit, self.order)))
+
+    def changes(self, cycle: Any) -> bool:
+        """Return whether it has more than one value over a cycle, rounding errors aside."""
+        values = np.asarray(self.read(cycle), float)
+        found = values[np.isfinite(values)]
+        return bool(
+            found.size and np.ptp(found) > max(_LEVEL * np.abs(found).max(), 10 * self.rounding(cycle))
+        )
+
+    def shown_unit(self, length_unit: str) -> str:
+        """Return the unit that goes with `shown`."""
+        return "°" if self.unit == "rad" else self.unit.format(length_unit)
+
+    def title(self, length_unit: str) -> str:
+        """Return what an axis is titled: "Rocker: angular velocity ω₄ (rad/s)"."""
+        return f"{self.words} {self.headed(length_unit)}"
+
+    def headed(self, length_unit: str) -> str:
+        """Return what a column is headed: "ω₄ (rad/s)", without a unit the symbol alone."""
+        unit = self.shown_unit(length_unit)
+        return f"{self.symbol} ({unit})" if unit else self.symbol
+
+
+def register(linkage: Linkage, names: Mapping[str, str] = NO_NAMES) -> Mapping[str, Quantity]:
+    """Return all quantities of a linkage by their tokens: bodies, joints, centres of mass, struts.
+
+    Tokens go by the bodies' own names; words by what `names` has for them. Lengths are read from the motion.
+    """
+    return _registered(linkage.unsized, tuple(names.items()))
+
+
+@lru_cache(maxsize=16)
+def _registered(linkage: Linkage, names: tuple[tuple[str, str], ...]) -> Mapping[str, Quantity]:
+    found = _quantities(linkage, dict(names), still=False)
+    return MappingProxyType({quantity.token: quantity for quantity in found})
+
+
+def recorded(linkage: Linkage) -> Iterator[Quantity]:
+    """Yield what JSON and CSV hold: fixed pins and forces that are not known as well."""
+    return (quantity for quantity in _quantities(linkage, NO_NAMES, still=True) if quantity.path)
+
+
+def look_up(known: Mapping[str, Quantity], token: str, of: str) -> Quantity:
+    """Return the quantity of that token; BadInput with the nearest ones and the list where there is none.
+
+    `of` says whose quantities they are.
+    """
+    if token in known:
+        return known[token]
+    from difflib import get_close_matches
+
+    near = get_close_matches(token[:_LONG], list(known), n=_NEAREST)
+    meant = f" (did you mean {' or '.join(near)}?)" if near else ""
+    raise BadInput(f"quantity {shown(token)}: {of} has none of this name{meant}; it has {', '.join(known)}")
+
+
+def _quantities(linkage: Linkage, names: Mapping[str, str], *, still: bool) -> Iterator[Quantity]:
+    """Yield all quantities, those of fixed pins and unknown forces where `still`."""
+    labels = link_labels(linkage)
+    for body in linkage.bodies:
+        yield from _of_body(linkage, body, labels[body.name], called(body, names))
+    for joint in linkage.joints:
+        moves, name = not isinstance(joint, Pin), joint.name
+        own, bent = POINT if moves or still else (), PATH if moves else ()
+        yield from _of_point(own, bent, (name, name, name), ("joints", name))
+    for body in linkage.bodies:
+        if body.com is not None:
+            called_ = body.name, f"G{labels[body.name]}", f"{called(body, names)}, centre of mass"
+            yield from _of_point(CENTRE, CENTRE_PATH, called_, ("bodies", body.name, "com"))
+    for strut in linkage.springs + linkage.dampers:
+        words = linkage.strut_words(strut)
+        index = words if strut.name in labels else strut.name
+        yield from _of_strut(strut, index, words[:1].upper() + words[1:], every=still)
+    for body in linkage.bodies:
+        if body.slider is None:
+            called_ = body.name, f"P1{labels[body.name]}", called(body, names)
+            yield from _vector(_POLE, called_, ("bodies", body.name))
+    yield from _of_whole(linkage)
+
+
+def _pole(motion: Any, name: str) -> Any:
+    found = said(motion, pole(motion, motion.setting.body(name)), "{}", 0)
+    return found if isinstance(motion.phase, float) else np.stack(found, axis=-1)
+
+
+def _turning(motion: Any, name: str) -> Any:
+    return motion.angular_velocity[name]
+
+
+_POLE = Measure("pole", "pole", "r", "instant centre to the ground", "{}", 0, "", _pole, _turning)
+
+
+def _of_whole(linkage: Linkage) -> Iterator[Quantity]:
+    """Yield what is known of the linkage as a whole: its input, transmission and advantage."""
+    yield from _of_input(linkage)
+    dyads = dyads_of(linkage)
+    if dyads:
+        read: Callable[[Any], Any] = partial(worst_transmission, dyads=dyads)
+        yield _whole("transmission_angle", "μ", "Transmission angle", "rad", 0, read)
+    for dyad in dyads if len(dyads) > 1 else ():
+        read, words = partial(transmission_angle, dyad=dyad), f"{dyad}: transmission angle"
+        whole = _whole(f"{dyad}.transmission_angle", indexed("μ", dyad), words, "rad", 0, read)
+        yield replace(whole, path=("joints", dyad, "transmission_angle"))
+    output = output_body(linkage)
+    if output is not None and (output.slider or linkage.drive.coordinate.is_angle):
+        read = partial(mechanical_advantage, output=output)
+        whole = _whole("mechanical_advantage", "MA", "Mechanical advantage", "", 0, read)
+        yield replace(whole, divisor=partial(rate_of, body=output))
+
+
+def _of_input(linkage: Linkage) -> Iterator[Quantity]:
+    """Yield how fast the input moves, how long its cylinder is, and what it delivers."""
+    coordinate, actuator = linkage.drive.coordinate, linkage.drive.actuator
+    symbol, words = "ω_{in}" if coordinate.is_angle else "v_{in}", f"Input: {coordinate.velocity}"
+    yield _whole(coordinate.rate_token, symbol, words, f"{coordinate.unit}/s", 1, input_rate)
+    if (ends := actuator.along) is not None:
+
+        def length(motion: Any) -> Any:
+            return size(between(motion.position, ends))
+
+        yield _whole("input.length", "L_{in}", "Input: length of the cylinder", "{}", 0, length)
+    if linkage.forceful:
+        damped = any(damper.forceful for damper in linkage.dampers)
+        order = 2 if any(body.forceful for body in linkage.bodies) else int(damped)
+        name, unit = actuator.effort
+        symbol = f"{name[0].upper()}_{{in}}"
+        yield _whole(effort_token(linkage), symbol, f"Input: {name}", unit, order, input_effort)
+
+
+def _whole(
+    token: str, symbol: str, words: str, unit: str, order: int, read: Callable[[Any], Any]
+) -> Quantity:
+    """Return a quantity of the linkage as a whole, which stands in JSON under its own token."""
+
+    def told(motion: Any) -> Any:
+        return said(motion, read(motion), unit, order)
+
+    return Quantity(token, symbol, words, unit, order, told, path=tuple(token.split(".")))
+
+
+def _of_body(linkage: Linkage, body: Body, label: str, words: str) -> Iterator[Quantity]:
+    own, slopes = measures_of(linkage, body)
+    path = ("bodies", body.name)
+    for measure in own:
+        yield _bound(measure, body.name, indexed(measure.symbol, label), words, (*path, measure.key))
+    for place, measure in enumerate(slopes):
+        symbol = indexed(measure.symbol, label)
+        yield _bound(measure, body.name, symbol, words, (*path, "coefficients", place))
+
+
+def _bound(measure: Measure, part: str, symbol: str, words: str, path: Path) -> Quantity:
+    """Return the quantity that a measure is of one part."""
+    token, words = f"{part}.{measure.name}", f"{words}: {measure.words}"
+    known = (token, symbol, words, measure.unit, measure.order)
+    divisor = measure.divisor_of(part)
+    return Quantity(*known, lambda motion: measure.read(motion, part), path=path, divisor=divisor)
+
+
+def _of_point(
+    own: Iterable[Measure], bent: Iterable[Measure], names: tuple[str, str, str], path: Path
+) -> Iterator[Quantity]:
+    """Yield the vectors of a joint or centre of mass, and how its path bends; `names` as in `_vector`."""
+    part, label, words = names
+    for measure in own:
+        yield from _vector(measure, names, path)
+    for measure in bent:
+        yield _bound(measure, part, indexed(measure.symbol, label), words, (*path, measure.key))
+
+
+def _vector(measure: Measure, names: tuple[str, str, str], path: Path) -> Iterator[Quantity]:
+    """Yield a vector, a position as its two components and else its magnitude, and each component.
+
+    `names` are those of the part, in symbols and in words.
+    """
+    part, label, called_ = names
+    token, words = f"{part}.{measure.name}", f"{called_}: {measure.words}"
+
+    def vector(motion: Any) -> Any:
+        return measure.read(motion, part)
+
+    divisor = measure.divisor_of(part)
+    whole = (indexed(measure.symbol, label), words, measure.unit, measure.order)
+    if measure.order:
+        yield Quantity(token, *whole, lambda motion: size(components(vector(motion))))
+    else:
+        yield Quantity(token, *whole, vector, ("x", "y"), divisor=divisor)
+    for n, axis in enumerate("xy"):
+        symbol = indexed(measure.symbol, f"{label}{axis}") if measure.order else indexed(axis, label)
+        part_of = f"{token}.{axis}", symbol, f"{words}, {axis}", measure.unit, measure.order
+        yield Quantity(*part_of, _component(vector, n), path=(*path, measure.key, n), divisor=divisor)
+
+
+def _component(vector: Callable[[Any], Any], index: int) -> Callable[[Any], Any]:
+    return lambda motion: components(vector(motion))[index]
+
+
+def _of_strut(strut: Spring | Damper, index: str, words: str, *, every: bool) -> Iterator[Quantity]:
+    """Yield a strut's quantities, a force that is not known where `every` is meant.
+
+    `index` is what it is called in symbols.
+    """
+    kind, measures = ("damper", DAMPER) if isinstance(strut, Damper) else ("spring", SPRING)
+    for measure in measures:
+        if measure.name != "force" or strut.forceful or every:
+            symbol = indexed(measure.symbol, index)
+            path = (f"{kind}s", strut.name, measure.key)
+            yield _bound(measure, strut.name, symbol, words, path)
+
+
+_LEAST, _MOST = 6, 10
+
+
+def key_quantities(cycle: Motion, traced: tuple[str, ...] = ()) -> tuple[str, ...]:
+    """Return the tokens of six to ten quantities that say most of a linkage, the most important first.
+
+    What it is there to move, the forces, how its links turn, the torque at its input, the first of the
+    `traced` joints whose speed changes, how well it transmits; nothing that stands still over the cycle.
+    """
+    linkage = cycle.setting.linkage
+    changing = {token for token, one in register(linkage).items() if one.changes(cycle)}
+    point = tuple(name for name in traced if f"{name}.velocity" in changing)[:1]
+    candidates = [token for token in _candidates(linkage, point) if token in changing]
+    rest = [token for token in register(linkage) if token in changing and token not in candidates]
+    rest.sort(key=lambda token: token.partition(".")[0] not in traced)
+    return tuple(dict.fromkeys((*candidates[:_MOST], *rest[: max(_LEAST - len(candidates), 0)])))
+
+
+def _candidates(linkage: Linkage, traced: tuple[str, ...]) -> Iterator[str]:
+    output = output_body(linkage)
+    bodies = sorted(linkage.bodies, key=lambda body: body is not output)
+    sliders = [body.name for body in bodies if body.slider is not None]
+    for name in sliders:
+        yield from (f"{name}.travel_velocity", f"{name}.travel_acceleration")
+    struts: tuple[Spring | Damper, ...] = (*linkage.springs, *linkage.dampers)
+    for strut in struts:
+        yield f"{strut.name}.{'force' if strut.forceful else 'length'}"
+    if output and not sliders:
+        yield from (f"{output.name}.{measure.name}" for measure in TURNING)
+    for body in bodies_in_chain(linkage):
+        if not linkage.crank_of(body) and not (output and not sliders and _rigid(linkage, body, output)):
+            yield f"{body.name}.angular_velocity"
+    yield effort_token(linkage)
+    for name in traced:
+        yield from (f"{name}.velocity", f"{name}.acceleration")
+    yield from (f"{name}.travel" for name in sliders)
+    yield from ("transmission_angle", "mechanical_advantage")
+
+
+def bodies_in_chain(linkage: Linkage) -> tuple[Body, ...]:
+    """Return the bodies that turn, in the order in which the joints that move them are solved.
+
+    Of those that cannot move against each other it is the first.
+    """
+    moving = [joint.name for joint in linkage.joints if not isinstance(joint, Pin)]
+    bodies = {body.name: body for name in moving for body in linkage.bodies if name in body.joints}
+    found: list[Body] = []
+    for body in bodies.values():
+        if not any(_rigid(linkage, body, other) for other in found):
+            found.append(body)
+    return tuple(found)
+
+
+def _rigid(linkage: Linkage, body: Body, other: Body) -> bool:
+    """Tell whether two bodies that turn cannot move against each other."""
+    return holding(linkage.rigid_bodies, body.joints) == holding(linkage.rigid_bodies, other.joints)

@@ -1,0 +1,144 @@
+"""One search for places: where a condition ends, where a function changes its sign, and where it is highest.
+
+Bisection, on many brackets at once: it needs no derivative, cannot leave its bracket, and ends at
+neighbouring floats. The highest place is sampled ever closer.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkanim.mechanics.program import Array, Bools
+
+Indices = NDArray[np.intp]
+
+SAMPLES_A_TURN, SAMPLES_A_GEARED_TURN = 1440, 96
+"""At which a true period is looked at, for each drive period; at least so many for a turn of any crank."""
+BLOCK, AT_ONCE = 1024, 1 << 16
+"""Places worked out at a time where a function has many rows, and where it has few."""
+
+FINEST = 2.0**-70
+"""Share of the largest place below which a bracket is not halved further: a place may be zero itself."""
+
+_ROUNDS = 5
+_AHEAD = 64
+"""So many places are worked out at a time where brackets are fewer."""
+_DEEPEST = 4
+"""Halvings."""
+
+
+def samples_a_turn(quickest: float) -> int:
+    """Return at how many phases of a drive period is looked where a crank turns so many times as fast."""
+    return max(SAMPLES_A_TURN, math.ceil(SAMPLES_A_GEARED_TURN * quickest))
+
+
+def in_blocks(places: Array) -> list[Array]:
+    """Return places in as many parts as bounds what working them out takes."""
+    return np.array_split(places, max(math.ceil(len(places) / AT_ONCE), 1))
+
+
+def around(turns: int, samples_a_turn: int) -> Array:
+    """Return phases once around, half a step off the start, where every rate of a swing vanishes."""
+    step = 2 * math.pi / samples_a_turn
+    return step * (np.arange(turns * samples_a_turn + 1, dtype=np.float64) - 0.5)
+
+
+def highest(
+    function: Callable[[Array], Array],
+    place: float,
+    reach: float,
+    ends: tuple[float, float] = (-math.inf, math.inf),
+) -> float:
+    """Return where a function is highest within `reach` of a place and between `ends`; NaN counts as least.
+
+    To some 1e-6 of the reach: its value there is that of the peak to about the square of that.
+    """
+    for _ in range(_ROUNDS):
+        near = np.clip(place + reach * np.linspace(-1, 1, 21), *ends)
+        values = function(near)
+        place, reach = float(near[np.where(np.isfinite(values), values, -np.inf).argmax()]), reach / 10
+    return place
+
+
+def ends_of(holds: Callable[[Array], Bools], inside: Array, outside: Array, share: float = FINEST) -> Array:
+    """Return the last places at which a condition holds, each between one where it does and one where not.
+
+    `holds` takes places (M, N), M in each of the N brackets, and returns whether it holds at each. No
+    bracket is halved below that `share` of its places. Of few brackets all places that several halvings may
+    come to are asked for at once: a call costs more than a place.
+    """
+    finest, each = share * np.maximum(np.abs(inside), np.abs(outside)), np.arange(len(inside))
+    deep = min(max(int(math.log2(_AHEAD / max(len(inside), 1) + 1)), 1), _DEEPEST)
+    while True:
+        middles, at = _middles(inside, outside, deep), np.zeros(len(inside), np.intp)
+        held = holds(middles)
+        for level in range(deep):
+            place = (1 << level) - 1 + at
+            middle, good = middles[place, each], held[place, each]
+            if ((middle == inside) | (middle == outside) | (np.abs(outside - inside) <= finest)).all():
+                return inside
+            inside, outside = np.where(good, middle, inside), np.where(good, outside, middle)
+            at = 2 * at + ~good
+
+
+def _middles(inside: Array, outside: Array, deep: int) -> Array:
+    """Return the middles of so many halvings, a row for each way that those before may have gone."""
+    rows: list[Array] = []
+    halves = [(inside, outside)]
+    for _ in range(deep):
+        middles = [(one + other) / 2 for one, other in halves]
+        pairs = zip(halves, middles, strict=True)
+        halves = [half for (one, other), middle in pairs for half in ((middle, other), (one, middle))]
+        rows += middles
+    return np.stack(rows)
+
+
+def sign_changes(function: Callable[[Array], Array], places: Array, share: float = FINEST) -> Array:
+    """Return where a function changes its sign between neighbouring places; none where it is NaN there.
+
+    To that `share` of the places.
+    """
+    return changes_by_row(lambda x: function(x)[np.newaxis], places, share)[1]
+
+
+def changes_by_row(
+    function: Callable[[Array], Array], places: Array, share: float = FINEST
+) -> tuple[Indices, Array]:
+    """Return where each row of a function changes its sign: the row, and the place, of every change.
+
+    The function gives (rows, N) for places (N,). All brackets of all rows are halved together, and only a
+    block of places is worked out at a time: so both time and memory go with the rows.
+    """
+    rows, index, start = _brackets(function, places)
+
+    def alike(middles: Array) -> Bools:
+        values = own_rows(function, np.tile(rows, len(middles)), middles.ravel()).reshape(middles.shape)
+        return np.asarray((values > 0) == start)
+
+    return rows, ends_of(alike, places[index], places[index + 1], share)
+
+
+def own_rows(function: Callable[[Array], Array], rows: Indices, places: Array) -> Array:
+    """Return the value of one row of a function at each place, a block of places at a time."""
+    found = np.empty(len(places))
+    for first in range(0, len(places), BLOCK):
+        part = slice(first, first + BLOCK)
+        values = function(places[part])
+        found[part] = values[rows[part], np.arange(values.shape[1])]
+    return found
+
+
+def _brackets(function: Callable[[Array], Array], places: Array) -> tuple[Indices, Indices, Bools]:
+    """Return the row and the place before each change of sign, and whether the row is positive there."""
+    found: list[tuple[Indices, Indices, Bools]] = []
+    for first in range(0, max(len(places) - 1, 1), BLOCK):
+        values = function(places[first : first + BLOCK + 1])
+        positive, known = values > 0, ~np.isnan(values)
+        rows, index = np.nonzero((positive[:, :-1] != positive[:, 1:]) & known[:, :-1] & known[:, 1:])
+        found.append((rows, index + first, positive[rows, index]))
+    rows, index, start = (np.concatenate(parts) for parts in zip(*found, strict=True))
+    return rows, index, start

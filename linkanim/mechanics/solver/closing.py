@@ -1,0 +1,984 @@
+"""Close every kind of joint, one after the other, in one walk over the linkage.
+
+Its parts, in reading order:
+
+- The signed root of a dyad on moving points that limits the input, or passes change points.
+- A linkage put together, as data, and one walk over it: what is known of its joints so far.
+- How each kind of joint closes, and the one list of them.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from decimal import localcontext
+from fractions import Fraction
+from functools import cached_property, partial
+from typing import Any, NamedTuple
+
+from linkanim.errors import AssemblyError
+from linkanim.mechanics.angles import (
+    Half,
+    Sum,
+    exact_angle,
+    half_angle,
+    quarter_turns,
+    sharp_half_angle,
+    snapped,
+    unit,
+)
+from linkanim.mechanics.arithmetic import (
+    Constant,
+    Expr,
+    Moving,
+    MovingPoint,
+    Slope,
+    Value,
+    Vec,
+    carried,
+    maximum,
+    minimum,
+    select,
+    sqrt,
+)
+from linkanim.mechanics.linkage import (
+    RPP,
+    RPR,
+    RRP,
+    RRR,
+    Brace,
+    Crank,
+    DrivenSlider,
+    Joint,
+    Line,
+    Linkage,
+    Pin,
+    Point,
+    Rigid,
+    holding,
+)
+from linkanim.mechanics.precise import context, cosine, direction, exactly, nearest_sum
+from linkanim.mechanics.search import samples_a_turn
+from linkanim.mechanics.solver.input import InputPath, InputState, TravelState
+from linkanim.mechanics.solver.loop import (
+    Gearing,
+    Loop,
+    PinLoop,
+    Triangle,
+    aside_of,
+    gearings,
+    moving_factors,
+    moving_square,
+    moving_triangle,
+    own_loop,
+    pin_against_pin,
+    pin_triangle,
+    place,
+)
+from linkanim.mechanics.solver.signed_root import (
+    SMALLEST,
+    Reduced,
+    SignedRoot,
+    four_bar_root,
+    plain_root,
+    slider_root,
+    slot_root,
+)
+
+# The signed root of a dyad on moving points that limits the input, or passes change points.
+#
+# Its margin F = U·W is a difference of rounded coordinates, without digits of its own where it vanishes:
+# q = √F would keep half of them. So each zero has a smooth signed way z to it: the root of half the way to
+# a limit, or the sine of half the way to a change point. There F = z²·R² with R smooth and positive, and
+# next to the zero q = z·R, R being a polynomial fitted once in fifty digits (`fitting`). Then
+#
+#     q' = d(zR)/dz z'        ρ = q'/((U - W)/2)
+#
+# need no digits of F or of its rates, and stay finite through limits and change points. Between the zeros
+# F keeps its digits: there q = ±√F, and the signs of all the ways are its sign on the smooth path.
+#
+# Where F comes near zero and turns back, at an extreme of the separation, its least value F₀ is found in
+# fifty digits, too, and R² is fitted: there q = ±√(F₀ + r²), r = z·R, z the sine of half the way from there,
+# and
+#
+#     q' = r r'/q        q'' = (r r'' + r'² F₀/q²)/q
+
+BESIDE_AN_END = 1e-3
+"""Sine of the phase below which half the way to an end of a swing has the digits of that to a place."""
+
+
+@dataclass(frozen=True, slots=True)
+class PolynomialFit:
+    """A smooth function for arguments up to `width`: a polynomial in (x - centre)/half."""
+
+    width: float
+    centre: float
+    half: float
+    coefficients: tuple[float, ...]
+
+    def at(self, x: Moving) -> Moving:
+        """Return the function of what moves, with its rates (Horner's scheme, and the chain rule)."""
+        t = (x.value - self.centre) * (1.0 / self.half)
+        value: Value = self.coefficients[-1]
+        first: Value = 0.0
+        second: Value = 0.0
+        for coefficient in self.coefficients[-2::-1]:
+            second = second * t + first
+            first = first * t + value
+            value = value * t + coefficient
+        rate, bend = x.rate * (1.0 / self.half), x.second * (1.0 / self.half)
+        return Moving(value, first * rate, second * (rate * rate * 2.0) + first * bend)
+
+
+class Way(NamedTuple):
+    """A signed way z to a zero, and the argument of what is fitted there; `share` is z over it.
+
+    The argument is the same a turn later, where z is -z.
+    """
+
+    z: Moving
+    argument: Moving
+    share: Value = 1.0
+
+
+@dataclass(frozen=True, slots=True)
+class Near:
+    """What is fitted next to a zero: R, and D over the argument where the ends of equal bars meet there.
+
+    `least` is what the margin comes down to where that is not zero: then R² is fitted.
+    """
+
+    root: PolynomialFit
+    across: tuple[PolynomialFit, PolynomialFit] | None = None
+    least: float = 0.0
+
+    def root_at(self, z: Moving, fitted: Moving) -> Moving:
+        """Return √(least + z²R²)."""
+        if not self.least:
+            return z * fitted
+        part = z * _root(fitted)
+        root = sqrt(part.value * part.value + self.least)
+        share, rate = part.value / root, part.rate / root
+        return Moving(root, share * part.rate, share * part.second + rate * rate * (self.least / root))
+
+
+@dataclass(frozen=True, slots=True)
+class End:
+    """A limit that the dyad sets, at the swing's upper or its lower end: z² is half the way to it.
+
+    Where the dyad fails to close on a short stretch only, of which half is the `stretch`, z² is that times
+    half the way to its other end.
+    """
+
+    upper: bool
+    near: Near | None = None
+    stretch: float = 0.0
+
+    def way(self, state: InputState) -> Way:
+        """Return the way to the limit."""
+        assert state.ends is not None
+        ends = state.ends
+        z, half = (ends.root_u, ends.u) if self.upper else (ends.root_v, ends.v)
+        argument = Moving(half.value, half.rate, (z * z).second)
+        return Way(z * _root(argument, self.stretch) if self.stretch else z, argument)
+
+    def chosen(self, way: Way, width: float, close: Value, otherwise: Value) -> Value:
+        """Return `close` within the width, else the other."""
+        return select(way.argument.value, width, close, otherwise)
+
+
+@dataclass(frozen=True, slots=True)
+class Stationary:
+    """A change point, or a dip: z is the sine of half the way from it, and the argument that tangent.
+
+    `place` is an angle of an input that turns; of one that swings it is a phase, since its two ways may
+    run on different closures before this one, and `amplitude` is that of the swing. It repeats after
+    `turns` drive periods (a power of two, of a swing).
+    """
+
+    place: Sum
+    turns: int
+    amplitude: float | None
+    near: Near | None = None
+
+    def way(self, state: InputState) -> Way:
+        """Return the way from there."""
+        turn = self._on_turn(state) if self.amplitude is None else self._on_swing(state, self.amplitude)
+        sine, cosine = turn
+        return Way(sine, _quotient(sine, cosine), cosine.value)
+
+    def _on_turn(self, state: InputState) -> SineAndCosine:
+        share = Fraction(1, self.turns)
+        half = state.half(self.place * share, share)
+        return _turning(half.sine, half.cosine, Slope(state.rate, state.second).scaled(0.5 / self.turns))
+
+    def _on_swing(self, state: InputState, amplitude: float) -> SineAndCosine:
+        assert state.ends is not None
+        if state.phase is not None:
+            away = (state.phase - self.place.high) - self.place.low
+            half = sharp_half_angle(away * (1.0 / self.turns))
+            return _turning(half.sine, half.cosine, state.phase_pace.scaled(0.5 / self.turns))
+        scale = 1.0 / math.sqrt(amplitude)
+        sine, cosine = state.ends.root_v.scaled(scale), state.ends.root_u.scaled(scale)
+        for _ in range(self.turns.bit_length() - 1):
+            sine, cosine = _halved(sine, cosine)
+        half_way = float(self.place) / (2 * self.turns)
+        along, aside = math.cos(half_way), math.sin(half_way)
+        apart = sine.scaled(along) + cosine.scaled(-aside)
+        if self.turns == 1 and math.sin(float(self.place)) > BESIDE_AN_END:
+            both = sine.value * along + cosine.value * aside
+            apart = apart._replace(value=self._way_left(state, amplitude) / (both * (2.0 * amplitude)))
+        return apart, cosine.scaled(along) + sine.scaled(aside)
+
+    def _way_left(self, state: InputState, amplitude: float) -> Value:
+        """Return how far the input's angle θ is from the place on its way up.
+
+        That is 2 amp sin((φ - φ₀)/2) sin((φ + φ₀)/2).
+        """
+        with localcontext(context()):
+            gone = nearest_sum(-exactly(amplitude) * cosine(exactly(self.place)))
+        return (state.angle - gone.high) + (state.rest - gone.low)
+
+    def chosen(self, way: Way, width: float, close: Value, otherwise: Value) -> Value:
+        """Return `close` within the width, else the other."""
+        z = way.z.value
+        return select(z * z, width * width / (1.0 + width * width), close, otherwise)
+
+
+SineAndCosine = tuple[Moving, Moving]
+"""Sine and cosine of a moving angle."""
+
+
+def _turning(sine: Value, cosine: Value, rate: Slope) -> SineAndCosine:
+    """Return sine and cosine with their rates where the angle itself has that rate."""
+    first, second, square = rate.value, rate.rate, rate.value * rate.value
+    return (
+        Moving(sine, cosine * first, cosine * second - sine * square),
+        Moving(cosine, -(sine * first), -(sine * second) - cosine * square),
+    )
+
+
+def _quotient(a: Moving, b: Moving) -> Moving:
+    """Return a quotient of what moves."""
+    value = a.value / b.value
+    rate = (a.rate - value * b.rate) / b.value
+    return Moving(value, rate, (a.second - value * b.second - rate * b.rate * 2.0) / b.value)
+
+
+def _halved(sine: Moving, cosine: Moving) -> SineAndCosine:
+    """Return sine and cosine of half an angle between 0 and π."""
+    half_cosine = sqrt((cosine.value + 1.0) * 0.5)
+    rate = Slope(
+        sine.rate * cosine.value - cosine.rate * sine.value,
+        sine.second * cosine.value - cosine.second * sine.value,
+    )
+    return _turning(sine.value * 0.5 / half_cosine, half_cosine, rate.scaled(0.5))
+
+
+class Touch(Stationary):
+    """A change point: the margin touches zero, and the root changes its sign."""
+
+
+class Dip(Stationary):
+    """A place where the margin comes near zero, and turns back."""
+
+
+Zero = End | Touch
+Fitted = Zero | Dip
+
+
+class Closing(NamedTuple):
+    """What closes a dyad on moving points: U, W, what they change by, and its ends' way D where it has two.
+
+    `separation` is L² of two ends (`squared`), or how far a single one lies beside its line; W' is its rate,
+    U' less it.
+    `half_difference` is (U - W)/2, or 1/2 of a `single` root, which has no U.
+    """
+
+    u: Value
+    w: Value
+    separation: Moving
+    single: bool
+    across: MovingPoint | None
+    squared: bool = True
+
+    @property
+    def half_difference(self) -> Value:
+        """(U - W)/2: q' is ρ times that."""
+        return 0.5 if self.single else (self.u - self.w) * 0.5
+
+    @property
+    def size(self) -> Value:
+        """What the margin is beside: (U + W)², which is 16a²b² of two bars, or L²."""
+        return self.separation.value if self.single else (self.u + self.w) * (self.u + self.w)
+
+    @property
+    def gap(self) -> Value:
+        """How much longer, or shorter, the separation may still become: its nearer factor as a length."""
+        if not self.squared:
+            return minimum(self.u, self.w)
+        distance = sqrt(self.separation.value)
+        least = sqrt(maximum(self.separation.value - self.w, 0.0))
+        folded = self.w / maximum(distance + least, SMALLEST)
+        if self.single:
+            return folded
+        most = sqrt(self.separation.value + self.u)
+        return minimum(self.u / maximum(distance + most, SMALLEST), folded)
+
+    def rates(self, q: Moving) -> Slope:
+        """Return ρ of a root that is known with its rates: from q', or where U and W are alike from (L²)'.
+
+        There q is at its greatest, and q'/((U - W)/2) nothing over nothing.
+        """
+        half, (rate, second) = self.half_difference, (self.separation.rate, self.separation.second)
+        if self.single:
+            return Slope(q.rate / half, q.second / half)
+
+        def chosen(alike: Value, otherwise: Value) -> Value:
+            return select(half * half * 16.0, self.size, alike, otherwise)
+
+        divisor = chosen(q.value, half)
+        ratio = chosen(rate, q.rate) / divisor
+        # (U - W)' is -2 (L²)'.
+        bent = chosen(second - ratio * ratio * half, q.second + ratio * rate)
+        return Slope(ratio, bent / divisor)
+
+
+@dataclass(frozen=True, slots=True)
+class ChainRoot:
+    """The zeros of one dyad's root; `sign` makes the closure that is named the one just after the start.
+
+    Below `least` the margin has no digits left.
+    """
+
+    zeros: tuple[Zero, ...]
+    least: float
+    sign: float = 1.0
+    dips: tuple[Dip, ...] = ()
+
+    @property
+    def change_points(self) -> Iterator[Sum]:
+        """What names the places at which the root changes its sign and the input goes on."""
+        return (zero.place for zero in self.zeros if isinstance(zero, Touch))
+
+    def root(self, closing: Closing, state: InputState) -> SignedRoot:
+        """Return q and ρ, signed and finite through every zero."""
+        margin = maximum(closing.u * closing.w, self.least)
+        plain = plain_root(margin, 1.0, closing.separation, closing.half_difference)
+        side = self.side(state)
+        found = SignedRoot(plain.q * side, Slope(plain.ratio.value * side, plain.ratio.rate * side))
+        if any(zero.near and zero.near.across for zero in self.zeros) and closing.across:
+            found = found.with_lift(Reduced(closing.across, found.q))
+        for zero in (*self.dips, *self.zeros):
+            if zero.near is not None:
+                found = self._beside(zero, zero.near, closing, state, found)
+        return found
+
+    def _beside(
+        self, zero: Fitted, near: Near, closing: Closing, state: InputState, far: SignedRoot
+    ) -> SignedRoot:
+        """Return the root from its fit next to a zero, else the one from `far` of it."""
+        way, others = zero.way(state), self.side(state, zero)
+        fitted = near.root.at(way.argument)
+        q = near.root_at(way.z, fitted)
+        rho = closing.rates(q)
+
+        def chosen(close: Value, otherwise: Value) -> Value:
+            return zero.chosen(way, near.root.width, close, otherwise)
+
+        found = SignedRoot(
+            chosen(q.value * others, far.q),
+            Slope(chosen(rho.value * others, far.ratio.value), chosen(rho.rate * others, far.ratio.rate)),
+        )
+        if far.lift is None:
+            return found
+        if near.across is None:
+            return found.with_lift(Reduced(far.lift.across, chosen(q.value * others, far.lift.q)))
+        reduced = _vector(*(fit.at(way.argument) for fit in near.across))
+        points = [
+            Vec(chosen(a.x, b.x), chosen(a.y, b.y)) for a, b in zip(reduced, far.lift.across, strict=True)
+        ]
+        return found.with_lift(
+            Reduced(MovingPoint(*points), chosen(fitted.value * way.share * others, far.lift.q))
+        )
+
+    def side(self, state: InputState, other_than: Fitted | None = None) -> Value:
+        """Return the sign of the closure on the smooth path, without that of a zero."""
+        sign: Value = self.sign
+        for zero in self.zeros:
+            if zero is not other_than:
+                sign = sign * _sign(zero.way(state).z.value)
+        return sign
+
+
+def _root(x: Moving, more: float = 0.0) -> Moving:
+    """Return the root of what moves and some more, which is positive."""
+    root = sqrt(x.value + more)
+    rate = x.rate * 0.5 / root
+    return Moving(root, rate, (x.second * 0.5 - rate * rate) / root)
+
+
+def _vector(x: Moving, y: Moving) -> MovingPoint:
+    """Return the vector of two moving components."""
+    return MovingPoint(Vec(x.value, y.value), Vec(x.rate, y.rate), Vec(x.second, y.second))
+
+
+def _sign(value: Value) -> Value:
+    return select(value, 0.0, -1.0, 1.0)
+
+
+# A linkage put together, as data, and one walk over it: what is known of its joints so far.
+#
+# Joints come in their order, each closed from those before it. What turns as one piece is kept beside its
+# frame: a bar, the arms along which its joints are carried, and how fast it turns.
+#
+# Seen from a line of travel, fixed or carried by a body, a point lies f forward of the line's base and e to
+# its left. Where the line turns at Ω with its body, u along it and w from its base to the point,
+#
+#     f = u·w      f' = Ω (u×w) + u·w'
+#     e = u×w      e' = -Ω (u·w) + u×w'
+#
+# and what travels at s along the line has the guide's motion, s' along it, and Coriolis' 2Ω s' across it
+# (Uicker, Pennock and Shigley, Theory of Machines and Mechanisms, on points moving in moving frames).
+
+
+@dataclass(frozen=True)
+class Assembly:
+    """A linkage's loops, the path of its input and the sign of every closure.
+
+    `linkage` has its lengths scaled by a power of two where products of four of them could leave
+    the range of a float; `unscale` brings results back.
+    """
+
+    linkage: Linkage
+    loops: Mapping[str, Loop]
+    path: InputPath
+    signs: Mapping[str, int]
+    unscale: float = 1.0
+    chain: Mapping[str, ChainRoot] = field(default_factory=dict)
+    """The roots of dyads on moving points that vanish on the way."""
+
+    @property
+    def change_points(self) -> Iterator[float]:
+        """The input's places at which a root changes its sign, of loops and of dyads down the chain."""
+        for loop in self.loops.values():
+            yield from (place for place, turns in loop.change_points if self.path.holds(place, turns))
+        for root in self.chain.values():
+            yield from map(self.path.coordinate_at, root.change_points)
+
+    @cached_property
+    def gears(self) -> Mapping[str, Gearing]:
+        """How each crank turns with the input."""
+        return gearings(self.linkage)
+
+    @property
+    def quickest(self) -> float:
+        """How many times as fast as the input the quickest crank turns, at least once."""
+        return max([1.0, *(abs(float(gearing.ratio)) for gearing in self.gears.values())])
+
+    @property
+    def samples(self) -> int:
+        """At how many phases of a drive period it is looked at: as near as what turns fastest needs."""
+        return samples_a_turn(self.quickest)
+
+
+AT_ITS_LIMIT = (
+    "it is at its limit at every angle of the input, or at many in a row, where rounding alone would"
+    " move it; make one length longer or shorter"
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Piece:
+    """How one rigid body turns, and the arms between its joints that are known as they were closed."""
+
+    turning: Slope = field(default_factory=lambda: Slope(0.0))
+    arms: dict[tuple[str, str], Vec] = field(default_factory=dict)
+
+
+@dataclass
+class Walk:
+    """What has been found so far; joints add themselves to it in their order.
+
+    `pieces` stand in the order of the linkage's rigid bodies.
+    """
+
+    assembly: Assembly
+    state: InputState
+    points: dict[str, MovingPoint] = field(default_factory=dict)
+    pieces: list[Piece] = field(default_factory=lambda: [Piece()])
+    travels: dict[str, Moving] = field(default_factory=dict)
+    closings: dict[str, Closing] = field(default_factory=dict)
+    """What closes each dyad on moving points: L², or how far its end lies from its line, U and W."""
+
+    @property
+    def bodies(self) -> dict[str, Slope]:
+        """How each named body turns."""
+        turning = (body for body in self.linkage.bodies if body.slider is None)
+        return {body.name: self.turning_of(body.joints, f"body {body.name}") for body in turning}
+
+    @property
+    def centres(self) -> dict[str, MovingPoint]:
+        """The centre of mass of each body that states one."""
+        bodies = self.linkage.bodies
+        return {
+            body.name: self.attached((body.joints[0], body.joints[1]), body.com)
+            for body in bodies
+            if body.com is not None
+        }
+
+    @property
+    def exact(self) -> bool:
+        """Whether what is noted will be run in many digits."""
+        return isinstance(self.state.angle, Expr) and self.state.angle.graph.exact
+
+    @property
+    def linkage(self) -> Linkage:
+        """What is walked over."""
+        return self.assembly.linkage
+
+    def pace(self, gearing: Gearing) -> Slope:
+        """Return how fast a geared crank turns, with its derivative."""
+        ratio = float(gearing.ratio)
+        return Slope(self.state.rate * ratio, self.state.second * ratio)
+
+    def add_piece(self, turning: Slope, ends: tuple[str, str], arm: Vec) -> None:
+        """Add the bar between two joints, the vector from the first to the second known as `arm`."""
+        self.pieces.append(Piece(turning, {ends: arm}))
+
+    def loop_root(self, loop: Loop, sign: int) -> tuple[SignedRoot, Half, Slope]:
+        """Return the root of a loop on a crank pin, ψ/2, and ψ' with its derivative."""
+        pace = self.pace(loop.gearing)
+        root, half = loop.closed(self.state, pace)
+        return root.times(sign), half, pace
+
+    def pin_loop(self, loop: Loop, sign: int) -> tuple[SignedRoot, PinLoop]:
+        """Return the root of a loop between a crank pin and a fixed pin, and where the two are."""
+        assert loop.ground is not None
+        root, half, pace = self.loop_root(loop, sign)
+        ground, units = loop.ground, (loop.root.spread, loop.root.unit)
+        return root, PinLoop(ground.exact, ground.direction, loop.crank.length, half, pace, *units)
+
+    def span_root(self, name: str, across: MovingPoint, lengths: tuple[float, float]) -> SignedRoot:
+        """Return the root of two bars on points that both move, D apart."""
+        square = moving_square(across)
+        u, w = moving_factors(square.value, lengths)
+        return self.chain_root(
+            name, Closing(u, w, square, False, across if lengths[0] == lengths[1] else None)
+        )
+
+    def slot_root(self, name: str, across: MovingPoint, offset: float) -> SignedRoot:
+        """Return the root √(L² - o²) of a slot whose pin is carried by a moving point, D from the pivot."""
+        square = moving_square(across)
+        distance = sqrt(square.value)
+        margin = (distance - offset) * (distance + offset)
+        return self.chain_root(name, Closing(1.0, margin, square, True, None if offset else across))
+
+    def chain_root(self, name: str, closing: Closing) -> SignedRoot:
+        """Return the root of a dyad on moving points, and keep what closes it."""
+        margin = closing.u * closing.w
+        if isinstance(margin, float) and margin <= 0:
+            # Its end keeps its distance from the line: what does not change is no formula, but a number.
+            raise AssemblyError(f"joint {name}: {self._why_shut(name, closing)}")
+        self.closings[name] = closing
+        root = self.assembly.chain.get(name)
+        if root is not None:
+            return root.root(closing, self.state)
+        return plain_root(closing.u, closing.w, closing.separation, closing.half_difference)
+
+    def _why_shut(self, name: str, closing: Closing) -> str:
+        """Say why a dyad whose factors do not change has no two closures."""
+        u, w = closing.u, closing.w
+        if not (isinstance(u, float) and isinstance(w, float) and u * w < 0):
+            return AT_ITS_LIMIT
+        return self.linkage.joint(name).why_apart(u, w, self.linkage.unit)
+
+    def place_of(self, pin: Pin) -> Vec:
+        """Return where a fixed pin stands."""
+        if not self.exact:
+            return Vec(*pin.position)
+        return Vec(*map(Constant, pin.position, place(self.linkage, pin)))
+
+    def attached(self, on: tuple[str, str], at: Point, name: str | None = None) -> MovingPoint:
+        """Return the point `at` along on[0] -> on[1] and to its left; `name` where it is a joint."""
+        n = self._body_of(on, f"joint {name}" if name else "centre of mass")
+        piece, length = self.pieces[n], self._length(n, on)
+        arm = self._arm(piece, *on).times(Vec(at[0] / length, at[1] / length))
+        if name is not None:
+            piece.arms[on[0], name] = arm
+        return self.points[on[0]] + carried(arm, piece.turning)
+
+    def axis(self, on: tuple[str, str]) -> tuple[Vec, Slope]:
+        """Return the direction from one joint of a body to another, of length 1, and how the body turns."""
+        n = self._body_of(on, "line of travel")
+        return self._arm(self.pieces[n], *on).scaled(1.0 / self._length(n, on)), self.pieces[n].turning
+
+    def _length(self, n: int, ends: tuple[str, str]) -> Value:
+        """Return how far two joints of one body are apart: known, or for many digits worked out."""
+        if self.exact:
+            arm = self._arm(self.pieces[n], *ends)
+            return sqrt(arm.dot(arm))
+        start, end = (self.linkage.rigid_bodies[n][name] for name in ends)
+        return abs(end - start)
+
+    def _arm(self, piece: Piece, start: str, end: str) -> Vec:
+        """Return the vector from one joint of a rigid body to another."""
+        if (start, end) in piece.arms:
+            return piece.arms[start, end]
+        if (end, start) in piece.arms:
+            return -piece.arms[end, start]
+        return self.points[end].position - self.points[start].position
+
+    def turning_of(self, names: tuple[str, ...], owner: str) -> Slope:
+        """Return how the rigid body turns that has all these joints; AssemblyError where none has."""
+        return self.pieces[self._body_of(names, owner)].turning
+
+    def _body_of(self, names: tuple[str, ...], owner: str) -> int:
+        n = holding(self.linkage.rigid_bodies, names)
+        if n is None:
+            raise AssemblyError(f"{owner}: {' and '.join(names)} are not joints of one rigid body")
+        return n
+
+
+@dataclass(frozen=True, slots=True)
+class Guide:
+    """A line of travel at one instant: its base point, its direction, and how it turns."""
+
+    base: MovingPoint
+    along: Vec
+    turning: Slope
+    offset: float
+
+    def forward(self, point: MovingPoint) -> Moving:
+        """Return how far a point lies forward of the base, with its rates as seen from the line."""
+        return self._seen(point)[0]
+
+    def aside(self, point: MovingPoint) -> Moving:
+        """Return how far a point lies to the left of the line, with its rates as seen from the line."""
+        left = self._seen(point)[1]
+        return Moving(left.value - self.offset, left.rate, left.second)
+
+    def _seen(self, point: MovingPoint) -> tuple[Moving, Moving]:
+        """Return how far a point lies forward of the base, and to its left."""
+        u, omega, alpha = self.along, self.turning.value, self.turning.rate
+        w, w1, w2 = (
+            point.position - self.base.position,
+            point.velocity - self.base.velocity,
+            point.acceleration - self.base.acceleration,
+        )
+        f, e = u.dot(w), u.cross(w)
+        f1, e1 = u.dot(w1) + e * omega, u.cross(w1) - f * omega
+        f2 = u.dot(w2) + (u.cross(w1) + e1) * omega + e * alpha
+        e2 = u.cross(w2) - (u.dot(w1) + f1) * omega - f * alpha
+        return Moving(f, f1, f2), Moving(e, e1, e2)
+
+    def place(self, travel: Moving) -> MovingPoint:
+        """Return the point that has travelled so far along the line from its base."""
+        u, n = self.along, self.along.left()
+        guided = self.base + carried(u.scaled(travel.value) + n.scaled(self.offset), self.turning)
+        across = self.turning.value * travel.rate * 2.0
+        return guided + MovingPoint(
+            Vec(0.0, 0.0), u.scaled(travel.rate), u.scaled(travel.second) + n.scaled(across)
+        )
+
+
+def guide(line: Line, walk: Walk) -> Guide:
+    """Return where a line of travel lies at the walk's instant, and how it moves."""
+    along = Vec(*direction(line.angle))
+    if line.on is None:
+        return Guide(walk.points[line.through], along, Slope(0.0), line.offset)
+    axis, turning = walk.axis(line.on)
+    return Guide(walk.points[line.through], axis.times(along), turning, line.offset)
+
+
+# How each kind of joint closes, and the one list of them.
+#
+# **Two bars that meet in a pin**, a (from P) and b (from Q), meet at B = P + D·(p + i q)/(2L²) with D = Q -
+# P, L = |D|, p = L² + a² - b² and the signed root q: no arc functions, no √L. The bars turn at
+#
+#     ω_a = e - ρ (L² + b² - a²)/(2L²)     ω_b = e + ρ (L² + a² - b²)/(2L²)
+#
+# with e = D × D'/L² and ρ = (L²)'/q, which stays finite through a limit where q and the input's rate
+# vanish together (differentiate the closure in the phase).
+#
+# **A pin in the slot of a bar that slides on a line**, as in the Scotch yoke: with f and e how far the pin
+# lies forward along the line and to its left, and σ the slot's direction from the line's, the slot crosses
+# the line at s = f - e cot σ: linear, so the bar never jams and has one closure.
+
+
+def place_pin(pin: Pin, walk: Walk) -> None:
+    """Put the pin where it stands."""
+    walk.points[pin.name] = MovingPoint(walk.place_of(pin))
+
+
+def place_crank(crank: Crank, walk: Walk) -> None:
+    """Add r e^{iψ}, ψ = ratio × θ + offset, as r (cos² - sin²) and 2r sin cos of ψ/2.
+
+    The difference is right to 2.3 eps of r, where r - 2r sin² is to 3.6: that is taken where a loop
+    against a fixed pin needs 2r sin² anyway.
+    """
+    gearing = walk.assembly.gears[crank.name]
+    loop = own_loop(crank.name, walk.assembly.loops)
+    form = loop.form if loop else partial(half_angle, size=2.0 * crank.length)
+    half = walk.state.half(-gearing.offset, gearing.ratio, form=form)
+    squares = half.squares(2.0 * crank.length)
+    spans = loop is not None and loop.ground is not None
+    along = crank.length - squares.sine if spans else (squares.cosine - squares.sine) * 0.5
+    arm = Vec(along, squares.product)
+    pace = walk.pace(gearing)
+    walk.points[crank.name] = walk.points[crank.pivot] + carried(arm, pace)
+    walk.add_piece(pace, (crank.pivot, crank.name), arm)
+
+
+def place_slider(slider: DrivenSlider, walk: Walk) -> None:
+    """Put the slider where the input has it."""
+    assert isinstance(walk.state, TravelState)
+    walk.points[slider.name] = guide(slider.line, walk).place(walk.state.travel)
+    walk.travels[slider.name] = walk.state.travel
+
+
+def place_point(point: Rigid, walk: Walk) -> None:
+    """Carry the point with its body."""
+    walk.points[point.name] = walk.attached(point.on, point.at, point.name)
+
+
+def loop_of_bars(joint: RRR, linkage: Linkage, gears: Mapping[str, Gearing]) -> Loop | None:
+    """Return the loop of a crank pin against a fixed pin."""
+    found = pin_against_pin(linkage, gears, joint.ends)
+    if found is None:
+        return None
+    crank, ground, swapped = found
+    root = four_bar_root(ground.exact, crank.length, _turned(joint, swapped)[1], ground.angle)
+    return Loop(crank.name, crank, gears[crank.name], ground, root, swapped)
+
+
+def close_bars(joint: RRR, walk: Walk) -> None:
+    """Add where the two bars meet, and how they turn."""
+    loop, sign = walk.assembly.loops.get(joint.name), walk.assembly.signs[joint.name]
+    swapped = loop is not None and loop.swapped
+    (first, second), lengths = _turned(joint, swapped)
+    p, q = walk.points[first], walk.points[second]
+    sign = -sign if swapped else sign
+    if loop is not None:
+        root, pin = walk.pin_loop(loop, sign)
+        triangle = pin_triangle(pin, lengths, root)
+    else:
+        across = q - p
+        root = walk.span_root(joint.name, across, lengths).times(sign)
+        triangle = moving_triangle(across, lengths, root)
+    walk.points[joint.name], *bars = _meet(p, q, lengths, triangle)
+    ends = zip((first, second), bars, strict=True)
+    for end, (turning, arm) in reversed([*ends]) if swapped else ends:
+        walk.add_piece(turning, (end, joint.name), arm)
+
+
+def _turned(joint: RRR, swapped: bool) -> tuple[tuple[str, str], tuple[float, float]]:
+    """Return ends and lengths, in the other order where `swapped`."""
+    return (joint.ends[::-1], joint.lengths[::-1]) if swapped else (joint.ends, joint.lengths)
+
+
+_Bar = tuple[Slope, Vec]
+"""How a bar turns, and it as a vector."""
+
+
+def _meet(
+    p: MovingPoint, q: MovingPoint, lengths: tuple[float, float], triangle: Triangle
+) -> tuple[MovingPoint, _Bar, _Bar]:
+    """Return where two bars meet, and both bars.
+
+    The shorter bar carries the joint, since its direction is sharper; the longer one, which turns
+    less, has its rate worked out, and the shorter one's is ρ away.
+    """
+    d, t, rho = triangle.across, triangle, triangle.ratio
+    if lengths[0] < lengths[1]:
+        arm_a = d.scaled(t.near) + t.lift
+        arm_b = arm_a - d
+        turning_b = t.turn_of_longer(True)
+        turning_a = turning_b.plus(-rho.value, -rho.rate)
+        return p + carried(arm_a, turning_a), (turning_a, arm_a), (turning_b, arm_b)
+    arm_b = t.lift - d.scaled(t.far)
+    arm_a = arm_b + d
+    turning_a = t.turn_of_longer(False)
+    turning_b = turning_a.plus(rho.value, rho.rate)
+    return q + carried(arm_b, turning_b), (turning_a, arm_a), (turning_b, arm_b)
+
+
+def loop_of_slider(joint: RRP, linkage: Linkage, gears: Mapping[str, Gearing]) -> Loop | None:
+    """Return the loop of a crank pin against the line, where both stand on the ground."""
+    crank = linkage.crank(joint.end) if joint.end in gears else None
+    if crank is None or joint.line.on or not linkage.joint(crank.pivot).fixed:
+        return None
+    pivot, through = linkage.pin(crank.pivot), linkage.pin(joint.line.through)
+    aside = aside_of(linkage, pivot, through, joint.line.angle)
+    tie = joint.length - crank.length
+    reach = sum(abs(a - b) for a, b in zip(pivot.position, through.position, strict=True))
+    eccentricity = snapped(aside - Sum(joint.line.offset), (0.0, tie, -tie), reach + abs(joint.line.offset))
+    reference = exact_angle(joint.line.angle) - quarter_turns(1)
+    root = slider_root(crank.length, joint.length, eccentricity, reference)
+    return Loop(joint.end, crank, gears[joint.end], None, root)
+
+
+def close_slider(joint: RRP, walk: Walk) -> None:
+    """Add the slider: its way along the line is that of the bar's end and the root q = ±√(b² - e²).
+
+    With e how far the end lies left of the line and ρ = e'/q the bar turns at -ρ, seen from the line.
+    """
+    rail, point = guide(joint.line, walk), walk.points[joint.end]
+    forward, aside = rail.forward(point), rail.aside(point)
+    root = _slider_root(joint, walk, aside)
+    rho, q = root.ratio, root.q
+    travel = Moving(
+        forward.value + q,
+        forward.rate - aside.value * rho.value,
+        forward.second - (aside.rate * rho.value + aside.value * rho.rate),
+    )
+    walk.points[joint.name] = rail.place(travel)
+    walk.travels[joint.name] = travel
+    arm = rail.along.scaled(q) - rail.along.left().scaled(aside.value)
+    walk.add_piece(rail.turning.plus(-rho.value, -rho.rate), (joint.end, joint.name), arm)
+
+
+def _slider_root(joint: RRP, walk: Walk, aside: Moving) -> SignedRoot:
+    loop, sign = walk.assembly.loops.get(joint.name), walk.assembly.signs[joint.name]
+    if loop is not None:
+        return walk.loop_root(loop, sign)[0]
+    u, w = joint.length - aside.value, joint.length + aside.value
+    return walk.chain_root(joint.name, Closing(u, w, aside, False, None, squared=False)).times(sign)
+
+
+def slider_name(joint: RRP, assembly: Assembly) -> str:
+    """Return slider-crank or slider-rocker, and whether the line runs past the pivot."""
+    loop = assembly.loops.get(joint.name)
+    if loop is None:
+        return "slider linkage"
+    eccentric = loop.root.u.least != loop.root.w.least
+    turns = "slider-crank" if assembly.path.full_turn else "slider-rocker"
+    return f"{'offset' if eccentric else 'in-line'} {turns}"
+
+
+def loop_of_slot(joint: RPR, linkage: Linkage, gears: Mapping[str, Gearing]) -> Loop | None:
+    """Return the loop of a crank pin and a fixed pin, one in the slot and one the pivot."""
+    found = pin_against_pin(linkage, gears, (joint.through, joint.pivot))
+    if found is None:
+        return None
+    crank, ground, swapped = found
+    root = slot_root(ground.exact, crank.length, joint.offset, ground.angle)
+    return Loop(crank.name, crank, gears[crank.name], ground, root, swapped)
+
+
+def close_slot(joint: RPR, walk: Walk) -> None:
+    """Add the slotted bar and its end."""
+    pivot, pin = walk.points[joint.pivot], walk.points[joint.through]
+    loop, sign = walk.assembly.loops.get(joint.name), walk.assembly.signs[joint.name]
+    if loop is not None:
+        root, ground = walk.pin_loop(loop, sign)
+        turn = pin_triangle(ground, (0.0, 0.0), root).turn
+        direction = _loop_direction(ground, root, (joint.offset, sign), swapped=loop.swapped)
+    else:
+        across = pin - pivot
+        root = walk.slot_root(joint.name, across, joint.offset).times(sign)
+        turn = moving_triangle(across, (0.0, 0.0), root).turn
+        reduced = root.lift or Reduced(across, root.q)
+        direction = _direction(reduced.across.position, reduced.q, joint.offset)
+    turning = _turning_kinds(turn, root, joint.offset) if joint.offset else turn
+    arm = direction.scaled(joint.length)
+    walk.points[joint.name] = pivot + carried(arm, turning)
+    walk.add_piece(turning, (joint.pivot, joint.name), arm)
+
+
+def slot_name(joint: RPR, assembly: Assembly) -> str:
+    """Return inverted slider-crank, and how its slotted bar, or the cylinder on its rod, moves."""
+    loop = assembly.loops.get(joint.name)
+    if loop is None or loop.ground is None:
+        return "inverted slider-crank"
+    kind = "rotating" if loop.ground.length < loop.crank.length else "swinging"
+    return f"inverted slider-crank, {kind} {'cylinder' if loop.swapped else 'slotted bar'}"
+
+
+def _turning_kinds(turn: Slope, root: SignedRoot, offset: float) -> Slope:
+    """Return how a slotted bar turns: e, and what the sliding adds where the slot misses the pivot."""
+    inverse = 1.0 / (root.q * root.q + offset * offset)
+    slide = root.ratio.value * (0.5 * offset) * inverse
+    growth = root.ratio.value * root.q * inverse
+    return turn.plus(slide, root.ratio.rate * (0.5 * offset) * inverse - slide * growth)
+
+
+def _loop_direction(ground: PinLoop, root: SignedRoot, bar: tuple[float, int], *, swapped: bool) -> Vec:
+    """Return the slotted bar's direction; a slot through its own pivot turns at half the crank's angle.
+
+    `bar` is the slot's offset and the closure's sign; `swapped` where the bar turns about the crank's pin.
+    """
+    offset, sign = bar
+    way = -1.0 if swapped else 1.0
+    if ground.short == 0 and offset == 0:
+        return Vec(-ground.half.sine, ground.half.cosine).times(ground.direction).scaled(way * sign)
+    return _direction(ground.across().scaled(-way), root.q, offset)
+
+
+def _direction(across: Vec, s: Value, offset: float) -> Vec:
+    """Return the unit vector u with across = s·u + offset·n."""
+    if offset == 0:
+        return Vec(across.x / s, across.y / s)
+    turned = across.times(Vec(s, -offset))
+    square = s * s + offset * offset
+    return Vec(turned.x / square, turned.y / square)
+
+
+def close_yoke(joint: RPP, walk: Walk) -> None:
+    """Add where the slot crosses the line: s = f - e cot σ, and its derivatives alike."""
+    rail, point = guide(joint.line, walk), walk.points[joint.pin]
+    cosine, sine = direction(joint.slot)
+    forward, aside, lean = rail.forward(point), rail.aside(point), cosine / sine
+    travel = Moving(
+        forward.value - aside.value * lean,
+        forward.rate - aside.rate * lean,
+        forward.second - aside.second * lean,
+    )
+    walk.points[joint.name] = rail.place(travel)
+    walk.travels[joint.name] = travel
+
+
+def yoke_name(joint: RPP, assembly: Assembly) -> str:
+    """Return Scotch yoke, or that its slot is not square to its line."""
+    return "Scotch yoke" if unit(joint.slot)[0] == 0 else "Scotch yoke, oblique slot"
+
+
+@dataclass(frozen=True, slots=True)
+class Closer:
+    """What solves one kind of joint.
+
+    `close` adds the joint's motion, and its bars', to a walk. `loop` returns the loop that it closes from a
+    crank pin and fixed elements, if it does. `name` returns the class of a linkage whose only dyad it is.
+    """
+
+    close: Callable[[Any, Walk], None]
+    loop: Callable[[Any, Linkage, Mapping[str, Gearing]], Loop | None] = lambda *_: None
+    name: Callable[[Any, Assembly], str | None] = lambda *_: None
+
+
+CLOSERS: Mapping[type[Joint], Closer] = {
+    Pin: Closer(place_pin),
+    Crank: Closer(place_crank),
+    DrivenSlider: Closer(place_slider),
+    Rigid: Closer(place_point),
+    Brace: Closer(place_point),
+    RRR: Closer(close_bars, loop_of_bars),
+    RRP: Closer(close_slider, loop_of_slider, slider_name),
+    RPR: Closer(close_slot, loop_of_slot, slot_name),
+    RPP: Closer(close_yoke, name=yoke_name),
+}
+"""Every kind that a linkage can be made of."""
+
+
+def walked(assembly: Assembly, state: InputState) -> Walk:
+    """Return a walk over the whole linkage at the state's instant."""
+    walk = Walk(assembly, state)
+    for joint in assembly.linkage.joints:
+        CLOSERS[type(joint)].close(joint, walk)
+    return walk
+
+
+def walk_at(assembly: Assembly, phase: Value, pace: Slope) -> Walk:
+    """Return a walk at a phase that runs at `pace`: floats, or symbolic expressions."""
+    return walked(assembly, assembly.path.state(phase, pace))

@@ -1,0 +1,877 @@
+"""Find the limits and change points of dyads further down the chain on the cycle.
+
+Its parts, in reading order:
+
+- Where the root of a dyad on moving points vanishes, or nearly, and what is smooth there, in fifty digits.
+- How far every dyad on moving points is from its limits along the input's path, and where that is extreme.
+- Limits and change points of dyads further down the chain, found on the cycle.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from decimal import Decimal, localcontext
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkanim.errors import AssemblyError
+from linkanim.mechanics.angles import FULL_TURN, Sum
+from linkanim.mechanics.arithmetic import Graph, Slope, Value
+from linkanim.mechanics.linkage import Linkage
+from linkanim.mechanics.precise import context, exactly, interpolated, nearest_sum, nodes, sine_and_cosine
+from linkanim.mechanics.program import Array, Bools, batch, decimals
+from linkanim.mechanics.search import around, ends_of
+from linkanim.mechanics.solver.assembly import JUST_AFTER, most_turns, precise, resigned
+from linkanim.mechanics.solver.closing import (
+    AT_ITS_LIMIT,
+    Assembly,
+    ChainRoot,
+    Closing,
+    Dip,
+    End,
+    Fitted,
+    Near,
+    PolynomialFit,
+    Stationary,
+    Touch,
+    Zero,
+    walk_at,
+    walked,
+)
+from linkanim.mechanics.solver.input import InputPath, Limit, Swing, swing_by_angle
+from linkanim.mechanics.solver.loop import ONE_PLACE
+
+# Where the root of a dyad on moving points vanishes, or nearly, and what is smooth there, in fifty digits.
+#
+# The formulas of the linkage are compiled for decimals, so a margin has digits left wherever it matters:
+# its zeros come from Newton's method, and R with margin = z²·R² (`chain`) from interpolation.
+
+Decimals = tuple[Decimal, ...]
+
+PARTING = (
+    "the two ends of its equal bars meet and part the way they came, so that it could "
+    "go on in any direction; make one of the bars longer or shorter"
+)
+TOO_NEAR = (
+    "its limit lies too near to another one to be told from it; make one length a little longer or shorter"
+)
+TURNING_BACK = (
+    "it falls into one line just where it turns back, so that it could go on either "
+    "way; make one of its lengths a little longer or shorter"
+)
+
+
+class Sample(NamedTuple):
+    """A place next to a zero: the argument of what is fitted, z, and there the margin and D."""
+
+    argument: Decimal
+    z: Decimal
+    margin: Decimal
+    across: Decimals = ()
+
+
+STEPS = 40
+NUDGE = Decimal(10) ** -15
+CONVERGED = Decimal(10) ** -25
+NEARBY = 1e-6
+"""How far a zero may lie from where floats have found it."""
+POINTS = 20
+POINTS_OF_A_DIP = 32
+"""Its fit is to hold as far as the margin lacks digits, which may be far."""
+WIDEST = 0.5
+NARROWEST = 1e-4
+"""Beyond a narrower stretch than this the margin itself would have lost its digits."""
+NARROWEST_AT_A_LIMIT = 1e-12
+"""A margin grows the faster beside a limit, the nearer another one lies behind it."""
+TRIES = 16
+SHORT = 0.05
+"""Half the longest stretch on which a dyad fails to close that is taken as one place."""
+LAST = 1e-17
+TOLERABLE = 1e-13
+"""What the last coefficients of a fit should be beside the first one, and what they may be.
+
+Rounded constants leave kinks of 1e-16 in the margin, where the formula of a loop changes its side.
+"""
+
+
+def refined(assembly: Assembly, name: str, phase: Sum) -> Sum:
+    """Return the phase at which a dyad's margin vanishes, from that phase (Newton's method).
+
+    Slopes are differences: the formulas' own rates have constants that are rounded otherwise than the
+    margin's.
+    """
+    run = decimals(("x",), _outputs(_closing(assembly, name))[:1])
+    with localcontext(context()):
+        place = _newton(phase, lambda place: _steps(run, place)[0])
+        return phase if place is None else nearest_sum(place)
+
+
+def extreme(assembly: Assembly, name: str, phase: float) -> tuple[Sum, float, float]:
+    """Return the extreme of a dyad's separation, from that phase in floats (Newton's method).
+
+    With its phase comes by how much of a length the dyad closes there; where that is negative it does not
+    within so far, the last, of the phase.
+    """
+    closing = _closing(assembly, name)
+    run = decimals(("x",), (closing.u * closing.w, closing.gap))
+    with localcontext(context()):
+        found = _newton(Sum(phase), lambda place: _steps(run, place)[1])
+        place = Decimal(phase) if found is None else found
+        margin, gap = run(place)
+        bend = sum(run(place + way)[0] for way in (-NUDGE, NUDGE)) - 2 * margin
+        reach = (-2 * margin / bend).sqrt() * NUDGE if margin < 0 < bend else Decimal(0)
+        return nearest_sum(place), float(gap), float(reach)
+
+
+def _steps(run: Callable[..., Decimals], place: Decimal) -> tuple[Decimal, Decimal]:
+    """Return the steps to the margin's zero and to its extreme."""
+    before, here, after = (run(place + way)[0] for way in (-NUDGE, 0, NUDGE))
+    slope, bend = (after - before) / (2 * NUDGE), (after - 2 * here + before) / NUDGE**2
+    return here / slope, slope / bend
+
+
+def _newton(phase: Sum, step: Callable[[Decimal], Decimal]) -> Decimal | None:
+    """Return where steps from a phase end; None where that is not nearby."""
+    start = place = exactly(phase)
+    for _ in range(STEPS):
+        way = step(place)
+        if not abs(place - way - start) < Decimal(NEARBY):
+            return None
+        place -= way
+        if abs(way) < CONVERGED:
+            break
+    return place
+
+
+def _closing(assembly: Assembly, name: str) -> Closing:
+    return walk_at(precise(assembly), Graph(exact=True).input("x"), Slope(0.0)).closings[name]
+
+
+def _outputs(closing: Closing) -> tuple[Value, ...]:
+    """Return the margin, and D where the dyad's ends may meet."""
+    place = closing.across and closing.across.position
+    return (closing.u * closing.w, *((place.x, place.y) if place else ()))
+
+
+def fitted(assembly: Assembly) -> Assembly:
+    """Return the assembly with what is smooth next to the zeros of every dyad on moving points."""
+    chain = {name: _fitted_root(assembly, name, root) for name, root in assembly.chain.items()}
+    return replace(assembly, chain=chain)
+
+
+def _fitted_root(assembly: Assembly, name: str, root: ChainRoot) -> ChainRoot:
+    with localcontext(context()):
+        zeros = [_with_stretch(assembly, name, zero) for zero in root.zeros]
+        dips = [_settled(assembly, name, dip) for dip in root.dips]
+        return replace(
+            root,
+            zeros=tuple(replace(zero, near=_near(assembly, name, zero)) for zero in zeros),
+            dips=tuple(replace(dip, near=_near(assembly, name, dip)) for dip in dips),
+        )
+
+
+def _settled(assembly: Assembly, name: str, dip: Dip) -> Dip:
+    """Return a dip at the extreme itself, which floats have found to half their digits."""
+    start = _start(assembly.path, dip)
+    place = extreme(assembly, name, float(dip.place - start))[0] + start
+    return replace(dip, place=place)
+
+
+def _with_stretch(assembly: Assembly, name: str, zero: Zero) -> Zero:
+    """Return a limit with the stretch behind it on which the dyad does not close, where that is short."""
+    path = assembly.path
+    if not isinstance(zero, End) or not isinstance(path, Swing):
+        return zero
+    sampled = _by_way(assembly, path, name, zero)
+    before, here, after = (sampled(way).margin for way in (-NUDGE, Decimal(0), NUDGE))
+    slope, bend = (after - before) / (2 * NUDGE), (after - 2 * here + before) / NUDGE**2
+    place = -2 * slope / bend
+    if not -Decimal(SHORT) < place < 0:
+        return zero
+    for _ in range(STEPS):
+        low, high = (sampled(place * (1 + way)).margin for way in (-NUDGE, NUDGE))
+        step = (low + high) / (high - low) * place * NUDGE
+        place -= step
+        if not -2 * Decimal(SHORT) < place < 0:
+            return zero
+        if abs(step) < CONVERGED:
+            return replace(zero, stretch=float(-place))
+    return zero
+
+
+def _near(assembly: Assembly, name: str, zero: Fitted) -> Near | None:
+    """Fit on the widest stretch where a polynomial holds to the last digit, or nearly; None where none does.
+
+    AssemblyError where the dyad's ends meet without passing each other: D has no direction to go on in.
+    """
+    sampled, width = _sampler(assembly, name, zero)
+    zeroth, best, least = sampled(Decimal(0)), None, TOLERABLE
+    narrowest = NARROWEST_AT_A_LIMIT if isinstance(zero, End) else NARROWEST
+    points = POINTS_OF_A_DIP if isinstance(zero, Dip) else POINTS
+    for _ in range(TRIES):
+        half = width / 2 if isinstance(zero, End) else width
+        stretch = width, half if isinstance(zero, End) else 0.0, half
+        samples = [sampled(Decimal(stretch[1]) + Decimal(half) * node) for node in nodes(points)]
+        squares = _squares(samples, zeroth.margin)
+        root = _fit(stretch, samples, squares if isinstance(zero, Dip) else [one.sqrt() for one in squares])
+        meeting = not isinstance(zero, Dip) and _meet(zeroth.across, samples)
+        shares = [_shares(samples, zeroth, k) for k in (0, 1)] if meeting else []
+        fits = [root, *(_fit(stretch, samples, values) for values in shares)]
+        last = max(_last(fits[:1]), _last(fits[1:]))
+        if last <= least and width >= narrowest:
+            rest = float(zeroth.margin) if isinstance(zero, Dip) else 0.0
+            best, least = Near(root, (fits[1], fits[2]) if meeting else None, rest), last
+        if last <= LAST or width < narrowest:
+            break
+        width *= max(min(0.8 * (LAST / last) ** (1 / points), 0.8), 0.1)
+    if best is None and not isinstance(zero, Dip):
+        why = PARTING if meeting else TOO_NEAR if isinstance(zero, End) else TURNING_BACK
+        raise AssemblyError(f"joint {name}: {why}")
+    return best
+
+
+_Stretch = tuple[float, float, float]
+"""Where a fit is made: its width, and the middle and the half of its arguments."""
+
+
+def _fit(stretch: _Stretch, samples: list[Sample], values: list[Decimal]) -> PolynomialFit:
+    """Return the polynomial through the values at the samples' ways."""
+    _, centre, half = stretch
+    places = [(sample.argument - Decimal(centre)) / Decimal(half) for sample in samples]
+    return PolynomialFit(*stretch, tuple(interpolated(places, values)))
+
+
+def _squares(samples: list[Sample], rest: Decimal) -> list[Decimal]:
+    """Return R², NaN beyond another zero; at the zero itself rounding has left a `rest` of the margin."""
+    squares = [(sample.margin - rest) / sample.z**2 for sample in samples]
+    return [square if square > 0 else Decimal("NaN") for square in squares]
+
+
+def _shares(samples: list[Sample], zeroth: Sample, component: int) -> list[Decimal]:
+    """Return a component of D over the argument; at the zero itself rounding has left a rest of D, too."""
+    rest = zeroth.across[component]
+    return [(sample.across[component] - rest) / sample.argument for sample in samples]
+
+
+def _meet(across: Decimals, samples: list[Sample]) -> bool:
+    """Tell whether D is nothing at the zero itself, beside what it is around."""
+    around = max((abs(value) for sample in samples for value in sample.across), default=Decimal(0))
+    return bool(across) and all(abs(value) <= around * Decimal(NEARBY) for value in across)
+
+
+def _last(fits: list[PolynomialFit]) -> float:
+    """Return the last coefficients beside the greatest first one, as they stand to Chebyshev polynomials."""
+    size = max((abs(c) for fit in fits for c in fit.coefficients[:2]), default=1.0)
+    last = max(
+        (abs(c) / 2.0 ** (len(fit.coefficients) - 2) for fit in fits for c in fit.coefficients[-2:]),
+        default=0.0,
+    )
+    return last / size if last < math.inf else math.inf
+
+
+def _start(path: InputPath, place: Stationary) -> Sum:
+    """Return what names a place at phase 0."""
+    return Sum(0.0) if place.amplitude else path.place(Sum(0.0))
+
+
+def _sampler(assembly: Assembly, name: str, zero: Fitted) -> tuple[Callable[[Decimal], Sample], float]:
+    """Return the margin, and D, as a function of the way to a zero, and how far that way may go."""
+    path = assembly.path
+    if isinstance(zero, End):
+        assert isinstance(path, Swing)
+        return _by_way(assembly, path, name, zero), path.amplitude / 2
+    run = decimals(("x",), _outputs(_closing(assembly, name)))
+    place, turns = exactly(zero.place) - exactly(_start(path, zero)), zero.turns
+
+    def sampled(argument: Decimal) -> Sample:
+        half = Decimal(math.atan(float(argument)))
+        margin, *across = run(place + 2 * turns * half)
+        z, other = sine_and_cosine(half)
+        return Sample(z / other, z, margin, tuple(across))
+
+    return sampled, WIDEST / turns
+
+
+def _by_way(assembly: Assembly, path: Swing, name: str, end: End) -> Callable[[Decimal], Sample]:
+    """Return the margin as a function of half the way to a limit."""
+    graph = Graph(exact=True)
+    u, v = graph.input("u"), graph.input("v")
+    state = swing_by_angle((v - u, u, v), Slope(0.0), path.low, path.high)
+    run = decimals(("u", "v"), _outputs(walked(precise(assembly), state).closings[name])[:1])
+    amplitude = (exactly(path.high) - exactly(path.low)) / 2
+
+    def sampled(way: Decimal) -> Sample:
+        margin = run(*((way, amplitude - way) if end.upper else (amplitude - way, way)))[0]
+        return Sample(way, (way * (way + Decimal(end.stretch)) if end.stretch else way).sqrt(), margin)
+
+    return sampled
+
+
+# How far every dyad on moving points is from its limits along the input's path, and where that is extreme.
+#
+# A dyad closes while its separation s (L² between its ends, or how far one lies beside its line) keeps its
+# factors U and W from going below zero. Both change with s alone. So between two neighbouring extremes of s,
+# which are zeros of its rate, each factor has one zero at most, and what the dyad does at the extremes
+# decides whether it closes: no sample does. The extremes are bracketed by samples, which are halved wherever
+# the margin U·W could come to zero between them, until rate and slope leave no room for another extreme.
+
+TOUCHING = 1e-12
+"""Share of a margin's scale within which floats cannot tell its sign."""
+BARELY = 1 / 64
+"""Share of its greatest value below which a margin that turns back costs what is made of it its digits."""
+MOST_TOUCHING = 24
+"""Extremes in a turn of the fastest crank at which floats cannot tell a margin's sign."""
+ROUNDING = 2.0**-48
+"""Share of the longest bar that rounded lengths make: within it bars just fall into line."""
+UNEVEN = 0.1
+"""How far the change of a rate may be off the one that its slopes make, where it has no sharper bend."""
+FLAT = 2.0**-52
+"""Share of a margin's scale by which it changes between samples that need no others between them."""
+FINEST = 2.0**-40
+HALVINGS = 32
+AT_END = 1e-6
+"""At its own limit, where the input turns back, a separation is extreme by phase: that is no touching."""
+
+
+class Sampled(NamedTuple):
+    """Phases (N,), and there for every dyad (4, D, N): s', s'', and over their scale U·W and U - W."""
+
+    phases: Array
+    rows: Array
+
+    def at(self, index: NDArray[np.intp] | slice) -> Sampled:
+        """Return some of them."""
+        return Sampled(self.phases[index], self.rows[..., index])
+
+    def followed(self, other: Sampled) -> Sampled:
+        """Return these, then the others."""
+        return Sampled(
+            np.concatenate([self.phases, other.phases]), np.concatenate([self.rows, other.rows], axis=-1)
+        )
+
+    @property
+    def ordered(self) -> Sampled:
+        """The samples in the order of their phases, each phase once."""
+        order = np.argsort(self.phases, kind="stable")
+        return self.at(order[np.diff(self.phases[order], prepend=-math.inf) > 0])
+
+
+@dataclass(frozen=True)
+class Extreme:
+    """A place where a dyad's separation is extreme and its margin next to nothing, settled in many digits.
+
+    `closes` is +1 where the dyad closes there, -1 where it does not, 0 where its bars just fall into line.
+    """
+
+    phase: float
+    place: Sum
+    closes: int
+    reach: float
+    """How far to both sides it does not close."""
+
+
+@dataclass(frozen=True)
+class Separations:
+    """The margins of the dyads on moving points along a path, at samples among which are all that decide."""
+
+    scales: Mapping[str, float]
+    """What the margin of each dyad is beside."""
+    phases: Array
+    shut: Bools
+    """Of every dyad at every phase, whether it does not close there (D, N)."""
+    settled: Mapping[str, tuple[Extreme, ...]]
+    """Of every dyad, the extremes at which floats cannot tell its margin from nothing."""
+    barely: Mapping[str, tuple[float, ...]]
+    """Of every dyad, the phases of others at which it barely closes."""
+    margins: Callable[[Array], Array]
+    """Returns the margins over their scale at phases (D, N)."""
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The dyads, in the order of rows."""
+        return tuple(self.scales)
+
+    @property
+    def closes(self) -> bool:
+        """Whether every dyad closes all along."""
+        return not self.shut.any()
+
+    def beside(self, phase: float, name: str, way: int) -> Sum | None:
+        """Return where a stretch about an extreme ends, on that side, in which floats see the dyad close."""
+        for found in self.settled[name]:
+            turns = round((phase - found.phase) / (2 * math.pi))
+            if found.closes < 0 and abs(phase - found.phase - turns * 2 * math.pi) <= found.reach:
+                return found.place + FULL_TURN.times(float(turns)) + Sum(way * found.reach)
+        return None
+
+    def touches(self, name: str) -> tuple[Sum, ...]:
+        """Return the phases at which a dyad's bars just fall into line."""
+        return tuple(found.place for found in self.settled[name] if found.closes == 0)
+
+    def dips(self, name: str) -> tuple[Sum, ...]:
+        """Return the phases at which a dyad barely closes, its separation being extreme."""
+        settled = (found.place for found in self.settled[name] if found.closes > 0)
+        return (*settled, *map(Sum, self.barely[name]))
+
+
+def separations(assembly: Assembly) -> Separations:
+    """Return how the dyads that come near their limits fare along the path, over its true period.
+
+    AssemblyError where one is at its limit all along.
+    """
+    phases = _phases(assembly)
+    scales = _scales(assembly, phases)
+    if not scales:
+        nothing = np.zeros((0, len(phases)))
+        return Separations({}, phases, nothing > 0, {}, {}, lambda places: nothing[:, : len(places)])
+    scale, barely = np.array([*scales.values()]).T
+    found = walk_at(assembly, Graph().input("x"), Slope(1.0)).closings
+    closings = {name: found[name] for name in scales}
+    sampled = _sampler_separation(closings.values(), scale)
+    samples = _halved(sampled, sampled(phases))
+    extremes = _places(sampled, samples, _turning(samples, barely), 0)
+    peaks = _places(sampled, samples, _passing(samples), 3)
+    samples = samples.followed(sampled(np.concatenate([*extremes, *peaks]))).ordered
+    low = {
+        name: _low(assembly, name, (places, sampled(places).rows[2, row]), barely[row])
+        for row, (name, places) in enumerate(zip(closings, extremes, strict=True))
+    }
+    settled = {
+        name: tuple(_settled_separation(assembly, name, places[margins <= TOUCHING]))
+        for name, (places, margins) in low.items()
+    }
+    return Separations(
+        dict(zip(scales, scale.tolist(), strict=True)),
+        samples.phases,
+        _shut(samples, [*settled.values()]),
+        settled,
+        {name: tuple(places[margins > TOUCHING].tolist()) for name, (places, margins) in low.items()},
+        lambda phases: np.asarray(sampled(phases).rows[2]),
+    )
+
+
+def _sampler_separation(found: Collection[Closing], scale: Array) -> Callable[[Array], Sampled]:
+    """Return the function of phases (N,) that gives s', s'', and over their scale U·W and U - W (4, D, N)."""
+    run = _compiled(
+        [
+            [closing.separation.rate for closing in found],
+            [closing.separation.second for closing in found],
+            [closing.u * closing.w for closing in found],
+            [closing.half_difference * 2.0 for closing in found],
+        ]
+    )
+
+    def sampled(phases: Array) -> Sampled:
+        rows = run(phases)
+        with np.errstate(all="ignore"):
+            rows[2:] /= scale[:, None]
+        return Sampled(phases, rows)
+
+    return sampled
+
+
+def _compiled(rows: Sequence[Sequence[Value]]) -> Callable[[Array], Array]:
+    """Return the function of phases (N,) that gives the values of rows of dyads (rows, D, N)."""
+    program = batch({"x": True}, [value for row in rows for value in row])
+
+    def run(phases: Array) -> Array:
+        with np.errstate(all="ignore"):
+            return program(phases).reshape(len(rows), len(rows[0]), len(phases))
+
+    return run
+
+
+def _phases(assembly: Assembly) -> Array:
+    """Return phases over the true period, as near to each other as what turns fastest needs.
+
+    The start is among them, and the ends of a way there and back.
+    """
+    marks = 0.0, math.pi, assembly.path.home(assembly.linkage.drive.start)
+    return np.sort(np.concatenate([around(assembly.path.periods, assembly.samples), marks]))
+
+
+def _scales(assembly: Assembly, phases: Array) -> Mapping[str, tuple[float, float]]:
+    """Return what the margin of each dyad that comes near its limits is beside: its greatest, or its bars'.
+
+    And the share of it below which the dyad barely closes. One whose margin is all along more than that, and
+    than it changes between three samples at the most, keeps away from them.
+    """
+    closings = walk_at(assembly, Graph().input("x"), Slope(0.0)).closings
+    found = closings.values()
+    rows = _compiled([[one.u * one.w for one in found], [one.size for one in found]])(phases)
+    margins, sizes = rows
+    rows[:, _behind(margins < -TOUCHING * sizes)] = math.nan
+    most, size = np.fmax.reduce(np.abs(rows), axis=2)
+    nothing = (most <= TOUCHING * size) | (most <= (TOUCHING * assembly.linkage.longest) ** 2)
+    for name in (name for name, flat in zip(closings, nothing, strict=True) if flat):
+        raise AssemblyError(f"joint {name}: {AT_ITS_LIMIT}")
+    scale = np.minimum(most, size)
+    changes = np.fmax.reduce(np.abs(np.diff(margins, axis=1)), axis=1)
+    # A greatest margin of bars is a quarter of their size; where it never comes near that, all are low.
+    low = BARELY * np.maximum(scale, size / 4)
+    near = np.fmin.reduce(margins, axis=1) <= np.maximum(3 * changes, low)
+    with np.errstate(all="ignore"):
+        scales = np.column_stack([scale, low / scale]).tolist()
+    return {name: tuple(pair) for name, pair, comes in zip(closings, scales, near, strict=True) if comes}
+
+
+def _behind(shut: Bools) -> Bools:
+    """Tell of every dyad where one before it in the chain does not close: it is but rounding there (D, N)."""
+    before = np.logical_or.accumulate(shut, axis=0)
+    return np.concatenate([np.zeros_like(shut[:1]), before[:-1]])
+
+
+def _halved(sampled: Callable[[Array], Sampled], samples: Sampled) -> Sampled:
+    """Return the samples with others between them wherever a second extreme could lie there."""
+    left, right, found = samples.at(slice(None, -1)), samples.at(slice(1, None)), samples
+    fastest = _fastest_change(samples)[:, None] / 4
+    for _ in range(HALVINGS):
+        # At first a margin may change faster than at both neighbours; the nearer they are, the less.
+        with np.errstate(all="ignore"):
+            index = np.flatnonzero(_unclear(left, right, fastest).any(axis=0))
+        if not len(index):
+            break
+        left, right = left.at(index), right.at(index)
+        middle = sampled((left.phases + right.phases) / 2)
+        found = found.followed(middle)
+        left, right, fastest = left.followed(middle), middle.followed(right), fastest / 2
+    return found.ordered
+
+
+def _speed(samples: Sampled) -> Array:
+    """Return how fast the margins change: by s' (U - W), since U' = -s' and W' = s'.
+
+    NaN where an unbounded rate meets no difference: that is nowhere taken for slow.
+    """
+    rates, _, _, differences = samples.rows
+    with np.errstate(invalid="ignore"):
+        return np.asarray(np.abs(rates * differences))
+
+
+def _fastest_change(samples: Sampled) -> Array:
+    """Return how fast each margin changes at most (D,).
+
+    A speed that is unbounded at one place, at a limit, says nothing of all the others.
+    """
+    speeds = _speed(samples)
+    return np.asarray(np.max(speeds, axis=1, initial=0.0, where=np.isfinite(speeds)))
+
+
+def _near_separation(left: Sampled, right: Sampled, fastest: Array | float = 0.0) -> Bools:
+    """Tell where a margin could be nothing between neighbours (D, N), changing so fast at least."""
+    before, after = left.rows[2], right.rows[2]
+    speed = np.maximum(np.maximum(_speed(left), _speed(right)), fastest)
+    least = np.maximum(2 * (right.phases - left.phases) * speed, TOUCHING)
+    clear = (np.minimum(np.abs(before), np.abs(after)) > least) & (before * after > 0)
+    return np.asarray(np.isfinite(before + after) & ~clear & ~_behind(clear & (before < 0)))
+
+
+def _unclear(left: Sampled, right: Sampled, fastest: Array) -> Bools:
+    """Tell between which neighbours a margin near nothing could have two extremes (D, N).
+
+    Where neither has a rate, at a limit of the dyad before it, floats cannot tell, nor closer by.
+    """
+    step = right.phases - left.phases
+    (r, b, _, d), (s, c, _, e) = left.rows, right.rows
+    size = np.max(np.abs([r, s, step * b, step * c]), axis=0)
+    even = np.abs((s - r) - step / 2 * (b + c)) <= UNEVEN * size
+    none = (r * s > 0) & (r * (r + step * b) > 0) & (s * (s - step * c) > 0)
+    one = (r * s <= 0) & (b * c > 0)
+    flat = size * step * np.maximum(np.abs(d), np.abs(e)) <= FLAT
+    blind = ~np.isfinite(r) & ~np.isfinite(s)
+    return np.asarray(_near_separation(left, right, fastest) & ~(even & (none | one)) & ~flat & ~blind)
+
+
+def _turning(samples: Sampled, barely: Array) -> Bools:
+    """Tell between which neighbours a separation near a limit has its extreme (D, N - 1)."""
+    positive, margins = samples.rows[0] > 0, samples.rows[2]
+    low = (np.minimum(margins[:, 1:], margins[:, :-1]) > 0) & (margins[:, 1:] <= barely[:, None])
+    near = _near_separation(*_neighbours(samples)) | low
+    # Between two cranks that turn alike the separation stays as it is: what changes there is rounding.
+    moves = _fastest_change(samples)[:, None] > TOUCHING
+    return np.asarray(near & moves & (positive[:, 1:] != positive[:, :-1]))
+
+
+def _passing(samples: Sampled) -> Bools:
+    """Tell between which neighbours a separation passes from one limit to the other (D, N - 1)."""
+    before, after = (one.rows for one in _neighbours(samples))
+    return np.asarray((before[2] < 0) & (after[2] < 0) & ((before[3] > 0) != (after[3] > 0)))
+
+
+def _neighbours(samples: Sampled) -> tuple[Sampled, Sampled]:
+    return samples.at(slice(None, -1)), samples.at(slice(1, None))
+
+
+def _places(sampled: Callable[[Array], Sampled], samples: Sampled, cells: Bools, row: int) -> list[Array]:
+    """Return for every dyad where that row of its samples changes its sign in the cells."""
+    dyads, index = np.nonzero(cells)
+    if not len(index):
+        return [np.empty(0) for _ in cells]
+    start = samples.rows[row, dyads, index] > 0
+
+    def alike(phases: Array) -> Bools:
+        values = sampled(phases.ravel()).rows[row].reshape(-1, *phases.shape)
+        return np.asarray((values[dyads, :, np.arange(len(dyads))].T > 0) == start)
+
+    found = ends_of(alike, samples.phases[index], samples.phases[index + 1], FINEST)
+    return [found[dyads == dyad] for dyad in range(len(cells))]
+
+
+def _low(assembly: Assembly, name: str, extremes: tuple[Array, Array], barely: float) -> tuple[Array, Array]:
+    """Return of extremes, phases and margins, those at which a dyad barely closes, if it does."""
+    phases, margins = extremes
+    inside = [not _at_own_end(assembly.path, name, phase) for phase in phases.tolist()]
+    low = (margins >= -TOUCHING) & (margins <= barely) & np.array(inside, bool)
+    return phases[low], margins[low]
+
+
+def _settled_separation(assembly: Assembly, name: str, phases: Array) -> Iterator[Extreme]:
+    """Yield the extremes at which floats cannot tell a dyad's margin from nothing.
+
+    AssemblyError where there are so many that they are rounding on a stretch of nothing.
+    """
+    if len(phases) > MOST_TOUCHING * assembly.path.periods * assembly.quickest:
+        raise AssemblyError(f"joint {name}: {AT_ITS_LIMIT}")
+    for phase in phases.tolist():
+        place, gap, reach = extreme(assembly, name, phase)
+        closes = 0 if abs(gap) <= ROUNDING * assembly.linkage.longest else 1 if gap > 0 else -1
+        yield Extreme(phase, place, closes, reach)
+
+
+def _at_own_end(path: InputPath, name: str, phase: float) -> bool:
+    ends = zip(path.ends, (0.0, math.pi), strict=False)
+    return any(end == name and abs(math.remainder(phase - at, 2 * math.pi)) <= AT_END for end, at in ends)
+
+
+def _shut(samples: Sampled, settled: Sequence[Sequence[Extreme]]) -> Bools:
+    """Tell of every dyad at every sample whether it does not close there (D, N)."""
+    shut = ~(samples.rows[2] >= -TOUCHING)
+    for row, extremes in enumerate(settled):
+        for found in extremes:
+            shut[row, np.searchsorted(samples.phases, found.phase)] = found.closes < 0
+    return np.asarray(shut)
+
+
+# Limits and change points of dyads further down the chain, found on the cycle.
+#
+# Both ends of such a dyad move, so there is no closed form: where it closes follows from its separation's
+# extremes (`separation`). The zero of its margin U·W next to the start is bracketed and bisected, and the
+# input then swings between the limits like any other. Next to a limit U·W itself has only half a float's
+# digits left; there its quotient by the way to the limit, which is smooth, is taken from a polynomial
+# (`fitting`).
+#
+# At a change point the margin touches zero without crossing it, as the dyad's bars fall into one line for an
+# instant; what drives the dyad is at an extreme there.
+
+USED_UP = 1e-10
+"""A margin below this share of its greatest value is one at its limit."""
+NO_WAY = 1e-5
+"""A swing of less than this is what rounding leaves of one place."""
+NO_RANGE = "the input has no range on which every dyad can be closed"
+STOPPED_SHORT = 1 / 64
+"""Share of its range by which a swing stops short of a limit that it cannot pass."""
+CUTS = 8
+"""A dyad may show where it does not close only when the one before it no longer leaves its own range."""
+
+
+def stopped(assembly: Assembly, linkage: Linkage, found: Separations) -> Assembly:
+    """Return the assembly on the path that its dyads leave to its input.
+
+    It says how far the input goes; nothing can be solved on it. Arguments and errors are `restricted`'s.
+    """
+    return assembly if found.closes else _cut_back(assembly, linkage, found)
+
+
+def restricted(assembly: Assembly, linkage: Linkage, found: Separations) -> Assembly:
+    """Return the assembly with its input's path cut back to what every dyad allows.
+
+    `linkage` is the one that was given, with its own lengths, to be named in an AssemblyError; `found` is how
+    the dyads on moving points fare.
+    """
+    if not found.names:
+        return assembly
+    closes = found.closes
+    whole, on_whole = through_change_points(assembly, found)
+    if closes and (whole is assembly or _runs_through(whole, on_whole)):
+        return fitted(whole)
+    if closes:
+        # It is on the closures behind a change point that a dyad cannot be closed.
+        assembly, found = whole, on_whole
+    return fitted(_cut_back(assembly, linkage, found))
+
+
+def _cut_back(assembly: Assembly, linkage: Linkage, found: Separations) -> Assembly:
+    """Return the assembly on the widest swing that every dyad lets the input run through, there and back."""
+    swing, limited, on_limited = _cut(assembly, linkage, found)
+    refusal = AssemblyError(NO_RANGE)
+    for path in _smooth_paths(swing):
+        try:
+            if path is not swing:
+                limited, on_limited = _limited(assembly, path)
+            limited, on_limited = through_change_points(limited, on_limited)
+        except AssemblyError as error:  # behind one limit a dyad may rest at its own
+            refusal = error
+            continue
+        if _runs_through(limited, on_limited):
+            return limited
+    raise refusal
+
+
+def _cut(assembly: Assembly, linkage: Linkage, found: Separations) -> tuple[Swing, Assembly, Separations]:
+    """Return the swing around the start on which every dyad closes on the way up, and how they fare on it."""
+    first = found.shut.argmax(axis=0)
+    if found.shut.any(axis=0).all():
+        name = found.names[int(first.max())]
+        most = _most(assembly, name, found.phases)
+        raise AssemblyError(f"joint {name}: {linkage.joint(name).why_apart(*most, linkage.unit)}")
+    on_swing, limited = found, assembly
+    for _ in range(CUTS):
+        swing = Swing(*limited.path.cut(*_open_interval(limited, on_swing)))
+        if swing.amplitude < NO_WAY:
+            raise AssemblyError(f"joint {swing.ends[0]}: {ONE_PLACE}")
+        limited, on_swing = _limited(assembly, swing)
+        up = (on_swing.phases > 0) & (on_swing.phases < math.pi)  # at its ends rounding alone decides
+        if not on_swing.shut[:, up].any():
+            break
+    return swing, limited, on_swing
+
+
+def _limited(assembly: Assembly, path: Swing) -> tuple[Assembly, Separations]:
+    """Return the assembly on another path, its closures named anew, and how its dyads fare there."""
+    dyads = [name for name in dict.fromkeys(path.ends) if name and name not in assembly.loops]
+    ends = {name: tuple(End(upper) for upper in (False, True) if path.ends[upper] == name) for name in dyads}
+    chain = {name: ChainRoot(ends[name], 0.0) for name in dyads}
+    limited = replace(resigned(replace(assembly, path=path, chain={})), chain=chain)
+    return limited, separations(limited)
+
+
+def _most(assembly: Assembly, name: str, phases: Array) -> tuple[float, float]:
+    """Return the greatest that the factors U and W of a dyad come to, in squares of the scene's unit."""
+    closing = walk_at(assembly, Graph().input("x"), Slope(0.0)).closings[name]
+    with np.errstate(all="ignore"):
+        u, w = (float(np.nanmax(values)) for values in batch({"x": True}, [closing.u, closing.w])(phases))
+    return u * assembly.unscale**2, w * assembly.unscale**2
+
+
+def _smooth_paths(swing: Swing) -> Iterator[Swing]:
+    """Yield the swing, then the same stopped short of one limit or both.
+
+    Where one dyad stands on another, its range changes when the first passes its limit: the input
+    then has to turn back before that, on the closure that was named.
+    """
+    yield swing
+    short = (swing.high - swing.low).times(STOPPED_SHORT)
+    for low, high in ((True, False), (False, True), (True, True)):
+        yield Swing(
+            swing.low + short if low else swing.low,
+            swing.high - short if high else swing.high,
+            ("" if low else swing.ends[0], "" if high else swing.ends[1]),
+            swing.repeats,
+        )
+
+
+def _runs_through(assembly: Assembly, found: Separations) -> bool:
+    """Tell whether every dyad closes all the way, and those that limit the input do so at each visit."""
+    path = assembly.path
+    visits = np.arange(path.periods, dtype=np.float64) * (2 * math.pi)
+    return found.closes and all(
+        bool((np.abs(found.margins(places)[found.names.index(name)]) <= USED_UP).all())
+        for name, places in zip(path.ends, (visits, visits + math.pi), strict=False)
+        if name in found.names
+    )
+
+
+def _open_interval(assembly: Assembly, found: Separations) -> tuple[Limit, Limit]:
+    """Return the ends of the interval around the start, or of the widest one where the start is shut."""
+    phases, shut, home = assembly.path.beside(assembly.linkage.drive.start, found.phases, found.shut)
+    is_open = np.asarray(~shut.any(axis=0))
+    if not is_open.any():  # cut back for one dyad, nothing is left to another
+        raise AssemblyError(NO_RANGE)
+    first, last = _run_around(is_open, home, phases)
+    below, above = (
+        _limit(assembly, found, (phases[inside], phases[outside]), shut[:, outside])
+        if 0 <= outside < len(phases)
+        else (Sum(float(phases[inside])), None)
+        for inside, outside in ((first, first - 1), (last, last + 1))
+    )
+    return below, above
+
+
+def _run_around(is_open: NDArray[np.bool_], home: int, phases: Array) -> tuple[int, int]:
+    """Return the first and last place of the open run at `home`, or of the widest run."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], is_open.astype(np.int8), [0]])))
+    runs = list(zip(edges[::2].tolist(), (edges[1::2] - 1).tolist(), strict=True))
+    for first, last in runs:
+        if first <= home <= last:
+            return first, last
+    return max(runs, key=lambda run: float(phases[run[1]] - phases[run[0]]))
+
+
+def _limit(
+    assembly: Assembly, found: Separations, bracket: tuple[float, float], shut: NDArray[np.bool_]
+) -> tuple[Sum, str]:
+    """Return the limit between an open phase and the shut one beside it, by bisection, then in all digits."""
+    row = _first_shut(shut, found.margins(np.array(bracket[1:]))[:, 0])
+    start = found.beside(bracket[1], found.names[row], 1 if bracket[0] > bracket[1] else -1)
+    if start is None:
+        inside, outside = (np.array([phase]) for phase in bracket)
+        limit = ends_of(lambda phases: found.margins(phases[:, 0])[row, :, None] >= 0, inside, outside)
+        start = Sum(float(limit[0]))
+    name = found.names[row]
+    return refined(assembly, name, start), name
+
+
+def _first_shut(shut: NDArray[np.bool_], margins: Array) -> int:
+    """Return the first dyad of the chain that does not close at a phase.
+
+    One whose margin is no number stands on another that does not close, if only by rounding.
+    """
+    row = int(shut.argmax())
+    before = np.flatnonzero(margins[:row] < 0)
+    return int(before[0]) if math.isnan(margins[row]) and len(before) else row
+
+
+LEAST = 1e-40
+"""Share of a margin's scale below which it has no digits left."""
+
+
+def through_change_points(assembly: Assembly, found: Separations) -> tuple[Assembly, Separations]:
+    """Return the assembly with the zeros of the dyads on moving points, and how they fare on it.
+
+    In the chain's order: where one passes onto its other closure, what stands on it goes another way, and
+    may no longer come near its limits.
+    """
+    names = found.names
+    for name in names:
+        if name not in found.names:
+            continue
+        through = _through(assembly, name, found)
+        if found.touches(name):
+            found = separations(through)
+        assembly = through
+    return assembly, found
+
+
+def _through(assembly: Assembly, name: str, found: Separations) -> Assembly:
+    """Return the assembly with one dyad's zeros: its limits, which are known, its change points and dips."""
+    path, known = assembly.path, assembly.chain.get(name, ChainRoot((), 0.0))
+    touches = tuple(Touch(path.place(phase), path.periods, path.amplitude) for phase in found.touches(name))
+    dips = tuple(Dip(path.place(phase), path.periods, path.amplitude) for phase in found.dips(name))
+    root = ChainRoot((*known.zeros, *touches), found.scales[name] * LEAST, dips=dips)
+    if not (root.zeros or dips):
+        return assembly
+    side = root.side(path.state(JUST_AFTER, Slope(1.0)))
+    assert isinstance(side, float)
+    if len(touches) % 2:
+        path = path.doubled()
+        if path.periods > (most := most_turns(assembly.linkage)):
+            raise AssemblyError(
+                f"joint {name}: with the change points up to this one every joint is back after "
+                f"{path.periods:,} turns only, and {most:,} are the most here;"
+                " make one of its lengths a little longer or shorter"
+            )
+    return replace(assembly, path=path, chain={**assembly.chain, name: replace(root, sign=side)})

@@ -1,0 +1,579 @@
+"""Arrange a picture: the scene as large as it can be, and the words where its motion leaves room.
+
+What a linkage sweeps in a cycle is measured once. It outlasts pans, zooms and themes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import combinations, product
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkanim.picture.bodies import ENDED, WHEELS
+from linkanim.picture.figure import Figure, figure
+from linkanim.picture.fittings import outlines
+from linkanim.picture.gears import wheels
+from linkanim.picture.hud import WidestRow, WordBlock, blocks, caption_lines, shapes_of, widest_rows
+from linkanim.picture.layout import Gauge, Layout, gauge, layout, with_caption, with_table
+from linkanim.picture.look import Look
+from linkanim.picture.text import Type
+from linkanim.picture.view import Box, Rect, View, joined
+from linkanim.scenes.scene import Scene
+
+# What a linkage sweeps in a cycle: how far it reaches, and which parts of the plane it leaves free.
+
+_MOMENTS = 120
+_ALONG = np.linspace(0.0, 1.0, 13)
+_CELLS = 160
+_ROUND = np.exp(2j * np.pi * np.arange(240) / 240)
+
+Points = NDArray[np.complex128]
+Numbers = NDArray[np.float64]
+Sides = tuple[Numbers, Numbers, Numbers, Numbers]
+"""Left, low, right and high of rectangles, in the scene's unit."""
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """Points x + yi of the plane, in the scene's unit, so close that nothing of size lies between them.
+
+    `feet` are those points about which more is drawn than a bar's width: pedestals, guides, pads. `solid`
+    are those about which nothing is drawn: the rims of wheels.
+    """
+
+    points: Points
+    feet: Points
+    solid: Points
+
+    @cached_property
+    def parts(self) -> tuple[tuple[Box, int], ...]:
+        """Boxes of points, and of which width what is drawn about them is: 0 none, 1 a bar's, 2 a foot's."""
+        kinds = ((self.solid, 0), (self.points, 1), (self.feet, 2))
+        return tuple((_box(points), kind) for points, kind in kinds if points.size)
+
+    @cached_property
+    def box(self) -> Box:
+        """The rectangle that holds all points; the unit square where there are none."""
+        boxes = [box for box, _ in self.parts] or [Box(0.0, 0.0, 1.0, 1.0)]
+        whole = boxes[0]
+        for box in boxes[1:]:
+            whole = joined(whole, box)
+        return whole
+
+    def touches(self, sides: Sides, bar: Numbers, foot: Numbers) -> NDArray[np.bool_]:
+        """Return whether anything is drawn in rectangles: a bar's half width or a foot about the points."""
+        return self._bars.holds(sides, bar) | self._feet.holds(sides, foot) | self._rims.holds(sides, 0.0)
+
+    @cached_property
+    def _bars(self) -> _Grid:
+        return _Grid.of(self.points)
+
+    @cached_property
+    def _feet(self) -> _Grid:
+        return _Grid.of(self.feet)
+
+    @cached_property
+    def _rims(self) -> _Grid:
+        return _Grid.of(self.solid)
+
+    def __or__(self, other: Sweep) -> Sweep:
+        """Return what either sweeps."""
+        mine, theirs = (self.points, self.feet, self.solid), (other.points, other.feet, other.solid)
+        return Sweep(*(np.concatenate(both) for both in zip(mine, theirs, strict=True)))
+
+
+@dataclass(frozen=True)
+class _Grid:
+    """How many cells with points in them lie left of and below each corner of a grid."""
+
+    box: Box
+    cell: tuple[float, float]
+    sums: NDArray[np.int64]
+
+    @classmethod
+    def of(cls, points: Points) -> _Grid:
+        box = _box(points) if points.size else Box(0.0, 0.0, 0.0, 0.0)
+        cell = tuple(
+            max(far - near, 1e-12) / _CELLS for near, far in ((box.left, box.right), (box.low, box.high))
+        )
+        column, row = ((points.real - box.left) / cell[0], (points.imag - box.low) / cell[1])
+        held = np.zeros((_CELLS + 1, _CELLS + 1), np.int64)
+        place = [np.minimum(at.astype(np.int64), _CELLS - 1) + 1 for at in (column, row)]
+        held[tuple(place)] = 1
+        return cls(box, (cell[0], cell[1]), held.cumsum(axis=0).cumsum(axis=1))
+
+    def holds(self, sides: Sides, around: Numbers | float) -> NDArray[np.bool_]:
+        """Return whether a point lies in or around rectangles, or in a cell at their edges."""
+        left, low, right, high = sides
+        west, east = self._cells(left - around - self.box.left, right + around - self.box.left, self.cell[0])
+        south, north = self._cells(low - around - self.box.low, high + around - self.box.low, self.cell[1])
+        sums = self.sums
+        count = sums[east, north] - sums[west, north] - sums[east, south] + sums[west, south]
+        return np.asarray((west < east) & (south < north) & (count != 0))
+
+    @staticmethod
+    def _cells(near: Numbers, far: Numbers, cell: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        first, last = np.floor(near / cell), np.ceil(far / cell)
+        return np.clip(first, 0, _CELLS).astype(np.intp), np.clip(last, 0, _CELLS).astype(np.intp)
+
+
+def sweep_of(figure: Figure) -> Sweep:
+    """Return what a figure's bodies, springs, dampers, traces and wheels pass over in its cycle."""
+    swept = np.concatenate([np.zeros(0, complex), *_swept(figure)])
+    swept = np.concatenate([swept, *_fitted(figure)])
+    guided = (joint.name for joint in figure.linkage.joints if joint.travels)
+    ends = (body.joints[-1] for body in figure.bodies if figure.scene.style(body.name).outline in ENDED)
+    broad = (*figure.fixed, *guided, *ends)
+    feet = np.concatenate([np.zeros(0, complex), *(_path(figure, name) for name in broad)])
+    rims = np.concatenate([np.zeros(0, complex), *_rims(figure)])
+    return Sweep(*(points[np.isfinite(points)] for points in (swept, feet, rims)))
+
+
+def _swept(figure: Figure) -> Iterator[Points]:
+    for body in figure.bodies:
+        for one, other in combinations(body.joints, 2):
+            yield _between(_path(figure, one), _path(figure, other))
+    for centre, reach in _body_wheels(figure):
+        yield (_path(figure, centre)[:, None] + reach * _ROUND).ravel()
+    for strut in figure.struts:
+        yield _between(*(_path(figure, name) for name in strut.between))
+    for name in figure.shown:
+        yield _path(figure, name, every=1)
+
+
+def _fitted(figure: Figure) -> Iterator[Points]:
+    """Yield where slotted bars and guides pass."""
+    for outline, places, turns in outlines(figure):
+        yield (places[:, None] + turns[:, None] * _edged(outline)).ravel()
+
+
+def _edged(loop: Points) -> Points:
+    """Return a loop's corners, and points along its longer edges."""
+    after = np.roll(loop, -1)
+    edges = np.abs(after - loop)
+    long = edges > 0.1 * edges.sum()
+    return np.concatenate((loop, _between(loop[long], after[long])))
+
+
+def _rims(figure: Figure) -> Iterator[Points]:
+    """Yield circles over each wheel, wherever it goes."""
+    for centre, reach in _round(figure):
+        way = _path(figure, centre)
+        still = bool(np.all(np.abs(way - way[0]) <= 1e-9 * reach))
+        way, circles, shares = (way[:1], _ROUND, 9) if still else (way, _ROUND[::4], 3)
+        for share in np.linspace(1.0, 0.2, shares):
+            yield (way[:, None] + share * reach * circles).ravel()
+
+
+def _round(figure: Figure) -> Iterator[tuple[str, float]]:
+    """Yield the centres and radii of gears, and of bodies that are drawn as wheels."""
+    yield from ((wheel.centre, wheel.reach) for wheel in wheels(figure))
+    yield from _body_wheels(figure)
+
+
+def _body_wheels(figure: Figure) -> Iterator[tuple[str, float]]:
+    """Yield the centre of each body that is drawn as a wheel, and how far it reaches from there."""
+    for body in figure.linkage.bodies:
+        if figure.scene.style(body.name).outline in WHEELS:
+            yield body.joints[0], figure.wheel_reach(body)
+
+
+def _between(begin: Points, end: Points) -> Points:
+    points: Points = (begin[:, None] + (end - begin)[:, None] * _ALONG).ravel()
+    return points
+
+
+def _path(figure: Figure, name: str, every: int = 0) -> Points:
+    """Return where a joint passes, at some of the cycle's moments."""
+    places = np.atleast_2d(figure.cycle.position[name])
+    step = every or max(len(places) // _MOMENTS, 1)
+    path: Points = places[::step, 0] + 1j * places[::step, 1]
+    return path
+
+
+def _box(points: Points) -> Box:
+    x, y = points.real, points.imag
+    return Box(float(x.min()), float(y.min()), float(x.max()), float(y.max()))
+
+
+# The arrangement: the scene as large as its stage lets it be, and the words where its motion leaves room.
+#
+# Words go into a corner. Of all ways to put them there the one is taken that costs least: a smaller scene, a
+# title in more lines and a corner that is looked at later cost something. The scene keeps to its least size,
+# `HIGH` of the stage's height or `WIDE` of its width; before it gets smaller, words get smaller, and before
+# they get too small to read, the least important ones are left out.
+
+HIGH, WIDE = 0.86, 0.7
+"""The least share of the stage that a scene takes, of its height or of its width."""
+_STEPS = 10
+_CORNERS = (((0, 0), 0.0), ((1, 0), 0.05), ((0, 1), 0.06), ((1, 1), 0.08))
+"""Left or right, top or bottom, and what it costs."""
+_LINE = 0.03
+"""What each further line of the title costs."""
+_AWAY = (0.0, 0.25, 0.5)
+"""How far the scene gives way to the words, in shares of the room that it leaves."""
+_WAYS = tuple(sorted(product(_AWAY, _AWAY), key=sum))
+"""Across and down, the middle of the stage first."""
+_MARKS = (7.2, 2.5)
+"""How wide and high the marks are, in sizes of the text."""
+_HINTS = (27.0, 19.0, 13.0, 5.4)
+"""How wide the hint bar may be, in sizes of its text: with all its words, and with ever fewer."""
+_THINNEST = 0.68
+"""What is drawn is no thinner than this on a small stage, in thicknesses of the whole window's."""
+_EDGE = 9.0
+"""From the stage's edge to what is drawn, in units."""
+
+
+Corner = tuple[int, int]
+Views = tuple[Numbers, Numbers, Numbers]
+"""Scales of views, and x and y of their origins, all of one shape."""
+
+
+@dataclass(frozen=True)
+class Arrangement:
+    """Where scene and words stand: the parts of the window, the view, the thicknesses, the words."""
+
+    layout: Layout
+    view: View
+    gauge: Gauge
+    block: WordBlock | None
+
+
+def arranged(
+    parts: Layout,
+    sweep: Sweep,
+    shortest: float,
+    blocks: Iterable[Sequence[WordBlock]],
+    shapes: Iterable[tuple[float, float]] = (),
+) -> Arrangement:
+    """Return the arrangement of a scene that sweeps this, its `shortest` bar in the scene's unit.
+
+    `blocks` are the words, set in several ways: the first group of which one finds its place is taken.
+    `shapes` are those of the sentence that is shown for a while, the best first.
+    """
+    ways_ = _WaysToArrange(parts, sweep, shortest)
+    found = (one for group in blocks for one in ways_.placed(group))
+    bare = Arrangement(parts, ways_.view(ways_.largest, (0.5, 0.5)), ways_.gauge, None)
+    arrangement = next(found, bare)
+    marked = replace(arrangement, layout=replace(arrangement.layout, marks=ways_.marks(arrangement)))
+    hinted = replace(marked, layout=replace(marked.layout, hint=ways_.hint(marked)))
+    return replace(hinted, layout=replace(hinted.layout, passing=ways_.free(hinted, shapes)))
+
+
+class _WaysToArrange:
+    """What all ways to arrange one scene have in common."""
+
+    def __init__(self, parts: Layout, sweep: Sweep, shortest: float) -> None:
+        self.parts, self.sweep = parts, sweep
+        self.room = parts.stage.inset(_EDGE * parts.unit)
+        box = sweep.box
+        self._wide, self._high = max(box.right - box.left, 1e-12), max(box.high - box.low, 1e-12)
+        extended = max(self._wide, self._high) > 1e-12
+        bare = min(self.room.width / self._wide, self.room.height / self._high) if extended else 1.0
+        share = min(parts.stage.width / parts.size[0], parts.stage.height / parts.size[1])
+        self.gauge = gauge(parts.unit * max(share, _THINNEST), shortest * bare)
+        self._reaches = [(box, self.gauge.around[kind]) for box, kind in sweep.parts]
+        self.largest = self._largest(bare)
+        self.least = min(HIGH * parts.stage.height / self._high, WIDE * parts.stage.width / self._wide)
+        share = min(self.least / self.largest, 1.0)
+        self._shares = [1.0 - (1.0 - share) * step / _STEPS for step in range(_STEPS + 1)]
+        self._scales = [share * self.largest for share in self._shares]
+
+    def placed(self, group: Sequence[WordBlock]) -> Iterator[Arrangement]:
+        """Yield arrangements with one of the group's words in a corner, off the scene, the cheapest first."""
+        clear: dict[tuple[int, Corner], NDArray[np.bool_]] = {}
+        for _, step, turn, corner in self._ways(group):
+            place, block = self._corner(group[turn], corner), group[turn]
+            if place is None:
+                continue
+            if (turn, corner) not in clear:
+                drawn = self._drawn_in([*block.rects_at(place)], self._views(corner), block.size)
+                clear[turn, corner] = np.logical_not(drawn.any(axis=-1))
+            views = clear[turn, corner][step]
+            if views.any():
+                hud, legend = block.parts_at(place)
+                words = tuple(block.rects_at(place))
+                parts = replace(self.parts, hud=hud, legend=legend, words=words)
+                view = self.view(self._scales[step], _places(corner)[int(views.argmax())])
+                yield Arrangement(parts, view, self.gauge, block)
+
+    def _ways(self, group: Sequence[WordBlock]) -> list[tuple[float, int, int, Corner]]:
+        """Return cost, number of the scale and of the words, and corner, the cheapest first."""
+        ways = [
+            (1.0 - share + price + _LINE * block.turns, step, turn, corner)
+            for (step, share), (turn, block), (corner, price) in product(
+                enumerate(self._shares), enumerate(group), _CORNERS
+            )
+        ]
+        return sorted(ways, key=lambda way: way[0])
+
+    def marks(self, arrangement: Arrangement) -> Rect:
+        """Return where the marks stand: in the first corner without words, off the scene if there is one."""
+        parts, high = arrangement.layout, arrangement.layout.text_size
+        stage = parts.stage.inset(parts.margin)
+        wide = min(_MARKS[0] * high, stage.width)
+        corners = [
+            Rect(
+                stage.x + right * (stage.width - wide),
+                stage.y + low * (stage.height - _MARKS[1] * high),
+                wide,
+                _MARKS[1] * high,
+            )
+            for right, low in ((1, 0), (0, 0), (1, 1), (0, 1))
+        ]
+        free = [
+            rect
+            for rect in corners
+            if not any(rect.meets(words) for words in (parts.hud, parts.legend) if words)
+        ]
+        return self._clear(free, arrangement.view, high) or (free or corners)[0]
+
+    def hint(self, arrangement: Arrangement) -> Rect:
+        """Return where the hint bar stands: at the stage's foot or head, on nothing, as wide as it can be.
+
+        Nowhere is a rectangle without width.
+        """
+        size, stage = arrangement.layout.small_size, self._edges(arrangement)
+        shapes = ((min(wide * size, stage.width), 1.6 * size) for wide in _HINTS)
+        return self.free(arrangement, shapes) or Rect(stage.x, stage.bottom, 0.0, 0.0)
+
+    def free(self, arrangement: Arrangement, shapes: Iterable[tuple[float, float]]) -> Rect | None:
+        """Return the first of some shapes at the stage's foot or head that lies on nothing; None for none."""
+        parts, stage = arrangement.layout, self._edges(arrangement)
+        others = [one for one in (parts.hud, parts.legend, parts.marks) if one]
+        for wide, high in shapes:
+            if wide > stage.width or high > stage.height:
+                continue
+            across, down = stage.width - wide, stage.height - high
+            rects = (
+                Rect(stage.x + right * across, stage.y + low * down, wide, high)
+                for low, right in product((1, 0), (1.0, 0.0, 0.5))
+            )
+            free = [rect for rect in rects if not any(rect.meets(one) for one in others)]
+            if clear := self._clear(free, arrangement.view, 0):
+                return clear
+        return None
+
+    def _clear(self, rects: Sequence[Rect], view: View, size: int) -> Rect | None:
+        """Return the first rectangle in which nothing is drawn; None for none."""
+        views = np.array(view.scale), np.array(view.x), np.array(view.y)
+        drawn = self._drawn_in(rects, views, size) if rects else ()
+        return next((rect for rect, taken in zip(rects, drawn, strict=True) if not taken), None)
+
+    def _edges(self, arrangement: Arrangement) -> Rect:
+        return arrangement.layout.stage.inset(6 * arrangement.layout.unit)
+
+    def view(self, scale: float, at: tuple[float, float]) -> View:
+        """Return the view of a scale, so far to the right and down in the room there is (0 to 1)."""
+        left, top, right, bottom = self._extent(scale)
+        x = self.room.x - left + at[0] * (self.room.width - (right - left))
+        return View(scale, x, self.room.y - top + at[1] * (self.room.height - (bottom - top)))
+
+    def _views(self, corner: Corner) -> Views:
+        """Return the views (scales, places) that give way to what is in a corner."""
+        extents = np.array([self._extent(scale) for scale in self._scales])
+        left, top, right, bottom = extents.T[:, :, None]
+        across, down = np.array(_places(corner)).T
+        x = self.room.x - left + across * (self.room.width - (right - left))
+        y = self.room.y - top + down * (self.room.height - (bottom - top))
+        return np.array(self._scales)[:, None], x, y
+
+    def _corner(self, block: WordBlock, corner: Corner) -> tuple[float, float] | None:
+        stage, wide, high = self.parts.stage.inset(self.parts.margin), block.width, block.height
+        if wide > stage.width or high > stage.height:
+            return None
+        return stage.x + corner[0] * (stage.width - wide), stage.y + corner[1] * (stage.height - high)
+
+    def _drawn_in(self, rects: Sequence[Rect], views: Views, size: int) -> NDArray[np.bool_]:
+        """Return whether anything is drawn in rectangles, in each view (..., rectangles)."""
+        left, top, right, bottom = np.array([(one.x, one.y, one.right, one.bottom) for one in rects]).T
+        scale, x, y = (one[..., None] for one in views)
+        gap = 0.5 * size
+        _, bar, foot = (reach + gap for reach in self.gauge.around)
+        sides = (left - x) / scale, (y - bottom) / scale, (right - x) / scale, (y - top) / scale
+        return self.sweep.touches(sides, bar / scale, foot / scale)
+
+    def _extent(self, scale: float) -> tuple[float, float, float, float]:
+        """Return left, top, right and bottom of what is drawn, in pixels from the scene's origin."""
+        return (
+            min(scale * box.left - reach for box, reach in self._reaches),
+            min(-scale * box.high - reach for box, reach in self._reaches),
+            max(scale * box.right + reach for box, reach in self._reaches),
+            max(-scale * box.low + reach for box, reach in self._reaches),
+        )
+
+    def _largest(self, bare: float) -> float:
+        """Return the largest scale at which all that is drawn lies in the room."""
+        scale = bare
+        for (one, before), (other, after) in product(self._reaches, repeat=2):
+            around = before + after
+            for length, room in (
+                (other.right - one.left, self.room.width),
+                (other.high - one.low, self.room.height),
+            ):
+                if length > 0:
+                    scale = min(scale, max(room - around, 1.0) / length)
+        return scale
+
+
+def _places(corner: Corner) -> list[tuple[float, float]]:
+    """Return how far to the right and down a scene stands that gives way to a corner, the middle first."""
+    return [(0.5 + across * (1 - 2 * corner[0]), 0.5 + down * (1 - 2 * corner[1])) for across, down in _WAYS]
+
+
+# A scene fitted into a window: what of it is measured once, and outlasts pans, zooms and themes.
+
+_BETTER = 1.25
+"""So much larger a scene must be with its chart beside it, for the chart to stand there."""
+_WIDE_ENOUGH = 420
+"""The least width of a window that has its chart beside the scene, in pixels."""
+
+
+class FitRequest(NamedTuple):
+    """What of a window and a look an arrangement depends on."""
+
+    size: tuple[int, int]
+    chart: bool
+    keys: int
+    """How many lines the key to the colours has."""
+    hud: bool
+    listed: bool
+    """Whether it leaves room for the edit list."""
+    polygons: bool = False
+    row: bool = False
+    table: tuple[int, float] = (0, 0.0)
+    """How many rows a table beside the figure has, and how wide they are."""
+    caption: bool = False
+
+
+def request_of(size: tuple[int, int], look: Look, *, listed: bool, row: bool) -> FitRequest:
+    """Return what an arrangement for a look depends on."""
+    chart, keys = look.chart is not None, len(look.vectors) + look.chain
+    captioned = look.caption and not listed
+    return FitRequest(size, chart, keys, look.hud, listed, look.polygons, row, caption=captioned)
+
+
+@dataclass(frozen=True)
+class Subject:
+    """A scene's figure, what it sweeps together with the scene beside it, and the words about them."""
+
+    figure: Figure
+    beside: Scene | None
+    type: Type
+
+    @cached_property
+    def sweep(self) -> Sweep:
+        """What both sweep."""
+        swept = sweep_of(self.figure)
+        return swept | sweep_of(figure(self.beside)) if self.beside else swept
+
+    @cached_property
+    def rows(self) -> tuple[WidestRow, ...]:
+        """The rows of words about them, at their widest; beside an open list there are none."""
+        return widest_rows(self.scenes, self.type)
+
+    @property
+    def scenes(self) -> tuple[Scene, ...]:
+        """The scene, and the one beside it."""
+        return (self.figure.scene, self.beside) if self.beside else (self.figure.scene,)
+
+
+@dataclass(frozen=True)
+class SceneFit:
+    """A subject, and how it is arranged for a request."""
+
+    subject: Subject
+    request: FitRequest
+    arrangement: Arrangement
+
+    @cached_property
+    def has_room(self) -> bool:
+        """Whether all that is swept is within the scene's room."""
+        room, view = self.arrangement.layout.stage, self.arrangement.view
+        boxes = [one.box for one in (self.subject.figure, *map(figure, self.subject.scenes[1:]))]
+        return all(
+            room.x <= x <= room.right and room.y <= y <= room.bottom
+            for box in boxes
+            for x, y in (view.to_pixel(box.left, box.high), view.to_pixel(box.right, box.low))
+        )
+
+    def view_of(self, shown: Figure) -> View:
+        """Return the view of the subject's figure; one on the way to it is as large, in the same place."""
+        view, whole = self.arrangement.view, self.subject.figure
+        if shown is whole:
+            return view
+        wide, high = (shown.box.right - shown.box.left, shown.box.high - shown.box.low)
+        spans = ((whole.box.right - whole.box.left, wide), (whole.box.high - whole.box.low, high))
+        share = min((span / own for span, own in spans if own > 0), default=1.0)
+        x, y = view.to_pixel(*whole.box.middle)
+        across, up = shown.box.middle
+        scale = view.scale * share
+        return View(scale, x - scale * across, y + scale * up)
+
+
+def fitted(
+    scene: Scene,
+    beside: Scene | None,
+    request: FitRequest,
+    type_: Type,
+    *,
+    before: SceneFit | None = None,
+    held: bool = False,
+    late: bool = False,
+) -> SceneFit:
+    """Return how a scene fits, and one that must fit into its view too.
+
+    What `before` has of the same scenes is taken over, all of it where the same is requested. What the hand
+    changes while it is `held` stays in its place, as long as it has room there, and for a `late` frame.
+    """
+    known = before.subject if before else None
+    if known is None or known.figure.scene is not scene or known.beside is not beside:
+        subject = Subject(figure(scene), beside, type_)
+    elif before and before.request == request and (late or not held or before.has_room):
+        return before
+    else:
+        subject = known
+    if held and before and before.request == request:
+        stays = SceneFit(subject, request, before.arrangement)
+        if late or stays.has_room:
+            return stays
+    return SceneFit(subject, request, _arranged(subject, request, type_))
+
+
+def _arranged(subject: Subject, request: FitRequest, type_: Type) -> Arrangement:
+    """Return the arrangement with the chart where it leaves the scene larger, and room for most words."""
+    below = _with_chart(subject, request, type_, beside=False)
+    if not request.chart or request.size[0] < _WIDE_ENOUGH:
+        return below
+    aside = _with_chart(subject, request, type_, beside=True)
+    as_many = 2 * _row_count(aside) >= _row_count(below)
+    return aside if as_many and aside.view.scale > _BETTER * below.view.scale else below
+
+
+def _row_count(arrangement: Arrangement) -> int:
+    """Return how many rows of words there are, and one for the title."""
+    return 1 + len(arrangement.block.rows) if arrangement.block else 0
+
+
+def _with_chart(subject: Subject, request: FitRequest, type_: Type, *, beside: bool) -> Arrangement:
+    parts = layout(
+        request.size,
+        chart=request.chart,
+        beside=beside,
+        listed=request.listed,
+        polygons=request.polygons,
+        row=request.row,
+    )
+    parts = with_table(parts, *request.table) if request.table[0] else parts
+    sentence = subject.figure.scene.look_at
+    if request.caption:
+        parts = with_caption(parts, len(caption_lines(parts, sentence, type_)))
+    worded = request.hud and not request.listed
+    words = blocks(subject.scenes, subject.rows, parts, request.keys, type_) if worded else ()
+    shapes = shapes_of(sentence, parts, type_) if worded and not parts.caption else ()
+    return arranged(parts, subject.sweep, subject.figure.shortest, words, shapes)

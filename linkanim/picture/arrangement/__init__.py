@@ -1,1 +1,0 @@
-"""Where scene and words stand in a picture of a size."""

@@ -1,0 +1,388 @@
+"""Draw the sheet that is drawn on: its grid, a linkage that is being built, the pencil's path.
+
+A draft that does not move yet is drawn as bars and plates, pins with their feet, guides, struts and wheels.
+A path is the pencil's line, and then the stroke behind its trace, with handles.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from math import ceil
+
+import numpy as np
+import pygame
+
+from linkanim.build.draft import Photo
+from linkanim.build.places import Shape
+from linkanim.mechanics.linkage import Point
+from linkanim.picture.bodies import mark_stamp, pin_stamp
+from linkanim.picture.figure import DrawSetting
+from linkanim.picture.fittings import Coil, Damping, StrutSpan, block_layers, damping, hatched, pedestal
+from linkanim.picture.items import Caption, Group, Halo
+from linkanim.picture.layout import Gauge, Layout, gauge
+from linkanim.picture.marks import measure
+from linkanim.picture.motion_marks import turning_arrow
+from linkanim.picture.overlay import BuildShown, DimensionLine, DraftShown, PathShown, Rubber, Snap
+from linkanim.picture.photograph import Photograph
+from linkanim.picture.quantities import round_step
+from linkanim.picture.raster import Layer, Loop, paint
+from linkanim.picture.shapes import box, dashes, disc, glazed, hull, lined, segments, stroke, unit
+from linkanim.picture.text import subscripted
+from linkanim.picture.theme import ORANGE, Theme, mixed
+from linkanim.picture.tools import tool_cells
+from linkanim.picture.view import Box, View, view_of
+
+# A path that is drawn: the sheet, the pencil's line, and then the stroke behind its trace, with handles.
+
+HINT = "draw a path in one stroke"
+SHEET = "sheet"
+"""The name of the group that is drawn on."""
+_GRID = 36
+"""The least distance of the sheet's lines, in units."""
+_DASH, _GAP = 3.2, 2.2
+"""Along the stroke, in its widths."""
+_HANDLES = 12
+"""Points of a stroke that are marked; every one can be dragged."""
+
+
+def sheet(setting: DrawSetting) -> Group:
+    """Return the empty sheet: lines at round distances in the scene's unit."""
+    view, layout, theme = setting.view, setting.layout, setting.theme
+    width, height = layout.size
+    step = view.scale * grid_step(view, layout)
+    x, y = (np.arange(start % step, end, step) for start, end in ((view.x, width), (view.y, height)))
+    lines = [*segments(x, x + 1j * height, 1.0), *segments(1j * y, width + 1j * y, 1.0)]
+    return Group(SHEET, [Layer(mixed(theme.rule, theme.background, 0.4), lines)], still=True)
+
+
+def grid_step(view: View, layout: Layout) -> float:
+    """Return how far the sheet's lines are apart, in the scene's unit."""
+    return round_step(_GRID * layout.unit / view.scale, 1)
+
+
+def pencil(layout: Layout, theme: Theme) -> pygame.Surface:
+    """Return a pencil to point with, its tip in the lower left corner."""
+    size = round(max(30 * layout.unit, 20.0))
+    sheet = pygame.Surface((size, size), pygame.SRCALPHA, 32)
+    along, wide = (size - 4) * (1 - 1j) / 1.414, 0.13 * size * (1 + 1j) / 1.414
+    tip, neck, end = complex(1.5, size - 1.5), 0.3 * along, 0.9 * along
+    rim = np.array([0, neck + wide, end + wide, end - wide, neck - wide])
+    layers = [
+        Layer(theme.background, stroke(tip + rim, 3.0, closed=True)),
+        Layer(theme.ink, [tip + rim]),
+        Layer(ORANGE, [tip + np.array([neck, end]).repeat(2) + 0.6 * wide * np.array([1, -1, -1, 1])]),
+    ]
+    paint(sheet, layers)
+    return sheet
+
+
+def drawn_line(setting: DrawSetting, shown: PathShown) -> Group:
+    """Return the pencil's line, or the stroke while nothing follows it; words where there is neither."""
+    points = (
+        np.array(shown.pen) if shown.pen else shown.curve.polyline if shown.curve else np.zeros(0, complex)
+    )
+    layout, theme, size = setting.layout, setting.theme, setting.layout.text_size
+    if not points.size:
+        at = layout.size[0] / 2, layout.size[1] / 2 - size
+        return Group("pencil", (), [Caption(HINT, at, size, theme.dim, "centre")])
+    line = stroke(_placed(setting.view, points), max(2.6 * layout.unit, 1.6))
+    return Group("pencil", [Layer(theme.ink, line)])
+
+
+def dashed(setting: DrawSetting, shown: PathShown) -> Group:
+    """Return the stroke in dashes, wider than a trace."""
+    assert shown.curve
+    width, theme = 2.6 * setting.gauge.line, setting.theme
+    line = _placed(setting.view, shown.curve.polyline)
+    way = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(line)))])
+    count = max(ceil(way[-1] / ((_DASH + _GAP) * width)), 1)
+    ends = np.arange(count) * (way[-1] / count) + np.array([[0.0], [_DASH * width]])
+    begin, end = np.interp(ends, way, line.real) + 1j * np.interp(ends, way, line.imag)
+    loops = segments(begin, end, width)
+    return Group("stroke", [Layer(mixed(theme.ink, theme.background, 0.55), loops)], still=True)
+
+
+def handles(setting: DrawSetting, shown: PathShown) -> Iterator[Layer]:
+    """Yield the marked points of a stroke, the one that is held, and rings about pivots that are held."""
+    assert shown.curve
+    _, view, gauge, theme = setting.known
+    points, reach = _placed(view, shown.curve.points), 0.55 * gauge.bar
+    marked = points[:: max(len(points) // _HANDLES, 1)]
+    yield Layer(theme.ink, [at + disc(reach) for at in marked])
+    yield Layer(theme.background, [at + disc(0.6 * reach) for at in marked])
+    if shown.held is not None:
+        yield Layer(theme.velocity, [points[shown.held] + disc(1.5 * reach)])
+    for pin in shown.pins:
+        ring = view.place(pin) + disc(2.6 * gauge.bar)
+        yield Layer(theme.velocity, stroke(ring, 1.6 * gauge.line, closed=True))
+
+
+def _placed(view: View, points: Loop) -> Loop:
+    return view.x + view.scale * points.real + 1j * (view.y - view.scale * points.imag)
+
+
+# A draft as it is drawn before it moves: bars and plates, pins with their feet, guides, struts, wheels.
+
+_COILS = 10
+_GUIDE = 11.0
+"""How far a guide is drawn about a place, in half widths of a bar."""
+_WHEELS = 0.55
+"""How much of what lies behind a wheel it covers."""
+
+
+def draft_gauge(layout: Layout, view: View, draft: DraftShown) -> Gauge:
+    """Return how thick a draft is drawn: as the linkage is that it becomes."""
+    ends = [[*map(view.place, one.places[:2])] for one in draft.shapes if one.kind == "bars"]
+    spans = (abs(end - begin) for begin, end in ends)
+    return gauge(layout.unit, min(spans, default=200 * layout.unit))
+
+
+class DraftDrawing:
+    """A draft in one view, in pixels."""
+
+    def __init__(self, draft: DraftShown, view: View, gauge_: Gauge, theme: Theme) -> None:
+        self._draft, self._view, self._gauge, self._theme = draft, view, gauge_, theme
+
+    def groups(self, size: int) -> Iterator[Group]:
+        """Yield all of it, back to front; names are written at that size."""
+        drawn = {"gears": self._wheels, "guides": self._guide, "pins": self._foot}
+        behind = [layer for kind, draw in drawn.items() for one in self._of(kind) for layer in draw(one)]
+        yield Group("draft-ground", behind)
+        yield Group("draft-bodies", [*self._bodies()])
+        struts = (layer for kind in _STRUTS for one in self._of(kind) for layer in self._strut(one))
+        yield Group("draft-struts", [*struts])
+        yield Group("draft-pins", [*self._pins()], [*self._names(size)])
+
+    def _of(self, *kinds: str) -> list[Shape]:
+        return [one for one in self._draft.shapes if one.kind in kinds]
+
+    def _placed(self, places: tuple[Point, ...]) -> list[complex]:
+        return [self._view.place(point) for point in places]
+
+    def _guide(self, guide: Shape) -> Iterator[Layer]:
+        """Yield a line along a guide's two places, some way to either side of what slides on it."""
+        start, beside, *blocks = self._placed(guide.places)
+        along, reach = unit(beside - start), _GUIDE * self._gauge.bar
+        ways = [((at - start) * along.conjugate()).real for at in blocks] or [0.0]
+        ends = start + along * (min(ways) - reach), start + along * (max(ways) + reach)
+        yield Layer(self._theme.ground, [*hatched(*ends, self._gauge, 1)])
+
+    def _foot(self, pin: Shape) -> Iterator[Layer]:
+        yield from pedestal(self._view.place(pin.places[0]), 1j, self._gauge, self._theme)
+
+    def _wheels(self, gear: Shape) -> Iterator[Layer]:
+        one, other, touching = self._placed(gear.places)
+        for middle in (one, other):
+            ring = middle + disc(max(abs(touching - middle), 1.0))
+            yield Layer(self._theme.gear, [ring], _WHEELS)
+            yield Layer(self._theme.ground, stroke(ring, self._gauge.line, closed=True))
+
+    def _bodies(self) -> Iterator[Layer]:
+        crank = set(self._draft.crank or ())
+        bars = sorted(self._of("bars"), key=lambda bar: not crank >= {*bar.places})
+        for colour, bar in sorted(enumerate(bars), key=lambda one: len(one[1].places) < 3):
+            yield from self._body(bar, colour)
+        for block in self._of("sliders", "slots", "yokes"):
+            yield from self._block(block)
+
+    def _body(self, bar: Shape, colour: int) -> list[Layer]:
+        points = self._placed(bar.places)
+        colours = self._theme.outline, self._theme.bodies[colour % len(self._theme.bodies)]
+        draw = glazed if len(hull(points)) > 2 else lined
+        return draw(points, self._gauge.bar, self._gauge.outline, colours)
+
+    def _block(self, block: Shape) -> Iterator[Layer]:
+        """Yield what slides, along the way from its first place to its second."""
+        at, *beside = self._placed(block.places)
+        turn = unit(beside[0] - at) if beside else 1 + 0j
+        share = 1.0 if block.kind == "sliders" else 0.62
+        yield from (layer.placed(at) for layer in block_layers(self._gauge, self._theme, turn, share))
+
+    def _strut(self, strut: Shape) -> list[Layer]:
+        begin, end = self._placed(strut.places[:2])
+        ends, span, gauge_ = ("begin", "end"), abs(end - begin), self._gauge
+        drawn: Coil | Damping
+        if strut.kind == "springs":
+            drawn = Coil(ends, 1.15 * gauge_.bar, 1.5 * gauge_.bar, _COILS, gauge_, self._theme)
+        else:
+            drawn = damping(ends, StrutSpan(span, span), (0.5 * span, 0.25 * span), gauge_, self._theme)
+        return drawn.layers({"begin": begin, "end": end})
+
+    def _pins(self) -> Iterator[Layer]:
+        joints = tuple(one.places[0] for one in self._of("pins", "joints"))
+        yield from pin_stamp(self._gauge, self._theme).at(self._placed(joints))
+        for n, at in enumerate(self._placed(self._draft.traced)):
+            colour = self._theme.traces[n % len(self._theme.traces)]
+            yield from mark_stamp(colour, self._gauge, self._theme).at([at])
+        if self._draft.crank:
+            pivot, pin = self._placed(self._draft.crank)
+            yield from turning_arrow(pivot, pin, self._gauge, self._theme)
+
+    def _names(self, size: int) -> Iterator[Caption]:
+        halo = Halo(self._theme.background, 0.12 * size)
+        for joint in self._of("pins", "joints"):
+            aside = 2.6 + 1.9j if joint.kind == "pins" else 1.3 - 1.3j
+            at = self._view.place(joint.places[0]) + self._gauge.bar * aside
+            words = subscripted(joint.label)
+            yield Caption(words, (at.real, at.imag - size), size, self._theme.dim, halo=halo)
+
+
+_STRUTS = ("springs", "dampers", "cylinder")
+
+
+def lit(shape: Shape, view: View, reach: float) -> Iterator[Loop]:
+    """Yield a light on a shape: round its place, along the way from its first place to its second."""
+    places = [view.place(point) for point in shape.places[:2]]
+    if shape.kind == "guides":
+        along = 300 * reach * unit(places[1] - places[0])
+        yield from segments(places[0] - along, places[0] + along, 0.5 * reach)
+        return
+    if len(places) > 1:
+        yield from segments(places[0], places[1], 2 * reach)
+    yield from (at + disc(reach * (1.0 if len(places) > 1 else 1.3)) for at in places)
+
+
+# The sheet that a linkage is built on: its grid and ground line, what the hand draws, where it snaps.
+
+_ROOM = 0.86
+"""The share of the window that the home of a sheet takes."""
+_LINES = 2.4
+"""The room for words above, in heights of their text."""
+_LIT, _FAINT = 0.45, 0.55
+"""How strongly what is chosen is lit, and how much of what the hand draws shows."""
+_BACKING = 0.8
+"""How little of what lies under the words shows."""
+_ARROW = (0j, 17j, 4 + 13j, 7 + 20j, 10 + 18.7j, 7 + 12j, 12.5 + 12j)
+"""The corners of a pointer, in units."""
+_ALONG = ("begin", "end")
+"""The frame of what is measured along itself."""
+
+
+def home_view(home: Box, layout: Layout) -> View:
+    """Return the view in which a rectangle of the scene lies in the middle of a window, as large as fits."""
+    above = layout.margin + _LINES * layout.text_size
+    room = layout.stage._replace(y=layout.stage.y + above, height=max(layout.stage.height - above, 1))
+    return view_of(home, room, _ROOM)
+
+
+def paper(setting: DrawSetting, photo: Photo | None) -> Group:
+    """Return the empty sheet: a light grid over a photograph, and the ground line through the origin."""
+    view, layout, gauge, theme = setting.view, setting.layout, setting.gauge, setting.theme
+    laid = photo and Photograph(photo, view, theme.background)
+    grid, (_, level) = sheet(setting), view.to_pixel(0.0, 0.0)
+    width, height = layout.size
+    if not -20 * layout.unit < level < height:
+        return grid._replace(under=laid)
+    faint = mixed(theme.ground, theme.background, 0.62)
+    coarse = replace(gauge, bar=2 * gauge.bar)
+    ground = Layer(faint, [*hatched(complex(0, level), complex(width, level), coarse, 1)])
+    return grid._replace(layers=[*grid.layers, ground], under=laid)
+
+
+def drafted(shown: BuildShown, draft: DraftShown, setting: DrawSetting) -> Iterator[Group]:
+    """Yield a draft that does not move, what the hand does to it, and the words."""
+    thick = draft_gauge(setting.layout, setting.view, draft)
+    drawing = DraftDrawing(draft, setting.view, thick, setting.theme)
+    yield from drawing.groups(setting.layout.small_size)
+    yield from hand(shown, replace(setting, gauge=thick))
+
+
+def loose(draft: DraftShown, setting: DrawSetting) -> Iterator[Group]:
+    """Yield what is drawn beside a linkage that moves: guides and pins that nothing holds on to yet."""
+    drawing = DraftDrawing(draft, setting.view, setting.gauge, setting.theme)
+    yield from drawing.groups(setting.layout.small_size)
+
+
+def hand(shown: BuildShown, setting: DrawSetting) -> Iterator[Group]:
+    """Yield what is chosen, what the hand draws, what that would be joined to, and the words on it all."""
+    yield from _chosen(shown, setting)
+    if shown.rubber:
+        yield from _rubber(shown.rubber, setting)
+    if shown.snap:
+        yield Group("snap", [*_snap(shown.snap, setting)], over=True)
+    for name, at in (("anchor", shown.anchor), ("cursor", shown.cursor)):
+        if at:
+            yield Group(name, [_crosshair(setting.view.place(at), setting)], over=True)
+    if shown.hand and not shown.tools:
+        yield Group("hand", [*_pointer(setting.view.place(shown.hand), setting)], over=True)
+    yield _words(shown, setting)
+
+
+def _chosen(shown: BuildShown, setting: DrawSetting) -> Iterator[Group]:
+    """Yield the light on what is chosen, and its number beside it."""
+    if shown.chosen is None:
+        return
+    loops = [*lit(shown.chosen, setting.view, 1.5 * setting.gauge.bar)]
+    yield Group("chosen", [Layer(ORANGE, loops, _LIT)], over=True)
+    if shown.number:
+        ends = [setting.view.place(point) for point in shown.chosen.places[:2]]
+        if len(ends) < 2 or shown.chosen.kind == "guides":
+            ends = [ends[0] - 30 * setting.layout.unit, ends[0] + 30 * setting.layout.unit]
+        words = DimensionLine(_ALONG, 0, 1, shown.number, chosen=False)
+        yield from measure(setting, ends[0], ends[1], words)
+
+
+def _rubber(rubber: Rubber, setting: DrawSetting) -> Iterator[Group]:
+    """Yield what the hand draws, and its measures beside it."""
+    view = setting.view
+    begin, end = view.place(rubber.begin), view.place(rubber.end)
+    yield Group("rubber", [*_drawn(rubber, begin, end, setting)], over=True)
+    if rubber.words:
+        words = DimensionLine(_ALONG, 0, 1, rubber.words, chosen=False)
+        yield from measure(setting, begin, end, words)
+
+
+def _drawn(rubber: Rubber, begin: complex, end: complex, setting: DrawSetting) -> Iterator[Layer]:
+    gauge, theme = setting.gauge, setting.theme
+    if rubber.tool == "bar":
+        colours = theme.outline, mixed(theme.metal, theme.background, 0.3)
+        for layer in lined([begin, end], gauge.bar, gauge.outline, colours):
+            yield layer._replace(alpha=_FAINT)
+    elif rubber.tool == "guide":
+        yield Layer(theme.ground, [*hatched(begin, end, gauge, 1)], _FAINT)
+    else:
+        yield Layer(theme.ink, dashes(begin, end, 11.0 * gauge.line, 2.2 * gauge.line))
+
+
+def _snap(snap: Snap, setting: DrawSetting) -> Iterator[Layer]:
+    """Yield the mark of what is under the hand: a ring, the line lit."""
+    view, gauge, theme = setting.view, setting.gauge, setting.theme
+    at = view.place(snap.at)
+    if snap.ends:
+        begin, end = map(view.place, snap.ends)
+        yield Layer(ORANGE, segments(begin, end, 2.4 * gauge.bar), _LIT)
+    yield Layer(theme.velocity, stroke(at + disc(1.9 * gauge.bar), 1.8 * gauge.line, closed=True))
+
+
+def _crosshair(at: complex, setting: DrawSetting) -> Layer:
+    arms = 0.9 * setting.gauge.bar * np.array([1, 1j])
+    return Layer(setting.theme.velocity, segments(at - arms, at + arms, 1.3 * setting.gauge.line))
+
+
+def _pointer(at: complex, setting: DrawSetting) -> Iterator[Layer]:
+    """Yield an arrow such as the mouse's."""
+    arrow = at + 1.4 * setting.layout.unit * np.array(_ARROW, np.complex128)
+    yield Layer(setting.theme.background, stroke(arrow, 5 * setting.layout.unit, closed=True))
+    yield Layer(setting.theme.ink, [arrow])
+
+
+def _words(shown: BuildShown, setting: DrawSetting) -> Group:
+    """Return what is missing or what the linkage is, at the top, off the tools, on a backing."""
+    layout, theme = setting.layout, setting.theme
+    cells = tool_cells(layout, len(shown.tools.tools)) if shown.tools else ()
+    beside = max((cell.right for cell in cells), default=0) if layout.size[0] >= layout.size[1] else 0
+    left, y, captions = beside + layout.margin, layout.margin, []
+    room = 0.93 * (layout.stage.right - layout.margin - left)
+    sentence = shown.sentence, layout.text_size, theme.warning if shown.is_warning else theme.ink
+    for words, size, colour in (sentence, *((fact, layout.small_size, theme.dim) for fact in shown.facts)):
+        for line in setting.type.wrapped(words, size, room):
+            captions.append(Caption(line, (left, y), size, colour, strong=size == layout.text_size))
+            y += 1.35 * size
+    if not captions:
+        return Group("build-words", ())
+    wide = max(setting.type.width(one.text, one.size, strong=one.strong) for one in captions)
+    edge = 0.5 * layout.small_size
+    middle = complex(left + wide / 2, (layout.margin + y) / 2)
+    plate = middle + box(wide + 2 * edge, y - layout.margin + 2 * edge, edge)
+    return Group("build-words", [Layer(theme.background, [plate], _BACKING)], captions, over=True)

@@ -1,0 +1,371 @@
+"""Draw charts: a frame with axes, curves and points, and the chart beside the scene with its cursor."""
+
+from __future__ import annotations
+
+from cmath import isfinite
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linkanim.mechanics.motion import Motion, Pose
+from linkanim.mechanics.quantities import Quantity
+from linkanim.picture.figure import Figure
+from linkanim.picture.items import Caption, Item
+from linkanim.picture.layout import Layout
+from linkanim.picture.look import Over
+from linkanim.picture.quantities import (
+    Axis,
+    Course,
+    Floats,
+    Series,
+    around,
+    axis_of,
+    broken,
+    course,
+    quantity,
+    series_of,
+)
+from linkanim.picture.raster import Colour, Layer, Loop
+from linkanim.picture.shapes import Stamp, disc, segments, stroke
+from linkanim.picture.text import Type
+from linkanim.picture.theme import Theme
+from linkanim.picture.view import Rect
+from linkanim.units import stepped
+
+# Charts: a frame with axes, curves and points.
+
+_FOOT = 1.6
+"""From the plot down to the title of the horizontal axis, in heights of small text."""
+
+
+@dataclass(frozen=True)
+class Plot:
+    """Where a chart's curves are drawn, and its axes."""
+
+    area: Rect
+    x: Axis
+    y: Axis
+
+    def place(self, x: ArrayLike, y: ArrayLike) -> Loop:
+        """Return pixels for values; above and below the axis they stay at its edge, NaN stays NaN."""
+        across, up = self.x.share(x), np.minimum(np.maximum(self.y.share(y), -0.0), 1.0)
+        pixels: Loop = (self.area.x + across * self.area.width) + 1j * (
+            self.area.bottom - up * self.area.height
+        )
+        return pixels
+
+
+@dataclass(frozen=True)
+class Pen:
+    """What a chart is drawn with."""
+
+    type: Type
+    theme: Theme
+    small: int
+    text: int
+    line: float
+
+
+def pen_for(layout: Layout, type_: Type, theme: Theme) -> Pen:
+    """Return the pen for a window's size."""
+    return Pen(type_, theme, layout.small_size, layout.text_size, 1.8 * layout.unit)
+
+
+def plot_area(rect: Rect, y: Axis, pen: Pen, *, foot: bool = False) -> Rect:
+    """Return what of a rectangle is left for curves beside tick labels, a title above and one at the foot."""
+    labels = max((pen.type.width(label, pen.small) for _, label in y.ticks), default=0)
+    left, top = labels + 0.6 * pen.small, 1.5 * pen.text
+    right, low = 1.4 * pen.small, (_FOOT + 1.2 if foot else 1.6) * pen.small
+    return Rect(
+        rect.x + left, rect.y + top, max(rect.width - left - right, 1), max(rect.height - top - low, 1)
+    )
+
+
+def axes(plot: Plot, pen: Pen) -> Iterator[Item]:
+    """Yield grid lines and tick labels."""
+    area, theme = plot.area, pen.theme
+    columns = [complex(plot.place(value, plot.y.low)) for value, _ in plot.x.ticks]
+    rows = [complex(plot.place(plot.x.low, value)) for value, _ in plot.y.ticks]
+    grid = [*_lines(np.array(columns), -1j * area.height, pen), *_lines(np.array(rows), area.width, pen)]
+    yield Layer(theme.rule, grid)
+    for foot, (_, label) in zip(columns, plot.x.ticks, strict=True):
+        at = (foot.real, area.bottom + 0.4 * pen.small)
+        yield Caption(label, at, pen.small, theme.dim, "centre")
+    for y, label in _levels(plot, pen):
+        at = (area.x - 0.5 * pen.small, y - 0.5 * pen.small)
+        yield Caption(label, at, pen.small, theme.dim, "right")
+
+
+def right_axis(plot: Plot, pen: Pen) -> Iterator[Item]:
+    """Yield the ticks of a second vertical axis, at the right."""
+    feet = plot.place(plot.x.high, [value for value, _ in plot.y.ticks])
+    yield Layer(pen.theme.dim, _lines(feet - 0.3 * pen.small, 0.3 * pen.small, pen))
+    for y, label in _levels(plot, pen):
+        at = (plot.area.right + 0.4 * pen.small, y - 0.5 * pen.small)
+        yield Caption(label, at, pen.small, pen.theme.dim)
+
+
+def _levels(plot: Plot, pen: Pen) -> Iterator[tuple[float, str]]:
+    """Yield how far down ticks of a vertical axis lie, and their labels, but for those that have no room."""
+    below = np.inf
+    for value, label in plot.y.ticks:
+        y = complex(plot.place(plot.x.low, value)).imag
+        if y <= below - pen.small:
+            below = y
+            yield y, label
+
+
+def x_title(plot: Plot, title: str, pen: Pen, *, foot: bool = True) -> Caption:
+    """Return the horizontal axis' title: below the tick labels on a plot with a `foot`, else beside them."""
+    y = plot.area.bottom + (_FOOT if foot else 0.4) * pen.small
+    return Caption(title, (plot.area.right, y), pen.small, pen.theme.dim, "right")
+
+
+def beside_title(plot: Plot, title: str, pen: Pen) -> Plot:
+    """Return a plot without the labels of the ticks that its title would stand on, which it stands beside."""
+    free = plot.area.right - pen.type.width(title, pen.small) - 0.6 * pen.small
+    ticks = []
+    for value, label in plot.x.ticks:
+        right = complex(plot.place(value, plot.y.low)).real + 0.5 * pen.type.width(label, pen.small)
+        ticks.append((value, label if right <= free else ""))
+    return replace(plot, x=replace(plot.x, ticks=tuple(ticks)))
+
+
+def marked(
+    plot: Plot, marks: Sequence[tuple[float, str]], values: NDArray[np.float64], pen: Pen
+) -> Iterator[Item]:
+    """Yield a dashed line at each mark, its label at the end that is further from the curve's value there."""
+    area = plot.area
+    for (x, label), value in zip(marks, values, strict=True):
+        foot, wide = complex(plot.place(x, plot.y.low)), pen.type.width(label, pen.small)
+        yield Layer(pen.theme.dim, list(_dashes(foot, area.height, pen)))
+        low = float(plot.y.share(value)) > 0.5
+        left = foot.real + 0.3 * pen.small
+        left = left if left + wide <= area.right else foot.real - 0.3 * pen.small - wide
+        at = (left, area.bottom - 1.2 * pen.small if low else area.y + 0.1 * pen.small)
+        yield Caption(label, at, pen.small, pen.theme.dim)
+
+
+def _dashes(foot: complex, height: float, pen: Pen) -> Iterator[Loop]:
+    """Yield a dashed line that rises from a point."""
+    for start in np.arange(0.0, height, 6 * pen.line):
+        top = foot - 1j * min(start + 3 * pen.line, height)
+        yield from segments(foot - 1j * start, top, 0.7 * pen.line)
+
+
+def _lines(feet: Loop, reach: complex, pen: Pen) -> list[Loop]:
+    return segments(feet, feet + reach, 0.6 * pen.line) if feet.size else []
+
+
+def curve_layer(
+    plot: Plot, x: ArrayLike, y: ArrayLike, colour: Colour, width: float, dashes: Sequence[float] = ()
+) -> Layer:
+    """Return a curve, dashed in widths of its line; it is broken where a value is not finite."""
+    pixels = plot.place(x, np.where(np.isfinite(y), y, np.nan))
+    held = (pixels[run] for run in runs_of(np.isfinite(pixels)))
+    return line_layer(held, colour, width, dashes)
+
+
+def line_layer(runs: Iterable[Loop], colour: Colour, width: float, dashes: Sequence[float] = ()) -> Layer:
+    """Return lines along paths in pixels, dashed in widths of the line."""
+    parts = (part for run in runs for part in _dashed(run, width * np.array(dashes))) if dashes else runs
+    return Layer(colour, [loop for part in parts for loop in stroke(part, width)])
+
+
+def _dashed(run: Loop, dashes: NDArray[np.float64]) -> Iterator[Loop]:
+    """Yield the pieces of a path that dashes leave, each dash followed by a gap."""
+    gone = np.concatenate(([0.0], np.cumsum(np.abs(np.diff(run)))))
+    ends = np.concatenate(([0.0], np.cumsum(dashes)))
+    for start in np.arange(0.0, gone[-1], ends[-1]):
+        for begin, end in start + ends[:-1].reshape(-1, 2):
+            along = np.concatenate(([begin], gone[(gone > begin) & (gone < end)], [min(end, gone[-1])]))
+            if begin < gone[-1]:
+                yield np.interp(along, gone, run.real) + 1j * np.interp(along, gone, run.imag)
+
+
+def dot(colour: Colour, pen: Pen) -> Stamp:
+    """Return a dot about 0 in a ring of the background."""
+    ring = Layer(pen.theme.background, [disc(3.6 * pen.line)])
+    return Stamp((ring, Layer(colour, [disc(2.7 * pen.line)])))
+
+
+def runs_of(held: NDArray[np.bool_]) -> Iterator[NDArray[np.intp]]:
+    """Yield the numbers of neighbours that are all held."""
+    numbers = np.flatnonzero(held)
+    parts = np.split(numbers, np.flatnonzero(np.diff(numbers) > 1) + 1)
+    return (run for run in parts if run.size)
+
+
+# The chart beside the scene: one quantity over one true period of the motion as it runs, and its cursor.
+
+_TITLE = 1.35
+"""From the plot up to the line above it, in heights of its text."""
+_GAP = 1.2
+"""Between two things in that line, in heights of its text."""
+
+
+@dataclass(frozen=True)
+class ChartPanel:
+    """A quantity of a motion that runs at `speed` (rad/s, negative: the phase runs back), `over` an axis."""
+
+    figure: Figure
+    quantity: Quantity
+    rect: Rect
+    pen: Pen
+    speed: float
+    over: Over | None = None
+
+    def at(self, speed: float) -> ChartPanel:
+        """Return the chart of the same motion at another speed; nothing is solved for it."""
+        return self if speed == self.speed else replace(self, speed=speed)
+
+    @cached_property
+    def course(self) -> Course:
+        """What the values are shown over."""
+        scene = self.figure.scene
+        return course(scene, self.speed, axis_of(scene, self.over))
+
+    @cached_property
+    def series(self) -> Series:
+        """The quantity over one true period."""
+        found = series_of(self.figure.scene, self.quantity, self._cycle)
+        return broken(found, self.quantity, self.figure.cycle)
+
+    @cached_property
+    def _cycle(self) -> Motion:
+        return self.figure.cycle.paced(self.speed / self.figure.linkage.drive.speed)
+
+    @cached_property
+    def curves(self) -> tuple[Floats, Floats]:
+        """The places along the course and the values there, a column for each curve."""
+        return self.course.laid(self.series)
+
+    @cached_property
+    def plot(self) -> Plot:
+        """Where the curves are drawn."""
+        small = self.pen.small
+        most = max(min(round(self.rect.height / (2.1 * small)), 6), 2)
+        y = around(self.curves[1], most=most, unit=self.series.unit)
+        area = plot_area(self.rect, y, self.pen, foot=self._has_foot)
+        return Plot(area, self.course.axis(max(min(round(self.rect.width / (5 * small)), 8), 2)), y)
+
+    @property
+    def _has_foot(self) -> bool:
+        """Whether there is room for a line below the tick labels."""
+        return self.rect.height >= 9 * self.pen.small
+
+    def still(self) -> Iterator[Item]:
+        """Yield what stands still, back to front."""
+        yield from self.frame()
+        for n, column in enumerate(self.curves[1].T):
+            yield curve_layer(self.plot, self.curves[0], column, self.colour(n), self.width)
+
+    @property
+    def width(self) -> float:
+        """How wide curves are drawn, in pixels."""
+        return 1.3 * self.pen.line
+
+    def frame(self) -> Iterator[Item]:
+        """Yield what stands still but for the curves."""
+        title, pen = self.course.title, self.pen
+        yield from axes(self.plot if self._has_foot else beside_title(self.plot, title, pen), pen)
+        yield x_title(self.plot, title, pen, foot=self._has_foot)
+        x, values = self.curves
+        heights = np.interp([place for place, _ in self.course.marks], x, values[:, 0])
+        yield from marked(self.plot, self.course.marks, heights, pen)
+        yield self._y_title()
+
+    def _y_title(self) -> Caption:
+        """Return the vertical axis' title: words, symbol and unit, as much as leaves room for the reading."""
+        pen, area = self.pen, self.plot.area
+        room = area.width - self._widest_reading - _GAP * pen.text
+        full = self.quantity.title(self.figure.scene.length_unit)
+        short = full.removeprefix(f"{self.quantity.words} ")
+        words = full if pen.type.width(full, pen.text) <= room else short
+        return Caption(words, (area.x, area.y - _TITLE * pen.text), pen.text, pen.theme.ink)
+
+    @cached_property
+    def _widest_reading(self) -> float:
+        ends = (np.full(self.curves[1].shape[1], end) for end in (self.plot.y.low, self.plot.y.high))
+        return max(sum(self._widths(self.reading(values))) for values in ends)
+
+    def colour(self, n: int) -> Colour:
+        """Return the colour of a column."""
+        return (self.pen.theme.velocity, self.pen.theme.acceleration)[n % 2]
+
+    def values_at(self, pose: Pose) -> Floats:
+        """Return the pose's own values; of an angle the turn in which the curve stands there."""
+        found: Floats = np.atleast_1d(np.asarray(self.quantity.shown(pose), float))
+        if self.series.unit != "°":
+            return found
+        x, values = self.curves
+        near = np.array([np.interp(self.course.x_of(pose.phase), x, column) for column in values.T])
+        return found + 360.0 * np.nan_to_num(np.rint((near - found) / 360.0))
+
+    def foot(self, pose: Pose) -> complex:
+        """Return where the cursor stands on the axis at a pose, in pixels."""
+        return complex(self.plot.place(float(self.course.x_of(pose.phase)), self.plot.y.low))
+
+    def cursor(self, pose: Pose) -> list[Layer]:
+        """Return the line at a pose and the dots where it meets the curves."""
+        places = self.plot.place(self.course.x_of(pose.phase), [self.plot.y.low, *self.values_at(pose)])
+        found = [mark.at([place]) for mark, place in zip(self._marks, places, strict=True) if isfinite(place)]
+        return [layer for layers in found for layer in layers]
+
+    @cached_property
+    def _marks(self) -> tuple[Stamp, ...]:
+        """The line up from the axis, and each curve's dot, about 0."""
+        pen, head = self.pen, -1j * self.plot.area.height
+        line = Stamp((Layer(pen.theme.ink, segments(0, head, 0.8 * pen.line)),))
+        return line, *(dot(self.colour(n), pen) for n in range(len(self.series.labels)))
+
+    def reading(self, values: NDArray[np.float64]) -> tuple[str, ...]:
+        """Return values in words, one for each curve."""
+        span, gap = self.plot.y.high - self.plot.y.low, "" if self.series.unit == "°" else " "
+        return tuple(
+            f"{label} {stepped(float(value), span / 500)}{gap}{self.series.unit}".strip()
+            for label, value in zip(self.series.labels, values, strict=True)
+        )
+
+    def readings(self, pose: Pose) -> Iterator[Item]:
+        """Yield the pose's values at the right above the plot, of several curves each with its colour."""
+        pen, words = self.pen, self.reading(self.values_at(pose))
+        widths = self._widths(words)
+        y, x = self.plot.area.y - _TITLE * pen.text, self.plot.area.right - sum(widths)
+        for n, (text, width) in enumerate(zip(words, widths, strict=True)):
+            left = x + width - pen.type.width(text, pen.text)
+            yield Caption(text, (left, y), pen.text, pen.theme.ink)
+            if len(words) > 1:
+                end = complex(left - 0.4 * pen.text, y + 0.5 * pen.text)
+                yield Layer(self.colour(n), segments(end - self._swatch, end, 1.6 * pen.line))
+            x += width
+
+    @property
+    def _swatch(self) -> float:
+        return 1.1 * self.pen.text
+
+    def _widths(self, words: tuple[str, ...]) -> list[float]:
+        """Return how much of the line each value takes, with its colour where there are several."""
+        colours = self._swatch + (0.4 + _GAP) * self.pen.text if len(words) > 1 else 0.0
+        return [self.pen.type.width(text, self.pen.text) + colours for text in words]
+
+    def phase_at(self, px: float, py: float) -> float | None:
+        """Return the phase under a pixel, None outside the chart; a little beside the ends counts."""
+        area = self.plot.area
+        near = Rect(area.x - 12, area.y, area.width + 24, area.height + 2 * self.pen.small)
+        if not near.holds(px, py):
+            return None
+        share = min(max((px - area.x) / area.width, 0.0), 1.0)
+        return float(self.course.phase_of(share * self.course.span)) % self.course.period
+
+
+def chart_panel(figure: Figure, token: str, layout: Layout, pen: Pen, over: Over | None = None) -> ChartPanel:
+    """Return the chart of a quantity for a window, at the scene's own speed, over the usual or another axis.
+
+    BadInput where the scene has no such quantity.
+    """
+    rect = layout.chart or Rect(0, 0, *layout.size)
+    return ChartPanel(figure, quantity(figure.scene, token), rect, pen, figure.linkage.drive.speed, over)

@@ -1,0 +1,140 @@
+"""A slider's two dead centres as ticks on its guide, the input's angle at each; its stroke and time ratio."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import cached_property, partial
+from itertools import pairwise
+from math import degrees
+
+import numpy as np
+
+from linkanim.mechanics.measures import output_slider
+from linkanim.mechanics.quantities import input_symbol
+from linkanim.picture.fittings import Bench, rail_reach
+from linkanim.picture.layout import Layout
+from linkanim.picture.quantities import driven_words
+from linkanim.picture.raster import Layer, Loop
+from linkanim.picture.shapes import arrows, segments
+from linkanim.units import short, stepped, typeset
+
+_TICK = 1.6
+"""How far a tick reaches beyond the rail, in half widths of a bar."""
+_VISIBLE = 1e-3
+"""Pixels that a slider travels at the least for its ends to be marked."""
+_WIDE = 3.0
+"""Beside a guide whose rails lie further off, in half widths of a bar, ticks do not cross it."""
+_NEAR = 0.3
+"""What passes the guide no further off its ends, in strokes, is in the way of the words."""
+_FEW = 1e-6
+
+
+@dataclass(frozen=True)
+class DeadCentres:
+    """The dead centres of a figure's output slider, which slides on the ground; `sized` with its stroke.
+
+    `ends` is where the slider is in pixels, furthest back and forward, `rail` how far its rails lie aside.
+    """
+
+    bench: Bench
+    layout: Layout
+    sized: bool
+    ends: tuple[complex, complex]
+    rail: float
+
+    def words(self) -> Iterator[tuple[str, Callable[[tuple[float, float]], Loop]]]:
+        """Yield the input's angle at each dead centre, and between them the stroke and the time ratio.
+
+        With each comes where the middle of a line of text of a size may stand.
+        """
+        info = self.bench.figure.scene.info
+        lines = [*map(self._angle, info.dead_centres or ())]
+        if self.sized and info.stroke and info.time_ratio:
+            stroke = f"stroke {short(info.stroke)} {self.bench.figure.scene.length_unit}"
+            lines.append(typeset(f"{stroke}, time ratio {short(info.time_ratio)}"))
+        feet = (*zip(self.ends, (-1, 1), strict=True), (sum(self.ends) / 2, 0))
+        for text, foot in zip(lines, feet, strict=False):
+            yield text, partial(self._places, *foot)
+
+    def _places(self, foot: complex, way: int, size: tuple[float, float]) -> Loop:
+        """Return places for the middle of a line of text off the guide, the one to the way `out` first."""
+        (along, out), (wide, high) = self._frame, size
+        aside, beyond = (0.5 * (abs(side.real) * wide + abs(side.imag) * high) for side in (out, along))
+        level = self._reach + aside + 0.2 * high + (0 if way else 1.3 * high * abs(out.imag))
+        steps = [0, way * beyond, 2 * way * beyond, -way * beyond, -2 * way * beyond] if way else [0]
+        return np.array(
+            [
+                foot + side * out * (level + further * high) + step * along
+                for side in (1, -1)
+                for further in (0, 1.2)
+                for step in steps
+            ]
+        )
+
+    @cached_property
+    def _frame(self) -> tuple[complex, complex]:
+        """The way of the slider in pixels, and the way out from its guide: where there is more room."""
+        begin, way = self.ends[0], self.ends[1] - self.ends[0]
+        seen = (np.concatenate([np.zeros(0, complex), *self._passed()]) - begin) / way
+        near = seen[(seen.real > -_NEAR) & (seen.real < 1 + _NEAR)].imag
+        crowded = float(np.sum(np.sign(near) * np.exp(-np.abs(near))))
+        out = 1j * way / abs(way) * (-1 if crowded > _FEW * near.size else 1)
+        return way / abs(way), out if self._fits(out) or not self._fits(-out) else -out
+
+    def _passed(self) -> Iterator[Loop]:
+        """Yield pixels that bars pass through in the cycle, but for the slider's own way."""
+        figure, view = self.bench.figure, self.bench.view
+        for body in figure.bodies:
+            for ends in pairwise(body.joints):
+                begin, end = (figure.path(name, view) for name in ends)
+                yield from (begin + share * (end - begin) for share in (0.2, 0.4, 0.6, 0.8))
+
+    def _fits(self, out: complex) -> bool:
+        """Whether the words have room on one side of the guide."""
+        stage, high = self.layout.stage, (self._reach + 2.8 * self.layout.small_size) * out
+        return all(stage.holds((end + high).real, (end + high).imag) for end in self.ends)
+
+    @property
+    def _reach(self) -> float:
+        """How far the ticks reach from the line of travel."""
+        return self.rail + _TICK * self.bench.gauge.bar
+
+    def _angle(self, phase: float) -> str:
+        scene = self.bench.figure.scene
+        angle = scene.pose(phase, 0).coordinate
+        if not scene.info.full_turn:
+            return f"{input_symbol(scene.linkage)} = {driven_words(scene, angle)}"
+        return f"{input_symbol(scene.linkage)} = {stepped(round(degrees(angle), 1) % 360, 0.1)}°"
+
+    @cached_property
+    def ticks(self) -> tuple[tuple[complex, complex], ...]:
+        """The lines across the guide, or beside a cylinder, and with the stroke the one between them."""
+        (_, out), bar = self._frame, self.bench.gauge.bar
+        level = out * (self._reach - 0.4 * bar)
+        begin = -self._reach if self.rail < _WIDE * bar else self.rail
+        across = tuple((foot + out * begin, foot + out * self._reach) for foot in self.ends)
+        return (*across, (self.ends[0] + level, self.ends[1] + level)) if self.sized else across
+
+    @property
+    def layers(self) -> list[Layer]:
+        """The ticks, and the stroke's arrows between them."""
+        width, (first, second, *level) = 0.9 * self.bench.gauge.line, self.ticks
+        begins, ends = zip(first, second, strict=True)
+        lines = segments(begins, ends, width)
+        for begin, end in level:
+            middle = (begin + end) / 2
+            lines += arrows([middle, middle], [begin - middle, end - middle], 1.6 * width)
+        return [Layer(self.bench.theme.dim, lines)]
+
+
+def dead_centres_of(bench: Bench, layout: Layout, *, sized: bool) -> DeadCentres | None:
+    """Return the dead centres; None where no slider runs on the ground, or it travels too little."""
+    figure, body = bench.figure, output_slider(bench.figure.linkage)
+    slider, phases = body.slider if body else None, figure.scene.info.dead_centres
+    if slider is None or phases is None or figure.linkage.joint(slider).slides[0].start is not None:
+        return None
+    back, forward = (bench.view.place(figure.scene.pose(phase, 0).position[slider]) for phase in phases)
+    if not abs(forward - back) > _VISIBLE:
+        return None
+    return DeadCentres(bench, layout, sized, (back, forward), rail_reach(bench, slider))

@@ -1,1 +1,0 @@
-"""Charts, polygons and centres: quantities drawn beside the linkage or over it."""

@@ -1,0 +1,269 @@
+"""Name and measure dimensions: r₁ for the ground, r₂ for the crank, and so on, with lines and arcs.
+
+What each symbol measures comes from the linkage. Dimension lines are arrows from end to end beside what is
+measured, with lines that lead there, and arcs of angles.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import count, pairwise
+from math import degrees
+from typing import NamedTuple
+
+import numpy as np
+
+from linkanim.mechanics.linkage import Body, Brace, Rigid
+from linkanim.mechanics.quantities import driven_body
+from linkanim.picture.figure import Figure
+from linkanim.picture.layout import Gauge
+from linkanim.picture.raster import Colour, Layer, Loop
+from linkanim.picture.shapes import Part, arrows, dashes, directions, segments, stroke, unit
+from linkanim.picture.text import subscripted
+from linkanim.picture.view import View
+from linkanim.units import short, typeset
+
+# Dimension lines: arrows from end to end beside what is measured, lines that lead there, arcs of angles.
+
+_OVER = 2.5
+"""How far a lead goes beyond the line that it leads to, in widths of it."""
+_OFF = 1.2
+"""Where a lead begins, in half widths of a bar."""
+
+
+class MeasureLine(NamedTuple):
+    """A line of dimension in the frame of two joints, whose way is 1: from `begin` to `end`, y down.
+
+    It lies `reach` pixels aside. In a frame of one joint twice, 1 is the scene's unit to the right.
+    """
+
+    frame: tuple[str, str]
+    begin: complex
+    end: complex
+    reach: float
+
+    def part(self, span: float, gauge: Gauge, colour: Colour) -> Part:
+        """Return it drawn, with the frame `span` pixels long."""
+        away = 1j * self.reach * unit(self.end - self.begin)
+        ends = span * self.begin, span * self.end
+        at, head = self.frame
+        return Part(at, at, head, (Layer(colour, dimension_line(*ends, away, gauge)),))
+
+    def tracks(self, at: Loop, way: Loop, gauge: Gauge) -> Loop:
+        """Return its line and its leads, begin and end of each (n moments, 3, 2), for a frame at `at`."""
+        begin, end = at + self.begin * way, at + self.end * way
+        along = end - begin
+        side = 1j * along / np.maximum(np.abs(along), 1e-9) * np.sign(self.reach)
+        level, near = side * abs(self.reach), side * _OFF * gauge.bar
+        pairs = (begin + level, end + level), (begin + near, begin + level), (end + near, end + level)
+        return np.moveaxis(np.array(pairs), -1, 0)
+
+
+class AngleArc(NamedTuple):
+    """An angle in the frame of two joints, between two directions; `radius` in pixels."""
+
+    frame: tuple[str, str]
+    begin: complex
+    end: complex
+    radius: float
+
+    def part(self, span: float, gauge: Gauge, colour: Colour) -> Part:
+        """Return it drawn: the arc, and a lead along each of its sides."""
+        sweep = float(np.angle(self.end / self.begin))
+        path = self.radius * unit(self.begin) * directions(np.linspace(0, sweep, 2 + round(12 * abs(sweep))))
+        leads = [way * (self.radius + _OVER * gauge.line) for way in map(unit, (self.begin, self.end))]
+        at, head = self.frame
+        loops = [*stroke(path, 0.9 * gauge.line), *segments([0j, 0j], leads, 0.7 * gauge.line)]
+        return Part(at, at, head, (Layer(colour, loops),))
+
+    def tracks(self, at: Loop, way: Loop, gauge: Gauge) -> Loop:
+        """Return what it draws in straight lines, begin and end of each (n moments, 4, 2)."""
+        turn = (way / np.maximum(np.abs(way), 1e-9))[:, None] * self.radius * unit(self.begin)
+        shares = np.linspace(0, float(np.angle(self.end / self.begin)), 5)
+        points = at[:, None] + turn * directions(shares)
+        pairs: Loop = np.stack((points[:, :-1], points[:, 1:]), axis=2)
+        return pairs
+
+
+def dimension_line(begin: complex, end: complex, away: complex, gauge: Gauge) -> list[Loop]:
+    """Return a line `away` from its ends, with an arrow at both, and the leads to it."""
+    width, side = 0.9 * gauge.line, unit(away)
+    feet = np.array([begin, end])
+    near = min(_OFF * gauge.bar, 0.5 * abs(away))
+    leads = segments(feet + near * side, feet + away + _OVER * width * side, 0.7 * width)
+    middle = (begin + end) / 2 + away
+    return [*leads, *arrows([middle, middle], [begin + away - middle, end + away - middle], 1.6 * width)]
+
+
+# The textbook's symbols: r₁ for the ground, r₂ for the crank, and so on; what each one measures.
+
+_NONE = 1e-9
+"""Of a figure's extent, and in radians: what is less is not stated."""
+
+
+class Measurement(NamedTuple):
+    """A length between two places of a body or of the ground, or with an `angle` that between two ways.
+
+    `begin` and `end` are in the frame of two joints whose way is 1, y down; of one joint twice, 1 is the
+    scene's unit to the right. A length is in that unit, an angle in degrees. `own` are the joints whose
+    bodies it lies on; of a `bare` one nothing but its own bar runs from end to end.
+    """
+
+    symbol: str
+    value: float
+    about: str
+    frame: tuple[str, str]
+    begin: complex
+    end: complex
+    own: frozenset[str]
+    bare: bool = False
+    angle: bool = False
+
+    def written(self, unit: str) -> str:
+        """Return it as it is set: r₂ = 40 mm."""
+        return typeset(f"{self.symbol} = {short(self.value)}{'°' if self.angle else ' ' + unit}")
+
+
+class Symbols(NamedTuple):
+    """A figure's dimensions, the points that are stated along a body and to its side, its input's angle."""
+
+    dimensions: tuple[Measurement, ...]
+    points: tuple[Rigid, ...]
+    input: str
+
+
+def symbols(figure: Figure) -> Symbols:
+    """Number a figure's lengths: links that the scene calls by numbers keep them; else in their order.
+
+    r₁ is the ground from the driven pivot to the next, r₂ the first body's bar; a further ground length
+    comes after the body on whose pivot it begins, a body's second length after that, β with its number the
+    angle between the two. Then come points of bodies: one length in line with the body, else along it and to
+    its side; e is how far a guide is from the first pivot.
+    """
+    bodies = [body for body in figure.bodies if body.name or not figure.linkage.bodies]
+    ground = (*_ground(figure), *_offsets(figure))
+    if bodies and all(body.name.isdecimal() for body in bodies):
+        named = [_bar(figure, body.name, *body.joints[:2], bare=len(body.joints) == 2) for body in bodies]
+        return Symbols((*ground, *named), (), _angle(figure))
+    numbers = (str(n) for n in count(2))
+    found = list(_numbered(figure, bodies, numbers))
+    points = _points(figure)
+    legs = [leg for point in points for leg in _legs(figure, point, numbers)]
+    return Symbols((*ground, *found, *legs), tuple(points), _angle(figure))
+
+
+def leg_part(point: Rigid, view: View, gauge: Gauge, colour: Colour) -> Part:
+    """Return the two lines, dashed, that lead from a body's first joint to a point of it."""
+    along, left = point.at
+    corner = complex(view.scale * along)
+    there = complex(view.scale * along, -view.scale * left)
+    lines = ((0j, corner), (corner, there)) if left else ()
+    loops = [loop for ends in lines for loop in dashes(*ends, 4 * gauge.line, 0.9 * gauge.line)]
+    first, second = point.on
+    return Part(first, first, second, (Layer(colour, loops),))
+
+
+def pivots(figure: Figure) -> list[str]:
+    """Return the fixed pins on which bars turn: the driven one, then as joints need them."""
+    ends = {name for body in figure.bodies for name in body.joints}
+    first = getattr(figure.linkage.joint(figure.linkage.drive.joint), "pivot", None)
+    needed = [name for joint in figure.linkage.joints for name in joint.needs]
+    order = [first, *needed, *figure.fixed]
+    return sorted((name for name in figure.fixed if name in ends), key=order.index)
+
+
+def _ground(figure: Figure) -> Iterator[Measurement]:
+    """Yield the length of the ground, and its angle where it does not lie level."""
+    for first, second in pairwise(pivots(figure)[:2]):
+        yield _bar(figure, "1", first, second, bare=True)
+        way = figure.start(second) - figure.start(first)
+        if abs(way.imag) > _NONE * figure.extent:
+            value, about = degrees(float(np.angle(way))), f"{_named(first, second)} to the level"
+            yield Measurement("θ₁", value, about, (first, first), 1, way.conjugate(), frozenset(), angle=True)
+
+
+def _offsets(figure: Figure) -> Iterator[Measurement]:
+    """Yield how far the guides on the ground are from the first pivot, where they run through none."""
+    found, names = [], pivots(figure)
+    lines = [(joint, line) for joint in figure.linkage.joints if (line := getattr(joint, "line", None))]
+    for joint, line in lines if names else ():
+        across = -1j * complex(directions(line.angle))
+        place = figure.start(joint.name)
+        off = [((place - figure.start(name)) * across.conjugate()).real for name in names]
+        if line.on is None and min(map(abs, off)) > _NONE * figure.extent:
+            found.append((joint.name, off[0] * across))
+    for n, (name, foot) in enumerate(found, start=1):
+        symbol = subscripted(f"e{n}") if len(found) > 1 else "e"
+        about = f"{_named(names[0])} to the guide of {_named(name)}"
+        yield Measurement(symbol, abs(foot), about, (names[0], names[0]), 0, foot.conjugate(), frozenset())
+
+
+def _numbered(figure: Figure, bodies: list[Body], numbers: Iterator[str]) -> Iterator[Measurement]:
+    others = pivots(figure)
+    for body in bodies:
+        first, *rest = [name for n, name in enumerate(body.joints) if n < 2 or name in figure.pins]
+        yield _bar(figure, next(numbers), first, rest[0], bare=len(body.joints) == 2)
+        if len(others) > 2 and others[1] in body.joints:
+            yield from _with_angle(figure, next(numbers), others[1], others[0], others[2], bare=True)
+            others = others[1:]
+        for name in rest[1:]:
+            yield from _with_angle(figure, next(numbers), first, rest[0], name)
+        for joint in (joint for joint in figure.linkage.joints if isinstance(joint, Brace)):
+            for start, _ in joint.bars if {*joint.on, joint.name} <= set(body.joints) else ():
+                if first not in (start, joint.name):
+                    yield _bar(figure, next(numbers), start, joint.name)
+
+
+def _with_angle(
+    figure: Figure, number: str, at: str, side: str, name: str, *, bare: bool = False
+) -> Iterator[Measurement]:
+    """Yield the length from joint to joint, and the angle there from another of its body, if it has one."""
+    yield _bar(figure, number, at, name, bare=bare)
+    if figure.start(side) == figure.start(at):
+        return
+    turn = (figure.start(name) - figure.start(at)) / (figure.start(side) - figure.start(at))
+    if abs(turn.imag) > _NONE * abs(turn) and not isinstance(figure.linkage.joint(name), Brace):
+        value, own = abs(degrees(float(np.angle(turn)))), frozenset() if bare else frozenset((at, side, name))
+        symbol, about = subscripted(f"β{number}"), _named(side, at, name)
+        yield Measurement(symbol, value, about, (at, side), 1, turn.conjugate(), own, angle=True)
+
+
+def _points(figure: Figure) -> list[Rigid]:
+    joints = figure.linkage.joints
+    return [joint for joint in joints if isinstance(joint, Rigid) and joint.name not in figure.pins]
+
+
+def _legs(figure: Figure, point: Rigid, numbers: Iterator[str]) -> Iterator[Measurement]:
+    """Yield a point's distance from its body's first joint; off the body's line, along it and aside."""
+    (first, second), (along, left), name = point.on, point.at, point.name
+    span, own = abs(figure.start(second) - figure.start(first)), frozenset((first, second, name))
+    corner, there = complex(along) / span, complex(along, -left) / span
+    aside = f"{_named(name)} off {_named(first, second)}"
+    level = f"{_named(first)} along {_named(first, second)}" if left else _named(first, name)
+    for value, begin, end, about in ((along, 0j, corner, level), (left, corner, there, aside)):
+        if value:
+            symbol = subscripted(f"r{next(numbers)}")
+            yield Measurement(symbol, abs(value), about, point.on, begin, end, own)
+
+
+def _bar(figure: Figure, number: str, begin: str, end: str, *, bare: bool = False) -> Measurement:
+    stated = {
+        frozenset((joint.name, start)): length
+        for joint in figure.linkage.joints
+        for start, length in joint.bars
+    }
+    apart = abs(figure.start(end) - figure.start(begin))
+    value, ends = stated.get(frozenset((begin, end)), apart), (begin, end)
+    own = frozenset(() if begin in figure.fixed and end in figure.fixed else ends)
+    return Measurement(subscripted(f"r{number}"), value, _named(*ends), ends, 0, 1, own, bare)
+
+
+def _named(*joints: str) -> str:
+    return "–".join(map(subscripted, joints))
+
+
+def _angle(figure: Figure) -> str:
+    driven = driven_body(figure.linkage)
+    joints = set(driven.joints) if driven else {""}
+    number = next((n for body, n in figure.numbers.items() if joints <= set(body.joints)), "2")
+    return subscripted(f"θ{number}")

@@ -1,0 +1,616 @@
+"""Draw what joints need beside bars and pins, springs and dampers, and what stands still.
+
+A joint's fittings are such as a slider's block and its guide. A spring's pitch follows its length, a
+damper's piston slides. The ground has pedestals with their hatching under fixed pins, and the guides of
+sliders.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from itertools import pairwise
+from math import frexp, pi
+from typing import NamedTuple
+
+import numpy as np
+
+from linkanim.mechanics.linkage import Damper, Joint, Line, Slide, Spring
+from linkanim.picture.figure import DOWN, Figure
+from linkanim.picture.layout import Gauge
+from linkanim.picture.raster import Layer, Loop, Outlines
+from linkanim.picture.shapes import (
+    MOST_MARKS,
+    Part,
+    Places,
+    box,
+    cut_ribbon,
+    directions,
+    length,
+    lengths,
+    lined,
+    offsets,
+    ribbon,
+    rod,
+    rounded,
+    segments,
+    slotted,
+    stroke,
+    unit,
+)
+from linkanim.picture.theme import LIGHT, Theme, mixed
+from linkanim.picture.view import View
+
+# Springs, whose pitch follows their length, and dampers, whose piston slides.
+
+_COILS = (4, 20)
+"""Of how few and how many coils a spring has, as its shortest length allows."""
+TILT = 0.15
+"""How far a coil's front stands forward of its side, as a share of its radius."""
+BACK, EDGE, CORE = 1.9, 2.6, 1.5
+"""How wide far halves are drawn, and near ones with and without their outline, in widths of the wire."""
+_WOUND = 8.5
+"""From coil to coil where a spring is shortest, in widths of a thin line."""
+_CYLINDER = 0.6
+"""How long a cylinder that holds or drives is at the least, in lengths of it drawn in."""
+_BARREL = 0.95
+"""The half width of a damper's or cylinder's barrel, in half widths of a bar."""
+
+
+class StrutSpan(NamedTuple):
+    """The shortest and the longest distance between two joints over a cycle, in pixels."""
+
+    shortest: float
+    longest: float
+
+
+def reach(figure: Figure, view: View, item: Spring | Damper) -> StrutSpan:
+    """Return how short and how long a spring or damper becomes."""
+    one, other = (figure.path(name, view) for name in item.between)
+    apart = lengths(one - other)
+    return StrutSpan(float(np.nanmin(apart)), float(np.nanmax(apart)))
+
+
+@dataclass(frozen=True)
+class Coil:
+    """A spring to draw: its radius and the straight length at either end in pixels, its coils."""
+
+    between: tuple[str, str]
+    radius: float
+    lead: float
+    coils: int
+    gauge: Gauge
+    theme: Theme
+
+    def layers(self, places: Places) -> list[Layer]:
+        """Return the far halves of the coils, then the near ones over them."""
+        start, end = (places[name] for name in self.between)
+        span, turn = length(end - start), unit(end - start)
+        lead = min(self.lead, 0.2 * span)
+        pitch = (span - 2 * lead) / self.coils
+        feet = np.asarray(start + turn * (lead + pitch * np.arange(self.coils)), np.complex128)
+        wire = self.wire
+        along, round_ = self._halves
+        halves = turn * (pitch * along + round_)
+        far, near = zip(halves, offsets(halves), strict=True)
+        # the near halves' outlines hide where the far ones end
+        shade = mixed(self.theme.metal, self.theme.background, 0.3)
+        layers = [Layer(shade, [cut_ribbon(*far, BACK * wire)]).repeated(feet)]
+        for colour, width in ((self.theme.outline, EDGE * wire), (self.theme.metal, CORE * wire)):
+            (one, other), coil = _leads(lead, self.radius, width), ribbon(*near, width)
+            points = start + turn * one, end + turn * other, np.add.outer(feet, coil).ravel()
+            counts = len(one), len(other), *[len(coil)] * self.coils
+            layers.append(Layer(colour, Outlines(np.concatenate(points), counts)))
+        return layers
+
+    @property
+    def wire(self) -> float:
+        """How wide its wire is reckoned, in pixels."""
+        return 1.5 * self.gauge.line
+
+    @cached_property
+    def _halves(self) -> tuple[Loop, Loop]:
+        """A coil's far half and its near one, the spring along the real axis: along it, and about it."""
+        along = np.add.outer([0.5, 0.0], np.linspace(0, 0.5, 13))
+        way = directions(2 * pi * along - pi / 2)
+        about = self.radius * (TILT * way.real + 1j * way.imag)
+        return along.astype(np.complex128), about.astype(np.complex128)
+
+
+@lru_cache(maxsize=16)
+def _leads(lead: float, radius: float, width: float) -> tuple[Loop, Loop]:
+    """Return a spring's wire at its start and at its end, each about 0, the spring along the real axis."""
+    share = np.linspace(0.0, 1.0, 13)
+    rise = share * share * (3 - 2 * share)
+    (first,) = stroke(lead * share - 1j * radius * rise, width)
+    return first, -first.conj()[::-1]
+
+
+@dataclass(frozen=True)
+class Damping:
+    """A damper to draw: how far it reaches, its cylinder's length and where that begins, in pixels.
+
+    `cylinder` lies along the real axis from its closed end at 0, `head` about 0.
+    """
+
+    between: tuple[str, str]
+    reach: StrutSpan
+    length: float
+    foot: float
+    rod: float
+    cylinder: tuple[Layer, Layer]
+    head: Layer
+
+    def layers(self, places: Places) -> list[Layer]:
+        """Return cylinder, rods and piston; the piston stands deeper the shorter the damper is."""
+        start, end = (places[name] for name in self.between)
+        span, turn = length(end - start), unit(end - start)
+        piston = self.foot + self._piston(span)
+        rods = [rod(piston, max(span, piston), self.rod / 2), rod(0.0, self.foot, self.rod / 2)]
+        return [
+            *(layer.placed(start + turn * self.foot, turn) for layer in self.cylinder),
+            Layer(self.cylinder[0].colour, rods).placed(start, turn),
+            self.head.placed(start + turn * piston, turn),
+        ]
+
+    def _piston(self, span: float) -> float:
+        """Return where in the cylinder the piston stands, in pixels from its closed end."""
+        swept = self.reach.longest - self.reach.shortest
+        share = (span - self.reach.shortest) / swept if swept > 0 else 0.5
+        return self.length * (0.16 + 0.68 * min(max(share, 0.0), 1.0))
+
+
+def coils(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> tuple[Coil, ...]:
+    """Return the scene's springs."""
+    lead, found = 1.5 * gauge.bar, []
+    for item in figure.linkage.springs:
+        room = reach(figure, view, item).shortest - 2 * lead
+        count = min(max(int(room / (_WOUND * gauge.line)), _COILS[0]), _COILS[1])
+        found.append(Coil(item.between, 1.15 * gauge.bar, lead, count, gauge, theme))
+    return tuple(found)
+
+
+def dampings(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> tuple[Damping, ...]:
+    """Return the scene's dampers and driving cylinder, each as long as its stroke needs, if there is room."""
+    found = []
+    for item in figure.cylinders:
+        span = reach(figure, view, item)
+        needed = (span.longest - span.shortest) / 0.68
+        least = 5 * gauge.bar if item.forceful else max(5 * gauge.bar, _CYLINDER * span.shortest)
+        length = min(max(needed, least), max(0.8 * span.shortest, 2 * gauge.bar))
+        foot = max(0.5 * (span.shortest - length), 0.0) * 0.6
+        found.append(damping(item.between, span, (length, foot), gauge, theme))
+    return tuple(found)
+
+
+def damping(
+    between: tuple[str, str], span: StrutSpan, size: tuple[float, float], gauge: Gauge, theme: Theme
+) -> Damping:
+    """Return a damper whose cylinder has a length and begins so far from the first joint, in pixels."""
+    (length, foot), radius = size, _BARREL * gauge.bar
+    cylinder = barrel(0.0, length, radius, gauge, theme)
+    head = piston(0.16 * length, radius, gauge, theme)
+    return Damping(between, span, length, foot, 2.4 * gauge.line, cylinder, head)
+
+
+def barrel(near: float, far: float, radius: float, gauge: Gauge, theme: Theme) -> tuple[Layer, Layer]:
+    """Return a cylinder along the real axis: its wall, and its inside."""
+    length, middle, edge = far - near, (near + far) / 2, gauge.outline
+    wall = box(length, 2 * radius, 0.25 * radius) + middle
+    inside = box(length - 2 * edge, 2 * (radius - edge), 0.2 * radius) + middle
+    hollow = mixed(theme.metal, theme.background, 0.72)
+    return Layer(theme.outline, [wall]), Layer(hollow, [inside])
+
+
+def piston(length: float, radius: float, gauge: Gauge, theme: Theme) -> Layer:
+    """Return the piston about 0 that fits into a cylinder along the real axis."""
+    return Layer(theme.metal, [box(length, 2 * radius - 3 * gauge.outline, 0.1 * radius)])
+
+
+# Fittings: what a joint needs beside bars and pins, such as a slider's block and its guide.
+#
+# They follow from what slides along what, whatever the joint's kind.
+
+_TRIED = 90
+"""Poses of a cycle at which is looked how far a fitting reaches."""
+_LARGE = 20
+"""Powers of two in the size of a scene that is taken as it is; a larger one is scaled down."""
+_BLOCK = (4.6, 3.2)
+"""A slider block's length and height in half widths of a bar."""
+SLOTTED, SLOT = 1.35, 0.5
+"""Half the widths of a slotted bar and of its slot, in those of a bar."""
+ROD, BARREL = 0.6, 1.2
+"""Half the widths of a rod that slides through a swivel, and of the cylinder that it slides in."""
+PISTON = 1.1
+"""The length of the piston at its end, in half widths of a bar."""
+_BORE = 1.5
+"""How wide an engine's cylinder is, in widths that its rod sweeps where it is open."""
+_CROWN, _SKIRT = 0.8, 0.55
+"""How far an engine's piston reaches beyond its pin and back, in half widths of its cylinder."""
+_RINGS, _HEAD = (0.5, 0.72), 1.3
+"""Where its rings and, as it is furthest out, the cylinder's head are between its pin and its crown."""
+
+
+@dataclass(frozen=True)
+class Bench:
+    """What fittings are made with: the scene with its cycle, its scale, thicknesses and colours."""
+
+    figure: Figure
+    view: View
+    gauge: Gauge
+    theme: Theme
+
+
+@dataclass(frozen=True)
+class Bar:
+    """What a joint makes of the bar from one joint to another: a slotted bar, or a rod with a piston.
+
+    `slot` has the slot's ends in pixels from the first joint, the other on the real axis. Without a
+    slot the bar is a rod, with a `piston` at its end or not.
+    """
+
+    ends: tuple[str, str]
+    slot: tuple[complex, complex] | None = None
+    piston: bool = False
+
+
+class GuideRails(NamedTuple):
+    """Two lines on the ground and the joint that travels between them: the way `along`, y down, has length 1.
+
+    They lie `aside` of its line of travel, and begin and end so far `beyond` its ends; with a `head` they
+    are a cylinder that is closed at their end.
+    """
+
+    joint: str
+    along: complex
+    aside: float
+    beyond: tuple[float, float]
+    head: bool = False
+
+
+@dataclass(frozen=True)
+class Fitting:
+    """What a joint adds to the picture: parts behind the bodies and before them, its guide on the ground.
+
+    `bar` is what it makes of its bar.
+    """
+
+    behind: tuple[Part, ...] = ()
+    before: tuple[Part, ...] = ()
+    guide: GuideRails | None = None
+    bar: Bar | None = None
+
+
+def fittings(bench: Bench) -> tuple[Fitting, ...]:
+    """Return the fittings of all joints that have some, in the joints' order."""
+    return tuple(_fitting(joint, bench) for joint in bench.figure.linkage.joints if joint.slides)
+
+
+def _fitting(joint: Joint, bench: Bench) -> Fitting:
+    """Return what a joint adds by what slides: itself on a line, a pin in its own bar's slot, or both."""
+    first, *across = joint.slides
+    if first.point != joint.name:
+        return _slotted(first, bench)
+    if across:
+        return _yoke(first, across[0], bench)
+    return _slider(joint, first.line, bench)
+
+
+def outlines(figure: Figure) -> Iterator[tuple[Loop, Loop, Loop]]:
+    """Yield the outlines of slotted bars and guides, drawn thin, and the places and directions of each.
+
+    x + yi in the scene's unit, y up, at some of the cycle's moments; where a joint is nowhere none.
+    """
+    # A power of two keeps every digit; arcs have as many points as their size in pixels asks for.
+    scale = 2.0 ** -max(frexp(figure.extent)[1] - _LARGE, 0)
+    thin = scale * 1e-6 * max(figure.shortest, 1e-6 * figure.extent)
+    bench = Bench(figure, View(scale, 0.0, 0.0), Gauge(thin, thin / 8, thin, thin), LIGHT)
+    parts = [part for fitting in fittings(bench) for part in (*fitting.behind, *fitting.before)]
+    step = max(len(figure.cycle.phase) // _TRIED, 1)
+    for fitting in fittings(bench):
+        if fitting.guide and fitting.guide.head:
+            ends = [end for line, _ in _placed(fitting.guide, bench).lines for end in line]
+            yield (
+                np.array(ends, np.complex128).conj() / scale,
+                np.zeros(1, np.complex128),
+                np.ones(1, np.complex128),
+            )
+    for part in parts:
+        at, tail, head = (
+            np.atleast_2d(figure.cycle.position[name])[::step] @ DOWN.conj()
+            for name in (part.at, part.tail, part.head)
+        )
+        way = head - tail
+        turn = np.where(way == 0, 1, way / np.where(way == 0, 1, lengths(way)))
+        known = np.isfinite(at + way)
+        for loop in (loop for layer in part.layers for loop in layer.loops):
+            yield loop.conj() / scale, at[known], turn[known]
+
+
+def hatched(begin: complex, end: complex, gauge: Gauge, side: int) -> Iterator[Loop]:
+    """Yield a line and its hatching to one side (+1: where the imaginary part grows for a line along 1)."""
+    along = unit(end - begin)
+    length, step = abs(end - begin), 0.62 * gauge.bar
+    count = max(round(min(length / step, MOST_MARKS)), 1)
+    feet = begin + along * length * (np.arange(count) + 0.75) / count
+    yield from segments(begin, end, 1.4 * gauge.line)
+    yield from segments(feet, feet + along * (-0.5 + 0.62j * side) * gauge.bar, 0.8 * gauge.line)
+
+
+def _slider(joint: Joint, line: Line, bench: Bench) -> Fitting:
+    """Return a block between rails on the ground, or a small one in the slot of a body that carries it.
+
+    One that drives is in the colour of what drives.
+    """
+    along, name = complex(directions(-line.angle)), joint.name
+    if line.on is not None:
+        guide, slot = _carried_slot(name, line, along, bench)
+        block = Part(name, *line.on, _block(bench, along, 0.62), (name,))
+        return Fitting(behind=(guide,), before=(slot, block))
+    bodies = (body for body in bench.figure.linkage.bodies if body.slider == name)
+    if joint.bars and any(bench.figure.scene.style(body.name).outline == "piston" for body in bodies):
+        return _cylindered(name, joint.bars[0][0], along, bench)
+    rim, metal = _block(bench, along)
+    if name == bench.figure.linkage.drive.joint:
+        metal = Layer(bench.theme.bodies[0], metal.loops)
+    block = Part(name, name, name, (rim, metal), (name,))
+    return Fitting(behind=(block,), guide=_rails(name, along, bench.gauge))
+
+
+def _cylindered(name: str, far: str, along: complex, bench: Bench) -> Fitting:
+    """Return a piston in a cylinder that its rod to `far` stays within; its head is where the rod is not."""
+    gauge, paths = bench.gauge, (bench.figure.path(end, bench.view) for end in (name, far))
+    place, end = (path * np.conj(along) for path in paths)
+    out = along if np.nanmean((place - end).real) > 0 else -along
+    way, rod = place * np.conj(out / along), (end - place) * np.conj(out / along)
+    # how far aside the rod is where the cylinder is open
+    share = np.minimum((way.real - np.nanmin(way.real)) / np.maximum(-rod.real, 1e-9), 1.0)
+    aside = max(_BORE * float(np.nanmax(np.abs(share * rod.imag))), _reach_of_rails(gauge))
+    crown, skirt, edge = _CROWN * aside, _SKIRT * aside, gauge.outline
+    wide, middle = 2 * (aside - gauge.line), (crown - skirt) / 2
+    outer = box(crown + skirt, wide, 0.4 * gauge.bar) + middle
+    inner = box(crown + skirt - 2 * edge, wide - 2 * edge, 0.3 * gauge.bar) + middle
+    rings = [box(2 * edge, wide - 2 * edge) + share * crown for share in _RINGS]
+    shapes = ((bench.theme.outline, [outer]), (bench.theme.metal, [inner]), (bench.theme.outline, rings))
+    layers = tuple(Layer(*shape).placed(0j, out) for shape in shapes)
+    block = Part(name, name, name, layers, (name,))
+    return Fitting((block,), guide=GuideRails(name, out, aside, (0.0, _HEAD * crown), head=True))
+
+
+def _carried_slot(name: str, line: Line, along: complex, bench: Bench) -> tuple[Part, Part]:
+    """Return the bar that a body carries along a line, from the joint it runs through, and the slot in it."""
+    assert line.on is not None
+    gauge, theme, scale = bench.gauge, bench.theme, bench.view.scale
+    places = bench.figure.cycle.position
+    seen = (places[name] - places[line.through]) @ DOWN * np.conj(_facing(line, bench) * along)
+    foot = -1j * along * line.offset * scale
+    near, far = (foot + along * scale * float(way) for way in (np.nanmin(seen.real), np.nanmax(seen.real)))
+    colours = theme.outline, theme.metal
+    arm = lined([0j, foot], gauge.bar, gauge.outline, colours) if line.offset else []
+    bar = lined([foot, near, far], SLOTTED * gauge.bar, gauge.outline, colours)
+    hollow = lined([near, far], SLOT * gauge.bar, gauge.outline, (theme.outline, theme.background))
+    ways = (line.through, *line.on)
+    return Part(*ways, (*arm, *bar), (line.through,)), Part(*ways, tuple(hollow))
+
+
+def _block(bench: Bench, turn: complex = 1 + 0j, share: float = 1.0) -> tuple[Layer, ...]:
+    return block_layers(bench.gauge, bench.theme, turn, share)
+
+
+def block_layers(gauge: Gauge, theme: Theme, turn: complex, share: float = 1.0) -> tuple[Layer, ...]:
+    """Return what slides about 0, along the direction `turn`: the block between rails, or a share of it."""
+    length, height = (share * side * gauge.bar for side in _BLOCK)
+    edge, corner = 2 * share * gauge.outline, share * gauge.bar
+    outer, inner = box(length, height, 0.4 * corner), box(length - edge, height - edge, 0.3 * corner)
+    return Layer(theme.outline, [turn * outer]), Layer(theme.metal, [turn * inner])
+
+
+def rails_of(bench: Bench) -> Iterator[list[Loop]]:
+    """Yield the lines of each guide on the ground; they are open where another guide crosses them."""
+    places = [_placed(fitting.guide, bench) for fitting in fittings(bench) if fitting.guide]
+    for place in places:
+        others = [other for other in places if other is not place]
+        parts = [(part, side) for line, side in place.lines for part in _opened(line, others)]
+        yield [loop for part, side in parts for loop in hatched(*part, bench.gauge, side)]
+
+
+def rail_reach(bench: Bench, joint: str) -> float:
+    """Return how far the rails of a joint lie from its line of travel; 0 where it has none on the ground."""
+    guides = (one.guide for one in fittings(bench) if one.guide)
+    return next((guide.aside for guide in guides if guide.joint == joint), 0.0)
+
+
+def _rails(name: str, along: complex, gauge: Gauge) -> GuideRails:
+    """Return the guide of a block."""
+    beyond = (_BLOCK[0] / 2 + 0.9) * gauge.bar
+    return GuideRails(name, along, _reach_of_rails(gauge), (beyond, beyond))
+
+
+def _reach_of_rails(gauge: Gauge) -> float:
+    return (_BLOCK[1] / 2) * gauge.bar + gauge.line
+
+
+_Line = tuple[complex, complex]
+"""Both ends of a line in pixels."""
+
+
+class _Channel(NamedTuple):
+    """A guide in its place, in pixels: the middles of its ends, how far aside it reaches, and its lines.
+
+    With each line comes the side that is hatched.
+    """
+
+    begin: complex
+    end: complex
+    aside: float
+    lines: list[tuple[_Line, int]]
+
+
+def _placed(guide: GuideRails, bench: Bench) -> _Channel:
+    """Return a guide as long as the joint's travel needs."""
+    path = bench.figure.path(guide.joint, bench.view) * np.conj(guide.along)
+    way, across = path.real, 1j * float(np.nanmean(path.imag))
+    begin = guide.along * (float(np.nanmin(way)) - guide.beyond[0] + across)
+    end = guide.along * (float(np.nanmax(way)) + guide.beyond[1] + across)
+    off = 1j * guide.along * guide.aside
+    lines = [((begin + side * off, end + side * off), side) for side in (1, -1)]
+    head = [((end + off, end - off), 1)] if guide.head else []
+    return _Channel(begin, end, guide.aside, lines + head)
+
+
+def _opened(line: _Line, others: Iterable[_Channel]) -> list[_Line]:
+    """Return what is left of a line outside of other guides."""
+    parts = [line]
+    for other in others:
+        parts = [part for whole in parts for part in _outside(*whole, other)]
+    return parts
+
+
+def _outside(begin: complex, end: complex, other: _Channel) -> Iterator[_Line]:
+    """Yield what of a line lies before a channel and beyond it; all of it where it does not cross it."""
+    along, long = unit(other.end - other.begin), abs(other.end - other.begin)
+    first, last = ((place - other.begin) / along for place in (begin, end))
+    if first.imag * last.imag >= 0 or min(abs(first.imag), abs(last.imag)) < other.aside:
+        yield begin, end
+        return
+    where = first.imag / (first.imag - last.imag)
+    half = other.aside / abs(first.imag - last.imag)
+    if not 0 < (first + where * (last - first)).real < long:
+        yield begin, end
+        return
+    yield begin, begin + (where - half) * (end - begin)
+    yield begin + (where + half) * (end - begin), end
+
+
+def _facing(line: Line, bench: Bench) -> Loop:
+    """Return the direction of a line's axis over the cycle, y down; 1 of one on the ground."""
+    if line.on is None:
+        return np.ones(1, np.complex128)
+    start, end = (bench.figure.cycle.position[name] for name in line.on)
+    way = (end - start) @ DOWN
+    facing: Loop = way / lengths(way)
+    return facing
+
+
+def _slotted(slide: Slide, bench: Bench) -> Fitting:
+    """Return the slot in the bar, and the collar that slides in it and turns with it.
+
+    About a joint of the ground it is the bar that slides: a rod through a swivel.
+    """
+    assert slide.axis is not None
+    collar = Part(slide.point, *slide.axis, _block(bench, share=0.62), (slide.point,))
+    if bench.figure.linkage.joint(slide.point).fixed:
+        return _swivelled(slide, slide.axis, collar, bench)
+    return Fitting(before=(collar,), bar=Bar(slide.axis, _slot_ends(slide, bench)))
+
+
+def _swivelled(slide: Slide, bar: tuple[str, str], collar: Part, bench: Bench) -> Fitting:
+    """Return what makes of the bar a rod; in a cylinder, with a piston, where its end is free."""
+    if bar[1] in bench.figure.pins:
+        return Fitting(before=(collar,), bar=Bar(bar))
+    gauge, (near, far) = bench.gauge, _slot_ends(slide, bench)
+    length, room = bench.view.scale * dict(bench.figure.linkage.joint(bar[1]).bars)[bar[0]], 0.8 * gauge.bar
+    ends = min(length - far.real, 0.0) - room, max(length - near.real, 0.0) + room
+    wall = barrel(*ends, BARREL * gauge.bar, gauge, bench.theme)
+    layers = tuple(layer.placed(complex(0, -near.imag)) for layer in wall)
+    cylinder = Part(slide.point, *bar, layers, (slide.point,))
+    return Fitting(behind=(cylinder,), before=(collar,), bar=Bar(bar, piston=True))
+
+
+def _slot_ends(slide: Slide, bench: Bench) -> tuple[complex, complex]:
+    """Return the ends of a slot in pixels, the pivot at 0 and the bar along the real axis."""
+    places, offset = bench.figure.cycle.position, slide.line.offset
+    way = np.sum((places[slide.point] - places[slide.line.through]) ** 2, axis=-1)
+    along = np.sqrt(np.maximum(way - offset**2, 0))
+    side = -1j * offset
+    return bench.view.scale * (np.nanmin(along) + side), bench.view.scale * (np.nanmax(along) + side)
+
+
+def _yoke(guided: Slide, slot: Slide, bench: Bench) -> Fitting:
+    """Return a block between rails with a slotted bar across it, and the collar that the pin turns in."""
+    gauge, theme, scale = bench.gauge, bench.theme, bench.view.scale
+    places, line, name = bench.figure.cycle.position, guided.line, guided.point
+    along, across = (complex(directions(-angle)) for angle in (line.angle, slot.line.angle))
+    apart = (places[slot.point] - places[name]) @ DOWN
+    way = np.real(apart * np.conj(across * _facing(line, bench)))
+    ends = scale * float(np.nanmin(way)) * across, scale * float(np.nanmax(way)) * across
+    colours = theme.outline, theme.metal
+    widths = SLOTTED * gauge.bar, SLOT * gauge.bar
+    bar = slotted([0j, *ends], ends, widths, gauge.outline, colours)
+    ways = line.on or (name, name)
+    yoke = Part(name, *ways, (*_block(bench, along), *bar))
+    collar = Part(slot.point, *ways, _block(bench, across, 0.62), (slot.point,))
+    if line.on is None:
+        return Fitting((yoke,), (collar,), _rails(name, along, gauge))
+    behind, before = _carried_slot(name, line, along, bench)
+    return Fitting((behind, before, yoke), (collar,))
+
+
+# What stands still: pedestals with their hatching under fixed pins, and the guides of sliders.
+
+
+def ground_layers(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> list[Layer]:
+    """Return pedestals and guides."""
+    rails = *rails_of(Bench(figure, view, gauge, theme)), *rails_under(figure, view, gauge)
+    layers = [Layer(theme.ground, [loop for rail in rails for loop in rail])]
+    for name in figure.fixed:
+        layers += pedestal(figure.pixel(name, view), away(figure, name), gauge, theme)
+    return layers
+
+
+def rails_under(figure: Figure, view: View, gauge: Gauge) -> Iterator[list[Loop]]:
+    """Yield the outlines of each rail that wheels on fixed pins stand on, one under all of a level."""
+    feet: dict[float, list[complex]] = {}
+    for body in figure.bodies:
+        if figure.scene.style(body.name).outline == "railwheel" and body.joints[0] in figure.fixed:
+            radius = view.scale * figure.wheel_reach(body)
+            foot = figure.pixel(body.joints[0], view) + 1j * radius
+            feet.setdefault(round(foot.imag, 3), []).extend((foot - radius, foot + radius))
+    for ends in feet.values():
+        yield list(hatched(min(ends, key=np.real), max(ends, key=np.real), gauge, 1))
+
+
+def away(figure: Figure, name: str) -> complex:
+    """Return the way a pedestal points: down; away from its pull where it only holds springs and dampers."""
+    struts = [strut for strut in figure.struts if name in strut.between]
+    jointed = any(name in body.joints for body in figure.bodies)
+    if jointed or not struts:
+        return 1j
+    other = next(end for end in struts[0].between if end != name)
+    x, y = np.nanmean(np.atleast_2d(figure.cycle.position[other]), axis=0)
+    here = figure.start(name)
+    pull = unit(complex(float(x) - here.real, here.imag - float(y)))
+    return -pull
+
+
+def ground_line(names: Sequence[str], figure: Figure, view: View, gauge: Gauge, theme: Theme) -> list[Layer]:
+    """Return the line of the ground from pivot to pivot, in dashes and dots."""
+    loops = []
+    for one, other in pairwise(figure.pixel(name, view) for name in names):
+        marks = np.arange(0, abs(other - one), 9 * gauge.line)
+        along = unit(other - one)
+        dashes, dots = one + along * marks, one + along * (marks + 6.8 * gauge.line)
+        loops += segments(dashes, dashes + 5 * along * gauge.line, 0.8 * gauge.line)
+        loops += segments(dots, dots + 0.9 * along * gauge.line, 0.8 * gauge.line)
+    return [Layer(theme.ground, loops)]
+
+
+def pedestal_corners(figure: Figure, view: View, gauge: Gauge, name: str) -> list[complex]:
+    """Return the corners of a triangle that holds a pedestal: its pin, and the ends of its hatching."""
+    pin, turn = figure.pixel(name, view), away(figure, name) / 1j
+    wide, deep = 1.35 * 1.75 * gauge.bar + 0.5 * gauge.bar, 3.1 * gauge.bar
+    return [pin, pin + turn * complex(-wide, deep), pin + turn * complex(wide, deep)]
+
+
+@lru_cache(maxsize=32)
+def pedestal(pin: complex, away: complex, gauge: Gauge, theme: Theme) -> tuple[Layer, ...]:
+    """Return the foot of a fixed pin, in pixels: it widens from the pin to a hatched line, the way `away`."""
+    deep, wide, bar = 2.1 * gauge.bar, 1.75 * gauge.bar, gauge.bar
+    foot = [0j, complex(-0.85 * wide, deep), complex(0.85 * wide, deep)]
+    turn = away / 1j
+    shape = [pin + turn * rounded(foot, 0.35 * bar)]
+    inner = [pin + turn * rounded(foot, max(0.35 * bar - gauge.outline, 0.1))]
+    base = complex(-1.35 * wide, deep + 0.35 * bar), complex(1.35 * wide, deep + 0.35 * bar)
+    lines = [pin + turn * loop for loop in hatched(*base, gauge, 1)]
+    return Layer(theme.ground, lines), Layer(theme.outline, shape), Layer(theme.gear, inner)

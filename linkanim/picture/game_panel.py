@@ -1,0 +1,226 @@
+"""What a game shows in the room of a list: its heading, a question, answers, bars, what has come of it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from math import floor
+from typing import NamedTuple
+
+import numpy as np
+import pygame
+
+from linkanim.picture.board import Board
+from linkanim.picture.overlay import Choice, GamePanel, Mood, ScoreBar
+from linkanim.picture.raster import Colour, Layer, paint
+from linkanim.picture.shapes import box, stroke
+from linkanim.picture.theme import Theme
+
+_LEAST = 9
+"""The smallest text that can be read, in pixels."""
+_LEFT = 1.0
+"""From the sheet's edge to its words, in heights of the text, as all that follows."""
+_STEP = 1.3
+_GAP = 0.65
+"""Between one part and the next."""
+_LARGE = 2.3
+"""A title's heading."""
+_INSET = 0.45
+"""Of an answer's words in its frame, above and below."""
+_CURVE = 2.6
+"""The height of a curve."""
+_BAR = 0.5
+"""The height of a bar."""
+
+
+class _PanelPart(NamedTuple):
+    """A part: how high it is, how it is drawn with its top at a height, whether it is an answer."""
+
+    high: float
+    draw: Callable[[pygame.Surface, float], None]
+    is_answer: bool = False
+
+
+def game_panel(board: Board, panel: GamePanel) -> pygame.Surface:
+    """Return the panel, its text as large as lets it stand in its room."""
+    size, parts = _fitting(board, panel)
+    sheet = board.sheet(board.layout.lists.width, _height(parts, size))
+    for part, top in _placed(parts, size):
+        part.draw(sheet, top)
+    return sheet
+
+
+class AnswerRows(NamedTuple):
+    """Between which heights of the panel's sheet each of its answers stands."""
+
+    heights: tuple[tuple[float, float], ...]
+
+    def at(self, y: float) -> int | None:
+        """Return the answer so far down on the sheet; None between them."""
+        return next((n for n, (top, end) in enumerate(self.heights) if top <= y < end), None)
+
+
+def answer_rows(board: Board, panel: GamePanel) -> AnswerRows:
+    """Return where the answers are on the panel's sheet."""
+    size, parts = _fitting(board, panel)
+    return AnswerRows(tuple((top, top + part.high) for part, top in _placed(parts, size) if part.is_answer))
+
+
+def mood_colour(theme: Theme, mood: Mood) -> Colour:
+    """Return the colour in which an answer stands."""
+    return {"right": theme.traces[1], "wrong": theme.warning, "faint": theme.dim, "": theme.ink}[mood]
+
+
+def _fitting(board: Board, panel: GamePanel) -> tuple[int, list[_PanelPart]]:
+    """Return the largest text at which all fits; at the smallest less and less besides the answers."""
+    least, less = min(_LEAST, board.layout.text_size), replace(panel, hint="", aside="")
+    ways = [(size, panel) for size in range(board.layout.text_size, least - 1, -1)]
+    ways += [(least, less), (least, replace(less, scores=(), lines_after=()))]
+    for size, shown in ways:
+        parts = [*_parts(board, shown, size)]
+        if _height(parts, size) <= board.layout.lists.height:
+            break
+    return size, parts
+
+
+def _height(parts: list[_PanelPart], size: int) -> float:
+    return sum(part.high + _GAP * size for part in parts) + 0.9 * size
+
+
+def _placed(parts: list[_PanelPart], size: int) -> Iterator[tuple[_PanelPart, float]]:
+    top = 0.8 * size
+    for part in parts:
+        yield part, top
+        top += part.high + _GAP * size
+
+
+def _parts(board: Board, panel: GamePanel, size: int) -> Iterator[_PanelPart]:
+    ink, dim = board.theme.ink, board.theme.dim
+    head = floor(_LARGE * size) if panel.large else size
+    yield _words(board, panel.heading, head, ink, strong=True)
+    if panel.scores:
+        yield _scores(board, panel.scores, size)
+    for line in panel.lines:
+        yield _words(board, line, size, ink)
+    if panel.aside:
+        yield _words(board, panel.aside, max(round(0.85 * size), _LEAST), dim, left=size)
+    for n, choice in enumerate(panel.choices):
+        yield _answer(board, panel, n, choice, size)
+    for bar in panel.bars:
+        yield _bar(board, bar, size)
+    if panel.verdict:
+        mood: Mood = "right" if panel.well else "wrong"
+        yield _words(board, panel.verdict, size, mood_colour(board.theme, mood), strong=True)
+    if panel.subject:
+        yield _words(board, panel.subject, size, ink, strong=True)
+    for line in panel.lines_after:
+        yield _words(board, line, size, ink)
+    if panel.hint:
+        yield _words(board, panel.hint, max(round(0.85 * size), _LEAST), dim, left=size, gap="   ")
+
+
+def _words(
+    board: Board,
+    text: str,
+    size: int,
+    colour: Colour,
+    *,
+    left: float | None = None,
+    strong: bool = False,
+    gap: str = " ",
+) -> _PanelPart:
+    """Return words in lines, as wide as the panel; `left` is their place where the size does not say it."""
+    left = _LEFT * (min(size, board.layout.text_size) if left is None else left)
+    room = board.layout.lists.width - 2 * left
+    lines = board.type.wrapped(text, size, 0.97 * room, gap=gap)
+
+    def draw(sheet: pygame.Surface, top: float) -> None:
+        for n, line in enumerate(lines):
+            at = (left, top + _STEP * n * size)
+            board.write(sheet, line, at, size=size, colour=colour, strong=strong)
+
+    return _PanelPart((_STEP * len(lines) - _STEP + 1.05) * size, draw)
+
+
+def _scores(board: Board, scores: tuple[str, ...], size: int) -> _PanelPart:
+    """Return scores side by side over the panel's width."""
+    left, small = _LEFT * size, max(round(0.9 * size), _LEAST)
+    room = board.layout.lists.width - 2 * left
+
+    def draw(sheet: pygame.Surface, top: float) -> None:
+        for n, text in enumerate(scores):
+            share = n / max(len(scores) - 1, 1)
+            anchor = "left" if share == 0 else "right" if share == 1 else "centre"
+            at = (left + share * room, top)
+            board.write(sheet, text, at, size=small, colour=board.theme.dim, anchor=anchor)  # type: ignore[arg-type]
+
+    return _PanelPart(1.05 * small, draw)
+
+
+def _answer(board: Board, panel: GamePanel, n: int, choice: Choice, size: int) -> _PanelPart:
+    """Return an answer in its frame: the key that takes it, then its words or its curve."""
+    theme, small = board.theme, max(round(0.82 * size), _LEAST)
+    wide, inset, left = board.layout.lists.width - 1.2 * size, _INSET * size, 2.7 * size
+    room = wide - left - 0.2 * size
+    lines = [] if choice.curve else board.type.wrapped(choice.text, size, room)
+    below = board.type.wrapped(choice.below, small, room) if choice.below else []
+    body = _CURVE * size if choice.curve else (_STEP * len(lines) - 0.25) * size
+    high = body + (_STEP * len(below)) * small + 2 * inset
+    colour = mood_colour(theme, choice.mood)
+
+    def draw(sheet: pygame.Surface, top: float) -> None:
+        back = board.behind(n, panel.chosen, panel.pointed) or theme.panel
+        middle = complex(sheet.get_width() / 2, top + high / 2)
+        loud = choice.mood in ("right", "wrong")
+        line, rim = (2.2 if loud else 1.4) * board.layout.unit, colour if loud else theme.rule
+        rim = theme.velocity if n == panel.chosen and not loud else rim
+        outer, inner = (middle + box(wide - by, high - by, 0.35 * size) for by in (0.0, 2 * max(line, 1.0)))
+        paint(sheet, [Layer(rim, [outer]), Layer(back, [inner])])
+        at = (1.5 * size, top + inset)
+        board.write(sheet, choice.key, at, size=size, colour=theme.dim, anchor="centre", strong=True)
+        for k, text in enumerate(lines):
+            at = (left, top + inset + _STEP * k * size)
+            board.write(sheet, text, at, size=size, colour=colour, strong=loud)
+        for k, text in enumerate(below):
+            at = (left, top + inset + body + (0.12 + _STEP * k) * small)
+            board.write(sheet, text, at, size=small, colour=theme.dim)
+        if choice.curve:
+            _curve(sheet, board, choice.curve, (left, top + inset, room, body), colour)
+
+    return _PanelPart(high, draw, is_answer=True)
+
+
+def _curve(
+    sheet: pygame.Surface,
+    board: Board,
+    values: tuple[float, ...],
+    room: tuple[float, float, float, float],
+    colour: Colour,
+) -> None:
+    """Draw a curve of values from −1 to 1 over a line for zero."""
+    x, y, wide, high = room
+    line, middle = max(2.0 * board.layout.unit, 1.2), y + high / 2
+    way = x + np.linspace(0.0, wide, len(values)) + 1j * (middle - 0.46 * high * np.array(values))
+    zero = np.array([complex(x, middle), complex(x + wide, middle)])
+    paint(sheet, [Layer(board.theme.rule, stroke(zero, 0.6 * line)), Layer(colour, stroke(way, line))])
+
+
+def _bar(board: Board, bar: ScoreBar, size: int) -> _PanelPart:
+    """Return a score: its words, and below them how full it is, with its thresholds."""
+    small, left = max(round(0.9 * size), _LEAST), _LEFT * size
+    wide, high = board.layout.lists.width - 2 * left, _BAR * size
+
+    def draw(sheet: pygame.Surface, top: float) -> None:
+        theme, right = board.theme, left + wide
+        board.write(sheet, bar.label, (left, top), size=small, colour=theme.dim)
+        board.write(sheet, bar.words, (right, top), size=small, anchor="right", strong=True)
+        y, full = top + 1.35 * small + high / 2, min(max(bar.full, 0.0), 1.0) * wide
+        reached = not bar.marks or bar.full >= bar.marks[-1]
+        layers = [Layer(theme.rule, [complex(left + wide / 2, y) + box(wide, high, high / 2)])]
+        if full > high:
+            ink = theme.traces[1] if reached else theme.velocity
+            layers.append(Layer(ink, [complex(left + full / 2, y) + box(full, high, high / 2)]))
+        ticks = [complex(left + mark * wide, y) + box(0.16 * size, 1.7 * high) for mark in bar.marks]
+        paint(sheet, [*layers, Layer(theme.ink, ticks)] if ticks else layers)
+
+    return _PanelPart(1.35 * small + 1.3 * high, draw)

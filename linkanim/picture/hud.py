@@ -1,0 +1,561 @@
+"""Tell about a scene in words: its title, its numbers of this instant, the key to its colours.
+
+`measured` has the rows of numbers and what is special about a pose. `Hud` draws them. The legend says how
+much the longest arrow stands for. The blocks of words are what an arrangement has to place.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_left
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import groupby, zip_longest
+from math import degrees, floor, inf, log10, pi, tau
+from typing import NamedTuple
+
+from linkanim.mechanics.forces import effort_token
+from linkanim.mechanics.motion import Pose
+from linkanim.mechanics.quantities import Quantity, register
+from linkanim.picture.items import Caption, Group, Item, grouped
+from linkanim.picture.layout import Layout
+from linkanim.picture.motion_marks import Arrows
+from linkanim.picture.quantities import driven_words, sign_of, speed_in, speed_unit, speed_words
+from linkanim.picture.raster import Colour, Layer
+from linkanim.picture.shapes import arrows, box, disc
+from linkanim.picture.text import Type
+from linkanim.picture.theme import Theme, mixed
+from linkanim.picture.view import Rect, eased
+from linkanim.scenes.editing import beyond_title
+from linkanim.scenes.scene import Scene
+from linkanim.units import stepped, three_digits
+
+# What the HUD tells of a pose: its rows of numbers, and what is special about it.
+
+_NEAR_LIMIT = 0.06 * pi
+"""How near to a limit, in phase, the HUD says so: there the input has 1 % of its swing left."""
+_NEAR_CHANGE = pi / 45
+_HELD, _EASED = 0.2, 0.5
+"""How long a note stands before and after the instant it is about, and how long it comes and goes, in s."""
+_READ = 0.36
+"""A note is not read where the next follows in this time (s), and well where it does in twice of it."""
+
+
+class Reading(NamedTuple):
+    """A name and its value; the name stays while the value moves."""
+
+    label: str
+    value: str
+
+
+class Row(NamedTuple):
+    """A name and what tells its value at a pose, None where it is not known there.
+
+    Rows of the highest ranks are the first to go where there is no room.
+    """
+
+    rank: int
+    label: str
+    value: Callable[[Pose], str | None]
+
+
+def rows(scene: Scene, pose: Pose) -> tuple[Reading, ...]:
+    """Return the numbers of a pose: the same names in the same order at every pose of a scene."""
+    return tuple(row for _, row in ranked(rows_of(scene), pose))
+
+
+def ranked(known: Iterable[Row], pose: Pose) -> Iterator[tuple[int, Reading]]:
+    """Yield what rows tell of a pose, each with its rank."""
+    for rank, label, value in known:
+        words = value(pose)
+        if words is not None:
+            yield rank, Reading(label, words)
+
+
+def rows_of(scene: Scene) -> tuple[Row, ...]:
+    """Return the rows of a scene; what of them is the same at every pose is put into words here, once.
+
+    The input's speed is the pose's: of an input that swings, how often it does and its angular velocity
+    at this instant. Speeds are in the unit that the scene states its own in; forces appear where they are
+    known; a damper without a coefficient is a cylinder, told by its length; lengths are in the scene's
+    unit, forces in newtons, tension positive.
+    """
+    return *_input_rows(scene), *(_row(one, scene.length_unit) for one in measured(scene))
+
+
+def _input_rows(scene: Scene) -> Iterator[Row]:
+    info, drive = scene.info, scene.linkage.drive
+    name = f"{scene.info.input_name} {drive.coordinate.name}"
+    if info.full_turn:
+        yield Row(0, name, lambda pose: _turned(pose.coordinate))
+        yield Row(1, "input speed", lambda pose: speed_words(scene, pose.input_speed))
+    else:
+        across = "…".join(driven_words(scene, end) for end in info.input_range)
+        yield Row(0, name, lambda pose: driven_words(scene, pose.coordinate))
+        yield Row(5, "input range", lambda _: across)
+        if scene.mechanism.retraced:
+            yield Row(5, "returns", lambda _: "same closure")
+        yield Row(1, "input rate", lambda pose: speed_words(scene, pose.input_speed))
+        yield Row(3, " ".join(filter(None, (drive.actuator.noun, drive.coordinate.velocity))), _live(scene))
+    if info.true_period != 1:
+        turns = f"{info.true_period} turns"
+        yield Row(6, "true period", lambda _: turns)
+
+
+def _live(scene: Scene) -> Callable[[Pose], str]:
+    """Return what tells the driven bar's angular velocity, or the slider's, always with as many decimals."""
+    known = register(scene.linkage)
+    coordinate = scene.linkage.drive.coordinate
+    read = known[coordinate.rate_token].read
+    if not coordinate.is_angle:
+        return lambda pose: f"{stepped(read(pose), scene.length_step)} {scene.length_unit}/s"
+    unit = speed_unit(scene)
+    largest = abs(speed_in(unit, scene.linkage.drive.speed))
+    step = 10.0 ** (floor(log10(largest)) - 2)
+    return lambda pose: f"{stepped(speed_in(unit, read(pose)), step)} {sign_of(unit)}"
+
+
+class MeasuredRow(NamedTuple):
+    """A row that tells a quantity to a step."""
+
+    rank: int
+    label: str
+    quantity: Quantity
+    step: float
+
+
+def measured(scene: Scene) -> Iterator[MeasuredRow]:
+    """Yield the quantities that a scene's rows tell: of its struts, and what the input has to deliver."""
+    yield from _of_struts(scene)
+    usual = scene.info.usual_effort
+    if usual is not None:
+        step = 10.0 ** (floor(log10(usual)) - 2) if usual > 0 else 0.1
+        quantity = register(scene.linkage)[effort_token(scene.linkage)]
+        yield MeasuredRow(2, f"input {scene.info.effort[0]}", quantity, step)
+
+
+def _of_struts(scene: Scene) -> Iterator[MeasuredRow]:
+    linkage, known = scene.linkage, register(scene.linkage)
+    for item in linkage.springs + linkage.dampers:
+        word = linkage.strut_word(item)
+        kind = "spring" if word == "spring" else "damper"
+        part = "rate" if word == "damper" else "length"
+        yield MeasuredRow(
+            4, f"{linkage.strut_words(item)}, {part}", known[f"{item.name}.{part}"], scene.length_step
+        )
+        if item.forceful:
+            yield MeasuredRow(2, f"{kind} force", known[f"{item.name}.force"], 0.1)
+    if linkage.drive.actuator.along is not None:
+        yield MeasuredRow(2, "driving cylinder", known["input.length"], scene.length_step)
+
+
+def _row(one: MeasuredRow, length_unit: str) -> Row:
+    """Return the row that puts a quantity into words; None where it is not known."""
+    quantity, unit = one.quantity, one.quantity.shown_unit(length_unit)
+
+    def value(pose: Pose) -> str | None:
+        found = quantity.shown(pose)
+        return None if found is None else f"{stepped(float(found), one.step)} {unit}"
+
+    return Row(one.rank, one.label, value)
+
+
+class Note(NamedTuple):
+    """What is special about a pose, and how clearly it is said, in eighths: 0 is not at all."""
+
+    words: str
+    eighths: int
+
+
+def note(scene: Scene, pose: Pose) -> Note:
+    """Return what is special here: the nearest limit of the input or change point.
+
+    It is eased in before and out after, in time as in angle, and gives way where another is as near.
+    Where they follow each other too fast to be read, none is said.
+    """
+    known = [(_nearness(pose, away, near), words) for away, near, words in _special(scene, pose)]
+    (most, words), (next_most, _), *_ = (*sorted(known, reverse=True), (0.0, ""), (0.0, ""))
+    pause = tau / max(len(known), 1) / abs(pose.input_speed) if pose.input_speed else inf
+    return Note(words, round(8 * (most - next_most) * eased(pause / _READ - 1.0)))
+
+
+def _nearness(pose: Pose, away: float, near: float) -> float:
+    """Return 1 at a special phase, 0 far `away` (rad of phase), eased between, at the speed it runs by."""
+    by_angle = eased(2.0 - 2.0 * away / near)
+    seconds = away / abs(pose.input_speed) if pose.input_speed else inf
+    return max(by_angle, eased(1.0 + (_HELD - seconds) / _EASED))
+
+
+def notes(scene: Scene) -> tuple[str, ...]:
+    """Return all that `note` ever says of a scene."""
+    return tuple(words for *_, words in _special(scene, scene.pose(0.0)))
+
+
+def _special(scene: Scene, pose: Pose) -> Iterator[tuple[float, float, str]]:
+    """Yield the input's limits and change points: how far away, how far is near (rad of phase), in words."""
+    info = scene.info
+    if not info.full_turn:
+        for limit, at in zip(info.ends, (0.0, pi), strict=True):
+            yield _apart(pose.phase, at), _NEAR_LIMIT, f"near the limit {driven_words(scene, limit)}"
+    for point in info.change_points if scene.linkage.drive.coordinate.is_angle else ():
+        yield _apart(pose.coordinate, point), _NEAR_CHANGE, f"near the change point {_turned(point)}"
+
+
+def _turned(angle: float) -> str:
+    """Return an angle within one turn, rounded first, so that none reads 360°."""
+    return f"{stepped(round(degrees(angle) % 360, 1) % 360, 0.1)}°"
+
+
+def _apart(one: float, other: float) -> float:
+    return abs((one - other + pi) % tau - pi)
+
+
+# The head-up display: what scene it is, and the numbers of this instant, in words.
+
+STEP = 1.4
+"""From row to row, in heights of their text."""
+_BACKING = 0.82
+"""How little of what lies under the words shows through their backing."""
+
+
+class WordLine(NamedTuple):
+    """A line that stands still: its text, how far down, size, whether it is a title, how wide it is."""
+
+    text: str
+    y: float
+    size: int
+    strong: bool
+    width: int
+
+
+@dataclass(frozen=True)
+class WordBlock:
+    """Words at one size, all places from the block's top left corner."""
+
+    size: int
+    lines: tuple[WordLine, ...]
+    """The title's and the class's."""
+    turns: int
+    """How many lines more than one the title takes."""
+    rows: frozenset[str]
+    """The names of the rows that are shown."""
+    first: float
+    """The top of the first row."""
+    note: float
+    """The top of what is special."""
+    key: float
+    """The top of the key to the arrows."""
+    column: int
+    """The width of the rows."""
+    width: float
+    height: float
+
+    def rects_at(self, place: tuple[float, float]) -> Iterator[Rect]:
+        """Yield the rectangles that the words take where the block stands."""
+        x, y = place
+        for line in self.lines:
+            yield Rect(x, y + line.y, line.width, line.size)
+        if self.height > self.first:
+            yield Rect(x, y + self.first, self.column, self.height - self.first)
+
+    def parts_at(self, place: tuple[float, float]) -> tuple[Rect, Rect | None]:
+        """Return the rectangles of the words and of the key to the arrows; None without arrows."""
+        x, y = place
+        whole = Rect(x, y, self.width, self.key)
+        return whole, Rect(
+            x, y + self.key, self.column, self.height - self.key
+        ) if self.height > self.key else None
+
+
+@dataclass(frozen=True)
+class Hud:
+    """The words about a scene where they stand: what keeps still is drawn once, values at every frame."""
+
+    scene: Scene
+    block: WordBlock
+    place: Rect
+    type: Type
+    theme: Theme
+
+    def still(self) -> Iterator[Caption]:
+        """Yield the words that stand still."""
+        for line in self.block.lines:
+            at, ink = (self.place.x, self.place.y + line.y), self.theme.ink if line.strong else self.theme.dim
+            yield Caption(line.text, at, line.size, ink, strong=line.strong)
+        for n, (_, row) in enumerate(ranked(self._rows, self.scene.pose(0.0))):
+            yield Caption(row.label, (self.place.x, self._top(n)), self.block.size, self.theme.dim)
+
+    def values(self, pose: Pose) -> list[Caption]:
+        """Return the numbers of a pose beside them."""
+        size, right = self.block.size, self.place.x + self.block.column
+        return [
+            Caption(row.value, (right, self._top(n)), size, self.theme.ink, "right", strong=True)
+            for n, (_, row) in enumerate(ranked(self._rows, pose))
+        ]
+
+    @cached_property
+    def _rows(self) -> tuple[Row, ...]:
+        """The rows that are shown."""
+        return tuple(row for row in rows_of(self.scene) if row.label in self.block.rows)
+
+    def backing(self, key: Rect | None) -> Layer:
+        """Return what lets the words and their key be read where something lies under them."""
+        bottom = key.bottom if key else self.place.bottom
+        room = self.place._replace(height=bottom - self.place.y).inset(-0.5 * self.block.size)
+        middle = complex(room.x + room.width / 2, room.y + room.height / 2)
+        plate = middle + box(room.width, room.height, 0.5 * self.block.size)
+        return Layer(self.theme.background, [plate], _BACKING)
+
+    def notes(self, pose: Pose) -> Iterator[Caption]:
+        """Yield what is special at a pose, as clearly as it is shown."""
+        words, eighths = note(self.scene, pose)
+        size, colour = self.block.size, mixed(self.theme.background, self.theme.dim, eighths / 8)
+        lines = self.type.wrapped(words, size, self.block.column) if eighths else []
+        for n, line in enumerate(lines):
+            at = (self.place.x, self.place.y + self.block.note + 1.2 * size * n)
+            yield Caption(line, at, size, colour)
+
+    def _top(self, row: int) -> float:
+        return self.place.y + self.block.first + STEP * self.block.size * row
+
+
+# The key to the colours: of arrows with how much the one shown there stands for, of the causal chain.
+
+KEY_STEP = 1.5
+"""From line to line of the key to the arrows."""
+_SMALLEST = 8
+_ENDS = ("input", "output")
+_DISC_STEP = 1.2
+"""From the colour of a step to the next one's, in heights of the text."""
+
+
+@dataclass(frozen=True)
+class Legend:
+    """A line for each kind of arrow at the foot of the HUD's column, and one for the chain's colours."""
+
+    kinds: tuple[Arrows, ...]
+    column: Rect
+    size: int
+    """The height of its text."""
+    type: Type
+    theme: Theme
+    chain: tuple[Colour, ...] = ()
+
+    def group(self, speed: float) -> Group:
+        """Return the key at this input speed (rad/s)."""
+        chained = self._chained(self._top(len(self.kinds))) if self.chain else ()
+        return grouped("key", [*self._arrows(speed), *chained], still=True)
+
+    def _arrows(self, speed: float) -> Iterator[Item]:
+        """Yield the arrows, what they are called, and how much each stands for."""
+        size, dim = self.size, self.theme.dim
+        for n, kind in enumerate(self.kinds):
+            top = self._top(n)
+            foot = complex(self.column.x, top + 0.5 * size)
+            yield Layer(kind.colour, arrows([foot], [self._reach], 1.6 * kind.gauge.line))
+            yield Caption(kind.words, (self.column.x + self._reach + 0.6 * size, top), size, dim)
+            yield Caption(self.meaning(kind, speed), (self.column.right, top), size, dim, "right")
+
+    def _chained(self, top: float) -> Iterator[Item]:
+        """Yield the colours of the steps in which joints are solved, between input and output."""
+        size, (begin, end) = self.size, _ENDS
+        first = self.column.x + self.type.width(begin, size) + 0.5 * size
+        room = self.column.right - self.type.width(end, size) - 0.5 * size - first
+        step = min(_DISC_STEP * size, room / len(self.chain))
+        yield Caption(begin, (self.column.x, top), size, self.theme.dim)
+        for n, colour in enumerate(self.chain):
+            middle, radius = complex(first + (n + 0.5) * step, top + 0.5 * size), 0.42 * step
+            yield Layer(self.theme.outline, [middle + disc(radius)])
+            yield Layer(colour, [middle + disc(radius - max(0.1 * size, 1.0))])
+        yield Caption(end, (first + len(self.chain) * step + 0.5 * size, top), size, self.theme.dim)
+
+    def meaning(self, kind: Arrows, speed: float) -> str:
+        """Return in words how much the arrow of the key stands for; a dash where nothing moves."""
+        scale = kind.scale(speed)
+        return f"{three_digits(self._reach / scale)} {kind.unit}" if scale > 0 else "–"
+
+    @property
+    def fits(self) -> bool:
+        """Whether words and values stand side by side, with room for values a digit longer."""
+        lines = (f"{kind.words}  0{self.meaning(kind, kind.drive)}" for kind in self.kinds)
+        room = self.column.width - self._reach - 0.6 * self.size
+        return all(self.type.width(line, self.size) <= room for line in lines)
+
+    @property
+    def _reach(self) -> float:
+        """The length of the key's arrows in pixels."""
+        return 2.6 * self.size
+
+    def _top(self, line: int) -> float:
+        return self.column.y + KEY_STEP * self.size * line
+
+
+def legend_for(
+    kinds: tuple[Arrows, ...], layout: Layout, type_: Type, theme: Theme, chain: tuple[Colour, ...] = ()
+) -> Legend | None:
+    """Return the key to arrows and chain, its text as large as fits; None without any or a place for it."""
+    column = layout.legend
+    if column is None or not (kinds or chain):
+        return None
+    sizes = range(layout.small_size, _SMALLEST - 1, -1)
+    legends = [Legend(kinds, column, size, type_, theme, chain) for size in sizes]
+    return next((legend for legend in legends if legend.fits), legends[-1])
+
+
+# The words about a scene, set in blocks: its title and class, rows of numbers, the key to its colours.
+
+_TITLE = 1.43
+"""The title's size, in sizes of the rows."""
+_SMALLEST_TYPE = 10
+_SHRUNK = 0.72
+"""The rows' least size, in pixels and in the size that a window's is as a rule."""
+_CLASS_RANK = 4
+"""The class goes after the rows of higher ranks."""
+_CLASS_WIDTH = 17.0
+"""As wide as this, in sizes, a class is not broken."""
+_GAP = 0.9
+"""Between the name and the value of a row, in sizes."""
+_MOST_LINES = 4
+_TRIED = 24
+_SENTENCE_LINES = (1, 2, 3, 4)
+_MEASURED = 21
+"""The size at which values are compared; the widest is so at any size."""
+_FASTEST = -10.0
+"""The fastest that a scene is run at, backwards for the minus sign."""
+
+
+class WidestRow(NamedTuple):
+    """A row as it needs the most room, with its rank."""
+
+    rank: int
+    row: Reading
+
+
+def widest_rows(scenes: Sequence[Scene], type_: Type) -> tuple[WidestRow, ...]:
+    """Return the rows of a scene, and of those beside it, each with the widest value that it ever has."""
+    widest: dict[str, tuple[int, WidestRow]] = {}
+    for one in (one for scene in scenes for one in _over_a_cycle(scene)):
+        width = type_.width(one.row.value, _MEASURED)
+        if width > widest.get(one.row.label, (-1, one))[0]:
+            widest[one.row.label] = width, one
+    return tuple(one for _, one in widest.values())
+
+
+def _over_a_cycle(scene: Scene) -> Iterator[WidestRow]:
+    """Yield the rows over a cycle, at the fastest speed."""
+    known, speed = rows_of(scene), _FASTEST * scene.linkage.drive.speed
+    for step in range(_TRIED):
+        for rank, row in ranked(known, scene.pose(scene.period * step / _TRIED, speed=speed)):
+            yield WidestRow(rank, row)
+
+
+def blocks(
+    scenes: Sequence[Scene], rows: tuple[WidestRow, ...], layout: Layout, keys: int, type_: Type
+) -> Iterator[list[WordBlock]]:
+    """Yield the words in groups, each with the title in ever more lines; those to be preferred first.
+
+    First all `rows`, ever smaller, then ever less of it, then without the key. `keys` is how many
+    lines the key has. The words are the first scene's; there is room for those of the others in their place.
+    """
+    setter = _Setter(scenes, layout, keys, type_)
+    smallest = max(_SMALLEST_TYPE, round(_SHRUNK * layout.text_size))
+    for size in range(layout.text_size, smallest, -1):
+        yield setter.group(size, rows, True)
+    ranks = sorted({one.rank for one in rows}, reverse=True)
+    bare = _Setter(scenes, layout, 0, type_)
+    ways = [(setter, rank) for rank in ranks] + [(bare, rank) for rank in (*ranks, -1)]
+    for way, rank in ways:
+        yield way.group(smallest, tuple(one for one in rows if one.rank <= rank), rank >= _CLASS_RANK)
+
+
+def caption_lines(layout: Layout, text: str, type_: Type) -> list[str]:
+    """Return a sentence in lines, as it stands below a scene."""
+    room = layout.caption.width if layout.caption else layout.stage.width - 2 * layout.margin
+    return type_.wrapped(text, layout.small_size, room) if text else []
+
+
+def shapes_of(text: str, layout: Layout, type_: Type) -> Iterator[tuple[float, float]]:
+    """Yield how wide and high a sentence is on a sheet of its own, in one line and in more."""
+    size = layout.small_size
+    whole = type_.width(text, size)
+    for count in _SENTENCE_LINES if text else ():
+        lines = type_.wrapped(text, size, (1.0 + 0.2 * (count > 1)) * whole / count)
+        wide = max(type_.width(line, size) for line in lines)
+        yield wide + 2.0 * size, (1.25 * len(lines) + 0.75) * size
+
+
+class _Setter:
+    """Sets the words of one scene."""
+
+    def __init__(self, scenes: Sequence[Scene], layout: Layout, keys: int, type_: Type) -> None:
+        self._scene, self._layout, self._keys, self._type = scenes[0], layout, keys, type_
+        shown = type_.width(self._scene.title, round(_TITLE * layout.text_size))
+        self._title = self._scene.title if shown and self._scene.title.strip() else self._scene.name
+        self._classes = [beyond_title(self._title, scene.info.class_name) for scene in scenes]
+        self._notes = [words for scene in scenes for words in notes(scene)]
+
+    def group(self, size: int, rows: tuple[WidestRow, ...], classed: bool) -> list[WordBlock]:
+        """Return the block with the title in one line, in two, and so on."""
+        big = round(_TITLE * size)
+        titles = [self._broken(count, big) for count in range(1, _MOST_LINES + 1)]
+        return [self._block(size, title, rows, classed) for title, _ in groupby(titles)]
+
+    def _block(
+        self, size: int, title: tuple[str, ...], rows: tuple[WidestRow, ...], classed: bool
+    ) -> WordBlock:
+        big, column = round(_TITLE * size), self._column(size, rows)
+        lines = [self._line(text, 1.12 * big * n, big, strong=True) for n, text in enumerate(title)]
+        y, wide = 1.12 * big * len(title) + 0.1 * size, max(line.width for line in lines)
+        for line_of_each in self._classed(size, max(column, wide, _CLASS_WIDTH * size)) if classed else ():
+            widest = max(self._type.width(text, size) for text in line_of_each)
+            lines.append(WordLine(line_of_each[0], y, size, False, widest))
+            y += 1.2 * size
+        first = y + 0.5 * size if rows else y
+        note = first + STEP * size * len(rows) + (0.3 * size if rows else 0.0)
+        key = note + 1.2 * size * max(
+            (len(self.wrapped(words, size, column)) for words in self._notes), default=0
+        )
+        high = KEY_STEP * self._layout.small_size * self._keys if rows else 0.0
+        width = max(column, *(line.width for line in lines))
+        shown = frozenset(one.row.label for one in rows)
+        last, tall = len(title) - 1, key + high
+        return WordBlock(size, tuple(lines), last, shown, first, note, key, column, width, tall)
+
+    def _classed(self, size: int, width: float) -> Iterator[tuple[str, ...]]:
+        """Yield the lines of the scenes' classes, the first scene's first."""
+        wrapped = (self._type.wrapped(words, size, width) for words in self._classes)
+        yield from zip_longest(*wrapped, fillvalue="")
+
+    def wrapped(self, words: str, size: int, column: int) -> list[str]:
+        """Return a note in lines."""
+        return self._type.wrapped(words, size, column) if column else []
+
+    def _column(self, size: int, rows: tuple[WidestRow, ...]) -> int:
+        """Return how wide the rows are, and the key to the colours."""
+        width = self._type.width
+        wide = [
+            width(one.row.label, size) + width(one.row.value, size, strong=True) + _GAP * size for one in rows
+        ]
+        if rows and self._keys:
+            small = self._layout.small_size
+            unit = f"acceleration  00000 {self._scene.length_unit}/s²"
+            wide.append(3.2 * small + width(unit, small))
+        return round(max(wide, default=0.0))
+
+    def _line(self, text: str, y: float, size: int, *, strong: bool) -> WordLine:
+        return WordLine(text, y, size, strong, self._type.width(text, size, strong=strong))
+
+    def _broken(self, count: int, big: int) -> tuple[str, ...]:
+        """Return the title in at most so many lines, between its words, as narrow as they can be."""
+        words, room = self._title.split(), self._layout.stage.width - 2 * self._layout.margin
+
+        def lines(width: float) -> list[str]:
+            return self._type.wrapped(self._title, big, width, strong=True)
+
+        def fits(width: int) -> bool:
+            found = lines(width)
+            return len(found) <= count and " ".join(found).split() == words
+
+        widths = range(max(int(room), 0))
+        narrowest = bisect_left(widths, True, key=fits)
+        return tuple(lines(narrowest if narrowest < len(widths) else room)) or ("",)

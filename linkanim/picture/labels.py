@@ -1,0 +1,671 @@
+"""Put names and dimensions on a picture, each in one place for the whole cycle.
+
+Candidates for a label's place lie round joints, on links and beside what is measured; what is in their way
+is solid or only clutter. `placing` chooses among them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Generator, Iterable, Iterator, Mapping, Sequence, Set
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import chain, pairwise, product
+from math import ceil, pi
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linkanim.mechanics.linkage import Body
+from linkanim.mechanics.motion import Pose
+from linkanim.picture.dead_centres import DeadCentres
+from linkanim.picture.dimensions import AngleArc, MeasureLine, Measurement, Symbols
+from linkanim.picture.figure import SAMPLES, DrawSetting, Figure
+from linkanim.picture.fittings import Bench, fittings, pedestal_corners, rail_reach, rails_of, rails_under
+from linkanim.picture.items import Caption, Halo
+from linkanim.picture.layout import Gauge, Layout
+from linkanim.picture.motion_marks import Sliding, Turning
+from linkanim.picture.placing import MOMENTS, Clutter, LabelPlaces, Placer, Solid
+from linkanim.picture.raster import Colour, Layer, Loop
+from linkanim.picture.shapes import Part, Places, directions, framed, hull, lengths
+from linkanim.picture.text import subscripted
+from linkanim.picture.theme import Theme
+from linkanim.picture.view import Rect, View
+
+# Where labels may stand: round joints, on links, beside what is measured; what is in their way.
+
+Size = tuple[float, float]
+"""How wide and high a label is, in pixels."""
+Own = frozenset[int]
+"""The numbers of things that are a label's own."""
+
+_ALONG = (0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8)
+"""Where along a bar its name may stand."""
+_SIDES = (0, 1, -1, 1.8, -1.8)
+"""On a bar, and how far to its sides, in heights of the name."""
+_INSIDE = (0.3, 0.5, 0.65)
+"""How far from a plate's middle to its corners and sides its name may stand."""
+_BESIDE = 0.4
+"""What a place beside a bar costs, where one on it is free."""
+_FARTHER = 1.0
+"""What a place farther from its joint costs."""
+_ROUND = 16
+"""So many places lie round a joint."""
+_CLEAR = 1.3
+"""How far off a bar's middle a label beside it begins, in half widths of a bar."""
+_BLOCK = 2.7
+"""How far a slider's block reaches, in half widths of a bar."""
+_MIDDLE = (0.5, 0.42, 0.58)
+"""Where along its own bar a length may stand."""
+_LEVELS = 3
+"""So many dimension lines may lie beside each other."""
+_RINGS = (3, 6)
+"""In so many rings a name may stand round a joint, and round a slider's block."""
+_ROOMY = (1.0, 1.7, 2.6)
+"""The radii of an angle's arc, in those of the smallest."""
+
+
+class Spots(NamedTuple):
+    """Places (k,) in the frame of the joint `at`, whose direction and unit is the way to `head`.
+
+    A place lies so far along the line from `begin` to `end` in that frame, `aside` of it (+1 or -1: off the
+    line and `further` pixels more; 0: on it), and then `off` in pixels. In a frame of one joint twice the
+    unit is the scene's, to the right.
+    """
+
+    at: str
+    head: str
+    begin: Loop
+    end: Loop
+    share: NDArray[np.float64]
+    aside: NDArray[np.float64]
+    further: NDArray[np.float64]
+    off: Loop
+
+    def picked(self, which: int) -> Spots:
+        """Return one of them."""
+        return Spots(self.at, self.head, *(part[which] for part in self[2:]))
+
+    def middles(self, at: ArrayLike, span: ArrayLike, sides: ArrayLike, bar: float) -> Loop:
+        """Return the middles in pixels, for frames at `at` and labels with these sides (w + hi)."""
+        at, span, sides = (np.asarray(one, np.complex128) for one in (at, span, sides))
+        along = (self.end - self.begin) * span
+        normal = 1j * _units(along)
+        clear = 0.5 * (np.abs(normal.real) * sides.real + np.abs(normal.imag) * sides.imag) + _CLEAR * bar
+        aside = self.aside * (clear + self.further) * normal
+        middles: Loop = at + self.begin * span + self.share * along + aside + self.off
+        return middles
+
+
+def stacked(spots: Sequence[Spots]) -> Spots:
+    """Return single spots in one, each of its own joints."""
+    return Spots("", "", *(np.array(part) for part in list(zip(*spots, strict=True))[2:]))
+
+
+@dataclass(frozen=True)
+class LabelSpots:
+    """Where a label may stand, what is to be placed of it, and the lines that may go with it."""
+
+    spots: Spots
+    candidates: LabelPlaces
+    lines: tuple[MeasureLine | AngleArc, ...] = ()
+
+
+class Thing(NamedTuple):
+    """What labels keep off, and the joints that are its own."""
+
+    joints: frozenset[str]
+    solid: Solid
+    linked: bool = False
+    """Whether it is a body, a spring or a damper."""
+
+
+@dataclass(frozen=True)
+class Surroundings:
+    """Where all is that labels stand by or keep off, at the moments for which they are placed.
+
+    These are all of a cycle, or one `phase`.
+    """
+
+    figure: Figure
+    view: View
+    gauge: Gauge
+    layout: Layout
+    theme: Theme
+    turning: Turning | Sliding | None = None
+    phase: float | None = None
+    marks: tuple[tuple[complex, complex], ...] = ()
+    """Lines on the picture that stand still, from end to end."""
+    angled: bool = False
+    """Whether the input's angle is drawn."""
+
+    @cached_property
+    def _paths(self) -> dict[str, Loop]:
+        figure, step = self.figure, SAMPLES // MOMENTS
+        if self.phase is not None:
+            pose = figure.scene.pose(self.phase, 0)
+            found = {name: np.array([self.view.place(point)]) for name, point in pose.position.items()}
+        else:
+            names = (joint.name for joint in figure.linkage.joints)
+            found = {name: figure.path(name, self.view)[::step] for name in names}
+        return {name: np.nan_to_num(path, nan=-1e6) for name, path in found.items()}
+
+    @cached_property
+    def _rates(self) -> NDArray[np.float64]:
+        """The rate of the input at each moment."""
+        if self.phase is not None:
+            return np.array([self.figure.scene.pose(self.phase).coordinate_rate])
+        cycle = self.figure.cycle
+        return np.broadcast_to(cycle.coordinate_rate, cycle.phase.shape)[:: SAMPLES // MOMENTS]
+
+    def _frame(self, frame: tuple[str, str]) -> tuple[Loop, Loop]:
+        """Return where a frame lies and what 1 is in it, in pixels."""
+        at, head = (self._paths[name] for name in frame)
+        return at, head - at if frame[0] != frame[1] else np.full_like(at, self.view.scale)
+
+    def around(self, name: str, size: Size, *, slider: bool = False) -> LabelSpots:
+        """Return places all round a joint, in rings ever farther; up and to the right is best.
+
+        They had better not lie on the bars that meet there, and must not round a slider's block.
+        """
+        rings = _RINGS[slider]
+        turns = np.exp(-2j * pi * np.arange(_ROUND) / _ROUND)
+        turned = 0.04 * np.abs(np.angle(turns / np.exp(-0.25j * pi)))
+        rounds = [_off(turns, size, self._radius(name) + 0.7 * n * size[1]) for n in range(rings)]
+        price = np.concatenate([_FARTHER * n + turned for n in range(rings)])
+        beside = self._numbers(set() if slider else {name})
+        return self._spots((name, name), size, price, beside=beside, off=np.concatenate(rounds))
+
+    def on(self, body: Body, size: Size) -> LabelSpots:
+        """Return places on a link: along a bar and beside it, or inside a plate."""
+        own = self._numbers(set(body.joints))
+        if len(self._corners(body)) > 2:
+            inside, price = self._inside(body)
+            return self._spots(body.joints, size, price, own=own, begin=inside, end=inside)
+        return self._line(body.joints, (0, 1), size, product(_SIDES, _ALONG), own)
+
+    def _inside(self, body: Body) -> tuple[Loop, NDArray[np.float64]]:
+        """Return places inside a plate in its frame, and their prices."""
+        places = [complex(self._paths[name][0]) for name in body.joints]
+        corners = [(place - places[0]) / (places[1] - places[0]) for place in places]
+        middle = sum(corners) / len(corners)
+        sides = [(one + other) / 2 for one, other in pairwise((*corners, corners[0]))]
+        towards = [(share, end) for share in _INSIDE for end in (*corners, *sides)]
+        inside = np.array([middle, *((1 - share) * middle + share * end for share, end in towards)])
+        return inside, np.array([0.0, *(share for share, _ in towards)])
+
+    def dimension(self, about: Measurement, size: Size) -> Iterator[LabelSpots]:
+        """Yield places for a length by its own bar if that has room, and by dimension lines beside it."""
+        if about.angle:
+            yield self._by_angle(about, size)
+            return
+        ends, (_, way), mine = (about.begin, about.end), self._frame(about.frame), self._numbers(about.own)
+        if about.bare and size[0] < abs(way[0] * (ends[1] - ends[0])):
+            yield self._line(about.frame, ends, size, product((1, -1), _MIDDLE), mine)
+        low, step = 2.0 * self.gauge.bar + 9 * self.layout.unit, 1.4 * size[1]
+        levels = [(side, low + n * step) for n in range(_LEVELS) for side in (1.0, -1.0)]
+        lines = [MeasureLine(about.frame, *ends, side * level) for side, level in levels]
+        drawn, share = np.array([*product(range(len(lines)), (0.5, 0.3, 0.7))]).T
+        aside, level = np.array(levels)[drawn.astype(int)].T
+        price = 0.3 * (drawn // 2) + 0.6 * abs(share - 0.5)
+        where: dict[str, Any] = {"begin": ends[0], "end": ends[1], "share": share, "aside": aside}
+        where["further"] = level + 0.2 * size[1] - _CLEAR * self.gauge.bar
+        yield self._lined(self._spots(about.frame, size, price, beside=mine, **where), lines, drawn)
+
+    def _by_angle(self, about: Measurement, size: Size) -> LabelSpots:
+        """Return places outside arcs about where two lines of a body meet."""
+        middle = directions(np.angle(about.begin) + np.angle(about.end / about.begin) / 2)
+        radii = [share * (2.4 * self.gauge.bar + 0.6 * size[1]) for share in _ROOMY]
+        arcs = tuple(AngleArc(about.frame, about.begin, about.end, radius) for radius in radii)
+        further = np.array(radii) + 0.2 * size[1] - _CLEAR * self.gauge.bar
+        # a line across the middle way, whose side that is
+        where: dict[str, Any] = {"end": -1j * middle, "aside": 1, "further": further}
+        own = self._numbers(about.own)
+        found = self._spots(about.frame, size, 0.3 * np.arange(len(radii)), own=own, **where)
+        return self._lined(found, arcs, np.arange(len(radii)))
+
+    def _lined(
+        self, found: LabelSpots, lines: Sequence[MeasureLine | AngleArc], drawn: NDArray[Any]
+    ) -> LabelSpots:
+        """Return them with the lines that go with them."""
+        tracks = (line.tracks(*self._frame(line.frame), self.gauge) for line in lines)
+        mine = found.candidates._replace(lines=tuple(tracks), drawn=drawn.astype(np.int64))
+        return LabelSpots(found.spots, mine, tuple(lines))
+
+    def by_arc(self, turning: Turning, size: Size) -> LabelSpots:
+        """Return places outside the arc of the input's angle, best at its middle."""
+        bars = np.angle(np.conj(self._paths[turning.pin] - self._paths[turning.pivot]))
+        angles = turning.turned(bars)
+        middle = pi / 6 if self.figure.scene.info.full_turn and self.phase is None else angles.mean() / 2
+        ways = np.linspace(-1, 1, 9)
+        off = _off(np.exp(-1j * (middle + 0.8 * ways)), size, turning.arc + 0.1 * size[1])
+        return self._spots((turning.pivot, turning.pivot), size, 0.3 * np.abs(ways), off=off)
+
+    def still(self, places: Loop, size: Size) -> LabelSpots:
+        """Return places in pixels that stand still on the ground, the best first."""
+        name = next(iter(self.figure.linkage.pins)).name
+        begin = (places - self._paths[name][0]) / self.view.scale
+        return self._spots((name, name), size, 0.5 * np.arange(len(places)), begin=begin, end=begin)
+
+    def _line(
+        self, frame: Sequence[str], line: tuple[complex, complex], size: Size, tried: Iterable[Any], own: Own
+    ) -> LabelSpots:
+        """Return places on a line and beside it: `tried` are how far aside and at which share of it."""
+        aside, share = np.array([*tried]).T
+        price = _BESIDE * np.abs(aside) + np.abs(share - 0.5)
+        where: dict[str, Any] = {"begin": line[0], "end": line[1], "share": share, "aside": np.sign(aside)}
+        where["further"] = (np.maximum(np.abs(aside), 1) - 1) * size[1]
+        return self._spots(frame, size, price, own=own, **where)
+
+    def _spots(
+        self,
+        frame: Sequence[str],
+        size: Size,
+        price: NDArray[Any],
+        *,
+        own: Own = frozenset(),
+        beside: Own = frozenset(),
+        **parts: ArrayLike,
+    ) -> LabelSpots:
+        """Return places with their prices, at each moment; of the parts of spots what is left out is 0."""
+        first, second = frame[:2]
+        whole = np.broadcast_arrays(price, *(parts.get(part, 0.0) for part in Spots._fields[2:]))
+        spots = Spots(first, second, *whole[1:])
+        at, way = (place[:, None] for place in self._frame((first, second)))
+        middles = spots.middles(at, way, complex(*size), self.gauge.bar)
+        return LabelSpots(spots, LabelPlaces(size, middles, price, own, beside))
+
+    def _radius(self, name: str) -> float:
+        """Return how far what is drawn at a joint reaches."""
+        if not self.figure.linkage.joint(name).travels:
+            return self.gauge.bar
+        return max(_BLOCK * self.gauge.bar, rail_reach(self._bench, name) + self.gauge.bar)
+
+    @cached_property
+    def _bench(self) -> Bench:
+        return Bench(self.figure, self.view, self.gauge, self.theme)
+
+    def clutter(self) -> Clutter:
+        """Return what is in the labels' way."""
+        solids = tuple(thing.solid for thing in self.things)
+        return Clutter(self.layout.stage.inset(2), self.layout.words, solids)
+
+    @cached_property
+    def things(self) -> tuple[Thing, ...]:
+        """All that labels keep off, at each of the moments."""
+        return (*self._links(), *self._pins(), *self._fittings(), *self._standing(), *self._arrow())
+
+    def _links(self) -> Iterator[Thing]:
+        """Yield what each of the bodies covers, and each spring and damper."""
+        figure, bar = self.figure, self.gauge.bar
+        links = [(body.joints, self._corners(body), bar + 0.5) for body in figure.bodies]
+        struts = [(strut.between, strut.between, 1.1 * bar) for strut in figure.struts]
+        for joints, corners, half in (*links, *struts):
+            solid = Solid(np.stack([self._paths[name] for name in corners], axis=1), half)
+            yield Thing(frozenset(joints), solid, True)
+
+    def _pins(self) -> Iterator[Thing]:
+        for name in self.figure.pins:
+            disc = Solid(self._paths[name][:, None], self.gauge.pin + self.gauge.outline)
+            yield Thing(frozenset([name]), disc)
+
+    def _fittings(self) -> Iterator[Thing]:
+        """Yield blocks, slotted bars, cylinders, and the guides on the ground."""
+        bench = self._bench
+        for fitting in fittings(bench):
+            for part in (*fitting.behind, *fitting.before):
+                corners = framed(np.concatenate(part.layers[0].loops))
+                way = self._paths[part.head] - self._paths[part.tail]
+                turn = way / np.where(way == 0, 1, np.abs(way)) + (way == 0)
+                solid = Solid(self._paths[part.at][:, None] + turn[:, None] * corners, 0.0)
+                yield Thing(frozenset((part.at, part.tail, part.head)), solid, part.tail != part.head)
+        for loops in (*rails_of(bench), *rails_under(self.figure, self.view, self.gauge)):
+            yield Thing(frozenset(), Solid(framed(np.concatenate(loops))[None], 0.0))
+
+    def _standing(self) -> Iterator[Thing]:
+        """Yield the supports, and the lines that stand still."""
+        for name in self.figure.fixed:
+            corners = pedestal_corners(self.figure, self.view, self.gauge, name)
+            yield Thing(frozenset(), Solid(np.array([corners]), self.gauge.outline))
+        for ends in self.marks:
+            yield Thing(frozenset(), Solid(np.array([ends]), self.gauge.line))
+
+    def _arrow(self) -> Iterator[Thing]:
+        """Yield what shows how the input moves."""
+        if self.turning:
+            for points, half in self.turning.tracks(self._paths, self._rates, angled=self.angled):
+                for n in range(points.shape[1] - 1):
+                    yield Thing(frozenset(), Solid(points[:, n : n + 2], half))
+
+    def _numbers(self, joints: Set[str]) -> frozenset[int]:
+        """Return the numbers of the links that have all these joints; of none where there are none."""
+        things = enumerate(self.things)
+        return frozenset(n for n, thing in things if joints and thing.linked and joints <= thing.joints)
+
+    def _corners(self, body: Body) -> list[str]:
+        """Return the joints at the corners of a body's outline, in their order round it."""
+        starts = {complex(self._paths[name][0]): name for name in reversed(body.joints)}
+        return [starts[corner] for corner in hull(list(starts))]
+
+
+def _off(turns: Loop, size: tuple[float, float], radius: float) -> Loop:
+    """Return where the middle of a label lies that stays off a disc about 0, in these directions."""
+    off: Loop = turns.real * (radius + size[0] / 2) + 1j * turns.imag * (radius + size[1] / 2)
+    return off
+
+
+def _units(vectors: Loop) -> Loop:
+    """Return the directions; to the right where there is none."""
+    length = lengths(vectors)
+    directions_: Loop = np.where(length > 0, vectors / np.where(length > 0, length, 1), 1)
+    return directions_
+
+
+# Names on the picture: of joints and links, then their dimensions, each in one place for the whole cycle.
+
+_ROOM = 0.6
+"""The part of a bar that its link's name may take."""
+_HIGH = 0.94
+"""The height of letters that are placed, in heights of their line."""
+_UNSEEN = 0.05
+_ENOUGH = 0.5
+"""A name that shows for so much of it is preferred to a number."""
+_LEAST_SHOWN = 0.2
+"""A name that would show for less of the cycle is left out."""
+_LEAST_AGAIN = 0.08
+"""Likewise a name in one more place."""
+_LEAST_MEASURED = 0.4
+"""A dimension likewise: it then stands in the table."""
+_ROW = 1.3
+"""From row to row of the table, in heights of its text."""
+_GRID = (9, 9)
+"""So many places are tried for the table, across and down."""
+
+
+@dataclass(frozen=True)
+class Label:
+    """A line of text with its place; what measures has its `symbol`, and maybe a line drawn with it.
+
+    In the table it stands with what it is `about`.
+    """
+
+    text: str
+    line: int
+    """The height of its line."""
+    colour: Colour
+    size: tuple[float, float]
+    """Of its letters in their halo."""
+    symbol: str = ""
+    about: str = ""
+    spot: Spots | None = None
+    shown: NDArray[np.float64] | None = None
+    """How far it shows over the cycle, at equal steps of phase."""
+    drawn: MeasureLine | AngleArc | None = None
+
+    @property
+    def row(self) -> str:
+        """Its row in the table."""
+        return f"{self.text}, {self.about}"
+
+
+@dataclass(frozen=True)
+class DimensionTable:
+    """Rows of words beside the figure, in columns."""
+
+    rows: tuple[Label, ...]
+    columns: int
+    rect: Rect
+    size: int
+    colour: Colour
+    halo: Halo
+
+    def captions(self) -> Iterator[Caption]:
+        """Yield the rows, column by column."""
+        deep, wide = ceil(len(self.rows) / self.columns), self.rect.width / self.columns
+        for n, label in enumerate(self.rows):
+            at = self.rect.x + n // deep * wide, self.rect.y + n % deep * _ROW * self.size
+            yield Caption(label.row, at, self.size, self.colour, strong=True, halo=self.halo)
+
+
+@dataclass(frozen=True)
+class Names:
+    """All labels of a picture, in their halo, and a table of what is not on the picture all the time."""
+
+    labels: tuple[Label, ...]
+    period: float
+    bar: float
+    halo: Halo
+    table: DimensionTable | None = None
+    unlisted: tuple[Label, ...] = ()
+    """Rows for which there is no room."""
+    scale: float = 1.0
+
+    def captions(self, pose: Pose, places: Places) -> list[Caption]:
+        """Return every label that shows, as a line of text, and the table."""
+        found = [*self.table.captions()] if self.table else []
+        for label, middle, shown in self.standing(pose, places):
+            if shown > _UNSEEN:
+                at = (middle.real, middle.imag - 0.5 * label.line)
+                found.append(
+                    Caption(label.text, at, label.line, label.colour, "centre", True, self.halo, shown)
+                )
+        return found
+
+    def standing(self, pose: Pose, places: Places) -> Iterator[tuple[Label, complex, float]]:
+        """Yield every label with its middle in pixels, and how far it shows (0 to 1)."""
+        if not self.labels:
+            return
+        spots, sides = self._stacked
+        frames = [(label.spot.at, label.spot.head) for label in self.labels if label.spot]
+        at = np.array([places[name] for name, _ in frames])
+        span = [places[head] - places[name] if head != name else self.scale for name, head in frames]
+        middles: Loop = spots.middles(at, span, sides, self.bar)
+        yield from zip(self.labels, middles.tolist(), self._shown(pose.phase), strict=True)
+
+    def lines(self, pose: Pose, places: Places, parts: Mapping[str, Part]) -> Iterator[Layer]:
+        """Yield the dimension lines that show, of `parts` by their symbols."""
+        for label, shown in zip(self.labels, self._shown(pose.phase), strict=True) if parts else ():
+            if label.drawn and shown > _UNSEEN:
+                layers = parts[label.symbol].placed(places)
+                yield from (layer._replace(alpha=shown * layer.alpha) for layer in layers)
+
+    def parts(self, figure: Figure, view: View, gauge: Gauge, colour: Colour) -> dict[str, Part]:
+        """Return the dimension lines in a view, by their symbols."""
+        found = {}
+        for label in self.labels:
+            if label.drawn:
+                at, head = map(figure.start, label.drawn.frame)
+                span = view.scale * (abs(head - at) if label.drawn.frame[0] != label.drawn.frame[1] else 1.0)
+                found[label.symbol] = label.drawn.part(span, gauge, colour)
+        return found
+
+    def measuring(self, known: Symbols | None, unit: str, scale: float) -> Names:
+        """Return the labels in their places in a view of this scale, with the lengths as they are now."""
+        values = {one.symbol: one.written(unit) for one in known.dimensions} if known else {}
+        table = self.table and replace(self.table, rows=_reread(self.table.rows, values))
+        return replace(self, labels=_reread(self.labels, values), table=table, scale=scale)
+
+    def _shown(self, phase: float) -> list[float]:
+        """Return how far each label shows at a phase."""
+        steps = [label.shown for label in self.labels if label.shown is not None]
+        count = max(map(len, steps), default=1)
+        share = phase / self.period % 1.0 * count
+        first, part = int(share), share % 1.0
+        return [
+            float(shown[first % len(shown)] * (1 - part) + shown[(first + 1) % len(shown)] * part)
+            for shown in steps
+        ]
+
+    @cached_property
+    def _stacked(self) -> tuple[Spots, NDArray[np.complex128]]:
+        """The labels' spots, and their sides (w + hi)."""
+        spots = stacked([label.spot for label in self.labels if label.spot])
+        return spots, np.array([complex(*label.size) for label in self.labels])
+
+
+def _reread(labels: Iterable[Label], values: Mapping[str, str]) -> tuple[Label, ...]:
+    """Return labels with the lengths as they are now, by their symbols."""
+    return tuple(replace(label, text=values.get(label.symbol, label.text)) for label in labels)
+
+
+def _joint_size(layout: Layout) -> int:
+    """Return the height of a joint's name."""
+    return max(round(20 * layout.unit), 12)
+
+
+def _halo(setting: DrawSetting) -> Halo:
+    """Return what parts letters from what is below."""
+    return Halo(setting.theme.background, max(1.4 * setting.gauge.line, 1.5))
+
+
+def _label(
+    setting: DrawSetting, text: str, line: int, colour: Colour, symbol: str = "", about: str = ""
+) -> Label:
+    """Return a line of text that has no place yet."""
+    around = 2 * _halo(setting).width
+    wide = setting.type.width(text, line, strong=True)
+    return Label(text, line, colour, (wide + around, _HIGH * line + around), symbol, about)
+
+
+Form = tuple[Label, LabelSpots]
+Forms = Iterator[tuple[Form, ...]]
+"""Labels, each in the forms that it may have, the best first."""
+
+
+def names_of(
+    ground: Surroundings, setting: DrawSetting, known: Symbols | None, dead_centres: DeadCentres | None
+) -> Generator[None, None, Names]:
+    """Place the names of joints and links; where the symbols are known, dimensions and input's angle, too.
+
+    Lengths that do not stand on the picture at all times go into a table. Each place that is looked for is a
+    step.
+    """
+    fixed, shown = ground.figure.fixed, ground.figure.shown
+    moving = [name for name in shown if name not in fixed]
+    planned = [_joints(ground, setting, fixed), _links(ground, setting)]
+    planned += [_dimensions(ground, setting, known), _angle(ground, setting, known)] if known else []
+    planned += [_dead_centres(ground, setting, dead_centres)] if dead_centres else []
+    placer, kept, left = Placer(ground.clutter()), [], []
+    for forms in chain(*planned, _joints(ground, setting, moving)):
+        placed, (label, _) = (yield from _placed(placer, forms)), forms[0]
+        kept += placed
+        if label.about and not any(one.shown is not None and one.shown.all() for one in placed):
+            left.append(label)
+    rows, found = tuple(left), (ground.figure.scene.period, setting.gauge.bar, _halo(setting))
+    table = (yield from _tabled(ground, setting, placer, rows)) if rows else None
+    return Names(tuple(kept), *found, table, () if table else rows, ground.view.scale)
+
+
+def _placed(placer: Placer, forms: tuple[Form, ...]) -> Generator[None, None, list[Label]]:
+    """Return a label in its place; a name again in another for the time at which it cannot be there."""
+    found: list[Label] = []
+    but = None
+    measures = bool(forms[0][0].about)
+    for least in (_LEAST_MEASURED,) if measures else (_LEAST_SHOWN, _LEAST_AGAIN, _LEAST_AGAIN):
+        yield
+        enough = 1.0 if measures else _ENOUGH
+        which, placed = placer.first([spots.candidates for _, spots in forms], enough, least=least, but=but)
+        label, spots = forms[which]
+        forms = forms[which : which + 1] if placed.shown.any() else forms
+        if placed.shown.any():
+            number = -1 if spots.candidates.drawn is None else int(spots.candidates.drawn[placed.which])
+            drawn = spots.lines[number] if number >= 0 else None
+            spot = spots.spots.picked(placed.which)
+            found.append(replace(label, spot=spot, shown=placed.shown, drawn=drawn))
+        but = placed.shown > 0 if but is None else but | (placed.shown > 0)
+        nowhere = least == _LEAST_AGAIN and not placed.shown.any()  # nor would it be a second time
+        if nowhere or but.all():
+            break
+    return found
+
+
+def table_width(rows: Iterable[str], setting: DrawSetting) -> float:
+    """Return how wide a column of the table is."""
+    size = setting.layout.small_size
+    return max(setting.type.width(row, size, strong=True) for row in rows) + 1.2 * size
+
+
+def _tabled(
+    ground: Surroundings, setting: DrawSetting, placer: Placer, rows: tuple[Label, ...]
+) -> Generator[None, None, DimensionTable | None]:
+    """Return the table where it has been given room, or where there is some; None where there is none."""
+    size, strip = setting.layout.small_size, setting.layout.table
+    wide = table_width((label.row for label in rows), setting)
+    if strip:
+        fits = (
+            (columns, small)
+            for small in range(size, 0, -1)
+            for columns in [max(int(strip.width / (wide * small / size)), 1)]
+            if ceil(len(rows) / columns) * _ROW * small <= strip.height or small == 1
+        )
+        columns, small = next(fits)
+        rect = strip._replace(width=columns * wide * small / size)
+        return DimensionTable(rows, columns, rect, small, setting.theme.dim, _halo(setting))
+    stage = setting.layout.stage.inset(setting.layout.margin)
+    for columns in range(1, len(rows) + 1):
+        around = complex(columns * wide, ceil(len(rows) / columns) * _ROW * size)
+        first, room = complex(stage.x, stage.y) + around / 2, complex(stage.width, stage.height) - around
+        if room.real > 0 and room.imag > 0:
+            yield
+            across, down = (np.linspace(0, 1, count) for count in _GRID)
+            grid = first + np.add.outer(across * room.real, 1j * down * room.imag)
+            outer = np.add.outer(np.minimum(across, 1 - across), np.minimum(down, 1 - down)).ravel()
+            order = outer.argsort(kind="stable")
+            spots = ground.still(grid.ravel()[order], (around.real, around.imag)).candidates
+            _, placed = placer.first([spots], least=1.0)
+            if placed.shown.all():
+                corner = complex(spots.places[0, placed.which]) - around / 2
+                rect = Rect(corner.real, corner.imag, around.real, around.imag)
+                return DimensionTable(rows, columns, rect, size, setting.theme.dim, _halo(setting))
+    return None
+
+
+def _joints(ground: Surroundings, setting: DrawSetting, names: Iterable[str]) -> Forms:
+    """Yield joints' names."""
+    for name in names:
+        label = _label(setting, subscripted(name), _joint_size(setting.layout), setting.theme.ink)
+        yield ((label, ground.around(name, label.size)),)
+
+
+def _links(ground: Surroundings, setting: DrawSetting) -> Forms:
+    """Yield the links' names, their numbers where there is no room for those."""
+    links, size = ground.figure.links, setting.layout.small_size
+    for body, number in ground.figure.numbers.items():
+        words = (links[body], number) if _long_enough(ground, setting, body) else (number,)
+        labels = [_label(setting, text, size, setting.theme.ink) for text in dict.fromkeys(words)]
+        if body.slider:
+            yield tuple((label, ground.around(body.slider, label.size, slider=True)) for label in labels)
+        elif len(body.joints) > 1:
+            yield tuple((label, ground.on(body, label.size)) for label in labels)
+
+
+def _long_enough(ground: Surroundings, setting: DrawSetting, body: Body) -> bool:
+    """Return whether a link has room for its name."""
+    if len(body.joints) < 2:
+        return True
+    one, other = map(ground.figure.start, body.joints[:2])
+    name = ground.figure.links[body]
+    wide = setting.type.width(name, setting.layout.small_size, strong=True)
+    return wide < _ROOM * ground.view.scale * abs(other - one)
+
+
+def _angle(ground: Surroundings, setting: DrawSetting, known: Symbols) -> Forms:
+    """Yield the input's angle at its pivot."""
+    if isinstance(ground.turning, Turning):
+        label = _label(setting, known.input, _joint_size(setting.layout), setting.theme.dim)
+        yield ((label, ground.by_arc(ground.turning, label.size)),)
+
+
+def _dead_centres(ground: Surroundings, setting: DrawSetting, found: DeadCentres) -> Forms:
+    """Yield the words at a slider's dead centres."""
+    for text, places in found.words():
+        label = _label(setting, text, setting.layout.small_size, setting.theme.dim)
+        yield ((label, ground.still(places(label.size), label.size)),)
+
+
+def _dimensions(ground: Surroundings, setting: DrawSetting, known: Symbols) -> Forms:
+    """Yield the lengths and angles beside what they measure, those of the ground first."""
+    unit, size = ground.figure.scene.length_unit, setting.layout.small_size
+    for one in known.dimensions:
+        label = _label(setting, one.written(unit), size, setting.theme.dim, one.symbol, one.about)
+        yield tuple((label, spots) for spots in ground.dimension(one, label.size))

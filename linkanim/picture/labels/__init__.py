@@ -1,1 +1,0 @@
-"""Names and dimensions, and where there is room for them."""

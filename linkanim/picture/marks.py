@@ -1,0 +1,133 @@
+"""Mark what only the window shows on the picture: the bar being edited, handles, the lane of a ram.
+
+The bar has its dimension line. The lane consists of two lines on paper that scrolls across a ram's guide.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from functools import lru_cache
+
+import numpy as np
+
+from linkanim.mechanics.motion import Pose
+from linkanim.picture.dimensions import dimension_line
+from linkanim.picture.figure import DrawSetting
+from linkanim.picture.game_panel import mood_colour
+from linkanim.picture.items import Caption, Group
+from linkanim.picture.layout import Gauge
+from linkanim.picture.overlay import DimensionLine, Lane, Spot
+from linkanim.picture.raster import Colour, Layer, Loop
+from linkanim.picture.shapes import Stamp, box, disc, segments, stroke, unit
+from linkanim.picture.theme import ORANGE, Theme, mixed
+from linkanim.picture.view import Rect
+
+# What only the window shows on the picture: the bar being edited with its dimension line, and handles.
+
+_LIT = 0.45
+"""How strongly the bar being edited is lit."""
+
+
+def measure(setting: DrawSetting, begin: complex, end: complex, shown: DimensionLine) -> Iterator[Group]:
+    """Yield the light on what is measured, its dimension line beside it, and the value on the line.
+
+    It lies from `begin` to `end`, in pixels.
+    """
+    if not 1.0 <= abs(end - begin) < np.inf:
+        return
+    gauge, theme, layout, size = setting.gauge, setting.theme, setting.layout, setting.layout.small_size
+    away = 1j * unit(end - begin)
+    away *= (2.0 * gauge.bar + 14 * layout.unit) * (-1 if away.imag > 0 else 1)
+    wide, high = setting.type.width(shown.words, size, strong=True) + 0.7 * size, 1.35 * size
+    middle = _inside(layout.stage, (begin + end) / 2 + _clear(away, gauge, wide, high), wide, high)
+    back = Layer(theme.panel, [middle + box(wide, high, 0.3 * size)], 0.9)
+    at = (middle.real, middle.imag - 0.52 * size)
+    words = Caption(shown.words, at, size, theme.ink, "centre", strong=shown.chosen)
+    line = Layer(theme.ink, dimension_line(begin, end, away, gauge))
+    along = [*_lit(begin, end, gauge)] if shown.chosen else []
+    thin = [] if shown.is_bar else [Layer(theme.ink, segments(begin, end, gauge.line))]
+    lines = [*along, *thin, line, back]
+    yield Group("measure", lines, [words], over=True)
+
+
+def _clear(away: complex, gauge: Gauge, wide: float, high: float) -> complex:
+    """Return how far from a bar's middle that of a label of this size lies, off the bar, by its line."""
+    side = unit(away)
+    reach = abs(side.real) * wide / 2 + abs(side.imag) * high / 2 + 1.7 * gauge.bar
+    return side * max(abs(away), reach)
+
+
+def _inside(stage: Rect, middle: complex, wide: float, high: float) -> complex:
+    """Return the middle of a label of this size, moved onto the stage where it would reach beyond."""
+    x = min(max(middle.real, stage.x + wide / 2), stage.right - wide / 2)
+    return complex(x, min(max(middle.imag, stage.y + high / 2), stage.bottom - high / 2))
+
+
+def _lit(begin: complex, end: complex, gauge: Gauge) -> Iterator[Layer]:
+    reach = 1.5 * gauge.bar
+    loops = [*segments(begin, end, 2 * reach), begin + disc(reach), end + disc(reach)]
+    yield Layer(ORANGE, loops, _LIT)
+
+
+def glow(setting: DrawSetting, pose: Pose, joint: str) -> Iterator[Layer]:
+    """Yield the light round a joint that can be dragged."""
+    middle = setting.view.place(pose.position[joint])
+    for reach, alpha in ((3.2, 0.18), (2.4, 0.28), (1.7, 0.4)):
+        yield Layer(ORANGE, [middle + disc(reach * setting.gauge.bar)], alpha)
+
+
+def spots(setting: DrawSetting, shown: Sequence[Spot]) -> Iterator[tuple[list[Layer], Caption]]:
+    """Yield what marks the places of answers: a ring, and beside it, off the others, the key on a disc."""
+    theme, layout, size = setting.theme, setting.layout, setting.layout.text_size
+    places = [setting.view.place(spot.at) for spot in shown]
+    middle = sum(places) / max(len(places), 1)
+    for spot, at in zip(shown, places, strict=True):
+        colour = mood_colour(theme, spot.mood)
+        ink = theme.velocity if spot.mood == "" else colour
+        off = unit(at - middle) if abs(at - middle) > 1 else -1j
+        disc_at = _inside(layout.stage, at + 1.7 * size * off, 1.6 * size, 1.6 * size)
+        ring = stroke(at + disc(0.55 * size), 0.13 * size, closed=True)
+        lead = segments([at + 0.55 * size * off], [disc_at], 0.1 * size)
+        rim, inner = disc_at + disc(0.8 * size), disc_at + disc(0.68 * size)
+        layers = [Layer(ink, [*ring, *lead]), Layer(ink, [rim]), Layer(theme.panel, [inner])]
+        words = Caption(spot.key, (disc_at.real, disc_at.imag - 0.5 * size), size, ink, "centre", strong=True)
+        yield layers, words
+
+
+def grip(foot: complex, unit_: float, theme: Theme) -> list[Layer]:
+    """Return the grip at the foot of the chart's cursor, for a layout's unit."""
+    return _grip(unit_, theme.ink, theme.background).at([foot])
+
+
+@lru_cache(maxsize=4)
+def _grip(unit_: float, ink: Colour, back: Colour) -> Stamp:
+    """Return the grip about 0: the same at every frame."""
+    begin, end = ([unit_ * (side + way) for side in (-1.8, 1.8)] for way in (-3.5j, 3.5j))
+    ribs = segments(begin, end, 1.2 * unit_)
+    return Stamp((Layer(ink, [box(11 * unit_, 15 * unit_, 4 * unit_)]), Layer(back, ribs)))
+
+
+# The lane of a ram: two lines on paper that scrolls across its guide.
+
+_DEEPEST = 0.62
+"""How far the paper reaches before the ram at the most, in heights of the stage."""
+
+
+def lane(setting: DrawSetting, shown: Lane) -> Group:
+    """Return the paper between the lines, the lines, and the way on which the ram is compared with them."""
+    _, view, gauge, theme = setting.known
+    back, forward = view.place(shown.back), view.place(shown.forward)
+    stage, across, middle = setting.layout.stage, 1j * unit(forward - back), (back + forward) / 2
+    ahead = max((across, -across), key=lambda way: stage.ahead(middle, way))  # where there is more room
+    depth = min(stage.ahead(middle, ahead), _DEEPEST * stage.height)
+    way, share = np.array(shown.middle).T
+    foot: Loop = back + ahead * depth * way + (forward - back) * share
+    half = (forward - back) * shown.half_width
+    edges = foot - half, foot + half
+    ink = theme.velocity if shown.well else theme.warning
+    shade = theme.chosen if shown.well else mixed(ink, theme.background, 0.75)
+    paper = Layer(shade, [np.concatenate((edges[0], edges[1][::-1]))])
+    lines = [loop for edge in edges for loop in stroke(edge, 1.8 * gauge.line)]
+    beyond = 0.06 * (forward - back)
+    guide = segments(back - beyond, forward + beyond, gauge.line)
+    return Group("lane", [paper, Layer(theme.ground, guide), Layer(ink, lines)])

@@ -1,0 +1,425 @@
+"""Mark motion: curves of traced joints, the input's arrow, velocity and acceleration arrows.
+
+A whole trace stands still, and its recent part follows the phase. The input's arrow bends as the driven bar
+turns, and is straight where a slider is driven.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from itertools import accumulate, pairwise
+from math import ceil, floor, pi, tau
+from typing import Any, Literal, NamedTuple, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkanim.mechanics.linkage import DrivenSlider
+from linkanim.mechanics.motion import Motion, Pose
+from linkanim.picture.figure import Figure
+from linkanim.picture.layout import Gauge
+from linkanim.picture.raster import Colour, Layer, Loop
+from linkanim.picture.shapes import (
+    Places,
+    arrows,
+    directions,
+    joined,
+    lengths,
+    offsets,
+    segments,
+    stroke,
+    strokes,
+    unit,
+)
+from linkanim.picture.theme import Theme, mixed
+from linkanim.picture.view import View
+
+# Curves of the traced joints: the whole curve stands still, its recent part follows the phase.
+
+RECENT = 0.3 * 2 * pi
+"""How much phase the recent part covers."""
+_SHADES = 10
+_ORDER = (0, *(shade + step for shade in range(1, _SHADES - 1, 2) for step in (1, 0)), _SHADES - 1)
+"""In which shades are painted: the odd ones after both neighbours, else from the oldest on."""
+SWELL = 1.7
+"""How much wider than the whole curve the recent part ends."""
+_FAINT = 0.5
+"""How much of the background is in the whole curve's colour."""
+_NEAR, _LONGEST_RUN = 0.01, 16
+"""How far off a straight piece may points lie that it passes over, in pixels, and so many in all."""
+
+
+@dataclass(frozen=True)
+class Trace:
+    """The curve of one joint in pixels, at equal steps of phase over one true period."""
+
+    joint: str
+    path: Loop
+    period: float
+    colour: Colour
+    back: Colour
+    width: float
+
+    @cached_property
+    def shades(self) -> tuple[Colour, ...]:
+        """The colours of the recent part, from the oldest on."""
+        return tuple(mixed(self.back, self.colour, shade / _SHADES) for shade in range(1, _SHADES + 1))
+
+    def whole(self) -> Layer:
+        """Return the whole curve."""
+        return Layer(self.back, stroke(self.path, self.width, closed=True))
+
+    def recent(self, phase: float, place: complex, *, forward: bool) -> list[Layer]:
+        """Return what the joint, now at `place`, has passed through last, brighter towards it."""
+        count = len(self.path)
+        here = phase / self.period * count
+        tail = max(round(RECENT / self.period * count), _SHADES)
+        # run backwards, the curve is passed through from its end
+        last, share = (floor(here), here % 1) if forward else (-ceil(here) - 1, -here % 1)
+        first = (last - tail) % count
+        course, (cuts, needed) = self._courses[not forward], _cuts(tail + 2)
+        taken = np.flatnonzero(course.corner[first : first + tail + 2] | needed)
+        path, side = course.path.take(first + taken), course.side.take(first + taken)
+        path[-1], side[-1] = place, (1 - share) * side[-2] + share * side[-1]
+        side *= _swelling(tail + 2, self.width).take(taken)
+        ends = np.searchsorted(taken, cuts).tolist()
+        return list(self._shaded(path - side, path + side, ends))
+
+    def _shaded(self, right: Loop, left: Loop, ends: list[int]) -> Iterator[Layer]:
+        """Yield what lies between two edges in the shades: every other one runs on below its neighbours.
+
+        So few lie over each other. Where the curve crosses itself, the younger part is still on top.
+        """
+        for shade in _ORDER:
+            under = 1 - shade % 2
+            part = slice(max(ends[shade] - under, 0), ends[shade + 1] + 1 + under)
+            yield Layer(self.shades[shade], [np.concatenate((right[part], left[part][::-1]))])
+
+    @cached_property
+    def _courses(self) -> tuple[_Course, _Course]:
+        """Two rounds of the path, and two the other way."""
+        side = _sides(self.path)
+        corner = _corners(np.stack([self.path + way * side for way in (self.width, -self.width)]))
+        there = _Course(np.tile(self.path, 2), np.tile(side, 2), np.tile(corner, 2))
+        return there, _Course(there.path[::-1], -there.side[::-1], there.corner[::-1])
+
+
+class _Course(NamedTuple):
+    """A curve's points, the way from each to the left edge of a line 2 wide, and which ones are corners."""
+
+    path: Loop
+    side: Loop
+    corner: NDArray[np.bool_]
+
+
+@lru_cache(maxsize=16)
+def _swelling(count: int, width: float) -> NDArray[np.float64]:
+    """Return half the width of a recent part at each of its points."""
+    return np.asarray(width / 2 * (1 + (SWELL - 1) / (count - 1) * np.arange(count)), np.float64)
+
+
+@lru_cache(maxsize=16)
+def _cuts(count: int) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
+    """Return where a part of so many points is cut into shades, and its end; and which points that needs.
+
+    Those are the points at the cuts, the ones before and after, which two shades share, and the last two.
+    """
+    cuts = np.array([round(count * shade / _SHADES) for shade in range(_SHADES + 1)])
+    needed = np.zeros(count, np.bool_)
+    needed[np.clip((cuts - 1, cuts, cuts + 1), 0, count - 1)] = True
+    needed[-2:] = True
+    return cuts, needed
+
+
+def _sides(path: Loop) -> Loop:
+    """Return at each point of a closed path the way to the left edge of a line 2 wide; 0 where none moves."""
+    moved = path != np.roll(path, 1)
+    points = path[moved]
+    if not points.size:
+        return np.zeros_like(path)
+    sides = offsets(np.concatenate((points[-1:], points, points[:1])))[1:-1]
+    found: Loop = sides[np.cumsum(moved) - 1]
+    return found
+
+
+def _corners(edges: Loop) -> NDArray[np.bool_]:
+    """Return which points of closed lines (n, points) are needed for straight pieces to be as good.
+
+    Runs of 2, 4, 8 and 16 points are left out where all lie near the places that they have on a piece.
+    """
+    corner, step = np.ones(edges.shape[1], np.bool_), 2
+    while step <= _LONGEST_RUN and not len(corner) % step:
+        begin = edges[:, ::step, None]
+        share = np.arange(1, step) / step
+        there = begin + share * (np.roll(begin, -1, axis=1) - begin)
+        off = lengths(edges.reshape(len(edges), -1, step)[:, :, 1:] - there)
+        corner.reshape(-1, step)[(off <= _NEAR).all(axis=(0, 2)), 1:] = False
+        step *= 2
+    return corner
+
+
+def traces(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> tuple[Trace, ...]:
+    """Return the curves of the scene's traced joints."""
+    found = []
+    for n, joint in enumerate(figure.scene.trace):
+        colour = theme.traces[n % len(theme.traces)]
+        back = mixed(colour, theme.background, _FAINT)
+        path = figure.path(joint, view)
+        found.append(Trace(joint, path, figure.scene.period, colour, back, 1.3 * gauge.line))
+    return tuple(found)
+
+
+# The input's motion: an arrow that bends as the driven bar turns, its angle's arc; or a straight arrow.
+
+Angles = TypeVar("Angles", float, NDArray[np.float64])
+
+SWEEP = 1.25
+"""How much of a turn the arrow covers where the input is fastest, in radians."""
+AHEAD = 0.3
+"""How far ahead of the bar it begins, in radians."""
+_CLEAR, _LONGEST = 3.0, 6.0
+"""How far from a slider's middle a straight one begins, and its length at most, in half widths of a bar."""
+
+
+@dataclass(frozen=True)
+class Turning:
+    """What shows how the bar from `pivot` to `pin` turns; radii in pixels, `fastest` in rad/s.
+
+    Its angle is told within half a turn of `middle` (rad), as the HUD tells it.
+    """
+
+    pivot: str
+    pin: str
+    arc: float
+    arrow: float
+    fastest: float
+    colours: tuple[Colour, Colour]
+    gauge: Gauge
+    middle: float = pi
+
+    def turned(self, angle: Angles) -> Angles:
+        """Return the bar's angle (rad) as it is told."""
+        return self.middle + (angle - self.middle + pi) % tau - pi
+
+    def tracks(
+        self, paths: Mapping[str, Loop], rates: NDArray[np.float64], *, angled: bool
+    ) -> Iterator[tuple[Loop, float]]:
+        """Yield points (n, k) along the arrow and the angle, for joints on paths (n); half their widths."""
+        centre, pin = paths[self.pivot], paths[self.pin]
+        way, share = (pin - centre) / np.abs(pin - centre), np.linspace(0, 1, 16)
+        sweep = SWEEP * np.clip(-rates / self.fastest, -1, 1)[:, None]
+        shaft = np.sign(sweep) * AHEAD + sweep * np.linspace(0, 1, 6)
+        head = shaft[:, -1:] + np.sign(sweep) * 6.0 * self.gauge.line / self.arrow * np.array([-0.5, 1])
+        for bend, half in ((shaft, 1.8), (head, 4.2)):
+            yield centre[:, None] + self.arrow * way[:, None] * directions(bend), half * self.gauge.line
+        if angled:
+            turned = self.turned(np.angle(np.conj(way)))[:, None]
+            yield centre[:, None] + self.arc * directions(-turned * share), 1.5 * self.gauge.line
+            yield centre[:, None] + np.array([0, 1.5 * self.arc]), self.gauge.line
+
+    def direction(self, pose: Pose, places: Places, rate: float) -> list[Layer]:
+        """Return the arrow, shorter as the bar slows down; `rate` is the scene's speed over this one's."""
+        turning = -pose.coordinate_rate * rate / self.fastest
+        sweep = SWEEP * min(max(turning, -1.0), 1.0)
+        if not abs(sweep) > 0.02:
+            return []
+        bent = _bent(sweep, self.arrow, self.gauge.line, self.colours)
+        return [layer.placed(*self._bar(places)) for layer in bent]
+
+    def angle(self, places: Places) -> list[Layer]:
+        """Return the arc from the horizontal to the bar, and the line it begins at."""
+        centre, way = self._bar(places)
+        turned = self.turned(float(np.angle(way.conjugate())))
+        path = centre + self.arc * directions(np.linspace(0, -turned, max(round(abs(turned) * 12), 2)))
+        ink, back = self.colours
+        halo, line = strokes(path, (2.6 * self.gauge.line, 0.9 * self.gauge.line))
+        return [Layer(back, halo), Layer(ink, [*line, *_dashes(centre, 1.45 * self.arc, self.gauge.line)])]
+
+    def _bar(self, places: Places) -> tuple[complex, complex]:
+        return places[self.pivot], unit(places[self.pin] - places[self.pivot])
+
+
+@lru_cache(maxsize=16)
+def _dashes(begin: complex, room: float, thick: float) -> list[Loop]:
+    """Return a dashed line to the right; a pivot mostly stands still: the last ones are kept."""
+    dashes = begin + np.arange(0, room, 3.5 * thick)
+    return segments(dashes, dashes + 2.2 * thick, 0.8 * thick)
+
+
+@lru_cache(maxsize=16)
+def _bent(sweep: float, radius: float, thick: float, colours: tuple[Colour, Colour]) -> tuple[Layer, ...]:
+    """Return an arrow about the pivot, the bar along the real axis, in its rim and without.
+
+    It bends by `sweep` (rad, negative to the left); its head is smaller where it is short. An input of
+    steady speed has the same arrow at every frame: the last ones are kept.
+    """
+    side, line, rim = 1 if sweep > 0 else -1, 1.7 * thick, 0.9 * thick
+    bend: Loop = radius * directions(side * AHEAD + sweep * np.linspace(0, 1, 16))
+    head, turn = min(6.5 * thick, 0.8 * abs(sweep) * radius), bend[-1] / radius * 1j * side
+    (rimmed,), (bare,) = strokes(bend, (line + 2 * rim, line))
+    # a triangle whose point is a little ahead of the end
+    barb = turn * np.array([0.75, -0.35 + 0.5j, -0.35 - 0.5j])
+    loops = (rimmed, bend[-1] + (head + 2 * rim) * barb), (bare, bend[-1] + head * barb)
+    return joined(map(Layer, reversed(colours), loops))
+
+
+@dataclass(frozen=True)
+class Sliding:
+    """What shows how a slider that drives runs along its guide, y down; `fastest` in the scene's unit/s."""
+
+    joint: str
+    along: complex
+    room: float
+    longest: float
+    fastest: float
+    colours: tuple[Colour, Colour]
+    gauge: Gauge
+
+    def direction(self, pose: Pose, places: Places, rate: float) -> list[Layer]:
+        """Return the arrow ahead of the slider, shorter as it slows down; `rate` as of a `Turning`."""
+        share = pose.coordinate_rate * rate / self.fastest
+        reach = self.along * self.longest * min(max(share, -1.0), 1.0)
+        if not abs(reach) > 0.02 * self.longest:
+            return []
+        foot, width = places[self.joint] + self.room * unit(reach), 1.7 * self.gauge.line
+        ink, back = self.colours
+        rims = ((back, 0.9 * self.gauge.line), (ink, 0.0))
+        return [Layer(colour, arrows([foot], [reach], width, rim)) for colour, rim in rims]
+
+    def tracks(
+        self, paths: Mapping[str, Loop], rates: NDArray[np.float64], *, angled: bool
+    ) -> Iterator[tuple[Loop, float]]:
+        """Yield the ends (n, 2) of the arrow of a joint on its path, and half its width; it has no angle."""
+        reach = self.along * self.longest * np.clip(rates / self.fastest, -1, 1)
+        foot = paths[self.joint] + self.room * self.along * np.sign(rates)
+        yield np.stack((foot, foot + reach), axis=1), 4.2 * self.gauge.line
+
+
+def motion_of(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> Turning | Sliding | None:
+    """Return what shows how the input moves: its bar's turning, or its slider's way along the guide.
+
+    None where the input is neither a slider nor a crank on a pivot.
+    """
+    joint, info = figure.linkage.joint(figure.linkage.drive.joint), figure.scene.info
+    fastest = float(np.nanmax(np.abs(figure.cycle.coordinate_rate)))
+    ink = theme.ink, theme.background
+    if isinstance(joint, DrivenSlider):
+        along = complex(directions(-joint.line.angle))
+        return Sliding(joint.name, along, _CLEAR * gauge.bar, _LONGEST * gauge.bar, fastest, ink, gauge)
+    pivot = getattr(joint, "pivot", None)
+    if pivot is None:
+        return None
+    arc, arrow = _radii(view.scale * abs(figure.start(joint.name) - figure.start(pivot)), gauge)
+    middle = pi if info.full_turn else sum(info.input_range) / 2
+    return Turning(pivot, joint.name, arc, arrow, fastest, ink, gauge, middle)
+
+
+def _radii(length: float, gauge: Gauge) -> tuple[float, float]:
+    """Return the radii of the angle's arc and of the arrow, in pixels, for a bar of that length."""
+    arc = max(min(0.36 * length, 6 * gauge.bar), 2.2 * gauge.bar)
+    return arc, max(min(0.7 * length, 8 * gauge.bar), arc + 1.6 * gauge.bar)
+
+
+def turning_arrow(pivot: complex, pin: complex, gauge: Gauge, theme: Theme) -> list[Layer]:
+    """Return the arrow of a driven bar that stands still, in pixels, counter-clockwise."""
+    _, arrow = _radii(abs(pin - pivot), gauge)
+    bent = _bent(-SWEEP, arrow, gauge.line, (theme.ink, theme.background))
+    return [layer.placed(pivot, unit(pin - pivot)) for layer in bent]
+
+
+# Velocity and acceleration arrows at traced joints and centres of mass.
+
+Kind = Literal["v", "a"]
+LONGEST = 0.22
+"""The longest arrow of a cycle, as a share of the window's height."""
+ORDER = {"v": 1, "a": 2}
+
+
+@dataclass(frozen=True)
+class Arrows:
+    """Arrows of one kind, all to one scale over the whole cycle.
+
+    `most` is the largest value of the cycle at the scene's own speed; it is drawn `longest` pixels long.
+    """
+
+    kind: Kind
+    words: str
+    unit: str
+    most: float
+    longest: float
+    drive: float
+    colour: Colour
+    halo: Colour
+    gauge: Gauge
+
+    def scale(self, speed: float) -> float:
+        """Return pixels for one unit of length and second at this input speed (rad/s of phase).
+
+        It changes with the input's speed and with nothing else, so that an arrow's length tells
+        where in the cycle the motion is fast, whatever the speed.
+        """
+        faster = abs(speed / self.drive) ** ORDER[self.kind]
+        return self.longest / (self.most * faster) if self.most > 0 and faster > 0 else 0.0
+
+    def seen(self, pose: Pose, view: View, joints: tuple[str, ...]) -> list[tuple[complex, complex]]:
+        """Return foot and reach of each arrow of a pose that is long enough to be seen, in pixels."""
+        scale = self.scale(pose.input_speed)
+        found = [
+            (view.place(place), complex(scale * x, -scale * y))
+            for place, (x, y) in _values(pose, self.kind, joints)
+        ]
+        return [arrow for arrow in found if 0.01 < abs(arrow[1]) / self.longest < 100]
+
+
+def arrow_layers(
+    kinds: Sequence[Arrows], pose: Pose, view: View, joints: tuple[str, ...]
+) -> list[list[Layer]]:
+    """Return the arrows of a pose, kind by kind, each in a halo that parts them from what is below.
+
+    All kinds go through the arithmetic together.
+    """
+    seen = [kind.seen(pose, view, joints) for kind in kinds]
+    every = [arrow for arrows_ in seen for arrow in arrows_]
+    if not every:
+        return [[] for _ in kinds]
+    line, count = kinds[0].gauge.line, len(every)
+    feet, reaches = np.array(every + every).T
+    drawn = arrows(feet, reaches, 1.6 * line, np.repeat([0.75 * line, 0.0], count))
+    rims, bare = drawn[:count], drawn[count:]
+    ends = pairwise((0, *accumulate(map(len, seen))))
+    return [
+        [Layer(kind.halo, rims[begin:end]), Layer(kind.colour, bare[begin:end])] if begin < end else []
+        for kind, (begin, end) in zip(kinds, ends, strict=True)
+    ]
+
+
+def _values(pose: Pose, kind: Kind, joints: tuple[str, ...]) -> list[tuple[Any, Any]]:
+    values, of_mass = _rates(pose, kind)
+    at_joints = [(pose.position[joint], values[joint]) for joint in joints]
+    return at_joints + [(pose.com_position[body], value) for body, value in of_mass.items()]
+
+
+def arrows_of(figure: Figure, kind: Kind, height: int, gauge: Gauge, theme: Theme) -> Arrows:
+    """Return the arrows of one kind, scaled to the largest finite value of the cycle."""
+    colour = theme.velocity if kind == "v" else theme.acceleration
+    most = _most(figure.cycle, kind, figure.scene.trace)
+    drive = figure.linkage.drive.speed
+    words, per = ("velocity", "/s") if kind == "v" else ("acceleration", "/s²")
+    unit = figure.scene.length_unit + per
+    return Arrows(kind, words, unit, most, LONGEST * height, drive, colour, theme.background, gauge)
+
+
+def _most(cycle: Motion, kind: Kind, joints: tuple[str, ...]) -> float:
+    values, of_mass = _rates(cycle, kind)
+    rows = [np.atleast_2d(row) for row in (*(values[joint] for joint in joints), *of_mass.values())]
+    sizes = np.concatenate([np.zeros(1), *(np.sqrt(row[:, 0] ** 2 + row[:, 1] ** 2) for row in rows)])
+    return float(sizes[np.isfinite(sizes)].max())
+
+
+def _rates(motion: Motion | Pose, kind: Kind) -> tuple[Mapping[str, Any], Mapping[str, Any]]:
+    """Return the velocities or the accelerations of the joints, and of the centres of mass."""
+    if kind == "v":
+        return motion.velocity, motion.com_velocity
+    return motion.acceleration, motion.com_acceleration

@@ -1,0 +1,332 @@
+"""Describe what lies over the picture: lists, help, a toast, marks of state, a linkage being built.
+
+These are data only, in the scene's unit and y up where they are places; `panels`, `game_panel`, `marks`,
+`build_sheet` and `tools` draw them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal, NamedTuple
+
+from linkanim.build.draft import Photo
+from linkanim.build.places import Shape
+from linkanim.mechanics.linkage import Point
+from linkanim.picture.look import ThemeName
+from linkanim.scenes.scene import Scene
+
+if TYPE_CHECKING:
+    from linkanim.synthesis.answers import PathAnswer
+    from linkanim.synthesis.curves import DrawnCurve
+
+# What is shown of a linkage that is being built, as data: places in the scene's unit, y up.
+
+
+class Snap(NamedTuple):
+    """What is under the hand: a joint, or a line or bar with its ends, and where that is met."""
+
+    at: Point
+    ends: tuple[Point, Point] | None = None
+
+
+class Rubber(NamedTuple):
+    """What the hand draws from place to place with a tool, and its measures in words."""
+
+    tool: str
+    begin: Point
+    end: Point
+    words: str = ""
+
+
+class ToolShown(NamedTuple):
+    """A tool of the bar: which icon, its name, its key."""
+
+    icon: str
+    name: str
+    key: str
+
+
+@dataclass(frozen=True)
+class ToolBar:
+    """The bar of tools: the one in hand, and the one that the mouse is over."""
+
+    tools: tuple[ToolShown, ...]
+    chosen: int = 0
+    pointed: int | None = None
+
+
+@dataclass(frozen=True)
+class DraftShown:
+    """A draft that does not move yet: its shapes from the back to the front.
+
+    `crank` are the pivot and the pin of the driven one; a bar's colour is that of its place among the bars,
+    the crank first. The joints `traced` bear marks.
+    """
+
+    shapes: tuple[Shape, ...] = ()
+    crank: tuple[Point, Point] | None = None
+    traced: tuple[Point, ...] = ()
+
+
+@dataclass(frozen=True)
+class BuildShown:
+    """A sheet with what is built on it: the `draft`, or the linkage itself and what is `loose` beside it.
+
+    `sentence` says what it is or what is missing, as a warning or not, `facts` what it can do. What is
+    `chosen` is lit, with its number in words or as it is typed. The `cursor` is that of the keys. Where
+    there are no tools, as in a recording, the place of the `hand` is shown. A `photo` lies
+    behind, and its `anchor` stays where it is.
+    """
+
+    draft: DraftShown | None = None
+    loose: DraftShown | None = None
+    sentence: str = ""
+    facts: tuple[str, ...] = ()
+    chosen: Shape | None = None
+    number: str = ""
+    rubber: Rubber | None = None
+    snap: Snap | None = None
+    cursor: Point | None = None
+    tools: ToolBar | None = None
+    hand: Point | None = None
+    photo: Photo | None = None
+    anchor: Point | None = None
+    is_warning: bool = False
+
+
+# What lies over the picture for a while: help, the edit list, a toast, the marks of state.
+
+
+@dataclass(frozen=True)
+class EditRow:
+    """One dimension in the edit list: its name, its value as written, and whether it is chosen.
+
+    A `draft` is a value that was typed and is not judged yet.
+    """
+
+    label: str
+    value: str
+    chosen: bool = False
+    draft: bool = False
+
+
+@dataclass(frozen=True)
+class Panel:
+    """The edit list; `error` is the reason, in words, why the chosen value is refused.
+
+    `facts` are what the lengths make of the linkage; they stand out while `flash` (0 to 1) is above 0. The
+    mouse is over the row `pointed`.
+    """
+
+    rows: tuple[EditRow, ...]
+    title: str = "Edit dimensions"
+    facts: tuple[str, ...] = ()
+    flash: float = 0.0
+    error: str | None = None
+    hint: str = ""
+    pointed: int | None = None
+
+
+@dataclass(frozen=True)
+class Quantities:
+    """A list, as of quantities: rows of words and symbol, the chosen one's number, what has been typed.
+
+    The mouse is over the row `pointed`.
+    """
+
+    rows: tuple[tuple[str, str], ...]
+    chosen: int
+    sieve: str = ""
+    hint: str = ""
+    pointed: int | None = None
+    title: str = "Quantities"
+
+
+@dataclass(frozen=True)
+class Shelf:
+    """All mechanisms, those of the catalogue by their names, the chosen one's place, and how many frames it
+    has been open; `still` while paused. The places of `edited` are not as their files have them.
+
+    `found` are the places that have the `sieve` in them; the row numbered `top` is the first where it can be.
+    """
+
+    entries: tuple[Scene | str, ...]
+    chosen: int
+    frame: int
+    theme: ThemeName
+    still: bool = False
+    edited: frozenset[int] = frozenset()
+    found: tuple[int, ...] = ()
+    sieve: str = ""
+    top: int = 0
+
+
+@dataclass(frozen=True)
+class PathShown:
+    """A path that is drawn: the `pen`'s points while it is down, then the curve that was meant, as x + yi.
+
+    While it is `blank` no linkage is shown. `off` says how far off the shown one is; of the curve's points,
+    which are `marked` where they can be dragged, one may be `held`, and so may fixed `pins`.
+    """
+
+    curve: DrawnCurve | None
+    pen: tuple[complex, ...] = ()
+    blank: bool = True
+    off: str | None = None
+    held: int | None = None
+    pins: tuple[Point, ...] = ()
+    marked: bool = True
+
+
+@dataclass(frozen=True)
+class AnswerRow:
+    """Linkages that follow a path, as answers or scenes, what is said of each, and which one is shown.
+
+    Lengths are in `unit`; pictures are those of a `frame`, and `still` while paused.
+    """
+
+    entries: tuple[PathAnswer | Scene, ...]
+    words: tuple[str, ...]
+    chosen: int
+    unit: str
+    frame: int
+    theme: ThemeName
+    still: bool = False
+
+
+@dataclass(frozen=True)
+class Fading:
+    """Words that come and go: shown as strongly as so many eighths say."""
+
+    text: str
+    eighths: int = 8
+
+
+class DimensionLine(NamedTuple):
+    """A length in words, from place to place in the frame of two joints, whose way is 1 and to its left 1j.
+
+    Of one joint twice, 1 is the scene's unit, level. The `chosen` one is lit.
+    """
+
+    frame: tuple[str, str]
+    begin: complex
+    end: complex
+    words: str
+    chosen: bool = True
+
+    @property
+    def is_bar(self) -> bool:
+        """Whether it lies along a bar from joint to joint."""
+        return self.frame[0] != self.frame[1] and (self.begin, self.end) == (0, 1)
+
+
+Mood = Literal["", "right", "wrong", "faint"]
+"""How an answer is shown: as any other, as right, as wrong, as one that no longer counts."""
+
+
+class Choice(NamedTuple):
+    """An answer, or a door: the key that takes it, its words, what stands small below them, how it is shown.
+
+    A `curve` of values from −1 to 1 is drawn instead of words.
+    """
+
+    key: str
+    text: str
+    mood: Mood = ""
+    below: str = ""
+    curve: tuple[float, ...] = ()
+
+
+class ScoreBar(NamedTuple):
+    """A score as a bar: its words, how full it is (0 to 1), and where its thresholds stand."""
+
+    label: str
+    words: str
+    full: float
+    marks: tuple[float, ...] = ()
+
+
+class Spot(NamedTuple):
+    """The place of an answer on the picture, in the unit that is shown, and what marks it."""
+
+    key: str
+    at: Point
+    mood: Mood = ""
+
+
+@dataclass(frozen=True)
+class GamePanel:
+    """What a game shows in the room of a list: from its heading down to what there is to press.
+
+    A title's heading is `large`; what stands `aside` below the lines is dim. `chosen` is the answer that
+    Enter takes, the mouse is over `pointed`. `verdict` says what has come of an answer, well or not,
+    `lines_after` why. A `subject` stands over them.
+    """
+
+    heading: str
+    scores: tuple[str, ...] = ()
+    lines: tuple[str, ...] = ()
+    aside: str = ""
+    choices: tuple[Choice, ...] = ()
+    bars: tuple[ScoreBar, ...] = ()
+    verdict: str = ""
+    well: bool = True
+    subject: str = ""
+    lines_after: tuple[str, ...] = ()
+    hint: str = ""
+    large: bool = False
+    chosen: int | None = None
+    pointed: int | None = None
+
+
+class Lane(NamedTuple):
+    """Two lines across a ram's guide, from its `back` to its `forward` dead centre, in the unit shown.
+
+    `middle` has how far before the ram, in shares of all that is in sight, and where between the dead centres
+    (0 to 1) the ram has to be then, `half_width` to either side; `well` says that it is between them now.
+    """
+
+    back: Point
+    forward: Point
+    middle: tuple[tuple[float, float], ...]
+    half_width: float
+    well: bool
+
+
+Help = tuple[tuple[str, tuple[tuple[str, str], ...]], ...]
+"""Subjects, each with its lines of (key, what it does)."""
+
+
+@dataclass(frozen=True)
+class Overlay:
+    """What one frame shows beside the scene; the empty one shows nothing.
+
+    Answers that are places have `spots` on the picture, in their order, a ram that is followed its `lane`.
+    The joints `handles` can be dragged. With `noted` the HUD says where a limit or a change point is near.
+    `chip` answers a key, `hint` says what there is to press, `watch` what to watch for. `measured` is what
+    the chosen dimension and those beside it measure, `glow` the joint under the mouse; with `grip` the
+    chart's cursor has one. `shutter` is how white the picture is, in eighths.
+    """
+
+    paused: bool = False
+    toast: str | None = None
+    recording: str | None = None
+    help: Help | None = None
+    panel: Panel | None = None
+    quantities: Quantities | None = None
+    shelf: Shelf | None = None
+    path: PathShown | None = None
+    row: AnswerRow | None = None
+    build: BuildShown | None = None
+    game: GamePanel | None = None
+    spots: tuple[Spot, ...] = ()
+    lane: Lane | None = None
+    handles: tuple[str, ...] = ()
+    chip: Fading | None = None
+    hint: Fading | None = None
+    watch: Fading | None = None
+    measured: tuple[DimensionLine, ...] = ()
+    glow: str | None = None
+    grip: bool = False
+    shutter: int = 0
+    noted: bool = False

@@ -1,0 +1,545 @@
+"""Draw what lies over the picture for a while: help, edit list, list of quantities, chips, marks of state.
+
+The help has as many columns as the window has room for. Chips are words that come and go.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, field
+from itertools import chain, product
+from math import ceil
+from typing import Any, NamedTuple
+
+import numpy as np
+import pygame
+
+from linkanim.picture.board import STEP, Board, Rows, around
+from linkanim.picture.game_panel import answer_rows, game_panel
+from linkanim.picture.layout import Layout
+from linkanim.picture.overlay import Fading, Help, Overlay, Panel, Quantities
+from linkanim.picture.raster import Colour, Layer, Loop, paint
+from linkanim.picture.shapes import box, disc, stroke
+from linkanim.picture.theme import ORANGE, mixed
+from linkanim.picture.view import Rect
+
+# Words that come and go: a chip that answers a key, what there is to press, sentences; and where.
+
+_GAP = "   ·   "
+_LITTLE = 0.12
+"""A sentence that takes more of the stage's height is shown on nothing that is drawn, or not at all."""
+
+
+def chip(board: Board, text: str) -> pygame.Surface:
+    """Return a chip: words on a small sheet."""
+    size = board.layout.text_size
+    sheet = board.sheet(board.type.width(text, size, strong=True) + 1.6 * size, 1.7 * size)
+    board.write(sheet, text, (sheet.get_width() / 2, 0.35 * size), size=size, anchor="centre", strong=True)
+    return sheet
+
+
+def hint_bar(board: Board, text: str) -> pygame.Surface | None:
+    """Return the hint bar, the last of its parts that there is room for; None where that is none."""
+    size, parts = board.layout.small_size, text.split(" · ")
+    place = board.layout.hint or board.layout.stage
+    room = place.width - 2 * size
+    while parts and board.type.width(_GAP.join(parts), size) > room:
+        parts.pop(0)
+    if not parts:
+        return None
+    words = _GAP.join(parts)
+    sheet = board.sheet(board.type.width(words, size) + 2 * size, 1.6 * size)
+    board.write(sheet, words, (size, 0.3 * size), size=size, colour=board.theme.dim)
+    return sheet
+
+
+def sentence(board: Board, text: str) -> tuple[pygame.Surface, tuple[float, float] | None]:
+    """Return what to watch for on a sheet where nothing is drawn, or off the words; None for nowhere."""
+    free, stage = board.layout.passing, board.layout.stage
+    sheet = _lines(board, text, board.layout.small_size, (free or stage).width + 1, board.theme.dim)
+    if free or sheet.get_height() > _LITTLE * stage.height:
+        return sheet, (free.x, free.y) if free else None
+    return sheet, off_words(board.layout, sheet, edges(board, sheet))
+
+
+def toast(board: Board, text: str) -> tuple[pygame.Surface, tuple[float, float]]:
+    """Return a toast and its place: where nothing is drawn, else off the words about the scene."""
+    layout, small, hint = board.layout, board.layout.small_size, board.layout.hint
+    if hint and board.type.width(text, small) + 2 * small <= hint.width:
+        sheet = _lines(board, text, small, hint.width)
+        return sheet, (hint.x + (hint.width - sheet.get_width()) / 2, hint.bottom - sheet.get_height())
+    ways = (layout.text_size, 0.9), (small, 0.9), (small, 0.6), (small, 0.4)
+    sheets = [_lines(board, text, size, share * layout.stage.width) for size, share in ways]
+    found = ((sheet, off_words(layout, sheet, edges(board, sheet))) for sheet in sheets)
+    free = next(((sheet, at) for sheet, at in found if at), None)
+    return free or (sheets[0], next(edges(board, sheets[0])))
+
+
+def _lines(board: Board, text: str, size: int, room: float, colour: Colour | None = None) -> pygame.Surface:
+    """Return words on a sheet, in lines no wider than some room, in ink unless a colour is given."""
+    lines = board.type.wrapped(text, size, room - 2 * size)
+    sheet = board.sheet(board.widest(lines, size) + 2 * size, (1.25 * len(lines) + 0.75) * size)
+    for n, line in enumerate(lines):
+        at = (sheet.get_width() / 2, (0.5 + 1.25 * n) * size)
+        board.write(sheet, line, at, size=size, colour=colour, anchor="centre")
+    return sheet
+
+
+def off_words(
+    layout: Layout, drawn: pygame.Surface, places: Iterable[tuple[float, float]]
+) -> tuple[float, float] | None:
+    """Return the first of some places at which a sheet lies on no word about the scene; else None."""
+    busy = (*layout.words, *([layout.legend] if layout.legend else []))
+    size = drawn.get_size()
+    return next((at for at in places if not any(Rect(*at, *size).meets(one) for one in busy)), None)
+
+
+def edges(board: Board, drawn: pygame.Surface) -> Iterator[tuple[float, float]]:
+    """Yield places of a sheet along the foot and the head of the scene's room."""
+    room = board.layout.stage.inset(board.margin)
+    wide, high = room.width - drawn.get_width(), room.height - drawn.get_height()
+    for low, right in product((1, 0), (0.5, 1, 0)):
+        yield room.x + right * wide, room.y + low * high
+
+
+def put(surface: pygame.Surface, drawn: pygame.Surface, at: tuple[float, float], shown: Fading) -> None:
+    """Blit what has been drawn, its top left corner at a place, as strongly as it is shown."""
+    drawn.set_alpha(round(255 * shown.eighths / 8))
+    surface.blit(drawn, (round(at[0]), round(at[1])))
+
+
+# The list of dimensions: what the linkage is, the values, and why one is refused.
+
+_FRAME = 2.7
+"""How many lines high the list is without its rows and what stands above and below them."""
+_FEWEST = 4
+"""As many rows are shown before hints and facts give way."""
+_FLASH = 0.45
+"""How much of the flash's colour is in the bar behind the facts at its brightest."""
+
+
+@dataclass(frozen=True)
+class _Division:
+    """How the list is divided: its text's size and width, the lines above and below the rows, the rows."""
+
+    size: int
+    wide: float
+    facts: list[str]
+    foot: list[tuple[str, Colour]]
+    rows: range
+
+    @property
+    def lines(self) -> float:
+        """The height of the whole in lines."""
+        return len(self.facts) + len(self.rows) + len(self.foot) + _FRAME
+
+    @property
+    def top(self) -> float:
+        """How far down the first row's text begins, in its heights."""
+        return 0.9 + STEP * (1 + len(self.facts)) + (0.25 if self.facts else 0.0)
+
+
+def edit_list(board: Board, panel: Panel) -> pygame.Surface:
+    """Return the list; where it would not fit at a size that reads, the rows around the chosen one."""
+    parts = _fitting(board, panel)
+    size = parts.size
+    sheet = board.sheet(parts.wide, STEP * size * parts.lines)
+    _head(board, sheet, panel, parts)
+    top = parts.top
+    for k, n in enumerate(parts.rows):
+        _row(board, sheet, panel, n, (top + STEP * k) * size, size)
+    for n, (line, colour) in enumerate(parts.foot, start=len(parts.rows)):
+        board.write(sheet, line, (1.2 * size, (top + 0.3 + STEP * n) * size), size=size, colour=colour)
+    return sheet
+
+
+def edit_rows(board: Board, panel: Panel) -> Rows:
+    """Return where the rows are on the list's sheet."""
+    parts = _fitting(board, panel)
+    return Rows(parts.rows, (parts.top - (STEP - 1) / 2) * parts.size, STEP * parts.size)
+
+
+def _fitting(board: Board, panel: Panel) -> _Division:
+    """Return the largest text at which all fits; else the smallest, without the hint, then the facts."""
+    sizes = range(board.layout.text_size, board.layout.small_size - 1, -1)
+    for size in (size for size in sizes if len(panel.rows) <= _room(board, size)):
+        parts = _divided(board, panel, size, (panel.facts, panel.hint))
+        if len(parts.rows) == len(panel.rows) and _needed(board, panel, size) <= parts.wide:
+            return parts
+    for more in ((panel.facts, panel.hint), (panel.facts, ""), ((), "")):
+        parts = _divided(board, panel, sizes[-1], more)
+        if len(parts.rows) >= min(_FEWEST, len(panel.rows)):
+            break
+    return parts
+
+
+def _divided(board: Board, panel: Panel, size: int, more: tuple[tuple[str, ...], str]) -> _Division:
+    facts, hint = more
+    wide = board.layout.lists.width
+    room = wide - 2.4 * size
+    lines = [line for fact in facts for line in board.type.wrapped(fact, size, room)]
+    foot = [(line, board.theme.warning) for line in board.type.wrapped(panel.error or "", size, room)]
+    foot += [(line, board.theme.dim) for line in board.type.wrapped(hint, size, room, gap="   ")]
+    left = int(_room(board, size) - len(foot) - len(lines))
+    return _Division(size, wide, lines, foot, around(len(panel.rows), _chosen(panel) or 0, left))
+
+
+def _needed(board: Board, panel: Panel, size: int) -> float:
+    """Return how wide the list must be for every name to be written in full."""
+    columns = zip(*((row.label, row.value) for row in panel.rows), strict=True)
+    return sum(board.widest(column, size, strong=True) for column in columns) + 3.9 * size
+
+
+def _room(board: Board, size: int) -> float:
+    """Return how many lines of text there is room for beside the list's frame."""
+    return board.layout.lists.height / STEP / size - _FRAME
+
+
+def _chosen(panel: Panel) -> int | None:
+    return next((n for n, row in enumerate(panel.rows) if row.chosen), None)
+
+
+def _head(board: Board, sheet: pygame.Surface, panel: Panel, parts: _Division) -> None:
+    """Draw the title, which of the rows is the chosen one, and the facts, lit up while they flash."""
+    size, chosen = parts.size, _chosen(panel)
+    count = "" if chosen is None else f"{chosen + 1} of {len(panel.rows)}"
+    board.head(sheet, size, panel.title, count, board.theme.ink)
+    if panel.flash > 0.0 and parts.facts:
+        lit = mixed(board.theme.panel, ORANGE, _FLASH * panel.flash)
+        board.bar(sheet, (0.8 + STEP) * size, size, lit, lines=len(parts.facts))
+    for n, line in enumerate(parts.facts, start=1):
+        board.write(sheet, line, (1.2 * size, (0.8 + STEP * n) * size), size=size)
+
+
+def _row(board: Board, sheet: pygame.Surface, panel: Panel, n: int, y: float, size: int) -> None:
+    row, behind = panel.rows[n], board.behind(n, _chosen(panel), panel.pointed)
+    if behind:
+        board.bar(sheet, y, size, behind)
+    at, colour = (sheet.get_width() - 1.2 * size, y), board.theme.velocity if row.draft else board.theme.ink
+    room = at[0] - board.type.width(row.value, size, strong=True) - 2.0 * size
+    label = board.fitting((row.label,), size, room)
+    board.write(sheet, label, (1.2 * size, y), size=size, colour=board.theme.dim)
+    board.write(sheet, row.value, at, size=size, colour=colour, anchor="right", strong=True)
+
+
+# The help: every key and what it does, by subject, in as many columns as the window has room for.
+
+_STEP = 1.32
+_HELP_GAP = 1.1
+"""Between the keys and what they do, and between columns twice as much, in heights of the text."""
+_WIDEST = 0.97
+"""The most of its room that the help takes."""
+_LEAST = 9
+"""The smallest text that can be read, in pixels."""
+
+
+class _Line(NamedTuple):
+    """A line of a column: a subject, or a key and what it does; an empty one parts subjects."""
+
+    keys: str
+    does: str
+    heading: bool = False
+
+
+class _Column(NamedTuple):
+    lines: tuple[_Line, ...]
+    keys: float
+    """How wide its keys are."""
+    does: float
+
+
+class _Laid(NamedTuple):
+    """The columns at one text size, and how large a sheet they need."""
+
+    size: int
+    columns: list[_Column]
+    wide: float
+    high: float
+
+
+def help_sheet(board: Board, shown: tuple[Help, int]) -> pygame.Surface:
+    """Return the help, its text as large as lets it stand in a room so wide, and in the window's height.
+
+    Where not all of it can be read there, the last subjects are left out.
+    """
+    groups, room = shown
+    for laid in _ways(board, groups, _WIDEST * room):
+        if laid.wide <= _WIDEST * room + 1 and laid.high <= _WIDEST * board.layout.size[1]:
+            break
+    size, sheet = laid.size, board.sheet(laid.wide, laid.high)
+    x = 1.4 * size
+    for column in laid.columns:
+        _draw(board, sheet, column, x, size)
+        x += column.keys + column.does + 3 * _HELP_GAP * size
+    return sheet
+
+
+def _ways(board: Board, groups: Help, room: float) -> Iterator[_Laid]:
+    """Yield all subjects at every size, smaller ones broken into lines, then fewer and fewer at the least."""
+    largest, small = board.layout.text_size, board.layout.small_size
+    for size in range(largest, small - 1, -1):
+        yield _laid(board, groups, size)
+    for size in range(small, _LEAST - 1, -1):
+        yield _laid(board, groups, size)
+        yield _laid(board, groups, size, room)
+    for count in range(len(groups) - 1, 0, -1):
+        yield _laid(board, groups[:count], _LEAST, room)
+
+
+def _laid(board: Board, groups: Help, size: int, room: float | None = None) -> _Laid:
+    """Return the columns at a size, no wider than a room together where one is given."""
+    parts = _two_columns(groups)
+    gaps = (_HELP_GAP * (3 * len(parts) - 2) + 2.8) * size
+    each = None if room is None else (room - gaps) / len(parts)
+    columns = [_measured(board, lines, size, each) for lines in parts]
+    wide = sum(column.keys + column.does for column in columns) + gaps
+    high = (_STEP * max(len(column.lines) for column in columns) + 1.6) * size
+    return _Laid(size, columns, wide, high)
+
+
+def _two_columns(groups: Help) -> list[tuple[_Line, ...]]:
+    """Return the lines of two columns, as equally high as whole subjects let them be; one group's of one.
+
+    An empty line is below each subject but the last of a column.
+    """
+    blocks = [
+        (_Line(subject.capitalize(), "", heading=True), *(_Line(*line) for line in lines), _Line("", ""))
+        for subject, lines in groups
+    ]
+    if len(blocks) == 1:
+        return [blocks[0][1:-1]]
+    high = [len(block) - 1 for block in blocks]
+    cut = min(range(1, len(blocks)), key=lambda n: max(sum(high[:n]), sum(high[n:])))
+    return [tuple(chain.from_iterable(part))[:-1] for part in (blocks[:cut], blocks[cut:])]
+
+
+def _measured(board: Board, lines: tuple[_Line, ...], size: int, room: float | None) -> _Column:
+    keys = board.widest((line.keys for line in lines if not line.heading), size, strong=True)
+    if room is not None:
+        lines = tuple(part for line in lines for part in _broken(board, line, size, room - keys))
+    return _Column(lines, keys, board.widest((line.does for line in lines), size))
+
+
+def _broken(board: Board, line: _Line, size: int, room: float) -> Iterator[_Line]:
+    """Yield a line as several where what its keys do is wider than a room."""
+    first, *rest = board.type.wrapped(line.does, size, max(room, 6.0 * size)) or [""]
+    yield line._replace(does=first)
+    yield from (_Line("", more) for more in rest)
+
+
+def _draw(board: Board, sheet: pygame.Surface, column: _Column, x: float, size: int) -> None:
+    for n, line in enumerate(column.lines):
+        y = (0.9 + _STEP * n) * size
+        colour = board.theme.velocity if line.heading else board.theme.ink
+        board.write(sheet, line.keys, (x, y), size=size, colour=colour, strong=True)
+        at = (x + column.keys + _HELP_GAP * size, y)
+        board.write(sheet, line.does, at, size=size, colour=board.theme.dim)
+
+
+# The list of quantities: their words and symbols, what has been typed to sift them, the chosen one.
+
+_QUANTITY_FRAME = 2.6
+"""How many lines high the list is without its rows and hint."""
+
+
+def quantity_list(board: Board, shown: Quantities) -> pygame.Surface:
+    """Return the list, as many rows around the chosen one as the window has room for."""
+    size, wide = board.layout.small_size, board.layout.lists.width
+    rows, hint = _rows_and_hint(board, shown)
+    lines = max(len(rows), 1) + len(hint) + _QUANTITY_FRAME
+    sheet = board.sheet(wide, STEP * size * lines)
+    count = f"{shown.chosen + 1} of {len(shown.rows)}" if shown.rows else "0"
+    typed = (f"{shown.sieve}_", board.theme.velocity) if shown.sieve else (shown.title, board.theme.ink)
+    board.head(sheet, size, typed[0], count, typed[1])
+    for n, row in enumerate(rows):
+        _quantity_row(board, sheet, shown, row, size, (0.9 + STEP * (n + 1)) * size)
+    if not shown.rows:
+        at = (1.2 * size, (0.9 + STEP) * size)
+        board.write(sheet, "nothing here has that in its name", at, size=size, colour=board.theme.warning)
+    for n, line in enumerate(hint, start=max(len(rows), 1) + 1):
+        at = (1.2 * size, (1.1 + STEP * n) * size)
+        board.write(sheet, line, at, size=size, colour=board.theme.dim)
+    return sheet
+
+
+def quantity_rows(board: Board, shown: Quantities) -> Rows:
+    """Return where the rows are on the list's sheet."""
+    size = board.layout.small_size
+    return Rows(_rows_and_hint(board, shown)[0], (0.9 + 0.5 * (STEP + 1)) * size, STEP * size)
+
+
+def _rows_and_hint(board: Board, shown: Quantities) -> tuple[range, list[str]]:
+    """Return which rows there is room for, and the lines of the hint, if there is room for it."""
+    size, place = board.layout.small_size, board.layout.lists
+    hint = board.type.wrapped(shown.hint, size, place.width - 2.4 * size, gap="   ")
+    room = int(place.height / STEP / size - _QUANTITY_FRAME)
+    hint = hint if room - len(hint) >= 4 else []
+    return around(len(shown.rows), shown.chosen, room - len(hint)), hint
+
+
+def _quantity_row(
+    board: Board, sheet: pygame.Surface, shown: Quantities, row: int, size: int, y: float
+) -> None:
+    behind = board.behind(row, shown.chosen, shown.pointed)
+    if behind:
+        board.bar(sheet, y, size, behind)
+    (words, symbol), room = shown.rows[row], sheet.get_width() - 2.4 * size
+    left = room - board.type.width(words, size) - size
+    ways = (symbol, symbol.rpartition(" = ")[2])
+    symbol = next((text for text in ways if board.type.width(text, size) <= left), "")
+    if symbol:
+        at = (sheet.get_width() - 1.2 * size, y)
+        board.write(sheet, symbol, at, size=size, colour=board.theme.dim, anchor="right")
+    board.write(sheet, board.fitting((words,), size, room), (1.2 * size, y), size=size)
+
+
+# What lies over the picture: the help, the edit list, a toast, the marks of pause and recording.
+
+_VEIL = 170
+_BACKING = 0.7
+"""How little of what lies under a mark shows through its backing."""
+
+
+@dataclass
+class Panels:
+    """Draws overlays; the last panel of each kind is kept, so that an open one costs one blit."""
+
+    board: Board
+    _kept: dict[Any, tuple[Any, Any]] = field(default_factory=dict)
+
+    def draw(self, surface: pygame.Surface, overlay: Overlay) -> None:
+        """Draw what an overlay holds: the help over a game or beside the edit list, a toast at the foot."""
+        self._marks(surface, overlay)
+        self._list(surface, game_panel, overlay.game)
+        if overlay.help:
+            surface.blit(self._keep(_veil, self.board.layout.size), (0, 0))
+        left = self._list(surface, edit_list, overlay.panel)
+        self._list(surface, quantity_list, overlay.quantities)
+        if overlay.help:
+            room = self.board.layout.size[0] - left
+            drawn = self._keep(help_sheet, (overlay.help, room))
+            at = (
+                left + (room - drawn.get_width()) // 2,
+                (self.board.layout.size[1] - drawn.get_height()) // 2,
+            )
+            surface.blit(drawn, at)
+        self._passing(surface, overlay)
+        if overlay.toast:
+            surface.blit(*self._keep(toast, overlay.toast))
+
+    def _list(self, surface: pygame.Surface, make: Any, shown: object) -> int:
+        """Draw a list, if one is open; return how much of the window's left it takes at the top."""
+        if shown is None:
+            return 0
+        drawn = self._keep(make, shown)
+        at = self._listed(drawn)
+        surface.blit(drawn, at)
+        return self.board.margin + drawn.get_width() if at[1] <= self.board.margin else 0
+
+    def row_at(self, overlay: Overlay, x: float, y: float) -> int | None:
+        """Return the row of the open list under a pixel, -1 on the list beside them; None off it.
+
+        A game's answers have None beside them.
+        """
+        for make, rows_of, shown in (
+            (game_panel, answer_rows, overlay.game),
+            (edit_list, edit_rows, overlay.panel),
+            (quantity_list, quantity_rows, overlay.quantities),
+        ):
+            if shown:
+                drawn = self._keep(make, shown)
+                left, top = self._listed(drawn)
+                if not Rect(left, top, *drawn.get_size()).holds(x, y):
+                    return None
+                found: int | None = self._keep(rows_of, shown).at(y - top)
+                return -1 if found is None and shown is not overlay.game else found
+        return None
+
+    def _listed(self, drawn: pygame.Surface) -> tuple[int, int]:
+        """Return where a list stands: at the top of its place, or at the window's foot."""
+        place, margin = self.board.layout.lists, self.board.margin
+        foot = self.board.layout.size[1] - margin - drawn.get_height()
+        return round(place.x), max(foot, margin) if place.y > margin else margin
+
+    def _passing(self, surface: pygame.Surface, overlay: Overlay) -> None:
+        """Draw the chip below the marks, and the hint bar at the bottom, where the HUD is not."""
+        room, place = self.board.layout.stage, self.board.layout.marks
+        if overlay.chip:
+            drawn = self._keep(chip, overlay.chip.text)
+            marks = 1.5 * self.board.layout.text_size * (bool(overlay.recording) + overlay.paused)
+            left = place.x if self._marks_lead else place.right - drawn.get_width()
+            beside = left, place.y + marks
+            free = off_words(self.board.layout, drawn, [beside, *edges(self.board, drawn)])
+            put(surface, drawn, free or beside, overlay.chip)
+        if overlay.watch:
+            drawn, at = self._keep(sentence, overlay.watch.text)
+            if at:
+                put(surface, drawn, at, overlay.watch)
+        if overlay.hint:
+            words = self._keep(hint_bar, overlay.hint.text)
+            at = self.board.layout.hint or room
+            if words:
+                leads = at.x + at.width / 2 <= room.x + room.width / 2
+                left = at.x if leads else at.right - words.get_width()
+                put(surface, words, (left, at.bottom - words.get_height()), overlay.hint)
+
+    @property
+    def _marks_lead(self) -> bool:
+        """Whether the marks stand at the left of the scene's room."""
+        place, stage = self.board.layout.marks, self.board.layout.stage
+        return place.x - stage.x < stage.right - place.right
+
+    def _keep(self, make: Any, value: Any, slot: object = None) -> Any:
+        """Return what is made of a value on the board, kept until another is asked for in the same slot."""
+        kept = self._kept.get((make, slot))
+        if kept is None or kept[0] != value:
+            kept = self._kept[make, slot] = (value, make(self.board, value))
+        return kept[1]
+
+    def _marks(self, surface: pygame.Surface, overlay: Overlay) -> None:
+        """Draw the marks of recording and pause, words and signs."""
+        size, place = self.board.layout.text_size, self.board.layout.marks
+        leads, top = self._marks_lead, place.y
+        for sign, words, colour in (
+            (_dot, overlay.recording, self.board.theme.warning),
+            (_bars, "paused" if overlay.paused else None, self.board.theme.ink),
+            (_wave, overlay.path.off if overlay.path else None, self.board.theme.ink),
+        ):
+            if words:
+                sheet = self._keep(_mark, (sign, words, colour), sign)
+                left = place.x - 0.2 * size if leads else place.right - sheet.get_width() + 0.2 * size
+                surface.blit(sheet, (round(left), round(top)))
+                top += 1.5 * size
+
+
+def _veil(board: Board, size: tuple[int, int]) -> pygame.Surface:
+    """Return what lets the picture recede behind the help."""
+    veil = pygame.Surface(size, pygame.SRCALPHA, 32)
+    veil.fill((*board.theme.background, _VEIL))
+    return veil
+
+
+def _mark(board: Board, shown: tuple[Callable[[float], list[Loop]], str, Colour]) -> pygame.Surface:
+    """Return a sign and words on their backing."""
+    (sign, words, colour), size = shown, board.layout.text_size
+    wide, high = board.type.width(words, size) + 1.6 * size, 1.15 * size
+    sheet = pygame.Surface((ceil(wide), ceil(high)), pygame.SRCALPHA, 32)
+    back = complex(wide / 2, high / 2) + box(wide, high, 0.4 * size)
+    signs = [complex(0.6 * size, 0.5 * size) + loop for loop in sign(size)]
+    paint(sheet, [Layer(board.theme.background, [back], _BACKING), Layer(colour, signs)])
+    board.write(sheet, words, (1.4 * size, 0), size=size, colour=colour)
+    return sheet
+
+
+def _dot(size: float) -> list[Loop]:
+    return [0.36 * size * disc(1.0)]
+
+
+def _wave(size: float) -> list[Loop]:
+    way = np.linspace(-0.42, 0.42, 16)
+    return stroke(size * (way - 0.24j * np.sin(7.5 * way)), 0.16 * size)
+
+
+def _bars(size: float) -> list[Loop]:
+    bar = box(0.22 * size, 0.72 * size)
+    return [np.asarray(bar + side * 0.22 * size) for side in (-1, 1)]

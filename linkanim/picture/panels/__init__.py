@@ -1,1 +1,0 @@
-"""What lies over the picture: the HUD, lists, help, chips, marks."""

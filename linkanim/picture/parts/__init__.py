@@ -1,1 +1,0 @@
-"""What is drawn of a linkage: bodies, pins, springs, dampers, gears, the ground, traces, vectors."""

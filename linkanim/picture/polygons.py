@@ -1,0 +1,216 @@
+"""The velocity and the acceleration polygon beside the linkage, to scale."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from linkanim.mechanics.motion import Pose
+from linkanim.mechanics.polygons import Order, Side, Sort, chains
+from linkanim.picture.chart import Pen
+from linkanim.picture.figure import Figure
+from linkanim.picture.items import Caption, Group, Halo
+from linkanim.picture.placing import Clutter, LabelPlaces, Solid, place
+from linkanim.picture.quantities import round_step
+from linkanim.picture.raster import Colour, Layer
+from linkanim.picture.shapes import arrows, disc, segments, unit
+from linkanim.picture.view import Box, Rect
+from linkanim.units import three_digits
+
+_TITLES = {1: ("velocity polygon", "velocities", "/s"), 2: ("acceleration polygon", "accelerations", "/s²")}
+_NOTHING = 1e-9
+"""Of a polygon's greatest extent: what is shorter has no direction."""
+_LABELLED = 1.1
+"""A vector has its symbol where it is as long as this, in heights of the text."""
+_BARS = 5
+"""So many bars of the scale, at the most, go into the panel's width."""
+_GUIDED: frozenset[Sort] = frozenset({"coriolis", "sliding"})
+
+
+class Arrow(NamedTuple):
+    """A side in pixels."""
+
+    side: Side
+    foot: complex
+    reach: complex
+
+    @property
+    def middle(self) -> complex:
+        """The middle of it."""
+        return self.foot + self.reach / 2
+
+    @property
+    def is_absolute(self) -> bool:
+        """Whether it is a vector from the pole."""
+        return self.side.sort == "absolute"
+
+    def is_on(self, other: Arrow) -> bool:
+        """Whether it is the same arrow, to a small part of a pixel: all of a vector, or of its only part."""
+        return abs(self.foot - other.foot) + abs(self.reach - other.reach) < 1e-3
+
+
+@dataclass(frozen=True)
+class Polygon:
+    """One polygon of a figure in its place: all poses of the cycle at one scale, about one pole.
+
+    With a `moment` they are such as fill the place at that phase.
+    """
+
+    figure: Figure
+    order: Order
+    rect: Rect
+    pen: Pen
+    moment: float | None = None
+
+    def group(self, pose: Pose) -> Group:
+        """Return the polygon of a pose with its title and the bar of its scale."""
+        words, _, per = _TITLES[self.order]
+        scale = self.scale(pose.input_speed)
+        pole = self.pole(pose.input_speed)
+        found = self._arrows(pose, pole, scale)
+        dot = Layer(self.pen.theme.ink, [pole + disc(1.8 * self.pen.line)])
+        layers, captions = [*self._drawn(found), dot], [self._title, *self._symbols(found)]
+        if scale > 0:
+            bar, meaning = self._bar(scale, per)
+            layers.append(bar)
+            captions.append(meaning)
+        if not found:
+            at_rest = np.isfinite([side.end for side in self._sides(pose)]).all()
+            why = "all at rest" if at_rest else "unbounded here"
+            at = (pole.real, pole.imag + 0.6 * self.pen.small)
+            captions.append(Caption(why, at, self.pen.small, self.pen.theme.dim, "centre"))
+        return Group(words.replace(" ", "-"), layers, captions)
+
+    @cached_property
+    def _title(self) -> Caption:
+        """The title, as long and as large as there is room for."""
+        pen, (full, brief, _) = self.pen, _TITLES[self.order]
+        ways = [(words, size) for words in (full, brief) for size in (pen.text, pen.small)]
+        fits = (way for way in ways if pen.type.width(*way) <= self.rect.width)
+        words, size = next(fits, ways[-1])
+        return Caption(words, (self.rect.x, self.rect.y), size, pen.theme.ink)
+
+    def scale(self, speed: float) -> float:
+        """Return pixels for one unit of length and second at this input speed; 0 where nothing moves.
+
+        It changes with the speed and with nothing else, so that a polygon's size tells where it is fast.
+        """
+        faster = abs(speed / self.figure.linkage.drive.speed) ** self.order
+        box, room = self._box, self._room
+        spans = [(room.width, box.right - box.left), (room.height, box.high - box.low)]
+        shares = [have / need for have, need in spans if need > 0]
+        return min(shares) / faster if shares and faster > 0 else 0.0
+
+    def pole(self, speed: float) -> complex:
+        """Return where the pole stands, so that all poses of the cycle have room."""
+        box, room = self._box, self._room
+        backwards = self.order == 1 and speed * self.figure.linkage.drive.speed < 0
+        across, up = box.middle if not backwards else (-box.middle[0], -box.middle[1])
+        scale = self.scale(self.figure.linkage.drive.speed)
+        return complex(room.x + room.width / 2 - scale * across, room.y + room.height / 2 + scale * up)
+
+    @property
+    def _room(self) -> Rect:
+        """What of its place is left for the vectors: beside symbols, under the title, over the scale."""
+        rect, side, top, foot = self.rect, 1.6 * self.pen.small, 2.2 * self.pen.text, 2.8 * self.pen.small
+        width, height = max(rect.width - 2 * side, 1.0), max(rect.height - top - foot, 1.0)
+        return Rect(rect.x + side, rect.y + top, width, height)
+
+    @cached_property
+    def _box(self) -> Box:
+        """What the polygons of the cycle take up about the pole, at the scene's own speed."""
+        scene, cycle = self.figure.scene, self.figure.cycle
+        motion = cycle if self.moment is None else scene.pose(self.moment, speed=scene.linkage.drive.speed)
+        ends = np.concatenate([np.atleast_1d(side.end) for side in self._sides(motion)])
+        ends = np.append(ends[np.isfinite(ends)], 0.0)
+        x, y = ends.real, ends.imag
+        return Box(float(x.min()), float(y.min()), float(x.max()), float(y.max()))
+
+    def _sides(self, motion: object) -> list[Side]:
+        """Return the vectors, those of the traced coupler points among them."""
+        found = chains(motion, self.figure.linkage, self.order, self.figure.scene.trace)
+        return [side for chain in found for side in chain.sides]
+
+    def _arrows(self, pose: Pose, pole: complex, scale: float) -> list[Arrow]:
+        """Return what is drawn in pixels: all that has a length; nothing where one is unbounded."""
+        sides = self._sides(pose)
+        if not np.isfinite([side.end for side in sides]).all():
+            return []
+        found = [
+            Arrow(side, pole + scale * side.begin.conjugate(), scale * (side.end - side.begin).conjugate())
+            for side in sides
+        ]
+        whole = [arrow for arrow in found if arrow.is_absolute]
+        parts = [arrow for arrow in found if not any(arrow.is_on(other) for other in whole)]
+        return [arrow for arrow in (*whole, *parts) if abs(arrow.reach) > _NOTHING * self._room.width]
+
+    def _drawn(self, found: list[Arrow]) -> Iterator[Layer]:
+        """Yield the arrows, relative ones first."""
+        for arrow in sorted(found, key=lambda arrow: arrow.is_absolute):
+            width = (1.6 if arrow.is_absolute else 1.1) * self.pen.line
+            yield Layer(self._colour(arrow.side.sort), arrows([arrow.foot], [arrow.reach], width))
+
+    def _colour(self, sort: Sort) -> Colour:
+        theme = self.pen.theme
+        if sort == "absolute":
+            return theme.velocity if self.order == 1 else theme.acceleration
+        return theme.traces[0] if sort in _GUIDED else theme.dim
+
+    def _symbols(self, found: list[Arrow]) -> Iterator[Caption]:
+        """Yield the vectors' symbols, each beyond its vector as seen from the middle, where there is room."""
+        pen, halo = self.pen, Halo(self.pen.theme.background, 0.8 * self.pen.line)
+        middle = sum((arrow.middle for arrow in found), 0j) / max(len(found), 1)
+        long = [arrow for arrow in found if abs(arrow.reach) >= _LABELLED * pen.small]
+        arrows_ = sorted(long, key=lambda arrow: not arrow.is_absolute)
+        wide = [pen.type.width(arrow.side.symbol, pen.small) for arrow in arrows_]
+        to_place = [_beside(*known, pen.small, middle) for known in zip(arrows_, wide, strict=True)]
+        ends = [np.array([[arrow.foot, arrow.foot + arrow.reach]]) for arrow in found]
+        solids = tuple(Solid(end, pen.line) for end in ends)
+        clutter = Clutter(self.rect.inset(-2.0 * pen.text), solids=solids)
+        for arrow, label, placed in zip(arrows_, to_place, place(to_place, clutter), strict=True):
+            if placed.shown[0]:
+                at = complex(label.places[0, placed.which])
+                top, colour = (at.real, at.imag - pen.small / 2), self._colour(arrow.side.sort)
+                yield Caption(arrow.side.symbol, top, pen.small, colour, "centre", halo=halo)
+
+    def _bar(self, scale: float, per: str) -> tuple[Layer, Caption]:
+        """Return the bar of the scale, at the foot, and what it stands for."""
+        (x, bottom), small, ink = (self.rect.x, self.rect.bottom), self.pen.small, self.pen.theme.ink
+        step = round_step(self.rect.width / scale, _BARS)
+        begin, tick = complex(x, bottom - 0.5 * small), 0.35j * small
+        end = begin + step * scale
+        feet, heads = [begin, begin - tick, end - tick], [end, begin + tick, end + tick]
+        number = f"{step:g}" if 1e-3 <= step < 1e6 else three_digits(step)
+        words = f"{number} {self.figure.scene.length_unit}{per}"
+        bar = Layer(ink, segments(feet, heads, 0.8 * self.pen.line))
+        return bar, Caption(words, (x, bottom - 2.0 * small), small, ink)
+
+
+def _beside(arrow: Arrow, wide: float, high: float, middle: complex) -> LabelPlaces:
+    """Return places for a symbol beside an arrow, away from the middle of all first."""
+    across = 1j * unit(arrow.reach)
+    if ((arrow.middle - middle) * across.conjugate()).real < 0:
+        across = -across
+    away = 0.5 * (abs(across.real) * wide + abs(across.imag) * high) + 0.175 * high
+    places = [
+        arrow.foot + share * arrow.reach + side * (away + further) * across
+        for further in (0, 0.3 * high)
+        for share in (0.5, 0.35, 0.65)
+        for side in (1, -1)
+    ]
+    return LabelPlaces((wide, high), np.array([places]), np.arange(12.0))
+
+
+def polygons_of(figure: Figure, rect: Rect, pen: Pen, moment: float | None = None) -> tuple[Polygon, Polygon]:
+    """Return both polygons in a rectangle: over each other where it is tall, else side by side."""
+    if rect.height >= rect.width:
+        first = rect._replace(height=0.48 * rect.height)
+        second = first._replace(y=rect.bottom - first.height)
+    else:
+        first = rect._replace(width=0.48 * rect.width)
+        second = first._replace(x=rect.right - first.width)
+    return Polygon(figure, 1, first, pen, moment), Polygon(figure, 2, second, pen, moment)

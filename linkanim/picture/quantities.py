@@ -1,0 +1,309 @@
+"""Give quantities over one true period, what they are shown over, and axes with few round ticks.
+
+What they are shown over is the driven bar's angle, time, or phase. What the input is called, and the unit
+in which its speed is told, stands here, too.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from math import ceil, degrees, floor, log10, pi, radians
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from linkanim.errors import UnitError
+from linkanim.mechanics.motion import Motion
+from linkanim.mechanics.quantities import Quantity, input_symbol, look_up
+from linkanim.picture.look import Over
+from linkanim.scenes.scene import Scene
+from linkanim.units import SPEED, short, split, stepped, typeset
+
+# What a chart shows of a scene: quantities by name, and their values over one true period.
+
+
+class Series(NamedTuple):
+    """A quantity over one true period: phases (n,), values (n, k), and what the k columns are called.
+
+    Angles are in degrees here, for the eye; `unit` says so. A value that is not bounded is infinite, and
+    one that is nothing but rounding errors is 0.
+    """
+
+    phases: NDArray[np.float64]
+    values: NDArray[np.float64]
+    unit: str
+    labels: tuple[str, ...]
+
+
+def quantity(scene: Scene, token: str) -> Quantity:
+    """Return a scene's quantity, of a body by its name in the scene or by what it is called.
+
+    BadInput with the nearest ones and the list where there is none.
+    """
+    owner, dot, measure = token.partition(".")
+    own = {words: name for name, words in scene.info.link_names.items()}
+    named = token if token in scene.quantities else f"{own.get(owner, owner)}{dot}{measure}"
+    return look_up(scene.quantities, named if named in scene.quantities else token, scene.name)
+
+
+def broken(series: Series, quantity: Quantity, cycle: Motion) -> Series:
+    """Return a series over a cycle with infinite values where it is not bounded between its instants."""
+    places = quantity.unbounded_between(cycle)
+    if not len(places):
+        return series
+    index = np.searchsorted(series.phases, places)
+    phases, values = np.insert(series.phases, index, places), np.insert(series.values, index, np.inf, axis=0)
+    return series._replace(phases=phases, values=values)
+
+
+def series_of(scene: Scene, quantity: Quantity, cycle: Motion) -> Series:
+    """Return a quantity of a cycle that is already solved."""
+    values = np.asarray(quantity.shown(cycle), float)
+    columns = values if values.ndim == 2 else values[:, None]
+    return Series(cycle.phase, columns, quantity.shown_unit(scene.length_unit), quantity.columns)
+
+
+# What the input is called, and the unit in which its speed is told.
+
+_PER_RADIAN = {"rad/s": 1.0, "rpm": 30 / pi, "deg/s": 180 / pi}
+_SIGNS = {"deg/s": "°/s"}
+_SPELT = {"°/s": "deg/s"}
+
+
+def driven_words(scene: Scene, value: float) -> str:
+    """Return where the input is in words: its angle, 87.0°; of a slider that drives its travel, 12.5 mm."""
+    coordinate = scene.linkage.drive.coordinate
+    return coordinate.text(value, scene.length_unit, 0.1 if coordinate.is_angle else scene.length_step)
+
+
+def speed_unit(scene: Scene) -> str:
+    """Return the unit in which the scene states its input's speed, rpm where it states none."""
+    return _unit_of(str(scene.document.get("drive", {}).get("speed", "")))
+
+
+@lru_cache(maxsize=64)
+def _unit_of(stated: str) -> str:
+    """Return the unit of a speed as it is stated; asked for at every frame, the last ones are kept."""
+    try:
+        unit = split(stated)[1]
+    except UnitError:
+        return "rpm"
+    unit = _SPELT.get(unit, unit)
+    return unit if unit in SPEED.factors else "rpm"
+
+
+def speed_in(unit: str, speed: float) -> float:
+    """Return an angular speed in rad/s in "rpm", "rad/s" or "deg/s"."""
+    return speed * _PER_RADIAN[unit]
+
+
+def sign_of(unit: str) -> str:
+    """Return a unit of speed as it is set: °/s for deg/s."""
+    return _SIGNS.get(unit, unit)
+
+
+def speed_words(scene: Scene, speed: float) -> str:
+    """Return the input's speed (rad/s) in words: "20 rpm", clockwise negative; of a swing "15 swings/min".
+
+    One there-and-back of a slider is a cycle.
+    """
+    if not scene.info.full_turn:
+        there_and_back = scene.linkage.drive.actuator.cycles
+        return f"{short(abs(speed) * _PER_RADIAN['rpm'])} {there_and_back}/min"
+    unit = speed_unit(scene)
+    return f"{typeset(short(speed_in(unit, speed)))} {sign_of(unit)}"
+
+
+# Axes of a chart: where values lie along them, and few ticks at round numbers.
+
+_WILD = 8.0
+"""A peak this many times the span of the middle nine tenths is cut off, or all else would be a line."""
+_LITTLE = 0.06
+"""Of the span of the values, left free at either end."""
+
+
+@dataclass(frozen=True)
+class Axis:
+    """The range of an axis, and its ticks as (value, label)."""
+
+    low: float
+    high: float
+    ticks: tuple[tuple[float, str], ...]
+
+    def share(self, values: ArrayLike) -> NDArray[np.float64]:
+        """Return where values lie, 0 at the low end and 1 at the high one."""
+        share: NDArray[np.float64] = (np.asarray(values, float) - self.low) / (self.high - self.low)
+        return share
+
+
+def linear(low: float, high: float, *, most: int = 5, unit: str = "") -> Axis:
+    """Return an axis from `low` to `high` with at most so many ticks, at 1, 2 or 5 times a power of ten.
+
+    In degrees (`unit` "°") ticks lie at parts of a turn; no other unit stands with their numbers.
+    """
+    sign = "°" if unit == "°" else ""
+    step = _degrees(high - low, most) if unit == "°" else round_step(high - low, most)
+    first, last = ceil(low / step - 1e-9), floor(high / step + 1e-9)
+    ticks = tuple((k * step, f"{stepped(k * step, step)}{sign}") for k in range(first, last + 1))
+    return Axis(low, high, ticks)
+
+
+def around(values: NDArray[np.float64], *, most: int = 5, unit: str = "", room: float = _LITTLE) -> Axis:
+    """Return a linear axis that holds the finite values, with a little room; wild peaks run out of it."""
+    low, high = range_around(values, room)
+    return linear(low, high, most=most, unit=unit)
+
+
+def range_around(values: NDArray[np.float64], room: float = _LITTLE) -> tuple[float, float]:
+    """Return from where to where an axis runs that holds the finite values, with a little room."""
+    finite = values[np.isfinite(values)]
+    low, high = _span(finite) if finite.size else (0.0, 1.0)
+    size = max(abs(low), abs(high))
+    if high - low <= 1e-9 * size or high == low:
+        low, high = (low - 0.5 * size, high + 0.5 * size) if size else (-1.0, 1.0)
+    beyond = room * (high - low)
+    return low - beyond, high + beyond
+
+
+def zeros_level(ranges: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
+    """Return two ranges about zero stretched, both by one factor, until their zeros lie at one height.
+
+    Below zero lie the shares a < b of the two. With the zero at s the one is stretched (1 - a) / (1 - s)
+    times and the other b / s times, which is alike where s = b / (1 - a + b).
+    """
+    shares = sorted(-low / (high - low) for low, high in ranges)
+    zero = shares[1] / (1 - shares[0] + shares[1])
+    spans = (max(-low / zero, high / (1 - zero)) for low, high in ranges)
+    return [(-zero * span, (1 - zero) * span) for span in spans]
+
+
+def _span(finite: NDArray[np.float64]) -> tuple[float, float]:
+    low, high = float(finite.min()), float(finite.max())
+    inner = np.quantile(finite, (0.05, 0.95))
+    middle = float(inner[1] - inner[0])
+    if high - low > _WILD * middle > 0:
+        return max(low, float(inner[0]) - middle), min(high, float(inner[1]) + middle)
+    return low, high
+
+
+def round_step(span: float, most: int) -> float:
+    """Return the least of 1, 2 and 5 times a power of ten that goes at most so many times into a span."""
+    rough = span / most
+    power = 10.0 ** floor(log10(rough))
+    return next(power * factor for factor in (1, 2, 5, 10) if power * factor >= rough * (1 - 1e-9))
+
+
+def _degrees(span: float, most: int) -> float:
+    parts = (15.0, 30.0, 45.0, 90.0, 180.0, 360.0)
+    if span / most <= parts[0] / 2:
+        return round_step(span, most)
+    return next((part for part in parts if span / part <= most), 360.0 * ceil(span / most / 360.0))
+
+
+# What a chart's values are shown over: the driven bar's angle, time, or phase, over one true period.
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Course:
+    """How a phase lies along a chart: `x = (phase - origin) / scale`, from 0 to `span` and over again.
+
+    `period` is the true period in phase; `scale` is negative where the phase runs back over time.
+    `marks` are places along it that have a name.
+    """
+
+    title: str
+    unit: str
+    span: float
+    period: float
+    origin: float
+    scale: float
+    marks: tuple[tuple[float, str], ...] = ()
+
+    def x_of(self, phase: ArrayLike) -> Floats:
+        """Return where phases lie, 0 to `span`."""
+        x: Floats = np.mod((np.asarray(phase, float) - self.origin) / self.scale, self.span)
+        return x
+
+    def phase_of(self, x: ArrayLike) -> Floats:
+        """Return the phases at places, without jumps from 0 to `span`."""
+        phase: Floats = self.origin + self.scale * np.asarray(x, float)
+        return phase
+
+    def axis(self, most: int) -> Axis:
+        """Return the axis with at most so many ticks."""
+        return linear(0.0, self.span, most=most, unit=self.unit)
+
+    def laid(self, series: Series) -> tuple[Floats, Floats]:
+        """Return a series along the course, both ends with it: x (n + 2,) rising, values (n + 2, k)."""
+        gain = gain_of(series)
+        x = self.x_of(series.phases)
+        turns = np.rint((self.phase_of(x) - series.phases) / self.period)
+        order = np.argsort(x)
+        x, values = x[order], (series.values + turns[:, None] * gain)[order]
+        step = gain if self.scale > 0 else -gain
+        before, after = values[-1] - step, values[0]
+        part = (self.span - x[-1]) / (self.span - x[-1] + x[0])
+        with np.errstate(invalid="ignore"):
+            start = after if part == 1.0 else before + (after - before) * part
+        return np.r_[0.0, x, self.span], np.vstack([start, values, start + step])
+
+
+def gain_of(series: Series) -> Floats:
+    """Return by how much each column grows in a period: whole turns for an angle, else nothing."""
+    values = series.values
+    if series.unit != "°" or len(values) < 2:
+        return np.zeros(values.shape[1])
+    with np.errstate(invalid="ignore"):
+        turns = np.rint((2 * values[-1] - values[-2] - values[0]) / 360.0)
+    gain: Floats = 360.0 * np.nan_to_num(turns)
+    return gain
+
+
+def axes_of(scene: Scene) -> tuple[Over, ...]:
+    """Return over what a chart beside the scene may run, the usual first; not an angle that swings."""
+    return ("angle", "time", "phase") if scene.info.full_turn else ("time", "phase")
+
+
+def axis_of(scene: Scene, over: Over | None) -> Over:
+    """Return over what the chart beside the scene runs: `over` where that may be, else the usual."""
+    axes = axes_of(scene)
+    return over if over in axes else axes[0]
+
+
+def course(scene: Scene, speed: float, over: Over | None = None) -> Course:
+    """Return the course of a scene that runs at `speed` (rad/s, negative: the phase runs back).
+
+    An input that turns is shown over its absolute angle, one that swings over time, unless `over` says.
+    BadInput for the angle of an input that is a slider.
+    """
+    if over == "angle":
+        scene.linkage.drive.check_angle(scene.name, "show it over time or phase")
+    turns = scene.info.full_turn
+    chosen = over or axes_of(scene)[0]
+    period = scene.period
+    if chosen == "time":
+        pace = speed or scene.linkage.drive.speed
+        limits = () if turns else tuple(_limits(scene, pace))
+        title = "time (s), back on the same closure" if scene.mechanism.retraced else "time (s)"
+        return Course(title, "", period / abs(pace), period, 0.0, pace, limits)
+    title, origin = input_title(scene), -scene.linkage.drive.start
+    if chosen == "phase":
+        title, origin = "phase φ (°)", 0.0
+    return Course(title, "°", degrees(period), period, origin, radians(1.0))
+
+
+def input_title(scene: Scene) -> str:
+    """Return what an axis of the driven bar's angle is titled: "crank angle θ₂ (°)"."""
+    return f"{scene.info.input_name} angle {input_symbol(scene.linkage)} (°)"
+
+
+def _limits(scene: Scene, pace: float) -> Iterator[tuple[float, str]]:
+    """Yield when in a period a swing is at its limits, each with its angle."""
+    for half in range(round(scene.period / pi) + 1):
+        angle = scene.pose(half * pi, 0).coordinate
+        yield half * pi / abs(pace), driven_words(scene, angle)

@@ -1,1 +1,0 @@
-"""Pixels: shapes with exact coverage, blending, outlines that turn; it knows no linkage."""

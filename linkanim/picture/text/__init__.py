@@ -1,1 +1,0 @@
-"""Lines of text: faces, setting, letters with halos."""

@@ -1,0 +1,918 @@
+"""List the kinds of questions: each made from what is solved, its wrong answers from known misconceptions.
+
+`KINDS` is the one table: what makes a question of each kind, and the levels that ask it. Above it stand the
+kinds: what speeds up and by what, how a linkage was made, what moves which way and how fast, how far things
+go.
+"""
+
+from __future__ import annotations
+
+import cmath
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from itertools import combinations, pairwise
+from math import degrees, floor, hypot, inf, isfinite, pi, tan, tau
+from typing import NamedTuple
+
+import numpy as np
+
+from linkanim.mechanics.analysis import FourBar, four_bar_of
+from linkanim.mechanics.linkage import Body, Slide
+from linkanim.mechanics.measures import between as way_between
+from linkanim.mechanics.measures import coupler_body, growth, output_body, said
+from linkanim.mechanics.program import Array
+from linkanim.mechanics.search import sign_changes
+from linkanim.picture.look import ACCELERATION, VELOCITY, Look
+from linkanim.play.question import (
+    BESIDE,
+    CLEAR,
+    MOST,
+    PLAIN,
+    SIDES,
+    TURNS,
+    WAYS,
+    Puzzle,
+    QuizAnswer,
+    QuizQuestion,
+    angle,
+    between,
+    crank_degrees,
+    either,
+    number,
+    obliquity,
+    quarter,
+    swing,
+    tenths,
+)
+from linkanim.scenes.scene import FunctionPurpose, PosesPurpose, TimeRatioPurpose
+from linkanim.units import significant, typeset
+
+# What speeds up, and by what: the acceleration, its Coriolis term, its curve, what a doubled speed does.
+
+_BOTH = Look(names=1, vectors=frozenset({VELOCITY, ACCELERATION}))
+_SAMPLES = 72
+"""Values of a curve."""
+_APART = 0.3
+"""Curves that differ by less, of their greatest value, could be taken for one."""
+_FACTORS = {1: "as large as before", 2: "twice as large", 4: "four times as large", 8: "eight times as large"}
+_GOES_WITH = {
+    1: "a spring's force",
+    2: "a velocity or a damper's force",
+    4: "an acceleration",
+    8: "the power that accelerates a mass",
+}
+"""What becomes so large when the speed doubles."""
+
+
+def speeding(puzzle: Puzzle) -> QuizQuestion | None:
+    """Return whether a joint becomes faster; taken wrongly, whether it is accelerated to the right, or up."""
+    names = puzzle.clear("velocity")
+    puzzle.random.shuffle(names)
+    for name in names:
+        along = puzzle.value(f"{name}.tangential_acceleration")
+        ax, ay = puzzle.pose.acceleration[name]
+        gains = isfinite(along) and abs(along) > PLAIN * hypot(ax, ay)
+        if gains and puzzle.share(f"{name}.acceleration") > CLEAR:
+            way = "the way it moves" if along > 0 else "against its velocity"
+            why = (
+                f"The part of its acceleration along its velocity, {number(along)} "
+                f"{puzzle.scene.length_unit}/s², points {way}."
+            )
+            larger = ax if abs(ax) > abs(ay) else ay
+            slip = "the sign of the acceleration alone, whichever way the point moves"
+            return puzzle.question(
+                name,
+                f"Does {name} speed up or slow down?",
+                *either(
+                    ("it speeds up", "it slows down"), along > 0, slip if (larger > 0) != (along > 0) else ""
+                ),
+                why,
+                shows=_BOTH,
+                arrows=[name],
+            )
+    return None
+
+
+def doubled(puzzle: Puzzle) -> QuizQuestion | None:
+    """Return what becomes of a joint's velocity or acceleration as the speed doubles."""
+    kind, factor = puzzle.random.choice((("velocity", 2), ("acceleration", 4)))
+    names = puzzle.clear(kind)
+    if not names:
+        return None
+    name = puzzle.random.choice(names)
+    value = puzzle.value(f"{name}.{kind}")
+    unit = f"{puzzle.scene.length_unit}/s{'²' if kind == 'acceleration' else ''}"
+    power = "the square of the speed" if factor == 4 else "the speed itself"
+    return _growing(
+        puzzle,
+        f"{name}.{kind}",
+        f"How large is the {kind} of {name} in the same place?",
+        factor,
+        f"It goes with {power}: {number(value)} becomes {number(factor * value)} {unit}.",
+    )
+
+
+def force(puzzle: Puzzle) -> QuizQuestion | None:
+    """Return what becomes of a force as the speed doubles: a spring's, a damper's, or that on a mass."""
+    known = puzzle.scene.linkage
+    clear = []
+    for items, factor in ((known.springs, 1), (known.dampers, 2)):
+        for item in items:
+            if item.forceful and abs(puzzle.share(f"{item.name}.force")) > PLAIN:
+                clear.append((item, factor, abs(puzzle.value(f"{item.name}.force"))))
+    if clear:
+        item, factor, value = puzzle.random.choice(clear)
+        why = f"It goes with its length alone, which is the same there: it stays {number(value)} N."
+        if factor == 2:
+            why = f"It goes with the speed itself: {number(value)} N becomes {number(factor * value)} N."
+        return _growing(
+            puzzle,
+            item.name,
+            f"How large is the force of the {known.strut_words(item)} in the same place?",
+            factor,
+            why,
+            Look(names=1, chart=f"{item.name}.force"),
+        )
+    names = puzzle.clear("acceleration")
+    if not names:
+        return None
+    name = puzzle.random.choice(names)
+    return _growing(
+        puzzle,
+        f"{name}.acceleration",
+        f"How large is the force that accelerates a mass at {name}, in the same place?",
+        4,
+        "It goes with the acceleration, and that with the square of the speed.",
+    )
+
+
+def _growing(
+    puzzle: Puzzle, subject: str, text: str, factor: int, why: str, shows: Look = _BOTH
+) -> QuizQuestion:
+    """Return a question on what a doubled speed does."""
+    return puzzle.question(
+        subject,
+        f"The input runs twice as fast. {text}",
+        QuizAnswer(_FACTORS[factor]),
+        [
+            QuizAnswer(words, f"what {_GOES_WITH[one]} does")
+            for one, words in _FACTORS.items()
+            if one != factor
+        ],
+        why,
+        shuffled=True,
+        shows=shows,
+        arrows=[name for name in [subject.partition(".")[0]] if name in puzzle.pose.position],
+    )
+
+
+_ORDERS = ("position", "velocity", "acceleration")
+
+
+def curves(puzzle: Puzzle) -> QuizQuestion | None:
+    """Return which of three curves is the output's velocity or acceleration; taken wrongly, another."""
+    body = output_body(puzzle.scene.linkage)
+    if body is None or not puzzle.scene.info.full_turn:
+        return None
+    tokens = (
+        ("travel", "travel_velocity", "travel_acceleration")
+        if body.slider
+        else ("angle", "angular_velocity", "angular_acceleration")
+    )
+    scaled = _distinct(puzzle, [puzzle.values(f"{body.name}.{token}") for token in tokens])
+    if scaled is None:
+        return None
+    order = puzzle.random.sample(range(3), 3)
+    which = puzzle.random.choice((1, 2))
+    right = _ORDERS[which]
+    answers = [
+        QuizAnswer(
+            f"curve {order.index(n) + 1}",
+            f"the {_ORDERS[n]} taken for the {right}" if n != which else "",
+            curve=tuple(round(float(value), 3) for value in part),
+        )
+        for n, part in enumerate(scaled)
+    ]
+    token = f"{body.name}.{tokens[which]}"
+    kind, where = ("", " along its guide") if body.slider else ("angular ", "")
+    return puzzle.question(
+        token,
+        f"Over one period, which curve is the {kind}{right} of {puzzle.name(body)}{where}?",
+        answers.pop(which),
+        answers,
+        f"Where the {_ORDERS[which - 1]} has its extremes the {right}, its steepness, is zero.",
+        shows=Look(names=1, chart=token),
+    )
+
+
+def _distinct(puzzle: Puzzle, columns: Sequence[Array]) -> list[Array] | None:
+    """Return a value over a period as time goes, and its two rates, each at most 1 in size.
+
+    None where they look alike, one is unbounded or rests, or the value grows from turn to turn.
+    """
+    step = max(len(puzzle.cycle.phase) // _SAMPLES, 1)
+    value, *rates = (column[::step] for column in columns)
+    if not all(np.isfinite(part).all() and np.ptp(part) > 0.0 for part in (value, *rates)):
+        return None
+    value = value - (value.max() + value.min()) / 2
+    if abs(float(value[-1] - value[0])) > 0.5 * float(np.ptp(value)):
+        return None  # it turns on and on: its angle is a line
+    way = -1 if puzzle.scene.linkage.drive.speed < 0 else 1
+    scaled = [part[::way] / np.abs(part).max() for part in (value, *rates)]
+    alike = (float(np.abs(one - other).max()) < _APART for one, other in combinations(scaled, 2))
+    return None if any(alike) else scaled
+
+
+def coriolis(puzzle: Puzzle) -> QuizQuestion | None:
+    """Return whether a point that slides has a Coriolis acceleration; only where the guide turns it has."""
+    found = list(_sliding(puzzle))
+    if not found:
+        return None
+    joint, guide, turns = puzzle.random.choice(found)
+    why = (
+        f"The guide turns while {joint} slides along it: 2ω × v is not zero."
+        if turns
+        else "The guide does not turn: ω is zero, and 2ω × v with it."
+    )
+    slip = "the guide's turning overlooked" if turns else "sliding alone taken for a Coriolis term"
+    return puzzle.question(
+        joint,
+        f"{joint} slides along {guide}. In a frame fixed to that guide, has the acceleration of {joint} a "
+        "Coriolis term?",
+        *either(("yes", "no"), turns, slip),
+        why,
+        shows=_BOTH,
+        arrows=[joint],
+    )
+
+
+def _sliding(puzzle: Puzzle) -> Iterator[tuple[str, str, bool]]:
+    """Yield joints that slide clearly, each with the words for its guide, and whether that turns clearly."""
+    linkage = puzzle.scene.linkage
+    for slide in (slide for joint in linkage.joints for slide in joint.slides):
+        if linkage.joint(slide.point).fixed or not _slides(puzzle, slide):
+            continue
+        if slide.start is None:
+            yield slide.point, "a fixed line", False
+        elif slide.axis is None:
+            yield slide.point, f"the slot at {slide.start}", False
+        else:
+            carriers = puzzle.bodies_of(*slide.axis)
+            body = next(
+                (one for one in carriers if abs(puzzle.share(f"{one.name}.angular_velocity")) > PLAIN), None
+            )
+            if body is not None:
+                yield slide.point, puzzle.name(body), True
+
+
+def _slides(puzzle: Puzzle, slide: Slide) -> bool:
+    """Return whether a joint clearly slides along its guide."""
+    ends = (slide.start or slide.line.through, slide.point)
+    rates = []
+    for found in (puzzle.cycle, puzzle.pose):
+        way, moving = (way_between(vectors, ends) for vectors in (found.position, found.velocity))
+        rates.append(np.abs(said(found, growth(way, moving), "{}/s", 1)))
+    return bool(rates[1] > PLAIN * float(np.nanmax(rates[0])))
+
+
+# How a linkage was made: the pole of two of its poses, a time ratio's slow way, precision points.
+
+_FAR = 3.0
+"""Of the poses' distances: a pole farther away is not asked for."""
+_DIGITS = 4
+
+
+def pole(puzzle: Puzzle) -> QuizQuestion | None:
+    """Return about which point a turn takes one pose to another; taken wrongly, another pole, the middle."""
+    purpose = puzzle.scene.purpose
+    if not isinstance(purpose, PosesPurpose) or not puzzle.scene.trace:
+        return None
+    origins = [complex(x, y) for x, y, _ in purpose.poses]
+    size = max(abs(one - other) for one, other in combinations(origins, 2))
+    pairs = list(combinations(range(len(origins)), 2))
+    poles = {pair: _pole(purpose, *pair) for pair in pairs}
+    near = [pair for pair in pairs if abs(poles[pair] - origins[pair[0]]) <= _FAR * size]
+    if not near:
+        return None
+    one, other = puzzle.random.choice(near)
+    middle = (origins[one] + origins[other]) / 2
+    tries = [(2 * middle - poles[one, other], "the turn taken the other way round")]
+    tries += [(middle, "the middle of the way, about which it would be turned by half a turn")]
+    tries += [
+        (poles[pair], f"the pole of poses {pair[0] + 1} and {pair[1] + 1}")
+        for pair in near
+        if pair != (one, other)
+    ]
+    kept = [poles[one, other]]
+    wrong: list[QuizAnswer] = []
+    for place, slip in tries:
+        if len(wrong) < MOST - 1 and all(abs(place - known) > CLEAR * size for known in kept):
+            kept.append(place)
+            wrong.append(QuizAnswer(_place(puzzle, place), slip))
+    if len(wrong) < 2:
+        return None
+    first, second = (_pose(puzzle, purpose.poses[n]) for n in (one, other))
+    return puzzle.question(
+        next(body.name for body in puzzle.scene.linkage.bodies if puzzle.scene.trace[0] in body.joints),
+        f"A body is taken from the pose at {first} to that at {second} by one turn: about which point?",
+        QuizAnswer(_place(puzzle, poles[one, other])),
+        wrong,
+        "The pole lies on the midperpendicular of the way between both places, "
+        f"{number(abs(poles[one, other] - middle))} {puzzle.scene.length_unit} from its middle: half the way "
+        "times the cotangent of half the turn.",
+        shuffled=True,
+    )
+
+
+def _pole(purpose: PosesPurpose, one: int, other: int) -> complex:
+    """Return the pole of two poses, infinite where they are parallel."""
+    (x, y, first), (u, v, second) = purpose.poses[one], purpose.poses[other]
+    turned = cmath.rect(1.0, second - first)
+    if abs(turned - 1) < CLEAR:
+        return complex(inf, inf)
+    return (complex(x, y) + complex(u, v)) / 2 + 0.5j * complex(u - x, v - y) / tan((second - first) / 2)
+
+
+def _place(puzzle: Puzzle, place: complex) -> str:
+    return f"({number(place.real)}, {number(place.imag)}) {puzzle.scene.length_unit}"
+
+
+def _pose(puzzle: Puzzle, pose: tuple[float, float, float]) -> str:
+    x, y, turned = pose
+    return f"{_place(puzzle, complex(x, y))}, turned by {tenths(degrees(turned))},"
+
+
+def slow_way(puzzle: Puzzle) -> QuizQuestion | None:
+    """Return how far the crank turns on the output's slow way; taken wrongly, on the quick one."""
+    purpose = puzzle.scene.purpose
+    if not isinstance(purpose, TimeRatioPurpose) or purpose.ratio < 1 + 10 * CLEAR:
+        return None
+    ratio = purpose.ratio
+    slow, quick = 360 * ratio / (1 + ratio), 360 / (1 + ratio)
+    beyond = slow - 180
+    tries = {
+        quick: "the quick way taken for the slow one",
+        180 * ratio: "half a turn times the time ratio",
+        180 + beyond / 2: "the angle between the directions of the dead centres halved",
+    }
+    wrong = [QuizAnswer(angle(value), slip) for value, slip in tries.items() if value < 360]
+    return puzzle.question(
+        "input",
+        f"The output's slow way takes {number(ratio)} times as long as its quick way. "
+        "By how much does the crank turn meanwhile?",
+        QuizAnswer(angle(slow)),
+        wrong,
+        f"Both ways are a whole turn, in this ratio: {tenths(slow)} and {tenths(quick)}.",
+        shuffled=True,
+    )
+
+
+def precision_point(puzzle: Puzzle) -> QuizQuestion | None:
+    """Return where a linkage gives its function exactly; taken wrongly, between two such points."""
+    purpose = puzzle.scene.purpose
+    if not isinstance(purpose, FunctionPurpose) or len(purpose.x) < 3:
+        return None
+    right = puzzle.random.choice(purpose.x)
+    middles = [(low + high) / 2 for low, high in pairwise(purpose.x)]
+    puzzle.random.shuffle(middles)
+    texts = [_at(x) for x in (right, *middles)]
+    if len(set(texts)) < len(texts):
+        return None
+    slip = "a place between two precision points, where the error is near an extreme"
+    shown = " and ".join([", ".join(map(_at, purpose.x[:-1])), _at(purpose.x[-1])])
+    return puzzle.question(
+        "input",
+        f"Made for {purpose.words}: where does the linkage give y without an error of its structure?",
+        QuizAnswer(_at(right)),
+        [QuizAnswer(_at(x), slip) for x in middles[: MOST - 1]],
+        f"Its precision points are {shown}; between them the error goes to one side and to the other.",
+        shuffled=True,
+    )
+
+
+def _at(x: float) -> str:
+    return f"x = {typeset(significant(x, _DIGITS))}"
+
+
+# What moves which way and how fast: turning, the fastest point, the heading, the instant centre.
+
+_OBLIQUE = pi / 6
+"""A way that is farther from a compass point is between two of them."""
+_NEAR = 0.08
+"""Places that are nearer to each other, in sizes of the linkage, could be taken for one."""
+_ARROWS = Look(names=1, vectors=frozenset({VELOCITY}))
+_BACKWARDS = "when the input runs backwards"
+
+
+def turning(puzzle: Puzzle) -> QuizQuestion | None:
+    """Return which way a link turns; taken wrongly, as the input does."""
+    clear = [body for body in puzzle.turning if abs(puzzle.share(f"{body.name}.angular_velocity")) > PLAIN]
+    if not clear:
+        return None
+    body = puzzle.random.choice(clear)
+    rate = puzzle.value(f"{body.name}.angular_velocity")
+    against = puzzle.scene.linkage.drive.coordinate.is_angle and puzzle.pose.coordinate_rate * rate < 0
+    slip = "the input's direction, handed on along the chain" if against else f"the way it turns {_BACKWARDS}"
+    misled = " The input turns the other way: a chain does not hand on directions." if against else ""
+    return puzzle.question(
+        body.name,
+        f"Which way does {puzzle.name(body)} turn?",
+        *either(TURNS, rate > 0, slip),
+        f"{_why_turning(puzzle, body, rate)}{misled}",
+        shows=_ARROWS,
+        arrows=body.joints,
+    )
+
+
+def _why_turning(puzzle: Puzzle, body: Body, rate: float) -> str:
+    """Return why a body turns as it does: by how one joint moves about another, a fixed one if any."""
+    is_fixed = {name: puzzle.scene.linkage.joint(name).fixed for name in body.joints[:2]}
+    first, second = sorted(is_fixed, key=lambda name: not is_fixed[name])
+    place, way = (
+        quarter(puzzle.vector(kind, second) - puzzle.vector(kind, first)) for kind in ("position", "velocity")
+    )
+    lies = f"{second} lies {SIDES[place]} {first}"
+    if not is_fixed[first]:
+        lies = f"Seen from {first}, {second} lies {BESIDE[place]}"
+    turns = f"{puzzle.name(body)} turns {TURNS[rate < 0]}, with {number(abs(rate))} rad/s"
+    return f"{lies} and moves {WAYS[way]}: {turns}."
+
+
+def fastest(puzzle: Puzzle) -> QuizQuestion | None:
+    """Return which of some joints is fastest; taken wrongly, the input's or the one that is farthest out."""
+    speeds = {name: puzzle.value(f"{name}.velocity") for name in puzzle.joints}
+    greatest = max((value for value in speeds.values() if isfinite(value)), default=0.0)
+    chosen: list[str] = []
+    for name in puzzle.random.sample(list(speeds), len(speeds)):
+        clear = all(abs(speeds[name] - speeds[other]) > 2 * CLEAR * greatest for other in chosen)
+        if clear and 2 * CLEAR * greatest < speeds[name] < inf and len(chosen) < MOST:
+            chosen.append(name)
+    if len(chosen) < 2:
+        return None
+    first, *others = sorted(chosen, key=lambda name: -speeds[name])
+    unit = puzzle.scene.length_unit
+    listed = ", ".join(f"{name} {number(speeds[name])} {unit}/s" for name in (first, *others))
+    places = puzzle.pose.position
+    slips = dict(_taken_for_fastest(puzzle, chosen))
+    return puzzle.question(
+        "velocity",
+        "Which of these points is fastest?",
+        QuizAnswer(first, place=places[first]),
+        [QuizAnswer(name, slips.get(name, ""), places[name]) for name in others],
+        f"{_why_faster(puzzle, first, others)}The speeds: {listed}.",
+        shows=_ARROWS,
+        arrows=chosen,
+    )
+
+
+def _taken_for_fastest(puzzle: Puzzle, names: list[str]) -> Iterator[tuple[str, str]]:
+    """Yield what is taken for the fastest of some joints, and why."""
+    linkage = puzzle.scene.linkage
+    if linkage.drive.coordinate.is_angle:
+        pivot = linkage.crank(linkage.drive.joint).pivot
+        ways = {name: abs(puzzle.apart(pivot, name)) for name in names}
+        *_, next_to, far = sorted(names, key=lambda name: ways[name])
+        if ways[far] - ways[next_to] > CLEAR * ways[far]:
+            yield far, f"the point farthest from {pivot}, taken for the fastest"
+    yield linkage.drive.joint, "the input taken for the fastest: a chain can speed up on its way"
+
+
+def _why_faster(puzzle: Puzzle, first: str, others: list[str]) -> str:
+    """Return why a joint is faster than the next one that is on one body with it; "" where none is."""
+    shared = ((name, body) for name in others for body in puzzle.bodies_of(first, name))
+    for name, body in shared:
+        centre, about = puzzle.centre_of(body)
+        far, close = (abs(puzzle.vector("position", joint) - centre) for joint in (first, name))
+        if CLEAR * far < close < inf:
+            times = number(round(far / close, 2))
+            return (
+                f"{first} and {name} turn with the same ω about {about}, and {first} is {times} times as far "
+                "from it. "
+            )
+    return ""
+
+
+def heading(puzzle: Puzzle) -> QuizQuestion | None:
+    """Return which way a joint moves; taken wrongly, back, along its link or as it is accelerated.
+
+    What slides in a fixed guide is asked for the two ways of its guide only.
+    """
+    names = puzzle.clear("velocity")
+    puzzle.random.shuffle(names)
+    for name in names:
+        velocity = puzzle.vector("velocity", name)
+        if obliquity(velocity) > _OBLIQUE:
+            continue
+        way = quarter(velocity)
+        ways = (way, (way + 2) % 4) if _is_guided(puzzle, name) else range(4)
+        slips = dict(_taken_for_heading(puzzle, name, way))
+        return puzzle.question(
+            name,
+            f"Which way does {name} move?",
+            QuizAnswer(WAYS[way]),
+            [QuizAnswer(WAYS[n], slips.get(n, "")) for n in ways if n != way],
+            _why_heading(puzzle, name),
+            shows=_ARROWS,
+            arrows=[name],
+        )
+    return None
+
+
+def _is_guided(puzzle: Puzzle, name: str) -> bool:
+    """Return whether a joint slides along a fixed line."""
+    slides = puzzle.scene.linkage.joint(name).slides
+    return any(slide.point == name and slide.start is None for slide in slides)
+
+
+def _taken_for_heading(puzzle: Puzzle, name: str, way: int) -> Iterator[tuple[int, str]]:
+    """Yield which way is taken for a joint's heading, and why; what counts most comes last."""
+    pin = puzzle.pivot_of(name)
+    if pin is not None:
+        along = quarter(puzzle.apart(pin, name))
+        yield from ((n % 4, "along its link, not across") for n in (along, along + 2))
+    yield (way + 2) % 4, f"the way it moves {_BACKWARDS}"
+    acceleration = puzzle.vector("acceleration", name)
+    known = isfinite(abs(acceleration)) and puzzle.share(f"{name}.acceleration") > CLEAR
+    if known and obliquity(acceleration) < _OBLIQUE:
+        yield quarter(acceleration), "the acceleration taken for the velocity"
+
+
+def _why_heading(puzzle: Puzzle, name: str) -> str:
+    """Return why a joint moves as it does: by the bar that pushes it, or by what its link turns about."""
+    velocity = puzzle.vector("velocity", name)
+    moves = f"{WAYS[quarter(velocity)]}, with {number(abs(velocity))} {puzzle.scene.length_unit}/s"
+    joint = puzzle.scene.linkage.joint(name)
+    if _is_guided(puzzle, name):
+        for end, _ in joint.bars:
+            towards = (puzzle.apart(end, name).conjugate() * puzzle.vector("velocity", end)).real
+            pushes = f"towards {name}: it pushes" if towards > 0 else f"away from {name}: it pulls"
+            return f"{end} moves the bar {end}–{name} {pushes} {name} along the guide, {moves}."
+        return f"It slides along its guide, {moves}."
+    pin = puzzle.pivot_of(name)
+    centres = (
+        [(puzzle.vector("position", pin), pin)] if pin else map(puzzle.centre_of, puzzle.bodies_of(name))
+    )
+    for centre, about in centres:
+        arm = puzzle.vector("position", name) - centre
+        if 0 < abs(arm) < inf:
+            turns = TURNS[(arm.conjugate() * velocity).imag < 0]
+            return f"It turns {turns} about {about} and lies {SIDES[quarter(arm)]} it: so it moves {moves}."
+    return f"It moves {moves}: its velocity is ({number(velocity.real)}, {number(velocity.imag)})."
+
+
+def instant_centre(puzzle: Puzzle) -> QuizQuestion | None:
+    """Return where a coupler's instant centre is; taken wrongly, at a joint, a pin or half-way."""
+    body = coupler_body(puzzle.scene.linkage)
+    if body is None or abs(puzzle.share(f"{body.name}.angular_velocity")) < PLAIN:
+        return None
+    centre, _ = puzzle.centre_of(body)
+    box, size = puzzle.figure.box, puzzle.figure.extent
+    if not (abs(centre) < inf and abs(centre - complex(*box.middle)) < size):
+        return None
+    ends = [puzzle.vector("position", name) for name in body.joints[:2]]
+    places = {puzzle.vector("position", name): name for name in puzzle.figure.shown}
+    half = sum(ends) / 2
+    points = _apart([centre, half, *ends, *places], _NEAR * size)[:MOST]
+    if len(points) < 3:
+        return None
+    slips = {place: _taken_for_pole(puzzle, name) for place, name in places.items()}
+    slips[half] = "the middle of the link taken for the pole"
+    slips[min(ends, key=lambda end: abs(end - centre))] = "the nearer joint taken for the pole"
+    slips[centre] = ""
+    unit = puzzle.scene.length_unit
+    right, *wrong = (
+        QuizAnswer(
+            f"({number(point.real)}, {number(point.imag)}) {unit}",
+            slips.get(point, ""),
+            (point.real, point.imag),
+        )
+        for point in points
+    )
+    return puzzle.question(
+        body.name,
+        f"Where is the instant centre of {puzzle.name(body)}?",
+        right,
+        wrong,
+        _why_pole(puzzle, body, centre),
+        shows=Look(names=1, vectors=frozenset({VELOCITY}), centres=1),
+        arrows=body.joints,
+        shuffled=True,
+        stops=puzzle.phase,
+    )
+
+
+def _why_pole(puzzle: Puzzle, body: Body, centre: complex) -> str:
+    """Return why a body's instant centre is there, by the velocities of its first two joints."""
+    one, other = body.joints[:2]
+    arms = [puzzle.vector("position", name) - centre for name in (one, other)]
+    still = f"the point of {puzzle.name(body)} in that place stands still at this instant."
+    if abs((arms[0].conjugate() * arms[1]).imag) > CLEAR * abs(arms[0] * arms[1]):
+        return f"The normals to the velocities of {one} and {other} meet there: {still}"
+    return f"Along the line through {one} and {other} the velocities fall to nothing there: {still}"
+
+
+def _taken_for_pole(puzzle: Puzzle, name: str) -> str:
+    """Return as what a joint is taken for the pole of a link that moves."""
+    if puzzle.scene.linkage.joint(name).fixed:
+        return "a fixed pin, about which another link turns"
+    return "a joint that moves, taken for the pole" if puzzle.share(f"{name}.velocity") > CLEAR else ""
+
+
+def _apart(points: Iterable[complex], least: float) -> list[complex]:
+    """Return the points that are so far from each one before them."""
+    kept: list[complex] = []
+    for point in points:
+        if all(abs(point - other) > least for other in kept):
+            kept.append(point)
+    return kept
+
+
+# How far things go: dead centres, the input's range, closures beyond a limit, Grashof's sum.
+
+_ANSWERS_APART = 20.0
+"""Crank angles in degrees that nobody takes for one another."""
+_SWINGS_APART = 5.0
+"""Ends of swings in degrees that nobody takes for one another."""
+_FULL = "it turns fully"
+_IN_LINE = 1e-6
+"""Two bars are in one line where the sine of the angle between them is less."""
+Swing = tuple[float, float]
+"""The two ends of a swing, in degrees."""
+
+
+def dead_centre(puzzle: Puzzle) -> QuizQuestion | None:
+    """Return at which crank angle the output turns back; taken wrongly, where it is fastest."""
+    body = output_body(puzzle.scene.linkage)
+    exact = _turning_back(puzzle, body) if body else {}
+    if body is None or not exact:
+        return None
+    right = puzzle.random.choice([*exact])
+    rates = puzzle.values(_rate_of(body))
+    fast = crank_degrees(puzzle, float(puzzle.cycle.phase[int(abs(rates).argmax())]))
+    slips = {(one + 180) % 360: "the other dead centre, taken to lie half a turn on" for one in exact}
+    slips[fast] = "the greatest speed taken for the dead centre"
+    wrong: list[float] = []
+    for one in (fast, *slips, *(puzzle.random.uniform(0, 360) for _ in range(20))):
+        if all(between(one, other) > _ANSWERS_APART for other in (*exact, *wrong)) and len(wrong) < MOST - 1:
+            wrong.append(one)
+    if len(wrong) < 2:
+        return None
+    return puzzle.question(
+        body.name,
+        f"At which crank angle does {puzzle.name(body)} turn back?",
+        QuizAnswer(angle(right)),
+        [QuizAnswer(angle(one), slips.get(one, "")) for one in wrong],
+        f"Its velocity changes its sign at {' and '.join(map(angle, exact))}{_in_line(puzzle, body, exact)}.",
+        shuffled=True,
+        shows=Look(names=1, chart=_rate_of(body)),
+        stops=exact[right],
+        names=0,  # named, a guide has its dead centres
+    )
+
+
+def _rate_of(body: Body) -> str:
+    """Return the token of how fast a body turns, or travels."""
+    return f"{body.name}.{'travel_velocity' if body.slider else 'angular_velocity'}"
+
+
+def _turning_back(puzzle: Puzzle, body: Body) -> dict[float, float]:
+    """Return the crank angles at which a body turns back, in degrees, each with its phase.
+
+    None where the input does not turn fully, or does so more than once before all is back.
+    """
+    scene, samples = puzzle.scene, len(puzzle.cycle.phase)
+    if not scene.info.full_turn or scene.period > tau * 1.001:
+        return {}
+    # once round from between two samples: many turn back at a phase of 0
+    once_round = scene.period * (np.arange(samples + 1) + 0.5) / samples
+    rate = scene.quantities[_rate_of(body)]
+    found = sign_changes(
+        lambda phases: np.asarray(rate.read(scene.solve(phase=phases, derivatives=1))), once_round
+    )
+    return dict(sorted((crank_degrees(puzzle, float(phase)), float(phase)) for phase in found))
+
+
+def _in_line(puzzle: Puzzle, body: Body, exact: Mapping[float, float]) -> str:
+    """Return, after a colon, which bar is in line with the crank as the output turns back; "" if none."""
+    linkage = puzzle.scene.linkage
+    pin = linkage.drive.joint
+    pivot = linkage.crank(pin).pivot
+    poses = [puzzle.scene.pose(phase, 0).position for phase in exact.values()]
+    for name in (body.slider, *body.joints):
+        if name and pin in (end for end, _ in linkage.joint(name).bars):
+            ways = [[complex(*pose[joint]) for joint in (pivot, pin, name)] for pose in poses]
+            turns = [(c - b) * (b - a).conjugate() for a, b, c in ways]
+            if all(abs(turn.imag) < _IN_LINE * abs(turn) for turn in turns):
+                return f": there {pivot}–{pin} and {pin}–{name} lie in one line"
+    return ""
+
+
+def input_range(puzzle: Puzzle) -> QuizQuestion | None:
+    """Return whether the input turns fully, or how it swings; taken wrongly, another's swing."""
+    info = puzzle.scene.info
+    if not puzzle.scene.linkage.drive.coordinate.is_angle:
+        return None
+    own = None if info.full_turn else (degrees(info.input_range[0]), degrees(info.input_range[1]))
+    wrong = [] if own is None else [QuizAnswer(_FULL, _overlooked(puzzle))]
+    swings = [] if own is None else [own]
+    for slip, other in _taken_for_range(puzzle, own):
+        if len(wrong) == MOST - 1:
+            break
+        if all(_are_apart(one, other) for one in swings):
+            swings.append(other)
+            wrong.append(QuizAnswer(swing(*other), slip))
+    right = QuizAnswer(_FULL if own is None else swing(*own))
+    text = f"How far can the {info.input_name} turn?"
+    why = _why_fully(puzzle) if own is None else _why_swinging(puzzle)
+    return puzzle.question("input", text, right, wrong, why, shuffled=True)
+
+
+def _are_apart(one: Swing, other: Swing) -> bool:
+    """Return whether nobody takes two swings for one another."""
+    return max(between(a, b) for a, b in zip(one, other, strict=True)) > _SWINGS_APART
+
+
+def _overlooked(puzzle: Puzzle) -> str:
+    """Return what is overlooked by who has an input turn fully that swings."""
+    if any(puzzle.scene.mechanism.assembly.path.ends):
+        return "the limit overlooked: beyond it the loop does not close"
+    return "the stroke of the drive overlooked"
+
+
+def _taken_for_range(puzzle: Puzzle, own: Swing | None) -> Iterator[tuple[str, Swing]]:
+    """Yield swings that are taken for the input's own, None where it turns fully, each after its reason."""
+    body, info = output_body(puzzle.scene.linkage), puzzle.scene.info
+    if body is not None and body.slider is None and body.name not in info.turning_links:
+        angles = np.degrees(puzzle.values(f"{body.name}.angle"))
+        if np.ptp(angles) > _SWINGS_APART:
+            slip = f"the swing of {puzzle.name(body)} taken for that of the input"
+            yield slip, (float(angles.min()), float(angles.max()))
+    if own is not None:
+        yield "the angles counted clockwise", (-own[1], -own[0])
+        yield "the swing counted from its own limit", (0.0, own[1] - own[0])
+        return
+    if body is not None and len(ends := [*_turning_back(puzzle, body)]) == 2:
+        yield f"the dead centres of {puzzle.name(body)} taken for limits of the crank", (ends[0], ends[1])
+    for _ in range(MOST):
+        low = puzzle.random.uniform(-90, 90)
+        yield "a limit seen where the loop still closes", (low, low + puzzle.random.uniform(100, 200))
+
+
+def _why_fully(puzzle: Puzzle) -> str:
+    """Return why an input turns fully: by Grashof's sum of a four-bar alone, else by what its dyads keep."""
+    info, bar = puzzle.scene.info, four_bar_of(puzzle.scene.mechanism)
+    if bar is not None and sum(joint.dyad for joint in puzzle.scene.linkage.joints) == 1:
+        if bar.change_points:
+            return f"{info.grashof}: where all bars lie in one line it is at a change point, and turns on."
+        against = "both links that turn on it" if bar.shortest == "ground" else "it"
+        return f"{info.grashof}, and the shortest link is the {bar.shortest}: {against} can turn fully."
+    if info.transmission is None:
+        slides = any(joint.slides for joint in puzzle.scene.linkage.joints)
+        return f"What it drives {'slides as far as it is taken' if slides else 'turns with it all the way'}."
+    least = floor(10 * degrees(info.transmission.least)) / 10
+    if least > 0:
+        return (
+            "A loop closes no farther where a transmission angle comes to 0°: here none is ever less than "
+            f"{least:.1f}°."
+        )
+    return "Where its bars come into one line it is at a change point, and turns on."
+
+
+def _why_swinging(puzzle: Puzzle) -> str:
+    """Return why an input swings: what is in its way at both ends."""
+    linkage, info = puzzle.scene.linkage, puzzle.scene.info
+    clauses = [linkage.joint(end).at_limit for end in puzzle.scene.mechanism.assembly.path.ends if end]
+    if not clauses:
+        return f"Its stroke is all: {linkage.drive.actuator.at_ends(puzzle.scene.length_unit)}."
+    if len(set(clauses)) == 1:
+        return f"At both ends {clauses[0]}: beyond that the loop does not close."
+    ends = [
+        f"at {tenths(degrees(end))} {clause}" for end, clause in zip(info.input_range, clauses, strict=True)
+    ]
+    return f"The loop does not close farther: {', and '.join(ends)}."
+
+
+def closure(puzzle: Puzzle) -> QuizQuestion | None:
+    """Return on which closure an input that swings comes back; taken wrongly, on the one it came by."""
+    info, mechanism = puzzle.scene.info, puzzle.scene.mechanism
+    ends = [end for end in zip(info.input_range, mechanism.assembly.path.ends, strict=False) if end[1]]
+    if not ends:
+        return None
+    place, dyad = puzzle.random.choice(ends)
+    jump, slip = "No velocity jumps there", "the closure that it came by"
+    why = (
+        f"The {info.input_name} stands there for an instant, the links do not: they run on to the other side."
+    )
+    if mechanism.retraced:  # the scene says so, and nothing else would
+        jump, slip = "All velocities change their sign there at once", "the closure beyond the limit"
+        why = "With all velocities reversed each link goes back the way it came."
+    text = (
+        f"At {tenths(degrees(place))} {puzzle.scene.linkage.joint(dyad).at_limit}, and the {info.input_name} "
+        f"turns back. {jump}. On which closure do the links come back?"
+    )
+    answers, look = ("on the same closure", "on the other closure"), Look(names=1, ghost=True)
+    return puzzle.question("input", text, *either(answers, mechanism.retraced, slip), why, shows=look)
+
+
+def grashof(puzzle: Puzzle) -> QuizQuestion | None:
+    """Return what Grashof's sum says of the four-bar that the input drives."""
+    bar = four_bar_of(puzzle.scene.mechanism)
+    if bar is None:
+        return None
+    lengths = sorted(bar.links.values())
+    if 0 < abs(bar.margin) < CLEAR * lengths[-1]:
+        return None
+    answers = (
+        "a link turns fully: s + l < p + q",
+        "no link turns fully: s + l > p + q",
+        "s + l = p + q: a change point",
+    )
+    right = 2 if bar.margin == 0 else 0 if bar.margin > 0 else 1
+    slips = ["the sums compared the wrong way round"] * 2 + [""]
+    if right == 2:
+        slips = ["equal sums taken for unequal ones"] * 3
+    wrong = [QuizAnswer(answers[n], slips[n]) for n in range(3) if n != right]
+    s, p, q, longest = map(number, lengths)
+    return puzzle.question(
+        bar.joint,
+        f"The lengths of the four-bar that the input drives, in {puzzle.scene.length_unit}: {_listed(bar)}. "
+        "Does a link turn fully against the others?",
+        QuizAnswer(answers[right]),
+        wrong,
+        f"s + l = {s} + {longest} {'<>='[right]} p + q = {p} + {q}.",
+    )
+
+
+def _listed(bar: FourBar) -> str:
+    return ", ".join(f"{part} {number(length)}" for part, length in bar.links.items())
+
+
+def grashof_sum(puzzle: Puzzle) -> QuizQuestion | None:
+    """Return which link is in the wrong place of Grashof's sum; taken wrongly, one that is in its own."""
+    bar = four_bar_of(puzzle.scene.mechanism)
+    if bar is None:
+        return None
+    order = sorted(bar.links, key=lambda part: bar.links[part])
+    pairs = [pair for pair in combinations(range(4), 2) if pair != (1, 2)]
+    gaps = [bar.links[order[b]] - bar.links[order[a]] for a, b in pairs]
+    if min(gaps) < 2 * CLEAR * bar.links[order[3]]:
+        return None
+    one, other = puzzle.random.choice([pair for pair in pairs if pair != (0, 3)])
+    written = [*order]
+    written[one], written[other] = written[other], written[one]
+    s, p, q, longest = (f"{number(bar.links[part])} ({part})" for part in written)
+    right = order[puzzle.random.choice((one, other))]
+    wrong = [order[n] for n in range(4) if n not in (one, other)]
+    slips = {}
+    if written[0] != "input":
+        slips["input"] = "the input expected as s, whatever its length"
+    if written[3] != "ground":
+        slips["ground"] = "the ground expected as l, whatever its length"
+    places = ("s, the shortest", "one of p and q", "one of p and q", "l, the longest")
+    return puzzle.question(
+        bar.joint,
+        f"Grashof's sums of this four-bar are written as s + l = {s} + {longest} and p + q = {p} + {q}. "
+        "Which of these links is in the wrong place?",
+        QuizAnswer(right),
+        [QuizAnswer(part, slips.get(part, "")) for part in wrong],
+        f"The {right} is {places[order.index(right)]}, not {places[written.index(right)]}.",
+    )
+
+
+# The one table of kinds: what makes a question of each, and at which levels it is asked.
+
+
+class QuestionKind(NamedTuple):
+    """What makes a question of a kind, None where a puzzle has none, and the levels that ask it.
+
+    One `of_making` is about what a linkage was made for, and asked of a scene that says so.
+    """
+
+    make: Callable[[Puzzle], QuizQuestion | None]
+    levels: tuple[int, ...]
+    of_making: bool = False
+
+
+KINDS: Mapping[str, QuestionKind] = {
+    "turning": QuestionKind(turning, (1,)),
+    "fastest": QuestionKind(fastest, (1, 2)),
+    "heading": QuestionKind(heading, (1, 2)),
+    "input range": QuestionKind(input_range, (1, 2)),
+    "doubled": QuestionKind(doubled, (1, 2)),
+    "grashof": QuestionKind(grashof, (1, 2)),
+    "speeding": QuestionKind(speeding, (2, 3)),
+    "dead centre": QuestionKind(dead_centre, (2, 3)),
+    "closure": QuestionKind(closure, (2, 3)),
+    "coriolis": QuestionKind(coriolis, (2, 3)),
+    "curves": QuestionKind(curves, (2, 3)),
+    "instant centre": QuestionKind(instant_centre, (3,)),
+    "force": QuestionKind(force, (3,)),
+    "grashof sum": QuestionKind(grashof_sum, (3,)),
+    "slow way": QuestionKind(slow_way, (1, 2), of_making=True),
+    "precision point": QuestionKind(precision_point, (2, 3), of_making=True),
+    "pole": QuestionKind(pole, (2, 3), of_making=True),
+}
+
+
+def of_level(level: int) -> tuple[str, ...]:
+    """Return the kinds that a level asks."""
+    return tuple(name for name, kind in KINDS.items() if level in kind.levels)

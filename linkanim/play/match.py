@@ -1,0 +1,588 @@
+"""Match: joints are dragged until the coupler point runs along a dotted curve; three scores pull apart.
+
+`Worth` says what a four-bar is worth beside a curve, `Level` has the curve, where the joints begin and what
+full score takes; levels are files, or made from seeds.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property, lru_cache
+from importlib.resources import files
+from itertools import pairwise
+from pathlib import Path
+from random import Random
+from typing import NamedTuple, TypeVar
+
+import numpy as np
+
+from linkanim.bounds import LONGEST_TEXT
+from linkanim.errors import BadInput, LinkanimError
+from linkanim.intake import Intake, Section, control_in, refuse_controls
+from linkanim.picture.look import Look
+from linkanim.picture.overlay import Choice, GamePanel, Overlay, PathShown, ScoreBar
+from linkanim.picture.text import subscripted
+from linkanim.picture.view import Box
+from linkanim.play.games import GameWords, begun
+from linkanim.player.action import Action
+from linkanim.player.actions import play, with_scene
+from linkanim.player.state import State, with_effect
+from linkanim.scenes.reading import scene_from
+from linkanim.scenes.scene import Scene
+from linkanim.scenes.toml import parse
+from linkanim.synthesis.answers import document_of
+from linkanim.synthesis.curves import DrawnCurve, drawn
+from linkanim.synthesis.linkages import FOUR_BAR, Complex, Linkage4, Real
+from linkanim.units import angle, shown, significant
+
+# What a four-bar is worth beside a curve: how exactly it follows, how small it is, how well it transmits.
+
+_MOMENTS = 240
+
+
+class Worth(NamedTuple):
+    """By how much of the curve's size in percent it is off, its links together in curve sizes, and its least
+    transmission angle (rad), 0 where the crank does not turn fully.
+
+    Among the links is the coupler point's arm from A.
+    """
+
+    off: float
+    links: float
+    angle: float
+
+
+def worth(joints: Linkage4, curve: DrawnCurve) -> Worth:
+    """Return what a four-bar is worth beside a curve.
+
+    `off` is the root mean square of the points' distances from what the coupler point draws, of a closed
+    curve also of that from the curve, whichever is more; infinite where it draws nothing.
+    """
+    row = np.array(joints.row)
+    *lengths, _ = FOUR_BAR.link_lengths(row[None])[0]
+    return Worth(_off(joints, curve), float(np.sum(lengths) / curve.size), _least_angle(row))
+
+
+def _off(joints: Linkage4, curve: DrawnCurve) -> float:
+    drawn = trace(joints)
+    if len(drawn) < 2:
+        return math.inf
+    away = _distances(curve.points, drawn)
+    if curve.closed:
+        away = max(away, _distances(drawn, curve.polyline))
+    return 100 * away / curve.size
+
+
+def trace(joints: Linkage4) -> Complex:
+    """Return what the coupler point draws, the first point once more at the end; that of a swing comes back.
+
+    The way back of a swing is on the other closure.
+    """
+    rows, step = np.array([joints.row]), 2 * math.pi / _MOMENTS
+    angles: Real = joints.angle + step * np.arange(_MOMENTS + 1, dtype=np.float64)
+    ways = list[Complex]()
+    with np.errstate(all="ignore"):
+        ways += [FOUR_BAR.points(rows, np.array([side]), angles[None])[0] for side in (1.0, -1.0)]
+    there, back = ways if joints.closure > 0 else ways[::-1]
+    if np.isfinite(there).all():
+        return there
+    shut = np.flatnonzero(~np.isfinite(there))
+    # the stretch that the crank is in, from limit to limit, and back
+    open_ = np.arange(shut[-1] + 1 - _MOMENTS, shut[0])
+    found: Complex = np.concatenate([there[open_ % _MOMENTS], back[open_[::-1] % _MOMENTS]])
+    found = found[np.isfinite(found)]
+    return np.append(found, found[:1])
+
+
+def _distances(points: Complex, line: Complex) -> float:
+    """Return the root mean square of the points' distances from a line through others."""
+    begin, way = line[:-1], np.diff(line)
+    from_begin = points[:, None] - begin
+    square = np.maximum(way.real**2 + way.imag**2, 1e-300)
+    share = np.clip((from_begin * way.conj()).real / square, 0.0, 1.0)
+    nearest: Real = np.abs(from_begin - share * way).min(axis=1)
+    return float(np.sqrt(np.mean(nearest**2)))
+
+
+def _least_angle(row: Real) -> float:
+    """Return the least transmission angle of a crank that turns fully, by the cosine rule; else 0."""
+    x, y, crank, a, _, _, x4, y4, b = row
+    ground = math.hypot(x4 - x, y4 - y)
+    angles = []
+    for far in (abs(ground - crank), ground + crank):
+        cosine = (a * a + b * b - far * far) / max(2 * a * b, 1e-300)
+        if not abs(cosine) < 1.0:
+            return 0.0
+        angles.append(math.acos(abs(cosine)))
+    return min(angles)
+
+
+# The levels of Match: a dotted curve, where the joints begin, what full score takes; files, or seeds.
+
+Made = TypeVar("Made")
+FOLDER = files("linkanim.play") / "levels"
+_FILE = Intake("a level", most_bytes=100_000, most_values=5_000)
+_KEYS = frozenset({"title", "about", "closed", "points", "fixed", "start", "full", "answer"})
+_JOINTS = Linkage4._fields
+_LONGEST_SEED = 18
+_BEGINNING = Linkage4(-60 - 60j, -40 - 40j, 40 + 20j, 60 - 60j, 0 + 0j)
+"""Where the joints of a level that is made begin, about a curve of size 100."""
+
+
+@dataclass(frozen=True, eq=False)
+class Level:
+    """A curve to follow, the joints as they begin and those that stay there, and the worth of full score.
+
+    `answer` is what is shown to who gives up, as a rule the path solver's.
+    """
+
+    name: str
+    title: str
+    about: str
+    curve: DrawnCurve
+    start: Linkage4
+    fixed: frozenset[str]
+    full: Worth
+    answer: Linkage4 | None
+
+    @cached_property
+    def worth_of_answer(self) -> Worth:
+        """What the answer is worth; nothing where there is none."""
+        return worth(self.answer, self.curve) if self.answer else Worth(math.inf, math.inf, 0.0)
+
+
+@lru_cache(maxsize=1)
+def level_names() -> tuple[str, ...]:
+    """Return the levels of the package, the first ones first."""
+    found = sorted(entry.name for entry in FOLDER.iterdir() if entry.name.endswith(".toml"))
+    return tuple(name.removesuffix(".toml").split("-", 1)[1] for name in found)
+
+
+@lru_cache(maxsize=4)
+def level_of(name: str) -> Level:
+    """Return a level by its name, by the path of its file, or made from `seed-N`.
+
+    BadInput with file, key and way out where there is none, or where it makes no sense.
+    """
+    if len(name) > LONGEST_TEXT or control_in(name):
+        raise BadInput(f"match: {shown(name)} cannot be a level's name; rename the file")
+    if name.endswith(".toml"):
+        return _read(_FILE.read(Path(name), name), name, Path(name).stem)
+    seed = name.removeprefix("seed-")
+    if name.startswith("seed-") and seed.isdecimal() and len(seed) <= _LONGEST_SEED:
+        return made(int(seed))
+    for number, known in enumerate(level_names(), start=1):
+        if known == name:
+            file = f"{number:02}-{name}.toml"
+            return _read((FOLDER / file).read_text(encoding="utf-8"), file, name)
+    raise BadInput(
+        f"match: there is no level {shown(name)}; there are {', '.join(level_names())}, seed-1, seed-2, … "
+        "and files of your own, such as levels/mine.toml"
+    )
+
+
+def _read(text: str, where: str, name: str) -> Level:
+    _FILE.refuse_heavy(text, where)
+    document = Section(where, parse(text, where))
+    refuse_controls(document)
+    for key in document.values:
+        if key not in _KEYS:
+            raise document.error(key, f"is no key of a level; there are {', '.join(sorted(_KEYS))}")
+    full = document.table("full")
+    closed, points = document.flag("closed"), _points(document)
+    curve = _said_of(document, "points", lambda: drawn(points, closed=closed))
+    fixed = document.texts("fixed")
+    for joint in fixed:
+        if joint not in _JOINTS:
+            raise document.error("fixed", f"{shown(joint)} is no joint; there are {', '.join(_JOINTS)}")
+    return Level(
+        name,
+        document.text("title"),
+        document.text("about", ""),
+        curve,
+        _joints(document.table("start")),
+        frozenset(fixed),
+        Worth(_positive(full, "off"), _positive(full, "links"), _stated_least_angle(full)),
+        _joints(document.table("answer")) if "answer" in document else None,
+    )
+
+
+def _said_of(section: Section, key: str, make: Callable[[], Made]) -> Made:
+    """Return what is made of a key's value; what is wrong with that is said of the key."""
+    try:
+        return make()
+    except BadInput as error:
+        raise section.at(f"{section.key(key)}: {error}", key) from None
+
+
+def _stated_least_angle(full: Section) -> float:
+    found = _said_of(full, "angle", lambda: angle(full.text("angle")))
+    if not 0.0 < found <= math.pi / 2:
+        raise full.error("angle", 'must be a transmission angle, such as "40 deg"')
+    return found
+
+
+def _positive(section: Section, key: str) -> float:
+    value = section.number(key)
+    if value <= 0:
+        raise section.error(key, "must be above zero")
+    return value
+
+
+def _points(document: Section) -> Complex:
+    listed = document.listed("points")
+    return np.array([_point(listed, key) for key in listed.values], np.complex128)
+
+
+def _point(section: Section, key: str) -> complex:
+    pair = section.listed(key, 2)
+    x, y = (pair.number(item) for item in pair.values)
+    return complex(x, y)
+
+
+def _joints(section: Section) -> Linkage4:
+    return Linkage4(*(_point(section, name) for name in _JOINTS))
+
+
+def made(seed: int) -> Level:
+    """Return a level made from a seed: the curve of a crank-rocker or drag-link, itself the answer."""
+    random = np.random.default_rng(seed)
+    while True:
+        rows = FOUR_BAR.random_rows(random, 64)
+        good = np.flatnonzero((FOUR_BAR.slack(rows, math.radians(30)) > 0).all(axis=1))
+        if len(good):
+            break
+    joints = Linkage4.of(rows[good[0]], Random(seed).uniform(0, 2 * math.pi))
+    curve = trace(joints)[:-1:4]
+    size = math.hypot(np.ptp(curve.real), np.ptp(curve.imag))
+    middle = complex(curve.mean())
+    answer = Linkage4(*(100 * (place - middle) / size for place in joints))
+    target = drawn(100 * (curve - middle) / size, closed=True)
+    best = worth(answer, target)
+    full = Worth(1.5, 1.1 * best.links, best.angle - math.radians(3))
+    return Level(
+        f"seed-{seed}",
+        f"Curve {seed}",
+        "",
+        target,
+        _BEGINNING,
+        frozenset(),
+        full,
+        answer,
+    )
+
+
+# Match: joints are dragged until the coupler point runs along a dotted curve; three scores pull apart.
+
+_LOOSEST = 30.0
+"""Off by as much of the curve's size, in percent, a linkage follows it not at all."""
+_LARGEST = 4.0
+"""So many times as long as for full score links earn nothing."""
+_SHORTEST = 0.04
+"""In curve sizes: no bar gets shorter."""
+_FARTHEST = 12.0
+"""In curve sizes: no joint gets further from the curve's middle."""
+_STILL, _READ = 1e-6, 3
+_KEPT = 60
+"""So many drags can be taken back."""
+_POINTS = 100
+"""For each of the three."""
+_NAMES = ("how exactly", "how small", "transmission angle")
+
+
+@dataclass(frozen=True)
+class MatchGame:
+    """A level with the joints as they stand: since the last drag, or as the path solver has them (`gave_up`).
+
+    `held` is the joint under the hand, `earlier` the linkages before each drag, `found` the worth of this, a
+    moment old while one is held.
+    """
+
+    level: str
+    joints: Linkage4
+    found: Worth
+    best: int = 0
+    gave_up: bool = False
+    held: str | None = None
+    earlier: tuple[Linkage4, ...] = ()
+    covers = True
+
+    @property
+    def words(self) -> str:
+        """What begins it again with the joints where they are."""
+        parts = (part for place in self.joints for part in (place.real, place.imag))
+        words = GameWords("match", {}).having(level=self.level, best=self.best)
+        return str(words.having(joints=",".join(map(repr, parts)), gave_up=1 if self.gave_up else ""))
+
+    @property
+    def of_level(self) -> Level:
+        """What is to be followed."""
+        return level_of(self.level)
+
+    @property
+    def points(self) -> tuple[int, ...]:
+        """The three scores, 0 to 100."""
+        return _earned(shares(self.found, self.of_level.full))
+
+    def entered(self, state: State) -> State:
+        """Return the state with the four-bar standing beside the curve."""
+        look = Look(hud=False, theme=state.look.theme)
+        scene, phase = _scene_of(self)
+        return replace(with_scene(replace(state, look=look), scene, phase, paused=True), home=_home(self))
+
+    def aged(self, state: State) -> State:
+        """Let the scores follow the hand, at a third of the frames: who drags reads no faster."""
+        if self.held is None or state.frame % _READ:
+            return state
+        return replace(state, game=self.judged)
+
+    @property
+    def judged(self) -> MatchGame:
+        """The game with the worth of the joints as they are now."""
+        return replace(self, found=worth(self.joints, self.of_level.curve))
+
+    def carried(self, state: State, action: Action) -> State:
+        """Drag a joint; run, step, take back; give up, or go on to another level."""
+        match action:
+            case Action("back"):
+                return play(state, "lobby row=1")
+            case Action("grab", str() as joint) if not self.gave_up and joint in self.free:
+                return self._grabbed(state, joint)
+            case Action("carry", (float() | int() as x, float() | int() as y, float() | int() as step)):
+                return self._dragged(state, complex(x, y), float(step))
+            case Action("drop") if self.held:
+                return self._dropped(state)
+            case Action("undo") if self.earlier and not self.held:
+                *earlier, before = self.earlier
+                return _put(state, replace(self, earlier=tuple(earlier)), before)
+            case Action("next") if not self.held:
+                return replace(state, clock=state.clock.pause(state.frame, not state.clock.paused))
+            case Action("turn", int() as degrees) if not self.held:
+                return replace(state, clock=state.clock.step(state.frame, degrees))
+            case Action("scrub", float() | int() as phase) if not self.held:
+                return replace(state, clock=state.clock.go(state.frame, float(phase), paused=True))
+            case Action("raise", int() as steps) if not self.held:
+                return self._beside(state, -1 if steps > 0 else 1)
+            case Action("option", int() as choice) if not self.held:
+                return self._chosen(state, choice)
+        return state
+
+    @property
+    def kept_as(self) -> str:
+        """What its best score is kept under."""
+        return f"match-{self.level}"
+
+    @property
+    def free(self) -> tuple[str, ...]:
+        """The joints that may be dragged."""
+        return tuple(name for name in Linkage4._fields if name not in self.of_level.fixed)
+
+    def _grabbed(self, state: State, joint: str) -> State:
+        """Take hold of a joint as it stands at the moment."""
+        places = state.scene.pose(state.phase, 0).position
+        stand = Linkage4(*(complex(*places[name]) for name in Linkage4._fields))
+        if max(abs(a - b) for a, b in zip(stand, self.joints, strict=True)) < _STILL:
+            stand = self.joints  # to the last bit: a drag there and back is none
+        stand = stand._replace(**{name: getattr(self.joints, name) for name in self.of_level.fixed})
+        earlier = (*self.earlier, self.joints)[-_KEPT:]
+        state = replace(state, clock=state.clock.pause(state.frame, True))
+        return replace(state, game=replace(self, joints=stand, held=joint, earlier=earlier))
+
+    def _dragged(self, state: State, to: complex, step: float) -> State:
+        """Put the joint that is held near a place, in whole steps; the others stay where they are."""
+        if self.held is None:
+            return state
+        place = complex(_stepped(to.real, step), _stepped(to.imag, step))
+        joints = self.joints._replace(**{self.held: place})
+        if joints == self.joints or not _is_sound(joints, self.of_level):
+            return state
+        return _put(state, self, joints)
+
+    def _dropped(self, state: State) -> State:
+        """Let go; a better score is handed on, a full one is heard."""
+        game = self.judged
+        total = sum(game.points)
+        state = replace(state, game=replace(game, held=None, best=max(self.best, total)))
+        if total <= self.best:
+            return state
+        state = with_effect(state, "score", f"best={self.kept_as}:{total}")
+        return with_effect(state, "sound", "right") if total == 3 * _POINTS else state
+
+    def _chosen(self, state: State, choice: int) -> State:
+        """Give up or go back to one's own; begin again; go on to the next level."""
+        level = self.of_level
+        if choice == 0 and self.gave_up:
+            own = self.earlier[-1] if self.earlier else level.start
+            return _put(state, replace(self, gave_up=False, earlier=self.earlier[:-1]), own)
+        earlier = (*self.earlier, self.joints)[-_KEPT:]
+        if choice == 0 and level.answer:
+            state = _put(state, replace(self, gave_up=True, earlier=earlier), level.answer)
+            return replace(state, clock=state.clock.pause(state.frame, False))
+        if choice == 1:
+            return _put(state, replace(self, gave_up=False, earlier=earlier), level.start)
+        return self._beside(state, 1) if choice == 2 else state
+
+    def _beside(self, state: State, further: int) -> State:
+        known = level_names()
+        place = known.index(self.level) + further if self.level in known else 0
+        return begun(state, "match", level=known[place % len(known)])
+
+    def shown(self, state: State, over: Overlay) -> Overlay:
+        """Return the overlay with the curve, the three bars, and what they come to."""
+        level = self.of_level
+        answer = shares(level.worth_of_answer, level.full)
+        own = shares(self.found, level.full)
+        points = _earned(own)
+        known = zip(_NAMES, _worded(self.found), points, own, answer, strict=True)
+        bars = tuple(
+            ScoreBar(name, f"{text}   {some}", share, (mark, 1.0) if 0 < mark < 1 else (1.0,))
+            for name, text, some, share, mark in known
+        )
+        choices = (
+            Choice("1", "Back to mine" if self.gave_up else "Give up: the path solver's answer"),
+            Choice("2", "Begin again"),
+            Choice("3", "The next level"),
+        )
+        panel = GamePanel(
+            level.title,
+            scores=(self._place, f"{sum(points)} of {3 * _POINTS}", f"best {self.best}"),
+            lines=tuple(filter(None, (level.about, self._fixed))),
+            bars=bars,
+            verdict=self._verdict(own, answer),
+            well=not self.gave_up,
+            choices=choices if level.answer else choices[1:],
+            hint="drag joints (Shift: tenths)   Space runs   ← → turn   Ctrl+Z   ↑ ↓ level   Esc out",
+        )
+        handles = () if self.gave_up else self.free
+        path = PathShown(level.curve, blank=False, marked=False)
+        return replace(over, game=panel, path=path, handles=handles)
+
+    @property
+    def _fixed(self) -> str:
+        """Say which joints stay."""
+        names = [subscripted(name) for name in sorted(self.of_level.fixed)]
+        return f"{' and '.join(names)} {'stays' if len(names) == 1 else 'stay'} in place." if names else ""
+
+    @property
+    def _place(self) -> str:
+        known = level_names()
+        return f"level {known.index(self.level) + 1} / {len(known)}" if self.level in known else self.level
+
+    def _verdict(self, own: tuple[float, ...], answer: tuple[float, ...]) -> str:
+        """Say what is reached, and where it beats the path solver."""
+        if self.gave_up:
+            better = [words for words, share in zip(_BETTER, answer, strict=True) if share < 1.0]
+            return "The path solver's answer" + (f"; {_listed(better)} can be had" if better else "")
+        reached = "Full score" if min(own) >= 1.0 else "It follows" if own[0] >= 1.0 else ""
+        beaten = [words for words, mine, its in zip(_BETTER, own, answer, strict=True) if mine > its + 0.005]
+        if reached and beaten and self.of_level.answer:
+            return f"{reached}, with {_listed(beaten)} than the path solver's"
+        return reached
+
+
+_BETTER = ("a closer way", "smaller links", "a better transmission angle")
+"""What is had where a linkage beats another one in each."""
+
+
+def _listed(words: list[str]) -> str:
+    return " and ".join(words)
+
+
+def shares(found: Worth, full: Worth) -> tuple[float, float, float]:
+    """Return how much of each full score a linkage earns, 0 to 1: by ratios for the first two."""
+    away = min(max(found.off / full.off, 1.0), _LOOSEST / full.off)
+    off = 1 - math.log(away) / math.log(_LOOSEST / full.off)
+    links = 1 - math.log(max(found.links / full.links, 1.0)) / math.log(_LARGEST)
+    return max(off, 0.0), max(links, 0.0), min(found.angle / full.angle, 1.0)
+
+
+def _earned(three: tuple[float, float, float]) -> tuple[int, ...]:
+    """Return shares of full scores in points."""
+    return tuple(int(_POINTS * share + 1e-9) for share in three)
+
+
+def _worded(found: Worth) -> tuple[str, str, str]:
+    """Return the three in words."""
+    off = f"{significant(found.off, 2)} % off" if found.off < _LOOSEST else "far off"
+    return off, f"{found.links:.2f} sizes", f"{math.degrees(found.angle):.0f}°"
+
+
+def _is_sound(joints: Linkage4, level: Level) -> bool:
+    """Whether bars have some length, and joints are not far away."""
+    ring = (joints.O2, joints.A, joints.B, joints.O4, joints.O2)
+    size, middle = level.curve.size, level.curve.centre
+    bars = (abs(b - a) for a, b in pairwise(ring))
+    return min(bars) >= _SHORTEST * size and max(abs(one - middle) for one in joints) <= _FARTHEST * size
+
+
+def _stepped(value: float, step: float) -> float:
+    return round(round(value / step) * step, 6) + 0.0
+
+
+def _put(state: State, game: MatchGame, joints: Linkage4) -> State:
+    """Return the state with the joints elsewhere; as it is where they make no linkage."""
+    game = replace(game, joints=joints)
+    game = game if game.held else game.judged
+    try:
+        scene, phase = _scene_of(game)
+    except LinkanimError:
+        return state
+    clock = state.clock.at_rate(state.frame, scene.linkage.drive.speed).go(state.frame, phase, paused=True)
+    return replace(state, game=game, scene=scene, clock=clock, home=_home(game))
+
+
+def _scene_of(game: MatchGame) -> tuple[Scene, float]:
+    """Return the four-bar as a scene that starts where the joints stand, and the phase at which they do.
+
+    Of a swing it is on the closure that is named.
+    """
+    joints, stated = game.joints, {"title": game.of_level.title, "source": "a level of linkanim"}
+    document = document_of(FOUR_BAR, joints.row, joints.closure, (joints.angle, 1.0), **stated)
+    scene = scene_from(document, name="match", where=game.level)
+    near = 0.0 if scene.info.full_turn else math.pi / 2
+    return scene, scene.mechanism.assembly.path.phase_of(joints.angle, near=near)
+
+
+def _home(game: MatchGame) -> Box:
+    """Return what is in sight: the curve with room around it, and all of an answer that is shown."""
+    level = game.of_level
+    points, size = level.curve.points, level.curve.size
+    low, high = (complex(of(points.real), of(points.imag)) for of in (min, max))
+    middle = (low + high) / 2
+    reach = [middle + 1.1 * size * way for way in (1, -1, 0.95j, -0.95j)]
+    reach += [*level.start, *(game.joints if game.gave_up else ())]
+    reach += [*trace(game.joints)] if game.gave_up else []
+    across, up = [place.real for place in reach], [place.imag for place in reach]
+    return Box(float(min(across)), float(min(up)), float(max(across)), float(max(up)))
+
+
+def first_unsolved(best: Mapping[str, int]) -> str:
+    """Return the first level without full score, of the best scores so far; the first where all have it."""
+    levels = level_names()
+    return next((name for name in levels if best.get(f"match-{name}", 0) < 3 * _POINTS), levels[0])
+
+
+def read(words: GameWords) -> MatchGame:
+    """Return the level that words begin; BadInput where they do not."""
+    name = words.fields.get("level", level_names()[0])
+    level = level_of(name)
+    given = words.fields.get("joints")
+    joints = _joints_of(given) if given else level.start
+    best, gave_up = words.whole("best", 0, 0, 3 * _POINTS), words.whole("gave_up", 0, 0, 1)
+    return MatchGame(name, joints, worth(joints, level.curve), best, bool(gave_up))
+
+
+def _joints_of(text: str) -> Linkage4:
+    numbers = text.split(",")
+    try:
+        places = zip(numbers[::2], numbers[1::2], strict=True)
+        joints = Linkage4(*(complex(float(x), float(y)) for x, y in places))
+    except (ValueError, TypeError):
+        raise BadInput(
+            f"match: joints={shown(text)} are not ten numbers, x and y of O2, A, B, O4, P"
+        ) from None
+    if not all(abs(place) < 1e9 for place in joints) or joints.A == joints.B:
+        raise BadInput(f"match: joints={shown(text)} make no four-bar")
+    return joints

@@ -1,0 +1,248 @@
+"""Show what there is to play: the title with its doors, the games, the rounds with their best scores."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from linkanim.errors import BadInput
+from linkanim.picture.look import Look
+from linkanim.picture.overlay import Choice, GamePanel, Overlay
+from linkanim.play.games import (
+    ALL,
+    LEVELS,
+    Door,
+    GameWords,
+    OverWhatRuns,
+    begun,
+    choices_of,
+    chosen_by,
+    members,
+    titled,
+)
+from linkanim.player.action import Action
+from linkanim.player.actions import leave, with_scene
+from linkanim.player.building import build
+from linkanim.player.clock import FRAMES_PER_SECOND
+from linkanim.player.edits import open_shelf
+from linkanim.player.state import State, with_effect, with_toast
+from linkanim.scenes import chapters, load, names
+from linkanim.units import shown
+
+# What there is to play: rounds by chapter and level, with the best scores.
+
+_ABOUT = {
+    1: "which way, how fast, how far",
+    2: "dead centres, closures, curves",
+    3: "instant centres and forces",
+}
+
+
+@dataclass(frozen=True)
+class Menu(OverWhatRuns):
+    """The choice of a round: the chapter that Enter takes, the level, and the best score of each."""
+
+    chapter: str
+    level: int
+    best: tuple[tuple[str, int], ...] = ()
+
+    @property
+    def words(self) -> str:
+        """What begins it again."""
+        best = ",".join(f"{name}:{score}" for name, score in self.best)
+        return str(GameWords("menu", {}).having(chapter=self.chapter, level=self.level, best=best))
+
+    def carried(self, state: State, action: Action) -> State:
+        """Choose a chapter or a level, begin a round, or go back."""
+        rows = self._rows(state)
+        if action.name == "back":
+            return begun(state, "lobby")
+        if action.name == "turn" and isinstance(action.value, int):
+            level = min(max(self.level + (1 if action.value > 0 else -1), LEVELS[0]), LEVELS[-1])
+            return replace(state, game=replace(self, level=level))
+        if (action.name, action.value) == ("option", len(rows)):
+            return replace(state, game=replace(self, level=self.level % LEVELS[-1] + 1))
+        chosen = chosen_by(action, rows.index(self.chapter), len(rows))
+        if chosen is None:
+            return state
+        state = replace(state, game=replace(self, chapter=rows[chosen.row]))
+        return begun(state, "predict", chapter=rows[chosen.row], level=self.level) if chosen.taken else state
+
+    def _rows(self, state: State) -> tuple[str, ...]:
+        """Return what a round can be about: all, a chapter, and the mechanism that was on before."""
+        before = state.beneath.scene.name if state.beneath else ""
+        own = (name for name in (self.chapter, before) if name in names())
+        return tuple(dict.fromkeys((ALL, *chapters(), *own)))
+
+    def shown(self, state: State, over: Overlay) -> Overlay:
+        """Return the overlay with the chapters."""
+        best = {name: f"best {score}" for name, score in self.best}
+        choices = tuple(
+            Choice(f"{n}", titled(chapter), below=best.get(f"{chapter.replace(' ', '_')}.{self.level}", ""))
+            for n, chapter in enumerate(self._rows(state), 1)
+        )
+        level = Choice(f"{len(choices) + 1}", f"Level {self.level}", below=_ABOUT[self.level])
+        panel = GamePanel(
+            "Predict",
+            lines=("Ten questions, before it moves.",),
+            choices=(*choices, level),
+            hint="Enter begins   ↑ ↓ chapter   ← → level   Esc goes back",
+            chosen=self._rows(state).index(self.chapter),
+        )
+        return replace(over, game=panel)
+
+
+def is_round(name: str) -> bool:
+    """Tell whether a best score is that of a round which the menu shows."""
+    chapter, _, level = name.rpartition(".")
+    known = (ALL, *chapters(), *names())
+    return chapter.replace("_", " ") in known and level in map(str, LEVELS)
+
+
+def read_menu(words: GameWords) -> Menu:
+    """Return the menu that words begin; BadInput where they do not."""
+    chapter = words.text("chapter", ALL)
+    members(chapter)
+    best = tuple(_scored(text) for text in words.fields.get("best", "").split(",") if text)
+    return Menu(chapter, words.whole("level", 1, LEVELS[0], LEVELS[-1]), best)
+
+
+def _scored(text: str) -> tuple[str, int]:
+    name, _, score = text.rpartition(":")
+    if not score.isdecimal():
+        raise BadInput(f"{shown(text)} is no score; one is four-bars.1:1200")
+    return name, int(score)
+
+
+# What there is to play: the games, of which one is chosen.
+
+OFFERS = (
+    Door("menu", "Predict", "say what a linkage does before it moves"),
+    Door("match", "Match", "drag a four-bar until it draws the dotted curve"),
+    Door("follow", "Follow", "turn the crank, keep the ram between two lines"),
+)
+
+
+@dataclass(frozen=True)
+class Lobby(OverWhatRuns):
+    """The choice of a game, and which one Enter takes."""
+
+    row: int = 0
+
+    @property
+    def words(self) -> str:
+        """What begins it again."""
+        return f"lobby row={self.row}"
+
+    def carried(self, state: State, action: Action) -> State:
+        """Begin a game, choose one, or go back to the title."""
+        if action.name == "back":
+            return begun(state, "title")
+        chosen = chosen_by(action, self.row, len(OFFERS))
+        if chosen is None:
+            return state
+        state = replace(state, game=replace(self, row=chosen.row))
+        return begun(state, OFFERS[chosen.row].name) if chosen.taken else state
+
+    def shown(self, state: State, over: Overlay) -> Overlay:
+        """Return the overlay with the games."""
+        hint = "Enter begins   ↑ ↓ choose   Esc goes back"
+        return replace(over, game=GamePanel("Play", choices=choices_of(OFFERS), hint=hint, chosen=self.row))
+
+
+def read_lobby(words: GameWords) -> Lobby:
+    """Return the choice that words begin; BadInput where they do not."""
+    return Lobby(words.whole("row", 0, 0, len(OFFERS) - 1))
+
+
+# The title: mechanisms running one after the other, each with its sentence, and three doors.
+
+EACH = 9 * FRAMES_PER_SECOND
+_NAME = "linkanim"
+_TITLE_ABOUT = "An arcade of planar linkages"
+_HINT = "any key goes in   ↑ ↓ choose   Q quits"
+
+
+DOORS = (
+    Door("explore", "Explore", "the shelf of all mechanisms"),
+    Door("build", "Build", "draw a linkage, or with W a path to follow"),
+    Door("play", "Play", "predict, match, follow"),
+)
+_IGNORED = frozenset({"scrub", "point", "move", "carry", "drop", "pull"})
+"""What a mouse that moves asks for: it goes in by a click."""
+
+
+@dataclass(frozen=True)
+class Title:
+    """The title: the door that any key takes, and the place on the shelf of the mechanism that runs."""
+
+    door: int
+    place: int
+    covers = False
+
+    @property
+    def words(self) -> str:
+        """What begins it again."""
+        return f"title door={DOORS[self.door].name} place={self.place}"
+
+    def entered(self, state: State) -> State:
+        """Return the state with a mechanism running, and nothing on it but its sentence."""
+        shown = Look(hud=False, theme=state.look.theme)
+        entry = state.shelf[self.place % len(state.shelf)]
+        scene = load(entry) if isinstance(entry, str) else entry
+        return with_scene(replace(state, look=shown), scene)
+
+    def carried(self, state: State, action: Action) -> State:
+        """Go in by a door, or choose one."""
+        if action.name == "back":
+            return with_toast(state, "Q quits")
+        if action.name in _IGNORED or (action.name == "option" and action.value not in range(len(DOORS))):
+            return state
+        door, taken = chosen_by(action, self.door, len(DOORS)) or (self.door, True)
+        return _through(state, door) if taken else replace(state, game=replace(self, door=door))
+
+    def aged(self, state: State) -> State:
+        """Go on to the next mechanism when one has run for a while."""
+        if state.arrived is None or state.frame - state.arrived < EACH:
+            return state
+        further = replace(self, place=(self.place + 1) % len(state.shelf))
+        return further.entered(replace(state, game=further))
+
+    def shown(self, state: State, over: Overlay) -> Overlay:
+        """Return the overlay with the name and the doors."""
+        panel = GamePanel(
+            _NAME,
+            lines=(_TITLE_ABOUT,),
+            choices=choices_of(DOORS),
+            subject=state.scene.title,
+            lines_after=(state.scene.look_at,),
+            hint=_HINT,
+            large=True,
+            chosen=self.door,
+        )
+        return replace(over, game=panel)
+
+
+def _through(state: State, door: int) -> State:
+    """Go in by a door, which is the first one the next time."""
+    name = DOORS[door].name
+    state = with_effect(state, "score", f"door={name}")
+    if name == "play":
+        return begun(state, "lobby")
+    state = leave(state)
+    if name == "explore":
+        return open_shelf(state, None)
+    return state if state.sheet and state.sheet.open else build(state, None)
+
+
+def read_title(words: GameWords) -> Title:
+    """Return the title that words begin; BadInput where they do not."""
+    names = [door.name for door in DOORS]
+    door = words.text("door", "explore")
+    return Title(names.index(door) if door in names else 0, words.whole("place", 0, 0, 10_000))
+
+
+def read(words: GameWords) -> Title | Lobby | Menu:
+    """Return the page that words begin; BadInput where they do not."""
+    if words.kind == "title":
+        return read_title(words)
+    return read_lobby(words) if words.kind == "lobby" else read_menu(words)

@@ -1,0 +1,259 @@
+"""Ask rounds of questions, the same ones for the same seed, and print them with their key."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterator, Sequence
+from html import escape
+from math import tau
+from random import Random
+
+from linkanim.errors import BadInput, WorkFailed
+from linkanim.paper.figure import Figured
+from linkanim.paper.html import embedded
+from linkanim.paper.svg import svg
+from linkanim.picture.look import Look
+from linkanim.picture.overlay import Overlay, Spot
+from linkanim.picture.quantities import driven_words, speed_words
+from linkanim.picture.raster import Layer, offscreen, paint, png_bytes
+from linkanim.picture.shapes import stroke
+from linkanim.play.kinds import KINDS
+from linkanim.play.question import Puzzle, QuestionId, QuizAnswer, QuizQuestion
+from linkanim.scenes import load, names
+from linkanim.scenes.scene import Scene
+from linkanim.units import shown
+
+# Rounds of questions about one scene or several, the same ones for the same seed.
+
+_TRIES = 12
+"""So many phases are tried for a kind before another is taken."""
+_DECIMALS = 4
+"""Of a question's phase, in radians, so that it can be typed."""
+
+
+def questions(
+    scenes: Sequence[Scene], count: int, seed: int, progress: Callable[[int, int], None] = lambda *_: None
+) -> tuple[QuizQuestion, ...]:
+    """Return so many questions, the scenes one after the other.
+
+    Kinds come in turn, as far as the scene has something to ask of each; none is asked twice of one subject
+    before a scene has nothing else. `progress` is called with (questions made, in all). WorkFailed where a
+    scene has nothing that can be asked, because nothing of it moves clearly.
+    """
+    found: list[QuizQuestion] = []
+    spent: set[tuple[str, str]] = set()
+    for number in range(count):
+        scene, before = scenes[number % len(scenes)], [one.question_id for one in found]
+        found.append(next_question(scene, f"{seed} {number}", before, spent=spent))
+        progress(number + 1, count)
+    return tuple(found)
+
+
+def next_question(
+    scene: Scene,
+    seed: str,
+    before: Sequence[QuestionId],
+    kinds: Collection[str] = tuple(KINDS),
+    *,
+    spent: set[tuple[str, str]] | None = None,
+) -> QuizQuestion:
+    """Return a question about a scene, of the kind that was least often, that was not there before.
+
+    Of other kinds than those that are asked for where the scene has nothing to ask of these. Kinds that have
+    nothing new to ask of a scene are `spent`, to which they are added: they are not tried at length again.
+    WorkFailed as `questions`.
+    """
+    spent = set() if spent is None else spent
+    random = Random(f"{seed} {scene.name}")
+    asked = sorted(name for name, kind in KINDS.items() if scene.purpose or not kind.of_making)
+    order = random.sample(asked, len(asked))
+    often = [question_id.kind for question_id in before]
+    order.sort(key=lambda kind: (kind not in kinds, often.count(kind)))
+    known = {(question_id.scene, question_id.kind, question_id.subject) for question_id in before}
+    spare = None
+    for kind in order:
+        if spare and (scene.name, kind) in spent:
+            continue
+        for _ in range(_TRIES):
+            made = _made(kind, scene, round(random.uniform(0.0, scene.period), _DECIMALS))
+            if made and (scene.name, kind, made.subject) not in known:
+                return made
+            spare = spare or made
+            if spare and (scene.name, kind) in spent:
+                break
+        spent.add((scene.name, kind))
+    if spare is None:
+        raise WorkFailed(f"{scene.name}: nothing of it moves so clearly that a question can be made of it")
+    return spare
+
+
+def question_of(question_id: QuestionId) -> QuizQuestion:
+    """Return a question of the catalogue again; BadInput where there is none such."""
+    if question_id.kind in KINDS and question_id.scene in names() and abs(question_id.phase) < 1e6:
+        made = _made(question_id.kind, load(question_id.scene), question_id.phase)
+        if made and made.subject == question_id.subject:
+            return made
+    raise BadInput(f"{shown(str(question_id))} is no question of this version")
+
+
+def is_question(question_id: QuestionId) -> bool:
+    """Tell whether a question that was kept can be asked by this version."""
+    try:
+        question_of(question_id)
+    except BadInput:
+        return False
+    return True
+
+
+def _made(kind: str, scene: Scene, phase: float) -> QuizQuestion | None:
+    return KINDS[kind].make(Puzzle(kind, scene, phase, Random(f"{kind} {scene.name} {phase}")))
+
+
+# A round of questions as a sheet to be printed, with its key on a page of its own.
+
+_CURVE = (160, 34)
+"""The size of a curve on a sheet."""
+_SHARPER = 3
+"""A curve as pixels has so many of them for each of its own."""
+_INK, _AXIS = (27, 31, 35), (140, 149, 159)
+_PRINTED = 12
+"""So many of a curve's values stand in plain text."""
+LETTERS = "abcd"
+_SIZE = (480, 300)
+_STYLE = """
+body { font: 15px/1.45 "Source Sans Pro", "Source Sans 3", "Helvetica Neue", Arial, sans-serif;
+       color: #1b1f23; margin: 2rem auto; max-width: 54rem; padding: 0 1rem; }
+h1 { font-size: 1.7rem; line-height: 1.2; } h2 { font-size: 1.1rem; margin: 0 0 .3rem; }
+section { display: grid; grid-template-columns: 1fr 1.1fr; gap: 0 1.5rem; break-inside: avoid;
+          margin: 1.2rem 0; }
+section > h2 { grid-column: 1 / -1; } figure { margin: 0; }
+figure svg { width: 100%; height: auto; display: block; }
+figcaption { color: #57606a; font-size: .92em; } ol.answers { list-style: lower-alpha; margin: .3rem 0; }
+.key { break-before: page; } @page { size: A4; margin: 16mm 14mm; }
+@media print { body { margin: 0; max-width: none; font-size: 10pt; } }
+"""
+
+
+def pose_words(question: QuizQuestion) -> str:
+    """Return a question's scene, where its input is, and how fast and which way that runs."""
+    scene, pose = question.scene, question.scene.pose(question.phase)
+    drive = scene.linkage.drive
+    way = f", {speed_words(scene, drive.speed)}"
+    if drive.coordinate.is_angle:
+        # at a limit it stands, and is about to turn back
+        turns = "counterclockwise" if (pose.coordinate_rate or pose.coordinate_second) > 0 else "clockwise"
+        way = f", {speed_words(scene, abs(drive.speed))} {turns}"
+    at = pose.coordinate % tau if scene.info.full_turn else pose.coordinate
+    return f"{scene.title}, {scene.info.input_name} at {driven_words(scene, at)}{way}"
+
+
+def question_figure(question: QuizQuestion) -> Figured:
+    """Return the figure of a question as it stands on paper: answers that are places are lettered dots."""
+    look = Look(hud=False, trace=False, names=question.names)
+    spots = (
+        Spot(letter, one.place)
+        for n, (letter, one) in enumerate(zip(LETTERS, question.answers, strict=False))
+        if one.place and answer_text(question, n) != one.text
+    )
+    return Figured(question.scene, _SIZE, look, question.phase, overlay=Overlay(spots=tuple(spots)))
+
+
+def answer_text(question: QuizQuestion, number: int) -> str:
+    """Return an answer's words; of a place that nothing names in the figure, the dot that shows it there."""
+    answer = question.answers[number]
+    joints = {joint.name for joint in question.scene.linkage.joints}
+    named = answer.place is None or answer.text in joints
+    return answer.text if named else f"at {LETTERS[number]}"
+
+
+def as_text(round_: Sequence[QuizQuestion]) -> str:
+    """Return a round in plain text, the key below."""
+    lines = []
+    for number, question in enumerate(round_, 1):
+        lines += [f"{number}. {question.text}", f"   {pose_words(question)} (phase {question.phase:g} rad)"]
+        shown = map(_worded, question.answers)
+        lines += [f"   {letter}) {answer}" for letter, answer in zip(LETTERS, shown, strict=False)]
+        lines.append("")
+    lines.append("key")
+    lines += [f"{number}. {_key(question)}" for number, question in enumerate(round_, 1)]
+    return "\n".join(lines)
+
+
+def as_html(
+    round_: Sequence[QuizQuestion], title: str, progress: Callable[[int, int], None] = lambda *_: None
+) -> str:
+    """Return a round as one page of HTML with a figure to each question, without a script.
+
+    `progress` is called with (figures drawn, in all).
+    """
+    head = f"<meta charset='utf-8'><title>{escape(title)}</title><style>{_STYLE}</style>"
+    body = "\n".join([f"<h1>{escape(title)}</h1>", *_sections(round_, progress), *_key_page(round_, title)])
+    return f"<!doctype html>\n<html lang='en'><head>{head}</head><body>\n{body}\n</body></html>\n"
+
+
+def _sections(round_: Sequence[QuizQuestion], progress: Callable[[int, int], None]) -> Iterator[str]:
+    for number, question in enumerate(round_, 1):
+        drawn = question_figure(question).document()
+        words = pose_words(question)
+        answers = "".join(
+            f"<li>{escape(answer_text(question, n))}{_drawn(one.curve)}</li>"
+            for n, one in enumerate(question.answers)
+        )
+        yield (
+            f"<section><h2>{number}. {escape(question.text)}</h2>"
+            f"<figure>{embedded(drawn, words)}<figcaption>{escape(words)}</figcaption></figure>"
+            f"<ol class='answers'>{answers}</ol></section>"
+        )
+        progress(number, len(round_))
+
+
+def _key_page(round_: Sequence[QuizQuestion], title: str) -> Iterator[str]:
+    yield f"<div class='key'><h1>Key: {escape(title)}</h1><ol>"
+    yield from (
+        f"<li>{escape(_key(question))}<br><small>{escape(_slips(question))}</small></li>"
+        for question in round_
+    )
+    yield "</ol></div>"
+
+
+def _worded(answer: QuizAnswer) -> str:
+    """Return an answer, and of its curve some values evenly over the period."""
+    values = answer.curve[:: max(len(answer.curve) // _PRINTED, 1)]
+    return f"{answer.text}: {' '.join(f'{value:.2f}' for value in values)}" if values else answer.text
+
+
+def _drawn(curve: Sequence[float]) -> str:
+    """Return a curve as an SVG of its own; nothing where there is none."""
+    if not curve:
+        return ""
+    return f"<br>{embedded(svg(_CURVE, None, _curve_layers(curve), title='a curve'), 'a curve')}"
+
+
+def curve_png(curve: Sequence[float]) -> bytes:
+    """Return a curve that is an answer as a PNG file's bytes, on white."""
+    width, height = _CURVE
+    surface = offscreen((_SHARPER * width, _SHARPER * height))
+    surface.fill((255, 255, 255))
+    paint(surface, _curve_layers(curve, _SHARPER))
+    return png_bytes(surface)
+
+
+def _curve_layers(curve: Sequence[float], scale: float = 1.0) -> list[Layer]:
+    """Return a curve of values from −1 to 1 over its axis, a pixel of its size `scale` wide."""
+    width, height = _CURVE
+    step = width / (len(curve) - 1)
+    path = [complex(n * step, height / 2 * (1 - 0.94 * value)) for n, value in enumerate(curve)]
+    axis = [complex(0, height / 2), complex(width, height / 2)]
+    lines = ((_AXIS, axis, 0.5), (_INK, path, 1.1))
+    return [
+        Layer(colour, stroke([scale * place for place in line], scale * wide)) for colour, line, wide in lines
+    ]
+
+
+def _slips(question: QuizQuestion) -> str:
+    """Return from which misconceptions the wrong answers come."""
+    answers = zip(LETTERS, question.answers, strict=False)
+    return "; ".join(f"{letter}) {answer.slip}" for letter, answer in answers if answer.slip)
+
+
+def _key(question: QuizQuestion) -> str:
+    return f"{LETTERS[question.right]}) {question.answers[question.right].text}. {question.why}"

@@ -1,0 +1,684 @@
+"""Advance the state by actions: one table says what each may ask for, what it does, whether tapes keep it.
+
+`advance(state, actions)` is the player's only way forward, and pure. Actions on the look, on the place of
+the input, on games and on the outside stand here; those of `edits`, `pencil` and `building` in their own
+modules.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import replace
+from math import isfinite, radians
+from typing import Any, Literal, NamedTuple, TypeVar, cast
+
+from linkanim.errors import LinkanimError
+from linkanim.intake import control_in
+from linkanim.mechanics.quantities import input_symbol
+from linkanim.picture.look import TOGGLES, Look, answer, toggled
+from linkanim.picture.quantities import axes_of, axis_of, driven_words, quantity, speed_words
+from linkanim.player import building, edits, pencil
+from linkanim.player.action import Action
+from linkanim.player.clock import FRAMES_PER_SECOND, Clock
+from linkanim.player.edits import drop, edit
+from linkanim.player.pencil import come, keep, left
+from linkanim.player.state import (
+    ATTRACT_AFTER,
+    FADE_FRAMES,
+    FLASH_FRAMES,
+    SHUTTER_FRAMES,
+    Editing,
+    Game,
+    State,
+    Take,
+    Toast,
+    followed,
+    fresh,
+    nothing_begun,
+    proved,
+    refused,
+    with_chip,
+    with_effect,
+    with_toast,
+)
+from linkanim.scenes.editing import closure_name, other_closure
+from linkanim.scenes.scene import Scene
+from linkanim.units import LENGTH_UNITS
+
+# Actions on the look: what is shown beside the linkage, in which theme, and how near.
+
+Step = TypeVar("Step")
+
+_NOTCH = 1.25
+_NOTCHES = (-8, 16)
+_PLACES = 9
+
+
+def chart(state: State, further: int) -> State:
+    """Show the telling quantity so many further; none follows the last, and any that is not telling."""
+    charts = (None, *state.scene.telling)
+    if state.look.chart not in charts:
+        return replace(state, look=replace(state.look, chart=None))
+    at = charts.index(state.look.chart)
+    return replace(state, look=replace(state.look, chart=charts[(at + further) % len(charts)]))
+
+
+def toggling(name: str) -> Callable[[State, str | None], State]:
+    """Return the handler that takes a field of the look to its next step; of a set, puts in or takes out."""
+    return lambda state, member: replace(state, look=toggled(state.look, name, member))
+
+
+def ghost(state: State, _: None) -> State:
+    """Show or hide the other closure, where there is one."""
+    if not state.look.ghost:
+        try:
+            other_closure(state.scene)
+        except LinkanimError as error:
+            return with_toast(state, str(error))
+    return replace(state, look=toggled(state.look, "ghost"))
+
+
+def unit(state: State, _: None) -> State:
+    """Show lengths in the next unit, the scene's own among them."""
+    following = _after(settled_look(state).unit, LENGTH_UNITS, usual=state.scene.length_unit)
+    return replace(state, look=replace(state.look, unit=following))
+
+
+def over(state: State, _: None) -> State:
+    """Run the chart over the next axis that the scene has, the usual one among them."""
+    axes = axes_of(state.scene)
+    following = _after(settled_look(state).over, axes, usual=axes[0])
+    return replace(state, look=replace(state.look, over=following))
+
+
+def _after(now: Step | None, steps: tuple[Step, ...], *, usual: Step) -> Step | None:
+    """Return the step after this one, None for the usual one."""
+    following = steps[(steps.index(now) + 1) % len(steps)] if now in steps else usual
+    return None if following == usual else following
+
+
+def settled_look(state: State) -> Look:
+    """Return the look with what the scene has as usual instead of None."""
+    scene, look = state.scene, state.look
+    return replace(look, unit=look.unit or scene.length_unit, over=axis_of(scene, look.over))
+
+
+def theme(state: State, _: None) -> State:
+    """Go from light to dark, or back."""
+    return replace(state, look=toggled(state.look, "theme"), faded=state.frame)
+
+
+def zoom(state: State, about: tuple[float, float, float]) -> State:
+    """Go so many notches nearer to a point."""
+    notches, x, y = about
+    return replace(state, look=zoomed(state.look, notches, (x, y)))
+
+
+def pan(state: State, by: tuple[float, float]) -> State:
+    """Shift the picture by so many window heights, right and down."""
+    (across, down), look = by, state.look
+    return replace(state, look=replace(look, pan=_rounded(look.pan[0] + across, look.pan[1] + down)))
+
+
+def fit(state: State, _: None) -> State:
+    """Let the linkage fill its room again."""
+    return replace(state, look=replace(state.look, zoom=1.0, pan=(0.0, 0.0)))
+
+
+def zoomed(look: Look, notches: float, about: tuple[float, float]) -> Look:
+    """Return the look so many notches nearer, the point `about` staying where it is.
+
+    `about` is in window heights from the middle of the picture, right and down. So many notches
+    out again give the same look, unless the end of the range was met.
+    """
+    before = math.log(look.zoom, _NOTCH)
+    low, high = _NOTCHES
+    zoom = _NOTCH ** min(max(round(before + notches), low), high)
+    ratio = zoom / look.zoom
+    pan = tuple(point - (point - shift) * ratio for point, shift in zip(about, look.pan, strict=True))
+    return replace(look, zoom=zoom, pan=_rounded(pan[0], pan[1]))
+
+
+def _rounded(x: float, y: float) -> tuple[float, float]:
+    """Round far below a pixel, so that a way there and back ends on the same picture."""
+    return round(x, _PLACES) + 0.0, round(y, _PLACES) + 0.0
+
+
+# Actions that take the paused input to a place that is typed: its angle in degrees, or a slider's travel.
+
+_STANDS = 240
+_LONGEST = 12
+
+
+def write(state: State, text: str) -> State:
+    """Add to the place that is typed, which a chip shows for as long as it is waited for."""
+    return _begun(state, (state.place_typed + text)[:_LONGEST])
+
+
+def erase(state: State, _: None) -> State:
+    """Take the last letter off the place that is typed."""
+    return _begun(state, state.place_typed[:-1])
+
+
+def _begun(state: State, text: str) -> State:
+    chip = Toast(f"{_symbol(state)} = {text}_", state.frame + _STANDS) if text else None
+    return replace(state, place_typed=text, chip=chip)
+
+
+def _symbol(state: State) -> str:
+    return input_symbol(state.scene.linkage).translate({ord("{"): None, ord("}"): None})
+
+
+def go(state: State, _: None) -> State:
+    """Go to the place that was typed; say the input's range where it does not come there."""
+    text, state = state.place_typed, replace(state, place_typed="", chip=None)
+    if not text:
+        return state
+    scene, path = state.displayed, state.displayed.mechanism.assembly.path
+    try:
+        value = float(text)
+    except ValueError:
+        return with_toast(state, f"{text} is no number")
+    place = radians(value) if scene.linkage.drive.coordinate.is_angle else value
+    if not isfinite(place) or not path.holds(place):
+        unit = scene.linkage.drive.coordinate.shown_unit(f" {scene.length_unit}")
+        ends = "…".join(driven_words(scene, end) for end in scene.info.input_range)
+        return with_toast(state, f"the {scene.info.input_name} does not reach {text}{unit}; it goes {ends}")
+    phase = path.phase_of(place, state.phase)
+    return replace(state, clock=state.clock.go(state.frame, phase, paused=True))
+
+
+# Actions that the window carries out: the state only says so, in its effects.
+
+_MEANT = "recording: Q again ends it, writes it and quits"
+
+
+def sounds(state: State, _: None) -> State:
+    """Switch sounds on or off."""
+    return replace(state, sounds=not state.is_audible)
+
+
+def pad(state: State, name: str) -> State:
+    """Take note of the gamepad that was plugged in, or that the last one is gone."""
+    told = f"{name}: its left stick turns the crank; H lists its buttons" if name else "the gamepad is gone"
+    return with_toast(replace(state, pad=bool(name)), told)
+
+
+def back(state: State, _: None) -> State:
+    """Let go of what lies on top: the help, a list, a value begun; never of the window.
+
+    From a mechanism it leads back to the title, where the window opened on that.
+    """
+    if state.help:
+        return replace(state, help=False)
+    if state.listing or state.browsing:
+        return replace(state, listing=None, browsing=None)
+    if state.sketch and not state.editing.open:
+        return left(state)
+    if state.building:
+        return building.let_go(state) or building.left(state)
+    if state.editing.open and state.editing.begun:
+        return replace(state, editing=nothing_begun(state.editing))
+    if state.place_typed:
+        return replace(state, place_typed="", chip=None)
+    if state.editing.open:
+        return edit(state, None)
+    if state.attract and state.games:
+        return with_effect(state, "begin", "title")
+    return with_toast(state, "Q quits")
+
+
+def quit_(state: State, _: None) -> State:
+    """Ask for the window's end; while something is recorded, first whether that is meant."""
+    if state.recording and (state.toast is None or state.toast.text != _MEANT):
+        return with_toast(state, _MEANT)
+    return building.closing(state) or with_effect(state, "quit")
+
+
+def close(state: State, _: None) -> State:
+    """Ask for the window's end by its own button; once more where a draft is in no file."""
+    return building.closing(state) or with_effect(state, "quit")
+
+
+def record(state: State, form: Literal["gif", "mp4"]) -> State:
+    """Start a recording, or stop the one that runs, whichever its format is."""
+    if state.recording is None:
+        return replace(with_effect(state, "record", form), recording=Take(form, state.frame))
+    return replace(with_effect(state, "render", state.recording.format), recording=None)
+
+
+def shot(name: str) -> Callable[[State, None], State]:
+    """Return the handler of what keeps the picture: the shutter is seen to go."""
+    return lambda state, _: replace(with_effect(state, name), shot=state.frame)
+
+
+def effect(name: str) -> Callable[[State, str | None], State]:
+    """Return the handler of what changes nothing in the picture."""
+    return lambda state, value: with_effect(state, name, value)
+
+
+# Games come over the state and go again; what was there before stands beneath, and comes back.
+
+BESIDE = frozenset(
+    {
+        *("play", "help", "theme", "zoom", "pan", "fit", "fullscreen", "note", "sounds", "pad"),
+        *("record", "screenshot", "svg", "quit", "close"),
+    }
+)
+"""Actions that are the window's own while a game is on; all others are handed to the game."""
+
+
+def play(state: State, words: str) -> State:
+    """Begin a game, or the title, by its words; BadInput where they name none."""
+    if state.games is None:
+        return with_toast(state, "there are no games here; `linkanim` alone has them")
+    game = state.games(words)
+    if state.beneath is None:
+        state = drop(left(state), None)
+        state = replace(state, beneath=replace(state, help=False, listing=None, browsing=None))
+    bare = replace(
+        state, listing=None, browsing=None, glide=None, home=None, place_typed="", chip=None, toast=None
+    )
+    editing = Editing()
+    return game.entered(replace(bare, game=game, editing=editing, help=False, faded=state.frame))
+
+
+def leave(state: State) -> State:
+    """Return the state without its game: what was beneath, standing or running on from where it was."""
+    under = state.beneath
+    if under is None:
+        return state
+    look = replace(under.look, theme=state.look.theme)
+    clock = under.clock.go(state.frame, under.phase)
+    kept = replace(under, frame=state.frame, clock=clock, look=look, touched=state.touched)
+    kept = replace(kept, sounds=state.sounds, pad=state.pad, attract=state.attract, kiosk=state.kiosk)
+    return replace(kept, recording=state.recording, effects=state.effects, faded=state.frame)
+
+
+def with_scene(state: State, scene: Scene, phase: float = 0.0, *, paused: bool = False) -> State:
+    """Return the state with a game's scene on, standing or running from a phase; errors as `proved`."""
+    clock = fresh(proved(scene, phase)).go(state.frame, phase, paused=paused)
+    look = replace(state.look, zoom=1.0, pan=(0.0, 0.0), chart=None)
+    return replace(
+        state, scene=scene, clock=clock, look=look, glide=None, faded=state.frame, arrived=state.frame
+    )
+
+
+# The one table of actions: what value each may have, what it does, and whether a tape keeps it.
+
+
+class Rule(NamedTuple):
+    """One action: the test that its value must pass, and what it makes of a state.
+
+    `taped` is False for what is done outside the picture, which no tape keeps. `answer` says in a word or two
+    what has come of it, from the states before and after.
+    """
+
+    check: Callable[[object], bool]
+    handle: Callable[[State, Any], State]
+    taped: bool = True
+    answer: Callable[[State, State], str | None] | None = None
+
+
+_MOST_NUMBERS = 1_000
+MOST_STEPS, LARGEST_NUMBER = 10**9, 1e100
+"""The most of an action's value: no key or mouse gives more, and no float holds whatever a tape may say."""
+_FARTHEST = 1e18
+"""The same of a place on a sheet, in whose figures places are squared and counted in steps."""
+
+
+def _nothing(value: object) -> bool:
+    return value is None
+
+
+def _whole(value: object) -> bool:
+    return isinstance(value, int) and not isinstance(value, bool) and abs(value) <= MOST_STEPS
+
+
+def _number(value: object) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) <= LARGEST_NUMBER
+
+
+def _text(value: object) -> bool:
+    return isinstance(value, str) and not control_in(value)
+
+
+def _one_of(*words: str | None) -> Callable[[object], bool]:
+    return lambda value: value in words
+
+
+def _numbers(count: int) -> Callable[[object], bool]:
+    return lambda value: isinstance(value, tuple) and len(value) == count and all(map(_number, value))
+
+
+def _grouped(value: object, each: int) -> bool:
+    """Tell whether a value is a number, followed by groups of so many others."""
+    if not isinstance(value, tuple) or not 1 < len(value) <= _MOST_NUMBERS:
+        return False
+    return len(value) % each == 1 and all(map(_number, value))
+
+
+def _pairs(value: object) -> bool:
+    return _grouped(value, 2)
+
+
+def _place_of_sheet(value: object) -> bool:
+    return _numbers(2)(value) and all(abs(at) <= _FARTHEST for at in cast(tuple[float, ...], value))
+
+
+def _hand(value: object) -> bool:
+    """Tell whether a value is what the hand does: x and y, how near is on a thing, the step, 0 for none."""
+    if not _numbers(4)(value):
+        return False
+    *place, reach, snap = cast(tuple[float, ...], value)
+    near = _place_of_sheet(tuple(place)) and 0.0 <= reach <= _FARTHEST
+    return near and (snap == 0.0 or 1.0 / _FARTHEST <= snap <= _FARTHEST)
+
+
+def _answer(value: object) -> bool:
+    # of the search nothing is imported before the pencil is taken
+    from linkanim.synthesis.answers import NUMBERS
+
+    return _numbers(NUMBERS)(value)
+
+
+def _answers(value: object) -> bool:
+    from linkanim.synthesis.answers import NUMBERS
+
+    return _grouped(value, NUMBERS)
+
+
+def _speed(_: State, after: State) -> str:
+    """Say the input's speed."""
+    return speed_words(after.scene, after.clock.speed)
+
+
+def _direction(_: State, after: State) -> str:
+    """Say which way the phase runs."""
+    return "forward" if after.clock.direction > 0 else "reverse"
+
+
+def _place(before: State, after: State) -> str | None:
+    """Say which of the shelf's mechanisms is on."""
+    return None if after.scene is before.scene else f"{after.place + 1} / {len(after.shelf)}"
+
+
+def _closure(before: State, after: State) -> str | None:
+    """Say which of the two closures is on."""
+    return None if after.scene is before.scene else closure_name(after.scene)
+
+
+def _returns(_: State, after: State) -> str:
+    """Say on which closure the input comes back."""
+    return f"back on the {'same' if after.scene.linkage.drive.retraced else 'other'} closure"
+
+
+def _chart(before: State, after: State) -> str | None:
+    """Say what is charted."""
+    token = after.look.chart
+    if token == before.look.chart:
+        return None
+    return quantity(after.scene, token).words if token else "no chart"
+
+
+def _sounds(_: State, after: State) -> str:
+    """Say whether the motion is heard."""
+    return "sounds" if after.is_audible else "no sounds"
+
+
+def _zoom(_: State, after: State) -> str:
+    """Say how large the picture is."""
+    return f"{after.look.zoom:.0%}".replace("%", " %")
+
+
+def _unused(state: State, _: object) -> State:
+    """Do nothing: without a game there is no use for it."""
+    return state
+
+
+def _stuck(words: str) -> Callable[[State, State], str | None]:
+    """Return what says so where there was nothing to do; else the list or the sheet shows it."""
+    return lambda was, now: words if (was.editing, was.sheet) == (now.editing, now.sheet) else None
+
+
+def _running(work: Callable[[Clock, int, Any], Clock]) -> Callable[[State, Any], State]:
+    """Return the handler of what changes the clock alone, from the frame of the state on."""
+    return lambda state, value: replace(state, clock=work(state.clock, state.frame, value))
+
+
+def _of_look(name: str) -> Rule:
+    """Return the rule of a field of the look; some do more than to go on a step."""
+    more = {"ghost": ghost, "theme": theme, "unit": unit, "over": over}
+    handle = more.get(name, toggling(name))
+    return Rule(
+        _one_of(*TOGGLES[name].members),
+        handle,
+        answer=lambda before, after: answer(settled_look(before), settled_look(after), name),
+    )
+
+
+ACTIONS: Mapping[str, Rule] = {
+    "pause": Rule(_nothing, _running(lambda clock, frame, _: clock.pause(frame, not clock.paused))),
+    "step": Rule(_whole, _running(Clock.step)),  # degrees of phase, along the way the crank runs
+    "speed": Rule(_whole, _running(Clock.faster), answer=_speed),  # steps of the speed ladder
+    "direction": Rule(_nothing, _running(lambda clock, frame, _: clock.turn(frame)), answer=_direction),
+    "start": Rule(_nothing, edits.start, answer=edits.way_back),
+    # the phase to go to, rad
+    "scrub": Rule(_number, _running(lambda clock, frame, phase: clock.go(frame, phase, paused=True))),
+    "type_place": Rule(_text, write),
+    "erase_place": Rule(_nothing, erase),
+    "go": Rule(_nothing, go),
+    "mechanism": Rule(_whole, edits.mechanism, answer=_place),  # places further on the shelf
+    "select": Rule(_whole, edits.select, answer=_place),  # the place in the catalogue, from 0
+    "put": Rule(_whole, building.put, answer=_place),  # the place on the shelf, from 0
+    "closure": Rule(_nothing, edits.closure, answer=_closure),
+    **{name: _of_look(name) for name, toggle in TOGGLES.items() if toggle.keys},
+    "chart": Rule(_whole, chart, answer=_chart),  # quantities further
+    "plot": Rule(_text, edits.plot, answer=_chart),  # a quantity's token
+    "help": Rule(_nothing, lambda state, _: replace(state, help=not state.help)),
+    # notches, about the point (x, y): window heights from the picture's middle, y down
+    "zoom": Rule(_numbers(3), zoom, answer=_zoom),
+    "pan": Rule(_numbers(2), pan),  # window heights, right and down
+    "fit": Rule(_nothing, fit, answer=_zoom),
+    "edit": Rule(_nothing, edits.edit),
+    "choose": Rule(_whole, edits.choose),
+    "pass_on": Rule(_whole, edits.pass_on),
+    "nudge": Rule(_whole, edits.nudge),
+    "type": Rule(_text, edits.write),
+    "erase": Rule(_nothing, edits.erase),
+    "take": Rule(_nothing, edits.take),
+    "grab": Rule(_text, edits.grab),  # a joint
+    # to (x, y) of the scene as shown, in such parts of a nudge's step
+    "carry": Rule(_numbers(3), edits.carry),
+    "grab_row": Rule(_whole, edits.grab_row),  # a row of the list of dimensions
+    "pull": Rule(_whole, edits.pull),  # steps from the value that was taken hold of
+    "drop": Rule(_nothing, edits.drop),
+    "undo": Rule(_nothing, edits.undo, answer=_stuck("nothing to undo")),
+    "reset": Rule(_nothing, edits.reset),
+    "returns": Rule(_nothing, edits.returns, answer=_returns),
+    "redo": Rule(_nothing, edits.redo, answer=_stuck("nothing to redo")),
+    "pencil": Rule(_nothing, pencil.pencil),
+    "own_trace": Rule(_nothing, pencil.own),
+    "pen_down": Rule(_numbers(2), pencil.down),  # (x, y) in the scene's unit
+    "pen_to": Rule(_numbers(2), pencil.along),
+    "pen_up": Rule(_nothing, pencil.up),
+    "pen_off": Rule(_nothing, pencil.off),
+    "stroke": Rule(_pairs, pencil.stroke),  # 1 closed, 0 open; x, y of each point
+    "follow": Rule(_answer, pencil.follow),  # an answer's numbers
+    "answers": Rule(_answers, pencil.answers),  # which one is shown; the numbers of each
+    "answer": Rule(_whole, pencil.choose),  # its place in the row
+    "take_point": Rule(_whole, pencil.take_point),  # its place on the stroke
+    "take_pivot": Rule(_text, pencil.take_pivot),
+    "lead": Rule(_numbers(2), pencil.lead),  # to (x, y) in the scene's unit
+    "let_go": Rule(_nothing, pencil.let_go),
+    "keep": Rule(_nothing, pencil.keep),
+    "take_back": Rule(_nothing, pencil.take_back),
+    "play": Rule(_text, play),  # a game's words
+    # what games have in common; each says what they do in it
+    "option": Rule(_whole, _unused),  # the place of an answer, from 0
+    "next": Rule(_nothing, _unused),
+    "turn": Rule(_whole, _unused),  # small steps, counterclockwise or to the right
+    "raise": Rule(_whole, _unused),  # steps up
+    "build": Rule(_nothing, building.build),
+    "build_on": Rule(_nothing, building.build_on),
+    "sheet": Rule(_nothing, building.new),
+    "draft": Rule(_text, building.draft),  # a draft as it is stored
+    "tool": Rule(_text, building.tool),
+    "photo": Rule(_text, building.photo),  # a picture's file, "" for none
+    # (x, y) of the sheet, how near counts as on it, the step of what is drawn
+    "hand_down": Rule(_hand, building.down),
+    "hand_to": Rule(_hand, building.along),
+    "hand_up": Rule(_nothing, building.up),
+    "cursor": Rule(_place_of_sheet, building.cursor),  # (x, y) of the sheet
+    "further": Rule(_whole, building.further),
+    "number": Rule(_whole, building.number),
+    "digits": Rule(_text, building.write),
+    "undigit": Rule(_nothing, building.erase),
+    "take_number": Rule(_nothing, building.take),
+    "remove": Rule(_nothing, building.remove),
+    "trace_on": Rule(_nothing, building.trace),
+    "drive_by": Rule(_nothing, building.drive),
+    "unbuild": Rule(_nothing, building.undo, answer=_stuck("nothing to undo")),
+    "rebuild": Rule(_nothing, building.redo, answer=_stuck("nothing to redo")),
+    "back": Rule(_nothing, back),
+    "list": Rule(_nothing, edits.list_, taped=False),
+    "shelf": Rule(_nothing, edits.open_shelf, taped=False),
+    "files": Rule(_text, edits.files, taped=False),  # scene files, one a line
+    "open_file": Rule(_text, effect("open"), taped=False),
+    "move": Rule(_whole, edits.move, taped=False),  # rows of the list, or places on the shelf
+    "point": Rule(_whole, edits.point, taped=False),  # the place on the shelf
+    "top": Rule(_whole, edits.top, taped=False),  # the shelf's row that is the first in sight
+    "sift": Rule(_text, edits.sift, taped=False),
+    "unsift": Rule(_nothing, edits.unsift, taped=False),
+    "record": Rule(_one_of("gif", "mp4"), record, taped=False),
+    "screenshot": Rule(_nothing, shot("screenshot"), taped=False),
+    "svg": Rule(_nothing, shot("svg"), taped=False),
+    "share": Rule(_nothing, effect("share"), taped=False),
+    "fullscreen": Rule(_nothing, effect("fullscreen"), taped=False),
+    "save": Rule(_nothing, effect("save"), taped=False),
+    "reload": Rule(_nothing, effect("reload"), taped=False),
+    "quit": Rule(_nothing, quit_, taped=False),
+    "close": Rule(_nothing, close, taped=False),  # the window's own button
+    "sounds": Rule(_nothing, sounds, taped=False, answer=_sounds),
+    "pad": Rule(_text, pad, taped=False),  # what is plugged in is called; empty for nothing
+    "note": Rule(_text, with_toast, taped=False),  # something the window has to say, as a toast
+}
+
+
+def is_known(action: Action) -> bool:
+    """Tell whether the action is one of ours and its value is of the right kind."""
+    rule = ACTIONS.get(action.name)
+    return rule is not None and rule.check(action.value)
+
+
+def is_taped(action: Action) -> bool:
+    """Tell whether a tape keeps the action: one that is known and shows in the picture."""
+    return is_known(action) and ACTIONS[action.name].taped
+
+
+# The player's only way forward: `advance(state, actions)`, pure.
+#
+# A frame is three steps, so that the window can ask what a key means once those before it are done:
+# the state grows a frame older, each action is carried out, and a window left alone walks on.
+
+_WITHOUT_PENCIL = frozenset({"unit", "undo", "redo"})
+"""What is not done while a path is drawn: its points are in the unit of then, and edits are the scene's."""
+_KEEPS = frozenset({"edit"})
+_LEAVES = frozenset({"mechanism", "select", "put", "closure", "reset", "returns"})
+"""What keeps the answer that the pencil has, and what goes back to the scene before."""
+_OFF_THE_SHEET = _KEEPS | _LEAVES | {"pencil", "own_trace"}
+"""What is not done on a sheet, which is left for it."""
+Change = Callable[[State], State]
+ATTRACT_EACH = 15 * FRAMES_PER_SECOND
+
+_SHEETS = frozenset({"build", "sheet", "draft", "photo"})
+"""What opens a sheet, out of a game too."""
+_LIVES = {"turned": FLASH_FRAMES, "faded": FADE_FRAMES, "shot": SHUTTER_FRAMES}
+"""For how many frames after the one that the state holds something is to be seen."""
+
+
+def advance(state: State, actions: Iterable[Action] = ()) -> State:
+    """Return the state one frame on, the actions carried out in their order.
+
+    KeyError for an action that is not in `actions.ACTIONS`.
+    """
+    state = aged(state)
+    for action in actions:
+        state = carried(state, action)
+    return settled(state)
+
+
+def aged(state: State) -> State:
+    """Return the state a frame older: what has had its time goes, a changing length is followed."""
+    state = replace(state, frame=state.frame + 1, effects=())
+    if state.toast and state.frame >= state.toast.until:
+        state = replace(state, toast=None)
+    if state.chip and state.frame >= state.chip.until:
+        state = replace(state, chip=None, place_typed="")
+    sinces = ((name, getattr(state, name), life) for name, life in _LIVES.items())
+    over = [name for name, since, life in sinces if since is not None and state.frame >= since + life]
+    state = replace(state, **dict.fromkeys(over)) if over else state  # type: ignore[arg-type]
+    state = building.rested(come(state) if state.sketch else state)
+    if state.glide:
+        state = _tried(state, Action("glide"), _followed, lambda before: replace(before, glide=None))
+    return _tried(state, Action("play"), state.game.aged, leave) if state.game else state
+
+
+def carried(state: State, action: Action) -> State:
+    """Return the state with one action carried out; one that a solver fails at changes nothing."""
+    rule = ACTIONS[action.name]
+    if action.name != "note":
+        state = replace(state, touched=state.frame)
+    if state.game and action.name not in BESIDE | _SHEETS:
+        return _in_a_game(state, state.game, action)
+    if (state.sketch or state.building) and action.name in _WITHOUT_PENCIL:
+        return state
+    if state.game and action.name in _SHEETS:
+        state = leave(state)
+        if state.building and action.name == "build":
+            return state  # the sheet that was open beneath
+    if action.name in _OFF_THE_SHEET:
+        state = building.left(state)
+    if action.name in _KEEPS | _LEAVES:
+        state = keep(state, None) if action.name in _KEEPS else left(state)
+
+    def handled(before: State) -> State:
+        after = rule.handle(before, action.value)
+        return with_chip(after, rule.answer(before, after)) if rule.answer else after
+
+    return _tried(state, action, handled)
+
+
+def settled(state: State) -> State:
+    """Return the state at the end of a frame: left alone for a minute, it walks on through the shelf.
+
+    In a kiosk it goes back to the title, whatever was begun; what is recorded goes on.
+    """
+    alone = state.frame - state.touched >= ATTRACT_AFTER and not state.recording
+    if state.kiosk and state.games and alone and (state.game is None or state.game.covers):
+        return replace(carried(state, Action("play", "title")), touched=state.touched)
+    if state.idle is None or state.idle % ATTRACT_EACH:
+        return state
+    bare = replace(state, help=False, browsing=None, listing=None)
+    onward = replace(carried(bare, Action("mechanism", 1)), touched=state.touched)
+    return replace(onward, clock=onward.clock.pause(onward.frame, False))
+
+
+def _in_a_game(state: State, game: Game, action: Action) -> State:
+    """Return the state with an action handed to its game; under the help there is nothing but a way back."""
+    if state.help:
+        return replace(state, help=False) if action.name == "back" else state
+    return _tried(state, action, lambda before: game.carried(before, action))
+
+
+def _followed(state: State) -> State:
+    return replace(state, glide=state.glide and followed(state.glide, state.scene, state.frame))
+
+
+def _tried(state: State, action: Action, work: Change, without: Change = lambda before: before) -> State:
+    """Return the state with some work done, or `without` it where a solver fails at that, which is told."""
+    try:
+        return work(state)
+    except Exception as error:
+        return refused(without(state), action, error)

@@ -1,0 +1,239 @@
+"""Run what takes longer than a frame as processes beside the window: a search, a rendered recording.
+
+The search for linkages along a stroke replies as actions. A taped recording is rendered while the window
+runs on, and after it, too.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import subprocess
+import tempfile
+from collections.abc import Iterator
+from contextlib import suppress
+from pathlib import Path
+from typing import BinaryIO, NamedTuple, TextIO, cast
+
+from linkanim import child
+from linkanim.atomic_files import made_folder
+from linkanim.errors import WorkFailed
+from linkanim.player import tape_file
+from linkanim.player.action import Action
+from linkanim.player.files import FOLDER, free_stem
+from linkanim.player.state import PIVOTS, Sketch
+from linkanim.player.tape import Tape
+from linkanim.scenes.scene import Scene
+from linkanim.synthesis.follower import Follow, Reply, lines_of
+
+# The search for linkages along a stroke: a process beside the window, and what it replies as actions.
+
+
+def request_of(sketch: Sketch, *, search: bool) -> Follow | None:
+    """Return what is asked for a sketch; None where there is no stroke."""
+    curve, answer, held = sketch.curve, sketch.answer, dict(sketch.pivots)
+    if curve is None:
+        return None
+    near = None if answer is None or isinstance(answer, Scene) else answer.numbers
+    points = [(float(point.real), float(point.imag)) for point in curve.points]
+    pivots = [held.get(pivot) for pivot in PIVOTS]
+    return Follow(sketch.strokes, points, curve.closed, pivots, near, search)
+
+
+def action_of(reply: Reply, sketch: Sketch | None) -> Action | None:
+    """Return what a reply does; None where it is to another stroke."""
+    if sketch is None or reply.stroke != sketch.strokes:
+        return None
+    if reply.error:
+        return Action("note", reply.error)
+    if not reply.whole:
+        return Action("follow", tuple(reply.numbers))
+    return Action("answers", (float(reply.chosen), *reply.numbers))
+
+
+class Following:
+    """The process, from the first time that the pencil is taken; it ends with the window."""
+
+    def __init__(self) -> None:
+        self._process = subprocess.Popen(
+            child.module("linkanim.synthesis.follower"),
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            env={**child.env(), **child.ONE_CORE},
+            start_new_session=True,
+            text=True,
+            encoding="utf-8",
+        )
+        assert self._process.stdout
+        self._lines = lines_of(cast(TextIO, self._process.stdout))
+
+    def ask(self, request: Follow) -> None:
+        """Send a request; where the process is gone, that is seen by its replies."""
+        assert self._process.stdin
+        with suppress(OSError):
+            print(json.dumps(request._asdict()), file=self._process.stdin, flush=True)
+
+    def replies(self) -> Iterator[Reply]:
+        """Yield what has come since the last time."""
+        while not self._lines.empty() and (reply := self.wait()):
+            yield reply
+
+    def wait(self) -> Reply | None:
+        """Return the next reply once it is there; None where the process has ended."""
+        line = self._lines.get()
+        return Reply(**json.loads(line)) if line else None
+
+    @property
+    def is_over(self) -> bool:
+        """Whether the process has ended."""
+        return self._process.poll() is not None
+
+    def close(self) -> None:
+        """End the process."""
+        assert self._process.stdin
+        self._process.kill()
+        with suppress(OSError):
+            self._process.stdin.close()
+        self._process.wait()
+
+
+# A taped recording rendered by a process of its own while the window runs on, and after it, too.
+
+_TAIL = 400
+_COUNT = re.compile(r"(\d+)/(\d+)")
+
+
+class Rendering:
+    """`linkanim record TAPE` under way.
+
+    What it says goes into a file without a name, and not into a pipe, which would break under it
+    when the window closes. We read it through an opening of our own: the process's has the place
+    it writes at.
+    """
+
+    def __init__(self, target: Path, process: subprocess.Popen[bytes], log: BinaryIO) -> None:
+        self.target = target
+        self._process = process
+        self._log = log
+
+    @property
+    def done(self) -> bool:
+        """Whether the process has ended."""
+        return self._process.poll() is not None
+
+    def words(self) -> str:
+        """Say how far it is, or where the file went, or why there is none."""
+        tail = self._tail()
+        code = self._process.poll()
+        if code is None:
+            counts = _COUNT.findall(tail)
+            share = f"{100 * int(counts[-1][0]) // max(int(counts[-1][1]), 1)} %" if counts else "…"
+            return f"{self.target}: {share}"
+        if code == 0:
+            return f"{self.target} saved"
+        reason = tail.strip().splitlines()[-1] if tail.strip() else f"the process ended with code {code}"
+        return f"{self.target}: {reason.removeprefix('linkanim: ')}"
+
+    def close(self) -> None:
+        """Let go of what it says; the process itself goes on."""
+        self._log.close()
+        _forgotten(self._log.name)
+
+    def _tail(self) -> str:
+        size = os.fstat(self._log.fileno()).st_size
+        self._log.seek(max(size - _TAIL, 0))
+        return self._log.read(_TAIL).decode("utf-8", "replace")
+
+
+class Kept(NamedTuple):
+    """A tape that is written, and the file it is to be rendered into."""
+
+    tape: Path
+    target: Path
+
+
+class Queue:
+    """Recordings rendered one after the other: the rest wait, and are not lost when the window closes."""
+
+    def __init__(self) -> None:
+        self._running: Rendering | None = None
+        self._waiting: list[Kept] = []
+
+    def add(self, tape: Tape, form: str) -> None:
+        """Write a tape into recordings/ and have it rendered in its turn; WorkFailed where that cannot be."""
+        self._waiting.append(keep(tape, form))
+        self._go_on()
+
+    def news(self) -> tuple[str, ...]:
+        """Say how far the one rendered is, and how many wait; go on with the next where it is done."""
+        if self._running is None:
+            return ()
+        words = self._running.words()
+        if self._running.done:
+            self._running.close()
+            self._running = None
+            try:
+                self._go_on()
+            except WorkFailed as error:
+                words = f"{words} · {error}"
+        wait = len(self._waiting)
+        return (f"{words} · {wait} {'wait' if wait > 1 else 'waits'}" if wait else words,)
+
+    def close(self) -> None:
+        """Leave the rest to a process that renders one after the other; the one under way goes on."""
+        if self._running:
+            self._running.close()
+        if self._waiting:
+            rest = [str(path) for kept in self._waiting for path in kept]
+            _start(child.module("linkanim.cli.commands.record", *rest), subprocess.DEVNULL)
+
+    def _go_on(self) -> None:
+        if self._running is None and self._waiting:
+            self._running = render(self._waiting.pop(0))
+
+
+def keep(tape: Tape, form: str) -> Kept:
+    """Write the tape into recordings/, under a name that is free for it and for what it is rendered into."""
+    into = made_folder(FOLDER)
+    stem = free_stem(into, tape.start.scene.name, (tape_file.SUFFIX, f".{form}"))
+    kept, target = into / f"{stem}{tape_file.SUFFIX}", into / f"{stem}.{form}"
+    tape_file.write(tape, kept)
+    return Kept(kept, target)
+
+
+def render(kept: Kept) -> Rendering:
+    """Start rendering a tape beside; WorkFailed where that cannot be."""
+    target = kept.target
+    command = child.module("linkanim", "record", str(kept.tape), "-o", str(target), "--progress")
+    number, name = tempfile.mkstemp()
+    # it stays open as long as the rendering
+    log = Path(name).open("rb", buffering=0)  # noqa: SIM115
+    try:
+        process = _start(command, number)
+    except OSError as error:
+        log.close()
+        raise WorkFailed(f"{target}: the recording process cannot be started: {error.strerror}") from None
+    finally:
+        os.close(number)
+        _forgotten(name)
+    return Rendering(target, process, log)
+
+
+def _forgotten(name: str) -> None:
+    """Have a temporary file lose its name, at once where it may while it is open: not on Windows."""
+    with suppress(OSError):
+        Path(name).unlink()
+
+
+def _start(command: list[str], log: int) -> subprocess.Popen[bytes]:
+    """Start a process that neither Ctrl-C in our terminal nor our end takes with it."""
+    return subprocess.Popen(
+        command,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.DEVNULL,
+        stderr=log,
+        env=child.env(),
+        start_new_session=True,
+    )

@@ -1,0 +1,363 @@
+"""Actions of the sheet: it is opened and left, the hand draws on it, what is chosen is changed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from math import ceil, dist, radians, tau
+from typing import Any
+
+from linkanim.build import building as built
+from linkanim.build import dimensions, gestures
+from linkanim.build.building import Building, building_of
+from linkanim.build.draft import JOINT
+from linkanim.build.storing import restored, stored
+from linkanim.errors import BadInput
+from linkanim.intake import Intake, Section, unnameable
+from linkanim.picture.figure import figure
+from linkanim.picture.shelf import NEW
+from linkanim.picture.view import Box
+from linkanim.player import pencil
+from linkanim.player.action import TOOLS
+from linkanim.player.clock import FRAMES_PER_SECOND
+from linkanim.player.edits import drop, exchanged
+from linkanim.player.edits import put as put_on
+from linkanim.player.state import HOME, LIVE, BuildSheet, Grip, State, nothing_begun, with_toast, with_undo
+from linkanim.units import shown
+
+Handler = Callable[[State, Any], State]
+
+_DOUBLE = 24
+"""Frames within which a second click at a place makes a double one."""
+_LONGEST = 10 * FRAMES_PER_SECOND
+"""A linkage that can move runs for a period, if that is no longer."""
+VERSION = 1
+_MARK = "linkanim_draft"
+_DAMAGED = "is damaged, or no draft of linkanim"
+DRAFT = Intake("a draft", most_bytes=5_000_000, most_values=500_000)
+_FARTHEST = 1e15
+"""No edge of what is seen of a sheet is beyond it."""
+LOST = "the draft is in no scene file: Ctrl+S writes it; once more begins anew"
+_MEANT = "the draft is in no scene file: Ctrl+S writes it; once more closes, and it is offered next time"
+
+
+def build(state: State, _: None) -> State:
+    """Open the sheet, as it was left if there is one, or leave it with what was built."""
+    if state.sheet is None:
+        return _opened(state, Building())
+    return left(state) if state.sheet.open else _opened(state, state.sheet.building)
+
+
+def build_on(state: State, _: None) -> State:
+    """Open a sheet with the scene that is on; once more where a draft would be lost."""
+    if state.sheet and state.sheet.open:
+        return left(state)
+    return _anew(state, lambda: building_of(state.scene))
+
+
+def new(state: State, _: None) -> State:
+    """Open an empty sheet; once more where a draft would be lost."""
+    return _anew(state, Building)
+
+
+def _anew(state: State, make: Callable[[], Building]) -> State:
+    """Return the state with another sheet; where a draft is in no file, only by asking once more."""
+    sheet = state.sheet
+    if sheet and not (sheet.is_written or sheet.warned):
+        return with_toast(replace(state, sheet=replace(sheet, warned=True)), LOST)
+    building = make()
+    return _opened(replace(left(state), sheet=None), building, known=True)
+
+
+def _opened(state: State, building: Building, *, known: bool = False) -> State:
+    """Return the state with a sheet open over its scene; `known` tells that a file has what is on it."""
+    state, last = pencil.left(drop(state, None)), state.sheet
+    editing = nothing_begun(replace(state.editing, open=False))
+    sheet = BuildSheet(state.scene, state.clock, editing, building, HOME, written=building.draft)
+    if last and not known:
+        sheet = replace(sheet, written=last.written, tool=last.tool, home=last.home)
+    elif building.draft.places:
+        sheet = replace(sheet, home=figure(state.scene).box)
+    look = replace(state.look, unit=None, zoom=1.0, pan=(0.0, 0.0), chart=None)
+    bare = replace(state, editing=editing, listing=None, browsing=None, glide=None, toast=None, look=look)
+    return _shown(replace(bare, sheet=sheet, faded=state.frame), building)
+
+
+def left(state: State) -> State:
+    """Leave the sheet: what was built is the scene if it moves, which undo takes back; the sheet is kept."""
+    sheet = state.sheet
+    if sheet is None or not sheet.open:
+        return state
+    kept = replace(state, sheet=replace(sheet, open=False, grip=None, cursor=None, warned=False))
+    kept = replace(kept, faded=state.frame, look=replace(state.look, zoom=1.0, pan=(0.0, 0.0)))
+    if sheet.building.made.scene is None:
+        return replace(kept, scene=sheet.before, clock=sheet.clock, editing=sheet.editing)
+    return replace(kept, editing=with_undo(sheet.editing, sheet.before))
+
+
+def draft(state: State, text: str) -> State:
+    """Open a sheet as it was stored, seen as it is zoomed; BadInput for what is none."""
+    look, sheet = state.look, restored_sheet(state, text)
+    opened = _opened(replace(state, sheet=sheet), sheet.building)
+    return replace(opened, look=replace(look, unit=None, chart=None))
+
+
+def offered(state: State, text: str, where: str) -> State:
+    """Return the state with a sheet as it was stored in a file, which F2 opens."""
+    sheet = replace(restored_sheet(state, text, where), open=False, closes=True)
+    return replace(state, sheet=sheet, beneath=state.beneath and replace(state.beneath, sheet=sheet))
+
+
+def stored_text(sheet: BuildSheet) -> str:
+    """Return a sheet with its draft as text that `draft` takes."""
+    import json  # here: the first frame does not wait for it
+
+    draft = stored(sheet.building.draft)
+    table = {_MARK: VERSION, "draft": draft, "home": sheet.home, "tool": sheet.tool}
+    return json.dumps(table, ensure_ascii=False)
+
+
+def restored_sheet(state: State, text: str, where: str = "the draft") -> BuildSheet:
+    """Return a sheet as it was stored, over a state; BadInput for what is none, OtherVersion as it says."""
+    document = DRAFT.parsed(text, where, _DAMAGED)
+    # that of an older tape has no mark
+    known = {_MARK: VERSION, **document} if isinstance(document, dict) and "draft" in document else document
+    top = Section(where, DRAFT.marked(known, where, _MARK, VERSION, _DAMAGED))
+    edges = top.listed("home", 4)
+    left, low, right, high = (edges.number(key) for key in edges.values)
+    if not (left < right and low < high and max(map(abs, (left, low, right, high))) <= _FARTHEST):
+        raise top.error("home", "must be the left, lower, right and upper edge of what is seen")
+    tool = top.choice("tool", tuple(one.value for one in TOOLS if one.action == "tool" and one.value))
+    building = restored(top.table("draft").values, where)
+    return BuildSheet(
+        state.scene, state.clock, state.editing, building, Box(left, low, right, high), tool=tool
+    )
+
+
+def written(state: State) -> State:
+    """Return the state with its draft known to be in a scene file."""
+    sheet = state.sheet
+    if sheet is None or sheet.building.made.scene is not state.scene:
+        return state
+    return replace(state, sheet=replace(sheet, written=sheet.building.draft, warned=False, closes=False))
+
+
+def closing(state: State) -> State | None:
+    """Return the state that asks whether a draft is to be left in no file; None where that is known."""
+    sheet = state.sheet
+    if sheet is None or sheet.is_written or sheet.closes:
+        return None
+    return with_toast(replace(state, sheet=replace(sheet, closes=True)), _MEANT)
+
+
+def put(state: State, place: int) -> State:
+    """Put on a mechanism of the shelf, or an empty sheet."""
+    return new(replace(state, browsing=None), None) if place == NEW else put_on(state, place)
+
+
+def _shown(state: State, building: Building, *, live: bool = False) -> State:
+    """Return the state with another building, its linkage running for a period.
+
+    It stands while it is `live` under the hand, and where there is no loop yet: a bar is drawn on from there.
+    """
+    sheet = sheet_of(state)
+    same = building.draft is sheet.building.draft
+    warned, closes = sheet.warned and same, sheet.closes and same
+    drawn = replace(state, sheet=replace(sheet, building=building, warned=warned, closes=closes))
+    scene = building.made.scene
+    if scene is None or scene is state.scene:
+        return drawn
+    known = scene.linkage == state.scene.linkage and state.clock.paused and not live
+    found = exchanged(replace(drawn, glide=None), scene)
+    clock = found.clock.go(state.frame, building.draft.phase, paused=True)
+    stands = live or known or not any(joint.dyad for joint in scene.linkage.joints)
+    found = replace(found, clock=clock, sheet=replace(sheet_of(drawn), rests=None))
+    return found if stands else _once(found)
+
+
+def sheet_of(state: State) -> BuildSheet:
+    """Return the sheet of a state that has one."""
+    assert state.sheet
+    return state.sheet
+
+
+def _once(state: State) -> State:
+    """Return the state with its linkage running for a period, or on, if that is long."""
+    clock = state.clock.pause(state.frame, False)
+    frames = ceil(FRAMES_PER_SECOND * state.scene.period / abs(clock.speed))
+    rests = state.frame + frames if frames <= _LONGEST else None
+    return replace(state, clock=clock, sheet=replace(sheet_of(state), rests=rests))
+
+
+def rested(state: State) -> State:
+    """Return the state with the linkage standing as it was drawn, once it has run for a period."""
+    sheet = state.sheet
+    if sheet is None or sheet.rests is None:
+        return state
+    if state.clock.paused or not sheet.open:
+        return replace(state, sheet=replace(sheet, rests=None))
+    if state.frame < sheet.rests:
+        return state
+    clock = state.clock.go(state.frame, sheet.building.draft.phase, paused=True)
+    return replace(state, clock=clock, sheet=replace(sheet, rests=None))
+
+
+def tool(state: State, name: str) -> State:
+    """Take a tool."""
+    return _with(state, tool=name, grip=None, anchor=None)
+
+
+def photo(state: State, file: str) -> State:
+    """Lay a photograph behind the sheet, as wide as that is seen, and take the tool that fits it.
+
+    BadInput for a name that no file of ours could hold.
+    """
+    if file and (reason := unnameable(file)):
+        raise BadInput(f"{shown(file)}: {reason}; rename the picture")
+    state = state if state.building else build(state, None)
+    home = sheet_of(state).home
+    width = home.right - home.left
+    laid = gestures.lay_photo(sheet_of(state).building, file, home.left, home.low, width)
+    return tool(_shown(state, laid), "photo" if file else "bar")
+
+
+def down(state: State, at: tuple[float, float, float, float]) -> State:
+    """Put the hand down at a point; a linkage that runs stands still, at the nearest whole degree."""
+    sheet = state.sheet
+    if sheet is None or not sheet.open:
+        return state
+    x, y, reach, snap = at
+    base, ran = sheet.building, not state.clock.paused
+    if base.made.scene:
+        phase = radians(round(state.phase / tau * 360))
+        base = built.posed(base, phase)
+        state = replace(state, clock=state.clock.go(state.frame, phase, paused=True))
+    cursor = sheet.cursor if sheet.cursor and dist(sheet.cursor, (x, y)) <= reach else None
+    return _with(state, grip=Grip((x, y), (x, y), reach, snap, base, ran), cursor=cursor)
+
+
+def along(state: State, at: tuple[float, float, float, float]) -> State:
+    """Move the hand to a point; what it moves comes along."""
+    sheet = state.sheet
+    if sheet is None or sheet.grip is None:
+        return state
+    x, y, _, snap = at
+    grip = sheet.grip._replace(at=(x, y), snap=snap)
+    state, live = _with(state, grip=grip), sheet.tool in LIVE and not grip.is_click
+    return _shown(state, _drawn(sheet, grip), live=True) if live else state
+
+
+def up(state: State, _: None) -> State:
+    """Lift the hand: a click or a drag is done."""
+    sheet = state.sheet
+    if sheet is None or sheet.grip is None:
+        return state
+    grip = sheet.grip
+    state = _with(state, grip=None, clicked=(state.frame, grip.begin) if grip.is_click else None)
+    building = _clicked(state, sheet, grip) if grip.is_click else _drawn(sheet, grip)
+    if building.draft is grip.base.draft:
+        kept = replace(building, draft=sheet.building.draft) if sheet.tool not in LIVE else building
+        return _running(_shown(state, kept), ran=grip.ran)
+    state = _shown(state, building)
+    if sheet.tool == "photo":
+        return _with(state, anchor=sheet.anchor or grip.at)
+    moved = sheet.tool == "move" and building.made.scene is not None
+    return _once(state) if moved else state
+
+
+def off(state: State, _: None) -> State:
+    """Lift the hand, and leave all as it was before."""
+    sheet = state.sheet
+    if sheet is None or sheet.grip is None:
+        return state
+    return _running(_shown(_with(state, grip=None), sheet.grip.base), ran=sheet.grip.ran)
+
+
+def _running(state: State, *, ran: bool) -> State:
+    return replace(state, clock=state.clock.pause(state.frame, not ran))
+
+
+def _clicked(state: State, sheet: BuildSheet, grip: Grip) -> Building:
+    """Return the building after a click, the second one at a place after the double click."""
+    (x, y), near = grip.begin, {"reach": grip.reach, "snap": grip.snap}
+    frame, before = sheet.clicked or (state.frame - 2 * _DOUBLE, grip.begin)
+    if state.frame - frame <= _DOUBLE and dist(before, grip.begin) <= grip.reach:
+        return gestures.double_click(grip.base, x, y, **near)
+    if sheet.tool == "photo":
+        return grip.base
+    if sheet.tool == "move" and gestures.under(grip.base.draft, x, y, grip.reach) is None:
+        return replace(grip.base, chosen=None, sentence="")
+    return gestures.click(grip.base, sheet.tool, x, y, **near)
+
+
+def _drawn(sheet: BuildSheet, grip: Grip) -> Building:
+    """Return the building after a drag."""
+    ends = (*grip.begin, *grip.at)
+    if sheet.tool == "photo":
+        held = sheet.anchor and (*sheet.anchor, *sheet.anchor)
+        return gestures.fit_photo(grip.base, *held, *ends) if held else gestures.move_photo(grip.base, *ends)
+    return gestures.drag(grip.base, sheet.tool, *ends, reach=grip.reach, snap=grip.snap)
+
+
+def cursor(state: State, at: tuple[float, float]) -> State:
+    """Move the keys' cursor to a point; what the hand does by keys goes along."""
+    sheet = state.sheet
+    if sheet is None or not sheet.open:
+        return state
+    if sheet.grip:
+        state = along(state, (*at, 0.0, sheet.grip.snap))
+    return _with(state, cursor=at)
+
+
+def further(state: State, by: int) -> State:
+    """Choose the next thing, or the one before; the keys' cursor goes to a joint."""
+    state = _changed(gestures.choose)(state, by)
+    sheet = state.sheet
+    thing = sheet.building.chosen if sheet else None
+    if sheet is None or thing is None or thing[0] != JOINT:
+        return state
+    return _with(state, cursor=sheet.seen(state.scene, state.phase).places[thing[1]])
+
+
+def _changed(work: Callable[..., Building]) -> Handler:
+    """Make a handler of what changes the building; a value, if there is one, is handed on."""
+
+    def handle(state: State, value: Any) -> State:
+        sheet = state.sheet
+        if sheet is None or not sheet.open or sheet.grip:
+            return state
+        building = work(sheet.building, *(() if value is None else (value,)))
+        return _shown(_with(state, clicked=None), building)
+
+    return handle
+
+
+number = _changed(dimensions.choose_number)
+write = _changed(dimensions.write)
+erase = _changed(dimensions.erase)
+take = _changed(dimensions.take)
+remove = _changed(gestures.delete)
+trace = _changed(gestures.trace)
+drive = _changed(gestures.drive)
+undo = _changed(built.undo)
+redo = _changed(built.redo)
+
+
+def let_go(state: State) -> State | None:
+    """Return the state without what the hand does, what is typed or chosen, or another tool; else None."""
+    sheet = state.sheet
+    assert sheet
+    if sheet.grip:
+        return off(state, None)
+    building = sheet.building
+    if building.typed or building.chosen:
+        kept = building.chosen if building.typed else None
+        return _with(state, building=replace(building, typed="", chosen=kept, sentence=""))
+    return _with(state, tool="bar") if sheet.tool != "bar" else None
+
+
+def _with(state: State, **changes: Any) -> State:
+    """Return the state with these changes of its sheet, if one is open."""
+    if state.sheet is None or not state.sheet.open:
+        return state
+    return replace(state, sheet=replace(state.sheet, **changes))

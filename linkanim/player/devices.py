@@ -1,0 +1,508 @@
+"""Turn what hands do into actions: keyboard, fingers, gamepads, mouse.
+
+A key that is held repeats. Fingers act as the mouse. A gamepad's stick turns the crank. The wheel zooms,
+and a drag pans or moves the crank, the chart's cursor, a joint or a value.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from itertools import zip_longest
+from math import dist, isfinite, isnan, log
+from typing import Literal, NamedTuple
+
+import pygame
+from pygame.event import Event
+
+from linkanim.player.action import TOOLS, Action, Mode
+from linkanim.player.keys import Bind, Press, bind_of, button_name, hat_name, key_names, key_of
+from linkanim.player.screen import Screen
+from linkanim.player.state import State
+from linkanim.scenes.editing import phase_along, phase_towards
+
+# The keyboard: key events to presses, and a key that is held to an action that repeats.
+
+_WAIT = 24
+_EVERY = 3
+
+
+def code(name: str) -> int:
+    """Return pygame's number for a key of the table; a printable key's is its character's."""
+    return ord(name) if len(name) == 1 else int(getattr(pygame, f"K_{name.upper()}"))
+
+
+class Repeats:
+    """An action that is asked for again and again while something is held."""
+
+    def __init__(self) -> None:
+        self._action: Action | None = None
+        self._next = 0
+
+    def begin(self, bind: Bind | None, frame: int) -> None:
+        """Go on with what was bound, where holding it does; else with nothing."""
+        self._action = bind.action if bind and bind.repeats else None
+        self._next = frame + _WAIT
+
+    def due(self, frame: int) -> tuple[Action, ...]:
+        """Return the action when it is due again."""
+        if self._action is None or frame < self._next:
+            return ()
+        self._next = frame + _EVERY
+        return (self._action,)
+
+
+class Keyboard:
+    """Knows which bound key is being held, and since when."""
+
+    def __init__(self) -> None:
+        self._names = {code(name): name for name in key_names()}
+        self._key: int = 0
+        self._repeats = Repeats()
+
+    def press(self, event: Event) -> Press | None:
+        """Return what a KEYDOWN means; None with Alt or the system's key, which are not ours."""
+        mod = getattr(event, "mod", 0)
+        if mod & (pygame.KMOD_ALT | pygame.KMOD_META) and not mod & pygame.KMOD_MODE:
+            return None
+        text = getattr(event, "unicode", "")
+        shift, ctrl = bool(mod & pygame.KMOD_SHIFT), bool(mod & pygame.KMOD_CTRL)
+        return Press(self._names.get(event.key, ""), text if text.isprintable() else "", shift, ctrl)
+
+    def hold(self, event: Event, bind: Bind | None, frame: int) -> None:
+        """Take note of the key that went down last."""
+        self._key = event.key
+        self._repeats.begin(bind, frame)
+
+    def repeated(self, frame: int) -> tuple[Action, ...]:
+        """Return the held key's action when it is due again."""
+        due = self._repeats.due(frame)
+        if due and not pygame.key.get_pressed()[self._key]:
+            self._repeats.begin(None, frame)
+            return ()
+        return due
+
+
+# Fingers as the mouse: the first one is its left button, two of them turn its wheel.
+
+FINGERS = (pygame.FINGERDOWN, pygame.FINGERMOTION, pygame.FINGERUP)
+_MOUSE = (pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP, pygame.MOUSEMOTION)
+_NOTCH = 1.1
+"""How much further apart two fingers are for a notch of the wheel."""
+
+Place = tuple[int, int]
+
+
+class Fingers:
+    """Knows the fingers that are down, and which of them is the pointer."""
+
+    def __init__(self) -> None:
+        self._down: dict[int, Place] = {}
+        self._pointer: int | None = None
+        self._apart = 0.0
+
+    def pointed(self, events: list[Event], size: tuple[int, int]) -> list[Event]:
+        """Return the events with those of fingers as the mouse's, in a window of that size.
+
+        What the system makes of fingers by itself, mouse events with a mark, is left out.
+        """
+        found: list[Event] = []
+        for event in events:
+            if event.type in FINGERS:
+                found += self._of_finger(event, size)
+            elif event.type not in _MOUSE or not getattr(event, "touch", False):
+                found.append(event)
+        return found
+
+    def _of_finger(self, event: Event, size: tuple[int, int]) -> list[Event]:
+        at = _place(event, size) or self._down.get(event.finger_id)
+        if at is None:
+            return []
+        if event.type == pygame.FINGERDOWN:
+            return self._put(event.finger_id, at)
+        if event.type == pygame.FINGERUP:
+            return self._lifted(event.finger_id, at)
+        if event.finger_id not in self._down:
+            return []
+        self._down[event.finger_id] = at
+        if len(self._down) > 1:
+            return self._pinched()
+        return [_mouse(pygame.MOUSEMOTION, at)] if event.finger_id == self._pointer else []
+
+    def _put(self, finger: int, at: Place) -> list[Event]:
+        """Return the button pressed by the first finger, and let go by the second."""
+        self._down[finger] = at
+        if len(self._down) == 1:
+            self._pointer = finger
+            return [_mouse(pygame.MOUSEMOTION, at), _mouse(pygame.MOUSEBUTTONDOWN, at)]
+        held, self._pointer, self._apart = self._pointer, None, self._spread
+        if held in self._down and held != finger:
+            return [_mouse(pygame.MOUSEBUTTONUP, self._down[held])]
+        return []
+
+    def _lifted(self, finger: int, at: Place) -> list[Event]:
+        self._down.pop(finger, None)
+        self._apart = self._spread
+        if finger != self._pointer:
+            return []
+        self._pointer = None
+        return [_mouse(pygame.MOUSEBUTTONUP, at)]
+
+    def _pinched(self) -> list[Event]:
+        """Return the wheel turned by the fingers' distance, about their middle."""
+        notches = round(log(self._spread / self._apart, _NOTCH)) if self._apart and self._spread else 0
+        if not notches:
+            return []
+        self._apart = self._spread
+        (x0, y0), (x1, y1), *_ = self._down.values()
+        middle = _mouse(pygame.MOUSEMOTION, ((x0 + x1) // 2, (y0 + y1) // 2))
+        return [middle, Event(pygame.MOUSEWHEEL, x=0, y=notches)]
+
+    @property
+    def _spread(self) -> float:
+        places = [*self._down.values()]
+        return dist(*places[:2]) if len(places) > 1 else 0.0
+
+
+def _place(event: Event, size: tuple[int, int]) -> Place | None:
+    """Return the pixel under a finger, on the window's edge where it is outside; None where it is nowhere."""
+    if isnan(event.x) or isnan(event.y):
+        return None
+    x, y = (min(max(share, 0.0), 1.0) for share in (event.x, event.y))
+    return round(x * size[0]), round(y * size[1])
+
+
+def _mouse(kind: int, at: Place) -> Event:
+    """Return an event of the mouse, its left button the one that is meant."""
+    if kind == pygame.MOUSEMOTION:
+        return Event(kind, pos=at, rel=(0, 0), buttons=(1, 0, 0))
+    return Event(kind, pos=at, button=1)
+
+
+# Gamepads: which are plugged in, what their buttons ask for, where the left stick turns the crank to.
+
+PAD_EVENTS = (
+    pygame.JOYDEVICEADDED,
+    pygame.JOYDEVICEREMOVED,
+    pygame.JOYAXISMOTION,
+    pygame.JOYHATMOTION,
+    pygame.JOYBUTTONDOWN,
+    pygame.JOYBUTTONUP,
+)
+_LOOKED_FOR_AFTER = 30
+"""Frames after which gamepads are looked for: the first picture does not wait for it."""
+_DEAD_ZONE = 0.4
+"""A stick that is no further out than so much of its way is let go."""
+
+
+class Pad(NamedTuple):
+    """A gamepad, held open so that its events come, and what is to be known of it once it is gone."""
+
+    opened: pygame.joystick.JoystickType
+    name: str
+    has_hat: bool
+
+
+class Pads:
+    """Knows the gamepads that are plugged in, where the stick was pushed last, and what is being held."""
+
+    def __init__(self) -> None:
+        self._pads: dict[int, Pad] = {}
+        self._stick, self._moved = [0.0, 0.0], False
+        self._repeats = Repeats()
+        self._frames: int | None = _LOOKED_FOR_AFTER
+
+    def look(self, frames: int) -> None:
+        """Look for gamepads, once, some frames after the window has opened; events tell of them from then."""
+        if self._frames is None:
+            return
+        self._frames -= frames
+        if self._frames <= 0:
+            self._frames = None
+            pygame.joystick.init()
+
+    def actions(self, event: Event, mode: Mode, frame: int) -> tuple[Action, ...]:
+        """Return what an event asks for; of the stick only what is taken note of."""
+        match event.type:
+            case pygame.JOYDEVICEADDED:
+                return self._plugged_in(event.device_index)
+            case pygame.JOYDEVICEREMOVED if self._pads.pop(event.instance_id, None):
+                return (Action("pad", next((pad.name for pad in self._pads.values()), "")),)
+            case pygame.JOYAXISMOTION if event.axis in (0, 1) and isfinite(event.value):
+                self._stick[event.axis], self._moved = event.value, True
+            case pygame.JOYBUTTONDOWN:
+                return self._pressed(button_name(event.button, hat=self._has_hat(event)), mode, frame)
+            case pygame.JOYHATMOTION:
+                return self._pressed(hat_name(*event.value), mode, frame)
+            case pygame.JOYBUTTONUP:
+                self._repeats.begin(None, frame)
+        return ()
+
+    def turned(self, state: State) -> tuple[Action, ...]:
+        """Return where the stick has turned the crank to since the last frame: both its axes together."""
+        moved, self._moved = self._moved, False
+        way = complex(self._stick[0], -self._stick[1])
+        if not moved or abs(way) <= _DEAD_ZONE or state.mode in ("list", "shelf"):
+            return ()
+        return (Action("scrub", phase_along(state.displayed, state.phase, way / max(abs(way), 1.0))),)
+
+    def repeated(self, frame: int) -> tuple[Action, ...]:
+        """Return what a button that is held asks for when that is due again."""
+        return self._repeats.due(frame)
+
+    def _plugged_in(self, index: int) -> tuple[Action, ...]:
+        try:
+            pad = pygame.joystick.Joystick(index)
+            found = Pad(pad, pad.get_name(), pad.get_numhats() > 0)
+            self._pads[pad.get_instance_id()] = found
+        except pygame.error:  # pulled out before its event came
+            return ()
+        return (Action("pad", found.name),)
+
+    def _has_hat(self, event: Event) -> bool:
+        """Whether the gamepad of an event has its D-pad as a hat, as most have."""
+        pad = self._pads.get(getattr(event, "instance_id", -1))
+        return pad is None or pad.has_hat
+
+    def _pressed(self, name: str, mode: Mode, frame: int) -> tuple[Action, ...]:
+        bind = _bound(name, mode)
+        self._repeats.begin(bind, frame)
+        return (bind.action,) if bind else ()
+
+
+def _bound(name: str, mode: Mode) -> Bind | None:
+    """Return what a button asks for: what its key does; None where it has none."""
+    key = key_of(name, listed=mode not in ("play", "paused"))
+    shift = key.startswith("shift+")
+    return bind_of(Press(key.removeprefix("shift+"), shift=shift), mode) if key else None
+
+
+# The mouse: the wheel zooms, a drag pans, or moves the crank, the chart's cursor, a joint or a value.
+
+_REACH = 0.035  # of the window's height
+_TENTHS = 0.1
+_PULL = 0.011
+"""How far a value is dragged for a step, in the window's height."""
+_COARSE = 10
+Drag = Literal["pan", "crank", "chart", "joint", "row", "pen", "lead", "hand", "paper"]
+_KINDS: Mapping[int, Literal["wheel", "down", "up", "move"]] = {
+    pygame.MOUSEWHEEL: "wheel",
+    pygame.MOUSEBUTTONDOWN: "down",
+    pygame.MOUSEBUTTONUP: "up",
+    pygame.MOUSEMOTION: "move",
+}
+MOUSE_EVENTS = tuple(_KINDS)
+_STILL = 0.006
+"""How far the hand may move in a click on paper, in the window's height."""
+_PENCIL: Mapping[str, Drag] = {"pen_down": "pen", "take_point": "lead", "take_pivot": "lead"}
+"""What the mouse does on while its button is down, by what the pencil has begun."""
+
+
+def latest(events: list[Event]) -> list[Event]:
+    """Return the events without those of a mouse that moved on in the same frame."""
+    pairs = zip_longest(events, events[1:])
+    return [one for one, then in pairs if then is None or not one.type == then.type == pygame.MOUSEMOTION]
+
+
+class Gesture(NamedTuple):
+    """What the left button or the wheel did: notches away, and how far the mouse moved, in window heights."""
+
+    kind: Literal["wheel", "down", "up", "move"]
+    notches: int
+    by: tuple[float, float]
+
+
+class Mouse:
+    """Knows what is being dragged from where and how far, and where the mouse was last, in pixels."""
+
+    def __init__(self) -> None:
+        self._drag: Drag | None = None
+        self._at = self._begun = (0.0, 0.0)
+        self._far, self._steps = 0.0, 0
+        self._turned: int | None = None
+        self._seen = False
+
+    def actions(self, event: Event, screen: Screen) -> tuple[Action, ...]:
+        """Return what a mouse event asks for."""
+        kind, notches, (x, y) = _KINDS[event.type], getattr(event, "y", 0), self._at
+        self._seen = self._seen or kind in ("move", "down")
+        if getattr(event, "button", 1) != 1 or (kind == "wheel" and not notches):
+            return ()
+        self._at = getattr(event, "pos", self._at)
+        if kind == "down":
+            self._begun, self._far = self._at, 0.0
+        self._far = max(self._far, math.dist(self._begun, self._at))
+        height = screen.size[1]
+        gesture = Gesture(kind, notches, ((self._at[0] - x) / height, (self._at[1] - y) / height))
+        if screen.state.browsing:
+            return self._on_the_shelf(gesture, screen)
+        modes = {"build": self._of_the_sheet, "pencil": self._of_the_pencil, "game": self._in_a_game}
+        mode = modes.get(screen.state.mode)
+        found = mode(gesture, screen) if mode else None
+        found = self._on_a_list(gesture, screen) if found is None else found
+        return self._on_the_picture(gesture, screen) if found is None else found
+
+    def _on_the_picture(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...]:
+        """Zoom, pan, or drag what is under the mouse."""
+        match gesture.kind:
+            case "wheel":
+                return self._zoomed(gesture.notches, screen)
+            case "down":
+                handle = screen.handle_at(*self._at, _REACH * screen.size[1])
+                self._drag = "joint" if handle else self._grabbed(screen)
+                if handle:
+                    return (Action("grab", handle),)
+                return self._moved(screen) if self._drag == "chart" else ()
+            case "up":
+                held, self._drag = self._drag, None
+                return (Action("drop"),) if held == "joint" else ()
+        return (Action("pan", gesture.by),) if self._drag == "pan" else self._moved(screen)
+
+    def _on_a_list(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
+        """Return what is asked of the open list: a click, the wheel, a value dragged; None beside it."""
+        if self._drag == "row" and gesture.kind in ("move", "up"):
+            return self._pulled(gesture, screen)
+        row = screen.row_at(*self._at) if self._drag in (None, "row") else None
+        if row is None:
+            return None
+        editing = screen.state.mode == "edit"
+        if gesture.kind == "wheel":
+            # A list that is longer than its room moves on below a mouse that stands still.
+            self._turned = row if self._turned is None else self._turned
+            return self._wheeled(gesture.notches, self._turned, editing=editing)
+        self._turned = None
+        if gesture.kind != "down" or row < 0:
+            return ()
+        if not editing:
+            return (Action("pick", row),)
+        self._drag, self._steps = "row", 0
+        return (Action("grab_row", row),)
+
+    def _in_a_game(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
+        """Return what a click asks of a game: the answer that is there, else to go on.
+
+        The crank pin is dragged as without a game.
+        """
+        if gesture.kind != "down" or self._drag is not None:
+            return None
+        option = screen.option_at(*self._at)
+        if option is None and (screen.over.handles or self._is_at_pin(screen)):
+            return None
+        return (Action("next") if option is None else Action("option", option),)
+
+    def _wheeled(self, notches: int, row: int, *, editing: bool) -> tuple[Action, ...]:
+        """Nudge the value under the mouse; beside the values, and in the list of quantities, choose."""
+        if editing and row >= 0:
+            return (Action("grab_row", row), Action("drop"), Action("nudge", notches * _coarser()))
+        return (Action("choose" if editing else "move", -notches),)
+
+    def _pulled(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...]:
+        """Change the value of the row that is held by how far the mouse has gone to the right."""
+        if gesture.kind == "up":
+            self._drag = None
+            return (Action("drop"),)
+        before, self._steps = self._steps, round((self._at[0] - self._begun[0]) / (_PULL * screen.size[1]))
+        return (Action("pull", self._steps * _coarser()),) if self._steps != before else ()
+
+    def pointed(self, screen: Screen) -> int | None:
+        """Return the row of the open list that the mouse is over; None before the mouse was seen."""
+        if not self._seen or self._drag not in (None, "row") or screen.state.browsing:
+            return None
+        found = screen.option_at if screen.state.mode == "game" else screen.row_at
+        row = found(*self._at)
+        return row if row is not None and row >= 0 else None
+
+    def hovered(self, screen: Screen) -> str | None:
+        """Return the joint under the mouse that can be dragged; None before the mouse was seen."""
+        if not self._seen or screen.state.browsing or self._drag in ("pan", "chart", "row"):
+            return None
+        on_a_list = self._drag is None and screen.row_at(*self._at) is not None
+        if on_a_list or screen.state.mode in ("pencil", "build"):
+            return None
+        at_pin = screen.state.scene.linkage.drive.joint if self._is_at_pin(screen) else None
+        return screen.handle_at(*self._at, _REACH * screen.size[1]) or at_pin
+
+    def _is_at_pin(self, screen: Screen) -> bool:
+        pin = screen.crank_pin()
+        return max(abs(self._at[0] - pin[0]), abs(self._at[1] - pin[1])) <= _REACH * screen.size[1]
+
+    def _on_the_shelf(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...]:
+        """Choose the mechanism under the mouse; a click puts it on, and one beside closes the shelf."""
+        self._drag = None
+        if gesture.kind == "wheel":
+            return (Action("scroll", -gesture.notches),)
+        place = screen.shelf_at(*self._at)
+        if gesture.kind == "down":
+            return (Action("shelf") if place is None else Action("put", place),)
+        return () if place is None or gesture.kind == "up" else (Action("point", place),)
+
+    def _of_the_pencil(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
+        """Draw, or drag what is under the pencil; None for what the mouse does without one."""
+        reach = _REACH * screen.size[1]
+        if gesture.kind == "down" and screen.charted(*self._at) is None:
+            begun = screen.pencil_at(*self._at, reach)
+            self._drag = _PENCIL.get(begun.name)
+            return (begun,)
+        if self._drag not in ("pen", "lead") or gesture.kind not in ("move", "up"):
+            return None
+        if gesture.kind == "move":
+            return (Action("pen_to" if self._drag == "pen" else "lead", screen.world(*self._at)),)
+        drag, self._drag = self._drag, None
+        drawn = "pen_up" if self._far > reach else "pen_off"
+        return (Action(drawn if drag == "pen" else "let_go"),)
+
+    def _of_the_sheet(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
+        """Draw on the sheet, take a tool, turn the crank, or shift the paper; None for what else there is."""
+        if gesture.kind == "down" and screen.charted(*self._at) is None:
+            tool = screen.tool_at(*self._at)
+            self._drag = screen.sheet_at(*self._at) if tool is None else None
+            if tool is not None:
+                return (Action(TOOLS[tool].action, TOOLS[tool].value),)
+            return (self._handed("hand_down", screen),) if self._drag == "hand" else ()
+        if self._drag not in ("hand", "paper") or gesture.kind not in ("move", "up"):
+            return None
+        drag, stays = self._drag, self._far <= _STILL * screen.size[1]
+        if gesture.kind == "move":
+            if drag == "hand":
+                return (self._handed("hand_to", screen),)
+            return () if stays else (Action("pan", gesture.by),)
+        self._drag = None
+        if drag == "hand":
+            return (Action("hand_up"),)
+        return (self._handed("hand_down", screen), Action("hand_up")) if stays else ()
+
+    def _handed(self, name: str, screen: Screen) -> Action:
+        """Return what the hand does on the sheet: in tenths of the usual step with Shift, in any with Alt."""
+        mods = pygame.key.get_mods()
+        part = 0.0 if mods & pygame.KMOD_ALT else _TENTHS if mods & pygame.KMOD_SHIFT else 1.0
+        return Action(name, screen.handed(*self._at, part))
+
+    def over_sheet(self, screen: Screen) -> tuple[float, float] | None:
+        """Return where the mouse is over an open sheet, in pixels; None elsewhere, and before it was seen."""
+        shown = self._seen and screen.state.mode == "build" and self._drag in (None, "hand")
+        return self._at if shown else None
+
+    def _grabbed(self, screen: Screen) -> Literal["pan", "crank", "chart"]:
+        if self._is_at_pin(screen):
+            return "crank"
+        return "pan" if screen.charted(*self._at) is None else "chart"
+
+    def _zoomed(self, notches: float, screen: Screen) -> tuple[Action, ...]:
+        """Zoom about the mouse; about the middle before it is known where that is."""
+        middle = screen.size[0] / 2, screen.size[1] / 2
+        x, y = (at - half for at, half in zip(self._at if self._seen else middle, middle, strict=True))
+        return (Action("zoom", (float(notches), x / screen.size[1], y / screen.size[1])),)
+
+    def _moved(self, screen: Screen) -> tuple[Action, ...]:
+        if self._drag == "joint":
+            fine = _TENTHS if pygame.key.get_mods() & pygame.KMOD_SHIFT else 1.0
+            return (Action("carry", (*screen.world(*self._at), fine)),)
+        phase = screen.charted(*self._at) if self._drag == "chart" else None
+        if self._drag == "crank":
+            phase = phase_towards(screen.state.displayed, screen.state.phase, screen.world(*self._at))
+        return () if phase is None else (Action("scrub", phase),)
+
+
+def _coarser() -> int:
+    """Return how many steps one stands for: more with Shift."""
+    return _COARSE if pygame.key.get_mods() & pygame.KMOD_SHIFT else 1

@@ -1,0 +1,480 @@
+"""Put another scene on, and edit the dimensions of the one that is on, with undo and redo."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import replace
+from decimal import Decimal
+
+from linkanim.errors import LinkanimError
+from linkanim.mechanics.analysis import Info
+from linkanim.player.state import (
+    Browsing,
+    Edited,
+    Editing,
+    FileNames,
+    Held,
+    Listing,
+    State,
+    check_of_turning,
+    chosen,
+    cleared,
+    fresh,
+    glide,
+    listed,
+    loss_of_turning,
+    nothing_begun,
+    proved,
+    with_toast,
+    with_undo,
+)
+from linkanim.scenes import chapter_of, chapters, load
+from linkanim.scenes.editing import (
+    Dimension,
+    dimensions,
+    dragged,
+    handles,
+    in_unit,
+    other_closure,
+    other_return,
+    with_dimensions,
+    with_document,
+    with_unit,
+    with_values,
+)
+from linkanim.scenes.form import Key
+from linkanim.scenes.scene import Scene
+from linkanim.units import metre
+
+# Actions that put another scene on: of the shelf, or the other closure; the open list of quantities.
+
+_LONGEST = 40
+
+
+def mechanism(state: State, further: int) -> State:
+    """Put on the scene so many places further on the shelf."""
+    return put_on(state, (state.place + further) % len(state.shelf))
+
+
+def select(state: State, place: int) -> State:
+    """Choose within the chapter of the scene that is on; beside the catalogue, within its first."""
+    all_, chapter = chapters(), chapter_of(state.scene.name)
+    members = all_[chapter] if chapter else next(iter(all_.values()))
+    if place >= len(members) or members[place] not in state.shelf:
+        return state
+    return put_on(state, state.shelf.index(members[place]))
+
+
+def closure(state: State, _: None) -> State:
+    """Exchange the scene for its other closure; undo goes back."""
+    try:
+        scene = other_closure(state.scene)
+    except LinkanimError as error:
+        return with_toast(state, str(error))
+    return exchanged(replace(state, editing=with_undo(state.editing, state.scene)), scene)
+
+
+def renewed(state: State, scene: Scene) -> State:
+    """Put on the scene of one's own as its file has it now; where it is on already, undo goes back."""
+    catalogue = tuple(entry for entry in state.shelf if isinstance(entry, str))
+    own = len(state.shelf) - len(catalogue)
+    was_on, by = state.place < own, 1 - own
+    state = replace(state, shelf=(scene, *catalogue))
+    if not was_on:
+        # the catalogue's places are behind the one of the scene of one's own, which begins anew
+        kept = tuple(one._replace(place=one.place + by) for one in state.kept if one.place >= own)
+        return put_on(replace(state, place=state.place + by, kept=kept), 0)
+    editing = replace(with_undo(state.editing, state.scene), original=scene)
+    return exchanged(replace(state, held=None, glide=None, sketch=None, editing=editing), scene)
+
+
+def exchanged(state: State, scene: Scene) -> State:
+    """Show a changed scene at the phase the old one stands at; whatever its solver raises."""
+    clock = state.clock.at_rate(state.frame, scene.linkage.drive.speed)
+    proved(scene, clock.at(state.frame))
+    look = replace(state.look, chart=_kept_chart(state, scene))
+    turned = state.turned if _verdict(scene.info) == _verdict(state.scene.info) else state.frame
+    return replace(state, scene=scene, clock=clock, look=look, turned=turned)
+
+
+def followed(state: State, scene: Scene) -> State:
+    """Show a changed scene, the one that is shown gliding to it."""
+    way = glide(state.shown, scene, state.frame)
+    return replace(exchanged(state, scene), glide=way)
+
+
+def _verdict(info: Info) -> tuple[str, bool, bool]:
+    """Return the class, and on which side of Grashof's rule the lengths are."""
+    rule = info.grashof or ""
+    return info.class_name, "<" in rule, ">" in rule
+
+
+def put_on(state: State, place: int) -> State:
+    """Start a mechanism of the shelf as it was left, else as its file says, paused where the last one was."""
+    entry, kept = state.shelf[place], _kept_edits(state)
+    was = next((one for one in kept if one.place == place), None)
+    scene = proved(was.scene if was else load(entry) if isinstance(entry, str) else entry, 0.0)
+    clock = fresh(scene).go(state.frame, 0.0, paused=state.clock.paused)
+    look = replace(state.look, zoom=1.0, pan=(0.0, 0.0), chart=_kept_chart(state, scene))
+    bare = replace(state, listing=None, held=None, sketch=None, glide=None, turned=None, faded=state.frame)
+    bare = replace(bare, arrived=state.frame)
+    editing = replace(was.editing if was else Editing(), open=state.editing.open)
+    others = tuple(one for one in kept if one is not was)
+    return replace(bare, editing=editing, kept=others, scene=scene, place=place, clock=clock, look=look)
+
+
+def _kept_edits(state: State) -> tuple[Edited, ...]:
+    """Return what is kept of all places, that of the one that is on with its values begun let go."""
+    own = replace(state.editing, open=False, typed="", drafts=(), refusal=None, warned=False)
+    return (*state.kept, *([Edited(state.place, state.scene, own)] if own.changed else []))
+
+
+def _kept_chart(state: State, scene: Scene) -> str | None:
+    chart = state.look.chart
+    return chart if chart and chart in scene.quantities else None
+
+
+def list_(state: State, _: None) -> State:
+    """Open the list of quantities, at the one that is charted, or close it."""
+    if state.listing:
+        return replace(state, listing=None)
+    tokens = listed(state.scene, "")
+    at = tokens.index(state.look.chart) if state.look.chart in tokens else 0
+    return replace(state, listing=Listing(at), browsing=None)
+
+
+def open_shelf(state: State, _: None) -> State:
+    """Open the shelf, or close it."""
+    if state.browsing:
+        return replace(state, browsing=None)
+    return replace(state, listing=None, browsing=Browsing(state.shelf, state.place, state.frame))
+
+
+def move(state: State, further: int) -> State:
+    """Choose so many further of what is found; the list has ends, the shelf goes round."""
+    if state.browsing:
+        found = state.browsing.found
+        if state.browsing.chosen not in found:
+            return state
+        chosen = found[(found.index(state.browsing.chosen) + further) % len(found)]
+        return replace(state, browsing=replace(state.browsing, chosen=chosen))
+    if state.listing is None:
+        return state
+    last = max(len(state.listing.found(state.scene)) - 1, 0)
+    chosen = min(max(state.listing.chosen + further, 0), last)
+    return replace(state, listing=replace(state.listing, chosen=chosen))
+
+
+def point(state: State, place: int) -> State:
+    """Choose a place on the shelf."""
+    if state.browsing is None or place not in state.browsing.found:
+        return state
+    return replace(state, browsing=replace(state.browsing, chosen=place))
+
+
+def top(state: State, row: int) -> State:
+    """Scroll the shelf to a row."""
+    return replace(state, browsing=state.browsing and replace(state.browsing, top=row))
+
+
+def sift(state: State, text: str) -> State:
+    """Add letters to the sieve of the list, and go to its top, or to that of the shelf."""
+    if state.browsing:
+        longer = (state.browsing.sieve + text)[:_LONGEST]
+        return replace(state, browsing=state.browsing.sifted(longer))
+    return _relisted(state, state.listing.sieve + text) if state.listing else state
+
+
+def unsift(state: State, _: None) -> State:
+    """Take the last letter off the sieve of the list, and go to its top, or off that of the shelf."""
+    if state.browsing:
+        return replace(state, browsing=state.browsing.sifted(state.browsing.sieve[:-1]))
+    return _relisted(state, state.listing.sieve[:-1]) if state.listing else state
+
+
+def _relisted(state: State, sieve: str) -> State:
+    assert state.listing
+    return replace(state, listing=state.listing.sifted(sieve[:_LONGEST]))
+
+
+def files(state: State, names: str) -> State:
+    """Open the list of files, one name a line."""
+    return replace(state, listing=Listing(0, files=FileNames(tuple(names.splitlines()))), browsing=None)
+
+
+def plot(state: State, token: str) -> State:
+    """Chart a quantity, and close the list."""
+    if token not in state.scene.quantities:
+        return with_toast(state, f"{state.scene.name} has no quantity {token}")
+    return replace(state, look=replace(state.look, chart=token), listing=None)
+
+
+def put(state: State, place: int) -> State:
+    """Put on a scene by its place on the shelf, and close the shelf."""
+    if not 0 <= place < len(state.shelf):
+        return state
+    return replace(put_on(state, place), browsing=None)
+
+
+# Actions on the list of dimensions, and on what is undone and redone.
+#
+# Every change gives a new scene or a refusal; the last good scene always runs on. A joint that is dragged
+# while the list is open takes its lengths along, one undo a drag.
+
+AGAIN = "R again: the file's dimensions"
+
+_KEY = re.compile(r"^[\w.\[\]-]+( =|:) ")
+_NUDGE = {
+    "mm": "1", "cm": "0.1", "m": "0.001", "in": "0.1",
+    "deg": "1", "°": "1", "rad": "0.01",
+    "rpm": "1", "deg/s": "5", "°/s": "5", "rad/s": "0.1",
+}  # fmt: skip
+
+
+def edit(state: State, _: None) -> State:
+    """Open or close the list; a joint is dropped, values begun are let go of, undo and redo stay."""
+    state = drop(state, None)
+    state = choose(replace(state, editing=replace(state.editing, drafts=())), 0)
+    editing = replace(state.editing, open=not state.editing.open)
+    return replace(state, editing=editing, listing=None, browsing=None)
+
+
+def choose(state: State, further: int) -> State:
+    """Go so many rows further, a value begun let go."""
+    count = len(dimensions(state.scene))
+    at = (state.editing.chosen + further) % count if count else 0
+    return replace(state, editing=cleared(state.editing, chosen=at))
+
+
+def pass_on(state: State, further: int) -> State:
+    """Go so many rows further, a value begun kept as a draft, to be judged with the others."""
+    return choose(replace(state, editing=replace(state.editing, drafts=_drafts(state))), further)
+
+
+def write(state: State, text: str) -> State:
+    """Add text to the value being typed."""
+    return replace(state, editing=cleared(state.editing, typed=(state.editing.typed + text)[:_LONGEST]))
+
+
+def erase(state: State, _: None) -> State:
+    """Take the last typed character away; that of the row's draft, where none is typed."""
+    editing, item = state.editing, chosen(state.editing, state.scene)
+    draft = dict(editing.drafts).get(item.key, "") if item else ""
+    kept = tuple(pair for pair in editing.drafts if not item or pair[0] != item.key)
+    return replace(state, editing=cleared(editing, typed=(editing.typed or draft)[:-1], drafts=kept))
+
+
+def take(state: State, _: None) -> State:
+    """Put all values begun in place at once, or say why not.
+
+    Lengths without a unit are in the one that is shown, the scene's own without any.
+    """
+    values = dict(_drafts(state))
+    return _tried(state, values, state.editing.typed) if values else state
+
+
+def nudge(state: State, steps: int) -> State:
+    """Make the chosen value so many small steps larger, or say why not.
+
+    A step depends on the unit that is shown alone, so that as many steps back end on the same value.
+    """
+    item = chosen(state.editing, in_unit(state.scene, state.look.unit))
+    if item is None:
+        return state
+    text = _nudged(item, steps)
+    return _tried(replace(state, editing=cleared(state.editing)), {item.key: text}, text)
+
+
+def undo(state: State, _: None) -> State:
+    """Go back to the scene before the last change; a value begun or refused is let go of first."""
+    editing = state.editing
+    if editing.begun:
+        return replace(state, editing=nothing_begun(editing))
+    if not editing.past:
+        return state
+    *earlier, last = editing.past
+    return _remade(state, cleared(editing, past=tuple(earlier), future=(*editing.future, state.scene)), last)
+
+
+def redo(state: State, _: None) -> State:
+    """Go on to the scene that the last undo left."""
+    editing = state.editing
+    if not editing.future:
+        return state
+    *later, following = editing.future
+    return _remade(state, cleared(editing, past=(*editing.past, state.scene), future=tuple(later)), following)
+
+
+def reset(state: State, _: None) -> State:
+    """Go back to the scene as its file has it, which undo takes back."""
+    editing = replace(state.editing, drafts=())
+    if editing.original is None or editing.original == state.scene:
+        return replace(state, editing=cleared(editing))
+    return _remade(state, with_undo(editing, state.scene), editing.original)
+
+
+def returns(state: State, _: None) -> State:
+    """Let the input come back on the other closure, or on the same."""
+    return _remade(state, with_undo(state.editing, state.scene), other_return(state.scene))
+
+
+def start(state: State, _: None) -> State:
+    """Go back to the start; once more, while the chip says so, to the file's dimensions as well."""
+    again = state.chip is not None and state.sketch is None and state.chip.text == AGAIN
+    state = replace(reset(state, None) if again else state, chip=None)
+    return replace(state, clock=state.clock.go(state.frame, 0.0))
+
+
+def way_back(_: State, after: State) -> str | None:
+    """Say how the file's dimensions come back, where others are on."""
+    return AGAIN if after.place in after.edited else None
+
+
+def grab(state: State, joint: str) -> State:
+    """Take hold of a joint while the list is open: the picture stands still, the list at its dimension."""
+    keys = [item.key for item in dimensions(state.scene)]
+    found = handles(state.scene, joint) if joint in state.scene.linkage.by_name else ()
+    if not state.editing.open or not found:
+        return state
+    held = Held(joint, state.scene, state.phase, not state.clock.paused)
+    state = drop(state, None)
+    state = choose(replace(state, editing=replace(state.editing, chosen=keys.index(found[0].key))), 0)
+    return replace(state, held=held, clock=state.clock.pause(state.frame, True), glide=None)
+
+
+def carry(state: State, to: tuple[float, float, float]) -> State:
+    """Drag the held joint to a point of the scene as shown, in whole units of its own times `to[2]`."""
+    held = state.held
+    if held is None or not held.joint or not to[2] > 0.0:
+        return state
+    ratio = metre(state.displayed.length_unit) / metre(state.scene.length_unit)
+    point, before = (to[0] * ratio, to[1] * ratio), state.scene
+    state = _dragged(state, held, _values_at(held, point, to[2]))
+    if state.scene is before:
+        return state
+    angle = held.scene.pose(held.phase, 0).coordinate
+    phase = state.scene.mechanism.assembly.path.phase_of(angle, state.phase)
+    return replace(state, clock=state.clock.go(state.frame, phase, paused=True))
+
+
+def grab_row(state: State, row: int) -> State:
+    """Take hold of a row's value; what is begun in another row waits as a draft."""
+    items, state = dimensions(state.scene), drop(state, None)
+    if not state.editing.open or not 0 <= row < len(items):
+        return state
+    further = row - state.editing.chosen % len(items)
+    held = Held("", state.scene, state.phase, not state.clock.paused)
+    return replace(pass_on(state, further) if further else state, held=held, glide=None)
+
+
+def pull(state: State, steps: int) -> State:
+    """Change the value that is held by so many small steps, of the unit that is shown, from what it was."""
+    held = state.held
+    if held is None or held.joint:
+        return state
+    shown = in_unit(held.scene, state.look.unit)
+    item = chosen(state.editing, shown)
+    values = {item.key: _nudged(item, steps)} if item else {}
+    return _dragged(state, held, values if shown is held.scene else _united(shown, values))
+
+
+def drop(state: State, _: None) -> State:
+    """Let go of the joint; what ran before runs on."""
+    if state.held is None:
+        return state
+    clock = state.clock.pause(state.frame, not state.held.ran)
+    return replace(state, held=None, clock=clock, editing=replace(state.editing, refusal=None))
+
+
+def _dragged(state: State, held: Held, values: Mapping[Key, str]) -> State:
+    """Return the state with these values of the scene that was taken hold of, or why they are refused.
+
+    However far they are dragged, undo goes back to where they were taken.
+    """
+    editing = state.editing
+    try:
+        document = with_values(held.scene, values)
+        if document == state.scene.document:
+            return replace(state, editing=cleared(editing))
+        if editing.refusal and document == editing.refused:
+            return state
+        after = with_document(held.scene, document, check_of_turning(held.scene.info))
+        refusal = loss_of_turning(held.scene.info, after.info)
+    except LinkanimError as error:
+        refusal = str(error).removeprefix(f"{state.scene.name}: ")
+    if refusal:
+        return replace(state, editing=replace(editing, refusal=refusal, refused=document))
+    kept = editing if state.scene is not held.scene else with_undo(editing, held.scene)
+    return replace(exchanged(state, after), editing=cleared(kept))
+
+
+def _values_at(held: Held, point: tuple[float, float], share: float) -> dict[Key, str]:
+    """Return the dimensions that put the joint near a point, in whole steps of their units times `share`."""
+    places = held.scene.pose(held.phase, 0).position
+    found = {}
+    for handle, unit in held.following:
+        step = _step_of(unit) * Decimal(repr(share))
+        value = step * round(Decimal(repr(dragged(handle, places, point))) / step)
+        found[handle.key] = f"{value.normalize():f}"
+    return found
+
+
+def _nudged(item: Dimension, steps: int) -> str:
+    """Return a dimension's value so many small steps larger, as it would be typed."""
+    value = Decimal(repr(item.value)) + steps * _step_of(item.unit)
+    return f"{value.normalize():f}"
+
+
+def _step_of(unit: str) -> Decimal:
+    """Return the step in which a dimension of that unit is nudged."""
+    return Decimal(_NUDGE.get(unit, "1"))
+
+
+def _remade(state: State, editing: Editing, scene: Scene) -> State:
+    """Return the state with another editing and scene, which the picture follows smoothly."""
+    return replace(state if scene is state.scene else followed(state, scene), editing=editing)
+
+
+def _drafts(state: State) -> tuple[tuple[Key, str], ...]:
+    """Return all values begun, that of the chosen row the last."""
+    editing, item = state.editing, chosen(state.editing, state.scene)
+    if item is None or not editing.typed:
+        return editing.drafts
+    return (*(pair for pair in editing.drafts if pair[0] != item.key), (item.key, editing.typed))
+
+
+def _tried(state: State, values: Mapping[Key, str], typed: str) -> State:
+    """Put values where they belong, all at once; refused ones stay begun, to be mended.
+
+    Values that end the crank's full turn are refused once, with the way to take them all the same. The
+    reason is in the unit that is shown.
+    """
+    editing, scene, unit = state.editing, state.scene, state.look.unit
+    try:
+        before, shown = in_unit(scene, unit), with_dimensions(in_unit(scene, unit), values)
+        loss = None if editing.warned else loss_of_turning(before.info, shown.info)
+        after = shown if before is scene else with_dimensions(scene, _united(before, values))
+    except LinkanimError as error:
+        reason = _reason(str(error).removeprefix(f"{scene.name}: "), values, scene)
+        return replace(state, editing=replace(editing, typed=typed, refusal=reason, warned=False))
+    if loss:
+        refusal = f"{loss} (Enter again takes it)"
+        return replace(state, editing=replace(editing, typed=typed, refusal=refusal, warned=True))
+    drafts = tuple(pair for pair in editing.drafts if pair[0] not in values)
+    return _remade(state, with_undo(replace(editing, drafts=drafts), scene), after)
+
+
+def _united(shown: Scene, values: Mapping[Key, str]) -> dict[Key, str]:
+    """Return values with their unit, those that have none with that of a scene as it is shown."""
+    items = {item.key: item for item in dimensions(shown)}
+    return {key: with_unit(text, items[key]) for key, text in values.items()}
+
+
+def _reason(message: str, values: Mapping[Key, str], scene: Scene) -> str:
+    """Leave out the key of a single value, beside which the reason stands; of several say it in words."""
+    if len(values) == 1:
+        return _KEY.sub("", message)
+    words = {".".join(map(str, item.key)): item.label for item in dimensions(scene) if item.key in values}
+    key, _, reason = message.partition(": ")
+    return f"{words[key]}: {reason}" if key in words else message

@@ -1,0 +1,211 @@
+"""Write the window's files under free names, and keep the draft on a sheet, at most a second behind."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from contextlib import suppress
+from dataclasses import replace
+from itertools import count
+from pathlib import Path
+
+import pygame
+
+from linkanim import atomic_files, intake
+from linkanim.atomic_files import Claim
+from linkanim.build.draft import Draft
+from linkanim.errors import BadInput, WorkFailed
+from linkanim.picture.raster import png_bytes
+from linkanim.player.building import DRAFT, offered, stored_text
+from linkanim.player.state import BuildSheet, State
+from linkanim.scenes import load
+from linkanim.scenes.scene import Scene
+
+# Files that the window writes, under names that were free, and the scene file that it was opened on.
+
+FOLDER = Path("recordings")
+
+
+def free_stem(folder: Path, name: str, suffixes: tuple[str, ...]) -> str:
+    """Return `name-1`, `name-2`, …: the first under which no file with any of the suffixes is there."""
+    stems = (f"{name}-{number}" for number in count(1))
+    return next(stem for stem in stems if not any((folder / (stem + suffix)).exists() for suffix in suffixes))
+
+
+def screenshot(surface: pygame.Surface, name: str) -> Path:
+    """Write the picture as a PNG under a free name; errors as `_added`."""
+    return _added(png_bytes(surface), name, ".png")
+
+
+def vector(state: State, size: tuple[int, int]) -> Path:
+    """Write the picture as an SVG under a free name, without what lies over it; errors as `_added`."""
+    from linkanim.paper.figure import Figured
+
+    scene = state.displayed
+    shown = Figured(scene, size, state.look, state.phase, speed=state.clock.speed, as_seen=True)
+    return _added(shown.document().encode(), scene.name, ".svg")
+
+
+def page(state: State) -> Path:
+    """Write the scene as a page that moves, with its chart; errors as `document`, `_added`."""
+    from linkanim.share.page import Shared, document
+
+    look = state.look
+    shown = Shared(state.displayed, state.clock.speed, chart=look.chart, names=look.names)
+    return _added(document(shown).encode(), state.scene.name, ".html")
+
+
+def report(text: str, name: str) -> Path:
+    """Write a fault's report under a free name; errors as `_added`."""
+    return _added(f"{text}\n".encode(), f"{name}-fault", ".json")
+
+
+def _added(data: bytes, name: str, suffix: str) -> Path:
+    """Write a file under a free name in `FOLDER`, made if it is not there; return its path.
+
+    `BadInput` where the folder's name is a file's, `WorkFailed` where the disk refuses.
+    """
+    atomic_files.made_folder(FOLDER)
+    first, *others = (FOLDER / f"{name}-{number}{suffix}" for number in range(1, 10_000))
+    return atomic_files.add(data, first, others)
+
+
+def beside(file: str) -> str:
+    """Return a file's path from the current folder, where scene files are written, if it lies in there."""
+    path = Path(from_anywhere(file))
+    with suppress(OSError, ValueError):  # it is gone, or the file lies elsewhere
+        return str(path.relative_to(Path.cwd()))
+    return str(path)
+
+
+def from_anywhere(file: str) -> str:
+    """Return a path of a file that holds from any folder; the same one where the current folder is gone."""
+    with suppress(OSError):
+        return str(Path(file).absolute())
+    return file
+
+
+class SceneFile:
+    """A scene file, and how it was when it was last looked at."""
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        self._seen = self._state()
+
+    def news(self) -> list[str]:
+        """Return what has become of the file since it was last looked at, in words."""
+        before, self._seen = self._seen, self._state()
+        if before == self._seen:
+            return []
+        name = intake.named(self._path.name)
+        if self._seen is None:
+            return [f"{name} is gone; the linkage runs on, and Ctrl+S writes it as a new file"]
+        return [f"{name} has changed; F5 loads it"]
+
+    def load(self) -> Scene:
+        """Read the file as it is now; errors as `scenes.load`."""
+        self._seen = self._state()
+        return load(self._path)
+
+    def _state(self) -> tuple[int, int, int] | None:
+        """Return what is another number once the file is written anew; None where there is none."""
+        with suppress(OSError):
+            found = self._path.stat()
+            return found.st_mtime_ns, found.st_size, found.st_ino
+        return None
+
+
+def scene_files() -> list[str]:
+    """Return the names of the scene files in the current folder, none where it is there no more."""
+    with suppress(OSError), os.scandir() as entries:
+        return sorted(one.name for one in entries if one.name.endswith(".toml") and one.name.isprintable())
+    return []
+
+
+# The file in which the draft on a sheet is kept, whole and at most a second behind, until it is written.
+#
+# Each window has a file of its own, `draft.json` or the next name that no open window has: what one draws is
+# never in another's way. What a window left that ended before its draft was written is offered by the next.
+
+_MOST = 100
+"""So many windows have a draft at once."""
+_OFFER = "a draft that was in no scene file has been kept: F2 takes it up"
+
+
+class DraftFile:
+    """A file that holds the draft that is in no scene file, and is not there without one."""
+
+    def __init__(self, path: Path) -> None:
+        self._first = path
+        self._path: Path | None = None
+        self._claim: Claim | None = None
+        self._kept: Draft | None = None
+
+    def offered(self, state: State) -> tuple[State, str | None]:
+        """Return the state with what another window left on offer, and what there is to say of it.
+
+        What is damaged, or of another version, is set aside. WorkFailed where it cannot be read.
+        """
+        path = self._taken(there=True)
+        if path is None:
+            return state, None
+        where = intake.named(path)
+        try:
+            state = offered(state, DRAFT.read(path, where), where)
+        except BadInput as error:
+            aside = atomic_files.set_aside(path)
+            if aside is None:
+                self.close()
+                raise WorkFailed(f"{error}; drafts are not kept") from None
+            return state, f"{error}; it is kept as {aside.name}"
+        self._kept = state.sheet.building.draft if state.sheet else None
+        return state, _OFFER
+
+    def keep(self, sheet: BuildSheet | None) -> None:
+        """Write the draft on a sheet if it is another one; remove the file where none would be lost.
+
+        WorkFailed where that cannot be; the next time it is tried again.
+        """
+        draft = None if sheet is None or sheet.is_written else sheet.lasting.draft
+        if draft is self._kept:
+            return
+        path = self._path or self._taken(there=False)
+        if path is None:
+            raise WorkFailed(f"{self._first}: {_MOST} windows have a draft; close one")
+        if draft is None or sheet is None:
+            with atomic_files.saying_why(path, "removed"):
+                path.unlink(missing_ok=True)
+        else:
+            atomic_files.write_text(path, stored_text(_found_anywhere(sheet)), folders=True)
+        self._kept = draft
+
+    def close(self) -> None:
+        """Let another window have the file, and offer what is in it."""
+        if self._claim:
+            self._claim.release()
+        self._claim = self._path = None
+
+    def _taken(self, *, there: bool) -> Path | None:
+        """Return the first file, there or not, that no open window has; it is this one's from now on.
+
+        None where there is none such.
+        """
+        for path in self._names():
+            claim = Claim.on(path) if path.exists() == there else None
+            if claim and path.exists() == there:
+                self._path, self._claim = path, claim
+                return path
+            if claim:  # another window has come or gone meanwhile
+                claim.release()
+        return None
+
+    def _names(self) -> Iterator[Path]:
+        yield self._first
+        yield from (self._first.with_stem(f"{self._first.stem}-{n}") for n in range(2, _MOST + 1))
+
+
+def _found_anywhere(sheet: BuildSheet) -> BuildSheet:
+    """Return a sheet as it lasts, its photograph by a path that holds from any folder."""
+    draft = sheet.lasting.draft
+    photo = draft.photo and draft.photo._replace(file=from_anywhere(draft.photo.file))
+    return replace(sheet, building=replace(sheet.lasting, draft=replace(draft, photo=photo)))

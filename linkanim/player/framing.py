@@ -1,0 +1,295 @@
+"""Fit a picture to a state, and go from one picture to the next.
+
+Another view is approached, eased; another picture fades in. Where a step under the hand takes too long to
+be drawn in a frame, it is drawn in two.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import partial
+from math import inf
+from typing import Literal
+
+import pygame
+from pygame.event import Event
+
+from linkanim.picture.look import Look
+from linkanim.picture.picture import Earlier, Picture
+from linkanim.picture.view import Box, Rect, View, eased, joined, view_of
+from linkanim.player.clock import FRAMES_PER_SECOND
+from linkanim.player.state import FADE_FRAMES, Sketch, State
+
+# The pictures of states: each fits what is shown, and another view of it is approached, eased.
+#
+# The eye can follow what makes room for what. Window and recordings share it.
+
+APPROACH_FRAMES = 14
+_NAMES = 2
+"""So many names are placed in a frame."""
+
+
+@dataclass(frozen=True)
+class Approach:
+    """A view that was left at a frame for the one that fits now."""
+
+    left: View
+    since: int
+
+    def over(self, frame: int) -> bool:
+        """Whether the new view is reached."""
+        return frame >= self.since + APPROACH_FRAMES
+
+    def look(self, look: Look, fitted: View, goal: View, size: tuple[int, int], frame: int) -> Look:
+        """Return the look whose zoom and pan show the view of this frame, between the left one and `goal`.
+
+        `fitted` is the view that the look zooms and pans, in a window of that size in pixels.
+        """
+        view = between(self.left, goal, (frame - self.since + 1) / (APPROACH_FRAMES + 1))
+        width, height = size
+        zoom = view.scale / fitted.scale
+        right = view.x - width / 2 - (fitted.x - width / 2) * zoom
+        down = view.y - height / 2 - (fitted.y - height / 2) * zoom
+        return replace(look, zoom=zoom, pan=(right / height, down / height))
+
+
+def between(one: View, other: View, share: float) -> View:
+    """Return the view so far from one to the other, slow at both ends; every point moves straight."""
+    part = eased(share)
+    scale, x, y = (
+        begin + (end - begin) * part
+        for begin, end in ((one.scale, other.scale), (one.x, other.x), (one.y, other.y))
+    )
+    return View(scale, x, y)
+
+
+class Framing:
+    """The picture of each state that comes, and the last one; a list in a window takes its room.
+
+    Where it is `captioned`, as the window is, names come with the sentence on what to watch for, and a frame
+    does not wait for all of them to be placed.
+    """
+
+    def __init__(self, *, captioned: bool = False) -> None:
+        self._captioned = captioned
+        self._fitting: Picture | None = None
+        self._coming: Picture | None = None
+        self._passing: Picture | None = None
+        self._approach: Approach | None = None
+        self._frame = 0
+
+    @property
+    def last(self) -> Picture:
+        """The picture that was given last; there must be one."""
+        picture = self._passing or self._fitting
+        assert picture is not None
+        return picture
+
+    def fitting(
+        self,
+        state: State,
+        size: tuple[int, int],
+        *,
+        hurried: bool = False,
+        earlier: Earlier | None = None,
+    ) -> Picture:
+        """Return the picture that fits the state; a view other than the last one's, it is approached.
+
+        One that is `hurried` keeps the names of the last, where those have to be placed anew: some of them in
+        each frame that comes. What stood still `earlier` is kept, too.
+        """
+        before, sketch, look = self._fitting, state.sketch, self._look(state)
+        hurried = hurried and self._captioned
+        held = bool(state.held or (sketch and sketch.held is not None) or state.building or state.home)
+        row, listed = sketch is not None and bool(sketch.answers), state.listed
+        home = state.building.home if state.building else state.home
+        fits = before and before.fits(state.shown, size, look, listed=listed, held=held, row=row, sheet=home)
+        if before and fits and not before.hurried:
+            if not earlier:
+                before.catch_up()
+            return before
+        stays = before is not None and before.size == size
+        make = partial(
+            Picture, state.shown, size, look, before, listed=listed, held=held, row=row, sheet=home
+        )
+        if before and fits and not sketch:
+            self._coming = self._coming or make(gradual=True)
+            if not self._coming.place_names(_NAMES if hurried else None):
+                return before
+            made = self._coming
+        else:
+            make = partial(make, hurried=hurried and not (sketch and stays), earlier=earlier)
+            made = make(kept=before.fitted if before and sketch and stays else None)
+        self._coming = None
+        if sketch and stays and not held and not _is_in_sight(made, sketch):
+            made = make(kept=_seen_whole(made, sketch))
+        if before and before.sheet != made.sheet:
+            self._approach = None
+        elif before and (_has_moved(before, made) or (sketch and stays and before.fitted != made.fitted)):
+            self._approach = Approach((self._passing or before).view, state.frame)
+        elif before and not _is_framed_alike(before, made):
+            self._approach = None
+        self._fitting = made
+        return made
+
+    def _look(self, state: State) -> Look:
+        """Return the look of a state; where it is captioned, names come with what to watch for."""
+        look = replace(state.look, hud=False) if state.building else state.look
+        captioned = (self._captioned and look.names) or state.idle is not None
+        return replace(look, caption=True) if captioned else look
+
+    def at(self, state: State, size: tuple[int, int], *, late: bool = False) -> Picture:
+        """Return the picture for this frame: one on the way to the fitting one while that is approached.
+
+        A `late` one has the view of the last, and what stands still as it was there.
+        """
+        self._frame = self._frame if late else state.frame
+        last = self._passing or self._fitting
+        earlier = last.earlier if last and late else None
+        goal, self._passing = self.fitting(state, size, hurried=True, earlier=earlier), None
+        if self._approach is None or self._approach.over(self._frame):
+            self._approach = None
+            return goal
+        look = self._approach.look(self._look(state), goal.fitted, goal.view, size, self._frame)
+        kept = goal.fitted if state.sketch else None
+        self._passing = Picture(
+            state.shown,
+            size,
+            look,
+            goal,
+            listed=state.listed,
+            row=goal.row,
+            kept=kept,
+            sheet=goal.sheet,
+            earlier=earlier,
+            hurried=goal.hurried,
+        )
+        return self._passing
+
+
+def _is_in_sight(picture: Picture, sketch: Sketch) -> bool:
+    """Return whether linkage and stroke lie in their room; where it is zoomed they need not."""
+    return picture.look.framed or _holds(picture.layout.stage, picture.view, _box(picture, sketch))
+
+
+def _seen_whole(picture: Picture, sketch: Sketch) -> View:
+    """Return the view that fits a linkage, further away where its stroke would not be seen whole."""
+    view, box, stage = picture.fit.arrangement.view, _box(picture, sketch), picture.layout.stage
+    return view if _holds(stage, view, box) else view_of(box, stage.inset(2 * picture.layout.margin))
+
+
+def _holds(stage: Rect, view: View, box: Box) -> bool:
+    return stage.holds(*view.to_pixel(box.left, box.high)) and stage.holds(*view.to_pixel(box.right, box.low))
+
+
+def _box(picture: Picture, sketch: Sketch) -> Box:
+    """Return the rectangle of the plane that holds a linkage as it will be, and the stroke."""
+    swept = picture.fit.subject.figure.box
+    if sketch.curve is None:
+        return swept
+    x, y = sketch.curve.points.real, sketch.curve.points.imag
+    return joined(swept, Box(float(x.min()), float(y.min()), float(x.max()), float(y.max())))
+
+
+def _has_moved(one: Picture, other: Picture) -> bool:
+    """Return whether one linkage, of either closure, in one window is fitted into another place of it."""
+    return _are_one(one, other) and one.size == other.size and one.fitted != other.fitted
+
+
+def _is_framed_alike(one: Picture, other: Picture) -> bool:
+    """Return whether one linkage in one window is zoomed and panned alike."""
+    looks = ((picture.look.zoom, picture.look.pan, picture.size) for picture in (one, other))
+    return _are_one(one, other) and len(set(looks)) == 1
+
+
+def _are_one(one: Picture, other: Picture) -> bool:
+    """Return whether both are of one scene, or of one before and after an exchange that is no glide."""
+    scenes = (one.scene, other.scene)
+    named = one.scene.name == other.scene.name and not any(scene.towards for scene in scenes)
+    return one.scene is other.scene or (named and one.scene.length_unit == other.scene.length_unit)
+
+
+# From one picture to the next: the old one fades while the new one is already there; the shutter's flash.
+
+_WHITE = 0.7
+"""How white a screenshot's flash is at its brightest."""
+
+
+class Fade:
+    """Keeps what was shown before another mechanism or theme came on, for as long as it fades."""
+
+    def __init__(self) -> None:
+        self._old: pygame.Surface | None = None
+        self._since: int | None = None
+
+    def strength(self, state: State, surface: pygame.Surface) -> int:
+        """Return how strongly (0 to 255) the old picture still shows; `surface` holds it at first."""
+        if state.faded is None:
+            self._old = self._since = None
+            return 0
+        if state.faded != self._since:
+            self._old, self._since = surface.copy(), state.faded
+        if self._old is None or self._old.get_size() != surface.get_size():
+            return 0
+        return round(255 * (1.0 - eased((state.frame - state.faded + 1) / FADE_FRAMES)))
+
+    def draw(self, surface: pygame.Surface, strength: int, shutter: int) -> None:
+        """Lay the old picture over the new one, and the shutter's white, in eighths, over both."""
+        if self._old is not None and strength:
+            self._old.set_alpha(strength)
+            surface.blit(self._old, (0, 0))
+        if shutter:
+            white = pygame.Surface(surface.get_size())
+            white.fill((255, 255, 255))
+            white.set_alpha(round(255 * _WHITE * (shutter / 8) ** 2))
+            surface.blit(white, (0, 0))
+
+
+# How a step under the hand is drawn: whole in its frame, or where that takes too long, in two.
+
+_ROOM = 0.85 / FRAMES_PER_SECOND
+"""What a frame may take, in seconds: the rest is for what else the machine does."""
+_ONCE = 0.75
+"""What a step takes at once of what it takes in two frames: all that moves is in both."""
+
+
+class Halving:
+    """Knows how long the last step took, and whether the rest of it is still to be drawn.
+
+    In the first of two frames the linkage follows, in the second what stands still behind it, and the list;
+    meanwhile a mouse that only moves has to wait.
+    """
+
+    def __init__(self, now: Callable[[], float] = time.perf_counter) -> None:
+        self._now, self._began = now, 0.0
+        self._waiting: list[Event] = []
+        self._late = False
+        self._part: Literal["first", "rest", "whole", "none"] = "none"
+        self._first, self._step = 0.0, inf
+
+    def begin(self, events: list[Event]) -> list[Event]:
+        """Begin a frame; return what is for it of the events, and of those that wait."""
+        self._began = self._now()
+        events, self._waiting = self._waiting + events, []
+        if self._late and all(event.type == pygame.MOUSEMOTION for event in events):
+            events, self._waiting = [], events
+        return events
+
+    def late(self, *, stepped: bool) -> bool:
+        """Return whether this frame, in which something was changed or not, has the first half of a step."""
+        was, self._late = self._late, stepped and self._step > _ROOM
+        self._part = "first" if self._late else "rest" if was else "whole" if stepped else "none"
+        return self._late
+
+    def end(self) -> None:
+        """End a frame: take note of what it took."""
+        took = self._now() - self._began
+        match self._part:
+            case "first":
+                self._first = took
+            case "rest":
+                self._step = _ONCE * (self._first + took)
+            case "whole":
+                self._step = took

@@ -1,1 +1,0 @@
-"""Keys, mouse and what they ask for."""

@@ -1,0 +1,383 @@
+"""List all keys and gamepad buttons in one table: window, help, `--help` and the README read it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import NamedTuple
+
+from linkanim.picture.look import TOGGLES
+from linkanim.player.action import TOOLS, Action, Mode, Value
+
+# The one table of gamepad buttons: which key each stands for; window, help and README read it.
+#
+# Buttons are named by where they are: the lower, right, left and upper of four are A, B, X, Y of one make
+# and ×, ○, □, △ of another. Nothing here needs pygame.
+
+
+class PadRow(NamedTuple):
+    """One line of the help: the buttons as they are written, what they do, the keys that they stand for.
+
+    The second of two keys is that of an open list.
+    """
+
+    written: str
+    words: str
+    keys: Mapping[str, tuple[str, ...]]
+
+
+_WAYS = ("up", "down", "left", "right")
+PAD: tuple[PadRow, ...] = (
+    PadRow("left stick", "turn the crank to the stick's angle", {}),
+    PadRow("A, ×", "play / pause; Enter in a list", {"lower": ("space", "return")}),
+    PadRow("B, ○", "Esc", {"right": ("escape",)}),
+    PadRow("X, □", "direction", {"left": ("d",)}),
+    PadRow("Y, △", "names", {"upper": ("n",)}),
+    PadRow("D-pad", "the arrow keys", {f"pad {way}": (way,) for way in _WAYS}),
+    PadRow("LB, RB; L1, R1", "the mechanism before, the next", {"before": ("shift+tab",), "next": ("tab",)}),
+    PadRow("Start, Options", "the shelf", {"start": ("o",)}),
+    PadRow("Back, Share", "help", {"back": ("h",)}),
+)
+"""Every button that does something, in the order in which the help shows them."""
+
+_KEYS: Mapping[str, tuple[str, ...]] = {name: keys for row in PAD for name, keys in row.keys.items()}
+_ALIKE = ("lower", "right", "left", "upper")
+_WITH_HAT = (*_ALIKE, "before", "next", "back", "start")
+_OF_WAYS = tuple(f"pad {way}" for way in _WAYS)
+_WITHOUT_HAT = (*_ALIKE, "back", "", "start", "", "", "before", "next", *_OF_WAYS)
+"""The buttons in the order in which the two usual layouts number them, by whether the D-pad is a hat."""
+
+
+def button_name(number: int, *, hat: bool) -> str:
+    """Return what a button is called; empty where it is none of ours."""
+    names = _WITH_HAT if hat else _WITHOUT_HAT
+    return names[number] if 0 <= number < len(names) else ""
+
+
+def hat_name(right: int, up: int) -> str:
+    """Return which way a D-pad is pressed; empty where it is let go."""
+    if up:
+        return "pad up" if up > 0 else "pad down"
+    return "" if not right else "pad right" if right > 0 else "pad left"
+
+
+def key_of(name: str, *, listed: bool) -> str:
+    """Return the key that a button stands for, in an open list or not; empty where there is none."""
+    return next(iter(_KEYS.get(name, ())[-1 if listed else 0 :]), "")
+
+
+# The one key table: the window, the help overlay, `--help` and the README all read it.
+#
+# Keys are named as pygame names its constants (`K_F12` is "f12"), a printable key by its character,
+# with "ctrl+" and "shift+" in front, so that nothing here needs pygame.
+
+
+class Bind(NamedTuple):
+    """One key and what it asks for; `repeats` where holding the key goes on asking."""
+
+    key: str
+    action: Action
+    repeats: bool = False
+
+
+class KeyRow(NamedTuple):
+    """One line of the help: the keys as they are written, what they do, and what they ask for."""
+
+    keys: str
+    words: str
+    binds: tuple[Bind, ...] = ()
+
+
+Table = Mapping[str, tuple[KeyRow, ...]]
+"""Lines of the help by their subject."""
+
+
+def _on(keys: str, name: str, value: Value = None, *, held: bool = False) -> tuple[Bind, ...]:
+    """Return what each of the keys asks for; `held` where holding it goes on asking."""
+    return tuple(Bind(key, Action(name, value), held) for key in keys.split())
+
+
+def _of_look(name: str) -> tuple[Bind, ...]:
+    """Return the keys of a field of the look."""
+    toggle = TOGGLES[name]
+    members = zip(toggle.keys, toggle.members, strict=True)
+    return tuple(Bind(key, Action(name, member)) for key, member in members)
+
+
+def _looks(subject: str) -> tuple[KeyRow, ...]:
+    """Return the lines of the look's fields under a subject."""
+    found = ((name, toggle) for name, toggle in TOGGLES.items() if toggle.subject == subject)
+    return tuple(KeyRow(", ".join(one.keys).upper(), one.title, _of_look(name)) for name, one in found)
+
+
+def _both(less: str, more: str, name: str, by: int = 1, *, held: bool = True) -> tuple[Bind, ...]:
+    return _on(less, name, -by, held=held) + _on(more, name, by, held=held)
+
+
+def _steps(name: str) -> tuple[Bind, ...]:
+    """Return the arrows to the left and right, ten times as far with Shift."""
+    return _both("left", "right", name) + _both("shift+left", "shift+right", name, 10)
+
+
+def _tabs(name: str) -> tuple[Bind, ...]:
+    return _both("shift+tab", "tab", name, held=False)
+
+
+def _digits(name: str) -> tuple[Bind, ...]:
+    """Return the keys 1 to 9, which stand for places from 0."""
+    return tuple(bind for n in range(9) for bind in _on(f"{n + 1} kp{n + 1}", name, n))
+
+
+def _enter(name: str, erase: str = "") -> tuple[Bind, ...]:
+    """Return Enter, and with it the key that takes the last letter off what was typed."""
+    return _on("return kp_enter", name) + (_on("backspace", erase, held=True) if erase else ())
+
+
+def _undo(undo: str, redo: str) -> tuple[Bind, ...]:
+    return _on("ctrl+z", undo, held=True) + _on("ctrl+y ctrl+shift+z", redo, held=True)
+
+
+def _zoom(keys: str, notches: float) -> tuple[Bind, ...]:
+    return _on(keys, "zoom", (notches, 0.0, 0.0), held=True)
+
+
+def _aims() -> tuple[Bind, ...]:
+    """Return the arrows, which move the cursor by a line of the grid, and with Shift by a fine step."""
+    ways = {"up": (0.0, 1.0), "down": (0.0, -1.0), "left": (-1.0, 0.0), "right": (1.0, 0.0)}
+    lines = (bind for key, way in ways.items() for bind in _on(key, "aim", way, held=True))
+    fine = (bind for key, way in ways.items() for bind in _on(f"shift+{key}", "aim", (*way, 0.0), held=True))
+    return (*lines, *fine)
+
+
+_RECORD = _on("g", "record", "gif") + _on("m", "record", "mp4")
+_BUILD = _on("f2", "build") + _on("shift+f2", "build_on")
+_PATH = _on("w", "pencil") + _on("shift+w", "own_trace")
+
+KEYS: Table = {
+    "play": (
+        KeyRow("Space", "play / pause", _on("space", "pause")),
+        KeyRow("← → (Shift: ×10)", "pause, and step the crank", _steps("step")),
+        KeyRow("↑ ↓", "speed", _both("down", "up", "speed")),
+        KeyRow("D", "direction", _on("d", "direction")),
+        KeyRow("R (twice: reset)", "back to the start", _on("r", "start")),
+        KeyRow(
+            "Tab, Shift+Tab, 1–9",
+            "next mechanism; 1–9 within the chapter",
+            _tabs("mechanism") + _digits("select"),
+        ),
+        KeyRow("O", "the shelf: all mechanisms", _on("o", "shelf")),
+        KeyRow("F3", "the title, and what there is to play", _on("f3", "play", "title door=play")),
+        KeyRow("drag the crank pin", "move the crank; so does the chart's cursor"),
+    ),
+    "look": (
+        *_looks("look"),
+        KeyRow("+, −, wheel, drag", "zoom, pan", _zoom("+ = kp_plus", 1.0) + _zoom("- kp_minus", -1.0)),
+        KeyRow("0, Home", "fit", _on("0 kp0 home", "fit")),
+        KeyRow("L", "light / dark", _of_look("theme")),
+        KeyRow("U", "sounds: dead centres and limits", _on("u", "sounds")),
+        KeyRow("F11", "full screen", _on("f11", "fullscreen")),
+        KeyRow("H, F1, ?", "help", _on("h f1 ? shift+/", "help")),
+        KeyRow(
+            "Esc, Q",
+            "close, leave full screen, stop recording (Esc); quit",
+            _on("escape", "back") + _on("q", "quit"),
+        ),
+    ),
+    "measure": (
+        *_looks("measure"),
+        KeyRow("C (Shift: back)", "chart: next quantity, off", _both("shift+c", "c", "chart", held=False)),
+        KeyRow("X", "the chart's axis: angle, time, phase", _of_look("over")),
+        KeyRow("K", "the list of quantities", _on("k", "list")),
+        KeyRow("Shift+U", "unit of lengths: mm, cm, m, in", _of_look("unit")),
+    ),
+    "edit": (
+        KeyRow("E", "edit dimensions (H there: how)", _on("e", "edit")),
+        KeyRow("F2, W (Shift: this one)", "build it, or draw its path", _BUILD + _PATH),
+        KeyRow("B (Shift: ghost)", "assembly: the other closure", _on("b", "closure") + _of_look("ghost")),
+        KeyRow("Ctrl+Z, Ctrl+Y", "undo, redo", _undo("undo", "redo")),
+    ),
+    "keep": (
+        KeyRow("S, F12 (Shift+S: SVG)", "screenshot", _on("s f12", "screenshot") + _on("shift+s", "svg")),
+        KeyRow("G, M", "record GIF, MP4: start, stop", _RECORD),
+        KeyRow("Shift+G", "hand on: one page that moves", _on("shift+g", "share")),
+        KeyRow(
+            "Ctrl+S, O",
+            "write the scene as a new file; open one",
+            _on("ctrl+s", "save") + _on("ctrl+o", "files_here"),
+        ),
+        KeyRow("F5", "reloads a scene opened from a file", _on("f5", "reload")),
+    ),
+}
+"""Every key of the window, by subject, in the order in which the help shows them."""
+
+_TOOLS = (
+    KeyRow(tool.key, tool.name, _on(tool.key.lower(), tool.action, tool.value))
+    for tool in TOOLS
+    if len(tool.key) == 1
+)
+_IN_A_MODE: Table = {
+    "in E": (
+        KeyRow("↑ ↓", "choose a dimension", _both("up", "down", "choose")),
+        KeyRow("← → (Shift: ×10)", "nudge it", _steps("nudge")),
+        KeyRow("Tab, Shift+Tab", "the next row; what is typed here waits", _tabs("pass_on")),
+        KeyRow(
+            "digits, Enter",
+            "type a value, with or without a unit; take all values typed",
+            _enter("take", "erase"),
+        ),
+        KeyRow("Ctrl+B", "swing back on the same closure", _on("ctrl+b", "returns")),
+        KeyRow("Ctrl+R", "reset: the file's dimensions again", _on("ctrl+r", "reset")),
+        KeyRow("click, wheel, drag (Shift: ×10)", "choose a row, nudge its value"),
+        KeyRow("drag joints (Shift: tenths)", "set lengths on the picture, in whole units"),
+    ),
+    "in K": (
+        KeyRow(
+            "↑ ↓",
+            "choose a quantity",
+            _both("up", "down", "move") + _both("pageup", "pagedown", "move", 10),
+        ),
+        KeyRow("type", "filter by what is in the name"),
+        KeyRow("Enter, click", "chart it", _enter("pick", "unsift")),
+    ),
+    "in O": (
+        KeyRow(
+            "arrows, mouse",
+            "choose a mechanism",
+            _both("left", "right", "move") + _both("up", "down", "row"),
+        ),
+        KeyRow("type", "filter by title or chapter"),
+        KeyRow("PgUp, PgDn, wheel", "scroll", _both("pageup", "pagedown", "scroll", 2)),
+        KeyRow("Enter, click", "put it on", _enter("pick", "unsift")),
+    ),
+    # beside all others, while the picture stands still
+    "paused": (KeyRow("digits, Enter", "go to that input angle", _enter("go", "erase_place")),),
+    "in W": (
+        KeyRow("mouse", "draw a path in one stroke; drag its points and the fixed pins"),
+        KeyRow("1–9, click", "take another answer", _digits("answer")),
+        KeyRow("Ctrl+Z", "take the last stroke or drag back", _on("ctrl+z", "take_back", held=True)),
+        KeyRow("Enter", "keep the linkage as the scene; Esc goes back", _enter("keep")),
+    ),
+    "in a game": (
+        KeyRow("1–9, click", "choose an answer or a door", _digits("option")),
+        KeyRow("Enter, Space", "go on", _on("return kp_enter space", "next")),
+        KeyRow("← → (Shift: ×10)", "turn the crank", _steps("turn")),
+        KeyRow("↑ ↓", "choose", _both("down", "up", "raise")),
+        KeyRow("Esc", "out of it", ()),
+    ),
+    "in F2": (
+        KeyRow("click, drag", "a ground pin; from a pin or joint a bar; twice on a bar: a point of it"),
+        KeyRow("let go on a joint, line, bar", "joined there, a slider, a slot"),
+        KeyRow("drag the crank", "turn it; Shift: tenths, Alt: free of the grid, while drawing"),
+        *_TOOLS,
+        KeyRow(
+            "digits, Enter",
+            "type what is chosen; Ctrl+↑ ↓ its other numbers",
+            _both("ctrl+up", "ctrl+down", "number") + _on("backspace", "undigit", held=True),
+        ),
+        KeyRow("arrows (Shift: fine), Enter", "a cursor; press and lift there", _aims() + _enter("enter")),
+        KeyRow("I", "a point of the body at the cursor", _on("i insert", "enter", 2)),
+        KeyRow("Tab, Shift+Tab", "choose", _tabs("further")),
+        KeyRow("Del", "remove it, and what hangs on it", _on("delete", "remove")),
+        KeyRow("Ctrl+Z, Ctrl+Y", "undo, redo", _undo("unbuild", "rebuild")),
+        KeyRow("Ctrl+N", "an empty sheet", _on("ctrl+n", "sheet")),
+        KeyRow("Esc, F2", "let go; leave, the linkage being the scene; F2 goes on"),
+    ),
+}
+"""What the keys do in a mode, before what they do else, by its subject."""
+_SUBJECTS: Mapping[Mode, str] = {
+    **{"edit": "in E", "list": "in K", "shelf": "in O", "paused": "paused"},
+    **{"pencil": "in W", "game": "in a game", "build": "in F2"},
+}
+MODES: Mapping[Mode, Table] = {mode: {subject: _IN_A_MODE[subject]} for mode, subject in _SUBJECTS.items()}
+"""The same by mode."""
+PAD_KEYS: Table = {"gamepad": tuple(KeyRow(row.written, row.words) for row in PAD)}
+"""What the buttons of a gamepad do."""
+_TYPED: Mapping[Mode, tuple[str, frozenset[str]]] = {
+    "edit": ("type", frozenset({"space", "h", "e"})),
+    "list": ("sift", frozenset({"space", "h", "k"})),
+    "shelf": ("sift", frozenset({"space", "h", "o"})),
+    "paused": ("type_place", frozenset()),
+    "build": ("digits", frozenset()),
+}
+"""Where what can be printed is typed: the action, and the keys that keep their meaning until it is begun."""
+
+
+class Press(NamedTuple):
+    """A key that went down: its name, the modifiers, and the text it types (empty where none)."""
+
+    key: str
+    text: str = ""
+    shift: bool = False
+    ctrl: bool = False
+
+
+def bind_of(press: Press, mode: Mode = "play", *, typing: bool = False) -> Bind | None:
+    """Return what a key asks for; None where it is not bound.
+
+    In an open list what can be printed is typed there; but for the few keys that keep their meaning while
+    nothing has been begun (`typing`).
+    """
+    if _is_typed(press, mode, typing):
+        return Bind(press.key, Action(_TYPED[mode][0], press.text), repeats=True)
+    tables = (MODES.get(mode, {}), KEYS)
+    found = (bind for table in tables for name in _names(press) for bind in _binds(table) if bind.key == name)
+    # any other letter goes on in a game, as a title's "any key" has it
+    others = Bind(press.key, Action("next")) if mode == "game" and press.text and not press.ctrl else None
+    return next(found, others)
+
+
+def _is_typed(press: Press, mode: Mode, typing: bool) -> bool:
+    if mode not in _TYPED or press.ctrl or not press.text or not press.text.isprintable():
+        return False
+    if mode == "build":
+        return typing or press.text in "123456789.-"
+    if mode == "paused":
+        return press.text in "123456789" or (typing and press.text in "0.")
+    return typing or press.key not in _TYPED[mode][1]
+
+
+def _binds(table: Table) -> Iterator[Bind]:
+    return (bind for rows in table.values() for row in rows for bind in row.binds)
+
+
+def _names(press: Press) -> tuple[str, ...]:
+    """Return the names a press may be bound under, the most particular first."""
+    if press.ctrl:
+        return ("ctrl+shift+" + press.key,) if press.shift else ("ctrl+" + press.key,)
+    symbol = () if press.text.isalpha() else (press.text,)
+    return ("shift+" + press.key, *symbol, press.key) if press.shift else (press.key, *symbol)
+
+
+def key_names() -> tuple[str, ...]:
+    """Return every bound key's name once, without modifiers (a key alone may be '+')."""
+    names = (bind.key for table in (KEYS, _IN_A_MODE) for bind in _binds(table))
+    return tuple(dict.fromkeys(name.removeprefix("ctrl+").removeprefix("shift+") for name in names))
+
+
+def help_groups(
+    mode: Mode = "play", *, pad: bool = False
+) -> tuple[tuple[str, tuple[tuple[str, str], ...]], ...]:
+    """Return (subject, its lines of keys and what they do) as the help overlay shows them.
+
+    With a `pad` plugged in its buttons, too.
+    """
+    table = {**(KEYS if mode == "paused" else MODES.get(mode, KEYS)), **(PAD_KEYS if pad else {})}
+    return tuple((subject, tuple((row.keys, row.words) for row in rows)) for subject, rows in table.items())
+
+
+def _lines() -> Iterator[tuple[str, str]]:
+    """Yield all lines of the table, those of a mode under its subject."""
+    yield from ((row.keys, row.words) for rows in KEYS.values() for row in rows)
+    for table in (_IN_A_MODE, PAD_KEYS):
+        yield from ((f"{subject}: {row.keys}", row.words) for subject, rows in table.items() for row in rows)
+
+
+def as_text(*, indent: str = "  ") -> str:
+    """Return the table as plain text, for `--help`."""
+    lines = tuple(_lines())
+    width = max(len(keys) for keys, _ in lines)
+    return "\n".join(f"{indent}{keys:<{width}}  {words}" for keys, words in lines)
+
+
+def as_markdown() -> str:
+    """Return the table in Markdown, for the README."""
+    return "\n".join(["| key | does |", "|---|---|", *(f"| {keys} | {words} |" for keys, words in _lines())])

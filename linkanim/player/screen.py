@@ -1,0 +1,465 @@
+"""Show the window's picture on a screen that is really there.
+
+The display comes first: a window, its size and its pointer. The screen has the picture that fits the scene,
+size and look of the moment, and what was shown last.
+"""
+
+from __future__ import annotations
+
+import atexit
+import ctypes
+import os
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from dataclasses import replace
+from math import ceil, hypot, log10
+from typing import Any, Literal, NamedTuple
+
+import pygame
+
+from linkanim.build.draft import Draft, Thing
+from linkanim.build.gestures import under
+from linkanim.errors import NoDisplay
+from linkanim.picture.build_sheet import grid_step, pencil
+from linkanim.picture.layout import layout
+from linkanim.picture.overlay import Overlay
+from linkanim.picture.picture import Picture
+from linkanim.picture.shelf import Grid, RowPrinter, ShelfPrinter, grid, row_cells
+from linkanim.picture.surface import SurfacePrinter
+from linkanim.picture.theme import theme_of
+from linkanim.picture.tools import ToolPrinter, tool_at
+from linkanim.picture.view import Rect
+from linkanim.player.action import TOOLS, Action
+from linkanim.player.framing import Fade, Framing
+from linkanim.player.shown import Hover, shelf_of
+from linkanim.player.state import PIVOTS, Browsing, BuildSheet, State, driven_bar
+from linkanim.scenes.editing import handles
+
+# The display: a window on a screen that is really there.
+
+_INVISIBLE = ("dummy", "offscreen")
+_NO_SCREEN = "there is no display to open a window on; `linkanim record SCENE` works without one"
+_USUAL = (1280, 720)
+_IO_ERROR = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p)
+_EXIT = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p)
+
+
+@contextmanager
+def opened(size: tuple[int, int] | None = None) -> Iterator[Connection]:
+    """Open the window, of `size` or as large as suits the screen, and close it on the way out.
+
+    Gives the connection to the display server. NoDisplay where there is no screen; SDL_VIDEODRIVER=dummy
+    asks for none, and gets none.
+    """
+    driver, connection = os.environ.get("SDL_VIDEODRIVER"), Connection()
+    _prepare()
+    try:
+        pygame.display.init()
+        if driver is None and pygame.display.get_driver() in _INVISIBLE:
+            raise NoDisplay(_NO_SCREEN)
+        _hasten(pygame.display.get_driver())
+        pygame.display.set_mode(size or _suiting(), pygame.RESIZABLE)
+        connection.check()
+        yield connection
+    except pygame.error as error:
+        if pygame.display.get_init() and pygame.display.get_surface():
+            raise
+        raise NoDisplay(f"{_NO_SCREEN} ({error})") from None
+    finally:
+        connection.close()
+        if driver is None:
+            os.environ.pop("SDL_VIDEODRIVER", None)
+
+
+def _prepare() -> None:
+    """Keep SDL off our signals; on Linux choose what is quick and quiet there."""
+    os.environ.setdefault("SDL_NO_SIGNAL_HANDLERS", "1")
+    if not sys.platform.startswith("linux"):
+        return
+    # Pygame has put the script's name there by now; window lists and tools look for ours.
+    os.environ["SDL_VIDEO_X11_WMCLASS"] = "linkanim"
+    # Without this folder Wayland only complains on stderr.
+    if not os.environ.get("XDG_RUNTIME_DIR"):
+        os.environ.setdefault("SDL_VIDEODRIVER", "x11,kmsdrm")
+
+
+def _hasten(driver: str) -> None:
+    """Let pictures go past OpenGL under X, which is twenty times as fast; Wayland knows only OpenGL."""
+    if driver == "x11":
+        os.environ.setdefault("SDL_FRAMEBUFFER_ACCELERATION", "0")
+
+
+def _suiting() -> tuple[int, int]:
+    """Return the usual size, or the largest of its shape that leaves a small screen some room."""
+    screen = min(pygame.display.get_desktop_sizes(), default=_USUAL)
+    share = min(1.0, 0.9 * screen[0] / _USUAL[0], 0.9 * screen[1] / _USUAL[1])
+    return round(_USUAL[0] * share), round(_USUAL[1] * share)
+
+
+def display_surface() -> pygame.Surface:
+    """Return the window's surface, as large as the window is now; there must be one."""
+    found = pygame.display.get_surface()
+    assert found is not None
+    return found
+
+
+def name(title: str) -> None:
+    """Let the window's frame show a scene's title, without what no frame can show."""
+    shown = "".join(char for char in title if char.isprintable())
+    pygame.display.set_caption(f"{shown} – linkanim")
+
+
+def point_with(pointer: pygame.Surface | None) -> None:
+    """Let the mouse's pointer be a picture, its lower left corner the place; None for the usual one."""
+    # a system without pointers of its own colour keeps what it has
+    with suppress(pygame.error):
+        if pointer is None:
+            pygame.mouse.set_cursor(pygame.SYSTEM_CURSOR_ARROW)
+        else:
+            pygame.mouse.set_cursor(pygame.Cursor((0, pointer.get_height() - 1), pointer))
+
+
+def is_full() -> bool:
+    """Tell whether the window fills the screen."""
+    return bool(display_surface().get_flags() & pygame.FULLSCREEN)
+
+
+class Placement(NamedTuple):
+    """Where a window is (None: not known) and how large, to go back to from full screen."""
+
+    position: tuple[int, int] | None
+    size: tuple[int, int]
+
+
+def frame() -> Placement:
+    """Return where the window is now."""
+    return Placement(_position(), pygame.display.get_window_size())
+
+
+def fill(back: Placement) -> Placement:
+    """Fill the screen, or go from there back to a window; return the window to go back to.
+
+    A new mode, and not `toggle_fullscreen`, which warns on stderr where there is no window manager.
+    """
+    if is_full():
+        _set_mode(back.size, pygame.RESIZABLE, back.position)
+        return back
+    back = frame()
+    _set_mode((0, 0), pygame.FULLSCREEN, (0, 0))
+    return back
+
+
+def _set_mode(size: tuple[int, int], flags: int, position: tuple[int, int] | None) -> None:
+    """Set another mode; under X with a single screen, where no window manager may be, in a new window.
+
+    Without one an old window would neither move to the screen's corner nor shrink again.
+    """
+    if pygame.display.get_driver() != "x11" or len(pygame.display.get_desktop_sizes()) > 1:
+        pygame.display.set_mode(size, flags)
+        return
+    caption = pygame.display.get_caption()
+    pygame.display.quit()
+    pygame.display.init()
+    pygame.display.set_caption(*caption)
+    pygame.display.set_mode(size, flags)
+    if position is not None and hasattr(pygame.display, "set_window_position"):
+        pygame.display.set_window_position(position)
+
+
+def _position() -> tuple[int, int] | None:
+    """Return where the window is; None with plain pygame, which cannot tell."""
+    known = hasattr(pygame.display, "get_window_position")
+    return pygame.display.get_window_position() if known else None
+
+
+class Connection:
+    """Whether the display server is still there, looked at once a frame; else the window ends in order.
+
+    Under X the library would end the process there and then, with lines of its own on stderr. Wayland,
+    Windows and macOS ask a window to close before they go.
+    """
+
+    def __init__(self) -> None:
+        self.lost = False
+        self._watched: int | None = None
+        # the library calls them until the process ends: they must live as long
+        self._handlers = _IO_ERROR(self._broken), _EXIT(self._broken)
+
+    def check(self) -> None:
+        """Raise NoDisplay where the server is gone; watch the one that is open now, if it is another."""
+        if self.lost:
+            raise NoDisplay("the display server is gone; what was being recorded is kept in recordings/")
+        if pygame.display.get_driver() != "x11":
+            return
+        now = _pointer(pygame.display.get_wm_info()["display"])
+        if now != self._watched:
+            self._watched = now
+            self._watch(now)
+
+    def close(self) -> None:
+        """Close the window; of one whose server is gone pygame would wait for an answer for ever.
+
+        The rest of pygame stays until the process ends: of fonts that outlive it the memory is lost.
+        """
+        if self.lost:
+            atexit.unregister(pygame.quit)
+        else:
+            pygame.display.quit()
+
+    def _watch(self, server: int) -> None:
+        """Ask the library to go on after an error, which versions before 1.7 (2020) cannot."""
+        with suppress(OSError, AttributeError):
+            library = ctypes.CDLL("libX11.so.6")
+            goes_on = library.XSetIOErrorExitHandler
+            goes_on.argtypes, goes_on.restype = (ctypes.c_void_p, _EXIT, ctypes.c_void_p), None
+            library.XSetIOErrorHandler.argtypes = (_IO_ERROR,)
+            library.XSetIOErrorHandler(self._handlers[0])
+            goes_on(server, self._handlers[1], None)
+
+    def _broken(self, *_: object) -> int:
+        self.lost = True
+        return 0
+
+
+def _pointer(capsule: Any) -> int:
+    """Return the address that a capsule of pygame's holds."""
+    address = ctypes.pythonapi.PyCapsule_GetPointer
+    address.argtypes, address.restype = (ctypes.py_object, ctypes.c_char_p), ctypes.c_void_p
+    return int(address(capsule, b"display") or 0)
+
+
+# The window's picture: the one that fits the scene, size and look of the moment, and what was shown last.
+
+_NEAR = 0.022
+"""How near to a thing counts as on it, in the window's height."""
+_PULLED = 6.0
+"""How near to a line of the grid counts as on it, in units."""
+_VISIBLE = 1.0
+"""The least of a step of what is drawn, in pixels."""
+
+
+class Screen:
+    """Paints states into the window; a picture that is there already is not painted again.
+
+    For the mouse it knows where things are in the picture that it painted last, of `state` with `over` on it.
+    """
+
+    def __init__(self, state: State) -> None:
+        self._framing = Framing(captioned=True)
+        self._shown: object = None
+        self.state = state
+        self._titled: str | None = None
+        self._shelf = ShelfPrinter()
+        self._fade = Fade()
+        self._printer = SurfacePrinter()
+        self.over = Overlay()
+        self._row, self._tools = RowPrinter(), ToolPrinter()
+        self._pointer: object = None
+
+    def show(self, state: State, over: Overlay, *, late: bool = False) -> None:
+        """Paint the state into the window and flip, where it differs from what is there.
+
+        Where it is `late`, the linkage follows, and what stands still and the list are as they were.
+        """
+        surface = display_surface()
+        if late and over.panel and self.over.panel:
+            over = replace(over, panel=self.over.panel)
+        self.state, self.over = state, over
+        self._point(state)
+        self._name(f"{state.scene.title}{' • edited' * (state.place in state.edited)}")
+        picture = self._framing.at(state, surface.get_size(), late=late)
+        veiled = self._fade.strength(state, surface)
+        shown = (picture, picture.late, state.phase, state.clock.speed, over, veiled)
+        if shown != self._shown:
+            self._paint(surface, picture, state, over)
+            self._fade.draw(surface, veiled, over.shutter)
+            pygame.display.flip()
+            self._shown = shown
+
+    def _paint(self, surface: pygame.Surface, picture: Picture, state: State, over: Overlay) -> None:
+        if over.shelf:
+            self._shelf.draw(surface, over.shelf)
+        else:
+            self._shelf.close()
+            self._printer.print(surface, picture, state.phase, state.clock.speed, over)
+            self._row.draw(surface, picture.layout, over.row)
+            self._tools.draw(surface, picture.layout, picture.theme, over.build.tools if over.build else None)
+
+    def _point(self, state: State) -> None:
+        """Let the mouse point with a pencil while that is taken."""
+        pointer = (state.look.theme, self.size) if state.mode == "pencil" else None
+        if pointer != self._pointer:
+            self._pointer = pointer
+            drawn = pencil(layout(self.size), theme_of(state.look.theme)) if pointer else None
+            point_with(drawn)
+
+    def _name(self, title: str) -> None:
+        """Let the window bear the scene's title; the system is told only what is new to it."""
+        if title != self._titled:
+            name(title)
+            self._titled = title
+
+    def uncovered(self) -> None:
+        """Take note that the window has to be painted anew."""
+        self._shown = None
+
+    def picture(self, state: State, over: Overlay) -> pygame.Surface:
+        """Return the state painted on a surface of its own, as large as the window."""
+        surface, self.state = display_surface().copy(), state
+        self._paint(surface, self._framing.fitting(state, surface.get_size()), state, over)
+        return surface
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """The window's size."""
+        return pygame.display.get_window_size()
+
+    def crank_pin(self) -> tuple[float, float]:
+        """Return where the input crank's pin is, in pixels."""
+        return self._framing.last.crank_pin_px(self.state.displayed.pose(self.state.phase, 0))
+
+    def handle_at(self, x: float, y: float, reach: float) -> str | None:
+        """Return the joint under a pixel that can be dragged, in the list or in a game; None elsewhere."""
+        if not (self.state.editing.open or self.over.handles):
+            return None
+        scene, free = self.state.displayed, self.over.handles
+        places = scene.pose(self.state.phase, 0).position.items()
+        away = {name: max(map(abs, self._from(place, x, y))) for name, place in places}
+        near = sorted((far, name) for name, far in away.items() if far <= reach)
+        found = (name for _, name in near if name in free or (not free and handles(scene, name)))
+        return next(found, None)
+
+    def _from(self, place: tuple[float, float], x: float, y: float) -> tuple[float, float]:
+        px, py = self.pixel(*place)
+        return px - x, py - y
+
+    def answer_cells(self) -> tuple[Rect, ...]:
+        """Return where the pictures of the answers are, in pixels."""
+        count = len(self.state.sketch.answers) if self.state.sketch else 0
+        return row_cells(self._framing.last.layout, count)
+
+    def pencil_at(self, x: float, y: float, reach: float) -> Action:
+        """Return what the pencil begins at a pixel: it takes an answer, a pin or a point, or it draws."""
+        sketch = self.state.sketch
+        assert sketch
+        place = next((n for n, cell in enumerate(self.answer_cells()) if cell.holds(x, y)), None)
+        if place is not None:
+            return Action("answer", place)
+        pose = self.state.displayed.pose(self.state.phase, 0)
+        pivots = [name for name in PIVOTS if name in pose.position] if sketch.follows else []
+        for pivot in pivots:
+            if max(map(abs, self._from(pose.position[pivot], x, y))) <= reach:
+                return Action("take_pivot", pivot)
+        points = sketch.curve.points if sketch.curve and not sketch.is_blank else ()
+        away = [hypot(*self._from((point.real, point.imag), x, y)) for point in points]
+        if away and min(away) <= reach:
+            return Action("take_point", away.index(min(away)))
+        return Action("pen_down", self.world(x, y))
+
+    def sheet_at(self, x: float, y: float) -> Literal["hand", "crank", "paper"]:
+        """Return what the hand does at a pixel of a sheet: it draws, turns the crank, shifts the paper."""
+        sheet = self.state.building
+        assert sheet
+        near, *_ = self._under(x, y)
+        if sheet.tool == "photo":
+            return "hand"
+        if near is None:
+            return "paper" if sheet.tool in ("bar", "move") else "hand"
+        moves = sheet.building.made.scene is not None and sheet.tool in ("bar", "move")
+        return "crank" if moves and near == driven_bar(sheet.building.draft) else "hand"
+
+    def _under(self, x: float, y: float) -> tuple[Thing | None, Draft]:
+        """Return what of a draft is under a pixel, and the draft as it is seen."""
+        sheet = self.state.building
+        assert sheet
+        seen = sheet.seen(self.state.scene, self.state.phase)
+        return under(seen, *self.world(x, y), self._near), seen
+
+    @property
+    def _near(self) -> float:
+        """How near counts as on a thing, in the sheet's unit."""
+        return _NEAR * self.size[1] / self._framing.last.view.scale
+
+    def tool_at(self, x: float, y: float) -> int | None:
+        """Return the number of the tool of the sheet under a pixel; None beside them."""
+        return tool_at(self._framing.last.layout, len(TOOLS), x, y)
+
+    def handed(self, x: float, y: float, part: float) -> tuple[float, float, float, float]:
+        """Return a place of the sheet, how near counts as on it, and the usual step times a part.
+
+        On paper a place near a line of the grid is on it, but for parts of the step.
+        """
+        place = self.world(x, y)
+        if part == 1.0 and self._under(x, y)[0] is None:
+            place = self._gridded(*place)
+        return (*place, self._near, part * self.sheet_step)
+
+    def hover(self, x: float, y: float) -> Hover:
+        """Return what of the sheet is under a pixel."""
+        return Hover(self.world(x, y), self._near, self.tool_at(x, y))
+
+    def aimed(self, sheet: BuildSheet, way: tuple[float, ...]) -> tuple[float, float]:
+        """Return where the keys' cursor goes, one line of the grid on; a fine way is one step.
+
+        Without one it begins in the middle of what is seen.
+        """
+        step = self.sheet_step if len(way) > 2 else self.grid_step
+        middle = self.world(self.size[0] / 2, self.size[1] / 2)
+        begin = sheet.cursor or middle
+        by = way[:2] if sheet.cursor else (0.0, 0.0)
+        x, y = (round(at / step + part) * step for at, part in zip(begin, by, strict=True))
+        return x, y
+
+    def _gridded(self, x: float, y: float) -> tuple[float, float]:
+        """Return a place with each coordinate that is near to a line of the grid on that."""
+        view = self._framing.last.view
+        step, near = self.grid_step, _PULLED * self._framing.last.layout.unit / view.scale
+        lines = (round(at / step) * step for at in (x, y))
+        x, y = (line if abs(line - at) <= near else at for at, line in zip((x, y), lines, strict=True))
+        return x, y
+
+    @property
+    def grid_step(self) -> float:
+        """From line to line of the sheet's grid, in its unit."""
+        return grid_step(self._framing.last.view, self._framing.last.layout)
+
+    @property
+    def sheet_step(self) -> float:
+        """The usual step of what is drawn: a power of ten of its unit that can be seen."""
+        return 10.0 ** ceil(log10(_VISIBLE / self._framing.last.view.scale))
+
+    def world(self, x: float, y: float) -> tuple[float, float]:
+        """Return the point of the scene under a pixel."""
+        return self._framing.last.view.to_world(x, y)
+
+    def pixel(self, x: float, y: float) -> tuple[float, float]:
+        """Return where a point of the scene is in the window."""
+        return self._framing.last.view.to_pixel(x, y)
+
+    def shelf_grid(self, browsing: Browsing) -> Grid:
+        """Return where the mechanisms of a shelf stand; it need not be painted yet."""
+        return grid(self.size, shelf_of(self.state, browsing))
+
+    def shelf_at(self, x: float, y: float) -> int | None:
+        """Return the place on the open shelf under a pixel; None between its pictures."""
+        assert self.state.browsing is not None
+        return self.shelf_grid(self.state.browsing).at(x, y)
+
+    def row_at(self, x: float, y: float) -> int | None:
+        """Return the row of the open list under a pixel, -1 on the list beside them; None off it."""
+        return self._printer.row_at(self._framing.last, self.over, x, y) if self.state.listed else None
+
+    def option_at(self, x: float, y: float) -> int | None:
+        """Return the answer of a game under a pixel, in its panel or on the picture; None off them."""
+        reach = 1.6 * self._framing.last.layout.text_size
+        away = {n: hypot(*self._from(spot.at, x, y)) for n, spot in enumerate(self.over.spots)}
+        near = min(away, key=lambda n: away[n], default=None)
+        if near is not None and away[near] <= reach:
+            return near
+        row = self.row_at(x, y)
+        return None if row is None or row < 0 else row
+
+    def charted(self, x: float, y: float) -> float | None:
+        """Return the phase under a pixel of the chart; None beside it."""
+        return self._framing.last.chart_phase_at(x, y)

@@ -1,0 +1,422 @@
+"""Tell the state in the words of the overlay: what lies over the picture, and what a sheet shows."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import replace
+from math import atan2, degrees, hypot, isfinite, isnan
+
+import numpy as np
+
+from linkanim.build.dimensions import numbers_of
+from linkanim.build.draft import JOINT, Draft, Thing
+from linkanim.build.gestures import under
+from linkanim.build.places import Shape, as_point, drawn, foot, from_span, line_of, snapped
+from linkanim.mechanics.linkage import Body, Point
+from linkanim.mechanics.motion import Pose
+from linkanim.mechanics.quantities import Quantity
+from linkanim.picture.overlay import (
+    AnswerRow,
+    BuildShown,
+    DimensionLine,
+    DraftShown,
+    EditRow,
+    Fading,
+    Overlay,
+    Panel,
+    PathShown,
+    Quantities,
+    Rubber,
+    Shelf,
+    Snap,
+    ToolBar,
+    ToolShown,
+)
+from linkanim.picture.quantities import quantity
+from linkanim.picture.text import subscripted
+from linkanim.player.action import TOOLS
+from linkanim.player.clock import FRAMES_PER_SECOND
+from linkanim.player.keys import help_groups
+from linkanim.player.state import (
+    FLASH_FRAMES,
+    SHUTTER_FRAMES,
+    Browsing,
+    BuildSheet,
+    Grip,
+    Listing,
+    Sketch,
+    State,
+    driven_bar,
+)
+from linkanim.scenes.editing import Dimension, dimensions, in_unit, stretches
+from linkanim.scenes.scene import Scene
+from linkanim.units import significant, stepped, typeset
+
+# What a sheet shows: its draft or the linkage it makes, words, tools, what is under the hand.
+
+_SHOWN = tuple(ToolShown(tool.icon, tool.name, tool.key) for tool in TOOLS)
+_STRETCHED = ("bar", "spring", "damper", "cylinder", "slot", "gear")
+"""The tools that draw from a joint."""
+
+
+class Hover:
+    """What the mouse is over on a sheet: a place, in its unit, how near counts as on a thing; or a tool."""
+
+    def __init__(self, place: Point, reach: float, tool: int | None) -> None:
+        self.place, self.reach, self.tool = place, reach, tool
+
+
+def built(state: State, sheet: BuildSheet, hover: Hover | None = None) -> BuildShown:
+    """Return what an open sheet shows, with the mouse over it or not."""
+    building, seen = sheet.building, sheet.seen(state.scene, state.phase)
+    shapes = drawn(seen)
+    moves = building.made.scene is not None
+    sentence, facts = _words(state, sheet)
+    tool = next((n for n, one in enumerate(TOOLS) if one.value == sheet.tool), 0)
+    return BuildShown(
+        draft=None if moves else _draft(seen, shapes),
+        loose=_loose(seen, shapes) if moves else None,
+        sentence=sentence,
+        facts=facts,
+        chosen=next((one for one in shapes if one.thing == building.chosen), None),
+        number=_number(sheet, moves=moves and not state.clock.paused),
+        rubber=_rubber(seen, sheet, sheet.grip) if sheet.grip and not sheet.grip.is_click else None,
+        snap=_snap(seen, sheet, hover),
+        cursor=sheet.cursor,
+        hand=sheet.grip.at if sheet.grip else None,
+        photo=building.draft.photo,
+        anchor=sheet.anchor,
+        tools=ToolBar(_SHOWN, tool, hover.tool if hover else None),
+        is_warning=bool(building.sentence),
+    )
+
+
+def _number(sheet: BuildSheet, *, moves: bool) -> str:
+    """Return the number of what is chosen, as it stands or is typed; nothing while it runs."""
+    building = sheet.building
+    numbers = numbers_of(building.draft, building.chosen)
+    if not numbers or sheet.grip or (moves and not building.typed):
+        return ""
+    one = numbers[building.row % len(numbers)]
+    value = "–" if isnan(one.value) else significant(one.value, 6)
+    return typeset(f"{one.label} {building.typed}_" if building.typed else f"{one.label} {value} {one.unit}")
+
+
+def _words(state: State, sheet: BuildSheet) -> tuple[str, tuple[str, ...]]:
+    """Return what the last gesture did, else what is missing or what the linkage is, and its facts."""
+    building = sheet.building
+    if building.made.scene is None:
+        missing = building.made.missing
+        return building.sentence or missing, (missing,) if building.sentence else ()
+    info = state.scene.info
+    facts = (*filter(None, [info.grashof]), f"input {info.input_words}")
+    if building.sentence:
+        return building.sentence, (info.class_name, *facts)
+    return info.class_name[:1].upper() + info.class_name[1:], facts
+
+
+def _loose(seen: Draft, shapes: tuple[Shape, ...]) -> DraftShown | None:
+    """Return what the linkage that moves does not show: guides that nothing slides on, pins without a bar."""
+    held = {joint for table in seen.of("bars").values() for joint in table["joints"]}
+    held |= {
+        end for kind in ("springs", "dampers") for one in seen.of(kind).values() for end in one["between"]
+    }
+    free = [one for one in shapes if one.kind == "pins" and one.label not in held]
+    free += [one for one in shapes if one.kind == "guides" and len(one.places) == 2]
+    return DraftShown(tuple(free)) if free else None
+
+
+def _draft(seen: Draft, shapes: tuple[Shape, ...]) -> DraftShown:
+    crank = driven_bar(seen)
+    ends = seen.of("bars")[crank[1]]["joints"] if crank else ()
+    pivot_first = sorted(ends, key=lambda joint: joint not in seen.of("pins"))
+    places = tuple(seen.places[joint] for joint in pivot_first)
+    traced = tuple(seen.places[joint] for joint in seen.trace if joint in seen.places)
+    return DraftShown(shapes, (places[0], places[1]) if crank else None, traced)
+
+
+def _rubber(seen: Draft, sheet: BuildSheet, grip: Grip) -> Rubber | None:
+    """Return what the hand draws, from the joint it began at to the thing or place that it is at."""
+    start = under(seen, *grip.begin, grip.reach)
+    if sheet.tool in ("move", "photo") or (sheet.tool in _STRETCHED and (start is None or start[0] != JOINT)):
+        return None
+    begin = seen.places[start[1]] if start and start[0] == JOINT else grip.begin
+    hand = as_point(snapped(complex(*grip.at), grip.snap))
+    end = _met(seen, under(seen, *grip.at, grip.reach), grip.at) or hand
+    across, up = end[0] - begin[0], end[1] - begin[1]
+    long, angle = hypot(across, up), degrees(atan2(up, across))
+    digits = f"{significant(long, 4)} {seen.unit} · {significant(angle, 3)}°"
+    return Rubber(sheet.tool, begin, end, typeset(digits))
+
+
+def _met(seen: Draft, thing: Thing | None, at: Point) -> Point | None:
+    """Return the place of a joint, or the foot of a point on a guide; None elsewhere."""
+    if thing and thing[0] == JOINT:
+        return seen.places[thing[1]]
+    if thing and thing[0] == "guides":
+        return as_point(foot(seen, thing[1], complex(*at)))
+    return None
+
+
+def _snap(seen: Draft, sheet: BuildSheet, hover: Hover | None) -> Snap | None:
+    """Return what the hand, or the mouse, is on."""
+    grip = sheet.grip
+    if grip is None and (hover is None or hover.tool is not None):
+        return None
+    at, reach = (grip.at, grip.reach) if grip else (hover.place, hover.reach)  # type: ignore[union-attr]
+    thing = under(seen, at[0], at[1], reach)
+    if thing is None or sheet.tool == "photo" or (grip and sheet.tool == "move"):
+        return None
+    if thing[0] == "bars":
+        one, other = (seen.places[joint] for joint in seen.ends(thing[1]))
+        place = complex(*at) - from_span(complex(*one), complex(*other), complex(*at))
+        return Snap(as_point(place), (one, other))
+    if thing[0] == "guides":
+        start, way = line_of(seen, seen.of("guides")[thing[1]])
+        ends = as_point(start - 1e3 * reach * way), as_point(start + 1e3 * reach * way)
+        return Snap(_met(seen, thing, at) or at, ends)
+    met = _met(seen, thing, at)
+    return Snap(met) if met else None
+
+
+# What lies over the picture: the state told in the words of the overlay.
+
+_HINT = (
+    "↑ ↓ choose   ← → nudge   type a value   Tab next   Enter takes   Ctrl+Z undo   Ctrl+R reset   "
+    "Ctrl+S save   Esc closes"
+)
+_FILES = "Scene files here"
+_FILES_HINT = "↑ ↓ choose   type to filter   Enter opens   Esc closes"
+_LIST_HINT = "↑ ↓ choose   type to filter   Enter charts   Esc closes"
+_BAR = "Space pause · Tab next · drag the crank pin · H keys"
+_BAR_FRAMES = 6 * FRAMES_PER_SECOND
+_WATCH_FRAMES = 6 * FRAMES_PER_SECOND
+_IDLE = 45 * FRAMES_PER_SECOND
+_NAME = re.compile(r"\b[^\W\d_]\w*")
+_WAYS = ("along", "to the left", "to the right", "x", "y")
+"""What the labels of places end in, and the other side."""
+_READ, _NEAR = 15, 40
+"""How many frames a value in the list of quantities stands, and how many rows by the chosen have one."""
+_STEPS = 12
+"""So many shades of a flash: each is drawn once."""
+
+
+def overlay(
+    state: State, hover: str | None = None, row: int | None = None, over: Hover | None = None
+) -> Overlay:
+    """Return all that the window shows beside the scene.
+
+    What is under the mouse: `hover` the joint, `row` the row of a list, `over` the place of a sheet.
+    """
+    items = _items(state)
+    lists = _kept(state, items, over)
+    return replace(
+        lists,
+        panel=lists.panel and replace(lists.panel, pointed=row),
+        quantities=lists.quantities and replace(lists.quantities, pointed=row),
+        toast=state.toast.text if state.toast else None,
+        chip=_chip(state),
+        hint=_hint_bar(state),
+        watch=None if state.game else _watch(state),
+        measured=tuple(_measured(state, items)),
+        glow=(state.held.joint or None) if state.held else hover,
+        grip=state.look.chart is not None and not state.game,
+        shutter=0 if state.shot is None else 8 - 8 * (state.frame - state.shot) // SHUTTER_FRAMES,
+        game=lists.game and replace(lists.game, pointed=row),
+    )
+
+
+def kept(state: State) -> Overlay:
+    """Return what of it belongs on a screenshot: all that does not come and go."""
+    return _kept(state, _items(state))
+
+
+def _items(state: State) -> tuple[Dimension, ...]:
+    """Return the dimensions of the open list."""
+    return dimensions(in_unit(state.scene, state.look.unit)) if state.editing.open else ()
+
+
+def _kept(state: State, items: tuple[Dimension, ...], over: Hover | None = None) -> Overlay:
+    found = Overlay(
+        paused=state.clock.paused and not (state.game or state.building),
+        noted=True,
+        recording=_recording(state),
+        help=help_groups(state.mode, pad=state.pad) if state.help else None,
+        panel=_panel(state, items) if state.editing.open else None,
+        quantities=_quantities(state, state.listing) if state.listing else None,
+        shelf=shelf_of(state, state.browsing) if state.browsing else None,
+        path=_path(state.sketch) if state.sketch else None,
+        row=_answer_row(state, state.sketch) if state.sketch and not state.sketch.is_blank else None,
+        build=built(state, state.building, over) if state.building else None,
+    )
+    return state.game.shown(state, found) if state.game else found
+
+
+def _quantities(state: State, listing: Listing) -> Quantities:
+    scene = state.displayed
+    if listing.files is not None:
+        return Quantities(listing.files.rows, listing.chosen, listing.sieve, _FILES_HINT, title=_FILES)
+    found = [quantity(scene, token) for token in listing.found(scene)]
+    # Four times a second while it runs: values that change faster are not read, and each costs its drawing.
+    pose = scene.pose(state.clock.at(state.frame // _READ * _READ), speed=state.clock.speed)
+    near = range(listing.chosen - _NEAR, listing.chosen + _NEAR)
+    rows = tuple(
+        (one.words, value_words(scene, one, pose) if n in near or n < _NEAR else one.symbol)
+        for n, one in enumerate(found)
+    )
+    return Quantities(rows, listing.chosen, listing.sieve, _LIST_HINT)
+
+
+def value_words(scene: Scene, one: Quantity, pose: Pose) -> str:
+    """Return a quantity's symbol and what it is at a pose, a vector by its components.
+
+    Of a crank that goes on and on it is the angle within one turn, as the HUD has it.
+    """
+    found = one.shown(pose)
+    parts = found if isinstance(found, tuple | list | np.ndarray) and np.ndim(found) else (found,)
+    if scene.info.full_turn and any(one.token == f"{body.name}.angle" for body in _cranks(scene)):
+        parts = tuple(float(significant(float(part), 4)) % 360 for part in parts)
+    values = ", ".join(_four_digits(float(part)) for part in parts if part is not None)
+    unit = one.shown_unit(scene.length_unit)
+    return f"{one.symbol} = {values or '–'}{'' if unit == '°' else ' '}{unit}".rstrip()
+
+
+def _cranks(scene: Scene) -> Iterator[Body]:
+    return (body for body in scene.linkage.bodies if scene.linkage.crank_of(body))
+
+
+def _four_digits(value: float) -> str:
+    return typeset(significant(value, 4)) if isfinite(value) else stepped(value, 1.0)
+
+
+def _path(sketch: Sketch) -> PathShown:
+    curve, off = sketch.curve, None if sketch.off is None else f"{_percent(sketch.off)} off"
+    held = sketch.held if isinstance(sketch.held, int) else None
+    searched = "searching" if curve and not sketch.pen else None
+    pins = tuple(place for _, place in sketch.pivots)
+    return PathShown(curve, sketch.pen, sketch.is_blank, searched if sketch.is_blank else off, held, pins)
+
+
+def _answer_row(state: State, sketch: Sketch) -> AnswerRow:
+    """Return the row of answers; while something is dragged with the picture of what was there before."""
+    entries = tuple(
+        sketch.base if sketch.base and n == sketch.chosen else one for n, one in enumerate(sketch.answers)
+    )
+    words = tuple("its own" if isinstance(one, Scene) else _percent(one.off) for one in sketch.answers)
+    unit, still = sketch.unit, state.clock.paused or sketch.held is not None
+    return AnswerRow(entries, words, sketch.chosen, unit, state.frame, state.look.theme, still)
+
+
+def _percent(share: float) -> str:
+    """Return a share in percent as it is read: to two digits, and nothing below a hundred thousandth."""
+    return f"{significant(share, 2)} %" if share >= 1e-5 else "0 %"
+
+
+def shelf_of(state: State, browsing: Browsing) -> Shelf:
+    """Return the open shelf as it is shown."""
+    return Shelf(
+        browsing.entries,
+        browsing.chosen,
+        state.frame - browsing.since,
+        state.look.theme,
+        state.clock.paused,
+        state.edited,
+        browsing.found,
+        browsing.sieve,
+        browsing.top,
+    )
+
+
+def _chip(state: State) -> Fading | None:
+    return Fading(state.chip.text, min(state.chip.until - state.frame, 8)) if state.chip else None
+
+
+def _hint_bar(state: State) -> Fading | None:
+    """Return the hint bar: after the first seconds until a key is pressed, and now and then when none is."""
+    busy = (
+        state.clock.paused
+        or state.mode not in ("play", "paused")
+        or state.help
+        or state.recording
+        or state.idle is not None
+    )
+    idle = state.frame - state.touched
+    if busy or state.toast or state.chip or 0 < state.touched > state.frame - _IDLE:
+        return None
+    since = (idle - _WATCH_FRAMES) % _IDLE if idle >= _WATCH_FRAMES else 0
+    eighths = min(since, _BAR_FRAMES - since, 32) // 4
+    return Fading(_BAR, eighths) if eighths > 0 else None
+
+
+def _watch(state: State) -> Fading | None:
+    """Return what to watch for: in the first seconds of a mechanism, until something is done."""
+    gone = state.frame - (state.frame if state.arrived is None else state.arrived)
+    busy = state.is_covered or state.recording or state.toast or state.touched > (state.arrived or 0)
+    eighths = min(gone, _WATCH_FRAMES - gone, 32) // 4
+    return None if busy or eighths <= 0 or state.look.names else Fading(state.shown.look_at, eighths)
+
+
+def _measured(state: State, items: tuple[Dimension, ...]) -> Iterator[DimensionLine]:
+    """Yield what the chosen dimension measures, and the others by which its place is found, in words."""
+    if not items:
+        return
+    known, scene = {item.key: item for item in items}, in_unit(state.scene, state.look.unit)
+    chosen = items[state.editing.chosen % len(items)].key
+    for frame, begin, end, key in stretches(scene, chosen):
+        yield DimensionLine(frame, begin, end, _worded(known[key], _digits(state)), key == chosen)
+
+
+def _worded(item: Dimension, digits: int) -> str:
+    """Return a dimension's value; of a place on a body with the way that it leads, and no sign."""
+    way = item.label.rpartition(", ")[2]
+    if way == "to the left" and item.value < 0:
+        item, way = replace(item, value=-item.value), "to the right"
+    return f"{way} {_valued(item, digits)}" if way in _WAYS else _valued(item, digits)
+
+
+def _recording(state: State) -> str | None:
+    if state.recording is None:
+        return None
+    seconds = (state.frame - state.recording.since) // FRAMES_PER_SECOND
+    return f"REC {state.recording.format.upper()} {seconds // 60}:{seconds % 60:02d}"
+
+
+def _panel(state: State, items: tuple[Dimension, ...]) -> Panel:
+    """Return the list of dimensions, the values begun in their places."""
+    editing, info = state.editing, in_unit(state.scene, state.look.unit).info
+    at, begun = editing.chosen % max(len(items), 1), dict(editing.drafts)
+    begun |= {item.key: f"{editing.typed}_" for item in items[at : at + 1] if editing.typed}
+    shown = (begun.get(item.key) or _valued(item, _digits(state)) for item in items)
+    rows = (
+        EditRow(_label(item), value, chosen=n == at, draft=item.key in begun)
+        for n, (item, value) in enumerate(zip(items, shown, strict=True))
+    )
+    return Panel(
+        tuple(rows),
+        facts=tuple(fact for fact in (info.class_name, info.grashof) if fact),
+        flash=_flash(state),
+        error=editing.refusal,
+        hint=_HINT,
+    )
+
+
+def _label(item: Dimension) -> str:
+    return _NAME.sub(lambda name: subscripted(name[0]), item.label)
+
+
+def _valued(item: Dimension, digits: int) -> str:
+    return typeset(f"{significant(item.value, digits)} {item.unit}".strip())
+
+
+def _digits(state: State) -> int:
+    """Return how many digits a dimension has: all that were written, or enough in a unit of another."""
+    return 10 if state.look.unit in (None, state.scene.length_unit) else 6
+
+
+def _flash(state: State) -> float:
+    """Return how bright the facts are, from 1 as they change down to 0, in a few steps."""
+    if state.turned is None:
+        return 0.0
+    part = (state.frame - state.turned) / FLASH_FRAMES
+    return round(_STEPS * (1.0 - part) ** 2) / _STEPS

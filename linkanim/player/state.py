@@ -1,0 +1,710 @@
+"""Hold the player's state: all that one frame of the window shows, as a frozen value.
+
+Its parts come first: what is looked through, what is edited, a changed length that is followed smoothly,
+the sheet, the pencil's sketch; then `State` itself. Last, a scene is proved before it is shown, and a fault
+of its solver is told in a sentence.
+"""
+
+from __future__ import annotations
+
+import os
+import traceback
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Protocol
+
+import numpy as np
+
+from linkanim.build.building import Building
+from linkanim.build.draft import Draft, Thing
+from linkanim.errors import BadInput, LinkanimError
+from linkanim.mechanics.analysis import Info
+from linkanim.mechanics.linkage import Point
+from linkanim.mechanics.motion import stopped
+from linkanim.picture.look import Look
+from linkanim.picture.overlay import Overlay
+from linkanim.picture.quantities import quantity
+from linkanim.picture.shelf import found_among, sifted
+from linkanim.picture.view import Box, eased
+from linkanim.player.action import Action, Mode
+from linkanim.player.clock import FRAMES_PER_SECOND, Clock
+from linkanim.scenes import load, names
+from linkanim.scenes.editing import Dimension, Handle, dimensions, handles, in_unit, passing
+from linkanim.scenes.form import Key
+from linkanim.scenes.scene import Scene
+from linkanim.units import degrees, typeset
+
+if TYPE_CHECKING:
+    from linkanim.synthesis.answers import PathAnswer
+    from linkanim.synthesis.curves import DrawnCurve
+
+# What is looked through in an open overlay: the list of quantities, and the shelf of mechanisms.
+#
+# Both belong to the window alone, and no tape keeps them: what is chosen there is asked for by an action of
+# its own ("plot", "put"), and that a tape does keep.
+
+RESOLVED = frozenset({"pick", "row", "scroll", "files_here", "aim", "enter"})
+"""What a key asks for in a list, on the shelf or a sheet; the window asks for what it means there instead."""
+
+
+@dataclass(frozen=True)
+class FileNames:
+    """Names of files, of which a folder may have a hundred thousand, and the letters that sift them."""
+
+    names: tuple[str, ...]
+    sieve: str = ""
+
+    @cached_property
+    def found(self) -> tuple[str, ...]:
+        """Those that have all the sieve's words."""
+        return sifted({name: name for name in self.names}, self.sieve)
+
+    @cached_property
+    def rows(self) -> tuple[tuple[str, str], ...]:
+        """The same as rows of a list: words, and nothing behind them."""
+        return tuple((name, "") for name in self.found)
+
+
+@dataclass(frozen=True)
+class Listing:
+    """The open list: the row that is chosen, and the letters that sift it; of quantities, or of `files`."""
+
+    chosen: int
+    sieve: str = ""
+    files: FileNames | None = None
+
+    def found(self, scene: Scene) -> tuple[str, ...]:
+        """Return the files, or a scene's quantities by their tokens, that have all the sieve's words."""
+        return listed(scene, self.sieve) if self.files is None else self.files.found
+
+    def sifted(self, sieve: str) -> Listing:
+        """Return it with other letters, at its top."""
+        return Listing(0, sieve, self.files and replace(self.files, sieve=sieve))
+
+
+@dataclass(frozen=True)
+class Browsing:
+    """The open shelf: its mechanisms as the state has them, the one that is chosen, the frame of opening.
+
+    Letters sift it; it is scrolled to the row numbered `top`.
+    """
+
+    entries: tuple[Scene | str, ...]
+    chosen: int
+    since: int
+    sieve: str = ""
+    top: int = 0
+
+    @cached_property
+    def found(self) -> tuple[int, ...]:
+        """The places of those that have all the sieve's words."""
+        return found_among(self.entries, self.sieve)
+
+    def sifted(self, sieve: str) -> Browsing:
+        """Return it with other letters, at the first that is found where the chosen one is not."""
+        other = replace(self, sieve=sieve, top=0)
+        return other if self.chosen in other.found else replace(other, chosen=(*other.found, self.chosen)[0])
+
+
+def listed(scene: Scene, sieve: str) -> tuple[str, ...]:
+    """Return the tokens of the quantities that have all the sieve's words, the telling ones first."""
+    found = {token: quantity(scene, token) for token in (*scene.telling, *scene.quantities)}
+    return sifted({token: f"{token} {one.words} {one.symbol}" for token, one in found.items()}, sieve)
+
+
+# Where the editing of dimensions stands: the value being typed, what was refused and why, undo and redo.
+
+_KEPT = 100
+
+
+@dataclass(frozen=True)
+class Editing:
+    """Where the editing stands; `past` and `future` are the scenes that undo and redo go to.
+
+    `typed` is a value begun in the chosen row and not taken, `drafts` those begun in rows that were passed
+    on from, `refusal` the reason why they were not taken; `refused` is the document that was dragged to. With
+    `warned` they can be taken all the same, by asking once more. `original` is the scene as its file has it,
+    once that was left.
+    """
+
+    open: bool = False
+    chosen: int = 0
+    typed: str = ""
+    drafts: tuple[tuple[Key, str], ...] = ()
+    refusal: str | None = None
+    refused: Mapping[str, Any] | None = None
+    warned: bool = False
+    past: tuple[Scene, ...] = ()
+    future: tuple[Scene, ...] = ()
+    original: Scene | None = None
+
+    @property
+    def changed(self) -> bool:
+        """Whether there is something to go back to or on to."""
+        return bool(self.past or self.future)
+
+    @property
+    def begun(self) -> bool:
+        """Whether a value, here or in another row, waits to be taken."""
+        return bool(self.typed or self.drafts)
+
+
+def chosen(editing: Editing, scene: Scene) -> Dimension | None:
+    """Return the dimension that the list stands at; None where the scene has none."""
+    items = dimensions(scene)
+    return items[editing.chosen % len(items)] if items else None
+
+
+def nothing_begun(editing: Editing) -> Editing:
+    """Return the editing with nothing begun: the value typed here first, then all drafts."""
+    return cleared(editing) if editing.typed else cleared(editing, drafts=())
+
+
+def with_undo(editing: Editing, scene: Scene) -> Editing:
+    """Return the editing after `scene` was exchanged for another; undo goes back to it."""
+    original = editing.original or scene
+    return cleared(editing, past=(*editing.past, scene)[-_KEPT:], future=(), original=original)
+
+
+def loss_of_turning(before: Info, after: Info) -> str | None:
+    """Say that the input no longer turns fully, where it did; else None."""
+    if after.full_turn or not before.full_turn:
+        return None
+    low, high = (typeset(degrees(limit)) for limit in after.input_range)
+    cause = f"{after.why_swinging}: " if after.why_swinging else ""
+    return f"{cause}the crank cannot turn fully; it swings {low}…{high}"
+
+
+def check_of_turning(before: Info) -> Callable[[Scene], None]:
+    """Return what refuses a scene whose input no longer turns fully, before it is worked out whole."""
+
+    def check(scene: Scene) -> None:
+        found = stopped(scene.linkage) if before.full_turn else None
+        if found and (loss := loss_of_turning(before, Info(found, scene.length_unit))):
+            raise BadInput(loss)
+
+    return check
+
+
+def cleared(editing: Editing, **changes: object) -> Editing:
+    """Return the editing with nothing begun and nothing refused, and these changes."""
+    return replace(editing, **{"typed": "", "refusal": None, "warned": False, **changes})  # type: ignore[arg-type]
+
+
+@dataclass(frozen=True)
+class Held:
+    """A joint that is being dragged, "" for the chosen value: where it was taken, and whether that ran on."""
+
+    joint: str
+    scene: Scene
+    phase: float
+    ran: bool
+
+    @cached_property
+    def following(self) -> tuple[tuple[Handle, str], ...]:
+        """The dimensions that follow the joint, with their units."""
+        units = {item.key: item.unit for item in dimensions(self.scene)}
+        return tuple((handle, units[handle.key]) for handle in handles(self.scene, self.joint))
+
+
+# A changed length is followed smoothly: the scenes between the old one and the new.
+
+FRAMES = 16
+EVERY = 2
+"""A scene on the way stands for so many frames: one is worked out in the last of them, and then drawn."""
+_TRIED = 90
+_FOLLOWED = ("length", "offset", "angle")
+
+
+@dataclass(frozen=True)
+class Glide:
+    """Dimensions on their way since frame `since`: (key, from, to), and the scene shown meanwhile.
+
+    `coming` is the one that is worked out for the next frame, if any.
+    """
+
+    scene: Scene
+    since: int
+    ways: tuple[tuple[Key, float, float], ...]
+    coming: Scene | None = None
+
+
+def glide(before: Scene, after: Scene, frame: int) -> Glide | None:
+    """Return the way from one scene to the other; None where no length or angle differs."""
+    old = {item.key: item for item in dimensions(before)}
+    ways = tuple(
+        (item.key, old[item.key].value, item.value)
+        for item in dimensions(after)
+        if item.kind in _FOLLOWED and item.key in old
+        if item.unit == old[item.key].unit and item.value != old[item.key].value
+    )
+    return Glide(before, frame, ways) if ways else None
+
+
+def followed(way: Glide, after: Scene, frame: int) -> Glide | None:
+    """Return the glide at `frame`; None when `after` is reached.
+
+    A scene on the way that cannot be assembled all along is left out: the last one stays.
+    """
+    gone = frame + 1 - way.since
+    if gone > FRAMES:
+        return None
+    if gone % EVERY == 0 and gone < FRAMES:
+        return replace(way, coming=_on_the_way(way, after, gone / FRAMES))
+    return replace(way, scene=way.coming, coming=None) if way.coming else way
+
+
+def _on_the_way(way: Glide, after: Scene, part: float) -> Scene | None:
+    """Return the scene after a part of the way; None where it cannot be assembled all along."""
+    try:
+        scene = passing(after, {key: start + (end - start) * eased(part) for key, start, end in way.ways})
+    except LinkanimError:
+        return None
+    return scene if closes(scene) else None
+
+
+def closes(scene: Scene) -> bool:
+    """Tell whether every joint is somewhere at all phases; worked out as its poses are, all in one pass."""
+    places = scene.cycle(_TRIED).every["position"].values()
+    return all(bool(np.isfinite(place).all()) for place in places)
+
+
+# The sheet on which a linkage is built: what is drawn on it, the tool in hand, and what the hand does.
+
+HOME = Box(-100.0, -40.0, 200.0, 130.0)
+"""What an empty sheet shows, in millimetres."""
+LIVE = ("move", "photo")
+"""The tools that change what is built while the hand moves."""
+
+
+class Grip(NamedTuple):
+    """What the hand does from where it went down: how near counts as on it, the step of what it draws.
+
+    `base` is what was built before, `ran` whether the linkage ran then.
+    """
+
+    begin: Point
+    at: Point
+    reach: float
+    snap: float
+    base: Building
+    ran: bool
+
+    @property
+    def is_click(self) -> bool:
+        """Whether the hand has stayed where it went down."""
+        (x, y), (u, v) = self.begin, self.at
+        return max(abs(x - u), abs(y - v)) <= self.reach / 2
+
+
+@dataclass(frozen=True)
+class BuildSheet:
+    """What is built over the scene `before`, which comes back, with its clock and editing, if it cannot move.
+
+    `home` is the part of the plane that is seen unless it is zoomed. `tool` is what is in hand, `grip` what
+    the hand does, `clicked` the frame and place of its last click; `cursor` is the place of the keys' own,
+    `anchor` the point of a photograph that is put where it belongs. `rests` is the frame at which a linkage
+    that runs by itself has shown one period. `written` is the draft as a scene file has it; `warned` tells
+    that the next asking lets go of what is in none, `closes` that the next one closes the window all the
+    same. While it is not `open` the sheet is kept, to be gone on with.
+    """
+
+    before: Scene
+    clock: Clock
+    editing: Editing
+    building: Building = field(default_factory=Building)
+    home: Box = HOME
+    open: bool = True
+    tool: str = "bar"
+    grip: Grip | None = None
+    clicked: tuple[int, Point] | None = None
+    cursor: Point | None = None
+    anchor: Point | None = None
+    rests: int | None = None
+    written: Draft = field(default_factory=Draft)
+    warned: bool = False
+    closes: bool = False
+
+    def seen(self, scene: Scene, phase: float) -> Draft:
+        """Return the draft with its joints where they are seen: while it moves, at a phase of its scene."""
+        drawn = self.building.draft
+        if self.building.made.scene is None:
+            return drawn
+        found = scene.pose(phase, 0).position
+        places = {name: (float(found[name][0]), float(found[name][1])) for name in drawn.places}
+        return replace(drawn, places=places)
+
+    @property
+    def lasting(self) -> Building:
+        """What is built, but for what the hand moves just now."""
+        return self.grip.base if self.grip and self.tool in LIVE else self.building
+
+    @property
+    def is_written(self) -> bool:
+        """Whether nothing would be lost with it."""
+        return self.building.draft == self.written
+
+
+def driven_bar(draft: Draft) -> Thing | None:
+    """Return the bar of the driven crank; None of what is driven otherwise."""
+    bars = draft.bars_at(draft.driven) if draft.driven else ()
+    return next((("bars", name) for name, end, _ in bars if end in draft.of("pins")), None)
+
+
+# The pencil: a stroke that is drawn or dragged, and the linkages that follow it.
+
+PIVOTS = ("O2", "O4")
+"""Of every answer."""
+
+
+@dataclass(frozen=True)
+class Sketch:
+    """What the pencil has drawn over the scene `before`, which comes back with its clock and editing.
+
+    All is in the `unit` of length in which scenes were shown then. `pen` holds the points of the stroke under
+    way, `curve` what the last stroke meant; `strokes` counts them. Of the `answers` the `chosen` one is the
+    state's scene; the first may be the scene whose own trace was taken. `pivots` are held where they were
+    put. `held` is the number of the curve's point, or the pivot, that is being dragged, `base` the scene when
+    that was taken, `coming` the one for the next frame. `earlier` was there before the last stroke or drag.
+    """
+
+    before: Scene
+    clock: Clock
+    editing: Editing
+    unit: str
+    pen: tuple[complex, ...] = ()
+    strokes: int = 0
+    curve: DrawnCurve | None = None
+    answers: tuple[PathAnswer | Scene, ...] = ()
+    chosen: int = 0
+    pivots: tuple[tuple[str, Point], ...] = ()
+    held: int | str | None = None
+    base: Scene | None = None
+    coming: Scene | None = None
+    earlier: Sketch | None = None
+
+    @property
+    def answer(self) -> PathAnswer | Scene | None:
+        """The answer that is shown; None before the first has come."""
+        return self.answers[self.chosen] if self.answers else None
+
+    @property
+    def follows(self) -> bool:
+        """Whether the linkage that is shown was found for the stroke, and its fixed pins can be dragged."""
+        return not (self.is_blank or isinstance(self.answer, Scene))
+
+    @property
+    def off(self) -> float | None:
+        """By how much of the stroke's size, in percent, the answer shown is off; None before the first."""
+        return 0.0 if isinstance(self.answer, Scene) else self.answer.off if self.answer else None
+
+    @property
+    def is_blank(self) -> bool:
+        """Whether no linkage follows yet what is drawn."""
+        return bool(self.pen) or not self.answers
+
+
+# The player's state: all that one frame of the window shows, as a frozen value.
+#
+# What must be done outside (a screenshot, full screen, a file to write) is left in `State.effects`,
+# as data for the window to carry out.
+
+TOAST_FRAMES = 3 * FRAMES_PER_SECOND
+CHIP_FRAMES = 66
+ATTRACT_AFTER = 60 * FRAMES_PER_SECOND
+FLASH_FRAMES = FRAMES_PER_SECOND
+FADE_FRAMES = 14
+SHUTTER_FRAMES = 12
+
+
+@dataclass(frozen=True)
+class Toast:
+    """A short message; gone at frame `until`."""
+
+    text: str
+    until: int
+
+
+@dataclass(frozen=True)
+class Take:
+    """A recording that runs since frame `since`."""
+
+    format: Literal["gif", "mp4"]
+    since: int
+
+
+class Edited(NamedTuple):
+    """The scene of a place of the shelf as it was edited, and where its editing stood."""
+
+    place: int
+    scene: Scene
+    editing: Editing
+
+
+class Game(Protocol):
+    """A game that is on, or the title: a frozen value that the state hands its actions to.
+
+    Equal games look the same. Where it needs something from outside, such as a seed, it leaves an effect:
+    "begin" with the words of another game, "score" with what is to be kept.
+    """
+
+    @property
+    def words(self) -> str:
+        """What begins it again just as it is now: its kind, then its parameters."""
+
+    @property
+    def covers(self) -> bool:
+        """Whether Esc goes out of it."""
+
+    def entered(self, state: State) -> State:
+        """Return the state with what the game begins with; it is the state's game already."""
+
+    def carried(self, state: State, action: Action) -> State:
+        """Return the state with an action carried out, or as it is where the game has no use for it."""
+
+    def aged(self, state: State) -> State:
+        """Return the state, a frame later already, with what time does to the game."""
+
+    def shown(self, state: State, over: Overlay) -> Overlay:
+        """Return the overlay with what the game shows."""
+
+
+@dataclass(frozen=True)
+class State:
+    """All that the window shows at one frame; equal states are equal pictures.
+
+    `shelf` holds the mechanisms that Tab walks through, by their catalogue names or as scenes, and
+    `place` the one that is on; `listing` and `browsing` are the open list of quantities and the open shelf,
+    `sketch` what the pencil has drawn, `sheet` what is built, or was while it is not open.
+    `kept` are the other places whose scenes were edited. `chip` is the
+    answer to the last key; `faded` is the frame
+    at which another mechanism or theme came on, `shot` that of a screenshot, while there is something to see.
+    `place_typed` is the input's angle, or travel, that is being typed while paused.
+    `game` is the game that is on, over the state `beneath`, and `games` reads one from its words.
+    `held` is the joint that is being dragged, `pad` whether a gamepad is plugged in.
+    `home` is what of the scene's plane a game keeps in sight, where that is not the scene as it fits.
+    `sounds` says whether the motion is heard, None where nobody has.
+    With `attract` it walks on by itself when left alone; in a `kiosk` it then goes back to the title, too.
+    `touched` is the frame of the last action, `arrived` that at
+    which the mechanism came on, `turned` that at which an edit made another class of the linkage, while the
+    list shows it. `effects` is what the last
+    advance asks of the outside: "record" and "render" (with a format), "screenshot", "svg", "share",
+    "fullscreen", "save", "reload", "quit", "pencil" (it was taken), "search" and "follow" (answers to the
+    sketch, or the one that is shown again), "begin" (a game, with its words), "score" (with what is to be
+    kept of one), "sound" (a cue), and "report" (with the text of a fault's report).
+    """
+
+    scene: Scene
+    clock: Clock
+    shelf: tuple[Scene | str, ...] = ()
+    place: int = 0
+    frame: int = 0
+    look: Look = field(default_factory=Look)
+    help: bool = False
+    editing: Editing = field(default_factory=Editing)
+    held: Held | None = None
+    kept: tuple[Edited, ...] = ()
+    listing: Listing | None = None
+    browsing: Browsing | None = None
+    sketch: Sketch | None = None
+    sheet: BuildSheet | None = None
+    game: Game | None = None
+    games: Callable[[str], Game] | None = None
+    beneath: State | None = None
+    glide: Glide | None = None
+    turned: int | None = None
+    arrived: int | None = None
+    place_typed: str = ""
+    toast: Toast | None = None
+    chip: Toast | None = None
+    faded: int | None = None
+    shot: int | None = None
+    recording: Take | None = None
+    attract: bool = False
+    kiosk: bool = False
+    pad: bool = False
+    sounds: bool | None = None
+    home: Box | None = None
+    touched: int = 0
+    effects: tuple[Action, ...] = ()
+
+    @property
+    def shown(self) -> Scene:
+        """The scene to draw: `scene`, or one on the way to it while a length is changing."""
+        return self.glide.scene if self.glide else self.scene
+
+    @property
+    def displayed(self) -> Scene:
+        """The scene to draw, in the unit in which lengths are shown."""
+        return in_unit(self.shown, self.look.unit)
+
+    @property
+    def mode(self) -> Mode:
+        """What the keys are for."""
+        if self.game:
+            return "game"
+        if self.editing.open:
+            return "edit"
+        if self.listing or self.browsing:
+            return "list" if self.listing else "shelf"
+        if self.sketch:
+            return "pencil"
+        if self.building:
+            return "build"
+        return "paused" if self.clock.paused else "play"
+
+    @property
+    def building(self) -> BuildSheet | None:
+        """The sheet, while it is open."""
+        return self.sheet if self.sheet and self.sheet.open and not self.game else None
+
+    @property
+    def edited(self) -> frozenset[int]:
+        """The places of the shelf whose scenes are not as their files have them."""
+        found = (*self.kept, Edited(self.place, self.scene, self.editing))
+        return frozenset(one.place for one in found if one.editing.original not in (None, one.scene))
+
+    @property
+    def idle(self) -> int | None:
+        """For how many frames it has walked on by itself, left alone; None where it does not."""
+        busy = self.recording or self.sketch or self.building or self.editing.open or self.editing.changed
+        frames = self.frame - self.touched - ATTRACT_AFTER
+        return frames if self.attract and not (busy or self.game) and frames >= 0 else None
+
+    @property
+    def is_audible(self) -> bool:
+        """Whether sounds are on: by U, and of their own accord nowhere but in games."""
+        return (self.game is not None and self.game.covers) if self.sounds is None else self.sounds
+
+    @property
+    def is_covered(self) -> bool:
+        """Whether something is open that Esc closes."""
+        if self.game and not self.help:
+            return self.game.covers
+        return self.help or self.mode not in ("play", "paused")
+
+    @property
+    def listed(self) -> bool:
+        """Whether a list is open, beside which the scene has less room."""
+        return self.editing.open or self.listing is not None or self.game is not None
+
+    @property
+    def typing(self) -> bool:
+        """Whether something has been begun in the open list."""
+        if self.editing.open:
+            return self.editing.typed != ""
+        begun = self.building.building.typed if self.building else self.place_typed
+        browsed = self.browsing.sieve if self.browsing else begun
+        return bool(self.listing.sieve if self.listing else browsed)
+
+    @property
+    def phase(self) -> float:
+        """The phase (rad) at this frame."""
+        return self.clock.at(self.frame)
+
+
+def begin(
+    scene: Scene | str | os.PathLike[str] | None = None, *, look: Look | None = None, attract: bool = False
+) -> State:
+    """Return the state a window opens with: `scene`, loaded where it is a name or path, and the catalogue.
+
+    Without a scene it is the catalogue's first; one that is not of the catalogue stands before it.
+    BadInput as loading raises it.
+    """
+    source = names()[0] if scene is None else scene
+    found = source if isinstance(source, Scene) else load(source)
+    shelf: tuple[Scene | str, ...] = names()
+    if source not in shelf and (found.name not in shelf or load(found.name) != found):
+        shelf = (found, *shelf)
+    place = 0 if shelf[0] is found else shelf.index(found.name)
+    return State(found, fresh(found), shelf, place, look=look or Look(), attract=attract, arrived=0)
+
+
+def fresh(scene: Scene) -> Clock:
+    """Return the clock of a scene that starts now."""
+    return Clock(scene.linkage.drive.speed)
+
+
+def with_toast(state: State, text: str) -> State:
+    """Return the state with a toast."""
+    return replace(state, toast=Toast(text, state.frame + TOAST_FRAMES))
+
+
+def with_chip(state: State, text: str | None) -> State:
+    """Return the state with a chip that says the text; without, as it was."""
+    return replace(state, chip=Toast(text, state.frame + CHIP_FRAMES)) if text else state
+
+
+def with_effect(state: State, name: str, value: str | None = None) -> State:
+    """Return the state with one more thing to be done outside."""
+    return replace(state, effects=(*state.effects, Action(name, value)))
+
+
+# Faults of a scene's solver: found before a scene is shown, told in a sentence, kept in a report.
+#
+# A scene file passes its checks and may still meet a hole in the solver. The window then keeps the last
+# good linkage, and writes what is needed to find the hole.
+
+_AT_A_VALUE = ("take", "nudge")
+
+
+def proved(scene: Scene, phase: float) -> Scene:
+    """Return the scene, the facts that a window shows, one cycle and a pose worked out; what that raises."""
+    info = scene.info
+    _ = info.class_name, info.grashof, info.change_points
+    # Read, for a motion works out what is read of it; the picture asks for the same.
+    _ = scene.cycle(_TRIED).position
+    scene.pose(phase)
+    return scene
+
+
+def refused(state: State, action: Action, error: Exception) -> State:
+    """Return the state as it was, the reason told where the value stands, or in a toast.
+
+    What linkanim raises on purpose says its reason by itself; of anything else a report is written.
+    """
+    if isinstance(error, LinkanimError):
+        return with_toast(state, str(error))
+    sentence = f"the solver failed there ({named(error)}); the last good linkage runs on"
+    item = chosen(state.editing, state.scene) if action.name in _AT_A_VALUE else None
+    context = {"action": list(action), "key": item.key if item else None, "typed": state.editing.typed}
+    state = with_effect(state, "report", report(state.scene, error, **context))
+    if item is None:
+        return with_toast(state, sentence)
+    return replace(state, editing=replace(state.editing, refusal=sentence))
+
+
+def named(error: Exception) -> str:
+    """Return an exception's kind and words in one line."""
+    return " ".join(f"{type(error).__name__}: {error}".split()).removesuffix(":")
+
+
+def report(scene: Scene, error: Exception, **context: object) -> str:
+    """Return, as JSON, the whole scene, the context, and where the solver failed."""
+    import json
+
+    from linkanim import __version__
+
+    content = {
+        "linkanim": __version__,
+        "scene": scene.name,
+        "document": scene.document,
+        **context,
+        "error": named(error),
+        "traceback": traceback.format_exception(error),
+    }
+    return json.dumps(content, indent=1, ensure_ascii=False, default=str)
+
+
+def recovered(state: State, good: State, error: Exception) -> State:
+    """Return a state that can be painted instead of one that cannot; `good` is the last that was.
+
+    A glide is left out; another scene than the last good one is taken off again; where the scene itself
+    fails at this phase, it stands still at the last good one.
+    """
+    if state.glide:
+        return replace(state, glide=None)
+    clock = good.clock.go(state.frame, good.phase, paused=state.scene is good.scene or good.clock.paused)
+    back = replace(good, frame=state.frame, clock=clock, glide=None, effects=(), recording=None)
+    return with_toast(back, f"the solver failed there ({named(error)}); the last good linkage is back")

@@ -1,1 +1,0 @@
-"""What the window shows, as a value, and how actions change it."""

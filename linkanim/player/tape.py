@@ -1,0 +1,132 @@
+"""Tapes: what was done, frame by frame, so that the same pictures can be made again at any size."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+from linkanim.player.action import Action
+from linkanim.player.actions import advance, carried, is_taped, leave
+from linkanim.player.building import stored_text
+from linkanim.player.clock import FRAMES_PER_SECOND
+from linkanim.player.state import State
+from linkanim.scenes.scene import Scene
+
+
+@dataclass(frozen=True)
+class Tape:
+    """Actions by frame, and the state at frame 0; `size` is the window's when it was made."""
+
+    start: State
+    frames: int
+    actions: tuple[tuple[int, Action], ...] = ()
+    size: tuple[int, int] = (1280, 720)
+
+    @property
+    def is_loop(self) -> bool:
+        """Whether nothing was done: such a recording is the scene's seamless loop."""
+        return not self.actions
+
+    @property
+    def seconds(self) -> float:
+        """How long it ran."""
+        return self.frames / FRAMES_PER_SECOND
+
+    @cached_property
+    def begun(self) -> State:
+        """The state to begin with: `start`, with what is done at frame 0 done at once."""
+        state = self.start
+        for action in self.at(0):
+            state = replace(carried(state, action), glide=None, faded=None, effects=(), toast=None, chip=None)
+        return state
+
+    @cached_property
+    def _by_frame(self) -> dict[int, list[Action]]:
+        by_frame: dict[int, list[Action]] = {}
+        for frame, action in self.actions:
+            by_frame.setdefault(frame, []).append(action)
+        return by_frame
+
+    def at(self, frame: int) -> tuple[Action, ...]:
+        """Return what is done at a frame."""
+        return tuple(self._by_frame.get(frame, ()))
+
+    def rewound(self, state: State) -> State:
+        """Return the state to go on from where it plays over and over: after the end the start."""
+        return self.begun if state.frame >= self.frames else state
+
+    def states(self) -> Iterator[State]:
+        """Iterate the states of frames 0 … `frames`, as the window went through them."""
+        state = self.begun
+        yield state
+        for frame in range(1, self.frames + 1):
+            state = advance(state, self.at(frame))
+            yield state
+
+    def pictures(self, fps: float) -> Iterator[tuple[State, float]]:
+        """Iterate (state, phase) at `fps` pictures a second; phases are exact between frames, too."""
+        states = self.states()
+        state, count = next(states), max(1, round(self.seconds * fps))
+        for picture in range(count):
+            time = picture * FRAMES_PER_SECOND / fps
+            while state.frame < math.floor(time):
+                state = next(states)
+            yield state, state.clock.at(time)
+
+
+def starting(state: State) -> State:
+    """Return the state as a tape starts from it: frame 0, standing where it stands, nothing to be done."""
+    state = leave(state) if state.game else state
+    clock, sketch = state.clock.go(0, state.phase), state.sketch or state.building
+    kept = {name: getattr(state, name) for name in ("shelf", "place", "look", "help", "kept", "games")}
+    if sketch:
+        return State(sketch.before, clock.at_rate(0, sketch.clock.rate), editing=sketch.editing, **kept)
+    return State(state.scene, clock, editing=state.editing, **kept)
+
+
+def resumed(state: State) -> Iterator[Action]:
+    """Yield what a tape does at its frame 0, to have the pencil's sketch, or a game, as it is."""
+    if state.game:
+        yield Action("play", state.game.words)
+        return
+    sketch = state.sketch
+    if state.building:
+        yield Action("draft", stored_text(state.building))
+    if sketch is None:
+        return
+    yield Action("pencil")
+    found = [one for one in sketch.answers if not isinstance(one, Scene)]
+    if len(found) < len(sketch.answers):
+        yield Action("own_trace")
+    elif sketch.curve:
+        points = (part for point in sketch.curve.points for part in (float(point.real), float(point.imag)))
+        yield Action("stroke", (float(sketch.curve.closed), *points))
+    if found:
+        yield Action("answers", (0.0, *(number for one in found for number in one.numbers)))
+        yield Action("answer", sketch.chosen)
+    for pivot, to in sketch.pivots:
+        yield from (Action("take_pivot", pivot), Action("lead", to), Action("let_go"))
+    yield from (Action("pen_to" if n else "pen_down", (at.real, at.imag)) for n, at in enumerate(sketch.pen))
+
+
+def taped(actions: tuple[Action, ...]) -> tuple[Action, ...]:
+    """Return those of the actions that belong on a tape: what shows, not what is done outside."""
+    return tuple(filter(is_taped, actions))
+
+
+class Taping:
+    """A tape that is being made: the state it starts from, and the actions from frame `since` on."""
+
+    def __init__(self, state: State, size: tuple[int, int]) -> None:
+        self._start, self.since, self._size = starting(state), state.frame, size
+        self._actions: list[tuple[int, Action]] = [(0, action) for action in resumed(state)]
+
+    def note(self, frame: int, actions: tuple[Action, ...]) -> None:
+        """Keep the actions that came at a frame of the window."""
+        self._actions.extend((frame - self.since, action) for action in taped(actions))
+
+    def tape(self, frame: int) -> Tape:
+        """Return the tape up to a frame of the window."""
+        return Tape(self._start, frame - self.since, tuple(self._actions), self._size)

@@ -1,1 +1,0 @@
-"""Recordings of actions: in memory and as files."""

@@ -1,0 +1,284 @@
+"""A tape as a file: versioned JSON with its scenes in it whole.
+
+A tape is a state to start from, a number of frames (60 a second), and the actions with the frame
+each of them comes at.
+"""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from linkanim import atomic_files, intake
+from linkanim.bounds import LARGEST_SIDE, MOST_ACTIONS, MOST_AT_ONCE
+from linkanim.errors import BadInput, LinkanimError
+from linkanim.intake import Intake, Section, refuse_controls
+from linkanim.picture.look import TOGGLES, Look
+from linkanim.player.action import Action
+from linkanim.player.actions import is_taped
+from linkanim.player.building import restored_sheet
+from linkanim.player.clock import FRAMES_PER_SECOND, Clock
+from linkanim.player.state import Edited, Editing, Game, State
+from linkanim.player.tape import Tape
+from linkanim.scenes import names
+from linkanim.scenes.form import Key
+from linkanim.scenes.reading import scene_from
+from linkanim.scenes.scene import Scene
+from linkanim.units import shown
+
+VERSION = 1
+SUFFIX = ".tape.json"
+TAPE_FILE = Intake("a tape", most_bytes=20_000_000, most_values=1_000_000)
+
+_MARK = "linkanim_tape"
+_MOST_FRAMES = 24 * 3600 * FRAMES_PER_SECOND
+
+
+def write(tape: Tape, path: Path) -> None:
+    """Write the tape as a file that was not there before; WorkFailed where that cannot be."""
+    text = json.dumps(to_document(tape), ensure_ascii=False, allow_nan=False, indent=1)
+    atomic_files.add(f"{text}\n".encode(), path)
+
+
+def read(path: Path, games: Callable[[str], Game] | None = None) -> Tape:
+    """Read a tape; BadInput, naming the place, for what is none, or of another version.
+
+    `games` reads the games that are on it from their words.
+    """
+    where = intake.named(path)
+    document = TAPE_FILE.json(path, where, "is not JSON; a tape is a file that G or M wrote in the window")
+    if isinstance(document, dict):
+        refuse_controls(Section(where, document))
+    tape = from_document(document, where)
+    for action in dict.fromkeys(action for _, action in tape.actions if action.name in ("play", "draft")):
+        try:
+            if action.name == "draft":
+                restored_sheet(tape.start, str(action.value))
+            elif games:
+                games(str(action.value))
+        except LinkanimError as error:
+            raise BadInput(f"{where}: {error}") from None
+    return replace(tape, start=replace(tape.start, games=games)) if games else tape
+
+
+class TapeValue(NamedTuple):
+    """How a value stands in a tape: how it is read at a key of a table, and written."""
+
+    read: Callable[[Section, str], Any]
+    write: Callable[[Any], Any] = lambda value: value
+
+
+def to_document(tape: Tape) -> dict[str, Any]:
+    """Return the tape as JSON's own values."""
+    state = tape.start
+    clock = state.clock.go(state.frame, state.phase)
+    return {
+        _MARK: VERSION,
+        "scene": _SCENE.write(state.scene),
+        "start": _written(_CLOCK, clock) | _written(_state(len(state.shelf)), state),
+        "shelf": _SHELF.write(state.shelf),
+        "size": list(tape.size),
+        "frames": tape.frames,
+        "actions": [[frame, *action[: 1 if action.value is None else 2]] for frame, action in tape.actions],
+    }
+
+
+def from_document(document: object, where: str) -> Tape:
+    """Return the tape that a document holds; BadInput where it is not one of this version's."""
+    otherwise = "is not a tape; a tape is a file that G or M wrote in the window"
+    top = Section(where, TAPE_FILE.marked(document, where, _MARK, VERSION, otherwise))
+    frames = top.whole("frames", 0, _MOST_FRAMES)
+    return Tape(_start(top), frames, _actions(top, frames), _size(top))
+
+
+def _size(top: Section) -> tuple[int, int]:
+    sides = top.listed("size", 2)
+    width, height = (sides.whole(key, 1, LARGEST_SIDE) for key in sides.values)
+    return width, height
+
+
+def _start(top: Section) -> State:
+    start, scene = top.table("start"), _scene(top, "scene")
+    shelf = _SHELF.read(top, "shelf") or (scene,)
+    clock = Clock(scene.linkage.drive.speed, **_read(_CLOCK, start))
+    return State(scene, clock, shelf, **_read(_state(len(shelf)), start))
+
+
+def _read(entries: Mapping[str, TapeValue], part: Section) -> dict[str, Any]:
+    """Return what stands in a table, by its keys; in an old tape some are missing."""
+    return {key: one.read(part, key) for key, one in entries.items() if key in part or key not in _LATER}
+
+
+def _written(entries: Mapping[str, TapeValue], value: object) -> dict[str, Any]:
+    return {key: one.write(getattr(value, key)) for key, one in entries.items()}
+
+
+def _table(make: Callable[..., Any], entries: Mapping[str, TapeValue]) -> TapeValue:
+    """Return the entry of what is made of a table's values, and has them."""
+    return TapeValue(
+        lambda part, key: make(**_read(entries, part.table(key))), lambda value: _written(entries, value)
+    )
+
+
+def _list(of: TapeValue) -> TapeValue:
+    def read(part: Section, key: str) -> tuple[Any, ...]:
+        items = part.listed(key)
+        return tuple(of.read(items, item) for item in items.values)
+
+    return TapeValue(read, lambda values: [of.write(value) for value in values])
+
+
+def _whole(low: int, high: int) -> TapeValue:
+    return TapeValue(lambda part, key: part.whole(key, low, high))
+
+
+def _entry(entries: Section, key: str) -> Scene | str:
+    entry = entries.need(key)
+    return str(entry) if entry in names() else _scene(entries, key)
+
+
+def _scene(top: Section, key: str) -> Scene:
+    part = top.table(key)
+    document = part.need("document")
+    if not isinstance(document, dict):
+        raise part.error("document", "must be a scene file's table")
+    return scene_from(document, name=_file_name(part), where=part.where)
+
+
+def _file_name(part: Section) -> str:
+    """Return a scene's name, which screenshots and recordings are called by: no way out of their folder."""
+    name = part.text("name")
+    if not 1 <= len(name) <= 200 or not name.isprintable() or name.startswith(".") or set(name) & set("/\\:"):
+        raise part.error("name", "must be a name without a folder; record the tape again")
+    return name
+
+
+def _look(start: Section, key: str) -> Look:
+    """Return the look; a field that the tape is older than is as `Look` has it."""
+    part = start.table(key)
+    pan = part.listed("pan", 2)
+    across, down = (pan.number(side) for side in pan.values)
+    return Look(
+        **{name: _step(part, name) for name in TOGGLES if name in part},
+        zoom=min(max(part.number("zoom"), 0.01), 100.0),
+        pan=(across, down),
+    )
+
+
+def _step(part: Section, name: str) -> Any:
+    """Return the value of a field of the look."""
+    steps, usual = TOGGLES[name].steps, getattr(Look(), name)
+    match usual:
+        case bool():
+            return part.flag(name)
+        case int():
+            return part.whole(name, steps[0], steps[-1])
+        case frozenset():
+            members = part.listed(name)
+            return frozenset(members.choice(key, steps) for key in members.values)
+        case str():
+            return part.choice(name, steps)
+    if part.need(name) is None:
+        return None
+    return part.choice(name, steps) if steps else part.text(name)
+
+
+def _draft(entries: Section, key: str) -> tuple[Key, str]:
+    match entries.items(key):
+        case [str(text), *path] if path and all(isinstance(step, str | int) for step in path):
+            return tuple(path), text[:40]
+    raise entries.error(key, "must be a list of what was typed and the keys of its value")
+
+
+_QUICK = frozenset({"pen_to", "zoom", "pan", "scrub", "step", "speed"})
+"""What of a frame may be much: the mouse tells of more than one move while the window waits."""
+_MOST_DRAFTS = 10
+"""A tape that begins on a sheet has one."""
+_LATER = ("kept", "drafts")
+"""What older tapes lack."""
+_FLAG = TapeValue(Section.flag)
+_SCENE = TapeValue(_scene, lambda scene: {"name": scene.name, "document": scene.document})
+_SCENES = _list(_SCENE)
+_SHELF = _list(TapeValue(_entry, lambda entry: entry if isinstance(entry, str) else _SCENE.write(entry)))
+_ORIGINAL = TapeValue(
+    lambda part, key: _scene(part, key) if part.values.get(key) else None,
+    lambda scene: scene and _SCENE.write(scene),
+)
+_EDITING = _table(
+    Editing,
+    {
+        "open": _FLAG,
+        "chosen": _whole(0, 10_000),
+        "typed": TapeValue(lambda part, key: part.text(key)[:40]),
+        "drafts": _list(TapeValue(_draft, lambda draft: [draft[1], *draft[0]])),
+        "past": _SCENES,
+        "future": _SCENES,
+        "original": _ORIGINAL,
+    },
+)
+_CLOCK = {
+    "phase": TapeValue(Section.number),
+    "level": _whole(-20, 10),
+    "direction": TapeValue(lambda part, key: -1 if part.whole(key, -1, 1) < 0 else 1),
+    "paused": _FLAG,
+}
+"""What stands of a clock in a tape."""
+
+
+def _state(places: int) -> Mapping[str, TapeValue]:
+    """Return what else stands of a state in a tape, whose shelf has so many places."""
+    place = _whole(0, places - 1)
+    return {
+        "place": place,
+        "help": _FLAG,
+        "look": TapeValue(_look, lambda look: {**vars(look), "vectors": sorted(look.vectors)}),
+        "editing": _EDITING,
+        "kept": _list(_table(Edited, {"place": place, "scene": _SCENE, "editing": _EDITING})),
+    }
+
+
+def _actions(top: Section, frames: int) -> tuple[tuple[int, Action], ...]:
+    entries = top.listed("actions")
+    if len(entries.values) > MOST_ACTIONS:
+        count = len(entries.values)
+        raise top.error("actions", f"are {count:,}, more than {MOST_ACTIONS:,}; record a shorter tape")
+    found: list[tuple[int, Action]] = []
+    for key, entry in entries.values.items():
+        try:
+            frame, action = _action(entry)
+        except ValueError as error:
+            raise entries.error(key, f"{shown(entry)} is not {error}") from None
+        if not (found[-1][0] if found else 0) <= frame <= frames:
+            raise entries.error(key, f"{shown(entry)} is not in the order of frames, up to {frames}")
+        found.append((frame, action))
+    _refuse_crowded(top, found)
+    return tuple(found)
+
+
+def _refuse_crowded(top: Section, actions: list[tuple[int, Action]]) -> None:
+    """Refuse more that takes its time at one frame, or more drafts, than a window ever does."""
+    drafts = sum(action.name == "draft" for _, action in actions)
+    if drafts > _MOST_DRAFTS:
+        raise top.error("actions", f"have {drafts:,} drafts, more than {_MOST_DRAFTS}; record the tape again")
+    crowds = Counter(frame for frame, action in actions if action.name not in _QUICK)
+    for frame, count in crowds.most_common(1):
+        if count > MOST_AT_ONCE:
+            many = f"are {count:,} at frame {frame}, more than {MOST_AT_ONCE}"
+            raise top.error("actions", f"{many}; record the tape again")
+
+
+def _action(entry: Any) -> tuple[int, Action]:
+    """Return the frame and the action of an entry; ValueError with what it should be where it is none."""
+    match entry:
+        case [int(frame), str(name), *rest] if len(rest) < 2:
+            value = rest[0] if rest else None
+        case _:
+            raise ValueError("[frame, name] or [frame, name, value]")
+    action = Action(name, tuple(value) if isinstance(value, list) else value)
+    if not is_taped(action):
+        raise ValueError("an action of this version; record the tape again")
+    return frame, action

@@ -1,0 +1,568 @@
+"""Run the window: events to actions, `advance`, paint, flip, and what is asked of the outside.
+
+`Window` holds what outlasts a frame and lets everything pure do the work. `run` opens it. What it needs of
+games comes from outside, as a `Keeper`.
+"""
+
+from __future__ import annotations
+
+import gc
+import os
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Literal, Protocol
+
+import pygame
+from pygame.event import Event
+
+from linkanim import intake
+from linkanim.build.draft import UNTITLED
+from linkanim.errors import BadInput, LinkanimError
+from linkanim.picture.look import Look
+from linkanim.picture.photograph import SUFFIXES, lack
+from linkanim.player import files, screen
+from linkanim.player.action import Action
+from linkanim.player.actions import aged, carried, leave, settled
+from linkanim.player.building import left, written
+from linkanim.player.clock import FRAMES_PER_SECOND
+from linkanim.player.devices import MOUSE_EVENTS, PAD_EVENTS, Fingers, Keyboard, Mouse, Pads, latest
+from linkanim.player.edits import renewed
+from linkanim.player.files import DraftFile, SceneFile, beside, scene_files
+from linkanim.player.framing import Halving
+from linkanim.player.keys import bind_of
+from linkanim.player.screen import Screen
+from linkanim.player.shown import Hover, kept, overlay
+from linkanim.player.sound import Speaker, cues
+from linkanim.player.state import RESOLVED, Browsing, BuildSheet, Game, State, Take, begin, recovered, report
+from linkanim.player.tape import Tape, Taping
+from linkanim.scenes import load
+from linkanim.scenes.editing import under_class
+from linkanim.scenes.files import path_of
+from linkanim.scenes.scene import Scene
+from linkanim.scenes.toml import save
+
+if TYPE_CHECKING:
+    from linkanim.player.beside import Following, Queue
+
+# What the window needs of games from outside: which there are, and what is kept of them.
+
+
+class GameKeeper(Protocol):
+    """Knows the games, and the file in which best scores and what was missed are kept."""
+
+    def game_of(self, words: str) -> Game:
+        """Return the game that words begin; BadInput where they name none. Pure, for tapes."""
+
+    def completed(self, words: str) -> str:
+        """Return a game's words with what only the outside knows: a seed, best scores, what was missed."""
+
+    def keep(self, words: str) -> None:
+        """Keep what a game leaves; what cannot be kept is news."""
+
+    def news(self) -> list[str]:
+        """Return what there is to say of what is kept, once."""
+
+
+# The window itself: it holds what outlasts a frame, and lets everything pure do the work.
+
+_UNCOVERED = (pygame.WINDOWEXPOSED, pygame.WINDOWSIZECHANGED)
+_NEWS_EVERY = 15
+_NO_FILES = "there is no scene file in the current folder; Ctrl+S writes one"
+_BESIDE_A_TAPE = frozenset({"screenshot", "svg", "share", "fullscreen", "quit", "close", "back"})
+
+
+class Window:
+    """One open window: `state` is what it shows, and `screen` how.
+
+    A tape plays in it until a key is pressed. A scene file that it was opened on is watched.
+    """
+
+    def __init__(
+        self,
+        state: State,
+        tape: Tape | None = None,
+        file: SceneFile | None = None,
+        keeper: GameKeeper | None = None,
+        drafts: DraftFile | None = None,
+    ) -> None:
+        self.state = state
+        self._file, self._drafts = file, drafts
+        self._keeper, self._begun = keeper, ""
+        self._tape = tape
+        self._taping: Taping | None = None
+        self._renderings: Queue | None = None
+        self._following: Following | None = None
+        self.screen = Screen(state)
+        self._keyboard, self._mouse, self._fingers, self._pads = Keyboard(), Mouse(), Fingers(), Pads()
+        self._speaker, self._halving = Speaker(), Halving()
+        self._notes: list[str] = []
+        self._photo: str | None = None
+        self._windowed = screen.frame()
+        self._open = True
+        self._now = state.frame
+        self._good: State | None = None
+        self._reported: set[str] = set()
+        self._unkept: str | None = None
+        self._warned: str | None = None
+        self._offer()
+
+    def tick(self, frames: int = 1) -> bool:
+        """Go so many frames on, paint and flip; False when the window is to be closed.
+
+        What happened since the last tick comes at its first frame.
+        """
+        self._pads.look(frames)
+        events = self._fingers.pointed(pygame.event.get(), pygame.display.get_window_size())
+        events = self._halving.begin(events)
+        self._now, before = self.state.frame + frames, self.state
+        for frame in range(frames):
+            self._advance(events if frame == 0 else [])
+        for cue in cues(before, self.state):
+            self._speaker.play(cue)
+        self._show()
+        self._halving.end()
+        return self._open
+
+    def fill(self) -> None:
+        """Fill the screen, or go back from there."""
+        self._windowed = screen.fill(self._windowed)
+
+    def close(self) -> None:
+        """Finish the recording that runs, and let go of what the window holds; those under way go on."""
+        try:
+            self._keep_draft()
+            if self.state.recording:
+                self._render(self.state.recording.format)
+        finally:
+            if self._drafts:
+                self._drafts.close()
+            self._speaker.close()
+            for process in (self._renderings, self._following):
+                if process:
+                    process.close()
+
+    def _advance(self, events: list[Event]) -> None:
+        """Go one frame on; each key is asked what it means once those before it are done."""
+        self.state, done = aged(self._tape.rewound(self.state) if self._tape else self.state), []
+        for action in self._requested(events):
+            self.state = carried(self.state, action)
+            done.append(action)
+        self.state = settled(self.state)
+        if self._taping:
+            self._taping.note(self.state.frame, tuple(done))
+        for effect in self.state.effects:
+            with self._noting():
+                self._do(effect)
+
+    def _requested(self, events: list[Event]) -> Iterator[Action]:
+        """Yield what the frame is asked for, by the tape, the events, a held key and what is done outside."""
+        yield from self._of_the_tape()
+        yield from self._followed()
+        if self._begun:
+            words, self._begun = self._begun, ""
+            yield Action("play", words)
+        drawing = self.state.sketch is not None and self.state.sketch.pen
+        for event in events if drawing else latest(events):
+            for action in self._meant(event):
+                yield from self._off_the_tape(action)
+                yield from self._resolved(action)
+        for action in self._pads.turned(self.state):
+            yield from self._off_the_tape(action)
+            yield action
+        for action in (*self._keyboard.repeated(self.state.frame), *self._pads.repeated(self.state.frame)):
+            yield from self._resolved(action)
+        yield from self._news()
+
+    def _resolved(self, action: Action) -> Iterator[Action]:
+        """Yield an action; what depends on an open list or shelf, as what it means there."""
+        browsing, listing = self.state.browsing, self.state.listing
+        if action.name == "row" and browsing and isinstance(action.value, int):
+            yield Action("point", self.screen.shelf_grid(browsing).beside(browsing.chosen, action.value))
+            yield from self._in_sight()
+        elif action.name == "scroll" and browsing and isinstance(action.value, int):
+            yield from self._scrolled(browsing, action.value)
+        elif action.name == "move" and browsing:
+            yield action
+            yield from self._in_sight()
+        elif action.name == "pick" and browsing:
+            yield from [Action("put", browsing.chosen)] * (browsing.chosen in browsing.found)
+        elif action.name == "files_here":
+            yield from self._files()
+        elif action.name == "pick" and listing:
+            row = action.value if isinstance(action.value, int) else listing.chosen
+            yield from () if listing.files is None else (Action("back"),)
+            deed = "plot" if listing.files is None else "open_file"
+            yield from (Action(deed, name) for name in listing.found(self.state.scene)[row : row + 1])
+        elif action.name in ("aim", "enter") and self.state.building and self.screen.state.building:
+            yield from self._by_keys(self.state.building, action)
+        elif action.name == "back" and not self.state.is_covered and screen.is_full():
+            yield from [] if self.state.kiosk else [Action("fullscreen")]
+        elif action.name == "back" and not self.state.is_covered and self.state.recording:
+            yield Action("record", self.state.recording.format)
+        elif action.name not in RESOLVED:
+            yield action
+
+    def _followed(self) -> Iterator[Action]:
+        """Yield what the search for linkages has replied."""
+        if self._following is None or (self.state.sketch and self.state.sketch.coming):
+            return
+        from linkanim.player.beside import action_of
+
+        for reply in self._following.replies():
+            if action := action_of(reply, self.state.sketch):
+                yield action
+
+    def _ask_for(self, name: str) -> None:
+        """Have linkages searched for the sketch, all or only the one that is shown; start that beforehand."""
+        from linkanim.player.beside import Following, request_of
+
+        if self._following and self._following.is_over:
+            self._following.close()
+            self._following = None
+        self._following = self._following or Following()
+        request = request_of(self.state.sketch, search=name == "search") if self.state.sketch else None
+        if request:
+            self._following.ask(request)
+
+    def _in_sight(self) -> Iterator[Action]:
+        """Yield what keeps the shelf where it is scrolled to by what is chosen."""
+        if self.state.browsing:
+            yield Action("top", self.screen.shelf_grid(self.state.browsing).top)
+
+    def _scrolled(self, browsing: Browsing, rows: int) -> Iterator[Action]:
+        """Yield what scrolls the shelf by so many rows; one that goes out of sight is chosen no more."""
+        before = self.screen.shelf_grid(browsing)
+        if not before.rows:
+            return
+        row = min(max(before.top + rows, 0), len(before.rows) - 1)
+        free = self.screen.shelf_grid(replace(browsing, top=row, chosen=before.rows[row][0]))
+        yield Action("top", free.top)
+        if not free.whole(browsing.chosen):
+            # in a low window none is seen whole
+            seen = [n for n in free.cells if free.whole(n)] or [*free.cells]
+            yield from (Action("point", n) for n in (seen[:1] if rows > 0 else seen[-1:]))
+
+    def _files(self) -> Iterator[Action]:
+        """Yield what opens the list of the scene files in the current folder."""
+        names = scene_files()
+        yield Action("files", "\n".join(names)) if names else Action("note", _NO_FILES)
+
+    def _by_keys(self, sheet: BuildSheet, action: Action) -> Iterator[Action]:
+        """Yield what arrows and Enter mean on a sheet: its cursor goes on, the hand goes down or up there."""
+        if action.name == "aim" and isinstance(action.value, tuple):
+            yield Action("cursor", self.screen.aimed(sheet, action.value))
+        elif sheet.building.typed:
+            yield Action("take_number")
+        elif sheet.grip:
+            yield Action("hand_up")
+        elif sheet.cursor:
+            at = self.screen.pixel(*sheet.cursor)
+            click = Action("hand_down", self.screen.handed(*at, 1.0)), Action("hand_up")
+            on_paper = self.screen.sheet_at(*at) == "paper"
+            yield from 2 * click if action.value else click if on_paper else click[:1]
+
+    def _of_the_tape(self) -> Iterator[Action]:
+        """Yield what the tape does at this frame; what it would do outside is left out."""
+        if self._tape:
+            yield from self._tape.at(self.state.frame)
+            self.state = replace(self.state, effects=())
+
+    def _off_the_tape(self, action: Action) -> Iterator[Action]:
+        """Leave the tape where an action changes something."""
+        if self._tape and action.name not in _BESIDE_A_TAPE:
+            self._tape = None
+            yield Action("note", "the tape is left: the keys are yours")
+
+    def _show(self) -> None:
+        """Paint and flip; a scene that cannot be painted gives way to the last that could."""
+        free = self._good is not None and not self.state.held  # what is held glows by itself
+        hover = self._mouse.hovered(self.screen) if free else None
+        if hover not in self.state.shown.linkage.by_name:
+            hover = None  # a joint of the scene that was there until now
+        try:
+            row, over = self._mouse.pointed(self.screen), self._over_sheet()
+            late = self._halving.late(stepped=self._has_stepped)
+            self.screen.show(self.state, overlay(self.state, hover, row, over), late=late)
+        except Exception as error:
+            if self._good is None:
+                raise
+            with self._noting():
+                self._report(report(self.state.shown, error, phase=self.state.phase))
+            self._taping = None
+            self.state = recovered(self.state, self._good, error)
+            self.screen.show(self.state, overlay(self.state))
+        self._good = self.state
+
+    @property
+    def _has_stepped(self) -> bool:
+        """Whether the hand has changed the scene since it was shown, or has been refused to."""
+        now, before = self.state, self.screen.state
+        refused = now.editing.refusal != before.editing.refusal
+        return now.held is not None and (now.scene is not before.scene or refused)
+
+    def _over_sheet(self) -> Hover | None:
+        """Return what of an open sheet the mouse is over."""
+        at = self._mouse.over_sheet(self.screen) if self._good and self._good.building else None
+        return self.screen.hover(*at) if at and self.state.building else None
+
+    def _news(self) -> tuple[Action, ...]:
+        """Return, as notes, what was done outside, and how far recordings are."""
+        if self.state.frame % FRAMES_PER_SECOND == 0:
+            self._keep_draft()
+        notes, self._notes = self._notes + self._photo_news(), []
+        sources = ((self._keeper, 1), (self._file, FRAMES_PER_SECOND), (self._renderings, _NEWS_EVERY))
+        for source, every in sources:
+            notes += source.news() if source and self.state.frame % every == 0 else ()
+        return tuple(Action("note", text) for text in notes)
+
+    def _photo_news(self) -> list[str]:
+        """Return why another photograph than before is left out, if it is."""
+        photo = self.state.building and self.state.building.building.draft.photo
+        before, self._photo = self._photo, photo.file if photo else None
+        sentence = lack(self._photo) if self._photo and self._photo != before else None
+        return [sentence] if sentence else []
+
+    @contextmanager
+    def _noting(self) -> Iterator[None]:
+        """Have what cannot be done meanwhile be a note; the window runs on."""
+        try:
+            yield
+        except LinkanimError as error:
+            self._notes.append(str(error))
+
+    def _do(self, effect: Action) -> None:
+        """Do what the state asks of the outside."""
+        match effect.name:
+            case "record":
+                self._taping = Taping(self.state, pygame.display.get_window_size())
+            case "render":
+                self._stop("mp4" if effect.value == "mp4" else "gif")
+            case "screenshot":
+                picture = self.screen.picture(self.state, kept(self.state))
+                self._notes.append(f"{files.screenshot(picture, self.state.scene.name)} saved")
+            case "svg":
+                self._notes.append(f"{files.vector(self.state, pygame.display.get_window_size())} saved")
+            case "share":
+                self._notes.append(f"{files.page(self.state)} saved")
+            case "sound" if self.state.is_audible:
+                self._speaker.play(str(effect.value))
+            case "report":
+                self._report(str(effect.value))
+            case "save":
+                self._save()
+            case "open":
+                self._open_file(Path(str(effect.value)))
+            case "reload":
+                self._reload()
+            case "pencil" | "search" | "follow":
+                self._ask_for(effect.name)
+            case "begin" if self._keeper:
+                self._begun = self._keeper.completed(str(effect.value))
+            case "score" if self._keeper:
+                self._keeper.keep(str(effect.value))
+            case "fullscreen":
+                self.fill()
+            case "quit":
+                self._quit()
+
+    def _save(self) -> None:
+        """Write the scene as a new file, a new linkage under its class; a draft on a sheet once it moves."""
+        if self.state.building and (missing := self.state.building.building.made.missing):
+            raise BadInput(f"a scene file holds what can move; the draft is kept. {missing}")
+        scene = self.state.scene
+        scene = under_class(scene) if scene.title == UNTITLED else scene
+        self._notes.append(f"{save(scene, Path())} saved")
+        self.state = written(self.state)
+
+    def _offer(self) -> None:
+        """Offer the draft that was kept of another window."""
+        with self._noting():
+            if self._drafts:
+                self.state, sentence = self._drafts.offered(self.state)
+                self._notes += [sentence] if sentence else []
+
+    def _keep_draft(self) -> str | None:
+        """Keep what is drawn on the sheet; return in a sentence, which is told once, what prevents that."""
+        before, self._unkept = self._unkept, None
+        try:
+            if self._drafts:
+                self._drafts.keep(self.state.sheet)
+        except LinkanimError as error:
+            self._unkept = str(error)
+            self._notes += [self._unkept] if self._unkept != before else []
+        return self._unkept
+
+    def _quit(self) -> None:
+        """Close, but for the first time where a draft would be lost: closing said that it is kept."""
+        sheet = self.state.sheet
+        why = self._keep_draft() if sheet and not sheet.is_written else None
+        if why and why != self._warned:
+            self._notes.append(f"{why}; once more closes without the draft")
+        self._open, self._warned = bool(why and why != self._warned), why
+
+    def _open_file(self, path: Path) -> None:
+        """Put on the scene of a file, which is watched from now on."""
+        if self.state.recording:
+            raise BadInput("a recording keeps to the scenes it began with; stop it, then open the file")
+        if path.suffix.lower() != ".toml":
+            raise BadInput(f"{intake.named(path)}: is no scene file, whose name ends in .toml")
+        scene = load(path)
+        self._file = SceneFile(path)
+        self.state = renewed(left(leave(self.state)), scene)
+
+    def _reload(self) -> None:
+        """Put on what the scene file holds now; what is wrong with it is a note, and the linkage runs on."""
+        if self._file is None:
+            raise BadInput("F5 reloads a scene opened from a file; `linkanim FILE.toml` opens one")
+        if self.state.recording:
+            raise BadInput("a recording keeps to the scenes it began with; stop it, then F5 loads the file")
+        scene = self._file.load()
+        try:
+            self.state = renewed(left(self.state), scene)
+        except LinkanimError:
+            raise
+        except Exception as error:
+            self._report(report(scene, error))
+
+    def _report(self, text: str) -> None:
+        """Write the report of a fault, each but once: a held key meets the same one again and again."""
+        if text not in self._reported:
+            self._reported.add(text)
+            written = files.report(text, self.state.scene.name)
+            self._notes.append(f"{written} holds what a report of the fault needs")
+
+    def _stop(self, form: Literal["gif", "mp4"]) -> None:
+        """Keep what was recorded and render it; where it cannot be kept, the recording runs on."""
+        try:
+            self._render(form)
+        except LinkanimError as error:
+            assert self._taping
+            self.state = replace(self.state, recording=Take(form, self._taping.since))
+            self._notes.append(f"{error}; the recording runs on")
+
+    def _render(self, form: str) -> None:
+        if self._taping:
+            from linkanim.player.beside import Queue
+
+            self._renderings = self._renderings or Queue()
+            self._renderings.add(self._taping.tape(self.state.frame), form)
+            self._taping = None
+
+    def _meant(self, event: Event) -> tuple[Action, ...]:
+        """Return what an event asks for in the state as it is."""
+        if event.type == pygame.DROPFILE:
+            picture = event.file.lower().endswith(SUFFIXES)
+            name = files.beside(event.file) if picture else event.file
+            return (Action("photo" if picture else "open_file", name),)
+        if event.type == pygame.QUIT:
+            return (Action("close"),)
+        if event.type in _UNCOVERED:
+            self.screen.uncovered()
+        if event.type in MOUSE_EVENTS:
+            # before the first picture there is nothing under the mouse
+            return self._mouse.actions(event, self.screen) if self._good else ()
+        if event.type in PAD_EVENTS:
+            return self._pads.actions(event, self.state.mode, self._now)
+        if event.type != pygame.KEYDOWN:
+            return ()
+        press = self._keyboard.press(event)
+        bind = bind_of(press, self.state.mode, typing=self.state.typing) if press else None
+        self._keyboard.hold(event, bind, self._now)
+        return (bind.action,) if bind else ()
+
+
+# The window: events to actions, `advance`, paint, flip; and what is asked of the outside.
+#
+# `frames` owns the time, and says how many frames have gone by; `Window.tick` does them. A frame that
+# comes late is skipped, never slowed down: the frame's number follows the clock.
+
+_STALLED = FRAMES_PER_SECOND
+
+
+def run(
+    scene: Scene | str | os.PathLike[str] | None = None,
+    *,
+    look: Look | None = None,
+    attract: bool = False,
+    size: tuple[int, int] | None = None,
+    keeper: GameKeeper | None = None,
+    drafts: Path | None = None,
+    sheet: bool = False,
+    game: str | None = None,
+    photo: Path | None = None,
+) -> int:
+    """Open the window on a scene, a scene file or a tape, and return 0 when it is closed.
+
+    Without a scene it opens on the title, where a `keeper` has games; left alone for a minute it walks on
+    through the catalogue. With `attract` it fills the screen, Esc does not leave that, and left alone it goes
+    back to the title. NoDisplay where there is no screen, or none any more; BadInput as loading raises it.
+    Whatever ends the window, a recording that runs is finished. `drafts` is the file in which a draft is
+    kept; with `sheet` the window opens on an empty one, on a `photo` if there is one. `game` are the words of
+    one to begin with.
+    """
+    tape = _tape(scene, keeper)
+    state = tape.begun if tape else begin(scene, look=look)
+    state = replace(state, games=keeper.game_of if keeper else None)
+    opening = game or ("title" if scene is None else None)
+    if opening and keeper:
+        words = keeper.completed(opening)
+        keeper.game_of(words)  # which says what is wrong with them before a window opens
+        state = carried(state, Action("play", words))
+    with screen.opened(size) as connection:
+        state = replace(state, attract=attract or scene is None, kiosk=attract)
+        kept = DraftFile(drafts) if drafts and not tape else None
+        window = Window(state, tape, None if tape else _file(scene), keeper, kept)
+        if sheet:
+            window.state = carried(window.state, Action("sheet"))
+        if photo:
+            window.state = carried(window.state, Action("photo", beside(str(photo))))
+        if attract:
+            window.fill()
+        gc.freeze()  # what is there by now stays: not to be searched for rubbish in the midst of a frame
+        try:
+            for count in frames(time.monotonic, time.sleep):
+                if not window.tick(count):
+                    break
+                connection.check()
+        finally:
+            window.close()
+            gc.unfreeze()
+    return 0
+
+
+def frames(now: Callable[[], float], wait: Callable[[float], object]) -> Iterator[int]:
+    """Yield how many frames are due since the last time, at 60 a second; wait where none is.
+
+    After a stall of more than a second (a window being moved, a laptop that slept) the time in
+    between is left out, and so is what a clock is set back by.
+    """
+    start, shown = now() - 1 / FRAMES_PER_SECOND, 1
+    yield 1
+    while True:
+        early = start + (shown + 1) / FRAMES_PER_SECOND - now()
+        if early > 2 / FRAMES_PER_SECOND:
+            start, early = start - early + 1 / FRAMES_PER_SECOND, 1 / FRAMES_PER_SECOND
+        wait(max(0.0, early))
+        due = max(int((now() - start) * FRAMES_PER_SECOND), shown + 1)
+        if due - shown > _STALLED:
+            start += (due - shown - 1) / FRAMES_PER_SECOND
+            due = shown + 1
+        yield due - shown
+        shown = due
+
+
+def _file(scene: object) -> SceneFile | None:
+    path = path_of(scene) if isinstance(scene, str | os.PathLike) else None
+    return SceneFile(path) if path else None
+
+
+def _tape(scene: object, keeper: GameKeeper | None) -> Tape | None:
+    path = str(scene) if isinstance(scene, str | os.PathLike) else ""
+    if not path.lower().endswith(".json"):
+        return None
+    from linkanim.player import tape_file
+
+    return tape_file.read(Path(path), keeper.game_of if keeper else None)

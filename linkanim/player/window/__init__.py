@@ -1,1 +1,0 @@
-"""The window itself: the loop, the display, what is shown when."""

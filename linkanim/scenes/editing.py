@@ -1,0 +1,589 @@
+"""Change a scene: its dimensions, its unit, its assembly, its joints as handles, its input by hand.
+
+Its parts, in reading order:
+
+- The numbers of a scene's document that can be edited: what each is called, what it lies between.
+- Titles beside classes: what of a class a title says, and the title of a scene whose class changes.
+- The dimensions of a scene as a list to be edited, and the scene with some of them changed.
+- A scene in another unit of length: for pictures, tables and lists.
+- The other closure: the same lengths, put together the other way.
+- Joints as handles: which dimensions follow when a joint is dragged.
+- What a dimension measures: the stretches of a construction, in the frames of joints that they move with.
+- Where the hand turns the input to: towards a point of the scene, or along a direction.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+import re
+from cmath import rect
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from difflib import Match, SequenceMatcher
+from fractions import Fraction
+from math import atan2, degrees, hypot
+from typing import Any, NamedTuple
+
+from linkanim import units
+from linkanim.errors import AssemblyError, BadInput, LinkanimError, SceneError
+from linkanim.mechanics.angles import unit
+from linkanim.mechanics.linkage import Body, DrivenSlider, Joint, Line, Pin, Point, Rigid
+from linkanim.scenes.file_form import DRIVE, SCENE_FILE, SHORTHANDS
+from linkanim.scenes.form import LENGTHS, Field, Key, Measure, ValueType, fields_in
+from linkanim.scenes.reading import Check, scene_from
+from linkanim.scenes.scene import Scene
+
+# The numbers of a scene's document that can be edited: what each is called, what it lies between.
+
+_COUNTED = re.compile(r"([a-z]{2})(\d+)$")
+_SHORT = 2
+"""A name of so many letters stands for nothing by itself."""
+_ADJECTIVES = frozenset({"left", "right", "upper", "lower", "large", "small", "short", "long"})
+_SPEED = {one.key: one.usual for one in DRIVE.fields if one.key == "speed"}
+
+
+class Number(NamedTuple):
+    """A number of a document: the way to it, its field, which item of a list it is, and what is written."""
+
+    key: Key
+    field: Field
+    type: ValueType
+    part: int | None
+    written: Any
+
+    def ends(self, scene: Scene) -> tuple[str | None, str]:
+        """Return the joint that it is measured from, if any, and the one that it leads to."""
+        if self.field.spans:
+            return self.field.spans[0 if self.field.drag == "place" else self.part or 0]
+        joint = scene.linkage.joint(str(self.key[1]))
+        bars = joint.bars if self.field.drag == "distance" else ()
+        return (bars[self.part or 0][0] if bars else None), joint.name
+
+    def label(self, scene: Scene) -> str:
+        """Return what it is called, in the words of a class: "Crank 2", "Coupler point, along".
+
+        Links are numbered as in textbooks where a shorthand numbers them, or by the body of the scene that
+        the bar belongs to; a bar is called by its two joints where that is not enough.
+        """
+        labels = self.field.label
+        text = labels if isinstance(labels, str) else labels[self.part or 0]
+        text = f"{{name}}, {text}" if text[0].islower() else text
+        return text.format_map(self._words(text, scene))
+
+    def _words(self, text: str, scene: Scene) -> Mapping[str, str]:
+        names = scene.info.link_names
+        section, name = self.key[0], str(self.key[-1] if len(self.key) < 2 else self.key[1])
+        if section in SHORTHANDS:
+            links = {body: words.removeprefix("second ") for body, words in names.items()}
+            return links | {body.capitalize(): words.capitalize() for body, words in links.items()}
+        if section == "bodies":
+            return {"name": _named(name, names)}
+        if section in ("springs", "dampers"):
+            strut = next(item for item in scene.linkage.springs + scene.linkage.dampers if item.name == name)
+            words = scene.linkage.strut_words(strut)
+            return {"name": words[:1].upper() + words[1:]}
+        return {
+            "name": name,
+            "bar": _bar(*self.ends(scene), scene) if "{bar}" in text else "",
+            "on": "–".join(getattr(scene.linkage.by_name.get(name), "on", ())),
+        }
+
+
+def numbers(document: Mapping[str, Any]) -> Iterator[Number]:
+    """Iterate what can be edited, in the order of the form; the drive's speed is always there."""
+    stated = {**document, "drive": _SPEED | document.get("drive", {})}
+    for key, one, holder in fields_in(SCENE_FILE, stated):
+        written = holder[key[-1]]
+        if one.plain is None or one.plain.measure is None:
+            continue
+        if isinstance(written, list):
+            yield from (Number((*key, n), one, one.plain, n, item) for n, item in enumerate(written))
+        else:
+            yield Number(key, one, one.plain, None, written)
+
+
+def _bar(start: str | None, end: str, scene: Scene) -> str:
+    """Return what a bar is called: by its body's number, and by its joints where it is not a crank."""
+    body = _body({start, end}, scene)
+    word = "Crank" if end in {crank.name for crank in scene.linkage.cranks} else "Bar"
+    if body and body.name.isdigit():
+        return f"Crank {body.name}" if word == "Crank" else f"Bar {body.name}, {start}–{end}"
+    own = body and body.name not in (f"{start}{end}", f"{end}{start}")
+    called = _named(body.name, scene.info.link_names) if body and own else word
+    return f"{called}{',' * (called.startswith('Bar ') or called[-1].isdigit())} {start}–{end}"
+
+
+def _body(joints: set[str | None], scene: Scene) -> Body | None:
+    return next((body for body in scene.linkage.bodies if joints <= set(body.joints)), None)
+
+
+def _named(body: str, names: Mapping[str, str]) -> str:
+    """Return what a body is called: by its number, "Bar b", "Upper bar", "Rod 2", or by its name alone."""
+    if body.isdigit():
+        return f"Link {body}"
+    words = _COUNTED.sub(r"\1 \2", names[body])
+    if len(words) <= _SHORT:
+        return f"Bar {words}"
+    return f"{words} bar".capitalize() if words in _ADJECTIVES else words[:1].upper() + words[1:]
+
+
+# Titles beside classes: what of a class a title says, and the title of a scene whose class changes.
+
+_BOUND = frozenset({"a", "an", "and", "at", "by", "its", "of", "the", "with"})
+"""Words that need what comes before them."""
+
+
+def beyond_title(title: str, class_name: str) -> str:
+    """Return what of a class the title does not say: "Grashof" of a crank-rocker that is called one."""
+    if set(_words(class_name)) <= set(_words(title)):
+        return ""
+    same, words = _shared(title, class_name), list(re.finditer(r"\w+", class_name))
+    if same is None:
+        return class_name
+    begin, end = words[same.b].start(), words[same.b + same.size - 1].end()
+    rest = f"{class_name[:begin].rstrip()} {class_name[end:].lstrip(' ,:')}".strip()
+    if rest.partition(" ")[0] in _BOUND:
+        return class_name
+    return rest[1:-1] if rest.startswith("(") and rest.endswith(")") else rest
+
+
+def retitled(before: Scene, after: Scene) -> Scene:
+    """Return a scene changed from another under the title that fits it.
+
+    A title that says the class is its own as long as it does: else the class stands in its place. Any other
+    title stays.
+    """
+    title, phrase = before.original_title or (before.title, _phrase(before.title, before.info.class_name))
+    if not phrase:
+        return after
+    class_name = after.info.class_name
+    if f" {phrase} " not in f" {' '.join(_words(class_name))} ":
+        own, title = title, _capital(class_name)
+        after = replace(after, original_title=(own, phrase))
+    document = {**after.document, "title": title} if "title" in after.document else after.document
+    return replace(after, title=title, document=document)
+
+
+def under_class(scene: Scene) -> Scene:
+    """Return a scene with its class as its title, in its document too."""
+    title = _capital(scene.info.class_name)
+    return replace(scene, title=title, document={**scene.document, "title": title})
+
+
+def _capital(words: str) -> str:
+    return words[:1].upper() + words[1:]
+
+
+def _phrase(title: str, class_name: str) -> str:
+    """Return the words of a class in a row that a title says."""
+    same = _shared(title, class_name)
+    return " ".join(_words(class_name)[same.b : same.b + same.size]) if same else ""
+
+
+def _shared(title: str, class_name: str) -> Match | None:
+    """Return the most words in a row that title and class have in common; None where they are no phrase."""
+    known, words = _words(title), list(re.finditer(r"\w+", class_name.lower()))
+    named = [word[0] for word in words]
+    same = SequenceMatcher(None, known, named, autojunk=False).find_longest_match()
+    # A word, or words from a preposition on, out of a phrase leave no phrase.
+    if not same.size or (same.b and (same.size == 1 or named[same.b] in _BOUND)):
+        return None
+    begin, end = words[same.b].start(), words[same.b + same.size - 1].end()
+    return None if "-" in (class_name[begin - 1 : begin], class_name[end : end + 1]) else same
+
+
+def _words(text: str) -> list[str]:
+    return re.findall(r"\w+", text.lower())
+
+
+# The dimensions of a scene as a list to be edited, and the scene with some of them changed.
+#
+# A change is made to the document and read again, so that it is checked exactly as a file is.
+
+_BARE = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?", re.I | re.A)
+_EXACT = 2**53
+
+
+@dataclass(frozen=True, slots=True)
+class Dimension:
+    """One number of a scene that can be edited.
+
+    `key` is its path into the document, `label` what it is called. `value` is in `unit`: the scene's for
+    lengths, "" for a gear ratio, and for all else, such as angles and masses, the one it is written with;
+    only what is `bare` may be written without.
+    """
+
+    key: Key
+    label: str
+    value: float
+    unit: str
+    kind: Measure
+    bare: bool
+
+
+def dimensions(scene: Scene) -> tuple[Dimension, ...]:
+    """Return what can be edited, in the order of the scene file's form.
+
+    Only what the file says is there, and always the drive's speed; nothing of a scene without a document.
+    """
+    return tuple(_dimension(number, scene) for number in numbers(scene.document)) if scene.document else ()
+
+
+def with_dimensions(scene: Scene, values: Mapping[Key, float | str]) -> Scene:
+    """Return the scene with some dimensions changed at once; `scene` itself stays as it is.
+
+    A number, or a text without a unit, is taken in the dimension's unit; a text may name another
+    ("3 cm", "1 rad", "90 deg/s"), and a ratio may be a fraction ("1/3"). KeyError for a key that is
+    not one of the scene's dimensions; SceneError and AssemblyError as reading a file raises them.
+    """
+    return with_document(scene, with_values(scene, values))
+
+
+def with_document(scene: Scene, document: Mapping[str, Any], check: Check | None = None) -> Scene:
+    """Return the scene with its document changed; `check` and errors as reading a file has them."""
+    return retitled(scene, scene_from(document, name=scene.name, where=scene.name, check=check))
+
+
+def passing(scene: Scene, values: Mapping[Key, float | str]) -> Scene:
+    """Return a scene on the way to `scene`, with these dimensions for an instant; errors as above.
+
+    Where no dyad down the chain limits `scene`, none is looked at: one that does not close gives NaN.
+    """
+    return scene_from(with_values(scene, values), name=scene.name, where=scene.name, towards=scene)
+
+
+def with_values(scene: Scene, values: Mapping[Key, float | str]) -> Mapping[str, Any]:
+    """Return the scene's document with some dimensions changed; KeyError as above."""
+    known, document = {number.key: number for number in numbers(scene.document)}, scene.document
+    for key, value in values.items():
+        document = replaced(document, key, written(value, _dimension(known[key], scene)))
+    return document
+
+
+def _dimension(number: Number, scene: Scene) -> Dimension:
+    return dimension_of(number.key, number.label(scene), number.type, number.written, scene.length_unit)
+
+
+def dimension_of(key: Key, label: str, kind: ValueType, stated: Any, length_unit: str) -> Dimension:
+    """Return what is `stated` of a number as it can be edited, lengths in that unit."""
+    measure = kind.measure
+    assert measure
+    if measure in LENGTHS:
+        value, unit = units.length(stated, unit=length_unit), length_unit
+    elif measure == "ratio":
+        value, unit = float(Fraction(stated)), ""
+    else:
+        value, unit = units.split(stated)
+    return Dimension(key, label, value, unit, measure, kind.bare)
+
+
+def written(value: float | str, dimension: Dimension) -> object:
+    """Return a new value as the document writes it: a number, or a text with its unit."""
+    text = value.strip() if isinstance(value, str) else repr(value)
+    if _BARE.fullmatch(text) is None or not dimension.bare:
+        return with_unit(text, dimension)
+    number = float(text)
+    return int(number) if number.is_integer() and abs(number) < _EXACT else number
+
+
+def with_unit(text: str, dimension: Dimension) -> str:
+    """Return a value as it is typed with the dimension's unit, where it is a number without any."""
+    return f"{text} {dimension.unit}" if _BARE.fullmatch(text.strip()) and dimension.unit else text
+
+
+def replaced(document: Any, key: Key, value: object) -> Any:
+    """Return the document with another value at a key; the tables around it are new, the rest is shared."""
+    if not key:
+        return value
+    part, rest = key[0], key[1:]
+    if isinstance(document, list):
+        return [replaced(item, rest, value) if i == part else item for i, item in enumerate(document)]
+    return {**document, part: replaced(document.get(part, {}), rest, value)}
+
+
+# A scene in another unit of length: for pictures, tables and lists.
+
+
+def in_unit(scene: Scene, unit: str | None) -> Scene:
+    """Return the scene in another unit of length, and with it of velocity; itself for its own, and for None.
+
+    The same linkage: each length is read again with the unit that it was written in, and rounded once. It
+    is for showing; what is edited and saved stays the scene that it is made from. It is worked out once.
+    SceneError for what is no unit of length, for a scene without a document, and where a length is too
+    large or small to be computed with in that unit.
+    """
+    if unit is None or unit == scene.length_unit:
+        return scene
+    if unit not in scene.elsewhere:
+        scene.elsewhere[unit] = _read_in(scene, unit)
+    return scene.elsewhere[unit]
+
+
+def _read_in(scene: Scene, unit: str) -> Scene:
+    if not scene.document:
+        raise SceneError(f"{scene.name}: has no scene file behind it; it stays in {scene.length_unit}")
+    document: Any = {**scene.document, "length_unit": unit}
+    for number in (one for one in numbers(scene.document) if one.type.measure in LENGTHS):
+        if not isinstance(number.written, str) or not units.split(number.written)[1]:
+            document = replaced(document, number.key, f"{number.written} {scene.length_unit}")
+    towards = scene.towards and in_unit(scene.towards, unit)
+    try:
+        found = scene_from(document, name=scene.name, where=scene.name, towards=towards)
+    except BadInput as error:
+        raise SceneError(f"{error}; show it in another unit") from None
+    return replace(found, title=scene.title, original_title=scene.original_title)
+
+
+# The other closure: the same lengths, put together the other way.
+
+
+class _Choice(NamedTuple):
+    """Where a document says which closure holds, which it is, and which is the other."""
+
+    key: tuple[str, ...]
+    name: str
+    other: str
+
+
+def other_closure(scene: Scene) -> Scene:
+    """Return the scene with its first loop on the other closure; twice gives the same linkage again.
+
+    Of several loops it is the one nearest the input. AssemblyError where there is no second closure,
+    or where it cannot be assembled further down the chain.
+    """
+    choice = _choice(scene)
+    if choice is None:
+        raise AssemblyError(f"{scene.name} has no second closure: no loop of it can be put together two ways")
+    document = replaced(scene.document, choice.key, choice.other)
+    return with_document(scene, document)
+
+
+def other_return(scene: Scene) -> Scene:
+    """Return the scene whose input comes back from its limits on the other, or on the same, closure.
+
+    AssemblyError where the input turns fully.
+    """
+    if scene.info.full_turn:
+        raise AssemblyError(f"{scene.name}: its input turns fully, and never comes back")
+    way = "other" if scene.linkage.drive.retraced else "same"
+    document = replaced(scene.document, ("drive", "returns"), way)
+    return with_document(scene, document)
+
+
+def closure_name(scene: Scene) -> str | None:
+    """Return what the first loop's closure is called (open, crossed, ...); None where it has no other."""
+    choice = _choice(scene)
+    return choice and choice.name
+
+
+def ghost_of(scene: Scene) -> Scene | None:
+    """Return the other closure, to be drawn behind this one; None where there is none."""
+    try:
+        return other_closure(scene)
+    except LinkanimError:
+        return None
+
+
+def _choice(scene: Scene) -> _Choice | None:
+    """Return where the first closure that can be chosen is; a missing key means the first option."""
+    document = scene.document
+    joints = document.get("joints", {})
+    fields = ((key, form.field("assembly").plain) for key, form in SHORTHANDS.items() if key in document)
+    shorthands = [((key, "assembly"), plain.options) for key, plain in fields if plain]
+    dyads = (joint for joint in scene.linkage.joints if joint.name in joints)
+    sides = [(("joints", joint.name, "side"), joint.sides) for joint in dyads if joint.sides]
+    for (*tables, key), options in (*shorthands, *sides):
+        table = document
+        for name in tables:
+            table = table[name]
+        found = table.get(key, options[0])
+        return _Choice((*tables, key), found, options[found == options[0]])
+    return None
+
+
+# Joints as handles: which dimensions follow when a joint is dragged.
+
+
+@dataclass(frozen=True)
+class Handle:
+    """A dimension that follows a joint: the distance from `start`, or a part of the place on a body.
+
+    `part` is 0 along the body's axis `on` and 1 to its left, or 0 for x and 1 for y of a fixed pin; None for
+    a distance. An `angle` is that of the way from `start`.
+    """
+
+    key: Key
+    start: str | None = None
+    on: tuple[str, str] | None = None
+    part: int | None = None
+    angle: bool = False
+
+
+def handles(scene: Scene, joint: str) -> tuple[Handle, ...]:
+    """Return the dimensions that follow a joint; none for one that is found from others alone."""
+    found = scene.linkage.joint(joint)
+    dragged = [number for number in numbers(scene.document) if number.field.drag]
+    return tuple(handle for number in dragged for handle in _handles(number, found, scene))
+
+
+def dragged(handle: Handle, places: Mapping[str, Point], point: Point) -> float:
+    """Return a dimension's value with its joint at `point`, the others at their places; angles in degrees."""
+    if handle.on:
+        (x0, y0), (x1, y1) = (places[name] for name in handle.on)
+        length = hypot(x1 - x0, y1 - y0)
+        ux, uy, x, y = (x1 - x0) / length, (y1 - y0) / length, point[0] - x0, point[1] - y0
+        return -x * uy + y * ux if handle.part else x * ux + y * uy
+    if handle.part is not None:
+        return point[handle.part]
+    x, y = places[handle.start] if handle.start else (0.0, 0.0)
+    return degrees(atan2(point[1] - y, point[0] - x)) if handle.angle else hypot(point[0] - x, point[1] - y)
+
+
+def _handles(number: Number, joint: Joint, scene: Scene) -> Iterator[Handle]:
+    """Yield how a number follows a joint, if it does."""
+    (start, end), drag = number.ends(scene), number.field.drag
+    on = joint.on if isinstance(joint, Rigid) else None
+    found_from = {bar[0] for bar in joint.bars} | set((on or ())[:1])
+    if drag == "distance" and end == joint.name and (joint.fixed or start in found_from):
+        yield Handle(number.key, start)
+    elif drag == "distance" and start == joint.name and end in found_from:
+        yield Handle(number.key, end)
+    elif drag == "place" and end == joint.name:
+        yield Handle(number.key, on=on, part=number.part)
+    elif drag == "direction" and end == joint.name and _in_degrees(number.written):
+        yield Handle(number.key, start, angle=True)
+
+
+def _in_degrees(written: object) -> bool:
+    """Tell whether an angle is written in degrees, as "30 deg" or "30°"."""
+    text = str(written)
+    return text.rstrip().endswith("°") or "deg" in text.lower()
+
+
+# What a dimension measures: the stretches of a construction, in the frames of joints that they move with.
+
+
+class Stretch(NamedTuple):
+    """A straight line from `begin` to `end` in the frame of two joints, whose way is 1, to its left 1j.
+
+    Of one joint twice, 1 is the scene's unit, level. `key` is the dimension that it is.
+    """
+
+    frame: tuple[str, str]
+    begin: complex
+    end: complex
+    key: Key
+
+
+def stretches(scene: Scene, key: Key) -> tuple[Stretch, ...]:
+    """Return what the dimension at a key measures, then what else leads to that place; none of an angle.
+
+    Of a place on a body these are the part along its axis and the part to the left, of a fixed pin x and y.
+    """
+    number = next((number for number in numbers(scene.document) if number.key == key), None)
+    found = _of(number, scene) if number else ()
+    return tuple(sorted(found, key=lambda stretch: stretch.key != key))
+
+
+def _of(number: Number, scene: Scene) -> Iterator[Stretch]:
+    joint = scene.linkage.by_name.get(
+        number.ends(scene)[1] if number.field.drag else _named_stretches(number, scene)
+    )
+    if number.field.drag == "distance" and joint:
+        start = number.ends(scene)[0]
+        frame = (start or joint.name, joint.name)
+        begin, end = (0, 1) if start else (-complex(*_place(scene, joint.name)), 0)
+        yield Stretch(frame, begin, end, number.key)
+    elif number.field.drag == "place" and joint:
+        yield from _of_place(joint, scene, number.key)
+    elif number.key[-2:-1] == ("com",):
+        body = next(body for body in scene.linkage.bodies if body.name == number.key[1])
+        if body.com and len(body.joints) > 1:
+            yield from _legs(scene, (body.joints[0], body.joints[1]), complex(*body.com), number.key)
+    elif number.key[-1] == "offset" and number.type.measure == "offset" and joint:
+        yield from _of_offset(joint, scene, number.key)
+
+
+def _named_stretches(number: Number, scene: Scene) -> str:
+    """Return the joint whose table a number stands in; of a shorthand the one that has a line."""
+    guided = (joint.name for joint in scene.linkage.joints if getattr(joint, "line", None))
+    return str(number.key[1]) if number.key[0] == "joints" else next(guided, "")
+
+
+def _of_place(joint: Joint, scene: Scene, key: Key) -> Iterator[Stretch]:
+    if isinstance(joint, Rigid):
+        yield from _legs(scene, joint.on, complex(*joint.at), key)
+    elif isinstance(joint, Pin):
+        x, y = joint.position
+        own = joint.name, joint.name
+        yield Stretch(own, complex(-x, -y), complex(0, -y), (*key[:-1], 0))
+        yield Stretch(own, complex(0, -y), 0, (*key[:-1], 1))
+
+
+def _legs(scene: Scene, on: tuple[str, str], at: complex, key: Key) -> Iterator[Stretch]:
+    """Yield the way along a body's axis and the way from there to its left."""
+    at /= _apart(scene, *on)
+    yield Stretch(on, 0, at.real, (*key[:-1], 0))
+    yield Stretch(on, at.real, at, (*key[:-1], 1))
+
+
+def _of_offset(joint: Joint, scene: Scene, key: Key) -> Iterator[Stretch]:
+    """Yield the way from a pivot to its slot, or from a line's joint to the line."""
+    line: Line | None = getattr(joint, "line", None)
+    if line is None:
+        pivot, offset = getattr(joint, "pivot", ""), getattr(joint, "offset", 0.0)
+        if pivot:
+            yield Stretch((pivot, joint.name), 0, 1j * offset / _apart(scene, pivot, joint.name), key)
+        return
+    across = rect(line.offset, line.angle) * 1j
+    if line.on is None:
+        yield Stretch((line.through, line.through), 0, across, key)
+        return
+    first, second, through = (complex(*_place(scene, name)) for name in (*line.on, line.through))
+    base = (through - first) / (second - first)
+    yield Stretch(line.on, base, base + across / abs(second - first), key)
+
+
+def _place(scene: Scene, joint: str) -> tuple[float, float]:
+    return scene.pose(0.0, 0).position[joint]
+
+
+def _apart(scene: Scene, one: str, other: str) -> float:
+    return abs(complex(*_place(scene, one)) - complex(*_place(scene, other)))
+
+
+# Where the hand turns the input to: towards a point of the scene, or along a direction.
+
+
+def phase_towards(scene: Scene, phase: float, point: tuple[float, float]) -> float:
+    """Return the phase near `phase` at which the input crank points at `point` (scene's unit).
+
+    A slider that drives comes as near to the point as its guide lets it.
+
+    An input that swings stops at its limits; of the two phases of an angle it is the nearer one, and
+    past a limit the way back is the one not come by. A point on the pivot itself changes nothing.
+    """
+    path, driven = scene.mechanism.assembly.path, scene.linkage.joint(scene.linkage.drive.joint)
+    if isinstance(driven, DrivenSlider):
+        base, (along, left) = scene.linkage.pin(driven.line.through).position, unit(driven.line.angle)
+        travel = (point[0] - base[0]) * along + (point[1] - base[1]) * left
+        return path.phase_of(travel, phase)
+    crank = scene.linkage.crank(driven.name)
+    pivot = scene.pose(phase, 0).position[crank.pivot]
+    x, y = point[0] - pivot[0], point[1] - pivot[1]
+    return phase if x == 0.0 == y else path.phase_of(math.atan2(y, x), phase)
+
+
+def phase_along(scene: Scene, phase: float, way: complex) -> float:
+    """Return the phase near `phase` at which the input crank points along `way` (x + yi, y up).
+
+    As `phase_towards` at limits. A slider that drives stands as far along its guide as `way`, of length 1
+    at the most, reaches along it from the middle: at 1 it is at its end.
+    """
+    path, driven = scene.mechanism.assembly.path, scene.linkage.joint(scene.linkage.drive.joint)
+    if not isinstance(driven, DrivenSlider):
+        return path.phase_of(cmath.phase(way), phase)
+    low, high = scene.info.input_range
+    along = (way * complex(*unit(driven.line.angle)).conjugate()).real
+    return path.phase_of((low + high) / 2 + along * (high - low) / 2, phase)

@@ -1,1 +1,0 @@
-"""From a scene to another one and back to a file: dimensions, handles, labels, writing."""

@@ -1,0 +1,752 @@
+"""State the form of a scene file once: reader, schema, edit list and reference follow from it.
+
+Its parts, in reading order:
+
+- How joints are written: the fields of each kind, and of fixed pins. A kind of joint is one entry here.
+- How the input is written, and what it comes to: a driven crank, a cylinder that turns it, a slider.
+- The shorthands [four-bar], [slider-crank] and [six-bar]: the common linkages in a few lines.
+- The tables [guide], [function] and [quick-return]: what a linkage was made for.
+- The whole scene file: its tables, and the fields of those that are not joints.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Container, Mapping
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple, get_args
+
+from linkanim import units
+from linkanim.bounds import LONGEST_TEXT
+from linkanim.intake import unnameable
+from linkanim.mechanics.angles import unit
+from linkanim.mechanics.linkage import (
+    MOTOR,
+    RPP,
+    RPR,
+    RRP,
+    RRR,
+    Body,
+    Crank,
+    Cylinder,
+    Damper,
+    Drive,
+    DrivenSlider,
+    Gear,
+    Joint,
+    Line,
+    Pin,
+    Point,
+    Polar,
+    Rigid,
+    Spring,
+    Travel,
+    coincide,
+    holding,
+)
+from linkanim.scenes.form import (
+    ANGLE,
+    COLOUR,
+    DAMPING,
+    GRAVITY,
+    INERTIA,
+    JOINT,
+    LENGTH,
+    MASS,
+    NAME,
+    NEEDED,
+    OFFSET,
+    PAIR,
+    POINT,
+    RATIO,
+    SHORTEST,
+    SPEED,
+    SPREAD,
+    STIFFNESS,
+    TEXT,
+    TEXTS,
+    Field,
+    Form,
+    Named,
+    Schema,
+    Table,
+    ValueType,
+    choice,
+    form,
+    listed,
+    never,
+    side,
+)
+from linkanim.scenes.form import JOINTS as MEMBERS
+from linkanim.scenes.scene import Block, BodyStyle, FunctionPurpose, Outline, PosesPurpose, TimeRatioPurpose
+from linkanim.units import shown
+
+# How joints are written: the fields of each kind, and of fixed pins. A kind of joint is one entry here.
+
+_LEAST_SLOT = 1e-6
+"""Sine of the least angle between a slot and its line of travel."""
+
+
+def aside(words: str) -> tuple[str, str]:
+    """Return the labels of a place on a body: along its axis, and to the left of it."""
+    return f"{words}, along", f"{words}, to the left"
+
+
+def on_circle(length: float, angle: float) -> Point:
+    """Return the point at `length` and `angle` (rad) from the origin, exact at multiples of pi/2."""
+    along, left = unit(angle)
+    return along * length, left * length
+
+
+def polar_pin(name: str, length: float, angle: float, base: Pin | None = None) -> Pin:
+    """Return the fixed pin at `length` and `angle` (rad) from `base`, or from the origin."""
+    x, y = base.position if base else (0.0, 0.0)
+    dx, dy = on_circle(length, angle)
+    return Pin(name, (x + dx, y + dy), Polar(length, angle, base.name if base else None))
+
+
+def _line(through: str | None = None, on: tuple[str, str] | None = None, **rest: float) -> Line:
+    """Return a line of travel, through the first joint of its axis unless stated."""
+    return Line(through or (on[0] if on else ""), on=on, **rest)
+
+
+def _refuse_parallel(slide: Table, values: Mapping[str, Any]) -> None:
+    if abs(math.sin(values["slot"])) < _LEAST_SLOT:
+        raise slide.error("slot", 'lies along the line of travel, so it never crosses it; write "90 deg"')
+
+
+def _refuse_own(table: Table, values: Mapping[str, Any]) -> None:
+    if values["at"] == (0.0, 0.0):
+        first = values["on"][0]
+        raise table.error("at", f"is the joint {first} itself; give a point beside it, such as [10, 5]")
+
+
+_PIN_ON_LINE = Field(
+    "through", JOINT, "a fixed pin on the line, or a joint of the axis' body", must="fixed", unless="on"
+)
+_LINE_FIELDS = (
+    _PIN_ON_LINE,
+    Field("angle", ANGLE, "the line's direction", "0 deg", label="direction of its guide"),
+    Field("offset", OFFSET, "how far to the left of that joint it runs", 0, label="offset of its guide"),
+)
+_FREE = never("a slider without a bar is driven along a fixed line; leave it out, or give the slider its bar")
+_ONE_CLOSURE = never("a slider without a bar has no second closure; leave it out")
+
+_BAR = Field("length", LENGTH, "the bar's length", label="{bar}", drag="distance")
+_LENGTHS = listed(LENGTH, 2)
+_AT = aside("{name} on {on}")
+
+LINE = form(
+    "a line", Field("on", PAIR, "the axis of a body that carries the line", None), *_LINE_FIELDS, make=_line
+)
+FIXED_LINE = form("a fixed line", Field("on", _FREE, usual=None), *_LINE_FIELDS, make=Line)
+GEAR = form(
+    "a gear pair",
+    Field("with", JOINT, "the crank that it is geared to", into="mate", must="crank"),
+    Field("ratio", RATIO, "its angle to that crank's", label="gear ratio"),
+    Field("offset", ANGLE, "its angle where that crank's is 0", "0 deg", label="gear offset"),
+    make=Gear,
+)
+SLOT = form(
+    "a slotted bar",
+    Field("pivot", JOINT, "the joint that the bar turns about"),
+    Field("through", JOINT, "the joint in its slot", must="moving"),
+    Field("offset", OFFSET, "how far to the left of the pivot the slot runs", 0, label="offset of its slot"),
+)
+SLIDE = form(
+    "a bar with a slot, on a line",
+    Field("pin", JOINT, "the joint in the slot", must="moving"),
+    Field("slot", ANGLE, "the slot's direction from the line's", "90 deg", label="direction of its slot"),
+    Field("line", LINE, "the line that the bar slides along"),
+    refuse=_refuse_parallel,
+)
+
+CRANK = form(
+    "a crank pin",
+    Field("crank", JOINT, "the fixed pin that it turns about", into="pivot", must="fixed", unless="gear"),
+    _BAR,
+    Field("gear", GEAR, "what turns it if not the drive, then about any joint", None),
+    mark="crank",
+    make=Crank,
+)
+DRIVEN_SLIDER = form(
+    "a slider that drives",
+    Field("line", FIXED_LINE, "the line that it is driven along"),
+    Field("side", _ONE_CLOSURE, usual=None),
+    mark="line",
+    without=("from", "length"),
+    make=DrivenSlider,
+)
+SLIDER = form(
+    "a slider that a bar moves",
+    Field("from", JOINT, "the bar's other end", into="end", must="moving"),
+    _BAR,
+    Field("line", LINE, "the line that it slides along"),
+    Field("side", side(*RRP.sides), "of two closures the one further along the line, or back", RRP.sides[0]),
+    mark="line",
+    make=RRP,
+)
+DYAD = form(
+    "a joint of two bars",
+    Field("from", PAIR, "the bars' other ends", into="ends"),
+    Field("length", _LENGTHS, "the bars' lengths", into="lengths", label=("{bar}",) * 2, drag="distance"),
+    Field("side", side(*RRR.sides), "of the line from the first end to the second", RRR.sides[0]),
+    mark="from",
+    make=RRR,
+)
+_SLOT = Field("slot", SLOT, "the slotted bar", into=SPREAD)
+SLOTTED_BAR = form("the end of a bar that slides through a joint", _SLOT, _BAR, mark="slot", make=RPR)
+_SLIDE = Field("slide", SLIDE, "the bar with the slot", into=SPREAD)
+YOKE = form("a yoke, where its slot crosses its line", _SLIDE, mark="slide", make=RPP)
+BODY_POINT = form(
+    "a point of a body",
+    Field("on", PAIR, "two joints of the body: its axis"),
+    Field("at", POINT, "the place along the axis, and to its left", label=_AT, drag="place"),
+    mark="on",
+    refuse=_refuse_own,
+    make=Rigid,
+)
+
+JOINTS = Named((CRANK, DRIVEN_SLIDER, SLIDER, DYAD, SLOTTED_BAR, YOKE, BODY_POINT))
+"""The kinds of joints, in the order in which their marks are looked for."""
+
+POLAR_PIN = form(
+    "a fixed pin, by its distance",
+    Field("length", LENGTH, "the distance from the origin", label="Pin {name}, distance", drag="distance"),
+    Field("angle", ANGLE, "the direction from there", label="Pin {name}, direction", drag="direction"),
+    make=polar_pin,
+)
+PLACE = Field("", POINT, "x and y", label=("Pin {name}, x", "Pin {name}, y"), drag="place")
+PINS = Named((POLAR_PIN,), PLACE, Pin)
+
+
+# How the input is written, and what it comes to: a driven crank, a cylinder that turns it, a slider.
+
+Values = Mapping[str, Any]
+
+CYLINDER = form(
+    "a cylinder that drives",
+    Field("between", PAIR, "a fixed pin, and a joint of the driven crank's body"),
+    Field("from", LENGTH, "its length at one end", label="Cylinder, from"),
+    Field("to", LENGTH, "its length at the other end", label="Cylinder, to"),
+    Field("joint", NAME, "the crank that it turns", None),
+)
+SLIDER_INPUT = form(
+    "a slider that drives",
+    Field("joint", NAME, "the slider, declared by its line alone"),
+    Field("from", OFFSET, "its travel at one end", label="Slider, from"),
+    Field("to", OFFSET, "its travel at the other end", label="Slider, to"),
+)
+DRIVE = form(
+    "the input",
+    Field("cylinder", CYLINDER, "what turns the crank, if it does not turn by itself", None),
+    Field("slider", SLIDER_INPUT, "what drives instead of a crank", None),
+    Field("joint", NAME, "the crank that is driven: the first one without a gear", None),
+    Field("speed", SPEED, "turns, or there and back; negative: clockwise", "20 rpm", label="Input speed"),
+    Field("start", ANGLE, "the crank's angle at the start", "0 deg", label="Start angle"),
+    Field(
+        "returns", choice("other", "same"), "the closure on which an input that swings comes back", "other"
+    ),
+)
+INPUT = Field("drive", DRIVE, "the input", {})
+
+
+def read_drive(top: Table, usual: str | None) -> Drive | None:
+    """Read the drive; where no joint is named it is the `usual` one, or the first crank without a gear.
+
+    None where its table or a joint has a fault. SceneError where nothing is left to be driven, or more than
+    one joint would have to be.
+    """
+    values: Values | None = INPUT.read(top)
+    if values is None or not top.context.sound:
+        return None
+    joints = top.context.joints.values()
+    if "slider" in values or any(isinstance(joint, DrivenSlider) for joint in joints):
+        return _slider_drive(top, values)
+    table = top.table("drive")
+    cylinder = values.get("cylinder")
+    cranks = [joint for joint in joints if isinstance(joint, Crank)]
+    free = [crank.name for crank in cranks if crank.gear is None]
+    if not free:
+        raise top.table("joints").wrong("no crank is free to be driven; add one without a gear, as the input")
+    by_cylinder = "joint" in (cylinder or {})
+    name = {**values, **(cylinder or {})}.get("joint", usual or free[0])
+    if name not in free:
+        holder = table.table("cylinder") if by_cylinder else table
+        raise holder.error("joint", f"is not a crank that can be driven; that is {free[0]}")
+    if len(free) > 1:
+        other = next(crank for crank in free if crank != name)
+        way_out = f"gear it: gear = {{ with = {shown(name)}, ratio = -1 }}"
+        raise top.table("joints").wrong(f"{other} is a second input beside {name}; {way_out}")
+    driven = _cylinder(table.table("cylinder"), cylinder, name) if cylinder else MOTOR
+    at_zero = values["start"] == 0 and "start" in table
+    retraced = values["returns"] == "same"
+    return Drive(name, values["speed"], values["start"], driven, at_zero=at_zero, retraced=retraced)
+
+
+def _slider_drive(top: Table, values: Values) -> Drive:
+    """Return the drive of a slider: of the one joint that is declared by its line alone."""
+    table, joints = top.table("drive"), top.context.joints
+    driven = [joint.name for joint in joints.values() if isinstance(joint, DrivenSlider)]
+    if "slider" not in values:
+        way_out = f"drive it: [drive] slider = {{ joint = {shown(driven[0])}, from = 0, to = 100 }}"
+        raise top.table("joints").table(driven[0]).wrong(f"has a line, but no bar that moves it; {way_out}")
+    for key in ("joint", "start", "cylinder"):
+        if key in table:
+            raise table.error(key, "does not go with a slider that drives; leave it out")
+    slider, travel = table.table("slider"), values["slider"]
+    name = travel["joint"]
+    if name not in driven:
+        known = f"; that is {driven[0]}" if driven else ""
+        raise slider.error("joint", f"is no slider that is declared by its line alone{known}")
+    inputs = [joint.name for joint in joints.values() if isinstance(joint, Crank | DrivenSlider)]
+    if len(inputs) > 1:
+        other = next(joint for joint in inputs if joint != name)
+        raise top.table("joints").wrong(
+            f"{other} is a second input beside {name}; let it follow: give it from and length"
+        )
+    if abs(travel["to"] - travel["from"]) < SHORTEST:
+        raise slider.error("to", "is the same place as from, so nothing would move")
+    actuator = Travel(travel["from"], travel["to"])
+    return Drive(name, values["speed"], actuator=actuator, retraced=values["returns"] == "same")
+
+
+def _cylinder(table: Table, values: Values, driven: str) -> Cylinder:
+    """Return a cylinder between a fixed pin and a joint of the driven crank's body, named in either order."""
+    joints, (ground, *others) = table.context.joints, table.context.rigid
+    first, second = values["between"]
+    fixed, moving = (first, second) if joints[first].fixed else (second, first)
+    crank = joints[driven]
+    assert isinstance(crank, Crank)
+    if not joints[fixed].fixed or fixed == crank.pivot:
+        raise table.error("between", f"names no fixed pin beside {crank.pivot}; one end stands on the ground")
+    if coincide(ground, fixed, crank.pivot):
+        reason = f"{fixed} and {crank.pivot} are one point, about which a cylinder turns nothing"
+        raise table.error("between", f"{reason}; name a pin beside it")
+    carried = [frame for frame in others if {crank.pivot, driven, moving} <= frame.keys()]
+    if not carried or coincide(carried[0], crank.pivot, moving):
+        raise table.error("between", f"{moving} is no joint of the body that turns with {driven}")
+    if abs(values["to"] - values["from"]) < SHORTEST:
+        raise table.error("to", "is the same length as from, so nothing would move")
+    return Cylinder((fixed, moving), values["from"], values["to"])
+
+
+# The shorthands [four-bar], [slider-crank] and [six-bar]: the common linkages in a few lines.
+#
+# Each gives the joints that the long form would give, under fixed names: pins O2, O4, O6, joints A, B, C, D,
+# and the coupler points P (on the coupler) and P2 (on coupler2), traced unless [trace] says otherwise.
+
+
+@dataclass(frozen=True, slots=True)
+class Expansion:
+    """What a shorthand stands for; `drive` is the joint that is driven unless [drive] says otherwise."""
+
+    joints: tuple[Joint, ...] = ()
+    bodies: tuple[Body, ...] = ()
+    drive: str | None = None
+    trace: tuple[str, ...] = ()
+
+
+def _four_bar(o2: Pin, **its: Any) -> Expansion:
+    o4 = polar_pin("O4", its["ground"], its["ground_angle"], o2)
+    crank, coupler, rocker = its["crank"], its["coupler"], its["rocker"]
+    chain: tuple[Joint, ...] = (
+        Crank("A", "O2", crank),
+        RRR("B", ("A", "O4"), (coupler, rocker), its["assembly"]),
+    )
+    if its["driver"] == "rocker":
+        named = ("B", "A", "O4")
+        dyad = RRR("A", ("B", "O2"), (coupler, crank), its["assembly"], side_of=named)
+        chain = (Crank("B", "O4", rocker), dyad)
+    points = _points(its.get("coupler_point"))
+    names = tuple(point.name for point in points)
+    bodies = (Body("crank", ("O2", "A")), Body("coupler", ("A", "B", *names)), Body("rocker", ("O4", "B")))
+    return Expansion((o2, o4, *chain, *points), bodies, chain[0].name, names)
+
+
+def _slider_crank(o2: Pin, **its: Any) -> Expansion:
+    line = Line("O2", its["line_angle"], its["offset"])
+    chain = (Crank("A", "O2", its["crank"]), RRP("B", "A", its["rod"], line, its["assembly"]))
+    points = _points(its.get("coupler_point"))
+    names = tuple(point.name for point in points)
+    bodies = (Body("crank", ("O2", "A")), Body("rod", ("A", "B", *names)), Body("slider", slider="B"))
+    return Expansion((o2, *chain, *points), bodies, "A", names)
+
+
+def _six_bar(o2: Pin, **its: Any) -> Expansion:
+    r1, r2, r3, r4, r5, r6, r7, r8 = its["lengths"]
+    o4 = polar_pin("O4", r1, its["ground_angle"], o2)
+    o6 = polar_pin("O6", r5, its["ground_angle"], o4)
+    chain = (
+        Crank("A", "O2", r2),
+        RRR("B", ("A", "O4"), (r3, r4), its["assembly"]),
+        Rigid("C", ("O4", "B"), on_circle(r6, its["link_angle"])),
+        RRR("D", ("C", "O6"), (r7, r8), its["assembly2"]),
+    )
+    first, second = _points(its.get("coupler_point")), _points(its.get("coupler_point2"), "P2", ("C", "D"))
+    bodies = (
+        Body("crank", ("O2", "A")),
+        Body("coupler", ("A", "B", *(point.name for point in first))),
+        Body("rocker", ("O4", "B", "C")),
+        Body("coupler2", ("C", "D", *(point.name for point in second))),
+        Body("rocker2", ("O6", "D")),
+    )
+    points = (*first, *second)
+    return Expansion((o2, o4, o6, *chain, *points), bodies, "A", tuple(point.name for point in points))
+
+
+def _points(at: Point | None, name: str = "P", on: tuple[str, str] = ("A", "B")) -> tuple[Rigid, ...]:
+    return () if at is None else (Rigid(name, on, at),)
+
+
+def _refuse_own_shorthands(table: Table, values: Mapping[str, Any]) -> None:
+    """Refuse a coupler point that is a joint of its coupler."""
+    for key, first in (("coupler_point", "A"), ("coupler_point2", "C")):
+        if values.get(key) == (0.0, 0.0):
+            reason = f"is the joint {first} itself; leave it out, or give a point such as [45, 30]"
+            raise table.error(key, reason)
+
+
+def _bars(key: str, *bars: tuple[str, str, str]) -> Field:
+    """Return the field of a bar's length, or of those of several: what each is called, and its two joints."""
+    spans = tuple((start, end) for _, start, end in bars)
+    words = ", ".join(f"{start}–{end}" for start, end in spans)
+    many = listed(LENGTH, len(bars)) if bars[1:] else LENGTH
+    return Field(key, many, words, label=tuple(bar[0] for bar in bars), drag="distance", spans=spans)
+
+
+def _coupler_point(key: str, label: str, ends: str, point: str) -> Field:
+    words = f"the point {point} along {'–'.join(ends)}, and to its left"
+    return Field(key, POINT, words, None, label=aside(label), drag="place", spans=((ends[0], point),))
+
+
+_GROUND_LINE = (("O2", "O4"),)
+_GROUND_ANGLE = Field(
+    "ground_angle", ANGLE, "of O2–O4", "0 deg", label="Ground angle", drag="direction", spans=_GROUND_LINE
+)
+_COUPLER_POINT = _coupler_point("coupler_point", "Coupler point", "AB", "P")
+_OPEN = side("open", "crossed")
+
+SHORTHANDS: Mapping[str, Form] = {
+    "four-bar": form(
+        "pins O2, A, B, O4; bodies crank, coupler, rocker",
+        _bars("ground", ("Ground 1", "O2", "O4")),
+        _bars("crank", ("{Crank} 2", "O2", "A")),
+        _bars("coupler", ("{Coupler} 3", "A", "B")),
+        _bars("rocker", ("{Rocker} 4", "O4", "B")),
+        _GROUND_ANGLE,
+        _COUPLER_POINT,
+        Field("assembly", _OPEN, "of the two closures; open is B to the left of A–O4", "open"),
+        Field("driver", choice("crank", "rocker"), "the link that is driven", "crank"),
+        refuse=_refuse_own_shorthands,
+        make=_four_bar,
+    ),
+    "slider-crank": form(
+        "pins O2, A, slider B; bodies crank, rod, slider",
+        _bars("crank", ("{Crank} 2", "O2", "A")),
+        _bars("rod", ("{Rod} 3", "A", "B")),
+        Field("offset", OFFSET, "how far to the left of O2 the line runs", 0, label="Offset"),
+        Field("line_angle", ANGLE, "the direction of the line", "0 deg", label="Direction of the guide"),
+        Field("assembly", side(*RRP.sides), "of the two closures, along the line", RRP.sides[0]),
+        _COUPLER_POINT,
+        refuse=_refuse_own_shorthands,
+        make=_slider_crank,
+    ),
+    "six-bar": form(
+        "two four-bars in a row, O2 A B O4 and O4 C D O6; bodies crank, coupler, rocker, coupler2, rocker2",
+        _bars(
+            "lengths",
+            ("Ground 1", "O2", "O4"),
+            ("{Crank} 2", "O2", "A"),
+            ("{Coupler} 3", "A", "B"),
+            ("{Rocker} 4", "O4", "B"),
+            ("Ground 5", "O4", "O6"),
+            ("Arm 6", "O4", "C"),
+            ("{Coupler2} 7", "C", "D"),
+            ("{Rocker2} 8", "O6", "D"),
+        ),
+        _GROUND_ANGLE,
+        Field("link_angle", ANGLE, "of O4–C on O4–B", "0 deg", label="Angle of arm 6 on {rocker} 4"),
+        Field("assembly", _OPEN, "of the first loop", "open"),
+        Field("assembly2", _OPEN, "of the second loop", "open"),
+        _COUPLER_POINT,
+        _coupler_point("coupler_point2", "Second coupler point", "CD", "P2"),
+        refuse=_refuse_own_shorthands,
+        make=_six_bar,
+    ),
+}
+"""The shorthands by the name of their table."""
+
+
+def names_of(key: str, keys: Container[str]) -> tuple[str, ...]:
+    """Return the names of all joints that a shorthand's table with these keys states."""
+    stated = [one for one in SHORTHANDS[key].fields if one.usual is NEEDED or one.key in keys]
+    ends = (name for one in stated if one.drag != "direction" for span in one.spans for name in span)
+    return tuple(dict.fromkeys(ends))
+
+
+# The tables [guide], [function] and [quick-return]: what a linkage was made for.
+#
+# Their lengths have a unit, always: they are no dimensions that one edits, and follow no change of the unit.
+
+_FEWEST_POSES, _MOST_POSES = 2, 5
+_FEWEST_POINTS, _MOST_POINTS = 2, 12
+_STATED: Schema = {"type": "string", "pattern": r"[a-z]"}
+
+
+def _with_unit(table: Table, key: str, of: ValueType, example: str) -> float:
+    value = table.values[key]
+    if not isinstance(value, str):
+        raise table.error(key, f'needs its unit; write it as "{example}"')
+    found: float = of.read(table, key)
+    return found
+
+
+def _length(table: Table, key: str) -> float:
+    return _with_unit(table, key, OFFSET, "80 mm")
+
+
+def _number(table: Table, key: str) -> float:
+    value = table.values[key]
+    if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
+        raise table.error(key, "must be a finite number")
+    return float(value)
+
+
+def _ratio(table: Table, key: str) -> float:
+    ratio = _number(table, key)
+    if ratio < 1:
+        raise table.error(key, "is the slow way's time over the quick way's; give 1 or more")
+    return ratio
+
+
+def _listed(read: Any, words: str, item: Schema, low: int, high: int) -> ValueType:
+    """Return the type of a list of so many values."""
+
+    def take(table: Table, key: str) -> tuple[Any, ...] | None:
+        value = table.values[key]
+        if not isinstance(value, list) or not low <= len(value) <= high:
+            raise table.error(key, f"must be a list of {low} to {high} {words}")
+        items = table.listed(key)
+        found = tuple(items.attempt(read, items, one) for one in items.values)
+        return None if None in found else found
+
+    schema = {"type": "array", "items": item, "minItems": low, "maxItems": high}
+    return ValueType(take, f"{low} to {high} {words}", schema)
+
+
+def _pose(table: Table, key: str) -> tuple[Any, ...] | None:
+    value = table.values[key]
+    if not isinstance(value, list) or len(value) != 3:
+        raise table.error(key, 'must be x, y and an angle, such as ["40 mm", "10 mm", "35 deg"]')
+    items = table.listed(key)
+    reads = (_length, _length, ANGLE.read)
+    found = tuple(items.attempt(read, items, one) for read, one in zip(reads, items.values, strict=True))
+    return None if None in found else found
+
+
+def _place(table: Table, key: str) -> float:
+    """Read an angle, or a way along a line."""
+    value = table.values[key]
+    angular = isinstance(value, str) and any(sign in value for sign in ("deg", "rad", "°"))
+    return _with_unit(table, key, ANGLE if angular else OFFSET, "30 deg")
+
+
+_POSES = _listed(
+    _pose,
+    'poses, `["40 mm", "10 mm", "35 deg"]`',
+    {"type": "array", "items": _STATED, "minItems": 3, "maxItems": 3},
+    *(_FEWEST_POSES, _MOST_POSES),
+)
+_NUMBERS = _listed(_number, "numbers", {"type": "number"}, _FEWEST_POINTS, _MOST_POINTS)
+_ANGLES = _listed(ANGLE.read, "angles", _STATED, _FEWEST_POINTS, _MOST_POINTS)
+_PLACES = _listed(_place, "angles, or lengths", _STATED, _FEWEST_POINTS, _MOST_POINTS)
+
+
+def _refuse_uneven(table: Table, values: Mapping[str, Any]) -> None:
+    """Refuse precision points that have not one of each."""
+    counts = {len(values[key]) for key in ("x", "y", "input", "output")}
+    if len(counts) > 1:
+        raise table.wrong("x, y, input and output have to be equally long: one of each a precision point")
+
+
+def _refuse_both(table: Table, values: Mapping[str, Any]) -> None:
+    if ("stroke" in values) == ("swing" in values):
+        raise table.wrong("give either the slider's stroke or the rocker's swing")
+
+
+PURPOSES: Mapping[str, Form] = {
+    "guide": form(
+        "the poses that its coupler was made for",
+        Field("poses", _POSES, "x, y and angle of the first traced joint and its body"),
+        make=PosesPurpose,
+    ),
+    "function": form(
+        "the function that it was made for, in its precision points",
+        Field("words", TEXT, 'such as "y = log10(x)"'),
+        Field("x", _NUMBERS, "where it is exact"),
+        Field("y", _NUMBERS, "what it is there"),
+        Field("input", _ANGLES, "the crank's angle there"),
+        Field("output", _PLACES, "the output's angle there, or the slider's way along its line"),
+        refuse=_refuse_uneven,
+        make=FunctionPurpose,
+    ),
+    "quick-return": form(
+        "the time ratio that it was made for",
+        Field(
+            "ratio", ValueType(_ratio, "a number from 1", {"type": "number", "minimum": 1}), "slow to quick"
+        ),
+        Field("stroke", ValueType(_length, 'a length, `"80 mm"`', _STATED), "of the slider", None),
+        Field("swing", ValueType(ANGLE.read, ANGLE.words, ANGLE.schema), "of the rocker", None),
+        refuse=_refuse_both,
+        make=TimeRatioPurpose,
+    ),
+}
+"""The tables by their names."""
+
+
+# The whole scene file: its tables, and the fields of those that are not joints.
+
+
+def _refuse_block(table: Table, values: Mapping[str, Any]) -> None:
+    slider = table.context.joints.get(values["slider"])
+    if slider and not slider.travels:
+        raise table.error("slider", "does not travel on a line; name a joint that has one")
+
+
+def _refuse_bar(table: Table, values: Mapping[str, Any]) -> None:
+    """Refuse a body that is none: too few joints, not on one rigid body, or two in one point."""
+    _refuse_radius(table, values)
+    members, frames = values["joints"], table.context.rigid
+    if len(members) < 2:
+        raise table.error("joints", "must name two joints or more; a body's angle is that of first -> second")
+    if not all(name in table.context.joints for name in members):
+        return
+    n = holding(frames, members)
+    if n is None:
+        raise table.error("joints", f"{', '.join(members)} are not joints of one rigid body")
+    first, second, *_ = members
+    if coincide(frames[n], first, second):
+        raise table.error("joints", f"{first} and {second} are one point; name another first or second")
+    if "mass" in values and "com" not in values:
+        half = abs(frames[n][second] - frames[n][first]) / 2
+        halfway = f"com = [{half:g}, 0] is halfway from {first} to {second}"
+        raise table.error("mass", f"needs to be known where it is; {halfway}")
+
+
+def _refuse_radius(table: Table, values: Mapping[str, Any]) -> None:
+    if "radius" in values and values.get("look") not in ("wheel", "railwheel"):
+        raise table.error("radius", 'is that of a wheel; write look = "wheel" beside it, or leave it out')
+
+
+def _refuse_half(table: Table, values: Mapping[str, Any]) -> None:
+    if ("stiffness" in values) != ("free_length" in values):
+        raise table.wrong("a force needs both stiffness and free_length; give both, or neither")
+
+
+class DrawnBody(NamedTuple):
+    """A body as a file states it: what moves, and how it is drawn."""
+
+    body: Body
+    style: BodyStyle
+
+
+def _drawn(
+    name: str,
+    look: Outline | Block | None = None,
+    colour: Any = None,
+    radius: float | None = None,
+    **known: Any,
+) -> DrawnBody:
+    return DrawnBody(Body(name, **known), BodyStyle(look, colour, radius))
+
+
+_MASS = Field("mass", MASS, "its mass", None, label="mass")
+_COLOUR = Field("colour", COLOUR, "its colour", None)
+_BETWEEN = Field("between", PAIR, "its two ends")
+_COM = aside("{name} centre of mass")
+
+BLOCK = form(
+    "the block of a slider",
+    Field("slider", JOINT, "the joint that it travels with"),
+    _MASS,
+    Field("look", choice(*get_args(Block)), "how it is drawn", None),
+    _COLOUR,
+    mark="slider",
+    refuse=_refuse_block,
+    make=_drawn,
+)
+BAR = form(
+    "a body",
+    Field("joints", MEMBERS, "the joints on it; its angle is that of the first to the second"),
+    Field("com", POINT, "its centre of mass along first–second, and to the left", None, label=_COM),
+    _MASS,
+    Field("inertia", INERTIA, "about the centre of mass", None, label="moment of inertia"),
+    Field("look", choice(*get_args(Outline)), "how it is drawn", None),
+    Field("radius", LENGTH, "of a wheel, else out to its furthest joint", None, label="wheel's radius"),
+    _COLOUR,
+    refuse=_refuse_bar,
+    together={"mass": "com"},
+    make=_drawn,
+)
+SPRING = form(
+    "a spring",
+    _BETWEEN,
+    Field("stiffness", STIFFNESS, "its stiffness; with it the force is known", None, label="stiffness"),
+    Field("free_length", LENGTH, "its length without force", None, label="free length"),
+    refuse=_refuse_half,
+    together={"stiffness": "free_length", "free_length": "stiffness"},
+    make=Spring,
+)
+_COEFFICIENT = Field("coefficient", DAMPING, "its force by its rate", None, label="damping coefficient")
+DAMPER = form("a damper", _BETWEEN, _COEFFICIENT, make=Damper)
+
+
+def _picture(table: Table, key: str) -> str:
+    """Read the path of a picture, which need not be there; one that no disk can hold is refused."""
+    file = table.text(key)
+    if reason := unnameable(file):
+        raise table.error(key, f"{reason}; rename the picture")
+    return file
+
+
+_PICTURE = replace(
+    TEXT,
+    read=_picture,
+    schema={
+        "type": "string",
+        "maxLength": LONGEST_TEXT,
+        "pattern": r"^(?=.*\S)([^/\\]{0,255}[/\\])*[^/\\]{0,255}$",
+    },
+)
+PHOTO = form(
+    "a photograph to build over, behind the sheet",
+    Field("file", _PICTURE, "its path from the scene file's folder"),
+    Field("place", replace(POINT, measure=None), "x and y of its lower left corner"),
+    Field("width", replace(LENGTH, measure=None), "how wide it is"),
+    Field("turn", replace(ANGLE, measure=None), "by what angle it is turned about that corner", "0 deg"),
+)
+TRACE = form("the curves", Field("joints", MEMBERS, "the joints whose curves are drawn", None))
+
+SCENE_FILE = form(
+    "the file",
+    Field("title", TEXT, "what it is called: the file's name", None),
+    Field("source", TEXT, "where its dimensions come from", ""),
+    Field("chapter", TEXT, "the part of a collection that it belongs to", ""),
+    Field("look_at", TEXT, "what to watch for, in a sentence", ""),
+    Field("notes", TEXTS, "what a reader of its figures should know", []),
+    Field("length_unit", choice(*units.LENGTH_UNITS), "the unit of bare lengths", units.LENGTH_UNITS[0]),
+    *(Field(key, one, one.words, None) for key, one in SHORTHANDS.items()),
+    Field("joints", JOINTS, "the joints", {}),
+    Field("ground", PINS, "the fixed pins", {}),
+    Field("bodies", Named((BLOCK, BAR)), "what is drawn and named", {}),
+    Field("springs", Named((SPRING,)), "the springs", {}),
+    Field("dampers", Named((DAMPER,)), "the dampers", {}),
+    Field("gravity", GRAVITY, "how fast masses fall, down", None, label="Gravity"),
+    INPUT,
+    Field("trace", TRACE, "the curves", {}),
+    *(Field(key, one, one.words, None) for key, one in PURPOSES.items()),
+    Field("photo", PHOTO, "a photograph to build over", None),
+)
+"""The form of a scene file."""
+SECTIONS: Mapping[str, Field] = {one.key: one for one in SCENE_FILE.fields}

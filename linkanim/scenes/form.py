@@ -1,0 +1,511 @@
+"""Describe what a table of a scene file may say, and read it; the tables themselves are in `file_form`.
+
+Its parts, in reading order:
+
+- A table of a scene file, and what is known while the file is read: its joints, and what is wrong so far.
+- What may stand at a key of a scene file: how it is read, its schema, and what its numbers measure.
+- Fields, and the tables that they make up: what a table of a scene file may say, and what that becomes.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from functools import cached_property, partial
+from typing import Any, ClassVar, Literal, Self, TypeVar
+
+from linkanim import units
+from linkanim.bounds import LONGEST_TEXT, MOST_NAMES, MOST_PROBLEMS
+from linkanim.errors import BadInput, SceneError, UnitError
+from linkanim.intake import Section, few, meant
+from linkanim.mechanics.linkage import Joint, RigidBody
+from linkanim.units import shown
+
+# A table of a scene file, and what is known while the file is read: its joints, and what is wrong so far.
+
+Read = TypeVar("Read")
+
+
+@dataclass(frozen=True)
+class Context:
+    """What is known of a file while it is read: its unit of length, its joints, and its problems so far.
+
+    `names` are those of all joints that it states. `joints` are those without a fault, in solved order, and
+    `rigid` the rigid bodies that they make; none before they are read.
+    """
+
+    unit: str = "mm"
+    names: tuple[str, ...] = ()
+    joints: Mapping[str, Joint] = field(default_factory=dict)
+    rigid: tuple[RigidBody, ...] = ()
+    problems: list[BadInput] = field(default_factory=list)
+
+    @property
+    def sound(self) -> bool:
+        """Whether no joint has a fault."""
+        return len(self.joints) == len(self.names)
+
+
+@dataclass(frozen=True)
+class Table(Section):
+    """One table of a scene file."""
+
+    refusal: ClassVar[type[BadInput]] = SceneError
+
+    context: Context = field(default_factory=Context)
+
+    def under(self, key: str, values: Mapping[str, Any]) -> Self:
+        """Return a table that stands under a key."""
+        return type(self)(self.where, values, (*self.keys, key), self.context)
+
+    def attempt(self, work: Callable[..., Read], *given: object) -> Read | None:
+        """Return what the work returns; None where it refuses, which is one more of the file's problems."""
+        try:
+            return work(*given)
+        except BadInput as error:
+            self.context.problems.append(error)
+            return None
+
+    def refuse_unknown(self, known: Iterable[str]) -> None:
+        """Count every key that is not `known` among the problems, each with the nearest known one."""
+        known = tuple(dict.fromkeys(known))
+        for key in self.values:
+            if key not in known and len(self.context.problems) < MOST_PROBLEMS:
+                reason = f"unknown key{meant(key, known)}; known here: {', '.join(known)}"
+                self.context.problems.append(self.error(key, reason))
+
+    def saying(self, values: Mapping[str, Any]) -> Self:
+        """Return the table as if it said something else."""
+        return type(self)(self.where, values, self.keys, self.context)
+
+    def entries(self) -> tuple[str, ...]:
+        """Return the names that are this table's keys, each fit to be shown and to be part of a key."""
+        if len(self.values) > MOST_NAMES:
+            raise self.wrong(f"has {len(self.values):,} entries; {MOST_NAMES} are the most that are read")
+        return tuple(name for name in self.values if self.attempt(self._entry, name))
+
+    def _entry(self, name: str) -> str:
+        if not 1 <= len(name) <= 32 or not name.isprintable() or "." in name or name != name.strip():
+            raise self.error(name, "a name has 1 to 32 printable characters, no dot, no outer spaces")
+        return name
+
+    def joint(self, key: str, name: str) -> str:
+        """Return a name that stands at a key if it is a joint's."""
+        names = self.context.names
+        if name not in names:
+            raise self.error(
+                key, f"no joint is called {shown(name)}{meant(name, names)}; there are {few(names)}"
+            )
+        return name
+
+
+# What may stand at a key of a scene file: how it is read, its schema, and what its numbers measure.
+#
+# A type is one value here; everything else about the file's form is in terms of these.
+
+Measure = Literal[
+    "length", "angle", "speed", "offset", "ratio", "stiffness", "damping", "mass", "inertia", "gravity"
+]
+"""What a number of a scene file measures; an "offset" is a length of either sign."""
+LENGTHS: tuple[Measure, ...] = ("length", "offset")
+Schema = Mapping[str, Any]
+
+_LARGEST, _LONGEST = 1e30, 1e12
+SHORTEST = 1 / _LONGEST
+"""The least length of a scene file, and the least way of an input."""
+_MOST_TURNS = 100
+_SMALL, _STEEP = 12, 100
+_FRACTION = re.compile(r"\s*([+-]?\d{1,9}(?:\.\d{1,18})?)\s*(?:/\s*(\d{1,9})\s*)?", re.A)
+_HEX = re.compile(r"#[0-9a-f]{6}", re.I | re.A)
+_NUMBER = r"^\s*[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?\s*"
+
+
+@dataclass(frozen=True)
+class ValueType:
+    """What may stand at a key, in `words` too.
+
+    `read` takes it from a table that has the key. `schema` is what a JSON Schema says of it, None where
+    nothing may stand there. `measure` is what its numbers measure, where they can be edited; those that are
+    `bare` need no unit. `options` are the texts to choose from. What `refers` names joints.
+    """
+
+    read: Callable[[Table, str], Any]
+    words: str
+    schema: Schema | None = None
+    measure: Measure | None = None
+    bare: bool = False
+    options: tuple[str, ...] = ()
+    refers: bool = False
+
+
+def never(sentence: str) -> ValueType:
+    """Return the type of a key that is known and always refused, with a sentence."""
+
+    def read(table: Table, key: str) -> None:
+        raise table.error(key, sentence)
+
+    return ValueType(read, sentence)
+
+
+def _far(number: float, unit: str, most: float = _LONGEST) -> str:
+    """Say that a number of a unit is too large to be computed with, if it is."""
+    return f"is beyond what can be computed; {most:g} {unit} is the most" if abs(number) > most else ""
+
+
+def _not_above(number: float, unit: str, most: float = _LONGEST) -> str:
+    """Say that a number of a unit is not above zero, or too large or small to be computed with, if it is."""
+    if 0.0 < number < 1.0 / most:
+        return f"is beyond what can be computed; {1.0 / most:g} {unit} is the least"
+    return _far(number, unit, most) or ("" if number > 0.0 else "must be above zero")
+
+
+def _many_turns(angle: float, _: str) -> str:
+    too_many = abs(angle) > _MOST_TURNS * math.tau
+    return f"is more than {_MOST_TURNS} turns; leave whole turns out" if too_many else ""
+
+
+def _standstill(speed: float, _: str) -> str:
+    return "" if speed else 'a speed of zero moves nothing; write "20 rpm" (or "-20 rpm", clockwise)'
+
+
+def _quantity(
+    measure: Measure,
+    words: str,
+    parse: Callable[[object, str], float],
+    names: tuple[str, ...],
+    refusal: Callable[[float, str], str],
+    *,
+    bare: bool = False,
+    base: str = "",
+) -> ValueType:
+    """Return the type of a number with one of the units `names`, or without where it may be bare.
+
+    It is read in the unit `base`; without one in the file's unit of length.
+    """
+
+    def read(table: Table, key: str) -> float:
+        try:
+            number = parse(table.values[key], table.context.unit)
+        except UnitError as error:
+            raise table.at(f"{table.key(key)}: {error}", key) from None
+        if reason := refusal(number, base or table.context.unit):
+            raise table.error(key, reason)
+        return number
+
+    spelt = (name.replace("/", r"\s*/\s*").replace(" ", r"\s*") for name in names)
+    unit = "|".join(name.replace("^2", r"(\^?2|²)") for name in spelt)
+    text: Schema = {"type": "string", "pattern": rf"{_NUMBER}({unit}{'|' if bare else ''})\s*$"}
+    number = {"type": "number", **({"exclusiveMinimum": 0} if measure == "length" else {})}
+    return ValueType(read, words, {"anyOf": [number, text]} if bare else text, measure, bare)
+
+
+def _with_unit(parse: Callable[[object], float]) -> Callable[[object, str], float]:
+    return lambda value, _: parse(value)
+
+
+def _length(value: object, unit: str) -> float:
+    return units.length(value, unit=unit)
+
+
+def listed(of: ValueType, count: int) -> ValueType:
+    """Return the type of a list of so many values of a type; errors then say `length[1]`."""
+    example = list(range(10, 10 * count + 1, 10))
+
+    def read(table: Table, key: str) -> tuple[Any, ...] | None:
+        value = table.values[key]
+        if not isinstance(value, list) or len(value) != count:
+            raise table.error(key, f"must be a list of {count} lengths, such as {example}")
+        items = table.listed(key)
+        found = tuple(items.attempt(of.read, items, item) for item in items.values)
+        return None if None in found else found
+
+    schema = {"type": "array", "items": of.schema, "minItems": count, "maxItems": count}
+    words = of.words.replace("a length", f"{count} lengths")
+    return ValueType(read, words, schema, of.measure, of.bare)
+
+
+def _joints(count: int | None = None) -> ValueType:
+    """Return the type of a list of joints, all different, `count` of them if given."""
+
+    def read(table: Table, key: str) -> tuple[str, ...] | None:
+        value = table.values[key]
+        if not isinstance(value, list) or not all(isinstance(name, str) for name in value):
+            raise table.error(key, f'must be a list of {count or "joint"} names, such as ["A", "B"]')
+        if count is not None and len(value) != count:
+            raise table.error(key, f"must name {count} joints; it names {len(value)}")
+        if len(set(value)) != len(value):
+            raise table.error(key, "names the same joint twice")
+        return tuple(table.joint(key, name) for name in value)
+
+    size = {"minItems": count, "maxItems": count} if count else {}
+    schema = {"type": "array", "items": NAME.schema, "uniqueItems": True, **size}
+    return ValueType(read, f"{count or 'a list of'} joints", schema, refers=True)
+
+
+def choice(*options: str) -> ValueType:
+    """Return the type of one of some texts, the first being the usual one."""
+    words = " or ".join(f'`"{option}"`' for option in options)
+    schema = {"enum": list(options)}
+    return ValueType(lambda table, key: table.choice(key, options), words, schema, options=options)
+
+
+def side(*options: str) -> ValueType:
+    """Return the type of one of two texts: +1 for the first, -1 for the second."""
+    of = choice(*options)
+    return replace(of, read=lambda table, key: 1 - 2 * options.index(of.read(table, key)))
+
+
+def _ratio(table: Table, key: str) -> Fraction:
+    """Read a gear ratio, a fraction of denominator 12 at the most, from a number or from "1/3"."""
+    value = table.values[key]
+    exact = _fraction(value)
+    if exact is None or exact == 0:
+        raise table.error(key, 'must be a number other than zero, or a fraction such as "1/3"')
+    near = exact.limit_denominator(_SMALL)
+    if near == 0 or abs(near) > _STEEP:
+        raise table.error(key, f"a gear pair turns between 1/{_SMALL} and {_STEEP} times as fast")
+    if near != exact and (isinstance(value, str) or float(near) != float(value)):
+        raise table.error(key, f'is not a small fraction, so the loop is long; the nearest is "{near}"')
+    return near
+
+
+def _fraction(value: object) -> Fraction | None:
+    if isinstance(value, str):
+        match = _FRACTION.fullmatch(value)
+        bottom = int(match[2] or 1) if match else 0
+        return Fraction(match[1]) / bottom if match and bottom else None
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return None
+    return Fraction(value) if isinstance(value, int) or math.isfinite(value) else None
+
+
+def _text(table: Table, key: str) -> str:
+    """Read a text; one of blanks alone says nothing, as an empty one."""
+    text = table.text(key)
+    return text if text.strip() else ""
+
+
+def _colour(table: Table, key: str) -> tuple[int, int, int]:
+    value = table.text(key)
+    if not _HEX.fullmatch(value):
+        raise table.error(key, 'is no colour; write red, green and blue as in "#d55e00"')
+    red, green, blue = bytes.fromhex(value[1:])
+    return red, green, blue
+
+
+LENGTH = _quantity("length", "a length", _length, units.LENGTH_UNITS, _not_above, bare=True)
+OFFSET = _quantity("offset", "a length of either sign", _length, units.LENGTH_UNITS, _far, bare=True)
+_ANGLES, _SPEEDS = (*units.ANGLE.factors, "°"), (*units.SPEED.factors, "°/s")
+ANGLE = _quantity("angle", 'an angle, `"30 deg"`', _with_unit(units.angle), _ANGLES, _many_turns)
+SPEED = _quantity("speed", 'a speed, `"20 rpm"`', _with_unit(units.angular_speed), _SPEEDS, _standstill)
+
+
+def _above(measure: Measure, words: str, of: units.Units) -> ValueType:
+    refusal = partial(_not_above, most=_LARGEST)
+    base = next(name for name, factor in of.factors.items() if factor == 1)
+    return _quantity(measure, words, _with_unit(of.read), tuple(of.factors), refusal, base=base)
+
+
+STIFFNESS = _above("stiffness", 'a stiffness, `"4000 N/m"`', units.STIFFNESS)
+DAMPING = _above("damping", 'a damping coefficient, `"200 N s/m"`', units.DAMPING)
+MASS = _above("mass", 'a mass, `"3 kg"`', units.MASS)
+INERTIA = _above("inertia", 'a moment of inertia, `"0.02 kg m^2"`', units.INERTIA)
+GRAVITY = _above("gravity", 'an acceleration, `"9.81 m/s^2"`', units.FALL)
+RATIO = ValueType(
+    _ratio,
+    'a number, or a fraction as `"1/3"`',
+    {"anyOf": [{"type": "number", "not": {"const": 0}}, {"type": "string", "pattern": r"^\s*[+-]?\d"}]},
+    "ratio",
+    bare=True,
+)
+POINT = listed(OFFSET, 2)
+
+TEXT = ValueType(_text, "a text", {"type": "string", "maxLength": LONGEST_TEXT})
+TEXTS = ValueType(Table.texts, "a list of texts", {"type": "array", "items": {"type": "string"}})
+COLOUR = ValueType(_colour, 'a colour, `"#d55e00"`', {"type": "string", "pattern": r"^#[0-9a-fA-F]{6}$"})
+NAME = ValueType(Table.text, "a joint", {"type": "string", "minLength": 1, "maxLength": 32})
+JOINT = replace(NAME, read=lambda table, key: table.joint(key, table.text(key)), refers=True)
+PAIR = _joints(2)
+JOINTS = _joints()
+
+
+# Fields, and the tables that they make up: what a table of a scene file may say, and what that becomes.
+
+Key = tuple[str | int, ...]
+"""The way to a value in a scene's document."""
+
+NEEDED = object()
+"""What is usual of a key that must not be missing."""
+SPREAD = ""
+"""Where the values of a table go that are those of the table around it."""
+
+
+@dataclass(frozen=True)
+class Field:
+    """One key of a table.
+
+    `words` say what it is. `usual` stands where the key is missing, as the file would say it; None where
+    nothing does. `into` is the argument that it becomes, its own key unless stated.
+
+    A joint that it names `must` be fixed or a crank; where it must be "moving", one at least of all joints
+    that the table names must be. With the key `unless` beside it, it may be missing, and may move.
+
+    `label` is what a number is called in the list of dimensions, one for each item of a list; one in small
+    letters follows the name of the table. By `drag` a number follows a joint: as its distance from another
+    one, the direction from there, or its place on its body; of a shorthand `spans` are those two joints.
+    """
+
+    key: str
+    type: ValueType | Form | Named
+    words: str = ""
+    usual: object = NEEDED
+    into: str | None = None
+    must: Literal["", "fixed", "crank", "moving"] = ""
+    unless: str | None = None
+    label: str | tuple[str, ...] = ""
+    drag: Literal["", "distance", "direction", "place"] = ""
+    spans: tuple[tuple[str, str], ...] = ()
+
+    @property
+    def plain(self) -> ValueType | None:
+        """What stands there that is no table."""
+        return self.type if isinstance(self.type, ValueType) else None
+
+    def stated(self, table: Table) -> bool:
+        """Tell whether there is anything to read: the key, what is usual, or that it is missing."""
+        return self.key in table or (self.usual is not None and self.unless not in table.values)
+
+    def read(self, table: Table) -> Any:
+        """Return what stands at the key, or what is usual; None where that has a fault in it."""
+        if self.key not in table:
+            if self.usual is NEEDED:
+                table.need(self.key)
+            table = table.saying({self.key: self.usual})
+        return self.type.read(table, self.key)
+
+
+@dataclass(frozen=True)
+class Form:
+    """A table: its fields, and what makes a value of what they say.
+
+    Of several forms that may stand in one place `mark` is the key that shows this one, where none of
+    `without` stands beside it. `refuse` raises where values do not go together. `together` are keys, each
+    with another that it needs beside it.
+    """
+
+    fields: tuple[Field, ...]
+    make: Callable[..., Any] = dict
+    words: str = ""
+    mark: str = ""
+    without: tuple[str, ...] = ()
+    refuse: Callable[[Table, Mapping[str, Any]], None] = lambda table, values: None
+    together: Mapping[str, str] = field(default_factory=dict)
+
+    @cached_property
+    def keys(self) -> Mapping[str, Field]:
+        """The fields by their keys, which are those that are known."""
+        return {one.key: one for one in self.fields}
+
+    def field(self, key: str) -> Field:
+        """Return the field of a key, which must be known."""
+        return self.keys[key]
+
+    def fits(self, values: Mapping[str, Any]) -> bool:
+        """Tell whether a table is of this form, by the keys in it."""
+        return (not self.mark or self.mark in values) and not any(key in values for key in self.without)
+
+    def read(self, table: Table, key: str) -> Any:
+        """Return what is made of the table at a key; None where anything in it has a fault."""
+        return self.made(table.table(key))
+
+    def made(self, table: Table, *given: object, known: Iterable[str] = ()) -> Any:
+        """Return what is made of a table, and of what is `given` besides; None where it has a fault.
+
+        `known` are the keys that are no slips, the form's own unless stated.
+        """
+        if not table.values.keys() <= self.keys.keys():
+            table.refuse_unknown(known or self.keys)
+        values: dict[str, Any] = {}
+        sound = True
+        for one in self.fields:
+            if one.stated(table):
+                value = table.attempt(one.read, table)
+                sound = sound and value is not None
+                values |= value if one.into == SPREAD and value else {one.into or one.key: value}
+        return table.attempt(self._make, table, values, given) if sound else None
+
+    def _make(self, table: Table, values: Mapping[str, Any], given: tuple[object, ...]) -> Any:
+        self.refuse(table, values)
+        return self.make(*given, **values)
+
+
+def form(words: str, *fields: Field, **how: Any) -> Form:
+    """Return the form of a table: what it is and its fields; `how` as in `Form`."""
+    return Form(fields, words=words, **how)
+
+
+@dataclass(frozen=True)
+class Named:
+    """A table of tables by their names, as [joints.A], [joints.B]: each of one of the `forms`.
+
+    Where an entry may be a list instead of a table, `plain` is its field, and `make` makes a value of it.
+    """
+
+    forms: tuple[Form, ...]
+    plain: Field | None = None
+    make: Callable[..., Any] = dict
+
+    @property
+    def marks(self) -> tuple[str, ...]:
+        """The keys that show which form an entry has."""
+        return tuple(dict.fromkeys(form.mark for form in self.forms))
+
+    def read(self, table: Table, key: str) -> dict[str, Any]:
+        """Return what is made of each entry, by its name; None of those that have a fault."""
+        group = table.table(key)
+        return {name: group.attempt(self._entry, group, name) for name in group.entries()}
+
+    def _entry(self, group: Table, name: str) -> Any:
+        if self.plain and not isinstance(group.values[name], Mapping):
+            place = self.plain.type.read(group, name)
+            return place and self.make(name, place)
+        table = group.table(name)
+        form = self.form(table.values)
+        akin = (one for one in self.forms if form is None or one.mark == form.mark)
+        known = (key for one in akin for key in one.keys)
+        if form:
+            return form.made(table, name, known=known)
+        table.refuse_unknown(known)
+        raise table.wrong(f"says no way to find the joint; give it one of {', '.join(self.marks)}")
+
+    def form(self, value: object) -> Form | None:
+        """Return the form that an entry has; None where it has none of them."""
+        if not isinstance(value, Mapping):
+            return None
+        return next((form for form in self.forms if form.fits(value)), None)
+
+
+def fields_in(
+    form: Form | None, values: Mapping[str, Any], path: Key = ()
+) -> Iterator[tuple[Key, Field, Any]]:
+    """Iterate the fields that a table states, and those of the tables in it, each with its table's values."""
+    for one in form.fields if form else ():
+        if one.key in values:
+            yield from _fields_at(one, values, (*path, one.key))
+
+
+def _fields_at(one: Field, values: Mapping[str, Any], path: Key) -> Iterator[tuple[Key, Field, Any]]:
+    value = values[path[-1]]  # type: ignore[index]
+    if isinstance(one.type, ValueType):
+        yield path, one, values
+    elif isinstance(one.type, Form):
+        yield from fields_in(one.type, value, path)
+    else:
+        for name, entry in value.items():
+            if form := one.type.form(entry):
+                yield from fields_in(form, entry, (*path, name))
+            elif one.type.plain:
+                yield from _fields_at(one.type.plain, value, (*path, name))

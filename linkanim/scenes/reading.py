@@ -1,0 +1,457 @@
+"""Read the document in a scene file to a checked `Scene`, or to all that is wrong with it.
+
+Its parts, in reading order:
+
+- How far apart the sizes in one scene may be: beyond that neither digits nor pixels show them together.
+- The joints of a file in the order in which they are solved, those with a fault left out.
+- The document in a scene file to a checked `Scene`, or to all that is wrong with it.
+- Every problem of a scene file at once, each with its line.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import replace
+from math import hypot
+from typing import Any, NamedTuple
+
+from linkanim import units
+from linkanim.bounds import MOST_PROBLEMS
+from linkanim.errors import AssemblyError, BadInput
+from linkanim.mechanics.linkage import (
+    RRR,
+    Body,
+    Crank,
+    Joint,
+    Linkage,
+    Pin,
+    Rigid,
+    RigidBody,
+    brace,
+    coincide,
+    holding,
+    rigid_bodies,
+)
+from linkanim.scenes.file_form import (
+    JOINTS,
+    PURPOSES,
+    SCENE_FILE,
+    SECTIONS,
+    SHORTHANDS,
+    Expansion,
+    names_of,
+    read_drive,
+)
+from linkanim.scenes.form import Context, Field, Key, Table, fields_in
+from linkanim.scenes.scene import FREE_STYLE, Scene
+from linkanim.scenes.toml import Keys, line_numbers, parse
+
+# How far apart the sizes in one scene may be: beyond that neither digits nor pixels show them together.
+
+MOST_APART = 1e9
+"""How many times as long as its shortest bar anything in a scene may be."""
+
+
+def refuse_apart(top: Table, linkage: Linkage) -> Linkage:
+    """Return the linkage, refused where anything in it is too long beside its shortest bar."""
+    bars = [(size, joint.name) for joint in linkage.joints for size in _bars(joint)]
+    shortest, name = min(bars, default=(1.0, ""))
+    longest, what = max(_sizes(linkage))
+    if longest > MOST_APART * shortest:
+        joints = top.table("joints")
+        short = next((key for key in SHORTHANDS if key in top), "ground")
+        raise (joints.table(name) if name in joints else top.table(short)).wrong(
+            f"a bar of {shortest:g} {linkage.unit} is too short beside the {longest:g} {linkage.unit} "
+            f"of {what}; nothing may be more than {MOST_APART:g} times as long as the shortest bar"
+        )
+    return linkage
+
+
+def _bars(joint: Joint) -> Iterator[float]:
+    yield from (length for _, length in joint.bars)
+    if isinstance(joint, Rigid):
+        yield hypot(*joint.at)
+
+
+def _sizes(linkage: Linkage) -> Iterator[tuple[float, str]]:
+    drive = linkage.drive
+    for joint in linkage.joints:
+        yield from ((abs(length), joint.name) for length in joint.lengths)
+    for body in linkage.bodies:
+        yield from ((abs(part), f"{body.name}'s centre of mass") for part in body.com or ())
+    yield from ((abs(length), "the input's travel") for length in drive.actuator.lengths)
+
+
+# The joints of a file in the order in which they are solved, those with a fault left out.
+
+Stated = Mapping[str, Joint | None]
+"""Joints by their names, None where one has a fault."""
+
+
+def solved(top: Table, expanded: Stated, pins: Stated, moving: Stated) -> Table:
+    """Return the file's table with its sound joints known, in solved order: a shorthand's and the file's.
+
+    A joint that depends on one with a fault is left out, and not looked at any further.
+    """
+    stated = _together(top, expanded, pins, moving)
+    for name in moving:
+        joint = stated[name]
+        stated[name] = joint and top.attempt(_with_fit_references, top, joint, stated)
+    order = _solved_order(stated)
+    if len(order) < len(stated):
+        first, *others = _circle(stated, stated.keys() - set(order))
+        chain = " -> ".join([first, *others[:12], *["..."] * (len(others) > 12)])
+        reason = f"{chain}: a joint cannot depend on itself; start from a crank"
+        top.context.problems.append(top.table("joints").wrong(reason))
+    return _rigid(top, [stated[name] for name in order])
+
+
+def _together(top: Table, expanded: Stated, pins: Stated, moving: Stated) -> dict[str, Joint | None]:
+    """Return all joints, pins given by coordinates first: so TOML writers order tables too."""
+    listed = sorted(pins, key=lambda name: isinstance(top.values["ground"][name], Mapping))
+    stated = dict(expanded)
+    own = {name: pins[name] for name in listed if not (name == "O2" and expanded)}
+    for section, added in (("ground", own), ("joints", moving)):
+        for name, joint in added.items():
+            if name in stated:
+                error = top.table(section).error(name, "there is already a joint of that name")
+                top.context.problems.append(error)
+            stated[name] = None if name in stated else joint
+    return stated
+
+
+def _with_fit_references(top: Table, joint: Joint, stated: Stated) -> Joint:
+    """Return a joint, refused where those that it is found from are itself, or not what they must be."""
+    table = top.table("joints").table(joint.name)
+    found = dict[str, Joint | None]()
+    moving: tuple[Key, str] | None = None
+    for key, one, holder in fields_in(JOINTS.form(table.values), table.values):
+        names = _references(one, holder)
+        found |= {name: stated.get(name) for name in names}
+        for name in names:
+            if reason := _unfit(joint, name, "" if one.unless in holder else one.must, stated):
+                raise _at(table, key, reason)
+        if one.must == "moving":
+            moving = key, names[0]
+    if moving and all(other and other.fixed for other in found.values()):
+        raise _at(table, moving[0], f"{moving[1]} is fixed, so nothing would move; name a joint that moves")
+    return joint
+
+
+def _references(one: Field, holder: Mapping[str, Any]) -> list[str]:
+    """Return the joints that a field names."""
+    value = holder[one.key] if one.plain and one.plain.refers else []
+    return [value] if isinstance(value, str) else value
+
+
+def _unfit(joint: Joint, name: str, must: str, stated: Stated) -> str | None:
+    """Say why a joint cannot be what another one needs; None where it can, or has a fault itself."""
+    found = stated.get(name)
+    if name == joint.name:
+        return "a joint cannot be found from itself"
+    if must == "fixed" and found and not found.fixed:
+        pins = ", ".join(other.name for other in stated.values() if other and other.fixed)
+        return f"{name} moves; name a fixed pin ({pins})"
+    if must == "crank" and found and not isinstance(found, Crank):
+        return f"{name} is not a crank"
+    return None
+
+
+def _at(table: Table, key: Key, reason: str) -> BadInput:
+    """Return the error about what a joint is found from, which stands at a key under its table."""
+    steps = [str(step) for step in key]
+    return table.at(f"{table.path}.{'.'.join(steps)}: {reason}", *steps)
+
+
+def _needs(stated: Stated, name: str) -> list[str]:
+    """Return the joints that one is found from; none of one that has a fault."""
+    joint = stated[name]
+    return [need for need in joint.needs if need in stated] if joint else []
+
+
+def _solved_order(stated: Stated) -> list[str]:
+    """Return the joints so that each names only joints before it, otherwise as they stood.
+
+    Those that depend on themselves are left out.
+    """
+    waiting = {name: set(_needs(stated, name)) for name in stated}
+    order: dict[str, None] = {}
+    while ready := next((name for name, needs in waiting.items() if needs <= order.keys()), None):
+        order[ready] = None
+        del waiting[ready]
+    return list(order)
+
+
+def _circle(stated: Stated, stuck: set[str]) -> tuple[str, ...]:
+    """Return a chain of joints that ends where it began, among the `stuck` ones (each needs a stuck one)."""
+    name = min(stuck)
+    path = [name]
+    while True:
+        name = next(need for need in _needs(stated, name) if need in stuck)
+        if name in path:
+            return (*path[path.index(name) :], name)
+        path.append(name)
+
+
+def _rigid(top: Table, joints: Iterable[Joint | None]) -> Table:
+    """Return the file's table with its joints known, a dyad whose bars stand on one body as a point of it."""
+    found: dict[str, Joint] = {}
+    bodies = rigid_bodies(())
+    for joint in joints:
+        if joint is None or any(need not in found for need in joint.needs):
+            continue
+        placed = top.attempt(_on_one_body, top, joint, bodies)
+        if placed is not None:
+            found[joint.name] = placed
+            bodies = placed.placed(bodies)
+    return replace(top, context=replace(top.context, joints=found, rigid=bodies))
+
+
+def _on_one_body(top: Table, joint: Joint, bodies: tuple[RigidBody, ...]) -> Joint:
+    """Return a joint, refused where it is a point of no body, or its bars stand on one and do not meet."""
+    if joint.body:
+        _refuse_apart(top.table("joints").table(joint.name), joint.body, bodies)
+    elif isinstance(joint, RRR) and (n := holding(bodies, joint.ends)) is not None:
+        _refuse_loose(top.table("joints").table(joint.name), joint, bodies[n])
+        return brace(joint, bodies[n])
+    return joint
+
+
+def _refuse_apart(table: Table, names: tuple[str, ...], bodies: tuple[RigidBody, ...]) -> None:
+    first, second, *_ = names
+    n = holding(bodies, names)
+    if n is None:
+        listed = f"{', '.join(names[:-1])} and {names[-1]}"
+        raise table.wrong(f"{listed} are not on one rigid body; name joints of one bar")
+    if coincide(bodies[n], first, second):
+        raise table.wrong(
+            f"{first} and {second} are one point, so no direction leads from {first} to {second}"
+        )
+
+
+def _refuse_loose(table: Table, joint: RRR, frame: RigidBody) -> None:
+    """Refuse a dyad between two joints of one body whose bars are too short or too long for it."""
+    first, second = joint.ends
+    (a, b), unit = joint.lengths, table.context.unit
+    distance = abs(frame[first] - frame[second])
+    if coincide(frame, first, second) or not abs(a - b) <= distance <= a + b:
+        raise unassembled(
+            table,
+            f"the bars of {a:g} and {b:g} {unit} cannot meet: {first} and {second} are "
+            f"{distance:g} {unit} apart on one rigid body, and {abs(a - b):g} to {a + b:g} {unit} would do",
+        )
+
+
+def unassembled(table: Table, reason: str) -> AssemblyError:
+    """Return the error about lengths that do not go together."""
+    error = AssemblyError(f"{table.where}: {table.path}: {reason}")
+    error.keys = table.keys
+    return error
+
+
+# The document in a scene file to a checked `Scene`, or to all that is wrong with it.
+
+Check = Callable[[Scene], None]
+"""Raises what refuses a scene that is whole but not yet put together."""
+
+
+def scene_from(
+    document: Mapping[str, Any],
+    *,
+    name: str,
+    where: str,
+    towards: Scene | None = None,
+    check: Check | None = None,
+) -> Scene:
+    """Return the scene that a document describes, put together.
+
+    `where` names the file in errors. Lengths come out in the document's `length_unit` (mm if it has none),
+    angles in radians; joints in the order in which they can be solved. SceneError for whatever is unknown,
+    missing or contradictory; AssemblyError for lengths that cannot be assembled. `towards` is the scene that
+    this one is on the way to, where it is shown for an instant; `check` may refuse it before it is whole.
+    """
+    scene, problems = read(document, name=name, where=where, towards=towards, check=check)
+    if scene is None or problems:
+        raise problems[0]
+    return scene
+
+
+def read(
+    document: Mapping[str, Any],
+    *,
+    name: str,
+    where: str,
+    towards: Scene | None = None,
+    check: Check | None = None,
+) -> tuple[Scene | None, list[BadInput]]:
+    """Return the scene that a document describes, None where it describes none, and all its problems.
+
+    What can only follow from another problem is not among them: of what hangs on a joint with a fault only
+    its own table is looked at, and what is put together only where every joint is sound.
+    """
+    top = _opened(document, where)
+    top, short = _with_joints(top)
+    bodies = _part(top, "bodies") or {}
+    parts = {
+        "linkage": _linkage(top, short, {name: one and one.body for name, one in bodies.items()}),
+        "title": _part(top, "title") if "title" in top else name,
+        **{key: _part(top, key) for key in ("source", "chapter", "look_at", "notes")},
+        "trace": _trace(top, short),
+    }
+    if "photo" in top:
+        _part(top, "photo")
+    purposes = [key for key in PURPOSES if key in top]
+    if len(purposes) > 1:
+        reason = (
+            f"was made for one thing, not for [{purposes[0]}] and [{purposes[1]}]; keep one of the tables"
+        )
+        top.context.problems.append(top.wrong(reason))
+    purpose = _part(top, purposes[0]) if purposes else None
+    if any(part is None for part in parts.values()):
+        return None, top.context.problems
+    styles = tuple((name, one.style) for name, one in bodies.items() if one and one.style != FREE_STYLE)
+    parts |= {"purpose": purpose, "styles": styles, "document": document, "towards": towards}
+    scene = Scene(name=name, length_unit=top.context.unit, **parts)
+    top.attempt(_check_assembly, top, scene, check)
+    return scene, top.context.problems
+
+
+def _part(top: Table, key: str) -> Any:
+    """Return what one of the file's tables or values comes to; None where it has a fault."""
+    return top.attempt(SECTIONS[key].read, top)
+
+
+def _opened(document: Mapping[str, Any], where: str) -> Table:
+    """Return the file's table, its unit and the names of its joints known; unknown keys are problems."""
+    top = Table(where, document)
+    unit = _part(top, "length_unit") or "mm"
+    top.refuse_unknown(SCENE_FILE.keys)
+    names = [*_shorthand_names(top), *_names(document.get("ground")), *_names(document.get("joints"))]
+    context = Context(unit, tuple(dict.fromkeys(names)), problems=top.context.problems)
+    return replace(top, context=context)
+
+
+def _names(section: object) -> list[str]:
+    return list(section) if isinstance(section, Mapping) else []
+
+
+def _shorthand_names(top: Table) -> list[str]:
+    """Return the names of the joints that a shorthand states; all that it may state where it is no table."""
+    stated = {key: top.values[key] for key in SHORTHANDS if key in top}
+    tables = (
+        (key, table if isinstance(table, Mapping) else SHORTHANDS[key].keys) for key, table in stated.items()
+    )
+    return [name for key, table in tables for name in names_of(key, table)]
+
+
+def _with_joints(top: Table) -> tuple[Table, Expansion]:
+    """Return the file's table with its sound joints known, and what its shorthand stands for."""
+    pins = _part(top, "ground") or {}
+    short = top.attempt(_expansion, top, pins.get("O2", Pin("O2", (0.0, 0.0))))
+    moving = _part(top, "joints") or {}
+    if not (any(key in top for key in SHORTHANDS) or "joints" in top):
+        reason = f"describes no linkage; give it [joints], or one of {', '.join(SHORTHANDS)}"
+        top.context.problems.append(top.wrong(reason))
+    expanded: dict[str, Joint | None] = dict.fromkeys(_shorthand_names(top))
+    if short:
+        expanded = {joint.name: joint for joint in short.joints}
+    return solved(top, expanded, pins, moving), short or Expansion()
+
+
+def _expansion(top: Table, o2: Pin | None) -> Expansion | None:
+    """Return what the file's shorthand stands for about its first pin; nothing of a file that has none."""
+    found = [key for key in SHORTHANDS if key in top]
+    if len(found) > 1:
+        raise top.wrong(f"has both [{found[0]}] and [{found[1]}]; keep one, write the other as [joints]")
+    if not found:
+        return Expansion()
+    expansion: Expansion | None = SHORTHANDS[found[0]].made(top.table(found[0]), o2 or Pin("O2", (0.0, 0.0)))
+    return expansion if o2 else None
+
+
+def _linkage(top: Table, short: Expansion, stated: Mapping[str, Any]) -> Linkage | None:
+    """Return the linkage; None where any part of it has a fault."""
+    context = top.context
+    bodies: dict[str, Any] = {body.name: body for body in short.bodies} | dict(stated)
+    drive = top.attempt(read_drive, top, short.drive)
+    springs, dampers = _part(top, "springs") or {}, _part(top, "dampers") or {}
+    gravity = top.attempt(_gravity, top, bodies)
+    parts = (*bodies.values(), *springs.values(), *dampers.values())
+    if not context.sound or drive is None or gravity is None or None in parts:
+        return None
+    linkage = Linkage(
+        joints=tuple(context.joints.values()),
+        drive=drive,
+        bodies=tuple(bodies.values()),
+        springs=tuple(springs.values()),
+        dampers=tuple(dampers.values()),
+        metre=units.metre(context.unit),
+        gravity=gravity,
+    )
+    return top.attempt(refuse_apart, top, linkage)
+
+
+def _gravity(top: Table, bodies: Mapping[str, Body | None]) -> float | None:
+    """Return the scene's gravity in m/s², 0 where it states none; refused where it could pull at nothing."""
+    if "gravity" not in top:
+        return 0.0
+    gravity: float | None = SECTIONS["gravity"].read(top)
+    if all(body and body.mass is None for body in bodies.values()):
+        raise top.error("gravity", 'pulls at nothing; give a body its mass, such as mass = "3 kg"')
+    return gravity
+
+
+def _trace(top: Table, short: Expansion) -> tuple[str, ...] | None:
+    trace: Mapping[str, tuple[str, ...]] | None = _part(top, "trace")
+    return None if trace is None else trace.get("joints", short.trace)
+
+
+def _check_assembly(top: Table, scene: Scene, check: Check | None) -> None:
+    """Refuse lengths that cannot be put together, saying in which file and table they stand."""
+    try:
+        if check:
+            check(scene)
+        _ = scene.mechanism
+    except AssemblyError as error:
+        section = next((key for key in SHORTHANDS if key in top), "joints")
+        raise unassembled(top.table(section), str(error)) from None
+
+
+# Every problem of a scene file at once, each with its line.
+
+_AT_LINE = re.compile(r"\(at line (\d+), column \d+\)|\(line (\d+)\)")
+_ITEM = re.compile(r"(.+)\[\d+\]")
+
+
+class Problem(NamedTuple):
+    """What is wrong, in the reader's words, at a line where there is one."""
+
+    message: str
+    line: int | None = None
+
+
+def problems(text: str, *, name: str, where: str) -> list[Problem]:
+    """Return every problem of a scene file's text in the order of the lines, 100 at the most."""
+    try:
+        document = parse(text, where)
+    except BadInput as error:
+        return [_unparsed(error, text)]
+    _, errors = read(document, name=name, where=where)
+    lines = line_numbers(text) if errors else {}
+    found = dict.fromkeys(Problem(str(error), _line(lines, error.keys)) for error in errors)
+    return sorted(found, key=lambda problem: problem.line or 0)[:MOST_PROBLEMS]
+
+
+def _unparsed(error: BadInput, text: str) -> Problem:
+    if error.keys:
+        return Problem(str(error), _line(line_numbers(text), error.keys))
+    at = _AT_LINE.search(str(error))
+    return Problem(str(error), int(at[1] or at[2]) if at else None)
+
+
+def _line(lines: dict[Keys, int], keys: Keys) -> int | None:
+    """Return the line of a key, or of the nearest table around it."""
+    items = [(key, _ITEM.fullmatch(key)) for key in keys]
+    plain = tuple(item[1] if item else key for key, item in items)
+    return next((lines[plain[:n]] for n in range(len(plain), 0, -1) if plain[:n] in lines), None)

@@ -1,0 +1,537 @@
+"""Check an answer on the solver, give its cognates, and hand it on as numbers or as a file.
+
+Its parts, in reading order:
+
+- An answer: a linkage as a scene, and how well it follows the curve, as the solver says.
+- Every answer as the solver runs it: its whole turn, one closure, the points in order, true distances.
+- Roberts's theorem: every coupler curve of a four-bar is traced by two further four-bars.
+- An answer as plain numbers, as it goes from one process to another and onto a tape; and back to a scene.
+- Answers as scene files: the first under the name that was asked for, the others numbered.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from abc import ABC, abstractmethod
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from pathlib import Path
+from typing import Any, Literal, NamedTuple
+
+import numpy as np
+
+from linkanim.errors import AssemblyError, SceneError
+from linkanim.manifest import FileSet, replacing
+from linkanim.mechanics.measures import as_complex, transmission_angle
+from linkanim.scenes.reading import scene_from
+from linkanim.scenes.scene import Scene
+from linkanim.scenes.toml import text
+from linkanim.synthesis.curves import DrawnCurve
+from linkanim.synthesis.fitting import FEW, PathTask
+from linkanim.synthesis.linkages import FOUR_BAR, Complex, Linkage4, LinkageKind, Real
+
+# An answer: a linkage as a scene, and how well it follows the curve, as the solver says.
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class CouplerLinkage(ABC):
+    """A four-bar or slider-crank that was made for its coupler; lengths in its unit, angles in radians."""
+
+    scene: Scene
+    parameters: Mapping[str, float]
+    """Pivots x, y, x4, y4, lengths, and the coupler point along A -> B and across, to its left."""
+    closure: str
+    angles: Real
+    """Of the crank, where the coupler is at each point or pose that it was made for, in their order."""
+    transmission_angle: float
+    """The least; where the input does not turn fully, along the way it was made for."""
+    size: float
+    """The longest link, or side of the coupler."""
+
+    @property
+    @abstractmethod
+    def kind(self) -> LinkageKind:
+        """What its parameters are."""
+
+    @property
+    def class_name(self) -> str:
+        """The linkage's class, in words."""
+        return self.scene.info.class_name
+
+    @property
+    def row(self) -> Real:
+        """The parameters as a row of its kind."""
+        return np.array([self.parameters[name] for name in self.kind.parameters])
+
+    @property
+    def closure_sign(self) -> float:
+        """The closure as +1 or -1."""
+        return 1.0 if self.closure == self.kind.sides[0] else -1.0
+
+    @property
+    def sense(self) -> float:
+        """+1 where the drive runs forwards along the way, else -1; a crank's angle then grows."""
+        return math.copysign(1.0, self.scene.linkage.drive.speed)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Fit(CouplerLinkage):
+    """A linkage beside the drawn curve; distances in the curve's unit."""
+
+    rms: float
+    """Root mean square of the points' distances to the curve near where the coupler point passes them; with
+    prescribed timing, to where it is then."""
+    largest: float
+    """The largest of those distances."""
+    stray: float
+    """How far the coupler point goes from the points' polyline at the most."""
+    task: PathTask = field(repr=False)
+    exact: Fit | None = field(default=None, repr=False)
+    """The answer before its lengths were rounded."""
+    cognate: bool = False
+    """Whether it is a Roberts cognate of an answer before it."""
+
+    @property
+    def kind(self) -> LinkageKind:
+        """What its parameters are."""
+        return self.task.kind
+
+    @cached_property
+    def joints(self) -> Complex:
+        """Fixed pins, and all joints where the crank is at the first and at the middle point of the curve."""
+        angles = self.angles[None, [0, len(self.angles) // 2]]
+        joints: Complex = self.task.kind.joints(self.row[None], np.array([self.closure_sign]), angles)[0]
+        return joints
+
+    def apart(self, other: Fit) -> float:
+        """Return how far two answers' joints are apart, in curve sizes, however their parameters are told."""
+        return float(np.abs(self.joints - other.joints).max() / self.task.curve.size)
+
+    @property
+    def error(self) -> float:
+        """By what answers are ranked: the root mean square, and a way between the points that strays."""
+        if len(self.angles) <= FEW:
+            return self.rms
+        return math.hypot(self.rms, max(0.0, self.stray - self.largest - self.task.curve.longest_step / 2))
+
+
+def document_of(
+    kind: LinkageKind, row: Iterable[float], closure: float, start: tuple[float, float], **stated: str
+) -> dict[str, Any]:
+    """Return a linkage as a scene's document, its crank starting at an angle, turning a way (±1).
+
+    `stated` is its source, and its title and unit of length if these are not the usual ones.
+    """
+    angle, sense = start
+    return {
+        "title": f"{kind.name.capitalize()} along a drawn path",
+        "source": "",
+        "length_unit": "mm",
+        **stated,
+        "drive": {
+            "joint": "A",
+            "speed": "-20 rpm" if sense < 0 else "20 rpm",
+            "start": f"{round(math.degrees(angle) % 360, 9)!r} deg",
+        },
+        **kind.document(parameters_of(kind, row), closure),
+        "trace": {"joints": ["P"]},
+    }
+
+
+def parameters_of(kind: LinkageKind, row: Iterable[float]) -> dict[str, float]:
+    """Return a row's parameters by name, as plain numbers."""
+    return dict(zip(kind.parameters, (float(value) for value in row), strict=True))
+
+
+def rounded(task: PathTask, row: Real) -> Real:
+    """Return a row as it is written, to twelve digits after the curve's first: one input gives one file."""
+    found = [
+        round(float(value), 13 if name == "line_angle" else task.quantum) + 0.0
+        for name, value in zip(task.kind.parameters, row, strict=True)
+    ]
+    return np.array(found)
+
+
+# Every answer as the solver runs it: its whole turn, one closure, the points in order, true distances.
+
+_POSES = 1440
+"""Over the turn, or between the first and the last point, at which the way is compared with the polyline."""
+_STEPPED, _BEYOND = 200, 0.02
+"""Points at the most that are looked for in steps along the curve, and how far beyond its ends they go."""
+_FOOT_STEPS = 12
+_FARTHEST_STEP, _LAST_STEP = 0.1, 1e-9
+_SLACK = 1e-9
+_RUN, _MOST_RUNS = 16, 128
+"""Segments of a polyline that are looked at together at the least, and how many such runs at the most."""
+
+
+def checked(task: PathTask, row: Real, closure: float, angles: Real) -> Fit | None:
+    """Return the answer as the solver runs it; None where it is none after all.
+
+    That is where it does not assemble, does not turn fully or not all the way along an open curve, passes
+    the points out of order, or breaks a limit. `angles` (n,) are those of the crank at the points.
+    """
+    if not keeps(task, row):
+        return None
+    sense = 1.0 if angles[-1] > angles[0] else -1.0
+    try:
+        scene = _scene(task, row, closure, (angles[0], sense))
+        full = scene.info.full_turn
+    except (AssemblyError, SceneError):
+        return None
+    if task.requirements.full_turn and not full:
+        return None
+    return _fit(task, _Answer(scene, row, closure, "angle"), angles)
+
+
+def checked_by_phase(task: PathTask, row: Real, closures: Real, angles: Real) -> Fit | None:
+    """Return an answer that swings through its limits along the curve; None where it is none after all.
+
+    That is where it does not swing, passes the points out of order, or breaks a limit. `closures` and
+    `angles` (n,) are those at the points. No angle that is asked for is kept at a limit, and no timing.
+    """
+    task, closure = task.swinging(), float(closures[0])
+    if task.timing is not None or not keeps(task, row):
+        return None
+    try:
+        scene = _scene(task, row, closure, (angles[0], 1.0))
+        if scene.info.full_turn:
+            return None
+        low, high = scene.info.input_range
+        # while the sine of the phase is above zero the closure is the one that is named
+        share = np.remainder(angles - (low + high) / 2 + math.pi, 2 * math.pi) - math.pi
+        forth = np.arccos(np.clip(-share / ((high - low) / 2), -1.0, 1.0))
+        phases = np.where(closures == closure, forth, 2 * math.pi - forth)
+        steps = np.remainder(np.diff(phases) + math.pi, 2 * math.pi) - math.pi
+        if steps.sum() < 0:
+            scene = _scene(task, row, closure, (angles[0], -1.0))
+    except (AssemblyError, SceneError):
+        return None
+    phases = phases[0] + np.append(0.0, np.cumsum(steps))
+    fit = _fit(task, _Answer(scene, row, closure, "phase"), phases)
+    return fit and replace(fit, angles=angles)
+
+
+class _Answer(NamedTuple):
+    """A linkage as a scene, its row of parameters and its closure, and what its places are given by."""
+
+    scene: Scene
+    row: Real
+    closure: float
+    by: Literal["angle", "phase"]
+
+    @property
+    def round(self) -> float:
+        """How far its places go until it has traced its whole curve."""
+        return 2 * math.pi if self.by == "angle" else self.scene.period
+
+    def traced(self, places: Real) -> Complex:
+        """Return the coupler point at places."""
+        motion = self.scene.solve(**{self.by: places}, derivatives=0)
+        return np.asarray(as_complex(motion.position["P"]))
+
+
+def _scene(task: PathTask, row: Real, closure: float, start: tuple[float, float]) -> Scene:
+    """Return the scene of a linkage, its crank starting at an angle, turning a way (±1)."""
+    stated = {"source": task.source, "length_unit": task.unit}
+    document = document_of(task.kind, row, closure, start, **stated)
+    return scene_from(document, name=task.name, where=task.name)
+
+
+def _fit(task: PathTask, answer: _Answer, places: Real) -> Fit | None:
+    """Return an answer with how far it is off and strays, and its least transmission angle.
+
+    None where it does not pass the points near given places, in order, or not above the least angle.
+    """
+    if not _in_order(task, places, answer.round):
+        return None
+    places, off = _feet(answer, task, places)
+    if not np.isfinite(off).all():
+        return None
+    least, stray = _least_transmission(answer, task, places), _stray(answer, task, places)
+    if not least >= task.requirements.angle_to_keep(answer.by) - _SLACK or not math.isfinite(stray):
+        return None
+    return Fit(
+        scene=answer.scene,
+        parameters=parameters_of(task.kind, answer.row),
+        closure=task.kind.sides[answer.closure < 0],
+        angles=places,
+        rms=float(np.sqrt((off**2).mean())),
+        largest=float(off.max()),
+        stray=stray,
+        transmission_angle=least,
+        size=float(task.kind.link_lengths(answer.row[None])[0].max()),
+        task=task,
+    )
+
+
+def keeps(task: PathTask, row: Real) -> bool:
+    """Return whether a linkage keeps to all limits, to rounding."""
+    slack = task.requirements.slack(task.kind, row[None])
+    mask, values = task.requirements.held(task.kind)
+    given = np.abs(row - values) * mask
+    return bool((slack >= -_SLACK * task.curve.size).all() and (given <= _SLACK * task.curve.size).all())
+
+
+def _feet(answer: _Answer, task: PathTask, places: Real) -> tuple[Real, Real]:
+    """Return the places at which the points are passed, in order, and how far each one is off.
+
+    Points are as far off as the nearest place of the curve near by, or, with prescribed timing, as where the
+    coupler point is then. Neighbours whose nearest places have changed places are in order as long as that
+    is by no more than points are off.
+    """
+    points = task.curve.points
+    if task.timing is not None:
+        return places, np.abs(answer.traced(places) - points)
+    sense = 1.0 if places[-1] > places[0] else -1.0
+    places = _passed(answer, task, places)
+    nearest = _nearest(answer, points, places)
+    ordered = sense * _ascending(sense * nearest, answer.round if task.curve.closed else math.inf)
+    passed = answer.traced(nearest)
+    off = np.abs(passed - points)
+    if np.abs(answer.traced(ordered) - passed).max() <= 2 * off.max() + _SLACK * task.curve.size:
+        return ordered, off
+    return places, np.abs(answer.traced(places) - points)
+
+
+def _passed(answer: _Answer, task: PathTask, places: Real) -> Real:
+    """Return the places, of equal steps along the curve, that are nearest to the points in their order.
+
+    That is the least sum of squares of all ways to pass them in order; the given places where it would take
+    more than a round.
+    """
+    chosen = task.thinned(_STEPPED)
+    span = (
+        math.copysign(answer.round, places[-1] - places[0]) if task.curve.closed else places[-1] - places[0]
+    )
+    steps = np.linspace(places[0] - _BEYOND * span, places[0] + (1 + _BEYOND) * span, _POSES)
+    squares = np.abs(answer.traced(steps) - task.curve.points[chosen, None]) ** 2
+    squares, numbers = np.where(np.isfinite(squares), squares, np.inf), np.arange(_POSES)
+    total, before = squares[0], []
+    for square in squares[1:]:
+        least = np.minimum.accumulate(total)
+        before.append(np.maximum.accumulate(np.where(total <= least, numbers, 0)))
+        total = least + square
+    found = [int(total.argmin())]
+    for last in reversed(before):
+        found.append(int(last[found[-1]]))
+    along = task.normal.places
+    passed = np.interp(along, along[chosen], steps[found[::-1]])
+    return passed if _in_order(task, passed, answer.round) else places
+
+
+def _ascending(places: Real, most: float) -> Real:
+    """Return places sorted, those that go on beyond the curve's end where it begins."""
+    found = np.sort(places)
+    while found[-1] - found[0] > most:
+        found[0], found[-1] = found[-1] - most, found[0] + most
+        found.sort()
+    return found
+
+
+def _nearest(answer: _Answer, points: Complex, places: Real) -> Real:
+    """Return where, near to given places, the coupler point is nearest to each point: Newton's steps."""
+    best = places.copy()
+    least, reach = np.abs(answer.traced(best) - points), np.full(len(best), _FARTHEST_STEP)
+    left = np.arange(len(best))
+    for _ in range(_FOOT_STEPS):
+        motion = answer.scene.solve(**{answer.by: best[left]}, speed=1.0, derivatives=2)
+        way = points[left] - as_complex(motion.position["P"])
+        rate, turn = as_complex(motion.velocity["P"]), as_complex(motion.acceleration["P"])
+        with np.errstate(all="ignore"):
+            square = np.abs(rate) ** 2
+            bend = square - (np.conj(turn) * way).real
+            step = np.nan_to_num((np.conj(rate) * way).real / np.where(bend > 0, bend, square))
+        step = np.clip(step, -reach[left], reach[left])
+        off = np.abs(answer.traced(best[left] + step) - points[left])
+        nearer = off < least[left]
+        best[left] += np.where(nearer, step, 0.0)
+        least[left] = np.where(nearer, off, least[left])
+        reach[left] = np.where(nearer, _FARTHEST_STEP, np.abs(step) / 4)
+        left = left[np.abs(step) > _LAST_STEP]
+        if not len(left):
+            break
+    return best
+
+
+def _in_order(task: PathTask, places: Real, most: float) -> bool:
+    """Return whether the points are passed one after the other, a closed curve in one round."""
+    steps = np.diff(places) * (1 if places[-1] > places[0] else -1)
+    whole = abs(places[-1] - places[0]) < most + _SLACK
+    return task.timing is not None or bool((steps > -_SLACK).all() and whole)
+
+
+def _least_transmission(answer: _Answer, task: PathTask, places: Real) -> float:
+    """Return the least transmission angle: over the turn, of an input that swings along the curve."""
+    whole = answer.by == "phase" and task.curve.closed
+    if whole or answer.scene.info.full_turn:
+        known = answer.scene.info.transmission
+        return known.least if known else math.pi / 2
+    along = np.linspace(places.min(), places.max(), _POSES)
+    motion = answer.scene.solve(**{answer.by: along}, derivatives=0)
+    return float(np.min(transmission_angle(motion, "B")))
+
+
+def _stray(answer: _Answer, task: PathTask, places: Real) -> float:
+    """Return how far the coupler point goes from the points' polyline all along it, of an open one between
+    its ends.
+    """
+    last = (
+        places[0] + math.copysign(answer.round, places[-1] - places[0]) if task.curve.closed else places[-1]
+    )
+    return _farthest(answer.traced(np.linspace(places[0], last, _POSES)), task.curve)
+
+
+def _farthest(way: Complex, curve: DrawnCurve) -> float:
+    """Return how far a way goes from the points' polyline: from the nearest of its segments.
+
+    Infinite where the way is not closed. Of the segments, taken in runs, only runs are looked at that may
+    hold the nearest one.
+    """
+    start, side = curve.polyline[:-1], np.diff(curve.polyline)
+    runs = np.array_split(np.arange(len(side)), 1 + min(len(side) // _RUN, _MOST_RUNS))
+    corners = [curve.polyline[run[0] : run[-1] + 2] for run in runs]
+    middle = np.array([part.mean() for part in corners])
+    radius = np.array([np.abs(part - centre).max() for part, centre in zip(corners, middle, strict=True)])
+    least = np.full(len(way), np.inf)
+    away = np.abs(way[:, None] - middle)
+    near = away - radius <= (away + radius).min(axis=1, keepdims=True) * (1 + _SLACK)
+    for run, here in zip(runs, near.T, strict=True):
+        if here.any():
+            least[here] = np.minimum(least[here], _off(way[here], start[run], side[run]))
+    return float(least.max())
+
+
+def _off(places: Complex, start: Complex, side: Complex) -> Real:
+    """Return how far places (n,) are from the nearest of some segments (m,)."""
+    way, side = places - start[:, None], side[:, None]
+    with np.errstate(invalid="ignore"):  # segments without a length
+        share = np.nan_to_num((way.real * side.real + way.imag * side.imag) / np.abs(side) ** 2)
+    np.clip(share, 0, 1, out=share)
+    x, y = way.real - share * side.real, way.imag - share * side.imag
+    return np.asarray(np.sqrt((x * x + y * y).min(axis=0)))
+
+
+# Roberts's theorem: every coupler curve of a four-bar is traced by two further four-bars.
+#
+# With the coupler point P = A + k·(B - A) in complex numbers, the third pivot is O6 = O2 + k·(O4 - O2). One
+# cognate stands on O2 and O6 with the parallelogram O2 A P A', the other on O6 and O4 with O4 B P B'; each
+# has a coupler similar to the first one's (Roberts 1875, Chebyshev 1878).
+
+_TIMED = 1e-9
+"""By how much crank angles (rad) may be off those that are given."""
+_Joints = tuple[complex, Complex, Complex, complex]
+"""A pivot, the pins of its crank (n,) and of the rocker (n,), and that one's pivot."""
+
+
+def cognates_of(fit: Fit) -> Iterator[Fit]:
+    """Yield a four-bar's two cognates, driven at O6 or O2, as far as they are answers to the same task.
+
+    One may be a double-rocker, whose curve then is that of both its closures; one of which a link would
+    vanish, as where the coupler point is a pin, is left out, as is what breaks a limit or the timing.
+    """
+    point = fit.task.kind.points(fit.row[None], np.array([fit.closure_sign]), fit.angles[None])[0]
+    for pivot, crank, rocker, other in _cognates(fit, point):
+        first = Linkage4(pivot, crank[0], rocker[0], other, point[0])
+        with np.errstate(all="ignore"):
+            row = np.array(first.row)
+        angles = _timed(fit, np.unwrap(np.angle(crank - pivot)))
+        if angles is None or not np.isfinite(row).all():
+            continue
+        closures = np.where((np.conj(other - crank) * (rocker - crank)).imag >= 0, 1.0, -1.0)
+        task = fit.task if fit.task.curve.closed else fit.task.swinging()
+        found = checked(task, row, first.closure, angles) or checked_by_phase(task, row, closures, angles)
+        yield from [replace(found, cognate=True)] if found else []
+
+
+def _timed(fit: Fit, angles: Real) -> Real | None:
+    """Return crank angles at the points, whole turns nearer to those given; None where they are not."""
+    task = fit.task
+    if task.timing is None:
+        return angles
+    late = angles - task.timing
+    if task.free_start:
+        late = late - late[0]
+    turns = np.round(late / (2 * np.pi)) * 2 * np.pi
+    return angles - turns if np.abs(late - turns).max() <= _TIMED else None
+
+
+def _cognates(fit: Fit, point: Complex) -> tuple[_Joints, _Joints]:
+    """Return both cognates' joints at the points: whose crank turns as the first one's, and the other."""
+    x, y, crank, coupler, along, across, x4, y4, _ = fit.row
+    o2, o4 = complex(x, y), complex(x4, y4)
+    share = complex(along, across) / coupler
+    o6 = o2 + share * (o4 - o2)
+    pin_a = o2 + crank * np.exp(1j * fit.angles)
+    pin_b = pin_a + (point - pin_a) / share if share else pin_a
+    first = o6, o6 + (1 - share) * (pin_a - o2), o4 + point - pin_b, o4
+    second = o2, o2 + point - pin_a, o6 + share * (pin_b - o4), o6
+    return first, second
+
+
+# An answer as plain numbers, as it goes from one process to another and onto a tape; and back to a scene.
+
+NAME = "path"
+"""What the scene of an answer is called, and its file."""
+NUMBERS = 4 + len(FOUR_BAR.parameters)
+
+
+class PathAnswer(NamedTuple):
+    """A four-bar beside a stroke: by how much of its size in percent it is off, and what it is.
+
+    `closure` is +1 or -1, `start` the crank's angle at the stroke's first point (rad), `sense` +1 or -1 the
+    way it turns from there, `row` the parameters of a four-bar.
+    """
+
+    off: float
+    closure: float
+    start: float
+    sense: float
+    row: tuple[float, ...]
+
+    @property
+    def numbers(self) -> tuple[float, ...]:
+        """All of it in a row."""
+        return (*self[:4], *self.row)
+
+    def scene(self, unit: str, towards: Scene | None = None) -> Scene:
+        """Return the linkage as a scene, maybe on the way `towards` another; errors as reading a file."""
+        source = "made by linkanim for a path drawn in the window"
+        start = self.start, self.sense
+        document = document_of(FOUR_BAR, self.row, self.closure, start, source=source, length_unit=unit)
+        return scene_from(document, name=NAME, where=NAME, towards=towards)
+
+
+def answer_of(fit: Fit) -> PathAnswer:
+    """Return a fit's answer."""
+    off = 100 * fit.error / fit.task.curve.size
+    row = tuple(float(value) for value in fit.row)
+    return PathAnswer(off, fit.closure_sign, float(fit.angles[0]), fit.sense, row)
+
+
+def answer_from(numbers: tuple[float, ...]) -> PathAnswer:
+    """Return the answer that is all of these `NUMBERS` numbers."""
+    off, closure, start, sense, *row = numbers
+    return PathAnswer(off, closure, start, sense, tuple(row))
+
+
+# Answers as scene files: the first under the name that was asked for, the others numbered.
+
+
+def file_set(target: Path) -> FileSet:
+    """Return the set that answers are written as: NAME.toml, NAME-2.toml, ..."""
+    return FileSet(target.parent, target.name, rf"{re.escape(target.stem)}(-\d+)?\.toml")
+
+
+def write(scenes: Sequence[Scene], target: Path) -> list[Path]:
+    """Write the answers, all or none, and return their paths; what an older run wrote more of goes.
+
+    BadInput where a name is taken by a file that is not ours, or was changed since.
+    """
+    names = [target.name, *(f"{target.stem}-{number}.toml" for number in range(2, len(scenes) + 1))]
+    with replacing(file_set(target), names) as folder:
+        for scene, name in zip(scenes, names, strict=True):
+            (folder / name).write_text(text(scene), encoding="utf-8")
+    return [target.parent / name for name in names]

@@ -1,0 +1,290 @@
+"""Fit many candidates to a drawn curve at once, within what is asked for.
+
+Its parts, in reading order:
+
+- What is asked for: a drawn curve, a kind of linkage, how the crank goes with the points, and limits.
+- Least squares over many candidates at once: Levenberg and Marquardt's steps, each point's crank angle
+  free.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkanim.synthesis.atlas import Candidates
+from linkanim.synthesis.curves import DrawnCurve
+from linkanim.synthesis.linkages import Indices, LinkageKind, Real, Requirements, TracedPoints
+
+# What is asked for: a drawn curve, a kind of linkage, how the crank goes with the points, and limits.
+
+FEW = 12
+"""Points that say nothing about the way between them."""
+EXACTLY = 1e10
+"""What a point that is to be passed through exactly weighs beside another one."""
+
+
+@dataclass(frozen=True, eq=False)
+class PathTask:
+    """A curve in its unit, with its points' weights and what its linkages have to be.
+
+    `timing` is None where crank angles are free, else the crank's angle at each point; with `free_start` all
+    of those may be shifted by one angle.
+    """
+
+    curve: DrawnCurve
+    kind: LinkageKind
+    requirements: Requirements
+    weights: Real
+    timing: Real | None = None
+    free_start: bool = True
+    unit: str = "mm"
+    name: str = "path"
+    source: str = "a drawn path"
+
+    @cached_property
+    def normal(self) -> DrawnCurve:
+        """The curve about the origin, its size 1."""
+        return DrawnCurve((self.curve.points - self.curve.centre) / self.curve.size, self.curve.closed)
+
+    def thinned(self, count: int) -> Indices:
+        """Return which points to take: about so many equally far along, and those to be passed exactly."""
+        return np.union1d(self.normal.thinned(count), np.flatnonzero(self.weights >= EXACTLY))
+
+    @property
+    def is_dense(self) -> bool:
+        """Whether the points say where the curve goes between them."""
+        return self.timing is None and len(self.curve.points) > FEW
+
+    def problem(self, chosen: Indices) -> PathTask:
+        """Return the same for some of the points, at size 1 about the origin."""
+        return replace(
+            self,
+            curve=DrawnCurve(self.normal.points[chosen], self.curve.closed),
+            requirements=self.requirements.placed(self.curve.centre, self.curve.size),
+            weights=self.weights[chosen],
+            timing=None if self.timing is None else self.timing[chosen],
+        )
+
+    def scaled(self, found: Candidates) -> Candidates:
+        """Return candidates of size 1 in the curve's own unit and place."""
+        return self._placed(found, self.curve.size, self.curve.centre)
+
+    def normalised(self, found: Candidates) -> Candidates:
+        """Return candidates in the curve's unit at size 1 about the origin: `scaled` undone."""
+        return self._placed(found, 1 / self.curve.size, -self.curve.centre / self.curve.size)
+
+    def _placed(self, found: Candidates, scale: float, shift: complex) -> Candidates:
+        ones = np.ones(len(found.rows), np.complex128)
+        return found._replace(rows=self.kind.placed(found.rows, scale * ones, shift * ones))
+
+    def swinging(self) -> PathTask:
+        """Return the same task, the crank free to swing."""
+        return replace(self, requirements=replace(self.requirements, full_turn=False))
+
+    @property
+    def quantum(self) -> int:
+        """To how many decimals lengths are written: to a share of 1e-12 of the curve's size."""
+        return 12 - math.floor(math.log10(self.curve.size))
+
+
+# Least squares over many candidates at once: Levenberg and Marquardt's steps, each point's crank angle free.
+#
+# A point counts by its distance to the curve, orthogonal distance regression: the crank's angle at a point
+# is eliminated by projecting on the curve's normal there (Boggs, Byrd and Schnabel), and follows after each
+# step. With prescribed timing both components count. Limits that a step would break hold in it as equations.
+
+_FIRST_DAMPING, _LEAST_DAMPING = 1e-3, 1e-15
+_STANDING, _PATIENCE, _EXACT = 1e-6, 12, 1e-31
+"""A share of the merit that is no gain, in how many steps on end, and a merit that is rounding."""
+_NEARER = 0.1
+"""What a step leaves of the slack of a limit that it would break otherwise."""
+_OF_GAP = 0.45
+"""Of the gap to its neighbour a crank angle goes in a step, so that points keep their order."""
+_BROKEN = 1e3
+"""What a limit broken by one curve size weighs beside one point that is as far off."""
+_DIFFERENCE = 1e-7
+
+
+class _State(NamedTuple):
+    """Candidates with what is known at them: traced points, slack of the limits, and the merit."""
+
+    found: Candidates
+    traced: TracedPoints
+    slack: Real
+    broken: Real
+    cost: Real
+
+
+def _merged(mine: Any, other: Any, where: NDArray[np.bool_]) -> Any:
+    """Return a state, or a part of it, with the rows of another one where said."""
+    if isinstance(mine, tuple):
+        return type(mine)(*(_merged(*pair, where) for pair in zip(mine, other, strict=True)))
+    return np.where(where.reshape(-1, *[1] * (mine.ndim - 1)), other, mine)
+
+
+def refined(
+    problem: PathTask, candidates: Candidates, steps: int, *, guarded: bool = True
+) -> tuple[Candidates, Real]:
+    """Return the candidates after so many steps at the most, and each one's merit: its mean square error.
+
+    Infinite where a candidate cannot be closed; limits that are broken weigh on it, and where it is
+    `guarded` ways that stray between points: good answers may lie behind such ways.
+    """
+    state = _state(problem, candidates, guarded=guarded)
+    damping = np.full(len(state.cost), _FIRST_DAMPING)
+    resting = np.zeros(len(state.cost))
+    for _ in range(steps):
+        trial = _state(problem, _stepped(problem, state, damping), guarded=guarded)
+        better = trial.cost < state.cost
+        slowly = ~(trial.cost < (1.0 - _STANDING) * state.cost)
+        resting = np.where(slowly, resting + 1, 0)
+        state = _merged(state, trial, better)
+        if ((resting >= _PATIENCE) | (state.cost < _EXACT)).all():
+            break
+        damping = np.where(better, np.maximum(damping * 0.2, _LEAST_DAMPING), damping * 6)
+    return state.found, state.cost
+
+
+def merit(problem: PathTask, candidates: Candidates) -> Real:
+    """Return each candidate's merit, ways that stray between points counted."""
+    return _state(problem, candidates, guarded=True).cost
+
+
+def _state(problem: PathTask, found: Candidates, *, guarded: bool) -> _State:
+    with np.errstate(all="ignore"):
+        traced = problem.kind.trace(found.rows, found.closure, found.angles)
+        slack = problem.requirements.slack(problem.kind, found.rows)
+        mask, values = problem.requirements.held(problem.kind)
+        missing = (found.rows - values) * mask
+        off = np.abs(problem.curve.points - traced.point) ** 2 * problem.weights
+        between = _between(problem, found, traced) if guarded and problem.is_dense else 0.0
+        turning = 2 if problem.requirements.full_turn else 0
+        broken = np.minimum(slack[:, turning:], 0.0)
+        cost = off.mean(axis=1) + between + _BROKEN * ((broken**2).sum(axis=1) + (missing**2).sum(axis=1))
+        cost = np.where(np.isfinite(cost) & (slack[:, :turning] > 0).all(axis=1), cost, np.inf)
+    return _State(found, traced, slack, missing, cost)
+
+
+def _between(problem: PathTask, found: Candidates, traced: TracedPoints) -> Real:
+    """Return the mean square of how far the curve strays halfway between points, beyond what is usual there.
+
+    That is as far as the next point is, and as far as the curve is off at the points themselves.
+    """
+    before = 0 if problem.curve.closed else 1
+    points, angles, places = problem.curve.points, found.angles, traced.point
+    last = angles[:, -1:] - 2 * np.pi * found.sense[:, None]
+    angles = np.concatenate([last, angles], axis=1)[:, before:]
+    points = np.append(points[-1], points)[before:]
+    off = np.abs(places - problem.curve.points)
+    off = np.concatenate([off[:, -1:], off], axis=1)[:, before:]
+    halfway = problem.kind.points(found.rows, found.closure, (angles[:, 1:] + angles[:, :-1]) / 2)
+    chord = np.diff(points)
+    share = np.clip((np.conj(chord) * (halfway - points[:-1])).real / np.abs(chord) ** 2, 0, 1)
+    far = np.abs(halfway - points[:-1] - share * chord)
+    usual = np.maximum(off[:, 1:], off[:, :-1]) + np.abs(chord)
+    return np.asarray((np.maximum(far - usual, 0.0) ** 2).sum(axis=1))
+
+
+def _stepped(problem: PathTask, state: _State, damping: Real) -> Candidates:
+    """Return where one step leads from every candidate."""
+    with np.errstate(all="ignore"):
+        residual, slopes = _equations(problem, state)
+        change = _change(problem, state, residual, slopes, damping)
+        angles = state.found.angles + _turned(problem, state, change)
+    rows = state.found.rows + change[:, : state.found.rows.shape[1]]
+    return state.found._replace(rows=rows, angles=angles)
+
+
+def _equations(problem: PathTask, state: _State) -> tuple[Real, Real]:
+    """Return residuals (B, m) and their slopes (B, m, p), by a free start's angle, too."""
+    root = np.sqrt(problem.weights)
+    off = (problem.curve.points - state.traced.point) * root
+    slopes = state.traced.slopes * root[:, None]
+    if problem.timing is None:
+        back = np.conj(state.traced.rate) / np.abs(state.traced.rate)
+        return (off * back).imag, (slopes * back[..., None]).imag
+    if problem.free_start:
+        slopes = np.concatenate([slopes, (state.traced.rate * root)[..., None]], axis=2)
+    return (
+        np.concatenate([off.real, off.imag], axis=1),
+        np.concatenate([slopes.real, slopes.imag], axis=1),
+    )
+
+
+def _change(problem: PathTask, state: _State, residual: Real, slopes: Real, damping: Real) -> Real:
+    """Return the damped step, with the limits that it would break and the given values as equations."""
+    across = slopes.transpose(0, 2, 1)
+    normal, right = across @ slopes, (across @ residual[..., None])[..., 0]
+    count = normal.shape[1]
+    diagonal = np.einsum("bii->bi", normal)
+    scale = diagonal.mean(axis=1, keepdims=True)
+    diagonal += damping[:, None] * (diagonal + 1e-3 * scale) + 1e-15 * scale
+    nowhere = ~(np.isfinite(normal).all(axis=(1, 2)) & np.isfinite(right).all(axis=1) & (scale[:, 0] > 0))
+    normal[nowhere], right[nowhere] = np.eye(count), 0.0  # one that cannot be closed stays as it is
+    mask, _ = problem.requirements.held(problem.kind)
+    equations = np.zeros((len(right), len(mask), count))
+    equations[:, range(len(mask)), range(len(mask))] = mask
+    step = _solved(normal, right, equations, -state.broken)
+    slack, rows = state.slack, state.found.rows
+    moved = problem.requirements.slack(problem.kind, rows + step[:, : rows.shape[1]])
+    breaking = ~(moved >= np.minimum(_NEARER * slack, 0.9 * slack + 1e-12))
+    if not breaking.any():
+        return step
+    limits = np.zeros((*slack.shape, count))
+    limits[..., : rows.shape[1]] = _slack_slopes(problem, rows, slack) * breaking[..., None]
+    return _solved(
+        normal,
+        right,
+        np.concatenate([equations, limits], axis=1),
+        np.concatenate([-state.broken, (_NEARER - 1.0) * slack * breaking], axis=1),
+    )
+
+
+def _slack_slopes(problem: PathTask, rows: Real, slack: Real) -> Real:
+    """Return how each slack changes with each parameter (B, m, p)."""
+    count, size = rows.shape
+    moved = (rows[:, None, :] + _DIFFERENCE * np.eye(size)).reshape(-1, size)
+    after = problem.requirements.slack(problem.kind, moved).reshape(count, size, -1)
+    return np.asarray((after - slack[:, None, :]).transpose(0, 2, 1) / _DIFFERENCE)
+
+
+def _solved(normal: Real, right: Real, equations: Real, targets: Real) -> Real:
+    """Return the least squares' step (B, p) that keeps to equations (B, m, p); rows of zeros are none."""
+    used = np.abs(equations).max(axis=(0, 2)) > 0
+    equations, targets = equations[:, used], targets[:, used]
+    count, extra = normal.shape[1], equations.shape[1]
+    if not extra:
+        return np.asarray(np.linalg.solve(normal, right[..., None])[..., 0])
+    whole = np.zeros((len(right), count + extra, count + extra))
+    whole[:, :count, :count] = normal
+    whole[:, count:, :count] = equations
+    whole[:, :count, count:] = equations.transpose(0, 2, 1)
+    size = np.einsum("bii->b", normal) / count
+    none = np.abs(equations).max(axis=2) == 0
+    own = np.arange(count, count + extra)
+    whole[:, own, own] = np.where(none, -1.0, -1e-12 / size[:, None])
+    both = np.concatenate([right, np.where(none, 0.0, targets)], axis=1)
+    return np.asarray(np.linalg.solve(whole, both[..., None])[:, :count, 0])
+
+
+def _turned(problem: PathTask, state: _State, change: Real) -> Real:
+    """Return how far the crank turns on at each point (B, n)."""
+    if problem.timing is not None:
+        return change[:, -1:] if problem.free_start else np.zeros((len(change), 1))
+    traced, size = state.traced, state.found.rows.shape[1]
+    left = problem.curve.points - traced.point - (traced.slopes @ change[:, :size, None])[..., 0]
+    turn = (np.conj(traced.rate) * left).real / np.abs(traced.rate) ** 2
+    gap = np.diff(state.found.angles, axis=1) * state.found.sense[:, None]
+    last = (
+        2 * np.pi - gap.sum(axis=1, keepdims=True) if problem.curve.closed else np.full((len(gap), 1), np.pi)
+    )
+    before = np.concatenate([last, gap], axis=1) * _OF_GAP
+    after = np.concatenate([gap, last], axis=1) * _OF_GAP
+    forward = turn * state.found.sense[:, None]
+    return np.asarray(np.nan_to_num(np.clip(forward, -before, after) * state.found.sense[:, None]))

@@ -1,0 +1,429 @@
+"""Calculate many linkages at once whose coupler point runs along a path, and hold them to limits.
+
+Its parts, in reading order:
+
+- The linkages whose coupler point is to run along a path: a four-bar and a slider-crank, many at once.
+- What an answer has to keep to: where pivots lie, how long links are, which values are given.
+"""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any, NamedTuple, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkanim.errors import BadInput
+from linkanim.units import shown
+
+# The linkages whose coupler point is to run along a path: a four-bar and a slider-crank, many at once.
+#
+# A row of parameters is a linkage; a closure is +1 (B left of A -> O4, or forward along the line) or -1. The
+# pin is A = O2 + crank·e^(iθ), and B closes on the ground: N·B = c, where N is the normal of the way that B
+# is held to (a circle about O4, or a line). What a small change of A, the rod or the ground does to the
+# coupler's angle, and so to the coupler point, follows from that one line for both kinds.
+
+Real = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+Indices = NDArray[np.intp]
+
+
+class TracedPoints(NamedTuple):
+    """Coupler points (B, n) as x + yi, their rate with the crank's angle, and with each parameter (B, n, p).
+
+    NaN where the linkage cannot be closed.
+    """
+
+    point: Complex
+    rate: Complex
+    slopes: Complex
+
+
+class _Closed(NamedTuple):
+    """The coupler's direction, the normal of B's way, and what B is moved by: each (B, n)."""
+
+    direction: Complex
+    normal: Complex
+    grounds: tuple[Complex | Real, ...]
+
+
+class LinkageKind(ABC):
+    """A kind of linkage by its parameters, the first six of which all kinds have."""
+
+    name: str
+    parameters: tuple[str, ...]
+    links: tuple[str, ...]
+    """Those that are lengths of links, above zero."""
+    pins: tuple[int, ...]
+    """Where the x of each fixed pin stands."""
+    carried = False
+    """Whether the ground of B moves with the pin O2."""
+    sides: tuple[str, str]
+    """What the closures +1 and -1 are called in a scene."""
+    mirror: tuple[float, ...]
+    """What the parameters, and last the closure, are multiplied with to mirror the linkage in the x axis."""
+
+    @abstractmethod
+    def close(self, rows: Real, closure: Real, pin: Complex) -> _Closed:
+        """Close the coupler on the ground, with the pins A (B, n)."""
+
+    @abstractmethod
+    def slack(self, rows: Real, least_angle: float) -> Real:
+        """Return (B, 2), both positive where the crank turns fully above a least transmission angle."""
+
+    @abstractmethod
+    def closing(self, row: Mapping[str, float]) -> tuple[dict[str, Any], dict[str, Any], dict[str, Any]]:
+        """Return the fixed pins beside O2, what holds B, and the body that B is on beside the rod."""
+
+    @abstractmethod
+    def random_rows(self, random: np.random.Generator, count: int) -> Real:
+        """Return linkages of all proportions with O2 at the origin, some of which turn fully."""
+
+    @abstractmethod
+    def link_lengths(self, rows: Real) -> Real:
+        """Return the lengths of all links (B, m), those of the coupler point's arms among them, B's last."""
+
+    def document(self, row: Mapping[str, float], closure: float) -> dict[str, object]:
+        """Return the tables [ground], [joints] and [bodies] of a scene with that linkage."""
+        pins, held, body = self.closing(row)
+        return {
+            "ground": {"O2": [row["x"], row["y"]], **pins},
+            "joints": {
+                "A": {"crank": "O2", "length": row["crank"]},
+                "B": {**held, "side": self.sides[closure < 0]},
+                "P": {"on": ["A", "B"], "at": [row["along"], row["across"]]},
+            },
+            "bodies": {
+                "crank": {"joints": ["O2", "A"]},
+                self.links[1]: {"joints": ["A", "B", "P"]},
+                **body,
+            },
+        }
+
+    def placed(self, rows: Real, turn: Complex, shift: Complex) -> Real:
+        """Return the linkages turned and scaled by complex factors about the origin, then shifted."""
+        out = rows * np.abs(turn)[:, None]
+        for x, point in zip(self.pins, self.pivots(rows).T, strict=True):
+            point = point * turn + shift
+            out[:, x], out[:, x + 1] = point.real, point.imag
+        return out
+
+    def mirrored(self, rows: Real, closure: Real) -> tuple[Real, Real]:
+        """Return the linkages and closures mirrored in the x axis; crank angles change their sign."""
+        return rows * self.mirror[:-1], closure * self.mirror[-1]
+
+    def pivots(self, rows: Real) -> Complex:
+        """Return the fixed pins (B, m)."""
+        return np.stack([rows[:, x] + 1j * rows[:, x + 1] for x in self.pins], axis=1)
+
+    def points(self, rows: Real, closure: Real, angles: Real) -> Complex:
+        """Return the coupler points (B, n) at crank angles (B, n), NaN where there are none."""
+        pin, _ = _pins(rows, angles)
+        return pin + _arm(rows) * self.close(rows, closure[:, None], pin).direction
+
+    def joints(self, rows: Real, closure: Real, angles: Real) -> Complex:
+        """Return the fixed pins, then the pins A, B and P at crank angles (B, n), in a row (B, m)."""
+        pin, _ = _pins(rows, angles)
+        way = self.close(rows, closure[:, None], pin).direction
+        return np.concatenate(
+            [self.pivots(rows), pin, pin + rows[:, 3:4] * way, pin + _arm(rows) * way], axis=1
+        )
+
+    def trace(self, rows: Real, closure: Real, angles: Real) -> TracedPoints:
+        """Return the coupler points at crank angles, and all their first derivatives."""
+        pin, spoke = _pins(rows, angles)
+        direction, normal, grounds = self.close(rows, closure[:, None], pin)
+        arm = _arm(rows)
+        turn = 1j * arm * direction / (rows[:, 3:4] * _dot(normal, 1j * direction))
+
+        def moved(way: Complex | complex) -> Complex:
+            """Return how the point goes when the pin goes a way and B's own way stays."""
+            return way - turn * _dot(normal, way)
+
+        one = np.ones_like(pin)
+        base = (one, 1j * one) if self.carried else (moved(1.0), moved(1j))
+        own = (moved(spoke), -turn * _dot(normal, direction), direction, 1j * direction)
+        slopes = np.stack([*base, *own, *(turn * ground for ground in grounds)], axis=-1)
+        return TracedPoints(pin + arm * direction, moved(1j * rows[:, 2:3] * spoke), slopes)
+
+
+def _pins(rows: Real, angles: Real) -> tuple[Complex, Complex]:
+    """Return the crank's pins and its directions."""
+    spoke = np.cos(angles) + 1j * np.sin(angles)
+    return rows[:, 0:1] + 1j * rows[:, 1:2] + rows[:, 2:3] * spoke, spoke
+
+
+def _arm(rows: Real) -> Complex:
+    return rows[:, 4:5] + 1j * rows[:, 5:6]
+
+
+def _dot(a: Complex, b: Complex | complex) -> Real:
+    return np.real(np.conj(a) * b)
+
+
+def _assembled(random: np.random.Generator, crank: Real, coupler: Real, grounds: tuple[Real, ...]) -> Real:
+    """Return rows about the origin with a coupler point somewhere about the coupler's middle."""
+    reach = 2.0 * np.sqrt(random.random(len(crank))) * np.maximum(coupler, crank)
+    turn = random.uniform(-np.pi, np.pi, len(crank))
+    along, across = coupler / 2 + reach * np.cos(turn), reach * np.sin(turn)
+    nothing = np.zeros(len(crank))
+    return np.stack([nothing, nothing, crank, coupler, along, across, *grounds], axis=1)
+
+
+class FourBarKind(LinkageKind):
+    """Crank, coupler and rocker, with a coupler point along A -> B and to its left."""
+
+    name = "four-bar"
+    parameters = ("x", "y", "crank", "coupler", "along", "across", "x4", "y4", "rocker")
+    links = ("crank", "coupler", "rocker")
+    pins = (0, 6)
+    sides = ("left", "right")
+    mirror = (1.0, -1.0, 1.0, 1.0, 1.0, -1.0, 1.0, -1.0, 1.0, -1.0)
+
+    def close(self, rows: Real, closure: Real, pin: Complex) -> _Closed:
+        """Close two bars on the pin and the pivot O4, by the signed root of both factors."""
+        pivot = rows[:, 6:7] + 1j * rows[:, 7:8]
+        a, b = rows[:, 3:4], rows[:, 8:9]
+        way = pivot - pin
+        square = way.real**2 + way.imag**2
+        with np.errstate(all="ignore"):
+            root = closure * np.sqrt(((a + b) ** 2 - square) * (square - (a - b) ** 2))
+            direction = way * (square + (a - b) * (a + b) + 1j * root) / (2 * square * a)
+        normal = a * direction - way
+        return _Closed(direction, normal, (normal.real, normal.imag, b))
+
+    def link_lengths(self, rows: Real) -> Real:
+        """Return crank, coupler, arm from A, rocker, ground, and arm from B."""
+        ground = np.hypot(rows[:, 6] - rows[:, 0], rows[:, 7] - rows[:, 1])
+        arm, other = np.hypot(rows[:, 4], rows[:, 5]), np.hypot(rows[:, 4] - rows[:, 3], rows[:, 5])
+        return np.stack([rows[:, 2], rows[:, 3], arm, rows[:, 8], ground, other], axis=1)
+
+    def slack(self, rows: Real, least_angle: float) -> Real:
+        """Return how far the two extremes of the transmission angle are from the least."""
+        crank, a, b = rows[:, 2], rows[:, 3], rows[:, 8]
+        ground = np.hypot(rows[:, 6] - rows[:, 0], rows[:, 7] - rows[:, 1])
+        share = 4 * a * b * np.sin(least_angle / 2) ** 2
+        inner = (ground - crank) ** 2 - (a - b) ** 2 - share
+        outer = (a + b) ** 2 - (ground + crank) ** 2 - share
+        return np.stack([inner, outer], axis=-1)
+
+    def random_rows(self, random: np.random.Generator, count: int) -> Real:
+        """Return crank-rockers and drag-links: the crank or the ground the shortest of four lengths."""
+        lengths = random.uniform(0.05, 1.0, (count, 4))
+        lengths.sort(axis=1)
+        order = 1 + random.permuted(np.tile(np.arange(3), (count, 1)), axis=1)
+        longer = np.take_along_axis(lengths, order, axis=1)
+        drags = random.random(count) < 0.35
+        ground, crank = np.where(drags, (lengths[:, 0], longer[:, 0]), (longer[:, 0], lengths[:, 0]))
+        return _assembled(random, crank, longer[:, 1], (ground, np.zeros(count), longer[:, 2]))
+
+    def closing(self, row: Mapping[str, float]) -> tuple[dict[str, Any], dict[str, Any], dict[str, Any]]:
+        """Return the pivot O4, the two bars that meet in B, and the rocker."""
+        return (
+            {"O4": [row["x4"], row["y4"]]},
+            {"from": ["A", "O4"], "length": [row["coupler"], row["rocker"]]},
+            {"rocker": {"joints": ["O4", "B"]}},
+        )
+
+
+class SliderCrankKind(LinkageKind):
+    """Crank and rod, the rod's end on a line at an offset from O2, with a point of the rod."""
+
+    name = "slider-crank"
+    parameters = ("x", "y", "crank", "rod", "along", "across", "line_angle", "offset")
+    links = ("crank", "rod")
+    pins = (0,)
+    carried = True
+    sides = ("forward", "backward")
+    mirror = (1.0, -1.0, 1.0, 1.0, 1.0, -1.0, -1.0, -1.0, 1.0)
+
+    def close(self, rows: Real, closure: Real, pin: Complex) -> _Closed:
+        """Close a rod on the pin and the line."""
+        line = np.exp(1j * rows[:, 6:7])
+        origin, rod = rows[:, 0:1] + 1j * rows[:, 1:2], rows[:, 3:4]
+        place = (pin - origin) / line
+        rise = rows[:, 7:8] - place.imag
+        with np.errstate(all="ignore"):
+            root = closure * np.sqrt((rod - rise) * (rod + rise))
+        direction = line * (root + 1j * rise) / rod
+        normal = np.broadcast_to(1j * line, pin.shape)
+        return _Closed(direction, normal, (place.real + root, np.ones_like(root)))
+
+    def link_lengths(self, rows: Real) -> Real:
+        """Return crank, rod, and arms from A and B."""
+        arm, other = np.hypot(rows[:, 4], rows[:, 5]), np.hypot(rows[:, 4] - rows[:, 3], rows[:, 5])
+        return np.stack([rows[:, 2], rows[:, 3], arm, other], axis=1)
+
+    def slack(self, rows: Real, least_angle: float) -> Real:
+        """Return how far the rod is from too steep, on either side of the line."""
+        reach, offset = rows[:, 3] * np.cos(least_angle) - rows[:, 2], rows[:, 7]
+        return np.stack([reach - offset, reach + offset], axis=-1)
+
+    def random_rows(self, random: np.random.Generator, count: int) -> Real:
+        """Return slider-cranks with rods of up to five cranks, along the x axis."""
+        rod = random.uniform(1.0, 5.0, count)
+        offset = random.uniform(-1.0, 1.0, count) * (rod - 1.0)
+        return _assembled(random, np.ones(count), rod, (np.zeros(count), offset))
+
+    def placed(self, rows: Real, turn: Complex, shift: Complex) -> Real:
+        """Turn, scale and shift the pivot, turn the line, scale the lengths."""
+        out = super().placed(rows, turn, shift)
+        out[:, 6] = rows[:, 6] + np.angle(turn)
+        return out
+
+    def closing(self, row: Mapping[str, float]) -> tuple[dict[str, Any], dict[str, Any], dict[str, Any]]:
+        """Return no further pin, the rod that ends on a line, and the slider."""
+        line = {"through": "O2", "angle": f"{row['line_angle']!r} rad", "offset": row["offset"]}
+        return {}, {"from": "A", "length": row["rod"], "line": line}, {"slider": {"slider": "B"}}
+
+
+FOUR_BAR, SLIDER_CRANK = FourBarKind(), SliderCrankKind()
+KINDS: Mapping[str, LinkageKind] = {kind.name: kind for kind in (FOUR_BAR, SLIDER_CRANK)}
+"""The kinds by what `--kind` calls them."""
+
+
+class Linkage4(NamedTuple):
+    """A four-bar as its joints stand at one moment (x + yi): its bars are as long as they are apart."""
+
+    O2: complex
+    A: complex
+    B: complex
+    O4: complex
+    P: complex
+
+    @property
+    def row(self) -> tuple[float, ...]:
+        """Its parameters as those of `FOUR_BAR`."""
+        arm = (self.P - self.A) * (self.B - self.A).conjugate() / abs(self.B - self.A)
+        crank, coupler, rocker = abs(self.A - self.O2), abs(self.B - self.A), abs(self.B - self.O4)
+        pins = self.O2.real, self.O2.imag, self.O4.real, self.O4.imag
+        return (*pins[:2], crank, coupler, arm.real, arm.imag, *pins[2:], rocker)
+
+    @property
+    def closure(self) -> float:
+        """+1 where B lies left of A -> O4, else -1."""
+        across = ((self.O4 - self.A).conjugate() * (self.B - self.A)).imag
+        return 1.0 if across >= 0 else -1.0
+
+    @property
+    def angle(self) -> float:
+        """The crank's angle (rad)."""
+        way = self.A - self.O2
+        return math.atan2(way.imag, way.real)
+
+    @classmethod
+    def of(cls, row: Real, angle: float) -> Self:
+        """Return the joints of a row of closure +1 at a crank angle."""
+        pin, pivot = FOUR_BAR.pivots(row[None])[0]
+        crank = pin + row[2] * np.exp(1j * angle)
+        way = FOUR_BAR.close(row[None], np.ones((1, 1)), np.array([[crank]])).direction[0, 0]
+        joints = pin, crank, crank + row[3] * way, pivot, crank + complex(*row[4:6]) * way
+        return cls(*map(complex, joints))
+
+
+# What an answer has to keep to: where pivots lie, how long links are, which values are given.
+
+LEAST_ANGLE = math.radians(0.1)
+"""Below this transmission angle a linkage is all but at a change point: no answer goes there."""
+MOST_ANSWERS = 50
+SHORTEST = 1e-3
+"""Of a link, in curve sizes."""
+
+
+@dataclass(frozen=True, eq=False)
+class Requirements:
+    """Limits in the units of the points they go with.
+
+    `least_angle` is the transmission angle asked for, 0 where none is, and above `LEAST_ANGLE` all the same;
+    `box` is x, y, width and height, in which all pivots lie; `given` are values of parameters that stay;
+    `full_turn` says whether the crank has to turn fully.
+    """
+
+    largest: float
+    shortest: float
+    least_angle: float = 0.0
+    box: tuple[float, ...] | None = None
+    given: Mapping[str, float] = field(default_factory=dict)
+    full_turn: bool = True
+
+    @classmethod
+    def of(
+        cls,
+        size: float,
+        sizes: str,
+        *,
+        largest: float,
+        least_angle: float,
+        box: Sequence[float] | None,
+        given: Mapping[str, float] | None = None,
+    ) -> Self:
+        """Return limits as they are asked for, the longest link in `sizes`; BadInput where they are none."""
+        if not (math.isfinite(largest) and largest > 0):
+            raise BadInput(f"largest={largest!r}: give the longest link in {sizes}, a number such as 3")
+        if not 0 <= least_angle < math.pi / 2:
+            angle = math.degrees(least_angle)
+            raise BadInput(f"a least transmission angle of {angle:g} deg: give 0 to 90 deg")
+        return cls(
+            largest=largest * size,
+            shortest=SHORTEST * size,
+            least_angle=least_angle,
+            box=None if box is None else _box(box),
+            given=given or {},
+        )
+
+    def slack(self, kind: LinkageKind, rows: Real) -> Real:
+        """Return (B, m), negative for each limit that is broken; the two of a full turn come first."""
+        turning = [kind.slack(rows, self.angle_to_keep("angle"))] if self.full_turn else []
+        lengths = kind.link_lengths(rows)
+        limits = [self.largest - lengths, lengths - self.shortest]
+        if self.box is not None:
+            x, y, width, height = self.box
+            pivots = kind.pivots(rows)
+            limits += [pivots.real - x, x + width - pivots.real, pivots.imag - y, y + height - pivots.imag]
+        return np.concatenate([*turning, *limits], axis=1)
+
+    def angle_to_keep(self, by: str) -> float:
+        """Return the least transmission angle of an answer that goes along the curve by its crank's "angle".
+
+        One that goes by "phase", through its limits, keeps what is asked for only: there it is 0.
+        """
+        return max(self.least_angle, LEAST_ANGLE) if by == "angle" else self.least_angle
+
+    def held(self, kind: LinkageKind) -> tuple[Real, Real]:
+        """Return which parameters are given, as a mask, and their values (0 for the others)."""
+        mask = np.array([float(name in self.given) for name in kind.parameters])
+        return mask, np.array([float(self.given.get(name, 0.0)) for name in kind.parameters])
+
+    def placed(self, shift: complex, scale: float) -> Requirements:
+        """Return the same in coordinates whose origin is `shift` and whose unit is `scale`."""
+
+        def placed(name: str, value: float) -> float:
+            """Return a parameter's value in those coordinates."""
+            if name == "line_angle":
+                return value
+            return (value - {"x": shift.real, "y": shift.imag}.get(name[0], 0.0)) / scale
+
+        box = self.box and tuple(map(placed, ("x", "y", "width", "height"), self.box))
+        given = {name: placed(name, value) for name, value in self.given.items()}
+        largest, shortest = self.largest / scale, self.shortest / scale
+        return replace(self, largest=largest, shortest=shortest, box=box, given=given)
+
+
+def refuse_count(count: int) -> None:
+    """Refuse to make so many answers: BadInput for none, for too many, and for what is no whole number."""
+    if not isinstance(count, int | np.integer) or not 1 <= count <= MOST_ANSWERS:
+        raise BadInput(f"count={shown(count)}: give a whole number from 1 to {MOST_ANSWERS}")
+
+
+def _box(box: Sequence[float]) -> tuple[float, float, float, float]:
+    values = tuple(float(value) for value in box)
+    if len(values) != 4 or not all(map(math.isfinite, values)):
+        raise BadInput(f"box={shown(str(list(box)))}: give x, y, width and height, four numbers")
+    x, y, width, height = values
+    if width <= 0 or height <= 0:
+        raise BadInput(f"the box is {width:g} wide and {height:g} high: nothing fits in it")
+    return x, y, width, height
