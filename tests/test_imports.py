@@ -34,7 +34,7 @@ RANK = {
                 "units",
                 "atomic_files",
             ),
-            ("manifest",),
+            ("manifest", "manual"),
             ("mechanics",),
             ("scenes",),
             ("synthesis", "build"),
@@ -48,7 +48,7 @@ RANK = {
             ("recorder",),
             ("bench",),
             ("cli",),
-            ("linkanim", "notebook"),
+            ("linkanim", "notebook", "examples"),
         ]
     )
     for room in rooms
@@ -63,6 +63,7 @@ THIRD_PARTIES = {
     "units": set(),
     "atomic_files": {"platformdirs"},
     "manifest": set(),
+    "manual": set(),
     "mechanics": {"numpy"},
     "scenes": {"numpy", "tomli_w"},
     "synthesis": {"numpy"},
@@ -79,6 +80,7 @@ THIRD_PARTIES = {
     "cli": {"numpy", "tqdm"},
     "linkanim": set(),
     "notebook": {"numpy"},
+    "examples": {"numpy", "pandas", "scipy", "matplotlib"},
 }
 
 # The version is text in __init__, which imports nothing by itself.

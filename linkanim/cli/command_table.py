@@ -278,6 +278,18 @@ COMMANDS: Mapping[str, tuple[str, ...]] = {
         "linkanim bench",
         "linkanim bench --json",
     ),
+    "manual": (
+        "open the manual as one page that can be searched, or print what it says on a word",
+        "linkanim manual",
+        "linkanim manual torque",
+        "linkanim manual first-hour",
+    ),
+    "examples": (
+        "list numbered examples to copy and change, or copy them",
+        "linkanim examples",
+        "linkanim examples 06",
+        "linkanim examples all -o examples",
+    ),
     "completion": (
         "print a script that lets bash, zsh or fish complete commands, options and scenes",
         "linkanim completion bash",

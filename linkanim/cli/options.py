@@ -641,6 +641,16 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _value("--seconds S", positive, "of its global search (default: 600)", 600.0),
         _value("--into FOLDER", Path, f"where {CHART} goes (default: recordings)", Path("recordings")),
     ),
+    "manual": (
+        _takes(
+            "word", nargs="*", metavar="WORD", help="print the chapter of that name, or what it says on it"
+        ),
+        _output("OUT.html, the whole manual; it is not opened then"),
+    ),
+    "examples": (
+        _takes("names", nargs="*", metavar="NAME", help="a number, a file's name, or `all` (default: list)"),
+        _value("-o --output DIR", Path, "the folder to copy to (default: the current one)"),
+    ),
     "completion": (_takes("shell", choices=("bash", "zsh", "fish"), help="the shell to write it for"),),
 }
 """The arguments of each command."""
