@@ -1,40 +1,64 @@
-"""What the README says is so: its commands parse, its snippets run, its key table is the window's."""
+"""What README and the manual say is so: what is pasted runs in a fresh folder, pictures are as made."""
 
 from __future__ import annotations
 
 import re
 import shlex
+from collections.abc import Iterator
+from importlib.resources import files
 from pathlib import Path
 
+import numpy as np
+import pygame
 import pytest
+from fidelity import psnr
+from numpy.typing import NDArray
+from PIL import Image
 
 import linkanim
+from linkanim.cli import main
 from linkanim.cli.command_table import COMMANDS, parse
-from linkanim.player.keys import as_markdown
-from linkanim.scenes import chapters
-from linkanim.scenes.schema import reference
+from linkanim.cli.commands import manual, new, play
+from linkanim.manual import FOLDER
+from linkanim.scenes import names
 
 ROOT = Path(__file__).parent.parent
 README = (ROOT / "README.md").read_text(encoding="utf-8")
+PAGES = {path.stem: path.read_text(encoding="utf-8") for path in FOLDER.glob("*.md")}
+PAGES["README"] = README
+ALIKE, PRINTED = 30, 24.5
+"""In dB: the same picture on another machine, and the same figure as a browser sets its words."""
 
 
-def blocks(language: str) -> list[str]:
-    """Return the fenced blocks of a language, in order."""
-    return re.findall(rf"^```{language}\n(.*?)^```$", README, re.DOTALL | re.MULTILINE)
+def blocks(language: str) -> dict[str, str]:
+    """Return the fenced blocks of a language in README and the manual, by page and number."""
+    found: dict[str, str] = {}
+    for page, text in PAGES.items():
+        of_page = re.findall(rf"^```{language}\n(.*?)^```$", text, re.DOTALL | re.MULTILINE)
+        found |= {f"{page} {number}": block for number, block in enumerate(of_page, 1)}
+    return found
 
 
-def linkanim_lines() -> list[str]:
-    """Return the arguments of every `linkanim ...` that the README's bash and console blocks run."""
-    commands = "\n".join([*blocks("bash"), *blocks("console")])
-    return re.findall(r"\.venv/bin/linkanim\b([^\n&|]*)", commands)
+def linkanim_lines(block: str) -> Iterator[list[str]]:
+    """Yield the words after `linkanim` of each line that runs it."""
+    for line in block.splitlines():
+        words = re.match(r"(?:.*&& )?(?:\.venv/bin/)?linkanim\b(.*)", line)
+        if words:
+            yield shlex.split(words[1], comments=True)
+
+
+PASTED = blocks("bash")
+TYPED = {f"sh of {name}": block for name, block in blocks("sh").items()}
+SHOWN = {**PASTED, **TYPED}
 
 
 def examples() -> list[str]:
     return [example for _, *examples in COMMANDS.values() for example in examples]
 
 
-def test_the_first_two_blocks_do_all_their_own_set_up() -> None:
-    first, second, *_ = blocks("bash")
+def test_readme_is_short_and_its_first_two_blocks_do_all_their_own_set_up() -> None:
+    assert README.count("\n") <= 200
+    first, second = PASTED["README 1"], PASTED["README 2"]
     for block in (first, second):
         assert block.startswith("python3 -m venv .venv && .venv/bin/pip install -q ")
         assert block.count("\n") == 1
@@ -42,15 +66,23 @@ def test_the_first_two_blocks_do_all_their_own_set_up() -> None:
     assert second.rstrip().endswith(".venv/bin/pytest")
 
 
-@pytest.mark.parametrize("line", [*linkanim_lines(), *examples()])
-def test_every_command_shown_parses(line: str) -> None:
-    words = shlex.split(line.removeprefix("linkanim"))
-    assert parse(words).command in COMMANDS
+def test_nothing_that_is_pasted_begins_with_a_prompt() -> None:
+    assert [
+        name for name, block in {**PASTED, **TYPED}.items() if re.search(r"^\$", block, re.MULTILINE)
+    ] == []
+    assert blocks("console") == {}
 
 
-@pytest.mark.parametrize("name", COMMANDS)
-def test_every_command_is_in_the_readme(name: str) -> None:
-    assert re.search(rf"^\| `linkanim \[?{name}\b", README, re.MULTILINE)
+@pytest.mark.parametrize("block", SHOWN.values(), ids=SHOWN)
+def test_every_command_shown_parses(block: str) -> None:
+    for words in linkanim_lines(block):
+        if words != ["--version"]:
+            assert parse(words).command in COMMANDS
+
+
+@pytest.mark.parametrize("line", examples())
+def test_every_example_of_a_help_parses(line: str) -> None:
+    assert parse(shlex.split(line.removeprefix("linkanim"))).command in COMMANDS
 
 
 @pytest.mark.parametrize("name", COMMANDS)
@@ -60,16 +92,43 @@ def test_every_help_ends_in_an_example(name: str, capsys: pytest.CaptureFixture[
     assert capsys.readouterr().out.splitlines()[-1].startswith(f"  linkanim {name}")
 
 
-def test_the_key_table_is_the_windows() -> None:
-    assert as_markdown() in README
+@pytest.fixture
+def fresh(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Return a folder with nothing in it but what a clone has, and no window that would stay open."""
+    for name in ("linkanim", "recordings"):
+        (tmp_path / name).symlink_to(ROOT / name)
+    monkeypatch.chdir(tmp_path)
+    for command in (play, new):
+        monkeypatch.setattr(command, "play", lambda *_, **__: None)
+    monkeypatch.setattr(manual, "_has_screen", lambda: False)
+    return tmp_path
 
 
-def test_the_reference_of_scene_files_is_that_of_their_form() -> None:
-    shown = README.split("<!-- scene-file -->\n")[1].split("\n<!-- /scene-file -->")[0]
-    assert shown == reference()
+SMALL = {"record": ["--size", "96x54"]}
+"""What makes a command quick without making it another."""
 
 
-@pytest.mark.parametrize("text", blocks("toml"), ids=lambda text: text.splitlines()[0])
+MINUTES = {"synthesis 1", "synthesis 3", "make 1", "hand-outs 1", "loops 1"}
+"""Blocks whose commands other tests run, too, and that take long."""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "block",
+    [
+        pytest.param(block, id=name, marks=[pytest.mark.long] if name in MINUTES else [])
+        for name, block in PASTED.items()
+    ],
+)
+def test_what_is_pasted_into_a_fresh_folder_runs(block: str, fresh: Path) -> None:
+    for words in linkanim_lines(block):
+        assert main([*words, *SMALL.get(words[0] if words else "", [])]) == 0, words
+    if "README" not in block:
+        others = [line for line in block.splitlines() if not re.search(r"(^|&& |/)linkanim\b|pytest$", line)]
+        assert others == []
+
+
+@pytest.mark.parametrize("text", blocks("toml").values(), ids=blocks("toml"))
 def test_every_scene_shown_is_one_that_runs(text: str, tmp_path: Path) -> None:
     path = tmp_path / "my-linkage.toml"
     path.write_text(text, encoding="utf-8")
@@ -78,7 +137,12 @@ def test_every_scene_shown_is_one_that_runs(text: str, tmp_path: Path) -> None:
     assert first == pytest.approx(last, rel=1e-12)
 
 
-@pytest.mark.parametrize("snippet", blocks("python"))
+def test_the_tutorial_s_scene_is_the_example() -> None:
+    (scene,) = (text for name, text in blocks("toml").items() if name.startswith("first-hour"))
+    assert scene == (files("linkanim") / "examples" / "my-linkage.toml").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("snippet", blocks("python").values(), ids=blocks("python"))
 @pytest.mark.slow
 def test_every_snippet_runs(snippet: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
@@ -86,21 +150,109 @@ def test_every_snippet_runs(snippet: str, tmp_path: Path, monkeypatch: pytest.Mo
     assert [path.name for path in tmp_path.iterdir()] == re.findall(r'record\(scene, "(.+?)"', snippet)
 
 
-@pytest.mark.parametrize(("chapter", "members"), chapters().items())
-def test_every_chapter_is_there_with_all_its_names_and_some_pictures(
-    chapter: str, members: tuple[str, ...]
-) -> None:
-    section = README.split(f"### {chapter.capitalize()}\n")[1].split("\n#")[0]
-    assert [name for name in members if f"`{name}`" not in section] == []
-    shown = [name for name in members if f"(recordings/{name}.gif)" in section]
-    assert min(2, len(members)) <= len(shown) <= 3
-
-
 def test_every_file_named_is_there() -> None:
-    names = re.findall(r"\]\((?!http)([^)#]+)\)", README)
-    assert [name for name in names if not (ROOT / name).exists()] == []
+    named = re.findall(r"\]\((?!http)([^)#]+)\)", README)
+    assert [name for name in named if not (ROOT / name).exists()] == []
+
+
+def test_readme_counts_the_scenes() -> None:
+    assert f"There are {len(names())} built-in" in " ".join(README.split())
+
+
+def test_readme_s_five_rows_and_its_sentence_are_those_of_the_manual() -> None:
+    table = re.search(r"\n(\| method.*?)\n\n", README, re.DOTALL)
+    assert table
+    head, rule, *rows = table[1].splitlines()
+    measured = PAGES["measurements"].splitlines()
+    assert len(rows) == 5
+    assert {head, rule, *rows} <= set(measured)
+    ours = "".join(line for line in measured if line.startswith("| linkanim, "))
+    worst = max(float(number) for number in re.findall(r"\d\.\d+e-\d+", ours))
+    for page in (README, PAGES["measurements"]):
+        (said,) = re.findall(r"ever off by more than (\d+e-\d+)", page)
+        assert worst <= float(said)
 
 
 def test_the_changelog_begins_with_this_version() -> None:
     changes = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
     assert re.findall(r"^## (\S+)", changes, re.MULTILINE)[0] == linkanim.__version__
+
+
+# The pictures that a command of the manual writes, and the command.
+DRAWN = {
+    "figure": 'draw crank-rocker --angle "60 deg" --names --names --polygons --size 800x450 -o figure.png',
+    "chart": "chart crank-rocker --quantity rocker.angular_velocity --size 800x400 -o chart.png",
+    "side-left": (
+        'draw double-rocker --phase "70 deg" --ghost --names --no-trace --size 640x360 -o side-left.png'
+    ),
+    "side-forward": (
+        'draw slider-crank --angle "60 deg" --ghost --names --no-trace --size 640x360 -o side-forward.png'
+    ),
+}
+
+
+def levels(path: Path) -> NDArray[np.float64]:
+    with Image.open(path) as picture:
+        return np.asarray(picture.convert("RGB"), float)
+
+
+@pytest.mark.parametrize("name", DRAWN)
+def test_a_picture_is_what_its_command_writes(name: str, fresh: Path) -> None:
+    line = DRAWN[name]
+    assert any(f"linkanim {line}\n" in block for block in PASTED.values())
+    assert main(shlex.split(line)) == 0
+    kept, made = levels(FOLDER / "pictures" / f"{name}.png"), levels(Path(f"{name}.png"))
+    assert kept.shape == made.shape
+    assert psnr(kept, made) > ALIKE, f"make it anew: linkanim {line}"
+
+
+RECORDED = {
+    "figure": ["record crank-rocker --names --names --polygons"],
+    "solution": ["record slider-crank --vectors v,a --instant-centres --chart slider.travel_acceleration"],
+    "follower": [
+        "path linkanim/examples/curve.csv --count 1 -o follower.toml",
+        "record follower.toml",
+    ],
+}
+"""README's moving pictures that are no part of the gallery: the commands that make them."""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", RECORDED)
+def test_a_moving_picture_is_what_its_command_records(name: str, fresh: Path) -> None:
+    *before, last = RECORDED[name]
+    for line in before:
+        assert main(shlex.split(line)) == 0
+    assert main([*last.split(), *["--size", "480x270", "--fps", "12.5", "--no-hud", "-o", "made.gif"]]) == 0
+    with Image.open("made.gif") as made, Image.open(ROOT / "recordings" / f"{name}.gif") as kept:
+        assert getattr(made, "n_frames", 1) == getattr(kept, "n_frames", 1)
+        for frame in (0, 12, 25):
+            made.seek(frame)
+            kept.seek(frame)
+            assert psnr(*(np.asarray(one.convert("RGB"), float) for one in (made, kept))) > ALIKE
+
+
+def words_of(page: str) -> str:
+    """Return a page's words; what is lowered or raised stands in the word that it belongs to."""
+    bare = re.sub(r"<style>.*?</style>|</?(tspan|sub|sup)\b[^>]*>", "", page, flags=re.DOTALL)
+    return re.sub(r"<[^>]*>", " ", bare)
+
+
+@pytest.mark.long
+@pytest.mark.slow
+def test_the_printed_page_is_the_report_s(tmp_path: Path) -> None:
+    """Its words were read off the page when it was printed, and are kept in the picture's file."""
+    (line,) = re.findall(r"linkanim (report press .*) -o press-report$", PAGES["hand-outs"], re.MULTILINE)
+    report = tmp_path / "press-report"
+    assert main([*shlex.split(line), "-o", str(report)]) == 0
+    with Image.open(FOLDER / "pictures" / "report.png") as page:
+        printed, place = page.info["words"].split(), page.info["figure"].split()
+        left, top, right, bottom = (round(float(side)) for side in place)
+        theirs = np.asarray(page.convert("RGB").crop((left, top, right, bottom)), float)
+    written = set(words_of((report / "report.html").read_text(encoding="utf-8")).split())
+    assert "67.2126" in printed
+    assert [word for word in printed if word not in written] == [], "make it anew: .ci/report-page"
+    figure = pygame.image.load(report / "figure.svg")
+    drawn = pygame.transform.smoothscale(figure, (right - left, bottom - top))
+    mine = pygame.surfarray.array3d(drawn).transpose(1, 0, 2).astype(float)
+    assert psnr(mine, theirs) > PRINTED, "make it anew: .ci/report-page"

@@ -49,7 +49,7 @@ def _png(result: Result) -> bytes:
     canvas: Any = FigureCanvasAgg(figure)
     panels = figure.subplots(2, len(names), sharex=True, sharey=True, squeeze=False)
     for column, name in enumerate(names):
-        panels[1, column].set_xlabel("ns a pose; of rates with derivatives")
+        panels[1, column].set_xlabel("ns per pose; of rates with derivatives")
         for panel, which in zip(panels[:, column], ("easy", "hard"), strict=True):
             for row in rows:
                 if row.mechanism == name:

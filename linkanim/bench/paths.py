@@ -169,7 +169,7 @@ SHAPES: dict[str, Complex] = {
 
 
 def as_markdown(rows: list[PathRow], machine: str) -> str:
-    """Return the table for the README, and where it was measured."""
+    """Return the table for the manual, and where it was measured."""
     table = markdown([TITLES, *_cells(rows)])
     return f"{table}\n\nSeconds of processor time, the atlas apart. Measured on {machine}.\n"
 

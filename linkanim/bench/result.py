@@ -4,7 +4,7 @@ Its parts, in reading order:
 
 - Times of many pieces of work, taken in turn, so that a busy machine slows all of them alike.
 - What a run of the benchmark found: rows of speed and error.
-- A result as a table for the terminal or the README, and as JSON.
+- A result as a table for the terminal or the manual, and as JSON.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ def nanoseconds(
     wall: Callable[[], float] = time.perf_counter,
     progress: Callable[[int, int], None] | None = None,
 ) -> dict[Key, float]:
-    """Return the median time of each piece of work in ns a pose.
+    """Return the median time of each piece of work in ns per pose.
 
     Each is run before, to see how often it must be repeated; then, `rounds` times, all of them in
     turn: fewer where `budget` seconds are over by the `wall`'s clock, but three. `progress` is told
@@ -117,7 +117,7 @@ class Machine(NamedTuple):
 
 @dataclass(frozen=True)
 class Measured:
-    """One method on one mechanism: times in ns a pose (None where it gives no derivatives), and scores."""
+    """One method on one mechanism: times in ns per pose (None where it gives no derivatives), and scores."""
 
     mechanism: str
     key: str
@@ -200,11 +200,11 @@ def _cpu() -> str:
     return next(named, "") or platform.processor() or platform.machine()
 
 
-# A result as a table for the terminal or the README, and as JSON.
+# A result as a table for the terminal or the manual, and as JSON.
 
 TITLES = (
     "method",
-    "ns a pose",
+    "ns per pose",
     "with derivatives",
     "easy: position, velocity, acceleration",
     "hard",
@@ -212,9 +212,9 @@ TITLES = (
     "NaN",
 )
 NOTE = (
-    "ns a pose: processor time, medians of runs in turn. Errors against 50 digits and more, the worst of all "
-    "joints: positions in longest links, rates in longest links or the pose's largest rate, of poses on the "
-    "right closure; wrong closure and NaN: of {poses} hard poses."
+    "ns per pose: processor time, medians of runs in turn. Errors against 50 digits and more, the worst of "
+    "all joints: positions in longest links, rates in longest links or the pose's largest rate, of poses on "
+    "the right closure; wrong closure and NaN: of {poses} hard poses."
 )
 
 
@@ -225,7 +225,7 @@ def as_text(result: Result) -> str:
 
 
 def as_markdown(result: Result) -> str:
-    """Return the table, its mechanisms one after the other, and where it was measured, for the README."""
+    """Return the table, its mechanisms one after the other, and where it was measured, for the manual."""
     blank = [""] * (len(TITLES) - 1)
     rows = [line for name, lines in _by_mechanism(result) for line in ([f"**{name}**", *blank], *lines)]
     return f"{markdown([TITLES, *rows])}\n\n{_note(result)} Measured on {result.machine.line}.\n"

@@ -635,7 +635,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
     "bench": (
         _either(
             _flag("--json", "one object"),
-            _flag("--markdown", "the table of speed and error as in the README"),
+            _flag("--markdown", "the table of speed and error as in the manual"),
         ),
         _flag("--path", "measure what `linkanim path` finds instead"),
         _value("--seconds S", positive, "of its global search (default: 600)", 600.0),

@@ -1,4 +1,4 @@
-"""List all keys and gamepad buttons in one table: window, help, `--help` and the README read it."""
+"""List all keys and gamepad buttons in one table: window, help, `--help` and the manual read it."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ def key_of(name: str, *, listed: bool) -> str:
     return next(iter(_KEYS.get(name, ())[-1 if listed else 0 :]), "")
 
 
-# The one key table: the window, the help overlay, `--help` and the README all read it.
+# The one key table: the window, the help overlay, `--help` and the manual all read it.
 #
 # Keys are named as pygame names its constants (`K_F12` is "f12"), a printable key by its character,
 # with "ctrl+" and "shift+" in front, so that nothing here needs pygame.
@@ -379,5 +379,5 @@ def as_text(*, indent: str = "  ") -> str:
 
 
 def as_markdown() -> str:
-    """Return the table in Markdown, for the README."""
+    """Return the table in Markdown, for the manual."""
     return "\n".join(["| key | does |", "|---|---|", *(f"| {keys} | {words} |" for keys, words in _lines())])

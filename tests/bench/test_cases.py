@@ -1,4 +1,4 @@
-"""The cases are what their names say, along the inputs that README counts."""
+"""The cases are what their names say, along the inputs that the manual counts."""
 
 from __future__ import annotations
 

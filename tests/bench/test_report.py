@@ -1,9 +1,10 @@
-"""The table, the README's table, the JSON and the picture say what the run found."""
+"""The table, the manual's table, the JSON and the picture say what the run found."""
 
 from __future__ import annotations
 
 import json
 from dataclasses import replace
+from importlib.resources import files
 from pathlib import Path
 
 import pytest
@@ -43,7 +44,7 @@ def test_columns_are_aligned() -> None:
     assert columns([("a", "bb"), ("ccc", "d")]) == "a    bb\nccc   d"
 
 
-def test_the_readmes_table_is_markdown_with_its_machine() -> None:
+def test_the_manual_s_table_is_markdown_with_its_machine() -> None:
     head, rule, *body = report.as_markdown(result()).splitlines()
     assert head == f"| {' | '.join(report.TITLES)} |"
     assert rule.count("---:") == len(report.TITLES) - 1
@@ -54,9 +55,9 @@ def test_the_readmes_table_is_markdown_with_its_machine() -> None:
     assert body[-1].endswith("numpy 2.4.6 with X86_V3, one thread.")
 
 
-def test_the_readme_shows_such_a_table_and_counts_the_hard_poses() -> None:
-    readme = (Path(__file__).parents[2] / "README.md").read_text(encoding="utf-8")
-    shown = readme.partition("<!-- bench -->\n")[2].partition("<!-- /bench -->")[0].splitlines()
+def test_the_manual_shows_such_a_table_and_counts_the_hard_poses() -> None:
+    page = (files("linkanim") / "manual" / "measurements.md").read_text(encoding="utf-8")
+    shown = page.partition("<!-- bench -->\n")[2].partition("<!-- /bench -->")[0].splitlines()
     assert shown[:2] == report.as_markdown(result()).splitlines()[:2]
     for mechanism in MECHANISMS:
         assert any(line.startswith(f"| **{mechanism.name}** |") for line in shown)

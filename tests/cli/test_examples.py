@@ -80,7 +80,9 @@ MAKES = {
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", MAKES)
+@pytest.mark.parametrize(
+    "name", [pytest.param(one, marks=[pytest.mark.long] if one.startswith("10") else []) for one in MAKES]
+)
 def test_a_script_runs(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     if name in NEEDS:
         pytest.importorskip(NEEDS[name])

@@ -1,4 +1,4 @@
-"""The key table: one source for window, help and README."""
+"""The key table: one source for window, help and manual."""
 
 from __future__ import annotations
 
@@ -207,7 +207,7 @@ def test_no_key_is_bound_twice_in_a_table(table: Mode) -> None:
     assert len(keys) == len(set(keys))
 
 
-def test_help_text_and_readme_show_every_row() -> None:
+def test_help_text_and_manual_show_every_row() -> None:
     for row in (row for rows in ROWS.values() for row in rows):
         keys, words = row.keys, row.words
         assert any(keys in line and words in line for line in as_text().splitlines())
