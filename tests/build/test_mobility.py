@@ -15,8 +15,9 @@ from typing import Any, NamedTuple
 import pytest
 from hand import drawn, gesture, gestures
 from test_any_gestures import any_gesture
-from test_sessions import SESSIONS
+from test_sessions import SESSIONS, Session
 
+from linkanim.build.building import Building
 from linkanim.build.draft import Draft
 from linkanim.build.freedom import mobility
 
@@ -57,8 +58,9 @@ class Dual(NamedTuple):
 
 
 def whole(number: float | str) -> int:
-    """Return a decimal modulo the prime."""
-    share = Fraction(str(number))
+    """Return a length in millimetres modulo the prime."""
+    text, _, unit = str(number).partition(" ")
+    share = Fraction(text) * Fraction({"cm": "10", "m": "1000", "in": "25.4"}.get(unit, "1"))
     return share.numerator * pow(share.denominator, -1, PRIME) % PRIME
 
 
@@ -184,6 +186,14 @@ def after(seed: int, steps: int = 25) -> int:
     if building.made.scene:
         assert freedom(draft, {*draft.places}) == mobility(draft), seed
     return stated
+
+
+@pytest.mark.parametrize("session", SESSIONS, ids=lambda session: session.scene)
+def test_the_mobility_after_each_gesture_of_a_session(session: Session) -> None:
+    building = Building()
+    for line in gestures(session.lines):
+        building = gesture(building, line)
+        assert mobility(building.draft) == freedom(building.draft, {*building.draft.places}), line
 
 
 @pytest.mark.parametrize("part", range(2))

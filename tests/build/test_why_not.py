@@ -21,6 +21,11 @@ MISSING = (
     ("click 0 0; drag guide 0 0 99 0; click slider 50 0", "Nothing is driven: choose a crank or a slider"),
     (f"{CRANK}; choose drive input; delete", "Nothing is driven: choose a crank or a slider"),
     (f"{CRANK}; drag 50 0 83 78", "Mobility 2: one more bar, or a second drive (a gear pair); B is loose"),
+    # Bars that are drawn in one line hold no less.
+    (
+        f"{CRANK}; drag 50 0 75 0; drag 75 0 100 0; drag 75 0 75 60",
+        "Mobility 2: one more bar, or a second drive (a gear pair); C is loose",
+    ),
     (f"{CRANK}; drag 50 0 83 78; drag 83 78 120 90", "Mobility 3: 2 more bars, or a second drive"),
     # One body too many times over.
     (f"{CRANK}; drag 50 0 100 0", "Bar 3 (O4–A) is one too many: A, O2, O4 are all three pins in one body"),

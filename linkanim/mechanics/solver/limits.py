@@ -13,6 +13,7 @@ import math
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal, localcontext
+from functools import cache, partial
 from typing import NamedTuple
 
 import numpy as np
@@ -98,16 +99,20 @@ Rounded constants leave kinks of 1e-16 in the margin, where the formula of a loo
 """
 
 
-def refined(assembly: Assembly, name: str, phase: Sum) -> Sum:
-    """Return the phase at which a dyad's margin vanishes, from that phase (Newton's method).
+def refining(assembly: Assembly, name: str) -> Callable[[Sum], Sum]:
+    """Return what finds the phase at which a dyad's margin vanishes, from one nearby (Newton's method).
 
     Slopes are differences: the formulas' own rates have constants that are rounded otherwise than the
     margin's.
     """
     run = decimals(("x",), _outputs(_closing(assembly, name))[:1])
-    with localcontext(context()):
-        place = _newton(phase, lambda place: _steps(run, place)[0])
-        return phase if place is None else nearest_sum(place)
+
+    def refined(phase: Sum) -> Sum:
+        with localcontext(context()):
+            place = _newton(phase, lambda place: _steps(run, place)[0])
+            return phase if place is None else nearest_sum(place)
+
+    return refined
 
 
 def extreme(assembly: Assembly, name: str, phase: float) -> tuple[Sum, float, float]:
@@ -792,8 +797,9 @@ def _open_interval(assembly: Assembly, found: Separations) -> tuple[Limit, Limit
     if not is_open.any():  # cut back for one dyad, nothing is left to another
         raise AssemblyError(NO_RANGE)
     first, last = _run_around(is_open, home, phases)
+    refiner = cache(partial(refining, assembly))  # one dyad mostly limits both ends
     below, above = (
-        _limit(assembly, found, (phases[inside], phases[outside]), shut[:, outside])
+        _limit(found, (phases[inside], phases[outside]), shut[:, outside], refiner)
         if 0 <= outside < len(phases)
         else (Sum(float(phases[inside])), None)
         for inside, outside in ((first, first - 1), (last, last + 1))
@@ -812,7 +818,10 @@ def _run_around(is_open: NDArray[np.bool_], home: int, phases: Array) -> tuple[i
 
 
 def _limit(
-    assembly: Assembly, found: Separations, bracket: tuple[float, float], shut: NDArray[np.bool_]
+    found: Separations,
+    bracket: tuple[float, float],
+    shut: NDArray[np.bool_],
+    refiner: Callable[[str], Callable[[Sum], Sum]],
 ) -> tuple[Sum, str]:
     """Return the limit between an open phase and the shut one beside it, by bisection, then in all digits."""
     row = _first_shut(shut, found.margins(np.array(bracket[1:]))[:, 0])
@@ -822,7 +831,7 @@ def _limit(
         limit = ends_of(lambda phases: found.margins(phases[:, 0])[row, :, None] >= 0, inside, outside)
         start = Sum(float(limit[0]))
     name = found.names[row]
-    return refined(assembly, name, start), name
+    return refiner(name)(start), name
 
 
 def _first_shut(shut: NDArray[np.bool_], margins: Array) -> int:
