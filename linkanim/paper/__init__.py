@@ -7,6 +7,7 @@ From the ground up; a module imports from those before it only:
     pdf           items as PDF
     latex         a PDF whose words LaTeX sets
     curves        quantities over one true period, beside a measured table
+    sentences     what a chart shows, in sentences
     chart         a chart on a page
     figure        one pose of a scene
     vectors       the vectors of a worked solution's loops

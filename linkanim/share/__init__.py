@@ -2,7 +2,8 @@
 
 From the ground up; a module imports from those before it only:
 
-    movers  what of a picture moves, how, and in which colours
-    page    the page itself
-    site    every scene as a page, and an index of them
+    movers   what of a picture moves, how, and in which colours
+    lengths  a linkage as the page's own solver knows it
+    page     the page itself
+    site     every scene as a page, and an index of them
 """

@@ -327,20 +327,27 @@
     return { data, tracks, group, groups, rows, charts, moves };
   });
   const now = () => sides[state.side];
+  const own = page.model && lengthsOf(page.model, {
+    kinds: KINDS, part, put, say, unit, add, by, xy, line, view: page.sides[0].view, short, state, byId, wake: () => wake(),
+  });
+  // The tracks of what is shown: of the page's own linkage, or of other lengths.
+  const tracksNow = () => own?.on ? own.tracks : now().tracks;
 
   // --- drawing ------------------------------------------------------------------------------------
 
   function draw() {
     const side = now(), poses = new Map();
     const pose = (name) => {
-      if (!poses.has(name)) poses.set(name, side.tracks.get(name).at(state.phase));
+      if (!poses.has(name)) poses.set(name, tracksNow().get(name).at(state.phase));
       return poses.get(name);
     };
     const place = (name) => pose(name).p;
-    for (const move of side.moves) move(place, pose);
+    sides.forEach(({ group }, n) => group.toggleAttribute("hidden", own?.on || n !== state.side));
+    for (const move of own?.on ? own.moves : side.moves) move(place, pose);
     put(byId("grip"), "transform", `translate(${xy(place(side.data.drive))})`);
     drawRows(side);
-    if (side.charts.length) drawCursor(side.charts[state.way > 0 ? 0 : 1]);
+    chart.classList.toggle("off", own?.on || !side.charts.length);
+    if (side.charts.length && !own?.on) drawCursor(side.charts[state.way > 0 ? 0 : 1]);
     drawInput(side);
     if (byId("numbers").open) drawNumbers(side, pose);
     drawReading(side, pose);
@@ -361,24 +368,27 @@
     return minus(Number(text) === 0 ? text.replace("-", "") : text) + (unitName === "°" ? "°" : ` ${unitName}`).trimEnd();
   }
 
-  const rowWords = (row) => row.text ? row.text[state.way > 0 ? 0 : 1] : words(valueOf(row), row.digits, row.unit);
+  const OTHER = { label: page.input, text: null };
+  const rowsNow = (side) => own?.on ? [OTHER] : side.rows;
+  const rowWords = (row) => row === OTHER ? own.inputWords(state.phase) : row.text ? row.text[state.way > 0 ? 0 : 1] : words(valueOf(row), row.digits, row.unit);
 
   function drawRows(side) {
     const list = byId("rows");
-    if (list.dataset.side !== String(state.side)) {
-      list.dataset.side = state.side;
-      list.replaceChildren(...side.rows.flatMap((row) => {
+    const key = own?.on ? "own" : String(state.side);
+    if (list.dataset.side !== key) {
+      list.dataset.side = key;
+      list.replaceChildren(...rowsNow(side).flatMap((row) => {
         const name = document.createElement("dt"), value = document.createElement("dd");
         name.textContent = row.label;
         return [name, value];
       }));
     }
-    side.rows.forEach((row, n) => { say(list.children[2 * n + 1], rowWords(row)); });
+    rowsNow(side).forEach((row, n) => { say(list.children[2 * n + 1], rowWords(row)); });
   }
 
   let spoken = "";
   function drawInput(side) {
-    const slider = byId("input"), text = rowWords(side.rows[0]);
+    const slider = byId("input"), text = rowWords(rowsNow(side)[0]);
     slider.value = mod(state.phase, page.period);
     slider.setAttribute("aria-valuetext", text);
     if (!state.playing && text !== spoken) byId("live").textContent = `${page.input} ${text}`;
@@ -465,7 +475,7 @@
     if (pointer) {
       const reach = 14 / (byId("picture").getScreenCTM()?.a || 1);
       const apart = (name) => size(sub(pose(name).p, pointer.at));
-      const near = side.data.joints.filter((name) => apart(name) < reach).sort((one, other) => apart(one) - apart(other))[0];
+      const near = side.data.joints.filter((name) => tracksNow().has(name) && apart(name) < reach).sort((one, other) => apart(one) - apart(other))[0];
       if (near) {
         const { place, velocity, acceleration } = inUnits(pose(near), view);
         text = `${near} ${couple(place)} ${page.unit}\nv = ${short(size(velocity))} ${page.unit}/s   ` +
@@ -495,7 +505,7 @@
     };
     const { unit: of } = page, [head, body] = byId("numbers").querySelectorAll("thead, tbody");
     head.replaceChildren(row("th", ["point", `position (${of})`, `velocity (${of}/s)`, `acceleration (${of}/s²)`]));
-    body.replaceChildren(...[...side.tracks.keys()].map((name) => {
+    body.replaceChildren(...[...tracksNow().keys()].map((name) => {
       const { place, velocity, acceleration } = inUnits(pose(name), side.data.view);
       return row("td", [name, couple(place), couple(velocity), couple(acceleration)]);
     }));
@@ -540,7 +550,7 @@
   // Moves the input to where its joint comes nearest to the pointer within a quarter turn: of several such
   // places to the next one, at the end of a swing, where two are alike, on in the same way.
   function drag(target) {
-    const track = now().tracks.get(now().data.drive), step = TURN / 360;
+    const track = tracksNow().get(now().data.drive), step = TURN / 360;
     const off = (phase) => { const gap = sub(track.at(phase).p, target); return gap[0] ** 2 + gap[1] ** 2; };
     const tried = Array.from({ length: 183 }, (_, n) => state.phase + (n - 91) * step), offs = tried.map(off);
     const near = tried.filter((_, n) => n && n < 182 && offs[n] <= offs[n - 1] && offs[n] <= offs[n + 1])
@@ -564,7 +574,7 @@
     event.preventDefault();
     handle.setPointerCapture(event.pointerId);
     pause();
-    state.held = sub(under(picture, event), now().tracks.get(now().data.drive).at(state.phase).p);
+    state.held = sub(under(picture, event), tracksNow().get(now().data.drive).at(state.phase).p);
     picture.classList.add("held");
   });
   handle.addEventListener("touchstart", (event) => event.preventDefault(), { passive: false });  // no scrolling
@@ -591,7 +601,7 @@
   }
   function showSide(number) {
     state.side = mod(number, sides.length);
-    sides.forEach(({ group }, n) => group.toggleAttribute("hidden", n !== state.side));
+    own?.renew();
     const { name } = now().data, button = byId("closure");
     button.textContent = name ? `Closure: ${name}` : "Closure";
     button.classList.toggle("off", sides.length < 2);
@@ -631,7 +641,7 @@
     n: ACTIONS.names, l: theme, r: () => moveTo(0), arrowup: () => pace(1), arrowdown: () => pace(-1),
   };
   document.addEventListener("keydown", (event) => {
-    if (event.ctrlKey || event.metaKey || event.altKey || event.target.closest("select")) return;
+    if (event.ctrlKey || event.metaKey || event.altKey || event.target.closest("select, #lengths input")) return;
     const key = event.key.toLowerCase(), on = event.target.closest("button, summary");
     if (key === "arrowleft" || key === "arrowright") step((key === "arrowright" ? 1 : -1) * (event.shiftKey ? 10 : 1));
     else if (KEYS[key] && !(key === " " && on)) KEYS[key]();
@@ -647,6 +657,8 @@
   for (const [name, order] of [["velocity", 1], ["acceleration", 2]])
     hide(name, !sides[0].data.movers.some((mover) => mover.kind === "arrows" && mover.order === order && mover.at.length));
   hide("theme", Boolean(page.theme));
+  hide("lengths", !own);
+  if (own) globalThis.lengths = own;
   const slider = byId("input");
   slider.min = 0;
   slider.max = page.period;

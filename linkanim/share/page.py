@@ -26,6 +26,7 @@ from linkanim.errors import BadInput
 from linkanim.mechanics.linkage import Crank
 from linkanim.mechanics.quantities import Quantity
 from linkanim.paper.svg import FACES
+from linkanim.picture.bodies import colours_of
 from linkanim.picture.chart import ChartPanel, Pen
 from linkanim.picture.figure import Figure, figure
 from linkanim.picture.hud import measured
@@ -37,6 +38,7 @@ from linkanim.picture.theme import Theme
 from linkanim.picture.view import Rect
 from linkanim.scenes.editing import closure_name, ghost_of
 from linkanim.scenes.scene import Scene
+from linkanim.share.lengths import model
 from linkanim.share.movers import LARGEST_SINGLE, Mobile, Pairs, packed, packed_tracks, tracks
 
 # The numbers of a page over one true period, both ways round: rows of words, and the chart.
@@ -229,6 +231,8 @@ _SHARED = 200
 """Bytes from which on shapes that come again are used again."""
 _TALL = 0.8
 """How high for its width a picture is that has its chart beside it."""
+_OF_TRACKS = ("curve", "recent", "arrows")
+"""The kinds of movers that follow points alone, whatever the lengths of links."""
 _WIDTH, _HEIGHTS = 960, (480, 900)
 
 
@@ -297,8 +301,12 @@ def _whole(shared: Shared, closures: tuple[Scene, ...]) -> str:
         "theme": shared.theme,
         "sides": [side.data() for side in sides],
     }
+    found = _short(found)
+    if lengths := sides[0].model():
+        found["model"] = lengths  # in all its digits: it is solved, not drawn alone
     sheet = pairs.styles(shared.themes, shared.theme)
-    script, kind = packaged("page.js"), scene.info.class_name
+    script = "\n".join(map(packaged, ("solver.js", "lengths.js", "page.js")))
+    kind = scene.info.class_name
     digest = "sha256-" + base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
     return Template(packaged("page.html")).substitute(
         policy=_POLICY.format(script=digest),
@@ -310,7 +318,7 @@ def _whole(shared: Shared, closures: tuple[Scene, ...]) -> str:
         shape="tall" if size[1] > _TALL * size[0] else "wide",
         chart=f"0 0 {CHART[0]} {CHART[1]}",
         shapes=shapes,
-        data=json.dumps(_short(found), ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c"),
+        data=json.dumps(found, ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c"),
         script=script,
     )
 
@@ -345,6 +353,24 @@ class _Side:
             numbered = f' data-m="{next(moving)}"' if one.mover else ""
             groups += f"<g{placed}{numbered}>{_once(one.shapes, known)}</g>"
         return f"<g id='side{number}'{' hidden' if number else ''}>{groups}</g>"
+
+    def model(self) -> dict[str, Any] | None:
+        """Return what the page's solver knows of it for other lengths; None where it cannot solve it."""
+        found, linkage = model(self._scene), self._scene.linkage
+        if found is None:
+            return None
+        light, dark = (colours_of(one.figure, one.theme) for one in (self._picture, self._dark))
+        links = [
+            {
+                "joints": body.joints,
+                "slider": body.slider,
+                "colour": self._pairs.variable(*(known.get(body.name, known[""]) for known in (light, dark))),
+            }
+            for body in linkage.bodies
+            if body.slider or len(body.joints) > 1
+        ]
+        movers = [one.mover for one in self._movables if one.mover and one.mover["kind"] in _OF_TRACKS]
+        return {**found, "links": links, "movers": movers, "unit": self._scene.length_unit}
 
     def data(self) -> dict[str, Any]:
         """Return what its script knows of it."""

@@ -1,0 +1,125 @@
+"""What a chart shows, in sentences: where its curves are greatest, least and zero, and which way they go.
+
+Every number is worked out again at its place, not read off the picture.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from math import radians, tau
+
+import numpy as np
+
+from linkanim.mechanics.quantities import input_symbol
+from linkanim.mechanics.search import sign_changes
+from linkanim.paper.curves import Curve, Curves, extremes
+from linkanim.picture.quantities import Floats, driven_words
+from linkanim.units import significant, typeset
+
+_MOST = 3
+"""So many curves of a chart are told of; of more the one that goes farthest."""
+_MOST_ZEROS = 4
+"""So many places at which a curve is zero are listed; of more there is the number."""
+_DIGITS = 4
+_EVEN = 0.005
+"""Two ways whose times differ by less of the period are equally quick."""
+_NOTHING = 1e-9
+
+
+def about(curves: Curves) -> str:
+    """Return what a chart shows, in sentences; nothing of curves that are level or somewhere unbounded."""
+    return " ".join(sentence for curve in _told(curves) for sentence in _sentences(curves, curve))
+
+
+def _told(curves: Curves) -> Sequence[Curve]:
+    """Return the curves that are told of: those at the first speed, the farthest one where they are many."""
+    first = [curve for curve in curves.curves if curve.pace == curves.curves[0].pace]
+    if len(first) <= _MOST:
+        return first
+    return [max(first, key=lambda curve: float(np.ptp(np.nan_to_num(curve.values))))]
+
+
+def _sentences(curves: Curves, curve: Curve) -> Iterator[str]:
+    peaks = extremes(curves.scene, curve)
+    if not peaks:
+        return
+    high, low = ((_value(curves, curve, peak.value), _at(curves, peak.angle)) for peak in peaks)
+    symbol = ", ".join(part for part in (curve.quantity.symbol, curve.label) if part)
+    several = len({one.pace for one in curves.curves}) > 1 and curve.quantity.order
+    name = f"At {curve.pace.words} {symbol}" if several else symbol
+    if curve.quantity.order == 0 and (way := _way_up(curves, curve)) is not None:
+        yield _to_and_fro(curves, curve, name, (low, high), way)
+        return
+    zeros = _zeros(curves, curve)
+    there = f"; {_zero_words(zeros)}" if zeros else ""
+    yield f"{name} is greatest, {high[0]}, {high[1]}, and least, {low[0]}, {low[1]}{there}."
+
+
+def _to_and_fro(
+    curves: Curves, curve: Curve, name: str, ends: tuple[tuple[str, str], tuple[str, str]], up: float
+) -> str:
+    """Return how what goes to and fro once in a period does so; `up` is the share of the way up."""
+    (low, low_at), (high, high_at) = ends
+    between = f"{name} rises from {low} {low_at} to {high} {high_at} and falls again"
+    if abs(up - 0.5) < _EVEN:
+        return f"{between}; both ways take the same time."
+    slow, share = ("way up", up) if up > 0.5 else ("way down", 1 - up)
+    turned = ""
+    if curves.scene.info.full_turn and abs(curves.scene.period - tau) < _NOTHING:
+        turned = f" ({360 * share:.1f}° of the input)"
+    return f"{between}; the {slow} is the slow one{turned}, time ratio {share / (1 - share):.2f}."
+
+
+def _way_up(curves: Curves, curve: Curve) -> float | None:
+    """Return the share of the period in which a curve rises; None where it does so more or less than once."""
+    order = np.argsort(curve.phases)
+    values, phases = curve.values[order], curve.phases[order]
+    if np.isnan(values).any() or abs(values[-1] - values[0]) > 1e-6 * np.ptp(values):
+        return None
+    steps = np.sign(np.round(np.diff(values) / np.ptp(values), 12))
+    steps = steps[steps != 0]
+    if np.count_nonzero(steps != np.roll(steps, 1)) != 2:
+        return None
+    places = (peak.x for peak in extremes(curves.scene, curve))
+    peaks = [float(np.interp(place, *_rising(curve.x, curve.phases))) for place in places]
+    period = float(phases[-1] - phases[0])
+    forward = (peaks[0] - peaks[1]) % period / period
+    return forward if curve.pace.speed > 0 else 1 - forward
+
+
+def _rising(x: Floats, values: Floats) -> tuple[Floats, Floats]:
+    order = np.argsort(x, kind="stable")
+    return x[order], values[order]
+
+
+def _zeros(curves: Curves, curve: Curve) -> list[str]:
+    """Return the places at which a curve changes its sign."""
+    if not (np.nanmin(curve.values) < 0 < np.nanmax(curve.values)) or np.isnan(curve.values).any():
+        return []
+    phases = np.sort(curve.phases)
+    # from between two samples round to there: many are zero at the start itself
+    shifted = np.linspace(phases[0], phases[-1], len(phases)) + 0.5 * (phases[1] - phases[0])
+    found = sign_changes(lambda near: curve.solved(curves.scene, near), shifted)
+    angles = (float(curves.scene.pose(float(phase), 0).coordinate) for phase in found)
+    shown = sorted(curves.scene.linkage.drive.coordinate.shown(angle) for angle in angles)
+    return [_at(curves, angle % 360 if curves.scene.info.full_turn else angle, bare=True) for angle in shown]
+
+
+def _zero_words(zeros: list[str]) -> str:
+    if len(zeros) > _MOST_ZEROS:
+        return f"it changes its sign {len(zeros)} times"
+    listed = " and ".join(part for part in (", ".join(zeros[:-1]), zeros[-1]) if part)
+    return f"it changes its sign at {listed}"
+
+
+def _at(curves: Curves, angle: float, *, bare: bool = False) -> str:
+    """Return a place of the input in words: "at θ₂ = 71.0°"; `bare` without the first two."""
+    drive = curves.scene.linkage.drive
+    value = driven_words(curves.scene, radians(angle) if drive.coordinate.is_angle else angle)
+    return value if bare else f"at {input_symbol(curves.scene.linkage)} = {value}"
+
+
+def _value(curves: Curves, curve: Curve, value: float) -> str:
+    unit = curve.quantity.shown_unit(curves.scene.length_unit)
+    number = typeset(significant(0.0 if abs(value) < _NOTHING else value, _DIGITS))
+    return f"{number}{'' if unit == '°' else ' '}{unit}".rstrip()

@@ -1,0 +1,169 @@
+"""A linkage as the page's solver knows it: its joints in the order in which they close, and their lengths."""
+
+from __future__ import annotations
+
+from math import cos, pi, sin
+from typing import Any
+
+from linkanim.mechanics.analysis import GRASHOF, TRIPLE_ROCKERS, four_bar_of
+from linkanim.mechanics.linkage import RRP, RRR, Crank, Joint, Pin, Rigid
+from linkanim.scenes.scene import Scene
+
+LINKS = ("ground", "input", "coupler", "output")
+_JUST_AFTER = 1e-3
+"""In phase: where the closure of a dyad that another joint's side names is read off."""
+_LEAST, _MOST = 0.2, 2.0
+"""Between which shares of its length a bar's slider runs."""
+_ASIDE = 0.5
+"""Of the longest bar: so far to either side go the sliders of offsets and of points beside a line."""
+
+
+def model(scene: Scene) -> dict[str, Any] | None:
+    """Return the linkage with its lengths; None where it has what the solver does not know.
+
+    That is an input which is no crank, a dyad with a slot, a line that a body carries, a crank on a joint
+    that moves, and a smooth path through a change point, on which no closure has a name.
+    """
+    linkage = scene.linkage
+    if linkage.drive.actuator.along is not None or scene.info.change_points or scene.info.true_period != 1:
+        return None
+    found = _Model(scene)
+    joints = [found.joint(joint) for joint in linkage.joints]
+    if any(joint is None for joint in joints) or not found.shown:
+        return None
+    bar = four_bar_of(scene.mechanism)
+    single = bar is not None and sum(joint.dyad for joint in linkage.joints) == 1
+    return {
+        "joints": joints,
+        "values": found.values,
+        "sliders": found.shown,
+        "start": linkage.drive.start,
+        "stated": linkage.drive.stated_start,
+        "level": _level(scene),
+        "classes": {
+            "grashof": [GRASHOF[part] for part in LINKS],
+            "rockers": [TRIPLE_ROCKERS[part] for part in LINKS],
+            "change": "change-point",
+        },
+        "fourBar": found.four_bar(bar.joint) if bar and single else None,
+    }
+
+
+def _level(scene: Scene) -> float:
+    """Return the direction left of which the stretch of an input lies that is taken without a start."""
+    linkage, loops = scene.linkage, scene.mechanism.assembly.loops
+    first = next((name for name, loop in loops.items() if loop.pin == linkage.drive.joint), None)
+    if first is None:
+        return 0.0
+    loop = loops[first]
+    ends = {loop.crank.pivot, *linkage.joint(first).pins}
+    pins = [pin.name for pin in linkage.pins if pin.name in ends]
+    # a ground that runs from the pin that is stated later has what lies above it on its right
+    back = loop.ground is not None and pins[0] != loop.crank.pivot
+    return float(loop.root.reference) + (pi if back else 0.0)
+
+
+class _Model:
+    def __init__(self, scene: Scene) -> None:
+        self.scene, self.linkage = scene, scene.linkage
+        self.values: list[float] = []
+        self.shown: list[dict[str, Any]] = []
+        self._numbers: dict[tuple[str, str], int] = {}
+        self._first: Pin | None = None
+        self._longest = max(
+            (abs(length) for joint in self.linkage.joints for _, length in joint.bars), default=1.0
+        )
+
+    def joint(self, joint: Joint) -> dict[str, Any] | None:
+        """Return a joint with the numbers of its lengths; None of a kind that the solver does not know."""
+        match joint:
+            case Pin():
+                return {"name": joint.name, **self._pin(joint)}
+            case Crank() if self.linkage.joint(joint.pivot).fixed and not joint.gear:
+                turning = {"ratio": 1.0, "offset": 0.0}
+                return {
+                    "name": joint.name,
+                    "kind": "crank",
+                    "pivot": joint.pivot,
+                    "r": self._bar(joint.pivot, joint),
+                    **turning,
+                }
+            case RRR():
+                numbers = [self._bar(end, joint, n) for n, end in enumerate(joint.ends)]
+                return {
+                    "name": joint.name,
+                    "kind": "bars",
+                    "ends": joint.ends,
+                    "r": numbers,
+                    "side": self._side(joint),
+                }
+            case RRP() if joint.line.on is None:
+                offset = self._aside(f"{joint.name}: offset of its line", joint.line.offset)
+                return {
+                    "name": joint.name,
+                    "kind": "slider",
+                    "end": joint.end,
+                    "r": self._bar(joint.end, joint),
+                    "way": (cos(joint.line.angle), sin(joint.line.angle)),
+                    "through": joint.line.through,
+                    "offset": offset,
+                    "side": joint.side,
+                }
+            case Rigid():
+                first = f"{joint.name}: along {'–'.join(joint.on)}"
+                numbers = [
+                    self._aside(first, joint.at[0]),
+                    self._aside(f"{joint.name}: to its left", joint.at[1]),
+                ]
+                return {"name": joint.name, "kind": "point", "on": joint.on, "r": numbers}
+        return None
+
+    def _pin(self, pin: Pin) -> dict[str, Any]:
+        if self._first is None:
+            self._first = pin
+            return {"kind": "pin", "place": pin.position}
+        way = complex(*pin.position) - complex(*self._first.position)
+        if not way:
+            return {"kind": "pin", "place": pin.position}
+        number = self._number(
+            f"{self._first.name}–{pin.name}", abs(way), (_LEAST * abs(way), _MOST * abs(way))
+        )
+        self._numbers[self._first.name, pin.name] = number
+        unit = way / abs(way)
+        return {"kind": "pin", "base": self._first.name, "way": (unit.real, unit.imag), "r": number}
+
+    def _bar(self, end: str, joint: Joint, which: int = 0) -> int:
+        length = joint.bars[which][1]
+        number = self._number(f"{end}–{joint.name}", length, (_LEAST * length, _MOST * length))
+        self._numbers[end, joint.name] = number
+        return number
+
+    def _aside(self, label: str, value: float) -> int:
+        reach = _ASIDE * self._longest
+        return self._number(label, value, (min(-reach, value - reach), max(reach, value + reach)))
+
+    def _number(self, label: str, value: float, ends: tuple[float, float]) -> int:
+        self.values.append(float(value))
+        number = len(self.values) - 1
+        self.shown.append({"label": label, "number": number, "least": ends[0], "most": ends[1]})
+        return number
+
+    def _side(self, joint: RRR) -> int:
+        """Return on which side of its ends a joint lies, as the scene names it, or as it begins."""
+        if joint.side_of is None:
+            return joint.side
+        places = self.scene.pose(_JUST_AFTER, 0).position
+        one, other, at = (complex(*places[name]) for name in (*joint.ends, joint.name))
+        return 1 if ((other - one).conjugate() * (at - one)).imag >= 0 else -1
+
+    def four_bar(self, name: str) -> list[int] | None:
+        """Return the numbers of ground, input, coupler and output of a four-bar that closes in a joint."""
+        joint = self.linkage.joint(name)
+        assert isinstance(joint, RRR)
+        pin = self.linkage.drive.joint
+        pivot = self.linkage.crank(pin).pivot
+        far = next(end for end in joint.ends if end != pin)
+        ground = self._numbers.get((pivot, far), self._numbers.get((far, pivot)))
+        if ground is None:
+            return None
+        return [ground, self._numbers[pivot, pin], self._numbers[pin, name], self._numbers[far, name]]
