@@ -13,8 +13,8 @@ from functools import lru_cache
 import numpy as np
 
 from linkanim.mechanics.linkage import Body, holding
-from linkanim.picture.figure import Figure
-from linkanim.picture.fittings import BARREL, PISTON, ROD, SLOT, SLOTTED, Bar, Bench, fittings, piston
+from linkanim.picture.figure import DrawContext, Figure
+from linkanim.picture.fittings import BARREL, PISTON, ROD, SLOT, SLOTTED, Bar, fittings, piston
 from linkanim.picture.layout import Gauge
 from linkanim.picture.raster import Colour, Layer
 from linkanim.picture.shapes import Part, Stamp, directions, disc, glazed, hull, lined, slotted, strokes, unit
@@ -138,11 +138,12 @@ SHAPES: Mapping[str, Callable[..., list[Layer]]] = {
 # Bodies: rounded bars and plates, the pins on top of them, centres of mass.
 
 
-def body_parts(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> tuple[Part, ...]:
+def body_parts(context: DrawContext) -> tuple[Part, ...]:
     """Return every body with its joints' fittings, back to front: plates, then bars, in the scene's order.
 
     Plates are clear enough to show what lies behind them: on a locomotive bars that come before its wheels.
     """
+    figure, view, _, theme = context.known
     colours = colours_of(figure, theme)
     shown = (body for body in figure.bodies if figure.scene.style(body.name).outline != "none")
     placed = {body: _local(body, figure, view) for body in shown}
@@ -151,12 +152,11 @@ def body_parts(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> tuple[
     on_rails = [n for n, body in enumerate(placed) if figure.scene.style(body.name).outline == "railwheel"]
     far = [body for body in list(placed)[: max(on_rails, default=0)] if body in bars]
     near = [body for body in bars if body not in far]
-    bench = Bench(figure, view, gauge, theme)
-    fitted = fittings(bench)
+    fitted = fittings(context)
     behind = [part for fitting in fitted for part in fitting.behind]
     before = [part for fitting in fitted for part in fitting.before]
     worked = [fitting.bar for fitting in fitted if fitting.bar]
-    solid = [_body(body, placed[body], worked, bench, colours[body.name]) for body in far + plates + near]
+    solid = [_body(body, placed[body], worked, context, colours[body.name]) for body in far + plates + near]
     return (*behind, *solid, *before)
 
 
@@ -190,27 +190,27 @@ def _is_wide(body: Body, figure: Figure, points: list[complex]) -> bool:
     return outline in ("plate", "bucket", *WHEELS) or (outline is None and len(hull(points)) > 2)
 
 
-def _body(body: Body, points: list[complex], worked: list[Bar], bench: Bench, colour: Colour) -> Part:
+def _body(body: Body, points: list[complex], worked: list[Bar], context: DrawContext, colour: Colour) -> Part:
     bar = next((bar for bar in worked if set(bar.ends) <= set(body.joints)), None)
-    plate, gauge = _is_wide(body, bench.figure, points), bench.gauge
-    style, colours = bench.figure.scene.style(body.name), (bench.theme.outline, colour)
+    plate, gauge = _is_wide(body, context.figure, points), context.gauge
+    style, colours = context.figure.scene.style(body.name), (context.theme.outline, colour)
     layers: list[Layer] = []
     if style.outline is not None and bar is None:
-        radius = {"radius": style.radius * bench.view.scale} if style.radius else {}
+        radius = {"radius": style.radius * context.view.scale} if style.radius else {}
         layers += SHAPES[style.outline](points, gauge, colours, **radius)
     elif plate or bar is None:
         layers += (glazed if plate else lined)(points, gauge.bar, gauge.outline, colours)
     if bar:
         ends = [points[body.joints.index(name)] for name in bar.ends]
-        layers += _worked(bar, ends if plate else [*ends, *points], bench, colours)
+        layers += _worked(bar, ends if plate else [*ends, *points], context, colours)
     first, second = body.joints[:2]
-    pinned = (*body.joints, *bench.figure.riding(body))
+    pinned = (*body.joints, *context.figure.riding(body))
     return Part(first, first, second, tuple(layers), pinned, body.name or "-".join(body.joints))
 
 
-def _worked(bar: Bar, points: list[complex], bench: Bench, colours: tuple[Colour, Colour]) -> list[Layer]:
+def _worked(bar: Bar, points: list[complex], context: DrawContext, colours: Colours) -> list[Layer]:
     """Return a slotted bar, or a rod with an eye where it begins; its two ends are the first points."""
-    gauge, (begin, end) = bench.gauge, points[:2]
+    gauge, (begin, end) = context.gauge, points[:2]
     along, edge = unit(end - begin), gauge.outline
     if bar.slot:
         near, far = (begin + along * place for place in bar.slot)
@@ -220,7 +220,7 @@ def _worked(bar: Bar, points: list[complex], bench: Bench, colours: tuple[Colour
     eye = lined([begin], gauge.bar, edge, colours)
     layers = [Layer(one.colour, [*one.loops, *other.loops]) for one, other in zip(rod, eye, strict=True)]
     if bar.piston:
-        head = piston(PISTON * gauge.bar, BARREL * gauge.bar, gauge, bench.theme)
+        head = piston(PISTON * gauge.bar, BARREL * gauge.bar, gauge, context.theme)
         layers.append(head.placed(end, along))
     return layers
 

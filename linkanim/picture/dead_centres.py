@@ -12,8 +12,8 @@ import numpy as np
 
 from linkanim.mechanics.measures import output_slider
 from linkanim.mechanics.quantities import input_symbol
-from linkanim.picture.fittings import Bench, rail_reach
-from linkanim.picture.layout import Layout
+from linkanim.picture.figure import DrawSetting
+from linkanim.picture.fittings import rail_reach
 from linkanim.picture.quantities import driven_words
 from linkanim.picture.raster import Layer, Loop
 from linkanim.picture.shapes import arrows, segments
@@ -32,14 +32,12 @@ _FEW = 1e-6
 
 @dataclass(frozen=True)
 class DeadCentres:
-    """The dead centres of a figure's output slider, which slides on the ground; `sized` with its stroke.
+    """The dead centres of a figure's output slider, which slides on the ground.
 
     `ends` is where the slider is in pixels, furthest back and forward, `rail` how far its rails lie aside.
     """
 
-    bench: Bench
-    layout: Layout
-    sized: bool
+    setting: DrawSetting
     ends: tuple[complex, complex]
     rail: float
 
@@ -48,10 +46,10 @@ class DeadCentres:
 
         With each comes where the middle of a line of text of a size may stand.
         """
-        info = self.bench.figure.scene.info
+        info = self.setting.figure.scene.info
         lines = [*map(self._angle, info.dead_centres or ())]
         if self.sized and info.stroke and info.time_ratio:
-            stroke = f"stroke {short(info.stroke)} {self.bench.figure.scene.length_unit}"
+            stroke = f"stroke {short(info.stroke)} {self.setting.figure.scene.length_unit}"
             lines.append(typeset(f"{stroke}, time ratio {short(info.time_ratio)}"))
         feet = (*zip(self.ends, (-1, 1), strict=True), (sum(self.ends) / 2, 0))
         for text, foot in zip(lines, feet, strict=False):
@@ -72,6 +70,11 @@ class DeadCentres:
             ]
         )
 
+    @property
+    def sized(self) -> bool:
+        """Whether the look asks for dimensions, and so for the stroke."""
+        return self.setting.look.names > 1
+
     @cached_property
     def _frame(self) -> tuple[complex, complex]:
         """The way of the slider in pixels, and the way out from its guide: where there is more room."""
@@ -84,7 +87,7 @@ class DeadCentres:
 
     def _passed(self) -> Iterator[Loop]:
         """Yield pixels that bars pass through in the cycle, but for the slider's own way."""
-        figure, view = self.bench.figure, self.bench.view
+        figure, view = self.setting.figure, self.setting.view
         for body in figure.bodies:
             for ends in pairwise(body.joints):
                 begin, end = (figure.path(name, view) for name in ends)
@@ -92,16 +95,16 @@ class DeadCentres:
 
     def _fits(self, out: complex) -> bool:
         """Whether the words have room on one side of the guide."""
-        stage, high = self.layout.stage, (self._reach + 2.8 * self.layout.small_size) * out
+        stage, high = self.setting.layout.stage, (self._reach + 2.8 * self.setting.layout.small_size) * out
         return all(stage.holds((end + high).real, (end + high).imag) for end in self.ends)
 
     @property
     def _reach(self) -> float:
         """How far the ticks reach from the line of travel."""
-        return self.rail + _TICK * self.bench.gauge.bar
+        return self.rail + _TICK * self.setting.gauge.bar
 
     def _angle(self, phase: float) -> str:
-        scene = self.bench.figure.scene
+        scene = self.setting.figure.scene
         angle = scene.pose(phase, 0).coordinate
         if not scene.info.full_turn:
             return f"{input_symbol(scene.linkage)} = {driven_words(scene, angle)}"
@@ -110,7 +113,7 @@ class DeadCentres:
     @cached_property
     def ticks(self) -> tuple[tuple[complex, complex], ...]:
         """The lines across the guide, or beside a cylinder, and with the stroke the one between them."""
-        (_, out), bar = self._frame, self.bench.gauge.bar
+        (_, out), bar = self._frame, self.setting.gauge.bar
         level = out * (self._reach - 0.4 * bar)
         begin = -self._reach if self.rail < _WIDE * bar else self.rail
         across = tuple((foot + out * begin, foot + out * self._reach) for foot in self.ends)
@@ -119,22 +122,22 @@ class DeadCentres:
     @property
     def layers(self) -> list[Layer]:
         """The ticks, and the stroke's arrows between them."""
-        width, (first, second, *level) = 0.9 * self.bench.gauge.line, self.ticks
+        width, (first, second, *level) = 0.9 * self.setting.gauge.line, self.ticks
         begins, ends = zip(first, second, strict=True)
         lines = segments(begins, ends, width)
         for begin, end in level:
             middle = (begin + end) / 2
             lines += arrows([middle, middle], [begin - middle, end - middle], 1.6 * width)
-        return [Layer(self.bench.theme.dim, lines)]
+        return [Layer(self.setting.theme.dim, lines)]
 
 
-def dead_centres_of(bench: Bench, layout: Layout, *, sized: bool) -> DeadCentres | None:
+def dead_centres_of(setting: DrawSetting) -> DeadCentres | None:
     """Return the dead centres; None where no slider runs on the ground, or it travels too little."""
-    figure, body = bench.figure, output_slider(bench.figure.linkage)
+    figure, body = setting.figure, output_slider(setting.figure.linkage)
     slider, phases = body.slider if body else None, figure.scene.info.dead_centres
     if slider is None or phases is None or figure.linkage.joint(slider).slides[0].start is not None:
         return None
-    back, forward = (bench.view.place(figure.scene.pose(phase, 0).position[slider]) for phase in phases)
+    back, forward = (setting.view.place(figure.scene.pose(phase, 0).position[slider]) for phase in phases)
     if not abs(forward - back) > _VISIBLE:
         return None
-    return DeadCentres(bench, layout, sized, (back, forward), rail_reach(bench, slider))
+    return DeadCentres(setting, (back, forward), rail_reach(setting, slider))

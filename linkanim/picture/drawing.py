@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import groupby, zip_longest
 from math import isfinite
@@ -13,7 +13,7 @@ from linkanim.mechanics.motion import Pose
 from linkanim.picture.bodies import body_parts, mark_stamp, mass_stamp, pin_stamp
 from linkanim.picture.dimensions import Symbols, leg_part, pivots, symbols
 from linkanim.picture.figure import DrawSetting
-from linkanim.picture.fittings import Bench, Coil, Damping, coils, dampings, ground_layers, ground_line
+from linkanim.picture.fittings import Coil, Damping, coils, dampings, ground_layers, ground_line
 from linkanim.picture.gears import wheel_layers, wheel_parts
 from linkanim.picture.items import Group
 from linkanim.picture.look import ACCELERATION, VELOCITY
@@ -92,8 +92,7 @@ class Drawing:
         """Return the ticks on a slider's guide in a view; None where there are none."""
         from linkanim.picture.dead_centres import dead_centres_of
 
-        bench = Bench(self.setting.figure, view, self.setting.gauge, self.setting.theme)
-        return dead_centres_of(bench, self.setting.layout, sized=self.setting.look.names > 1)
+        return dead_centres_of(replace(self.setting, view=view))
 
     def places(self, pose: Pose) -> Places:
         """Return where all joints lie in pixels; one that is nowhere (NaN) lies far outside.
@@ -108,7 +107,7 @@ class Drawing:
 
     def discs(self) -> Group:
         """Return what stands still behind everything: the wheels without their teeth, and belts."""
-        return Group("wheels", wheel_layers(*self.setting.known), still=True)
+        return Group("wheels", wheel_layers(self.setting), still=True)
 
     def wheels(self, places: Places) -> Iterator[Group]:
         """Yield what turns on them; what only turns looks the same again after some teeth."""
@@ -125,9 +124,9 @@ class Drawing:
     def standing(self) -> Iterator[Group]:
         """Yield what else stands still: the ground, its line, the whole curves and dead centres."""
         figure, look = self.setting.figure, self.setting.look
-        yield Group("ground", ground_layers(*self.setting.known), still=True)
+        yield Group("ground", ground_layers(self.setting), still=True)
         if look.names:
-            yield Group("ground-line", ground_line(pivots(figure), *self.setting.known), still=True)
+            yield Group("ground-line", ground_line(pivots(figure), self.setting), still=True)
         for trace in self.parts.traces:
             yield Group(f"curve-{trace.joint}", [trace.whole()], still=True, made_of=trace)
         if self._rolling:
@@ -199,15 +198,15 @@ class Drawing:
 def _parts(setting: DrawSetting, known: Symbols | None) -> Parts:
     figure, view, gauge, theme = setting.known
     look = setting.look
-    curves = traces(*setting.known) if look.trace else ()
-    bodies = body_parts(*setting.known)
+    curves = traces(setting) if look.trace else ()
+    bodies = body_parts(setting)
     chain = _chain(setting) if look.chain else None
     marked = [trace.joint for trace in curves if trace.joint not in figure.pins]
     height = setting.layout.size[1]
     kinds = [kind for kind in (VELOCITY, ACCELERATION) if kind in look.vectors]
     return Parts(
-        wheels=wheel_parts(*setting.known),
-        struts=(*coils(*setting.known), *dampings(*setting.known)),
+        wheels=wheel_parts(setting),
+        struts=(*coils(setting), *dampings(setting)),
         bodies=tuple(chain.coloured(bodies, figure)) if chain else bodies,
         pinned=by_depth(bodies, (*figure.pins, *marked)),
         pins=chain.pins(gauge) if chain else dict.fromkeys(figure.pins, pin_stamp(gauge, theme)),
@@ -215,7 +214,7 @@ def _parts(setting: DrawSetting, known: Symbols | None) -> Parts:
         traces=curves,
         marks={trace.joint: mark_stamp(trace.colour, gauge, theme) for trace in reversed(curves)},
         arrows=tuple(arrows_of(figure, kind, height, gauge, theme) for kind in kinds),
-        turning=motion_of(*setting.known) if look.names else None,
+        turning=motion_of(setting) if look.names else None,
         legs=tuple(leg_part(point, view, gauge, theme.dim) for point in known.points) if known else (),
         centres=_centres(setting) if look.centres else None,
         chain=chain,

@@ -213,21 +213,27 @@ class Figure:
 
 
 @dataclass(frozen=True)
-class DrawSetting:
-    """What is drawn, where and how thick, in which colours."""
+class DrawContext:
+    """What every part is made from: a figure, where it lies in pixels, how thick and in which colours."""
 
     figure: Figure
     view: View
     gauge: Gauge
     theme: Theme
-    layout: Layout
-    look: Look
-    type: Type
 
     @property
     def known(self) -> tuple[Figure, View, Gauge, Theme]:
-        """What the parts take their measures from."""
+        """The same as a tuple, for a function that reads most of it."""
         return self.figure, self.view, self.gauge, self.theme
+
+
+@dataclass(frozen=True)
+class DrawSetting(DrawContext):
+    """The same within a whole picture: how it is laid out, what its look asks for, and its letters."""
+
+    layout: Layout
+    look: Look
+    type: Type
 
 
 def figure(scene: Scene) -> Figure:

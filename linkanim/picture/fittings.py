@@ -17,7 +17,7 @@ from typing import NamedTuple
 import numpy as np
 
 from linkanim.mechanics.linkage import Damper, Joint, Line, Slide, Spring
-from linkanim.picture.figure import DOWN, Figure
+from linkanim.picture.figure import DOWN, DrawContext, Figure
 from linkanim.picture.layout import Gauge
 from linkanim.picture.raster import Layer, Loop, Outlines
 from linkanim.picture.shapes import (
@@ -161,8 +161,9 @@ class Damping:
         return self.length * (0.16 + 0.68 * min(max(share, 0.0), 1.0))
 
 
-def coils(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> tuple[Coil, ...]:
+def coils(context: DrawContext) -> tuple[Coil, ...]:
     """Return the scene's springs."""
+    figure, view, gauge, theme = context.known
     lead, found = 1.5 * gauge.bar, []
     for item in figure.linkage.springs:
         room = reach(figure, view, item).shortest - 2 * lead
@@ -171,8 +172,9 @@ def coils(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> tuple[Coil,
     return tuple(found)
 
 
-def dampings(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> tuple[Damping, ...]:
+def dampings(context: DrawContext) -> tuple[Damping, ...]:
     """Return the scene's dampers and driving cylinder, each as long as its stroke needs, if there is room."""
+    figure, view, gauge, theme = context.known
     found = []
     for item in figure.cylinders:
         span = reach(figure, view, item)
@@ -233,16 +235,6 @@ _RINGS, _HEAD = (0.5, 0.72), 1.3
 
 
 @dataclass(frozen=True)
-class Bench:
-    """What fittings are made with: the scene with its cycle, its scale, thicknesses and colours."""
-
-    figure: Figure
-    view: View
-    gauge: Gauge
-    theme: Theme
-
-
-@dataclass(frozen=True)
 class Bar:
     """What a joint makes of the bar from one joint to another: a slotted bar, or a rod with a piston.
 
@@ -282,19 +274,19 @@ class Fitting:
     bar: Bar | None = None
 
 
-def fittings(bench: Bench) -> tuple[Fitting, ...]:
+def fittings(context: DrawContext) -> tuple[Fitting, ...]:
     """Return the fittings of all joints that have some, in the joints' order."""
-    return tuple(_fitting(joint, bench) for joint in bench.figure.linkage.joints if joint.slides)
+    return tuple(_fitting(joint, context) for joint in context.figure.linkage.joints if joint.slides)
 
 
-def _fitting(joint: Joint, bench: Bench) -> Fitting:
+def _fitting(joint: Joint, context: DrawContext) -> Fitting:
     """Return what a joint adds by what slides: itself on a line, a pin in its own bar's slot, or both."""
     first, *across = joint.slides
     if first.point != joint.name:
-        return _slotted(first, bench)
+        return _slotted(first, context)
     if across:
-        return _yoke(first, across[0], bench)
-    return _slider(joint, first.line, bench)
+        return _yoke(first, across[0], context)
+    return _slider(joint, first.line, context)
 
 
 def outlines(figure: Figure) -> Iterator[tuple[Loop, Loop, Loop]]:
@@ -305,12 +297,12 @@ def outlines(figure: Figure) -> Iterator[tuple[Loop, Loop, Loop]]:
     # A power of two keeps every digit; arcs have as many points as their size in pixels asks for.
     scale = 2.0 ** -max(frexp(figure.extent)[1] - _LARGE, 0)
     thin = scale * 1e-6 * max(figure.shortest, 1e-6 * figure.extent)
-    bench = Bench(figure, View(scale, 0.0, 0.0), Gauge(thin, thin / 8, thin, thin), LIGHT)
-    parts = [part for fitting in fittings(bench) for part in (*fitting.behind, *fitting.before)]
+    context = DrawContext(figure, View(scale, 0.0, 0.0), Gauge(thin, thin / 8, thin, thin), LIGHT)
+    parts = [part for fitting in fittings(context) for part in (*fitting.behind, *fitting.before)]
     step = max(len(figure.cycle.phase) // _TRIED, 1)
-    for fitting in fittings(bench):
+    for fitting in fittings(context):
         if fitting.guide and fitting.guide.head:
-            ends = [end for line, _ in _placed(fitting.guide, bench).lines for end in line]
+            ends = [end for line, _ in _placed(fitting.guide, context).lines for end in line]
             yield (
                 np.array(ends, np.complex128).conj() / scale,
                 np.zeros(1, np.complex128),
@@ -338,29 +330,29 @@ def hatched(begin: complex, end: complex, gauge: Gauge, side: int) -> Iterator[L
     yield from segments(feet, feet + along * (-0.5 + 0.62j * side) * gauge.bar, 0.8 * gauge.line)
 
 
-def _slider(joint: Joint, line: Line, bench: Bench) -> Fitting:
+def _slider(joint: Joint, line: Line, context: DrawContext) -> Fitting:
     """Return a block between rails on the ground, or a small one in the slot of a body that carries it.
 
     One that drives is in the colour of what drives.
     """
     along, name = complex(directions(-line.angle)), joint.name
     if line.on is not None:
-        guide, slot = _carried_slot(name, line, along, bench)
-        block = Part(name, *line.on, _block(bench, along, 0.62), (name,))
+        guide, slot = _carried_slot(name, line, along, context)
+        block = Part(name, *line.on, _block(context, along, 0.62), (name,))
         return Fitting(behind=(guide,), before=(slot, block))
-    bodies = (body for body in bench.figure.linkage.bodies if body.slider == name)
-    if joint.bars and any(bench.figure.scene.style(body.name).outline == "piston" for body in bodies):
-        return _cylindered(name, joint.bars[0][0], along, bench)
-    rim, metal = _block(bench, along)
-    if name == bench.figure.linkage.drive.joint:
-        metal = Layer(bench.theme.bodies[0], metal.loops)
+    bodies = (body for body in context.figure.linkage.bodies if body.slider == name)
+    if joint.bars and any(context.figure.scene.style(body.name).outline == "piston" for body in bodies):
+        return _cylindered(name, joint.bars[0][0], along, context)
+    rim, metal = _block(context, along)
+    if name == context.figure.linkage.drive.joint:
+        metal = Layer(context.theme.bodies[0], metal.loops)
     block = Part(name, name, name, (rim, metal), (name,))
-    return Fitting(behind=(block,), guide=_rails(name, along, bench.gauge))
+    return Fitting(behind=(block,), guide=_rails(name, along, context.gauge))
 
 
-def _cylindered(name: str, far: str, along: complex, bench: Bench) -> Fitting:
+def _cylindered(name: str, far: str, along: complex, context: DrawContext) -> Fitting:
     """Return a piston in a cylinder that its rod to `far` stays within; its head is where the rod is not."""
-    gauge, paths = bench.gauge, (bench.figure.path(end, bench.view) for end in (name, far))
+    gauge, paths = context.gauge, (context.figure.path(end, context.view) for end in (name, far))
     place, end = (path * np.conj(along) for path in paths)
     out = along if np.nanmean((place - end).real) > 0 else -along
     way, rod = place * np.conj(out / along), (end - place) * np.conj(out / along)
@@ -372,18 +364,19 @@ def _cylindered(name: str, far: str, along: complex, bench: Bench) -> Fitting:
     outer = box(crown + skirt, wide, 0.4 * gauge.bar) + middle
     inner = box(crown + skirt - 2 * edge, wide - 2 * edge, 0.3 * gauge.bar) + middle
     rings = [box(2 * edge, wide - 2 * edge) + share * crown for share in _RINGS]
-    shapes = ((bench.theme.outline, [outer]), (bench.theme.metal, [inner]), (bench.theme.outline, rings))
+    theme = context.theme
+    shapes = ((theme.outline, [outer]), (theme.metal, [inner]), (theme.outline, rings))
     layers = tuple(Layer(*shape).placed(0j, out) for shape in shapes)
     block = Part(name, name, name, layers, (name,))
     return Fitting((block,), guide=GuideRails(name, out, aside, (0.0, _HEAD * crown), head=True))
 
 
-def _carried_slot(name: str, line: Line, along: complex, bench: Bench) -> tuple[Part, Part]:
+def _carried_slot(name: str, line: Line, along: complex, context: DrawContext) -> tuple[Part, Part]:
     """Return the bar that a body carries along a line, from the joint it runs through, and the slot in it."""
     assert line.on is not None
-    gauge, theme, scale = bench.gauge, bench.theme, bench.view.scale
-    places = bench.figure.cycle.position
-    seen = (places[name] - places[line.through]) @ DOWN * np.conj(_facing(line, bench) * along)
+    gauge, theme, scale = context.gauge, context.theme, context.view.scale
+    places = context.figure.cycle.position
+    seen = (places[name] - places[line.through]) @ DOWN * np.conj(_facing(line, context) * along)
     foot = -1j * along * line.offset * scale
     near, far = (foot + along * scale * float(way) for way in (np.nanmin(seen.real), np.nanmax(seen.real)))
     colours = theme.outline, theme.metal
@@ -394,8 +387,8 @@ def _carried_slot(name: str, line: Line, along: complex, bench: Bench) -> tuple[
     return Part(*ways, (*arm, *bar), (line.through,)), Part(*ways, tuple(hollow))
 
 
-def _block(bench: Bench, turn: complex = 1 + 0j, share: float = 1.0) -> tuple[Layer, ...]:
-    return block_layers(bench.gauge, bench.theme, turn, share)
+def _block(context: DrawContext, turn: complex = 1 + 0j, share: float = 1.0) -> tuple[Layer, ...]:
+    return block_layers(context.gauge, context.theme, turn, share)
 
 
 def block_layers(gauge: Gauge, theme: Theme, turn: complex, share: float = 1.0) -> tuple[Layer, ...]:
@@ -406,18 +399,18 @@ def block_layers(gauge: Gauge, theme: Theme, turn: complex, share: float = 1.0) 
     return Layer(theme.outline, [turn * outer]), Layer(theme.metal, [turn * inner])
 
 
-def rails_of(bench: Bench) -> Iterator[list[Loop]]:
+def rails_of(context: DrawContext) -> Iterator[list[Loop]]:
     """Yield the lines of each guide on the ground; they are open where another guide crosses them."""
-    places = [_placed(fitting.guide, bench) for fitting in fittings(bench) if fitting.guide]
+    places = [_placed(fitting.guide, context) for fitting in fittings(context) if fitting.guide]
     for place in places:
         others = [other for other in places if other is not place]
         parts = [(part, side) for line, side in place.lines for part in _opened(line, others)]
-        yield [loop for part, side in parts for loop in hatched(*part, bench.gauge, side)]
+        yield [loop for part, side in parts for loop in hatched(*part, context.gauge, side)]
 
 
-def rail_reach(bench: Bench, joint: str) -> float:
+def rail_reach(context: DrawContext, joint: str) -> float:
     """Return how far the rails of a joint lie from its line of travel; 0 where it has none on the ground."""
-    guides = (one.guide for one in fittings(bench) if one.guide)
+    guides = (one.guide for one in fittings(context) if one.guide)
     return next((guide.aside for guide in guides if guide.joint == joint), 0.0)
 
 
@@ -447,9 +440,9 @@ class _Channel(NamedTuple):
     lines: list[tuple[_Line, int]]
 
 
-def _placed(guide: GuideRails, bench: Bench) -> _Channel:
+def _placed(guide: GuideRails, context: DrawContext) -> _Channel:
     """Return a guide as long as the joint's travel needs."""
-    path = bench.figure.path(guide.joint, bench.view) * np.conj(guide.along)
+    path = context.figure.path(guide.joint, context.view) * np.conj(guide.along)
     way, across = path.real, 1j * float(np.nanmean(path.imag))
     begin = guide.along * (float(np.nanmin(way)) - guide.beyond[0] + across)
     end = guide.along * (float(np.nanmax(way)) + guide.beyond[1] + across)
@@ -483,84 +476,87 @@ def _outside(begin: complex, end: complex, other: _Channel) -> Iterator[_Line]:
     yield begin + (where + half) * (end - begin), end
 
 
-def _facing(line: Line, bench: Bench) -> Loop:
+def _facing(line: Line, context: DrawContext) -> Loop:
     """Return the direction of a line's axis over the cycle, y down; 1 of one on the ground."""
     if line.on is None:
         return np.ones(1, np.complex128)
-    start, end = (bench.figure.cycle.position[name] for name in line.on)
+    start, end = (context.figure.cycle.position[name] for name in line.on)
     way = (end - start) @ DOWN
     facing: Loop = way / lengths(way)
     return facing
 
 
-def _slotted(slide: Slide, bench: Bench) -> Fitting:
+def _slotted(slide: Slide, context: DrawContext) -> Fitting:
     """Return the slot in the bar, and the collar that slides in it and turns with it.
 
     About a joint of the ground it is the bar that slides: a rod through a swivel.
     """
     assert slide.axis is not None
-    collar = Part(slide.point, *slide.axis, _block(bench, share=0.62), (slide.point,))
-    if bench.figure.linkage.joint(slide.point).fixed:
-        return _swivelled(slide, slide.axis, collar, bench)
-    return Fitting(before=(collar,), bar=Bar(slide.axis, _slot_ends(slide, bench)))
+    collar = Part(slide.point, *slide.axis, _block(context, share=0.62), (slide.point,))
+    if context.figure.linkage.joint(slide.point).fixed:
+        return _swivelled(slide, slide.axis, collar, context)
+    return Fitting(before=(collar,), bar=Bar(slide.axis, _slot_ends(slide, context)))
 
 
-def _swivelled(slide: Slide, bar: tuple[str, str], collar: Part, bench: Bench) -> Fitting:
+def _swivelled(slide: Slide, bar: tuple[str, str], collar: Part, context: DrawContext) -> Fitting:
     """Return what makes of the bar a rod; in a cylinder, with a piston, where its end is free."""
-    if bar[1] in bench.figure.pins:
+    if bar[1] in context.figure.pins:
         return Fitting(before=(collar,), bar=Bar(bar))
-    gauge, (near, far) = bench.gauge, _slot_ends(slide, bench)
-    length, room = bench.view.scale * dict(bench.figure.linkage.joint(bar[1]).bars)[bar[0]], 0.8 * gauge.bar
+    gauge, (near, far) = context.gauge, _slot_ends(slide, context)
+    long, room = dict(context.figure.linkage.joint(bar[1]).bars)[bar[0]], 0.8 * gauge.bar
+    length = context.view.scale * long
     ends = min(length - far.real, 0.0) - room, max(length - near.real, 0.0) + room
-    wall = barrel(*ends, BARREL * gauge.bar, gauge, bench.theme)
+    wall = barrel(*ends, BARREL * gauge.bar, gauge, context.theme)
     layers = tuple(layer.placed(complex(0, -near.imag)) for layer in wall)
     cylinder = Part(slide.point, *bar, layers, (slide.point,))
     return Fitting(behind=(cylinder,), before=(collar,), bar=Bar(bar, piston=True))
 
 
-def _slot_ends(slide: Slide, bench: Bench) -> tuple[complex, complex]:
+def _slot_ends(slide: Slide, context: DrawContext) -> tuple[complex, complex]:
     """Return the ends of a slot in pixels, the pivot at 0 and the bar along the real axis."""
-    places, offset = bench.figure.cycle.position, slide.line.offset
+    places, offset = context.figure.cycle.position, slide.line.offset
     way = np.sum((places[slide.point] - places[slide.line.through]) ** 2, axis=-1)
     along = np.sqrt(np.maximum(way - offset**2, 0))
     side = -1j * offset
-    return bench.view.scale * (np.nanmin(along) + side), bench.view.scale * (np.nanmax(along) + side)
+    return context.view.scale * (np.nanmin(along) + side), context.view.scale * (np.nanmax(along) + side)
 
 
-def _yoke(guided: Slide, slot: Slide, bench: Bench) -> Fitting:
+def _yoke(guided: Slide, slot: Slide, context: DrawContext) -> Fitting:
     """Return a block between rails with a slotted bar across it, and the collar that the pin turns in."""
-    gauge, theme, scale = bench.gauge, bench.theme, bench.view.scale
-    places, line, name = bench.figure.cycle.position, guided.line, guided.point
+    gauge, theme, scale = context.gauge, context.theme, context.view.scale
+    places, line, name = context.figure.cycle.position, guided.line, guided.point
     along, across = (complex(directions(-angle)) for angle in (line.angle, slot.line.angle))
     apart = (places[slot.point] - places[name]) @ DOWN
-    way = np.real(apart * np.conj(across * _facing(line, bench)))
+    way = np.real(apart * np.conj(across * _facing(line, context)))
     ends = scale * float(np.nanmin(way)) * across, scale * float(np.nanmax(way)) * across
     colours = theme.outline, theme.metal
     widths = SLOTTED * gauge.bar, SLOT * gauge.bar
     bar = slotted([0j, *ends], ends, widths, gauge.outline, colours)
     ways = line.on or (name, name)
-    yoke = Part(name, *ways, (*_block(bench, along), *bar))
-    collar = Part(slot.point, *ways, _block(bench, across, 0.62), (slot.point,))
+    yoke = Part(name, *ways, (*_block(context, along), *bar))
+    collar = Part(slot.point, *ways, _block(context, across, 0.62), (slot.point,))
     if line.on is None:
         return Fitting((yoke,), (collar,), _rails(name, along, gauge))
-    behind, before = _carried_slot(name, line, along, bench)
+    behind, before = _carried_slot(name, line, along, context)
     return Fitting((behind, before, yoke), (collar,))
 
 
 # What stands still: pedestals with their hatching under fixed pins, and the guides of sliders.
 
 
-def ground_layers(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> list[Layer]:
+def ground_layers(context: DrawContext) -> list[Layer]:
     """Return pedestals and guides."""
-    rails = *rails_of(Bench(figure, view, gauge, theme)), *rails_under(figure, view, gauge)
+    figure, view, gauge, theme = context.known
+    rails = *rails_of(context), *rails_under(context)
     layers = [Layer(theme.ground, [loop for rail in rails for loop in rail])]
     for name in figure.fixed:
         layers += pedestal(figure.pixel(name, view), away(figure, name), gauge, theme)
     return layers
 
 
-def rails_under(figure: Figure, view: View, gauge: Gauge) -> Iterator[list[Loop]]:
+def rails_under(context: DrawContext) -> Iterator[list[Loop]]:
     """Yield the outlines of each rail that wheels on fixed pins stand on, one under all of a level."""
+    figure, view, gauge, _ = context.known
     feet: dict[float, list[complex]] = {}
     for body in figure.bodies:
         if figure.scene.style(body.name).outline == "railwheel" and body.joints[0] in figure.fixed:
@@ -584,8 +580,9 @@ def away(figure: Figure, name: str) -> complex:
     return -pull
 
 
-def ground_line(names: Sequence[str], figure: Figure, view: View, gauge: Gauge, theme: Theme) -> list[Layer]:
+def ground_line(names: Sequence[str], context: DrawContext) -> list[Layer]:
     """Return the line of the ground from pivot to pivot, in dashes and dots."""
+    figure, view, gauge, theme = context.known
     loops = []
     for one, other in pairwise(figure.pixel(name, view) for name in names):
         marks = np.arange(0, abs(other - one), 9 * gauge.line)
@@ -596,8 +593,9 @@ def ground_line(names: Sequence[str], figure: Figure, view: View, gauge: Gauge, 
     return [Layer(theme.ground, loops)]
 
 
-def pedestal_corners(figure: Figure, view: View, gauge: Gauge, name: str) -> list[complex]:
+def pedestal_corners(context: DrawContext, name: str) -> list[complex]:
     """Return the corners of a triangle that holds a pedestal: its pin, and the ends of its hatching."""
+    figure, view, gauge, _ = context.known
     pin, turn = figure.pixel(name, view), away(figure, name) / 1j
     wide, deep = 1.35 * 1.75 * gauge.bar + 0.5 * gauge.bar, 3.1 * gauge.bar
     return [pin, pin + turn * complex(-wide, deep), pin + turn * complex(wide, deep)]

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkanim.mechanics.linkage import Crank
-from linkanim.picture.figure import Figure
+from linkanim.picture.figure import DrawContext, Figure
 from linkanim.picture.layout import Gauge
 from linkanim.picture.raster import Colour, Layer, Loop
 from linkanim.picture.shapes import Part, directions, disc, segments, stroke
@@ -202,8 +202,9 @@ _HOLES, _HOLED, _HOLE = 5, 0.62, 0.19
 """How many holes a wheel has, how far from its middle, and how large: shares of what is within its teeth."""
 
 
-def wheel_layers(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> list[Layer]:
+def wheel_layers(context: DrawContext) -> list[Layer]:
     """Return what does not turn: wheels and discs that stay where they are, and the belts between them."""
+    figure, view, gauge, theme = context.known
     layers = []
     for pair in pairs(figure):
         for wheel in (wheel for wheel in pair.wheels if _stays(figure, wheel)):
@@ -224,8 +225,9 @@ def _stays(figure: Figure, wheel: Wheel) -> bool:
     return figure.linkage.joint(wheel.centre).fixed
 
 
-def wheel_parts(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> tuple[Part, ...]:
+def wheel_parts(context: DrawContext) -> tuple[Part, ...]:
     """Return what turns or goes round: teeth, outlines, and holes that show how far a wheel has turned."""
+    figure, view, gauge, theme = context.known
     parts = []
     for pair in pairs(figure):
         for wheel in (wheel for wheel in pair.wheels if wheel.arm or not _stays(figure, wheel)):

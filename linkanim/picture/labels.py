@@ -21,7 +21,7 @@ from linkanim.mechanics.motion import Pose
 from linkanim.picture.dead_centres import DeadCentres
 from linkanim.picture.dimensions import AngleArc, MeasureLine, Measurement, Symbols
 from linkanim.picture.figure import SAMPLES, DrawSetting, Figure
-from linkanim.picture.fittings import Bench, fittings, pedestal_corners, rail_reach, rails_of, rails_under
+from linkanim.picture.fittings import fittings, pedestal_corners, rail_reach, rails_of, rails_under
 from linkanim.picture.items import Caption, Halo
 from linkanim.picture.layout import Gauge, Layout
 from linkanim.picture.motion_marks import Sliding, Turning
@@ -29,7 +29,6 @@ from linkanim.picture.placing import MOMENTS, Clutter, LabelPlaces, Placer, Soli
 from linkanim.picture.raster import Colour, Layer, Loop
 from linkanim.picture.shapes import Part, Places, directions, framed, hull, lengths
 from linkanim.picture.text import subscripted
-from linkanim.picture.theme import Theme
 from linkanim.picture.view import Rect, View
 
 # Where labels may stand: round joints, on links, beside what is measured; what is in their way.
@@ -127,11 +126,7 @@ class Surroundings:
     These are all of a cycle, or one `phase`.
     """
 
-    figure: Figure
-    view: View
-    gauge: Gauge
-    layout: Layout
-    theme: Theme
+    setting: DrawSetting
     turning: Turning | Sliding | None = None
     phase: float | None = None
     marks: tuple[tuple[complex, complex], ...] = ()
@@ -141,27 +136,28 @@ class Surroundings:
 
     @cached_property
     def _paths(self) -> dict[str, Loop]:
-        figure, step = self.figure, SAMPLES // MOMENTS
+        figure, step = self.setting.figure, SAMPLES // MOMENTS
         if self.phase is not None:
             pose = figure.scene.pose(self.phase, 0)
-            found = {name: np.array([self.view.place(point)]) for name, point in pose.position.items()}
+            view = self.setting.view
+            found = {name: np.array([view.place(point)]) for name, point in pose.position.items()}
         else:
             names = (joint.name for joint in figure.linkage.joints)
-            found = {name: figure.path(name, self.view)[::step] for name in names}
+            found = {name: figure.path(name, self.setting.view)[::step] for name in names}
         return {name: np.nan_to_num(path, nan=-1e6) for name, path in found.items()}
 
     @cached_property
     def _rates(self) -> NDArray[np.float64]:
         """The rate of the input at each moment."""
         if self.phase is not None:
-            return np.array([self.figure.scene.pose(self.phase).coordinate_rate])
-        cycle = self.figure.cycle
+            return np.array([self.setting.figure.scene.pose(self.phase).coordinate_rate])
+        cycle = self.setting.figure.cycle
         return np.broadcast_to(cycle.coordinate_rate, cycle.phase.shape)[:: SAMPLES // MOMENTS]
 
     def _frame(self, frame: tuple[str, str]) -> tuple[Loop, Loop]:
         """Return where a frame lies and what 1 is in it, in pixels."""
         at, head = (self._paths[name] for name in frame)
-        return at, head - at if frame[0] != frame[1] else np.full_like(at, self.view.scale)
+        return at, head - at if frame[0] != frame[1] else np.full_like(at, self.setting.view.scale)
 
     def around(self, name: str, size: Size, *, slider: bool = False) -> LabelSpots:
         """Return places all round a joint, in rings ever farther; up and to the right is best.
@@ -202,22 +198,22 @@ class Surroundings:
         ends, (_, way), mine = (about.begin, about.end), self._frame(about.frame), self._numbers(about.own)
         if about.bare and size[0] < abs(way[0] * (ends[1] - ends[0])):
             yield self._line(about.frame, ends, size, product((1, -1), _MIDDLE), mine)
-        low, step = 2.0 * self.gauge.bar + 9 * self.layout.unit, 1.4 * size[1]
+        low, step = 2.0 * self.setting.gauge.bar + 9 * self.setting.layout.unit, 1.4 * size[1]
         levels = [(side, low + n * step) for n in range(_LEVELS) for side in (1.0, -1.0)]
         lines = [MeasureLine(about.frame, *ends, side * level) for side, level in levels]
         drawn, share = np.array([*product(range(len(lines)), (0.5, 0.3, 0.7))]).T
         aside, level = np.array(levels)[drawn.astype(int)].T
         price = 0.3 * (drawn // 2) + 0.6 * abs(share - 0.5)
         where: dict[str, Any] = {"begin": ends[0], "end": ends[1], "share": share, "aside": aside}
-        where["further"] = level + 0.2 * size[1] - _CLEAR * self.gauge.bar
+        where["further"] = level + 0.2 * size[1] - _CLEAR * self.setting.gauge.bar
         yield self._lined(self._spots(about.frame, size, price, beside=mine, **where), lines, drawn)
 
     def _by_angle(self, about: Measurement, size: Size) -> LabelSpots:
         """Return places outside arcs about where two lines of a body meet."""
         middle = directions(np.angle(about.begin) + np.angle(about.end / about.begin) / 2)
-        radii = [share * (2.4 * self.gauge.bar + 0.6 * size[1]) for share in _ROOMY]
+        radii = [share * (2.4 * self.setting.gauge.bar + 0.6 * size[1]) for share in _ROOMY]
         arcs = tuple(AngleArc(about.frame, about.begin, about.end, radius) for radius in radii)
-        further = np.array(radii) + 0.2 * size[1] - _CLEAR * self.gauge.bar
+        further = np.array(radii) + 0.2 * size[1] - _CLEAR * self.setting.gauge.bar
         # a line across the middle way, whose side that is
         where: dict[str, Any] = {"end": -1j * middle, "aside": 1, "further": further}
         own = self._numbers(about.own)
@@ -228,7 +224,7 @@ class Surroundings:
         self, found: LabelSpots, lines: Sequence[MeasureLine | AngleArc], drawn: NDArray[Any]
     ) -> LabelSpots:
         """Return them with the lines that go with them."""
-        tracks = (line.tracks(*self._frame(line.frame), self.gauge) for line in lines)
+        tracks = (line.tracks(*self._frame(line.frame), self.setting.gauge) for line in lines)
         mine = found.candidates._replace(lines=tuple(tracks), drawn=drawn.astype(np.int64))
         return LabelSpots(found.spots, mine, tuple(lines))
 
@@ -236,15 +232,16 @@ class Surroundings:
         """Return places outside the arc of the input's angle, best at its middle."""
         bars = np.angle(np.conj(self._paths[turning.pin] - self._paths[turning.pivot]))
         angles = turning.turned(bars)
-        middle = pi / 6 if self.figure.scene.info.full_turn and self.phase is None else angles.mean() / 2
+        turns = self.setting.figure.scene.info.full_turn and self.phase is None
+        middle = pi / 6 if turns else angles.mean() / 2
         ways = np.linspace(-1, 1, 9)
         off = _off(np.exp(-1j * (middle + 0.8 * ways)), size, turning.arc + 0.1 * size[1])
         return self._spots((turning.pivot, turning.pivot), size, 0.3 * np.abs(ways), off=off)
 
     def still(self, places: Loop, size: Size) -> LabelSpots:
         """Return places in pixels that stand still on the ground, the best first."""
-        name = next(iter(self.figure.linkage.pins)).name
-        begin = (places - self._paths[name][0]) / self.view.scale
+        name = next(iter(self.setting.figure.linkage.pins)).name
+        begin = (places - self._paths[name][0]) / self.setting.view.scale
         return self._spots((name, name), size, 0.5 * np.arange(len(places)), begin=begin, end=begin)
 
     def _line(
@@ -272,23 +269,19 @@ class Surroundings:
         whole = np.broadcast_arrays(price, *(parts.get(part, 0.0) for part in Spots._fields[2:]))
         spots = Spots(first, second, *whole[1:])
         at, way = (place[:, None] for place in self._frame((first, second)))
-        middles = spots.middles(at, way, complex(*size), self.gauge.bar)
+        middles = spots.middles(at, way, complex(*size), self.setting.gauge.bar)
         return LabelSpots(spots, LabelPlaces(size, middles, price, own, beside))
 
     def _radius(self, name: str) -> float:
         """Return how far what is drawn at a joint reaches."""
-        if not self.figure.linkage.joint(name).travels:
-            return self.gauge.bar
-        return max(_BLOCK * self.gauge.bar, rail_reach(self._bench, name) + self.gauge.bar)
-
-    @cached_property
-    def _bench(self) -> Bench:
-        return Bench(self.figure, self.view, self.gauge, self.theme)
+        if not self.setting.figure.linkage.joint(name).travels:
+            return self.setting.gauge.bar
+        return max(_BLOCK * self.setting.gauge.bar, rail_reach(self.setting, name) + self.setting.gauge.bar)
 
     def clutter(self) -> Clutter:
         """Return what is in the labels' way."""
         solids = tuple(thing.solid for thing in self.things)
-        return Clutter(self.layout.stage.inset(2), self.layout.words, solids)
+        return Clutter(self.setting.layout.stage.inset(2), self.setting.layout.words, solids)
 
     @cached_property
     def things(self) -> tuple[Thing, ...]:
@@ -297,7 +290,7 @@ class Surroundings:
 
     def _links(self) -> Iterator[Thing]:
         """Yield what each of the bodies covers, and each spring and damper."""
-        figure, bar = self.figure, self.gauge.bar
+        figure, bar = self.setting.figure, self.setting.gauge.bar
         links = [(body.joints, self._corners(body), bar + 0.5) for body in figure.bodies]
         struts = [(strut.between, strut.between, 1.1 * bar) for strut in figure.struts]
         for joints, corners, half in (*links, *struts):
@@ -305,30 +298,29 @@ class Surroundings:
             yield Thing(frozenset(joints), solid, True)
 
     def _pins(self) -> Iterator[Thing]:
-        for name in self.figure.pins:
-            disc = Solid(self._paths[name][:, None], self.gauge.pin + self.gauge.outline)
+        for name in self.setting.figure.pins:
+            disc = Solid(self._paths[name][:, None], self.setting.gauge.pin + self.setting.gauge.outline)
             yield Thing(frozenset([name]), disc)
 
     def _fittings(self) -> Iterator[Thing]:
         """Yield blocks, slotted bars, cylinders, and the guides on the ground."""
-        bench = self._bench
-        for fitting in fittings(bench):
+        for fitting in fittings(self.setting):
             for part in (*fitting.behind, *fitting.before):
                 corners = framed(np.concatenate(part.layers[0].loops))
                 way = self._paths[part.head] - self._paths[part.tail]
                 turn = way / np.where(way == 0, 1, np.abs(way)) + (way == 0)
                 solid = Solid(self._paths[part.at][:, None] + turn[:, None] * corners, 0.0)
                 yield Thing(frozenset((part.at, part.tail, part.head)), solid, part.tail != part.head)
-        for loops in (*rails_of(bench), *rails_under(self.figure, self.view, self.gauge)):
+        for loops in (*rails_of(self.setting), *rails_under(self.setting)):
             yield Thing(frozenset(), Solid(framed(np.concatenate(loops))[None], 0.0))
 
     def _standing(self) -> Iterator[Thing]:
         """Yield the supports, and the lines that stand still."""
-        for name in self.figure.fixed:
-            corners = pedestal_corners(self.figure, self.view, self.gauge, name)
-            yield Thing(frozenset(), Solid(np.array([corners]), self.gauge.outline))
+        for name in self.setting.figure.fixed:
+            corners = pedestal_corners(self.setting, name)
+            yield Thing(frozenset(), Solid(np.array([corners]), self.setting.gauge.outline))
         for ends in self.marks:
-            yield Thing(frozenset(), Solid(np.array([ends]), self.gauge.line))
+            yield Thing(frozenset(), Solid(np.array([ends]), self.setting.gauge.line))
 
     def _arrow(self) -> Iterator[Thing]:
         """Yield what shows how the input moves."""
@@ -533,27 +525,28 @@ Forms = Iterator[tuple[Form, ...]]
 
 
 def names_of(
-    ground: Surroundings, setting: DrawSetting, known: Symbols | None, dead_centres: DeadCentres | None
+    ground: Surroundings, known: Symbols | None, dead_centres: DeadCentres | None
 ) -> Generator[None, None, Names]:
     """Place the names of joints and links; where the symbols are known, dimensions and input's angle, too.
 
     Lengths that do not stand on the picture at all times go into a table. Each place that is looked for is a
     step.
     """
-    fixed, shown = ground.figure.fixed, ground.figure.shown
+    setting = ground.setting
+    fixed, shown = setting.figure.fixed, setting.figure.shown
     moving = [name for name in shown if name not in fixed]
-    planned = [_joints(ground, setting, fixed), _links(ground, setting)]
-    planned += [_dimensions(ground, setting, known), _angle(ground, setting, known)] if known else []
-    planned += [_dead_centres(ground, setting, dead_centres)] if dead_centres else []
+    planned = [_joints(ground, fixed), _links(ground)]
+    planned += [_dimensions(ground, known), _angle(ground, known)] if known else []
+    planned += [_dead_centres(ground, dead_centres)] if dead_centres else []
     placer, kept, left = Placer(ground.clutter()), [], []
-    for forms in chain(*planned, _joints(ground, setting, moving)):
+    for forms in chain(*planned, _joints(ground, moving)):
         placed, (label, _) = (yield from _placed(placer, forms)), forms[0]
         kept += placed
         if label.about and not any(one.shown is not None and one.shown.all() for one in placed):
             left.append(label)
-    rows, found = tuple(left), (ground.figure.scene.period, setting.gauge.bar, _halo(setting))
-    table = (yield from _tabled(ground, setting, placer, rows)) if rows else None
-    return Names(tuple(kept), *found, table, () if table else rows, ground.view.scale)
+    rows, found = tuple(left), (setting.figure.scene.period, setting.gauge.bar, _halo(setting))
+    table = (yield from _tabled(ground, placer, rows)) if rows else None
+    return Names(tuple(kept), *found, table, () if table else rows, setting.view.scale)
 
 
 def _placed(placer: Placer, forms: tuple[Form, ...]) -> Generator[None, None, list[Label]]:
@@ -586,9 +579,10 @@ def table_width(rows: Iterable[str], setting: DrawSetting) -> float:
 
 
 def _tabled(
-    ground: Surroundings, setting: DrawSetting, placer: Placer, rows: tuple[Label, ...]
+    ground: Surroundings, placer: Placer, rows: tuple[Label, ...]
 ) -> Generator[None, None, DimensionTable | None]:
     """Return the table where it has been given room, or where there is some; None where there is none."""
+    setting = ground.setting
     size, strip = setting.layout.small_size, setting.layout.table
     wide = table_width((label.row for label in rows), setting)
     if strip:
@@ -620,18 +614,20 @@ def _tabled(
     return None
 
 
-def _joints(ground: Surroundings, setting: DrawSetting, names: Iterable[str]) -> Forms:
+def _joints(ground: Surroundings, names: Iterable[str]) -> Forms:
     """Yield joints' names."""
+    setting = ground.setting
     for name in names:
         label = _label(setting, subscripted(name), _joint_size(setting.layout), setting.theme.ink)
         yield ((label, ground.around(name, label.size)),)
 
 
-def _links(ground: Surroundings, setting: DrawSetting) -> Forms:
+def _links(ground: Surroundings) -> Forms:
     """Yield the links' names, their numbers where there is no room for those."""
-    links, size = ground.figure.links, setting.layout.small_size
-    for body, number in ground.figure.numbers.items():
-        words = (links[body], number) if _long_enough(ground, setting, body) else (number,)
+    setting = ground.setting
+    links, size = setting.figure.links, setting.layout.small_size
+    for body, number in setting.figure.numbers.items():
+        words = (links[body], number) if _long_enough(ground, body) else (number,)
         labels = [_label(setting, text, size, setting.theme.ink) for text in dict.fromkeys(words)]
         if body.slider:
             yield tuple((label, ground.around(body.slider, label.size, slider=True)) for label in labels)
@@ -639,33 +635,37 @@ def _links(ground: Surroundings, setting: DrawSetting) -> Forms:
             yield tuple((label, ground.on(body, label.size)) for label in labels)
 
 
-def _long_enough(ground: Surroundings, setting: DrawSetting, body: Body) -> bool:
+def _long_enough(ground: Surroundings, body: Body) -> bool:
     """Return whether a link has room for its name."""
+    setting = ground.setting
     if len(body.joints) < 2:
         return True
-    one, other = map(ground.figure.start, body.joints[:2])
-    name = ground.figure.links[body]
+    one, other = map(setting.figure.start, body.joints[:2])
+    name = setting.figure.links[body]
     wide = setting.type.width(name, setting.layout.small_size, strong=True)
-    return wide < _ROOM * ground.view.scale * abs(other - one)
+    return wide < _ROOM * setting.view.scale * abs(other - one)
 
 
-def _angle(ground: Surroundings, setting: DrawSetting, known: Symbols) -> Forms:
+def _angle(ground: Surroundings, known: Symbols) -> Forms:
     """Yield the input's angle at its pivot."""
+    setting = ground.setting
     if isinstance(ground.turning, Turning):
         label = _label(setting, known.input, _joint_size(setting.layout), setting.theme.dim)
         yield ((label, ground.by_arc(ground.turning, label.size)),)
 
 
-def _dead_centres(ground: Surroundings, setting: DrawSetting, found: DeadCentres) -> Forms:
+def _dead_centres(ground: Surroundings, found: DeadCentres) -> Forms:
     """Yield the words at a slider's dead centres."""
+    setting = ground.setting
     for text, places in found.words():
         label = _label(setting, text, setting.layout.small_size, setting.theme.dim)
         yield ((label, ground.still(places(label.size), label.size)),)
 
 
-def _dimensions(ground: Surroundings, setting: DrawSetting, known: Symbols) -> Forms:
+def _dimensions(ground: Surroundings, known: Symbols) -> Forms:
     """Yield the lengths and angles beside what they measure, those of the ground first."""
-    unit, size = ground.figure.scene.length_unit, setting.layout.small_size
+    setting = ground.setting
+    unit, size = setting.figure.scene.length_unit, setting.layout.small_size
     for one in known.dimensions:
         label = _label(setting, one.written(unit), size, setting.theme.dim, one.symbol, one.about)
         yield tuple((label, spots) for spots in ground.dimension(one, label.size))

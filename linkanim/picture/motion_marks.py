@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from linkanim.mechanics.linkage import DrivenSlider
 from linkanim.mechanics.motion import Motion, Pose
-from linkanim.picture.figure import Figure
+from linkanim.picture.figure import DrawContext, Figure
 from linkanim.picture.layout import Gauge
 from linkanim.picture.raster import Colour, Layer, Loop
 from linkanim.picture.shapes import (
@@ -160,8 +160,9 @@ def _corners(edges: Loop) -> NDArray[np.bool_]:
     return corner
 
 
-def traces(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> tuple[Trace, ...]:
+def traces(context: DrawContext) -> tuple[Trace, ...]:
     """Return the curves of the scene's traced joints."""
+    figure, view, gauge, theme = context.known
     found = []
     for n, joint in enumerate(figure.scene.trace):
         colour = theme.traces[n % len(theme.traces)]
@@ -297,11 +298,12 @@ class Sliding:
         yield np.stack((foot, foot + reach), axis=1), 4.2 * self.gauge.line
 
 
-def motion_of(figure: Figure, view: View, gauge: Gauge, theme: Theme) -> Turning | Sliding | None:
+def motion_of(context: DrawContext) -> Turning | Sliding | None:
     """Return what shows how the input moves: its bar's turning, or its slider's way along the guide.
 
     None where the input is neither a slider nor a crank on a pivot.
     """
+    figure, view, gauge, theme = context.known
     joint, info = figure.linkage.joint(figure.linkage.drive.joint), figure.scene.info
     fastest = float(np.nanmax(np.abs(figure.cycle.coordinate_rate)))
     ink = theme.ink, theme.background

@@ -446,21 +446,12 @@ class Picture:
             return
         from linkanim.picture.labels import Surroundings, names_of
 
-        known, (figure_, _, gauge, theme) = self.drawing.symbols, self.drawing.setting.known
         # placed in the view as it fits; a zoom only carries them along
+        known, setting = self.drawing.symbols, replace(self.drawing.setting, view=self.fitted)
         centres = self.drawing.dead_centres_in(self.fitted)
-        around = Surroundings(
-            figure_,
-            self.fitted,
-            gauge,
-            self.layout,
-            theme,
-            motion_of(figure_, self.fitted, gauge, theme),
-            self._moment,
-            centres.ticks if centres else (),
-            known is not None,
-        )
-        names = yield from names_of(around, self.drawing.setting, known, centres)
+        marks = centres.ticks if centres else ()
+        around = Surroundings(setting, motion_of(setting), self._moment, marks, known is not None)
+        names = yield from names_of(around, known, centres)
         self.names = replace(names, scale=self.view.scale)
 
     def _table_size(self) -> tuple[int, float]:

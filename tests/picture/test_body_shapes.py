@@ -10,8 +10,8 @@ import pytest
 from linkanim.errors import SceneError
 from linkanim.picture.arrangement import sweep_of
 from linkanim.picture.bodies import SHAPES, WHEELS, body_parts, colours_of, wheel_radius
-from linkanim.picture.figure import Figure, figure
-from linkanim.picture.fittings import Bench, fittings, ground_layers, rail_reach, rails_of
+from linkanim.picture.figure import DrawContext, Figure, figure
+from linkanim.picture.fittings import fittings, ground_layers, rail_reach, rails_of
 from linkanim.picture.layout import Gauge
 from linkanim.picture.raster import Loop
 from linkanim.picture.theme import DARK, LIGHT
@@ -70,14 +70,16 @@ def test_a_wheel_goes_round_its_first_joint_and_its_furthest() -> None:
 
 def test_what_is_not_drawn_leaves_nothing_but_its_pins() -> None:
     assert SHAPES["none"](CORNERS, GAUGE, COLOURS) == []
-    names = [part.name for part in body_parts(figure(four_bar(look="none")), View(1, 0, 0), GAUGE, LIGHT)]
+    context = DrawContext(figure(four_bar(look="none")), View(1, 0, 0), GAUGE, LIGHT)
+    names = [part.name for part in body_parts(context)]
     assert "rocker" not in names
     assert "coupler" in names
 
 
 def test_a_wheel_lies_behind_bars_and_within_the_picture() -> None:
     scene = four_bar(look="wheel")
-    parts = [part.name for part in body_parts(figure(scene), View(1, 0, 0), GAUGE, LIGHT) if part.name]
+    context = DrawContext(figure(scene), View(1, 0, 0), GAUGE, LIGHT)
+    parts = [part.name for part in body_parts(context) if part.name]
     assert parts.index("rocker") < parts.index("crank")
     box = sweep_of(figure(scene)).box
     assert box.right >= 100 + 80
@@ -119,14 +121,14 @@ def test_the_locomotive_runs_on_a_rail_its_crank_pins_within_its_wheels() -> Non
     wheels = [body for body in shown.bodies if shown.scene.style(body.name).outline == "railwheel"]
     assert [shown.wheel_reach(body) for body in wheels] == [64, 64]
     assert max(abs(shown.start(name)) for name in wheels[0].joints) < 40
-    lines = np.concatenate(list(ground_layers(shown, view, GAUGE, LIGHT)[0].loops))
+    lines = np.concatenate(list(ground_layers(DrawContext(shown, view, GAUGE, LIGHT))[0].loops))
     rail = lines[abs(lines.imag - 64) < 3]
     assert rail.real.min() <= -64
     assert rail.real.max() >= 140 + 64
 
 
 def test_what_the_locomotive_lists_before_its_wheels_lies_behind_them() -> None:
-    parts = body_parts(figure(load("parallel-locomotive")), View(1.0, 0.0, 0.0), GAUGE, LIGHT)
+    parts = body_parts(DrawContext(figure(load("parallel-locomotive")), View(1.0, 0.0, 0.0), GAUGE, LIGHT))
     names = [part.name for part in parts]
     assert names.index("rod2") < names.index("wheel") < names.index("wheel2") < names.index("rod")
 
@@ -141,7 +143,7 @@ def test_a_wheel_is_as_large_as_it_says_and_no_smaller_than_its_joints() -> None
 
 def covered_by(shown: Figure, name: str) -> Loop:
     """Return the points of a body about its first joint."""
-    parts = body_parts(shown, View(1.0, 0.0, 0.0), GAUGE, LIGHT)
+    parts = body_parts(DrawContext(shown, View(1.0, 0.0, 0.0), GAUGE, LIGHT))
     (part,) = (part for part in parts if part.name == name)
     return np.concatenate([loop for layer in part.layers for loop in layer.loops])
 
@@ -170,7 +172,7 @@ def test_a_bucket_s_back_bends_away_from_its_first_joint_and_ends_in_a_tooth() -
 
 def test_the_engine_s_rod_stays_within_its_cylinder_and_the_piston_below_the_head() -> None:
     shown, view, gauge = figure(load("engine")), View(3.0, 0.0, 0.0), Gauge(8.0, 1.0, 4.0, 2.0)
-    bench = Bench(shown, view, gauge, LIGHT)
+    bench = DrawContext(shown, view, gauge, LIGHT)
     (lines,) = rails_of(bench)
     walls = np.concatenate(lines)
     piston = fittings(bench)[0].behind[0]
@@ -186,7 +188,7 @@ def test_the_engine_s_rod_stays_within_its_cylinder_and_the_piston_below_the_hea
 
 def test_guides_are_open_where_they_cross() -> None:
     shown, view = figure(load("elliptic-trammel")), View(3.0, 0.0, 0.0)
-    bench = Bench(shown, view, GAUGE, LIGHT)
+    bench = DrawContext(shown, view, GAUGE, LIGHT)
     for lines in rails_of(bench):
         long = [loop for loop in lines if np.ptp(loop.real) + np.ptp(loop.imag) > 50]
         assert len(long) == 4

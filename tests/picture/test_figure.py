@@ -11,7 +11,7 @@ import pytest
 from linkanim.mechanics.linkage import RPP, RPR, RRP, Crank, Drive, Line, Linkage, Pin
 from linkanim.picture.arrangement import sweep_of
 from linkanim.picture.bodies import body_parts, colours_of
-from linkanim.picture.figure import figure
+from linkanim.picture.figure import DrawContext, figure
 from linkanim.picture.layout import gauge
 from linkanim.picture.raster import Loop
 from linkanim.picture.theme import LIGHT
@@ -64,7 +64,7 @@ def inverted(offset: float) -> Scene:
 @pytest.mark.parametrize("offset", [0.0, 12.0])
 def test_a_slotted_bar_carries_its_slot_and_a_block_on_the_pin_in_it(offset: float) -> None:
     scene = inverted(offset)
-    parts = body_parts(figure(scene), VIEW, GAUGE, LIGHT)
+    parts = body_parts(DrawContext(figure(scene), VIEW, GAUGE, LIGHT))
     block = parts[-1]
     assert (block.at, block.tail, block.head) == ("A", "O4", "P")
     bar = next(part for part in parts if part.joints[:2] == ("O4", "P"))
@@ -89,7 +89,7 @@ def test_a_rod_through_a_swivel_has_its_piston_in_a_cylinder_at_every_moment(off
     pins = Pin("O2", (0.0, 0.0)), Pin("O4", (-90.0, 0.0))
     joints = (*pins, Crank("A", "O2", 60.0), RPR("P", "A", "O4", 155.0, offset))
     scene = Scene("engine", "Engine", "", "mm", Linkage(joints, Drive("A", 1.0, 0.0)), ("P",))
-    parts = body_parts(figure(scene), VIEW, GAUGE, LIGHT)
+    parts = body_parts(DrawContext(figure(scene), VIEW, GAUGE, LIGHT))
     cylinder, rod, block = parts[0], parts[-2], parts[-1]
     assert (cylinder.at, block.at) == ("O4", "O4")
     for phase in np.linspace(0, math.tau, 9):
@@ -111,7 +111,7 @@ def test_a_rod_that_goes_on_beyond_its_swivel_has_no_cylinder() -> None:
     rod = RPR("P", "A", "O4", 155.0)
     joints = (*pins, Crank("A", "O2", 60.0), rod, RRP("C", "P", 300.0, Line("O2", 0.0)))
     scene = Scene("pump", "Pump", "", "mm", Linkage(joints, Drive("A", 1.0, 0.0)), ("P",))
-    parts = body_parts(figure(scene), VIEW, GAUGE, LIGHT)
+    parts = body_parts(DrawContext(figure(scene), VIEW, GAUGE, LIGHT))
     assert [part.at for part in parts].count("O4") == 1
 
 
@@ -119,7 +119,7 @@ def test_a_pin_that_keeps_its_place_on_a_bar_lies_on_it() -> None:
     trammel = figure(load("elliptic-trammel"))
     rod = next(body for body in trammel.bodies if body.name == "rod")
     assert trammel.riding(rod) == ("X",)
-    parts = body_parts(trammel, VIEW, GAUGE, LIGHT)
+    parts = body_parts(DrawContext(trammel, VIEW, GAUGE, LIGHT))
     (drawn,) = (part for part in parts if part.name == "rod")
     assert "X" in drawn.joints
     assert all(
@@ -132,7 +132,7 @@ def test_a_pin_that_keeps_its_place_on_a_bar_lies_on_it() -> None:
 def test_a_yoke_has_a_slot_as_long_as_its_pin_needs_and_a_collar_on_it() -> None:
     joints = (Pin("O2", (0.0, 0.0)), Crank("A", "O2", 30.0), RPP("Y", "A", Line("O2", 0.0)))
     scene = Scene("yoke", "Scotch yoke", "", "mm", Linkage(joints, Drive("A", 1.0, 0.0)), ("Y",))
-    parts = body_parts(figure(scene), VIEW, GAUGE, LIGHT)
+    parts = body_parts(DrawContext(figure(scene), VIEW, GAUGE, LIGHT))
     assert (parts[0].at, parts[-1].at) == ("Y", "A")
     slot = parts[0].layers[-2].loops[1]
     assert slot.imag.max() == pytest.approx(30.0 * VIEW.scale + 0.5 * GAUGE.bar, abs=0.1)
@@ -146,7 +146,8 @@ def test_a_guide_goes_along_with_the_body_that_carries_it_and_is_in_the_picture(
     line = Line("O4", math.radians(20), 10.0, ("O4", "B"))
     joints = (*base.joints, RRP("J", "O2", 110.0, line))
     shown = figure(Scene("ram", "Ram", "", "mm", Linkage(joints, base.drive), ("J",)))
-    bar, _, slot, block = (part for part in body_parts(shown, VIEW, GAUGE, LIGHT) if part.tail == "O4")
+    parts = body_parts(DrawContext(shown, VIEW, GAUGE, LIGHT))
+    bar, _, slot, block = (part for part in parts if part.tail == "O4")
     assert (bar.at, slot.at, block.at) == ("O4", "O4", "J")
     wide = sweep_of(shown).box
     for phase in (0.0, 1.0, 2.5, 4.0):

@@ -14,8 +14,8 @@ from pictures import contrast, pixels
 
 from linkanim.mechanics.linkage import Crank, Damper, Drive, Gear, Linkage, Pin
 from linkanim.picture.arrangement import sweep_of
-from linkanim.picture.figure import Figure, figure
-from linkanim.picture.fittings import Bench, Coil, Damping, coils, dampings, fittings
+from linkanim.picture.figure import DrawContext, Figure, figure
+from linkanim.picture.fittings import Coil, Damping, coils, dampings, fittings
 from linkanim.picture.gears import WheelPair, pairs, teeth_a_second, wheel_layers, wheel_parts, wheels
 from linkanim.picture.layout import gauge
 from linkanim.picture.look import Look
@@ -48,7 +48,7 @@ def _extent(layers: list[Layer], along: complex) -> tuple[float, float]:
 
 @pytest.mark.parametrize("length", [80.0, 100.0, 160.0])
 def test_a_spring_reaches_from_joint_to_joint_at_any_length(press: Figure, length: float) -> None:
-    coil = coils(press, VIEW, GAUGE, LIGHT)[0]
+    coil = coils(DrawContext(press, VIEW, GAUGE, LIGHT))[0]
     turn = complex(math.cos(0.7), math.sin(0.7))
     layers = coil.layers({"C": 5 + 5j, "G": 5 + 5j + length * turn})
     low, high = _extent(layers, turn)
@@ -58,7 +58,7 @@ def test_a_spring_reaches_from_joint_to_joint_at_any_length(press: Figure, lengt
 
 
 def test_a_spring_s_pitch_follows_its_length_and_its_coils_stay(press: Figure) -> None:
-    coil = coils(press, VIEW, GAUGE, LIGHT)[0]
+    coil = coils(DrawContext(press, VIEW, GAUGE, LIGHT))[0]
     pitches, counts, ends = [], [], 2
     for length in (100.0, 150.0):
         core = coil.layers({"C": 0j, "G": complex(length, 0)})[-1]
@@ -71,13 +71,13 @@ def test_a_spring_s_pitch_follows_its_length_and_its_coils_stay(press: Figure) -
 
 def test_a_long_spring_has_so_many_coils_that_they_stand_close() -> None:
     shown, view = figure(load("andrews")), View(5.0, 0.0, 0.0)
-    (coil,) = coils(shown, view, GAUGE, LIGHT)
+    (coil,) = coils(DrawContext(shown, view, GAUGE, LIGHT))
     longest = float(np.abs(np.subtract(*(shown.path(name, view) for name in coil.between))).max())
     assert longest / coil.coils < 2 * coil.radius
 
 
 def test_a_damper_s_piston_slides_inside_its_cylinder(press: Figure) -> None:
-    cushion = dampings(press, VIEW, GAUGE, LIGHT)[0]
+    cushion = dampings(DrawContext(press, VIEW, GAUGE, LIGHT))[0]
     one, other = cushion.between
     pistons = []
     for length in np.linspace(cushion.reach.shortest, cushion.reach.longest, 9):
@@ -93,7 +93,7 @@ def test_a_cylinder_is_longer_than_a_damper(press: Figure) -> None:
     still = "O2", "O7"
     dampers = Damper("ram", still), Damper("cushion", still, 200.0)
     shown = figure(replace(press.scene, linkage=replace(press.linkage, dampers=dampers)))
-    cylinder, damper = dampings(shown, VIEW, GAUGE, LIGHT)
+    cylinder, damper = dampings(DrawContext(shown, VIEW, GAUGE, LIGHT))
     assert cylinder.length > 2 * damper.length
 
 
@@ -129,7 +129,7 @@ def test_gears_roll_on_each_other_and_their_teeth_mesh_at_every_angle(ratio: Fra
     assert pair.driver.radius / pair.driven.radius == pytest.approx(abs(ratio))
     assert Fraction(pair.driver.teeth, pair.driven.teeth) == abs(ratio)
     view = View(5.0, 0.0, 0.0)
-    parts = wheel_parts(shown, view, GAUGE, LIGHT)[::2]
+    parts = wheel_parts(DrawContext(shown, view, GAUGE, LIGHT))[::2]
     for phase in np.linspace(0, 7, 40):
         pose = scene.pose(float(phase))
         places = {name: view.place(point) for name, point in pose.position.items()}
@@ -145,7 +145,7 @@ def test_gears_roll_on_each_other_and_their_teeth_mesh_at_every_angle(ratio: Fra
 def test_teeth_touch_and_never_cut_into_each_other(ratio: Fraction) -> None:
     scene = geared(ratio)
     shown, view = figure(scene), View(5.0, 0.0, 0.0)
-    parts = wheel_parts(shown, view, GAUGE, LIGHT)[::2]
+    parts = wheel_parts(DrawContext(shown, view, GAUGE, LIGHT))[::2]
     module = 5 * _module(pairs(shown)[0])
     for phase in np.linspace(0, 1.5, 40):
         pose = scene.pose(float(phase))
@@ -165,7 +165,7 @@ def _gap(points: Loop, outline: Loop) -> float:
 
 @pytest.mark.parametrize("theme", [LIGHT, DARK])
 def test_two_wheels_are_told_apart_by_tone_and_outline(theme: Theme) -> None:
-    parts = wheel_parts(figure(geared(Fraction(-1))), VIEW, GAUGE, theme)
+    parts = wheel_parts(DrawContext(figure(geared(Fraction(-1))), VIEW, GAUGE, theme))
     colours = [layer.colour for part in parts for layer in part.layers]
     tone, edge, hole, other, other_edge, _ = colours
     assert contrast(tone, other) > 1.25
@@ -195,10 +195,11 @@ def test_wheels_have_as_many_teeth_as_can_be_followed(speed: float, counts: list
 def test_wheels_that_would_dwarf_their_cranks_are_pitch_circles_whose_marks_meet(press: Figure) -> None:
     (pair,) = pairs(press)
     assert (pair.driver.teeth, pair.driver.pitch, pair.belted) == (0, True, False)
-    (circles,) = {len(layer.loops) for layer in wheel_layers(press, VIEW, GAUGE, LIGHT)}
+    (circles,) = {len(layer.loops) for layer in wheel_layers(DrawContext(press, VIEW, GAUGE, LIGHT))}
     assert circles > 20
     places = {name: VIEW.place(point) for name, point in press.scene.pose(0.0).position.items()}
-    tips = [part.placed(places)[0].loops[0][0] for part in wheel_parts(press, VIEW, GAUGE, LIGHT)]
+    parts = wheel_parts(DrawContext(press, VIEW, GAUGE, LIGHT))
+    tips = [part.placed(places)[0].loops[0][0] for part in parts]
     assert abs(tips[0] - tips[1]) < 1e-6
     assert abs(tips[0] - places["O2"]) == pytest.approx(165)
 
@@ -214,7 +215,7 @@ def test_cranks_that_turn_the_same_way_are_joined_by_a_belt(ratio: Fraction) -> 
     assert pair.driver.teeth == pair.driven.teeth == 0
     assert pair.driver.radius / pair.driven.radius == pytest.approx(float(ratio))
     assert pair.driver.radius + pair.driven.radius < math.hypot(100, 30)
-    discs_and_belt = wheel_layers(shown, View(5.0, 0.0, 0.0), GAUGE, LIGHT)
+    discs_and_belt = wheel_layers(DrawContext(shown, View(5.0, 0.0, 0.0), GAUGE, LIGHT))
     assert [len(layer.loops) for layer in discs_and_belt] == [1, 1, 2]
 
 
@@ -236,7 +237,7 @@ def test_wheels_are_part_of_what_must_be_seen(press: Figure) -> None:
 @pytest.mark.parametrize("forward", [True, False])
 def test_the_recent_part_ends_at_the_joint_and_lies_on_the_curve(phase: float, forward: bool) -> None:
     scene = load("crank-rocker")
-    trace = traces(figure(scene), VIEW, GAUGE, LIGHT)[0]
+    trace = traces(DrawContext(figure(scene), VIEW, GAUGE, LIGHT))[0]
     place = VIEW.place(scene.pose(phase).position["P"])
     layers = trace.recent(phase, place, forward=forward)
     assert layers[-1].colour == trace.colour
@@ -292,7 +293,7 @@ def _recent(name: str, phase: float, *, forward: bool = True) -> tuple[Trace, li
     scene = load(name)
     shown = figure(scene)
     view = View(100 / (shown.box.right - shown.box.left), 0.0, 0.0)
-    trace = traces(shown, view, GAUGE, LIGHT)[0]
+    trace = traces(DrawContext(shown, view, GAUGE, LIGHT))[0]
     place = view.place(scene.pose(phase).position[trace.joint])
     return trace, trace.recent(phase, place, forward=forward)
 
@@ -400,7 +401,8 @@ def test_a_moving_bar_s_pixels_follow_it_without_a_shiver() -> None:
 
 
 def test_a_spring_of_no_length_is_still_drawn(press: Figure) -> None:
-    items: list[Coil | Damping] = [*coils(press, VIEW, GAUGE, LIGHT), *dampings(press, VIEW, GAUGE, LIGHT)]
+    context = DrawContext(press, VIEW, GAUGE, LIGHT)
+    items: list[Coil | Damping] = [*coils(context), *dampings(context)]
     for item in items:
         layers = item.layers(dict.fromkeys(item.between, 3 + 3j))
         assert all(np.isfinite(loop).all() for layer in layers for loop in layer.loops)
@@ -444,8 +446,8 @@ def test_a_planet_rolls_on_a_wheel_that_stands_still(
     assert (pair.driver.arm, pair.driver.ring) == (None, ring)
     assert Fraction(pair.driver.teeth, pair.driven.teeth) == Fraction(still / planet).limit_denominator(9)
     outline = 0 if not ring else 1
-    fixed = wheel_layers(shown, view, GAUGE, LIGHT)[0].loops[outline]
-    planet_part, *_ = wheel_parts(shown, view, GAUGE, LIGHT)
+    fixed = wheel_layers(DrawContext(shown, view, GAUGE, LIGHT))[0].loops[outline]
+    planet_part, *_ = wheel_parts(DrawContext(shown, view, GAUGE, LIGHT))
     for phase in np.linspace(0, 7, 30):
         places = {name: view.place(point) for name, point in scene.pose(float(phase)).position.items()}
         rolling = planet_part.placed(places)[0].loops[0]
@@ -463,7 +465,7 @@ def test_a_planet_that_keeps_its_arm_s_turning_has_no_wheels_and_a_slower_one_a_
     assert pair.driver.radius / pair.driven.radius == pytest.approx(0.5)
     # The belt's two runs touch both pulleys.
     shown, view = figure(planetary(Fraction(1, 2))), View(5.0, 0.0, 0.0)
-    *_, belt = wheel_parts(shown, view, GAUGE, LIGHT)
+    *_, belt = wheel_parts(DrawContext(shown, view, GAUGE, LIGHT))
     far = 5 * abs(shown.start(pair.driven.centre) - shown.start(pair.driver.centre))
     assert len(belt.layers[0].loops) == 2
     for run in belt.layers[0].loops:
@@ -495,7 +497,7 @@ def test_a_carried_slot_is_as_long_as_its_pin_goes_and_has_an_arm_where_it_lies_
         line = {{ on = ["A", "B"], through = "A", angle = "0 deg", offset = {offset} }}
     """
     shown = figure(scene_from(tomllib.loads(text), name="t", where="t.toml"))
-    bench = Bench(shown, View(2.0, 0.0, 0.0), GAUGE, LIGHT)
+    bench = DrawContext(shown, View(2.0, 0.0, 0.0), GAUGE, LIGHT)
     (fitting,) = (found for found in fittings(bench) if found.before)
     (bar,), (slot, _) = fitting.behind, fitting.before
     axis = shown.cycle.position["B"] - shown.cycle.position["A"]
@@ -518,7 +520,8 @@ def test_a_carried_slot_is_as_long_as_its_pin_goes_and_has_an_arm_where_it_lies_
     ],
 )
 def test_a_wheel_looks_the_same_again_a_tooth_further(scene: Scene, folds: list[int]) -> None:
-    assert sorted(part.fold for part in wheel_parts(figure(scene), VIEW, GAUGE, LIGHT)) == sorted(folds)
+    parts = wheel_parts(DrawContext(figure(scene), VIEW, GAUGE, LIGHT))
+    assert sorted(part.fold for part in parts) == sorted(folds)
 
 
 @pytest.mark.parametrize("fold", [3, 5, 12])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,7 +11,7 @@ from pictures import standing
 
 from linkanim.mechanics.motion import Pose
 from linkanim.picture.dimensions import symbols
-from linkanim.picture.fittings import Bench, rail_reach
+from linkanim.picture.fittings import rail_reach
 from linkanim.picture.labels import Surroundings
 from linkanim.picture.look import Look
 from linkanim.picture.motion_marks import Turning
@@ -88,28 +89,26 @@ def test_a_slider_s_name_stands_by_its_block_and_on_no_link(name: str) -> None:
 
 def _surroundings(name: str) -> Surroundings:
     picture = Picture(load(name), (640, 360), Look(names=1))
-    gauge = picture.drawing.setting.gauge
-    return Surroundings(picture.figure, picture.fitted, gauge, picture.layout, picture.theme)
+    return Surroundings(replace(picture.drawing.setting, view=picture.fitted))
 
 
 def _path(ground: Surroundings, joint: str) -> np.ndarray:
-    return ground.figure.path(joint, ground.view)[:: 720 // MOMENTS]
+    return ground.setting.figure.path(joint, ground.setting.view)[:: 720 // MOMENTS]
 
 
 @pytest.mark.parametrize("name", ["crank-rocker", "slider-crank"])
 def test_round_a_joint_a_name_stands_off_it_up_and_right_first(name: str) -> None:
     """Off a pin by half a bar's width, off a slider as far beyond its rails."""
     ground, size, joint = _surroundings(name), (30.0, 12.0), "B"
-    bench = Bench(ground.figure, ground.view, ground.gauge, ground.theme)
-    reach = 1.0 + rail_reach(bench, joint) / ground.gauge.bar
+    reach = 1.0 + rail_reach(ground.setting, joint) / ground.setting.gauge.bar
     found = ground.around(joint, size).candidates
     away = found.places - _path(ground, joint)[:, None]
     assert np.ptp(away, axis=0) == pytest.approx(np.zeros(len(found.price)), abs=1e-9)
     best = away[0, found.price.argmin()]
-    assert best.real == pytest.approx((reach * ground.gauge.bar + 15) / np.sqrt(2), rel=1e-9)
+    assert best.real == pytest.approx((reach * ground.setting.gauge.bar + 15) / np.sqrt(2), rel=1e-9)
     assert best.real > 0 > best.imag
     for ring, places in enumerate(np.split(away[0], 3)):
-        radius = reach * ground.gauge.bar + 0.7 * 12 * ring
+        radius = reach * ground.setting.gauge.bar + 0.7 * 12 * ring
         assert places[0] == pytest.approx(radius + 15)
         assert places[len(places) // 4] == pytest.approx(-1j * (radius + 6))
     costs = [part.min() for part in np.split(found.price, 3)]
@@ -119,10 +118,10 @@ def test_round_a_joint_a_name_stands_off_it_up_and_right_first(name: str) -> Non
 def test_what_is_measured_has_its_length_clear_of_it_on_either_side() -> None:
     ground = _surroundings("crank-rocker")
     begin, end = (_path(ground, joint) for joint in ("O2", "A"))
-    (crank,) = (one for one in symbols(ground.figure).dimensions if one.about == "O₂–A")
+    (crank,) = (one for one in symbols(ground.setting.figure).dimensions if one.about == "O₂–A")
     bare, lined = (spots.candidates for spots in ground.dimension(crank, (20.0, 12.0)))
     along = (end - begin) / np.abs(end - begin)
-    wide = np.abs(along.imag) * 10 + np.abs(along.real) * 6 + 1.3 * ground.gauge.bar
+    wide = np.abs(along.imag) * 10 + np.abs(along.real) * 6 + 1.3 * ground.setting.gauge.bar
     off = ((bare.places - begin[:, None]) * along.conj()[:, None]).imag
     assert np.abs(off) == pytest.approx(np.broadcast_to(wide[:, None], off.shape))
     assert (np.sign(off) > 0).sum(axis=1).tolist() == [3] * MOMENTS
@@ -140,7 +139,7 @@ def test_what_is_measured_has_its_length_clear_of_it_on_either_side() -> None:
 
 def test_a_link_s_name_stands_on_its_bar_or_within_its_plate() -> None:
     ground, size = _surroundings("crank-rocker"), (30.0, 12.0)
-    bodies = {body.name: body for body in ground.figure.bodies}
+    bodies = {body.name: body for body in ground.setting.figure.bodies}
     for name, body in bodies.items():
         places = ground.on(body, size).candidates.places
         ends = [_path(ground, joint) for joint in body.joints]
@@ -164,7 +163,7 @@ def test_the_angle_s_symbol_stands_outside_its_arc(name: str) -> None:
 
 def test_three_joints_in_line_are_a_bar() -> None:
     ground = _surroundings("elliptic-trammel")
-    rod = next(body for body in ground.figure.bodies if body.name == "rod")
+    rod = next(body for body in ground.setting.figure.bodies if body.name == "rod")
     assert len(rod.joints) > 2
     assert len(ground.on(rod, (30.0, 12.0)).candidates.price) == 5 * 7
 
