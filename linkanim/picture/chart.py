@@ -29,7 +29,7 @@ from linkanim.picture.quantities import (
     series_of,
 )
 from linkanim.picture.raster import Colour, Layer, Loop
-from linkanim.picture.shapes import Stamp, disc, segments, stroke
+from linkanim.picture.shapes import Stamp, dashed, disc, segments, stroke
 from linkanim.picture.text import Type
 from linkanim.picture.theme import Theme
 from linkanim.picture.view import Rect
@@ -141,19 +141,14 @@ def marked(
     area = plot.area
     for (x, label), value in zip(marks, values, strict=True):
         foot, wide = complex(plot.place(x, plot.y.low)), pen.type.width(label, pen.small)
-        yield Layer(pen.theme.dim, list(_dashes(foot, area.height, pen)))
+        runs = dashed(np.array([foot, foot - 1j * area.height]), np.full(2, 3 * pen.line))
+        line = [loop for run in runs for loop in segments(run[0], run[-1], 0.7 * pen.line)]
+        yield Layer(pen.theme.dim, line)
         low = float(plot.y.share(value)) > 0.5
         left = foot.real + 0.3 * pen.small
         left = left if left + wide <= area.right else foot.real - 0.3 * pen.small - wide
         at = (left, area.bottom - 1.2 * pen.small if low else area.y + 0.1 * pen.small)
         yield Caption(label, at, pen.small, pen.theme.dim)
-
-
-def _dashes(foot: complex, height: float, pen: Pen) -> Iterator[Loop]:
-    """Yield a dashed line that rises from a point."""
-    for start in np.arange(0.0, height, 6 * pen.line):
-        top = foot - 1j * min(start + 3 * pen.line, height)
-        yield from segments(foot - 1j * start, top, 0.7 * pen.line)
 
 
 def _lines(feet: Loop, reach: complex, pen: Pen) -> list[Loop]:
@@ -171,19 +166,8 @@ def curve_layer(
 
 def line_layer(runs: Iterable[Loop], colour: Colour, width: float, dashes: Sequence[float] = ()) -> Layer:
     """Return lines along paths in pixels, dashed in widths of the line."""
-    parts = (part for run in runs for part in _dashed(run, width * np.array(dashes))) if dashes else runs
+    parts = (part for run in runs for part in dashed(run, width * np.array(dashes))) if dashes else runs
     return Layer(colour, [loop for part in parts for loop in stroke(part, width)])
-
-
-def _dashed(run: Loop, dashes: NDArray[np.float64]) -> Iterator[Loop]:
-    """Yield the pieces of a path that dashes leave, each dash followed by a gap."""
-    gone = np.concatenate(([0.0], np.cumsum(np.abs(np.diff(run)))))
-    ends = np.concatenate(([0.0], np.cumsum(dashes)))
-    for start in np.arange(0.0, gone[-1], ends[-1]):
-        for begin, end in start + ends[:-1].reshape(-1, 2):
-            along = np.concatenate(([begin], gone[(gone > begin) & (gone < end)], [min(end, gone[-1])]))
-            if begin < gone[-1]:
-                yield np.interp(along, gone, run.real) + 1j * np.interp(along, gone, run.imag)
 
 
 def dot(colour: Colour, pen: Pen) -> Stamp:

@@ -21,11 +21,13 @@ from linkanim.picture.figure import DOWN, DrawContext, Figure
 from linkanim.picture.layout import Gauge
 from linkanim.picture.raster import Layer, Loop, Outlines
 from linkanim.picture.shapes import (
+    DASH_DOT,
     MOST_MARKS,
     Part,
     Places,
     box,
     cut_ribbon,
+    dashes,
     directions,
     length,
     lengths,
@@ -585,11 +587,7 @@ def ground_line(names: Sequence[str], context: DrawContext) -> list[Layer]:
     figure, view, gauge, theme = context.known
     loops = []
     for one, other in pairwise(figure.pixel(name, view) for name in names):
-        marks = np.arange(0, abs(other - one), 9 * gauge.line)
-        along = unit(other - one)
-        dashes, dots = one + along * marks, one + along * (marks + 6.8 * gauge.line)
-        loops += segments(dashes, dashes + 5 * along * gauge.line, 0.8 * gauge.line)
-        loops += segments(dots, dots + 0.9 * along * gauge.line, 0.8 * gauge.line)
+        loops += dashes(one, other, 9 * gauge.line, 0.8 * gauge.line, DASH_DOT)
     return [Layer(theme.ground, loops)]
 
 

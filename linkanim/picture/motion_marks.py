@@ -24,11 +24,11 @@ from linkanim.picture.raster import Colour, Layer, Loop
 from linkanim.picture.shapes import (
     Places,
     arrows,
+    dashes,
     directions,
     joined,
     lengths,
     offsets,
-    segments,
     stroke,
     strokes,
     unit,
@@ -245,8 +245,7 @@ class Turning:
 @lru_cache(maxsize=16)
 def _dashes(begin: complex, room: float, thick: float) -> list[Loop]:
     """Return a dashed line to the right; a pivot mostly stands still: the last ones are kept."""
-    dashes = begin + np.arange(0, room, 3.5 * thick)
-    return segments(dashes, dashes + 2.2 * thick, 0.8 * thick)
+    return dashes(begin, begin + room, 3.5 * thick, 0.8 * thick, ((0.0, 2.2 / 3.5),))
 
 
 @lru_cache(maxsize=16)

@@ -188,12 +188,39 @@ def segments(begin: ArrayLike, end: ArrayLike, width: float) -> list[Loop]:
     return list(np.stack((begin - side, end - side, end + side, begin + side), axis=1))
 
 
-def dashes(begin: complex, end: complex, step: float, width: float) -> list[Loop]:
-    """Return a dashed line with square ends, one dash to a step; of a line far beyond any window a few."""
+DASH = ((0.0, 0.6),)
+"""Where a plain dash begins and ends, in steps."""
+DASH_DOT = ((0.0, 5 / 9), (6.8 / 9, 7.7 / 9))
+"""Likewise a dash and a dot."""
+
+
+def dashes(
+    begin: complex,
+    end: complex,
+    step: float,
+    width: float,
+    marks: Sequence[tuple[float, float]] = DASH,
+) -> list[Loop]:
+    """Return a dashed line with square ends, the same `marks` in each step, which are shares of it.
+
+    The last mark is as long as the others. Of a line far beyond any window a few marks stand for all.
+    """
     along, reach = unit(end - begin), length(end - begin)
     step = max(step, reach / MOST_MARKS)
     feet = begin + along * np.arange(0.0, reach, step)
-    return segments(feet, feet + 0.6 * step * along, width)
+    ways = [(step * low * along, step * high * along) for low, high in marks]
+    return [loop for low, high in ways for loop in segments(feet + low, feet + high, width)]
+
+
+def dashed(run: Loop, dashes: NDArray[np.float64]) -> Iterator[Loop]:
+    """Yield the pieces of a path that dashes leave, each dash followed by a gap; the last ends with it."""
+    gone = np.concatenate(([0.0], np.cumsum(np.abs(np.diff(run)))))
+    ends = np.concatenate(([0.0], np.cumsum(dashes)))
+    for start in np.arange(0.0, gone[-1], ends[-1]):
+        for begin, end in start + ends[:-1].reshape(-1, 2):
+            along = np.concatenate(([begin], gone[(gone > begin) & (gone < end)], [min(end, gone[-1])]))
+            if begin < gone[-1]:
+                yield np.interp(along, gone, run.real) + 1j * np.interp(along, gone, run.imag)
 
 
 def cut(loop: Loop, limit: float, *, down: bool = False) -> Loop:
