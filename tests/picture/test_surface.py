@@ -467,7 +467,7 @@ from resource import RUSAGE_SELF, getrusage
 from linkanim.picture.items import Caption, Group, Halo
 from linkanim.picture.look import Look
 from linkanim.picture.picture import Picture
-from linkanim.picture import raster as offscreen
+from linkanim.picture.raster import offscreen
 from linkanim.picture.surface import SurfacePrinter
 from linkanim.scenes import load
 scene, size = load("crank-rocker"), (1280, 720)
