@@ -20,7 +20,7 @@ from linkanim.picture.look import TOGGLES, Look, answer, toggled
 from linkanim.picture.quantities import axes_of, axis_of, driven_words, quantity, speed_words
 from linkanim.player import building, edits, pencil
 from linkanim.player.action import Action
-from linkanim.player.clock import FRAMES_PER_SECOND, Clock
+from linkanim.player.clock import Clock
 from linkanim.player.edits import drop, edit
 from linkanim.player.pencil import come, keep, left
 from linkanim.player.state import (
@@ -224,7 +224,7 @@ def back(state: State, _: None) -> State:
         return replace(state, place_typed="", chip=None)
     if state.editing.open:
         return edit(state, None)
-    if state.attract and state.games:
+    if state.from_title and state.games:
         return with_effect(state, "begin", "title")
     return with_toast(state, "Q quits")
 
@@ -292,7 +292,8 @@ def leave(state: State) -> State:
     look = replace(under.look, theme=state.look.theme)
     clock = under.clock.go(state.frame, under.phase)
     kept = replace(under, frame=state.frame, clock=clock, look=look, touched=state.touched)
-    kept = replace(kept, sounds=state.sounds, pad=state.pad, attract=state.attract, kiosk=state.kiosk)
+    kept = replace(kept, sounds=state.sounds, pad=state.pad, from_title=state.from_title)
+    kept = replace(kept, kiosk=state.kiosk)
     return replace(kept, recording=state.recording, effects=state.effects, faded=state.frame)
 
 
@@ -580,7 +581,7 @@ def is_taped(action: Action) -> bool:
 # The player's only way forward: `advance(state, actions)`, pure.
 #
 # A frame is three steps, so that the window can ask what a key means once those before it are done:
-# the state grows a frame older, each action is carried out, and a window left alone walks on.
+# the state grows a frame older, each action is carried out, and a kiosk left alone shows its title.
 
 _WITHOUT_PENCIL = frozenset({"unit", "undo", "redo"})
 """What is not done while a path is drawn: its points are in the unit of then, and edits are the scene's."""
@@ -590,10 +591,11 @@ _LEAVES = frozenset({"mechanism", "select", "put", "closure", "reset", "returns"
 _OFF_THE_SHEET = _KEEPS | _LEAVES | {"pencil", "own_trace"}
 """What is not done on a sheet, which is left for it."""
 Change = Callable[[State], State]
-ATTRACT_EACH = 15 * FRAMES_PER_SECOND
 
 _SHEETS = frozenset({"build", "sheet", "draft", "photo"})
 """What opens a sheet, out of a game too."""
+_NOT_BY_HAND = frozenset({"note", "pad"})
+"""What nobody at the window does."""
 _LIVES = {"turned": FLASH_FRAMES, "faded": FADE_FRAMES, "shot": SHUTTER_FRAMES}
 """For how many frames after the one that the state holds something is to be seen."""
 
@@ -628,8 +630,10 @@ def aged(state: State) -> State:
 def carried(state: State, action: Action) -> State:
     """Return the state with one action carried out; one that a solver fails at changes nothing."""
     rule = ACTIONS[action.name]
-    if action.name != "note":
+    if action.name not in _NOT_BY_HAND:
         state = replace(state, touched=state.frame)
+        if state.by_itself:
+            return leave(state)
     if state.game and action.name not in BESIDE | _SHEETS:
         return _in_a_game(state, state.game, action)
     if (state.sketch or state.building) and action.name in _WITHOUT_PENCIL:
@@ -651,18 +655,14 @@ def carried(state: State, action: Action) -> State:
 
 
 def settled(state: State) -> State:
-    """Return the state at the end of a frame: left alone for a minute, it walks on through the shelf.
+    """Return the state at the end of a frame: in a kiosk a mechanism left alone gives way to the title.
 
-    In a kiosk it goes back to the title, whatever was begun; what is recorded goes on.
+    What is paused, open or recorded stays as it is.
     """
-    alone = state.frame - state.touched >= ATTRACT_AFTER and not state.recording
-    if state.kiosk and state.games and alone and (state.game is None or state.game.covers):
-        return replace(carried(state, Action("play", "title")), touched=state.touched)
-    if state.idle is None or state.idle % ATTRACT_EACH:
+    alone = state.frame - state.touched >= ATTRACT_AFTER
+    if not (state.kiosk and state.games and alone and state.is_bare):
         return state
-    bare = replace(state, help=False, browsing=None, listing=None)
-    onward = replace(carried(bare, Action("mechanism", 1)), touched=state.touched)
-    return replace(onward, clock=onward.clock.pause(onward.frame, False))
+    return replace(carried(state, Action("play", "title")), touched=state.touched, by_itself=True)
 
 
 def _in_a_game(state: State, game: Game, action: Action) -> State:

@@ -137,8 +137,7 @@ class Framing:
     def _look(self, state: State) -> Look:
         """Return the look of a state; where it is captioned, names come with what to watch for."""
         look = replace(state.look, hud=False) if state.building else state.look
-        captioned = (self._captioned and look.names) or state.idle is not None
-        return replace(look, caption=True) if captioned else look
+        return replace(look, caption=True) if self._captioned and look.names else look
 
     def at(self, state: State, size: tuple[int, int], *, late: bool = False) -> Picture:
         """Return the picture for this frame: one on the way to the fitting one while that is approached.

@@ -192,7 +192,6 @@ _LIST_HINT = "↑ ↓ choose   type to filter   Enter charts   Esc closes"
 _BAR = "Space pause · Tab next · drag the crank pin · H keys"
 _BAR_FRAMES = 6 * FRAMES_PER_SECOND
 _WATCH_FRAMES = 6 * FRAMES_PER_SECOND
-_IDLE = 45 * FRAMES_PER_SECOND
 _NAME = re.compile(r"\b[^\W\d_]\w*")
 _WAYS = ("along", "to the left", "to the right", "x", "y")
 """What the labels of places end in, and the other side."""
@@ -333,18 +332,10 @@ def _chip(state: State) -> Fading | None:
 
 
 def _hint_bar(state: State) -> Fading | None:
-    """Return the hint bar: after the first seconds until a key is pressed, and now and then when none is."""
-    busy = (
-        state.clock.paused
-        or state.mode not in ("play", "paused")
-        or state.help
-        or state.recording
-        or state.idle is not None
-    )
-    idle = state.frame - state.touched
-    if busy or state.toast or state.chip or 0 < state.touched > state.frame - _IDLE:
+    """Return the hint bar: once, after the first seconds, unless something is done before."""
+    if state.touched or not state.is_bare or state.toast or state.chip:
         return None
-    since = (idle - _WATCH_FRAMES) % _IDLE if idle >= _WATCH_FRAMES else 0
+    since = max(state.frame - _WATCH_FRAMES, 0)
     eighths = min(since, _BAR_FRAMES - since, 32) // 4
     return Fading(_BAR, eighths) if eighths > 0 else None
 

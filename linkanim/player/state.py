@@ -485,7 +485,8 @@ class State:
     `held` is the joint that is being dragged, `pad` whether a gamepad is plugged in.
     `home` is what of the scene's plane a game keeps in sight, where that is not the scene as it fits.
     `sounds` says whether the motion is heard, None where nobody has.
-    With `attract` it walks on by itself when left alone; in a `kiosk` it then goes back to the title, too.
+    With `from_title` Esc leads from a mechanism back to the title. In a `kiosk` a mechanism that runs and is
+    left alone gives way to the title, `by_itself`; the first action then only brings back what was there.
     `touched` is the frame of the last action, `arrived` that at
     which the mechanism came on, `turned` that at which an edit made another class of the linkage, while the
     list shows it. `effects` is what the last
@@ -521,8 +522,9 @@ class State:
     faded: int | None = None
     shot: int | None = None
     recording: Take | None = None
-    attract: bool = False
+    from_title: bool = False
     kiosk: bool = False
+    by_itself: bool = False
     pad: bool = False
     sounds: bool | None = None
     home: Box | None = None
@@ -566,11 +568,9 @@ class State:
         return frozenset(one.place for one in found if one.editing.original not in (None, one.scene))
 
     @property
-    def idle(self) -> int | None:
-        """For how many frames it has walked on by itself, left alone; None where it does not."""
-        busy = self.recording or self.sketch or self.building or self.editing.open or self.editing.changed
-        frames = self.frame - self.touched - ATTRACT_AFTER
-        return frames if self.attract and not (busy or self.game) and frames >= 0 else None
+    def is_bare(self) -> bool:
+        """Whether a mechanism runs, and nothing is open, begun, paused or recorded."""
+        return self.mode == "play" and not (self.help or self.recording or self.held)
 
     @property
     def is_audible(self) -> bool:
@@ -604,9 +604,7 @@ class State:
         return self.clock.at(self.frame)
 
 
-def begin(
-    scene: Scene | str | os.PathLike[str] | None = None, *, look: Look | None = None, attract: bool = False
-) -> State:
+def begin(scene: Scene | str | os.PathLike[str] | None = None, *, look: Look | None = None) -> State:
     """Return the state a window opens with: `scene`, loaded where it is a name or path, and the catalogue.
 
     Without a scene it is the catalogue's first; one that is not of the catalogue stands before it.
@@ -618,7 +616,7 @@ def begin(
     if source not in shelf and (found.name not in shelf or load(found.name) != found):
         shelf = (found, *shelf)
     place = 0 if shelf[0] is found else shelf.index(found.name)
-    return State(found, fresh(found), shelf, place, look=look or Look(), attract=attract, arrived=0)
+    return State(found, fresh(found), shelf, place, look=look or Look(), arrived=0)
 
 
 def fresh(scene: Scene) -> Clock:

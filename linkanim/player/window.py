@@ -496,10 +496,10 @@ def run(
 ) -> int:
     """Open the window on a scene, a scene file or a tape, and return 0 when it is closed.
 
-    Without a scene it opens on the title, where a `keeper` has games; left alone for a minute it walks on
-    through the catalogue. With `attract` it fills the screen, Esc does not leave that, and left alone it goes
-    back to the title. NoDisplay where there is no screen, or none any more; BadInput as loading raises it.
-    Whatever ends the window, a recording that runs is finished. `drafts` is the file in which a draft is
+    Without a scene it opens on the title, where a `keeper` has games. With `attract` it fills the screen, Esc
+    does not leave that, and a mechanism that runs gives way to the title when left alone for a minute.
+    NoDisplay where there is no screen, or none any more; BadInput as loading raises it. Whatever ends the
+    window, a recording that runs is finished. `drafts` is the file in which a draft is
     kept; with `sheet` the window opens on an empty one, on a `photo` if there is one. `game` are the words of
     one to begin with.
     """
@@ -512,7 +512,7 @@ def run(
         keeper.game_of(words)  # which says what is wrong with them before a window opens
         state = carried(state, Action("play", words))
     with screen.opened(size) as connection:
-        state = replace(state, attract=attract or scene is None, kiosk=attract)
+        state = replace(state, from_title=attract or scene is None, kiosk=attract)
         kept = DraftFile(drafts) if drafts and not tape else None
         window = Window(state, tape, None if tape else _file(scene), keeper, kept)
         if sheet:

@@ -50,7 +50,7 @@ def stood(state: State) -> State:
 @pytest.mark.parametrize("seed", [1, 2])
 def test_no_key_brings_a_game_to_a_fault(seed: int, tmp_path: Path) -> None:
     random, arcade = Random(seed), Arcade(tmp_path / "scores.json", Random(seed))
-    state, seen = replace(begin("press"), games=arcade.game_of, attract=True), Counter[str]()
+    state, seen = replace(begin("press"), games=arcade.game_of, from_title=True), Counter[str]()
     for _ in range(250):
         (name,) = random.choices([*PRESSED], [OFTEN.get(name, 1) for name in PRESSED])
         state = advance(state, [Action(name, PRESSED[name](random))])

@@ -17,7 +17,6 @@ from linkanim.play.menus import EACH, Title
 from linkanim.player import screen
 from linkanim.player.action import Action
 from linkanim.player.actions import advance, carried
-from linkanim.player.framing import Framing
 from linkanim.player.state import ATTRACT_AFTER, State, begin
 from linkanim.player.tape import Tape, resumed, starting
 from linkanim.player.tape_file import read, write
@@ -95,33 +94,19 @@ def left_alone(state: State, frames: int) -> State:
     return state
 
 
-def test_left_alone_on_the_shelf_it_plays_by_itself_with_what_to_watch_for() -> None:
-    state = replace(advance(begin(load("press")), [Action("shelf")]), attract=True)
-    state = left_alone(state, ATTRACT_AFTER - 1)
-    assert (state.mode, state.idle) == ("shelf", None)
-    state = left_alone(state, 1)
-    assert (state.mode, state.idle) == ("play", 0)
-    assert state.scene.name != "press"
-    framing = Framing(captioned=True)
-    assert framing.at(state, (640, 360)).layout.caption
-    state = advance(state, [Action("trace")])
-    assert state.idle is None
-    assert not framing.at(state, (640, 360)).layout.caption
-
-
 # In a kiosk: what a visitor has left, and whether the title comes back.
 LEFT = {
     "a mechanism": ((), True),
-    "the shelf": ((Action("shelf"),), True),
-    "an edit": ((Action("edit"), Action("nudge", 1)), True),
-    "a question": ((Action("play", "predict seed=1"),), True),
+    "the shelf": ((Action("shelf"),), False),
+    "an edit": ((Action("edit"), Action("nudge", 1)), False),
+    "a question": ((Action("play", "predict seed=1"),), False),
     "a recording": ((Action("record", "gif"),), False),
 }
 
 
 @pytest.mark.parametrize(("actions", "back"), LEFT.values(), ids=LEFT)
 def test_a_kiosk_goes_back_to_its_title(actions: tuple[Action, ...], back: bool) -> None:
-    state = replace(begin(load("press")), games=game_of, attract=True, kiosk=True)
+    state = replace(begin(load("press")), games=game_of, kiosk=True)
     state = left_alone(advance(state, actions), ATTRACT_AFTER - 2)
     assert not isinstance(state.game, Title)
     state = left_alone(state, 3)
@@ -141,9 +126,9 @@ def test_esc_leaves_full_screen_but_in_a_kiosk(player: Player, monkeypatch: pyte
 
 
 def test_what_is_the_window_s_stays_when_a_door_is_gone_through() -> None:
-    state = replace(titled(), attract=True, kiosk=True, sounds=True, pad=True)
+    state = replace(titled(), from_title=True, kiosk=True, sounds=True, pad=True)
     after = advance(state, [Action("option", 0)])
-    assert (after.mode, after.attract, after.kiosk, after.sounds, after.pad) == ("shelf", *[True] * 4)
+    assert (after.mode, after.from_title, after.kiosk, after.sounds, after.pad) == ("shelf", *[True] * 4)
 
 
 def test_esc_and_f3_lead_back_to_it(player: Player) -> None:
@@ -152,7 +137,7 @@ def test_esc_and_f3_lead_back_to_it(player: Player) -> None:
     assert player.state.toast
     player.press(pygame.K_F3)
     assert type(player.state.game) is Title
-    player.window.state = replace(begin(load("press")), games=game_of, attract=True)
+    player.window.state = replace(begin(load("press")), games=game_of, from_title=True)
     assert carried(player.state, Action("back")).effects == (Action("begin", "title"),)
 
 

@@ -134,7 +134,7 @@ class Storm:
         own.write_text(text(load(random.choice(names()))), encoding="utf-8")
         mine = random.random() < 0.5
         scene = load(own if mine else random.choice(names()))
-        state = replace(begin(scene), games=keeper.game_of, attract=random.random() < 0.3)
+        state = replace(begin(scene), games=keeper.game_of, from_title=random.random() < 0.3)
         if random.random() < 0.3:
             words = random.choice(("title", "lobby", "menu", "match", "predict", "follow"))
             state = carried(state, Action("play", keeper.completed(words)))

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import replace
 
 import pytest
 
 from linkanim.picture.look import Look
+from linkanim.play.games import game_of
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
-from linkanim.player.state import ATTRACT_AFTER, State, begin
+from linkanim.player.state import State, begin
 from linkanim.scenes import load, names
 
 
@@ -197,29 +197,76 @@ def test_a_steady_state_does_not_grow(rocker: State) -> None:
     assert replace(later, frame=rocker.frame) == rocker
 
 
-def test_left_alone_it_walks_through_the_catalogue() -> None:
-    state = run(begin(load("crank-rocker"), attract=True), 60 * 60 - 1)
-    assert state.scene.name == names()[0]
-    seen = [run(state, 1 + k * 15 * 60).scene.name for k in range(3)]
-    assert seen == [*names()[1:4]]
+# What somebody leaves on the screen, in a window that opened on the title and in a kiosk.
+LEFT: dict[str, tuple[Action | str, ...]] = {
+    "paused": ("pause",),
+    "help": ("help",),
+    "help while paused": ("pause", "help"),
+    "help over a list": ("list", "help"),
+    "list": ("list",),
+    "sifted list": ("list", Action("sift", "vel")),
+    "list while paused": ("pause", "list"),
+    "files": (Action("files", "one.toml\ntwo.toml"),),
+    "shelf": ("shelf",),
+    "sifted shelf": ("shelf", Action("sift", "geneva")),
+    "shelf while paused": ("pause", "shelf"),
+    "a place typed": ("pause", Action("type_place", "45")),
+    "stepped": (Action("step", 10),),
+    "edit": ("edit",),
+    "edit, a value typed": ("edit", Action("type", "12")),
+    "edit, a value refused": ("edit", Action("type", "1e9"), "take"),
+    "edit while paused": ("pause", "edit"),
+    "edited": ("edit", Action("nudge", 1)),
+    "pencil": ("pencil",),
+    "pencil, in a stroke": ("pencil", Action("pen_down", (1.0, 2.0)), Action("pen_to", (3.0, 4.0))),
+    "sheet": ("sheet",),
+    "sheet, a pin": ("sheet", Action("hand_down", (0.0, 0.0, 2.0, 5.0)), "hand_up"),
+    "sheet of the scene": ("build_on", "pause"),
+    "sheet, a tool": ("sheet", Action("tool", "spring")),
+    "sheet, help": ("sheet", "help"),
+    "chart, paused": (Action("plot", "crank.angle"), "pause"),
+    "lobby": (Action("play", "lobby"),),
+    "menu": (Action("play", "menu"),),
+    "predict": (Action("play", "predict seed=1"),),
+    "match": (Action("play", "match"),),
+    "follow": (Action("play", "follow"),),
+    "recording": (Action("record", "gif"),),
+}
+RUNNING: dict[str, tuple[Action | str, ...]] = {
+    "a mechanism": (),
+    "a chart": (Action("plot", "crank.angle"),),
+    "names": ("names",),
+    "edited and closed": ("edit", Action("nudge", 1), "edit"),
+}
 
 
-def test_it_walks_on_running_with_nothing_over_it() -> None:
-    state = run(after(begin(load("crank-rocker"), attract=True), "pause", "help"), ATTRACT_AFTER + 60)
-    assert not state.is_covered
-    assert math.isclose(state.phase, state.clock.speed, rel_tol=0.05)
+def untouched(state: State, minutes: int = 20) -> State:
+    """Let minutes go by, each looked at for some frames."""
+    for _ in range(minutes):
+        state = run(replace(state, frame=state.frame + 60 * 60 - 4), 4)
+    return state
 
 
-def test_a_key_ends_the_walk() -> None:
-    state = run(begin(attract=True), ATTRACT_AFTER)
-    touched = after(state, "trace")
-    assert run(touched, ATTRACT_AFTER - 1).scene == state.scene
+def still(state: State) -> State:
+    """Return what of a state stays while its clock runs on: a message and a flash go."""
+    gone = replace(state, frame=0, toast=None, chip=None, place_typed="", faded=None, turned=None, glide=None)
+    return replace(gone, effects=(), beneath=None)
 
 
-def test_without_being_asked_it_stays() -> None:
-    assert run(begin(), ATTRACT_AFTER + 1).scene.name == names()[0]
+def test_nothing_walks_away_from_what_was_left() -> None:
+    for kiosk, cases in ((False, {**LEFT, **RUNNING}), (True, LEFT)):
+        for name, actions in cases.items():
+            state = replace(begin(), games=game_of, from_title=True, kiosk=kiosk)
+            state = run(after(state, *actions), 90)
+            assert still(untouched(state)) == still(state), (kiosk, name)
 
 
-def test_a_recording_is_not_walked_away_from() -> None:
-    state = after(begin(attract=True), Action("record", "gif"))
-    assert run(state, 2 * ATTRACT_AFTER).scene.name == names()[0]
+@pytest.mark.parametrize("name", RUNNING)
+def test_the_first_action_in_a_kiosk_only_brings_back_what_was_left(name: str) -> None:
+    state = run(after(replace(begin(), games=game_of, kiosk=True), *RUNNING[name]), 90)
+    alone = untouched(state, 3)
+    assert alone.game
+    back = after(alone, Action("option", 1))
+    assert still(replace(back, touched=state.touched, clock=state.clock)) == still(state)
+    assert back.clock.speed == state.clock.speed
+    assert run(back, 60).game is None
