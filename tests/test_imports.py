@@ -178,6 +178,7 @@ def test_a_class_has_one_name_and_a_name_one_class() -> None:
 
 
 HEAVY = ("numpy", "pygame", "PIL", "imageio", "imageio_ffmpeg", "tqdm")
+ROOMS = ("linkanim.mechanics", "linkanim.scenes", "linkanim.bench", "linkanim.synthesis", "linkanim.explain")
 NO_WINDOW = ("pygame", "PIL", "imageio", "imageio_ffmpeg")
 
 
@@ -187,21 +188,41 @@ NO_WINDOW = ("pygame", "PIL", "imageio", "imageio_ffmpeg")
     [
         pytest.param(
             ("import linkanim", "main(['--help'])", "main(['record', '--help'])"),
-            HEAVY,
+            (*HEAVY, *ROOMS),
             id="--help",
         ),
-        pytest.param(("main(['--version'])",), ("pygame", "PIL", "tqdm"), id="--version"),
+        pytest.param(("main(['--version'])",), ("numpy", "pygame", "PIL", "tqdm", *ROOMS), id="--version"),
         pytest.param(
             (
                 *("from linkanim import load", "from linkanim import path", "main(['scenes'])"),
                 *("main(['info', 'press'])", "main(['solve', 'press', '--angle', '87 deg'])"),
             ),
-            NO_WINDOW,
+            (*NO_WINDOW, "linkanim.bench", "linkanim.explain"),
             id="solve",
         ),
-        pytest.param(("from linkanim import record",), ("linkanim.player", "linkanim.cli"), id="record"),
-        pytest.param(("import linkanim.cli.commands.draw",), ("orjson", "tqdm", "PIL", "imageio"), id="draw"),
-        pytest.param(("import linkanim.paper.write",), ("linkanim.player", "linkanim.recorder"), id="paper"),
+        pytest.param(
+            ("from linkanim import record", "import linkanim.recorder.recording"),
+            ("linkanim.player", "linkanim.play", "linkanim.paper", "linkanim.explain", "linkanim.cli"),
+            id="record",
+        ),
+        pytest.param(
+            ("import linkanim.cli.commands.record",),
+            ("linkanim.player", "linkanim.play", "linkanim.paper", "linkanim.explain", "linkanim.bench"),
+            id="record without a tape",
+        ),
+        pytest.param(
+            ("import linkanim.cli.commands.draw",),
+            (
+                *("orjson", "tqdm", "PIL", "imageio"),
+                *("linkanim.explain", "linkanim.synthesis", "linkanim.player", "linkanim.bench"),
+            ),
+            id="draw",
+        ),
+        pytest.param(
+            ("import linkanim.paper.write",),
+            ("linkanim.player", "linkanim.recorder", "linkanim.explain", "linkanim.synthesis"),
+            id="paper",
+        ),
     ],
 )
 def test_a_start_loads_no_more_than_it_needs(starts: tuple[str, ...], absent: tuple[str, ...]) -> None:

@@ -17,7 +17,6 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from linkanim import units
-from linkanim.bench.command import CHART
 from linkanim.bounds import LARGEST_SIDE, MOST_LISTED, MOST_POSES
 from linkanim.errors import BadInput
 from linkanim.picture.look import TOGGLES, Look, Option, Toggle
@@ -639,7 +638,9 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         ),
         _flag("--path", "measure what `linkanim path` finds instead"),
         _value("--seconds S", positive, "of its global search (default: 600)", 600.0),
-        _value("--into FOLDER", Path, f"where {CHART} goes (default: recordings)", Path("recordings")),
+        _value(
+            "--into FOLDER", Path, "where speed-vs-error.png goes (default: recordings)", Path("recordings")
+        ),
     ),
     "manual": (
         _takes(

@@ -10,7 +10,6 @@ from linkanim.cli.options import inputs_of
 from linkanim.errors import BadInput
 from linkanim.manifest import Output, checked_output
 from linkanim.mechanics.measures import coupler_body
-from linkanim.paper.latex import refuse_latex
 from linkanim.picture.look import TOGGLES, Look
 from linkanim.recorder.plan import refuse_size
 from linkanim.scenes import load
@@ -31,6 +30,8 @@ def scene_size_target(
         options.output, f"{Path(options.scene).stem}{usual}", suffixes, inputs_of(options)
     )
     if options.text:
+        from linkanim.paper.latex import refuse_latex
+
         refuse_latex(target)
     size = options.size or _SIZE
     refuse_size(size, painted=target.path.suffix.lower() == ".png")

@@ -431,12 +431,14 @@ class Motion(Derived[Array, Array]):
             return {name: {}}
         return self._worked_out((*[kind for kind in LOWER[name] if kind not in vars(self)], name))
 
-    @property
+    @cached_property
     def every(self) -> Mapping[str, Mapping[str, Array]]:
-        """All quantities by kind and name, from one pass."""
+        """All quantities by kind and name, from one pass; none of them is worked out again."""
         kinds: dict[str, Any] = {kind: {} for family in FAMILIES for kind in family}
         known = (kind for kind in kinds if DERIVATIVE_OF[kind] <= self.instants.derivatives)
-        return kinds | self._worked_out(tuple(known))
+        found = kinds | self._worked_out(tuple(known))
+        vars(self).update(found)
+        return found
 
     def _worked_out(self, kinds: tuple[str, ...]) -> dict[str, Any]:
         """Return these quantities."""
@@ -527,11 +529,17 @@ class _Paced(Motion):
     def __reduce__(self) -> tuple[Any, ...]:
         return _Paced, (self.motion, self.factor)
 
-    def _read(self, name: str) -> dict[str, Any]:
-        found, power = getattr(self.motion, name), self.factor ** ORDER[name]
-        if not ORDER[name]:
-            return {name: found}
-        return {name: scaled(found, power) if name in DERIVATIVE_OF else read_only(found * power)}
+    def _worked_out(self, kinds: tuple[str, ...]) -> dict[str, Any]:
+        found = {kind: getattr(self.motion, kind) for kind in kinds}
+        return {kind: scaled(of, self._power(kind)) if ORDER[kind] else of for kind, of in found.items()}
+
+    def _input(self) -> dict[str, Any]:
+        found = {name: getattr(self.motion, name) for name in ("phase", *COORDINATE)}
+        return {name: read_only(of * self._power(name)) if ORDER[name] else of for name, of in found.items()}
+
+    def _power(self, name: str) -> float:
+        power: float = self.factor ** ORDER[name]
+        return power
 
 
 def _mark_limits(places: ResultLayout, results: Array, snapped: Array, at_limit: NDArray[np.bool_]) -> None:

@@ -15,7 +15,8 @@ from typing import NamedTuple
 import numpy as np
 import pygame
 
-from linkanim.paper.curves import Curve, Curves, MeasuredCurve, Peak, extremes
+from linkanim.export import csv_head, csv_rows
+from linkanim.paper.curves import Curve, Curves, MeasuredCurve, Peak, extremes, table
 from linkanim.picture.chart import (
     Pen,
     Plot,
@@ -275,6 +276,11 @@ class Page:
         """What it shows, in words."""
         words = dict.fromkeys(curve.quantity.words for curve in self.curves.curves)
         return f"{self.curves.scene.title}: {', '.join(words)}"
+
+    def csv(self) -> str:
+        """Return the curves as a table."""
+        names, columns = table(self.curves)
+        return csv_head(names) + csv_rows(columns)
 
     def groups(self) -> tuple[Group, ...]:
         """Return everything on the page, words over shapes."""

@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from linkanim.errors import BadInput
-from linkanim.explain.formula import plain_latex
 from linkanim.manifest import Output
 from linkanim.paper.pdf import pdf
 from linkanim.paper.svg import flat
@@ -75,6 +74,8 @@ def words(size: tuple[int, int], items: Iterable[Item], name: str) -> str:
 
 def _put(size: tuple[int, int], line: Caption) -> Iterator[str]:
     """Yield what puts a line of text: its baseline where the picture has it."""
+    from linkanim.explain.formula import plain_latex  # not needed before words are set
+
     if not line.text or not line.strength:
         return
     width, height = size

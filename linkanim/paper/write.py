@@ -2,23 +2,50 @@
 
 from __future__ import annotations
 
-from linkanim.export import csv_head, csv_rows
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Protocol, runtime_checkable
+
 from linkanim.manifest import Output
-from linkanim.paper.chart import Page
-from linkanim.paper.construction import ConstructionPage, ErrorChart
-from linkanim.paper.curves import table
-from linkanim.paper.figure import Figured
-from linkanim.paper.illustration import Illustration
-from linkanim.paper.latex import write_for_latex
 from linkanim.paper.pdf import pdf, require_pdf
 from linkanim.paper.svg import svg
-from linkanim.picture.raster import png_bytes
+from linkanim.picture.items import Group
+from linkanim.picture.raster import Colour, png_bytes
+
+if TYPE_CHECKING:
+    import pygame
 
 OF_A_FIGURE = (".svg", ".png", ".pdf")
 OF_A_CHART = (*OF_A_FIGURE, ".csv")
 
 
-Written = Figured | Page | ErrorChart | ConstructionPage | Illustration
+class Written(Protocol):
+    """What can be written: a picture of so many pixels, and what it shows in words."""
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Its width and height in pixels."""
+
+    @property
+    def background(self) -> Colour | None:
+        """The colour under everything; None where it is clear."""
+
+    @property
+    def title(self) -> str:
+        """What it shows, in words."""
+
+    def groups(self) -> Iterable[Group]:
+        """Return everything on it, back to front."""
+
+    def surface(self) -> pygame.Surface:
+        """Return it drawn."""
+
+
+@runtime_checkable
+class Tabled(Written, Protocol):
+    """A chart, whose curves can be written as a table too."""
+
+    def csv(self) -> str:
+        """Return the table as CSV."""
 
 
 def write(shown: Written, target: Output, *, latex: bool = False) -> None:
@@ -31,6 +58,8 @@ def write(shown: Written, target: Output, *, latex: bool = False) -> None:
     if suffix == ".pdf":
         require_pdf()
     if latex:
+        from linkanim.paper.latex import write_for_latex
+
         write_for_latex(target, shown.size, shown.background, shown.groups(), title=shown.title)
         return
     with target.replacing() as part:
@@ -40,10 +69,7 @@ def write(shown: Written, target: Output, *, latex: bool = False) -> None:
 def data(shown: Written, suffix: str) -> bytes:
     """Return a figure or a chart as a kind of file."""
     match suffix:
-        case ".csv" if isinstance(shown, Page):
-            names, columns = table(shown.curves)
-            return (csv_head(names) + csv_rows(columns)).encode()
-        case ".csv" if isinstance(shown, ErrorChart):
+        case ".csv" if isinstance(shown, Tabled):
             return shown.csv().encode()
         case ".png":
             return png_bytes(shown.surface())

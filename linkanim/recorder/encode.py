@@ -20,14 +20,16 @@ from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
 from threading import Event, Semaphore, Thread
-from typing import IO
+from typing import IO, TYPE_CHECKING
 
 from imageio_ffmpeg import get_ffmpeg_exe
 
 from linkanim import child
 from linkanim.errors import RecordingFailed
-from linkanim.recorder.palette import Colour, Indexing
 from linkanim.recorder.plan import Format
+
+if TYPE_CHECKING:
+    from linkanim.recorder.palette import Colour
 
 # An encoder as a process: fed through a pipe, listened to, and gone when the work is over.
 
@@ -272,6 +274,8 @@ def encoding(
     """
     with running(_command(stream, form, part), ahead=_AHEAD[form]) as write:
         if form == "gif":
+            from linkanim.recorder.palette import Indexing
+
             indices = Indexing(palette(), math.prod(stream.size), alpha=stream.alpha)
             yield lambda frame: write(indices(frame))
         else:

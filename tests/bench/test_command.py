@@ -117,5 +117,7 @@ def test_the_processor_has_its_name(
     assert this_machine().cpu == name
 
 
-def test_the_chart_has_the_name_that_is_promised() -> None:
+def test_the_chart_has_the_name_that_is_promised(capsys: pytest.CaptureFixture[str]) -> None:
     assert command.CHART == "speed-vs-error.png"
+    assert main(["bench", "--help"]) == 0
+    assert f"where {command.CHART} goes" in " ".join(capsys.readouterr().out.split())

@@ -8,10 +8,9 @@ from linkanim.bounds import MOST_DRAWN
 from linkanim.cli.commands.solve import phase_at
 from linkanim.cli.picture_options import look_of, scene_size_target
 from linkanim.errors import BadInput
-from linkanim.paper.construction import ConstructionPage
+from linkanim.manifest import Output
 from linkanim.paper.figure import Figured
-from linkanim.paper.latex import labels_of
-from linkanim.paper.write import OF_A_FIGURE, write
+from linkanim.paper.write import OF_A_FIGURE, Written, write
 from linkanim.scenes.scene import Scene
 
 
@@ -21,21 +20,27 @@ def run(options: Namespace) -> None:
     look = look_of(scene, options)
     _refuse_many(scene, options.poses or 0)
     if options.construction is not None:
+        from linkanim.paper.construction import ConstructionPage
+
         page = ConstructionPage(scene, size, look.theme, options.construction or None)
-        write(page, target, latex=bool(options.text))
-        print(target.path)
-        if options.text:
-            print(labels_of(target).path)
+        _write(page, target, latex=bool(options.text))
         return
     phase = options.phase if options.angle is None else phase_at(scene, options.angle)
     phase = None if phase is None else float(phase)
     shown = Figured(scene, size, look, phase, options.poses or 0, options.speed)
-    write(shown, target, latex=bool(options.text))
-    print(target.path)
-    if options.text:
-        print(labels_of(target).path)
+    _write(shown, target, latex=bool(options.text))
     if shown.phase is None:
         print(f"{shown.caption}: the joints farthest apart; --angle or --phase for another pose")
+
+
+def _write(shown: Written, target: Output, *, latex: bool) -> None:
+    """Write a picture, and print the path of each file that came of it."""
+    write(shown, target, latex=latex)
+    print(target.path)
+    if latex:
+        from linkanim.paper.latex import labels_of
+
+        print(labels_of(target).path)
 
 
 def _refuse_many(scene: Scene, poses: int) -> None:

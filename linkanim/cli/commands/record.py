@@ -21,7 +21,6 @@ from linkanim.errors import BadInput
 from linkanim.manifest import checked_output
 from linkanim.picture.look import TOGGLES
 from linkanim.recorder.recording import SUFFIXES, Progress, Recording, record
-from linkanim.recorder.tape_frames import record_tape
 from linkanim.scenes import load
 
 _OF_A_SCENE = ("speed", "periods", "seconds", "reverse", "noted")
@@ -65,6 +64,9 @@ def _of_tape(options: Namespace) -> Callable[..., Recording]:
         if found != getattr(usual, name, None):
             word = _word(name, found)
             raise BadInput(f"{word} is for a scene; a tape keeps its own (--size, --fps and --for are free)")
+    # With it come the player, building and the games, which a scene without a tape does not need.
+    from linkanim.recorder.tape_frames import record_tape
+
     return partial(record_tape, options.scene, photo=options.photo)
 
 

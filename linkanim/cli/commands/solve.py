@@ -55,6 +55,8 @@ def input_key(scene: Scene) -> str:
 
 def tree(scene: Scene, motion: Motion) -> Tree:
     """Return every quantity of N poses under its path, in the scene's unit, radians and seconds."""
+    for known in (motion, motion.per_input):
+        _ = known.every  # one program for all that is read below, where each kind would take its own
     found: Tree = {"joints": {}, "bodies": {}, "springs": {}, "dampers": {}}
     for quantity in recorded(scene.linkage):
         _put(found, quantity.path, _leaf(quantity.read(motion), motion))
@@ -383,7 +385,7 @@ def _blocks(scene: Scene, inputs: Inputs, speed: float, acceleration: float) -> 
         yield from blocks(scene, inputs.steps, inputs.by, speed, solve)
         return
     motion = solve(np.array([inputs.value]))
-    if any(np.isnan(points).any() for points in motion.position.values()):
+    if any(np.isnan(points).any() for points in motion.every["position"].values()):
         raise _out_of_range(scene, inputs.value)
     where = {input_key(scene): motion.coordinate, "phase": motion.phase, inputs.by: np.array([inputs.value])}
     yield RowBlock(np.degrees([inputs.value]), {**where, **tree(scene, motion)})
