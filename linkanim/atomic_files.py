@@ -246,7 +246,7 @@ def alone(target: Path) -> Iterator[None]:
     until = time.monotonic() + _PATIENCE
     while (claim := Claim.on(target)) is None:
         if time.monotonic() > until:
-            raise WorkFailed(f"{target}: cannot be written: another linkanim does not let go of it")
+            raise WorkFailed(f"{target}: cannot be written: another linkanim is using it")
         time.sleep(_PAUSE)
     try:
         yield

@@ -40,7 +40,7 @@ _LIST = Intake("a list of files that linkanim wrote", most_bytes=50_000_000, mos
 _SUM = re.compile(r"[0-9a-f]{64}")
 _STRANGE = {
     True: "was changed after linkanim wrote it, and is not written over",
-    False: "is not known to be linkanim's, which before 0.3.0 kept no list of what it wrote",
+    False: "may not be linkanim's own (before 0.3.0 it kept no list of what it wrote)",
 }
 
 

@@ -82,7 +82,7 @@ def refused(files: FileSet, why: str) -> None:
 def test_a_name_that_a_foreign_file_has_is_refused(files: FileSet) -> None:
     files.folder.mkdir()
     (files.folder / "page.html").write_text("mine")
-    refused(files, r"page\.html is not known to be linkanim's.*; move it away, or choose another name$")
+    refused(files, r"page\.html may not be linkanim's own.*; move it away, or choose another name$")
 
 
 def test_what_was_changed_since_we_wrote_it_is_refused(files: FileSet) -> None:

@@ -245,7 +245,7 @@ class Parser(argparse.ArgumentParser):
         # argparse's own says the value whole, however long it is
         if action.choices is not None and value not in action.choices:
             choices = ", ".join(map(shown, action.choices))
-            raise argparse.ArgumentError(action, f"{shown(value)} is none of its choices: {choices}")
+            raise argparse.ArgumentError(action, f"{shown(value)} is not one of its choices: {choices}")
 
     def format_help(self) -> str:
         """Return argparse's help, what `before` adds, and the examples as its last lines."""
@@ -385,57 +385,67 @@ def _reading(option: Option, toggle: Toggle, usual: object) -> dict[str, Any]:
 
 
 _SCENE = _scene()
-_SIZE = _value("--size WxH", size, "pixels (default: 1280x720)")
-_WINDOW_SIZE = _value("--size WxH", size, "the window's, in pixels")
-_TEXT = _takes("--text", choices=("latex",), help="leave a PDF's words to LaTeX, in FIG.pdf_tex beside it")
-_ANGLE = _value("--angle ANGLE", units.angle, 'crank angle, such as "87 deg"')
-_PHASE = _value("--phase PHASE", units.angle, "phase instead (default: joints farthest apart)")
-_SPEED = _value("--speed SPEED", units.angular_speed, 'such as "30 rpm" (default: the scene\'s)')
+_SIZE = _value("--size WxH", size, "width and height in pixels (default: 1280x720)")
+_WINDOW_SIZE = _value("--size WxH", size, "the size of the window in pixels")
+_TEXT = _takes(
+    "--text", choices=("latex",), help="leave the words of a PDF to LaTeX, in FIG.pdf_tex beside it"
+)
+_ANGLE = _value("--angle ANGLE", units.angle, 'the crank angle, such as "87 deg"')
+_PHASE = _value(
+    "--phase PHASE", units.angle, "a phase instead of an angle (default: where the joints are farthest apart)"
+)
+_SPEED = _value(
+    "--speed SPEED", units.angular_speed, "the input's speed, such as \"30 rpm\" (default: the scene's)"
+)
 
 
 def _limits(sizes: str) -> tuple[Argument, ...]:
     """Return the limits of what is synthesised."""
     return (
-        _value("--box X,Y,W,H", box, "in which all fixed pins lie"),
-        _value("--largest F", positive, f"link, in {sizes} (default: 8)", 8.0),
-        _value("--least-angle ANGLE", units.angle, "of transmission", 0.0),
+        _value("--box X,Y,W,H", box, "the rectangle in which all fixed pins lie"),
+        _value("--largest F", positive, f"the longest link allowed, in {sizes} (default: 8)", 8.0),
+        _value("--least-angle ANGLE", units.angle, "the least transmission angle allowed", 0.0),
     )
 
 
 ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
     "play": (
         _scene(", or of a tape", nargs="?"),
-        _flag("--attract", "for a stand: full screen, back to the title when left alone"),
+        _flag("--attract", "run for a stand: full screen, and back to the title when left alone"),
         _WINDOW_SIZE,
-        _value("--scores FILE.json", Path, "where best scores are kept (default: the user's data folder)"),
+        _value(
+            "--scores FILE.json", Path, "keep best scores in this file (default: in the user's data folder)"
+        ),
         _value(
             "--game WORDS",
             str,
-            'begin with a game: "match level=mine.toml", "follow scene=press", "predict level=2"',
+            'begin with a game, such as "match level=mine.toml", "follow scene=press", "predict level=2"',
         ),
         _look("play"),
     ),
     "new": (
-        _value("--photo FILE", Path, "a photograph to build over"),
+        _value("--photo FILE", Path, "lay a photograph behind the sheet"),
         _WINDOW_SIZE,
-        _takes("--theme", choices=("light", "dark"), default="light", help="colours (default: light)"),
+        _takes("--theme", choices=("light", "dark"), default="light", help="the colours (default: light)"),
     ),
     "record": (
         _scene(", or of a tape"),
-        _output("OUT.gif, OUT.mp4 or OUT.png (default: SCENE.gif here)"),
-        _takes("--for", dest="preset", choices=tuple(PRESETS), help="size, fps and format for a purpose"),
+        _output("write OUT.gif, OUT.mp4 or numbered OUT.png (default: SCENE.gif in this folder)"),
+        _takes(
+            "--for", dest="preset", choices=tuple(PRESETS), help="take size, rate and format for a purpose"
+        ),
         _SIZE,
-        _value("--fps N", positive, "frames a second (default: 25)"),
+        _value("--fps N", positive, "frames per second (default: 25)"),
         _SPEED,
         _either(
-            _value("--periods N", count, "true periods (default: 1)"),
-            _value("--seconds S", positive, "the clip's length; it need not close"),
+            _value("--periods N", count, "how many true periods to record (default: 1)"),
+            _value("--seconds S", positive, "how long the clip is in seconds; it need not close"),
         ),
-        _flag("--reverse", "run backwards"),
+        _flag("--reverse", "run the motion backwards"),
         _look("record"),
-        _flag("--noted", "have the text say where a limit or a change point is near"),
-        _flag("--photo", "with a tape's photograph behind what is built"),
-        _flag("--progress", "show it also where stderr is no terminal"),
+        _flag("--noted", "note nearby limits and change points"),
+        _flag("--photo", "show the photograph of a tape on which something is built"),
+        _flag("--progress", "show the progress even if stderr is not a terminal"),
     ),
     "solve": (
         _SCENE,
@@ -443,18 +453,21 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _value(
             "--phase PHASE",
             units.angle,
-            "phase instead of the crank angle, through limits too; 360 deg is one period of the drive "
-            "(without a value, beside --sweep: sweep the phase)",
+            "a phase instead of the crank angle, also through limits; 360 deg is one period of the drive "
+            "(without a value, --sweep is over the phase)",
             nargs="?",
             const=EVERY_ANGLE,
         ),
         _value("--sweep A:B:STEP", sweep, "a row for each angle from A to B, in degrees"),
         _SPEED,
         _value(
-            "--acceleration ACC", units.ANGULAR_ACCELERATION.read, 'such as "2 rad/s^2" (default: 0)', 0.0
+            "--acceleration ACC",
+            units.ANGULAR_ACCELERATION.read,
+            'the input\'s acceleration, such as "2 rad/s^2" (default: 0)',
+            0.0,
         ),
         _either(
-            _flag("--json", "one object, or a list of them for a sweep"),
+            _flag("--json", "print one object, or a list of them for a sweep"),
             _value("--csv OUT", str, "write the sweep to the file OUT (- for stdout)"),
         ),
         _look("solve"),
@@ -464,57 +477,61 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _value(
             "--quantity Q[,Q...]",
             str,
-            "such as rocker.angular_velocity or B.velocity.x; a wrong one is answered with the list",
+            "what to draw, such as rocker.angular_velocity or B.velocity.x; a wrong name prints the list",
             required=True,
         ),
-        _output("OUT.png, OUT.svg, OUT.pdf or OUT.csv (default: SCENE.png here)"),
+        _output("write OUT.png, OUT.svg, OUT.pdf or OUT.csv (default: SCENE.png in this folder)"),
         _TEXT,
-        _speeds("a curve for each"),
-        _value("--data OTHER.csv", Path, "lay a table over it: what --over says, value"),
-        _value("--label TEXT", str, "what that table is called (default: its file's name)"),
+        _speeds("draw a curve for each speed"),
+        _value(
+            "--data OTHER.csv",
+            Path,
+            "lay a table over the first curve; its columns are what --over says, and the value",
+        ),
+        _value("--label TEXT", str, "the name of that table in the legend (default: its file's name)"),
         _SIZE,
         _look("chart"),
     ),
     "report": (
         _SCENE,
-        _value("-o --output DIR", Path, "the folder to make, or to make anew", required=True),
+        _value("-o --output DIR", Path, "the folder to write, or to write anew", required=True),
         _value(
             "--angles ANGLE[,ANGLE...]",
             angles,
-            'where to tell every quantity, such as "87 deg,306 deg" (default: the start and the extremes)',
+            'where the tables are, such as "87 deg,306 deg" (default: the start and the extremes)',
         ),
-        _speeds("for tables and charts"),
-        _value("--digits N", digits, "of the tables' numbers (default: 4)", 4),
-        _flag("--all", "every quantity, and a chart of each, as well"),
+        _speeds("the speeds of tables and charts"),
+        _value("--digits N", digits, "significant digits in the tables (default: 4)", 4),
+        _flag("--all", "add every quantity, and a chart of each"),
         _look("report"),
     ),
-    "info": (_SCENE, _flag("--json", "one object; angles in radians, time in s")),
+    "info": (_SCENE, _flag("--json", "print one object; angles in radians, times in seconds")),
     "check": (
-        _takes("files", nargs="*", metavar="FILE", help="scene files"),
-        _flag("--json", "a list of objects, one for each file"),
+        _takes("files", nargs="*", metavar="FILE", help="the scene files to check"),
+        _flag("--json", "print a list with an object for each file"),
         _flag("--schema", "print the JSON Schema of scene files"),
     ),
     "scenes": (
         _value(
             "word WORD",
             str,
-            "only those whose title, class or chapter has this in it (default: all)",
+            "only scenes whose title, class or chapter has this word (default: all)",
             nargs="?",
         ),
     ),
     "draw": (
         _SCENE,
-        _output("OUT.svg, OUT.png or OUT.pdf (default: SCENE.svg here)"),
+        _output("write OUT.svg, OUT.png or OUT.pdf (default: SCENE.svg in this folder)"),
         _TEXT,
         _either(_ANGLE, _PHASE),
         _SPEED,
         _SIZE,
         _look("draw"),
-        _value("--poses N", poses, "N faint poses over the period behind it"),
+        _value("--poses N", poses, "draw N faint poses of the period behind it"),
         _value(
             "--construction N",
             count,
-            "instead, how `guide`, `function` or `quick-return` made it; the first N steps of that",
+            "draw how `guide`, `function` or `quick-return` found it, or its first N steps, not the pose",
             nargs="?",
             const=0,
         ),
@@ -522,62 +539,84 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
     ),
     "explain": (
         _SCENE,
-        _output("OUT.html, OUT.tex or OUT.md (default: Markdown on stdout)"),
+        _output("write OUT.html, OUT.tex or OUT.md (default: Markdown on stdout)"),
         _either(_ANGLE, _PHASE),
         _SPEED,
-        _flag("--exercise", "leave the numbers open, with a key on a page of its own"),
+        _flag("--exercise", "leave the numbers open, and put the key on a page of its own"),
         _value(
             "--seed N",
             whole,
-            "other round lengths, the same kind of motion; a number gives the same ones always",
+            "take other round lengths with the same kind of motion; a seed always gives the same lengths",
         ),
         _look("explain"),
     ),
     "quiz": (
         _scene("; or a chapter, as sliders; or all", metavar="SCENE|CHAPTER"),
-        _output("SHEET.html (default: text on stdout)"),
+        _output("write SHEET.html (default: text on stdout)"),
         _value("--moodle OUT.xml", Path, "for Moodle: a category for each chapter, figures and all"),
         _value("--qti OUT.zip", Path, "for Canvas and other learning platforms: a package of QTI 1.2"),
-        _value("-n N", whole, "how many questions (default: 10)", 10, dest="count"),
-        _value("--seed N", whole, "a number gives the same questions always (default: 0)", 0),
-        _flag("--json", "as a list of objects"),
+        _value("-n N", whole, "the number of questions (default: 10)", 10, dest="count"),
+        _value("--seed N", whole, "a seed always gives the same questions (default: 0)", 0),
+        _flag("--json", "print a list of objects"),
     ),
     "share": (
         _scene(nargs="?"),
-        _output("LINKAGE.html (default: SCENE.html here)"),
-        _value("--all DIR", Path, "every built-in scene, and an index of them"),
+        _output("write LINKAGE.html (default: SCENE.html in this folder)"),
+        _value("--all DIR", Path, "write every built-in scene, and an index of them, to this folder"),
         _SPEED,
         _look("share"),
         _usually(theme=None),
     ),
     "path": (
-        _value("curve CURVE", Path, "two columns x and y (a third with the crank's angles), or an SVG"),
-        _output("NAME.toml of the best; the others are NAME-2.toml, ... (default: CURVE.toml here)"),
-        _takes("--kind", choices=("four-bar", "slider-crank"), default="four-bar", help="default: four-bar"),
-        _value("--timing STEP", timing, 'the crank\'s angle a point, "20 deg", or `column`'),
-        _value("--count N", count, "answers (default: 5)", 5),
+        _value(
+            "curve CURVE", Path, "a table of x and y (and of the crank's angles in a third column), or an SVG"
+        ),
+        _output(
+            "write the best to NAME.toml, the others to NAME-2.toml, ... (default: CURVE.toml in this folder)"
+        ),
+        _takes(
+            "--kind",
+            choices=("four-bar", "slider-crank"),
+            default="four-bar",
+            help="the kind of linkage (default: four-bar)",
+        ),
+        _value(
+            "--timing STEP",
+            timing,
+            'how far the crank turns from point to point, such as "20 deg", or `column`',
+        ),
+        _value("--count N", count, "the number of answers (default: 5)", 5),
         *_limits("sizes of the curve"),
-        _value("--round LENGTH", step, 'round lengths to, such as "0.1 mm", and fit the rest again'),
+        _value("--round LENGTH", step, 'round all lengths to multiples of this, such as "0.1 mm"'),
         _flag("--open", "the curve does not close"),
-        _flag("--cognates", "each four-bar's two Roberts cognates, too"),
-        _flag("--json", "a list of objects; angles in radians"),
+        _flag("--cognates", "add the two Roberts cognates of each four-bar"),
+        _flag("--json", "print a list of objects; angles in radians"),
     ),
     "guide": (
-        _value("poses POSES", Path, "a row for each pose: x, y and its angle in degrees; 2 to 5 rows"),
+        _value("poses POSES", Path, "a table of 2 to 5 poses: x, y and the angle in degrees"),
         _value(
             "-o --output NAME.toml",
             Path,
-            "of the best; the others are NAME-2.toml, ... (default: POSES.toml)",
+            "write the best to NAME.toml, the others to NAME-2.toml, ... (default: POSES.toml)",
         ),
-        _takes("--kind", choices=("four-bar", "slider-crank"), default="four-bar", help="default: four-bar"),
-        _value("--pivots X,Y", pair, "fixed pins that are given, one or two", (), nargs="+"),
+        _takes(
+            "--kind",
+            choices=("four-bar", "slider-crank"),
+            default="four-bar",
+            help="the kind of linkage (default: four-bar)",
+        ),
+        _value("--pivots X,Y", pair, "one or two fixed pins that are given", (), nargs="+"),
         *_limits("sizes of the poses"),
-        _takes("--prefer", choices=("compact", "angle"), help="small links, or a large transmission angle"),
-        _value("--count N", count, "answers (default: 6)", 6),
-        _flag("--json", "a list of objects; angles in radians"),
+        _takes(
+            "--prefer", choices=("compact", "angle"), help="prefer small links, or a large transmission angle"
+        ),
+        _value("--count N", count, "the number of answers (default: 6)", 6),
+        _flag("--json", "print a list of objects; angles in radians"),
     ),
     "function": (
-        _takes("given", metavar="FUNCTION", help='such as "y = log10(x)", or a table of x and y'),
+        _takes(
+            "given", metavar="FUNCTION", help='an expression, such as "y = log10(x)", or a table of x and y'
+        ),
         _value("--from A", number, "the first x", dest="first"),
         _value("--to B", number, "the last x", dest="last"),
         _takes(
@@ -585,74 +624,111 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
             dest="output_file",
             metavar="NAME.toml",
             type=Path,
-            help="of the best; the others are NAME-2.toml, ... (default: function.toml here)",
+            help="write the best to NAME.toml, the others to NAME-2.toml, ... (default: function.toml)",
         ),
-        _takes("--kind", choices=("four-bar", "slider-crank"), default="four-bar", help="default: four-bar"),
+        _takes(
+            "--kind",
+            choices=("four-bar", "slider-crank"),
+            default="four-bar",
+            help="the kind of linkage (default: four-bar)",
+        ),
         _value(
             "--input ANGLE",
             str,
-            'over which the crank turns, "60 deg", or from where to where, "30 deg:90 deg" (default: any)',
+            'the range of the crank, such as "60 deg", or its two ends, "30 deg:90 deg" (default: any)',
         ),
         _value(
             "--output RANGE",
             str,
-            'likewise of the rocker, or of the slider "80 mm" (default: any, or 100 mm)',
+            'the range of the rocker, or of the slider, "80 mm" (default: any, or 100 mm)',
         ),
-        _value("--points N", count, "precision points, 3 to 5 (default: as many as there can be)"),
-        _flag("--chebyshev", "keep the precision points where Chebyshev has them"),
-        _value("--count N", count, "answers (default: 3)", 3),
-        _value("--chart ERROR", Path, "draw the best one's structural error, as SVG, PNG, PDF or CSV"),
-        _flag("--json", "a list of objects; angles in radians"),
+        _value("--points N", count, "the number of precision points, 3 to 5 (default: as many as possible)"),
+        _flag("--chebyshev", "keep Chebyshev's spacing of the precision points"),
+        _value("--count N", count, "the number of answers (default: 3)", 3),
+        _value("--chart ERROR", Path, "draw the structural error of the best answer as SVG, PNG, PDF or CSV"),
+        _flag("--json", "print a list of objects; angles in radians"),
     ),
     "quick-return": (
-        _value("--ratio Q", positive, "the slow way's time over the quick way's", required=True),
-        _value("--stroke L", length, "of the slider, in mm; of a rocker's pin, the chord"),
-        _value("--swing ANGLE", units.angle, 'of the rocker, such as "60 deg"'),
-        _takes("--kind", choices=("slider-crank", "crank-rocker"), help="default: what the output is"),
-        _value("--place S", number, "one member of the family, from 0 to 1, instead of the best"),
-        _value("--count N", count, "answers: the best, and others of its family (default: 5)", 5),
-        _output("NAME.toml of the best; the others are NAME-2.toml, ... (default: quick-return.toml here)"),
-        _flag("--json", "a list of objects; angles in radians"),
+        _value(
+            "--ratio Q", positive, "the time ratio: the slow way's time over the quick way's", required=True
+        ),
+        _value("--stroke L", length, "the stroke of the slider in mm; for a rocker, the chord of its pin"),
+        _value("--swing ANGLE", units.angle, 'the swing of the rocker, such as "60 deg"'),
+        _takes(
+            "--kind",
+            choices=("slider-crank", "crank-rocker"),
+            help="the kind of linkage (default: as --stroke or --swing asks for)",
+        ),
+        _value("--place S", number, "take one member of the family, from 0 to 1, instead of the best"),
+        _value(
+            "--count N", count, "the number of answers: the best, and others of its family (default: 5)", 5
+        ),
+        _output("write the best to NAME.toml, the others to NAME-2.toml, ... (default: quick-return.toml)"),
+        _flag("--json", "print a list of objects; angles in radians"),
     ),
     "make": (
         _SCENE,
-        _value("-o --output FOLDER", Path, "the folder to make, or to make anew"),
-        _takes("--way", choices=WAYS, default=WAYS[0], help="of making it (default: cardboard)"),
-        _value("--bar W", millimetres, "how wide bars are, in mm (default: for the scene's size)"),
-        _value("--hole D", millimetres, "how wide holes are (default: two fifths of a bar, or 6)"),
-        _value("--thickness T", millimetres, "of the material (default: 1.5, 3 or 4, by the way)"),
-        _value("--clearance C", millimetres, "of a pin in its hole (default: 0, 0.2 or 0.4)"),
-        _value("--gap G", millimetres, "at which parts pass in a layer (default: 0.5)", 0.5),
-        _value("--kerf K", millimetres, "what the cut takes away (default: 0)", 0.0),
-        _value("--sheet WxH", sheet, "of the material, in mm, or a page, A4 or Letter"),
-        _value("--fit PAGE", str, "A4 or Letter: scale all parts to fit one (default: true size)"),
+        _value("-o --output FOLDER", Path, "the folder to write, or to write anew"),
+        _takes("--way", choices=WAYS, default=WAYS[0], help="how it is made (default: cardboard)"),
+        _value("--bar W", millimetres, "the width of bars in mm (default: by the size of the scene)"),
+        _value(
+            "--hole D", millimetres, "the diameter of holes in mm (default: two fifths of a bar, at most 6)"
+        ),
+        _value(
+            "--thickness T",
+            millimetres,
+            "the thickness of the material in mm (default: 1.5, 3 or 4, depending on --way)",
+        ),
+        _value(
+            "--clearance C",
+            millimetres,
+            "how much wider a hole is than its pin, in mm (default: 0, 0.2 or 0.4)",
+        ),
+        _value(
+            "--gap G",
+            millimetres,
+            "the least distance of parts that pass in a layer, in mm (default: 0.5)",
+            0.5,
+        ),
+        _value("--kerf K", millimetres, "the width of the cut in mm (default: 0)", 0.0),
+        _value("--sheet WxH", sheet, "the size of the material in mm, or of a page, A4 or Letter"),
+        _value("--fit PAGE", str, "scale all parts to fit a page, A4 or Letter (default: true size)"),
         _value("--preview PICTURE", Path, "draw the layers, from above and lifted off: .svg, .png or .pdf"),
-        _flag("--bridge", "fixed pins may hang from a plate above, where they stand in the way below"),
+        _flag("--bridge", "let fixed pins hang from a plate above if they are in the way below"),
         _flag("--json", "print parts and pins as one object; lengths in mm"),
     ),
-    "gallery": (_value("--into FOLDER", Path, "where to (default: recordings)", Path("recordings")),),
+    "gallery": (
+        _value("--into FOLDER", Path, "the folder to write to (default: recordings)", Path("recordings")),
+    ),
     "bench": (
         _either(
-            _flag("--json", "one object"),
-            _flag("--markdown", "the table of speed and error as in the manual"),
+            _flag("--json", "print one object with every case of every method"),
+            _flag("--markdown", "print the table as it is in the manual"),
         ),
-        _flag("--path", "measure what `linkanim path` finds instead"),
-        _value("--seconds S", positive, "of its global search (default: 600)", 600.0),
+        _flag("--path", "measure what `linkanim path` finds, instead of speed and error"),
+        _value(
+            "--seconds S", positive, "how long its global search may take, in seconds (default: 600)", 600.0
+        ),
         _value(
             "--into FOLDER", Path, "where speed-vs-error.png goes (default: recordings)", Path("recordings")
         ),
     ),
     "manual": (
         _takes(
-            "word", nargs="*", metavar="WORD", help="print the chapter of that name, or what it says on it"
+            "word",
+            nargs="*",
+            metavar="WORD",
+            help="the name of a chapter, or what to look for (default: open the whole manual)",
         ),
-        _output("OUT.html, the whole manual; it is not opened then"),
+        _output("write the page to OUT.html, and do not open it"),
     ),
     "examples": (
-        _takes("names", nargs="*", metavar="NAME", help="a number, a file's name, or `all` (default: list)"),
+        _takes(
+            "names", nargs="*", metavar="NAME", help="a number, a file's name, or `all` (default: list them)"
+        ),
         _value("-o --output DIR", Path, "the folder to copy to (default: the current one)"),
     ),
-    "completion": (_takes("shell", choices=("bash", "zsh", "fish"), help="the shell to write it for"),),
+    "completion": (_takes("shell", choices=("bash", "zsh", "fish"), help="the shell that reads the script"),),
 }
 """The arguments of each command."""
 

@@ -215,7 +215,7 @@ def _why_left(joint: RRR, left: bool) -> str:
     if joint.side_of is not None:
         return f"{found}: the closure to which the motion leads from its start."
     if left == (joint.side > 0):
-        return f"{found}: as the scene names it."
+        return f"{found}: as the scene file states."
     return f"{found}: the motion came to this closure through a limit or a change point."
 
 
@@ -283,7 +283,7 @@ def _slider_ahead(joint: RRP, work: Work) -> bool:
 def _why_ahead(joint: RRP, ahead: bool) -> str:
     way, sign = ("ahead of", "plus") if ahead else ("behind", "minus")
     named = ahead == (joint.side > 0)
-    why = "as the scene names it" if named else "the motion came to it through a limit or a change point"
+    why = "as the scene file states" if named else "the motion came to it through a limit or a change point"
     return f"Here {marked(joint.name)} is {way} {marked(joint.end)}, so the root has a {sign}: {why}."
 
 

@@ -211,7 +211,7 @@ def strut(item: Spring | Damper, rates: Rates) -> Iterator[Outcome]:
     length = work.let(Symbol("L", name), sqrt(square(way.x) + square(way.y)), LENGTH)
     yield work.scale.outcome(f"{name}.length", length, LENGTH)
     if length.value == 0:
-        work.say("Its ends meet, so that its rate does not follow from this.")
+        work.say("Its ends meet here, so its rate does not follow from this.")
         return
     rate = rates.let(Symbol("L", name, "˙"), dot(way, moving) / length, Powers(1, 1))
     yield work.scale.outcome(f"{name}.rate", rate, Powers(1, 1))
@@ -244,7 +244,9 @@ def effort(rates: Rates, known: Mapping[str, Formula]) -> Iterator[Outcome]:
     """
     work, linkage = rates.work, rates.work.linkage
     if not rates.struts.keys() >= set(_forceful(rates)):
-        work.say("The rate of a spring or damper does not follow, so that what the input delivers does not.")
+        work.say(
+            "The rate of a spring or damper does not follow here, nor does what the input delivers."
+        )
         return
     work.say("The input delivers the power of springs, dampers and masses, over its own rate:")
     powers = [*_strut_powers(rates), *_body_powers(rates, known)]
@@ -252,7 +254,7 @@ def effort(rates: Rates, known: Mapping[str, Formula]) -> Iterator[Outcome]:
     name, unit = linkage.drive.actuator.effort
     pace = _pace(rates)
     if pace.value == 0:
-        work.say("The input rests here, so that this does not follow from power.")
+        work.say("The input is at rest here, so this does not follow from the balance of power.")
         return
     delivered = work.let_plain(Symbol(name[0].upper(), "in"), total / pace, unit)
     yield Outcome(effort_token(linkage), delivered, last=True)
@@ -315,18 +317,18 @@ _LONG = 100.0
 """A bar longer than so many times the usual one does not decide how many decimals lengths have."""
 _TINY = 1e-300
 _BY_INPUT = (
-    "Primes are derivatives by the input: h of angles, f of ways. Each loop differentiated gives two linear "
-    "equations; a are the entries of their matrix, b the right sides, D the determinant, and both unknowns "
-    "follow by Cramer's rule."
+    "Primes are derivatives by the input: h for angles, f for displacements. Each loop differentiated gives "
+    "two linear equations; a are the entries of their matrix, b the right sides, D the determinant, and both "
+    "unknowns follow by Cramer's rule."
 )
 _IN_TIME = (
     "The loops differentiated in time: the same equations, the input running at its own speed.",
     "Differentiated once more: the same matrix, with ω² and what Coriolis adds on the right sides.",
 )
-_CARRIED = "As many digits are carried as make five significant ones of every result right."
+_CARRIED = "Enough digits are carried to give every result to five significant digits."
 _NO_LOOP = "There is none to close: each joint follows from the input alone."
 _SINGULAR = (
-    "No rates follow here in as many digits as a page can show: at a limit or a change point the two linear "
+    "No rates follow here with the digits that a page can show: at a limit or a change point the two linear "
     "equations of a dyad are one. Take a pose beside it."
 )
 

@@ -369,7 +369,9 @@ class _Chapter:
             self.work.say("Without a quick return the crank is half the chord.")
             found = self._length("r", "2", chord / TWO)
         else:
-            self.work.say("The coupler less and plus the crank, with α between them, and H are a triangle.")
+            self.work.say(
+                "Coupler minus crank and coupler plus crank, with α between them, form a triangle with H."
+            )
             found = self.work.known(Symbol("r", "2"), crank, LENGTH, "the crank, chosen")
             half = self.named["α"] / TWO
             coupler = self._length(
@@ -383,7 +385,9 @@ class _Chapter:
         a, b, chord = named["a"], named["b"], named["H"]
         off = number("0")
         if not even:
-            self.work.say("So far the crank's pivot lies off the chord's line, the triangle's height.")
+            self.work.say(
+                "The crank's pivot lies this far off the line of the chord: the height of the triangle."
+            )
             off = self._length("e", "", (square(b) - square(a)) * sin(named["α"]) / chord)
         if "c" not in named:
             line = self.scene.linkage.joint("B").line  # type: ignore[attr-defined]
@@ -412,9 +416,7 @@ class _Chapter:
             self.compared.append((found, least))
             return
         c, d = named["c"], named["d"]
-        self.work.say(
-            "It is extreme where crank and ground are in line; past 90° what is left to 180° counts."
-        )
+        self.work.say("It is extreme where crank and ground are in line; beyond 90° its supplement counts.")
         for n, reach in (("1", d - a), ("2", d + a)):
             corner = arccos((square(b) + square(c) - square(reach)) / (TWO * b * c))
             found = self.work.let(Symbol("μ", n), corner, ANGLE)

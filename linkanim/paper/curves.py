@@ -329,7 +329,7 @@ def beside(curves: Curves, table: MeasuredTable, label: str) -> MeasuredCurve:
         row = table.rows[int(np.isnan(phases).argmax())]
         raise OutOfRange(
             f"{table.where}: line {row.line}, column 1: the input of {curves.scene.name} does not reach "
-            f"{row.numbers[0]:g} deg; of times add --over time"
+            f"{row.numbers[0]:g} deg; for times add --over time"
         )
     ours, differences = _differences(curves, curve, phases, table.column(1))
     if not np.isfinite(differences).any():

@@ -80,7 +80,7 @@ class Look:
 
     trace: bool = _toggle(
         True,
-        Option("trace", "curves of the traced joints"),
+        Option("trace", "draw the curves of the traced joints"),
         answers=("no trace", "trace"),
         keys=("t",),
         title="coupler trace",
@@ -88,7 +88,7 @@ class Look:
     )
     vectors: frozenset[str] = _toggle(
         frozenset(),
-        Option("vectors", "velocity, acceleration", metavar="v,a"),
+        Option("vectors", "draw velocities, accelerations, or both", metavar="v,a"),
         steps=(VELOCITY, ACCELERATION),
         answers=("velocity", "acceleration"),
         keys=("v", "a"),
@@ -99,7 +99,7 @@ class Look:
         0,
         Option(
             "names",
-            "name joints and links; twice: their dimensions and the input's angle, too",
+            "name joints and links; given twice, add dimensions and the input's angle",
             commands=("record", "draw", "share"),
         ),
         steps=(0, 1, 2),
@@ -110,7 +110,7 @@ class Look:
     )
     polygons: bool = _toggle(
         False,
-        Option("polygons", "velocity and acceleration polygons beside the linkage", True),
+        Option("polygons", "draw the velocity and acceleration polygons beside the linkage", True),
         answers=("no polygons", "polygons"),
         keys=("p",),
         title="velocity and acceleration polygons",
@@ -120,10 +120,10 @@ class Look:
         0,
         Option(
             "instant-centres",
-            "mark the instant centres of all links, of more than five those to the ground",
+            "mark the instant centres of all links; of more than five links, those relative to the ground",
             1,
         ),
-        Option("centrodes", "and the curves that the coupler's runs along", 2),
+        Option("centrodes", "and the centrodes, the paths of the coupler's instant centre", 2),
         steps=(0, 1, 2),
         answers=("no instant centres", "instant centres", "instant centres and centrodes"),
         keys=("i",),
@@ -132,7 +132,9 @@ class Look:
     )
     chain: bool = _toggle(
         False,
-        Option("chain", "the input's colour along the chain, fading in the order of solving", True),
+        Option(
+            "chain", "colour the links in the order in which they are solved, fading from the input", True
+        ),
         answers=("links in their colours", "the input's colour along the chain"),
         keys=("j",),
         title="the input's colour along the chain, as it is solved",
@@ -140,20 +142,20 @@ class Look:
     )
     ghost: bool = _toggle(
         False,
-        Option("ghost", "the other closure, faintly", True, commands=("draw",)),
+        Option("ghost", "draw the other closure faintly", True, commands=("draw",)),
         answers=("one closure", "both closures"),
         keys=("shift+b",),
     )
     caption: bool = _toggle(
         False,
-        Option("caption", "what to watch for, in a sentence below", True, commands=("record", "draw")),
+        Option("caption", "add the scene's sentence on what to watch for", True, commands=("record", "draw")),
     )
-    hud: bool = _toggle(True, Option("hud", "the lines of text", commands=("record",)))
+    hud: bool = _toggle(True, Option("hud", "show the lines of text", commands=("record",)))
     chart: str | None = _toggle(
         None,
         Option(
             "chart",
-            "a quantity over the period, such as rocker.angle",
+            "add the chart of a quantity, such as rocker.angle",
             metavar="QTY",
             commands=("record", "share"),
         ),
@@ -163,7 +165,7 @@ class Look:
         None,
         Option(
             "over",
-            "the chart's axis (default: the driven bar's angle, of an input that swings the time)",
+            "the horizontal axis of the chart (default: angle; for an input that swings, time)",
             commands=("record", "chart"),
         ),
         steps=("angle", "time", "phase"),
@@ -174,7 +176,7 @@ class Look:
         None,
         Option(
             "unit",
-            "of the lengths shown, and so of velocities (default: the file's)",
+            "the unit of lengths, and so of velocities (default: the file's)",
             commands=("play", "record", "solve", "draw", "chart", "explain", "report", "share"),
         ),
         steps=LENGTH_UNITS,
@@ -183,16 +185,16 @@ class Look:
     )
     theme: ThemeName = _toggle(  # noqa: RUF009 -- gives a field
         "light",
-        Option("theme", "default: light", commands=("play", "record", "chart", "draw")),
-        Option("theme", "default: as the reader's setting is", commands=("share",)),
+        Option("theme", "the colours (default: light)", commands=("play", "record", "chart", "draw")),
+        Option("theme", "the colours (default: as the reader's system is set)", commands=("share",)),
         steps=("light", "dark"),
         answers=("light", "dark"),
         keys=("l",),
     )
     background: bool = _toggle(
         True,
-        Option("transparent", "no background (GIF and PNG)", False, commands=("record",)),
-        Option("transparent", "no background", False, commands=("draw",)),
+        Option("transparent", "leave the background out (GIF and PNG)", False, commands=("record",)),
+        Option("transparent", "leave the background out", False, commands=("draw",)),
         steps=(True, False),
     )
     zoom: float = 1.0

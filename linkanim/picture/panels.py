@@ -355,7 +355,7 @@ def quantity_list(board: Board, shown: Quantities) -> pygame.Surface:
         _quantity_row(board, sheet, shown, row, size, (0.9 + STEP * (n + 1)) * size)
     if not shown.rows:
         at = (1.2 * size, (0.9 + STEP) * size)
-        board.write(sheet, "nothing here has that in its name", at, size=size, colour=board.theme.warning)
+        board.write(sheet, "no name contains that", at, size=size, colour=board.theme.warning)
     for n, line in enumerate(hint, start=max(len(rows), 1) + 1):
         at = (1.2 * size, (1.1 + STEP * n) * size)
         board.write(sheet, line, at, size=size, colour=board.theme.dim)

@@ -48,7 +48,7 @@ _PER_SECOND = 60
 NEW = -1
 """The place of an empty sheet, before all mechanisms."""
 _NEW = "New: an empty sheet"
-_NONE = "no mechanism has that in its title or chapter"
+_NONE = "no title or chapter contains that"
 _TITLE = "Mechanisms"
 
 

@@ -121,9 +121,9 @@ def force(puzzle: Puzzle) -> QuizQuestion | None:
                 clear.append((item, factor, abs(puzzle.value(f"{item.name}.force"))))
     if clear:
         item, factor, value = puzzle.random.choice(clear)
-        why = f"It goes with its length alone, which is the same there: it stays {number(value)} N."
+        why = f"It depends on its length alone, which is the same there: it stays {number(value)} N."
         if factor == 2:
-            why = f"It goes with the speed itself: {number(value)} N becomes {number(factor * value)} N."
+            why = f"It is proportional to the speed: {number(value)} N becomes {number(factor * value)} N."
         return _growing(
             puzzle,
             item.name,
@@ -141,7 +141,7 @@ def force(puzzle: Puzzle) -> QuizQuestion | None:
         f"{name}.acceleration",
         f"How large is the force that accelerates a mass at {name}, in the same place?",
         4,
-        "It goes with the acceleration, and that with the square of the speed.",
+        "It is proportional to the acceleration, and so to the square of the speed.",
     )
 
 
@@ -236,8 +236,8 @@ def coriolis(puzzle: Puzzle) -> QuizQuestion | None:
     slip = "the guide's turning overlooked" if turns else "sliding alone taken for a Coriolis term"
     return puzzle.question(
         joint,
-        f"{joint} slides along {guide}. In a frame fixed to that guide, has the acceleration of {joint} a "
-        "Coriolis term?",
+        f"{joint} slides along {guide}. Seen from that guide, does the acceleration of {joint} have "
+        "a Coriolis term?",
         *either(("yes", "no"), turns, slip),
         why,
         shows=_BOTH,
@@ -847,7 +847,7 @@ def _listed(bar: FourBar) -> str:
 
 
 def grashof_sum(puzzle: Puzzle) -> QuizQuestion | None:
-    """Return which link is in the wrong place of Grashof's sum; taken wrongly, one that is in its own."""
+    """Ask which link stands in the wrong one of Grashof's sums; wrong answers stand in their own."""
     bar = four_bar_of(puzzle.scene.mechanism)
     if bar is None:
         return None
@@ -864,14 +864,14 @@ def grashof_sum(puzzle: Puzzle) -> QuizQuestion | None:
     wrong = [order[n] for n in range(4) if n not in (one, other)]
     slips = {}
     if written[0] != "input":
-        slips["input"] = "the input expected as s, whatever its length"
+        slips["input"] = "the input taken for the shortest, whatever its length"
     if written[3] != "ground":
-        slips["ground"] = "the ground expected as l, whatever its length"
+        slips["ground"] = "the ground taken for the longest, whatever its length"
     places = ("s, the shortest", "one of p and q", "one of p and q", "l, the longest")
     return puzzle.question(
         bar.joint,
         f"Grashof's sums of this four-bar are written as s + l = {s} + {longest} and p + q = {p} + {q}. "
-        "Which of these links is in the wrong place?",
+        "Which of these links belongs to the other sum?",
         QuizAnswer(right),
         [QuizAnswer(part, slips.get(part, "")) for part in wrong],
         f"The {right} is {places[order.index(right)]}, not {places[written.index(right)]}.",

@@ -1,4 +1,4 @@
-"""Show what there is to play: the title with its doors, the games, the rounds with their best scores."""
+"""Show what can be played: the title with its doors, the games, the rounds with their best scores."""
 
 from __future__ import annotations
 
@@ -118,7 +118,7 @@ def _scored(text: str) -> tuple[str, int]:
 OFFERS = (
     Door("menu", "Predict", "say what a linkage does before it moves"),
     Door("match", "Match", "drag a four-bar until it draws the dotted curve"),
-    Door("follow", "Follow", "turn the crank, keep the ram between two lines"),
+    Door("follow", "Follow", "turn the crank to keep the ram between two lines"),
 )
 
 
@@ -159,7 +159,7 @@ def read_lobby(words: GameWords) -> Lobby:
 EACH = 9 * FRAMES_PER_SECOND
 _NAME = "linkanim"
 _TITLE_ABOUT = "An arcade of planar linkages"
-_HINT = "any key goes in   ↑ ↓ choose   Q quits"
+_HINT = "press any key   ↑ ↓ choose   Q quits"
 
 
 DOORS = (

@@ -82,7 +82,7 @@ def next_question(
                 break
         spent.add((scene.name, kind))
     if spare is None:
-        raise WorkFailed(f"{scene.name}: nothing of it moves so clearly that a question can be made of it")
+        raise WorkFailed(f"{scene.name}: nothing in it moves clearly enough for a question")
     return spare
 
 

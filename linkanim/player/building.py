@@ -33,12 +33,12 @@ _LONGEST = 10 * FRAMES_PER_SECOND
 """A linkage that can move runs for a period, if that is no longer."""
 VERSION = 1
 _MARK = "linkanim_draft"
-_DAMAGED = "is damaged, or no draft of linkanim"
+_DAMAGED = "is damaged, or not a draft of linkanim"
 DRAFT = Intake("a draft", most_bytes=5_000_000, most_values=500_000)
 _FARTHEST = 1e15
 """No edge of what is seen of a sheet is beyond it."""
-LOST = "the draft is in no scene file: Ctrl+S writes it; once more begins anew"
-_MEANT = "the draft is in no scene file: Ctrl+S writes it; once more closes, and it is offered next time"
+LOST = "the draft is not saved: Ctrl+S saves it; press again to begin anew"
+_MEANT = "the draft is not saved: Ctrl+S saves it; press again to close, and it is offered next time"
 
 
 def build(state: State, _: None) -> State:

@@ -129,7 +129,7 @@ def scene_files() -> list[str]:
 
 _MOST = 100
 """So many windows have a draft at once."""
-_OFFER = "a draft that was in no scene file has been kept: F2 takes it up"
+_OFFER = "unsaved work has been kept: F2 restores it"
 
 
 class DraftFile:

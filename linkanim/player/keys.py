@@ -165,8 +165,8 @@ KEYS: Table = {
             _tabs("mechanism") + _digits("select"),
         ),
         KeyRow("O", "the shelf: all mechanisms", _on("o", "shelf")),
-        KeyRow("F3", "the title, and what there is to play", _on("f3", "play", "title door=play")),
-        KeyRow("drag the crank pin", "move the crank; so does the chart's cursor"),
+        KeyRow("F3", "the title, and what can be played", _on("f3", "play", "title door=play")),
+        KeyRow("drag the crank pin", "move the crank; the chart's cursor does the same"),
     ),
     "look": (
         *_looks("look"),
@@ -201,10 +201,10 @@ KEYS: Table = {
         KeyRow("Shift+G", "hand on: one page that moves", _on("shift+g", "share")),
         KeyRow(
             "Ctrl+S, O",
-            "write the scene as a new file; open one",
+            "save the scene as a new file; open a file",
             _on("ctrl+s", "save") + _on("ctrl+o", "files_here"),
         ),
-        KeyRow("F5", "reloads a scene opened from a file", _on("f5", "reload")),
+        KeyRow("F5", "load the scene's file again", _on("f5", "reload")),
     ),
 }
 """Every key of the window, by subject, in the order in which the help shows them."""
@@ -218,13 +218,13 @@ _IN_A_MODE: Table = {
     "in E": (
         KeyRow("↑ ↓", "choose a dimension", _both("up", "down", "choose")),
         KeyRow("← → (Shift: ×10)", "nudge it", _steps("nudge")),
-        KeyRow("Tab, Shift+Tab", "the next row; what is typed here waits", _tabs("pass_on")),
+        KeyRow("Tab, Shift+Tab", "the next row; the typed value waits", _tabs("pass_on")),
         KeyRow(
             "digits, Enter",
-            "type a value, with or without a unit; take all values typed",
+            "type a value, with or without a unit; take all typed values",
             _enter("take", "erase"),
         ),
-        KeyRow("Ctrl+B", "swing back on the same closure", _on("ctrl+b", "returns")),
+        KeyRow("Ctrl+B", "let an input that swings return on the same closure", _on("ctrl+b", "returns")),
         KeyRow("Ctrl+R", "reset: the file's dimensions again", _on("ctrl+r", "reset")),
         KeyRow("click, wheel, drag (Shift: ×10)", "choose a row, nudge its value"),
         KeyRow("drag joints (Shift: tenths)", "set lengths on the picture, in whole units"),
@@ -235,7 +235,7 @@ _IN_A_MODE: Table = {
             "choose a quantity",
             _both("up", "down", "move") + _both("pageup", "pagedown", "move", 10),
         ),
-        KeyRow("type", "filter by what is in the name"),
+        KeyRow("type", "filter by name"),
         KeyRow("Enter, click", "chart it", _enter("pick", "unsift")),
     ),
     "in O": (
@@ -253,7 +253,7 @@ _IN_A_MODE: Table = {
     "in W": (
         KeyRow("mouse", "draw a path in one stroke; drag its points and the fixed pins"),
         KeyRow("1–9, click", "take another answer", _digits("answer")),
-        KeyRow("Ctrl+Z", "take the last stroke or drag back", _on("ctrl+z", "take_back", held=True)),
+        KeyRow("Ctrl+Z", "undo the last stroke or drag", _on("ctrl+z", "take_back", held=True)),
         KeyRow("Enter", "keep the linkage as the scene; Esc goes back", _enter("keep")),
     ),
     "in a game": (
@@ -264,22 +264,27 @@ _IN_A_MODE: Table = {
         KeyRow("Esc", "out of it", ()),
     ),
     "in F2": (
-        KeyRow("click, drag", "a ground pin; from a pin or joint a bar; twice on a bar: a point of it"),
-        KeyRow("let go on a joint, line, bar", "joined there, a slider, a slot"),
+        KeyRow(
+            "click, drag",
+            "set a ground pin; draw a bar from a pin or joint; double-click a bar: a point of it",
+        ),
+        KeyRow("let go on a joint, line, bar", "join the bar there; make a slider; make a slot"),
         KeyRow("drag the crank", "turn it; Shift: tenths, Alt: free of the grid, while drawing"),
         *_TOOLS,
         KeyRow(
             "digits, Enter",
-            "type what is chosen; Ctrl+↑ ↓ its other numbers",
+            "type the value of what is chosen; Ctrl+↑ ↓: its other values",
             _both("ctrl+up", "ctrl+down", "number") + _on("backspace", "undigit", held=True),
         ),
-        KeyRow("arrows (Shift: fine), Enter", "a cursor; press and lift there", _aims() + _enter("enter")),
+        KeyRow(
+            "arrows (Shift: fine), Enter", "move a cursor; press and release there", _aims() + _enter("enter")
+        ),
         KeyRow("I", "a point of the body at the cursor", _on("i insert", "enter", 2)),
         KeyRow("Tab, Shift+Tab", "choose", _tabs("further")),
-        KeyRow("Del", "remove it, and what hangs on it", _on("delete", "remove")),
+        KeyRow("Del", "remove it and what depends on it", _on("delete", "remove")),
         KeyRow("Ctrl+Z, Ctrl+Y", "undo, redo", _undo("unbuild", "rebuild")),
         KeyRow("Ctrl+N", "an empty sheet", _on("ctrl+n", "sheet")),
-        KeyRow("Esc, F2", "let go; leave, the linkage being the scene; F2 goes on"),
+        KeyRow("Esc, F2", "let go; leave the sheet and keep the linkage; F2 returns to it"),
     ),
 }
 """What the keys do in a mode, before what they do else, by its subject."""

@@ -274,7 +274,7 @@ class Window:
         """Leave the tape where an action changes something."""
         if self._tape and action.name not in _BESIDE_A_TAPE:
             self._tape = None
-            yield Action("note", "the tape is left: the keys are yours")
+            yield Action("note", "the tape has been left; the keys are yours")
 
     def _show(self) -> None:
         """Paint and flip; a scene that cannot be painted gives way to the last that could."""
@@ -371,7 +371,7 @@ class Window:
     def _save(self) -> None:
         """Write the scene as a new file, a new linkage under its class; a draft on a sheet once it moves."""
         if self.state.building and (missing := self.state.building.building.made.missing):
-            raise BadInput(f"a scene file holds what can move; the draft is kept. {missing}")
+            raise BadInput(f"only what can move can be saved; the draft is kept. {missing}")
         scene = self.state.scene
         scene = under_class(scene) if scene.title == UNTITLED else scene
         self._notes.append(f"{save(scene, Path())} saved")
@@ -406,7 +406,9 @@ class Window:
     def _open_file(self, path: Path) -> None:
         """Put on the scene of a file, which is watched from now on."""
         if self.state.recording:
-            raise BadInput("a recording keeps to the scenes it began with; stop it, then open the file")
+            raise BadInput(
+                "a recording holds only the scenes that it began with; stop it, then open the file"
+            )
         if path.suffix.lower() != ".toml":
             raise BadInput(f"{intake.named(path)}: is no scene file, whose name ends in .toml")
         scene = load(path)
@@ -416,9 +418,9 @@ class Window:
     def _reload(self) -> None:
         """Put on what the scene file holds now; what is wrong with it is a note, and the linkage runs on."""
         if self._file is None:
-            raise BadInput("F5 reloads a scene opened from a file; `linkanim FILE.toml` opens one")
+            raise BadInput("F5 load the scene's file again; `linkanim FILE.toml` opens one")
         if self.state.recording:
-            raise BadInput("a recording keeps to the scenes it began with; stop it, then F5 loads the file")
+            raise BadInput("a recording holds only the scenes that it began with; stop it, then press F5")
         scene = self._file.load()
         try:
             self.state = renewed(left(self.state), scene)

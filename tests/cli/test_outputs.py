@@ -105,7 +105,7 @@ def test_under_a_usual_name_only_what_we_wrote_is_replaced(
     (folder / name).write_text("mine")
     before = contents(folder)
     assert main(words) == 2
-    assert f"{name} is not known to be linkanim's" in capsys.readouterr().err
+    assert f"{name} may not be linkanim's own" in capsys.readouterr().err
     assert contents(folder) == before
     (folder / name).unlink()
     assert main(words) == 0
@@ -136,7 +136,7 @@ def test_the_words_beside_a_pdf_take_nobody_s_place(folder: Path, capsys: pytest
     before = contents(folder)
     assert main(words) == 2
     said = capsys.readouterr().err
-    assert "fig.pdf_tex is not known to be linkanim's" in said
+    assert "fig.pdf_tex may not be linkanim's own" in said
     assert said.endswith("; move it away, or give another name than fig.pdf with -o\n")
     assert contents(folder) == before
     (folder / "fig.pdf_tex").unlink()

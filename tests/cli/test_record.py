@@ -256,7 +256,7 @@ def test_a_gallery_leaves_a_foreign_picture_under_the_chart_s_name(
     monkeypatch.setattr("linkanim.cli.commands.gallery.require_extra", lambda: None)
     monkeypatch.setattr("linkanim.cli.commands.gallery.make_gallery", pytest.fail)
     assert main(["gallery", "--into", "."]) == 2
-    assert "speed-vs-error.png is not known to be linkanim's" in capsys.readouterr().err
+    assert "speed-vs-error.png may not be linkanim's own" in capsys.readouterr().err
 
 
 # Ctrl-C and SIGTERM in the middle of the work: what was there stays, and nothing else is there

@@ -59,7 +59,7 @@ RIGID = [
 
 @pytest.mark.parametrize(("name", "linkage"), RIGID, ids=[row[0] for row in RIGID])
 def test_what_can_be_put_together_in_one_place_only_is_refused(name: str, linkage: Linkage) -> None:
-    with pytest.raises(AssemblyError, match=r"one angle of the input only, so that nothing could move"):
+    with pytest.raises(AssemblyError, match=r"one angle of the input only, so nothing could move"):
         mechanism(linkage)
 
 

@@ -93,7 +93,7 @@ def test_what_has_been_typed_stands_for_the_title_and_none_found_is_said(board: 
         False,
         "right",
     )
-    none = lines["nothing here has that in its name"]
+    none = lines["no name contains that"]
     assert none.colour == LIGHT.warning
     tops = lines["rock_"].at[1], none.at[1], lines[HINT].at[1], sheet.get_height() - size
     assert all(after - before >= 0.99 * STEP * size for before, after in pairwise(tops[:3]))

@@ -136,10 +136,10 @@ def test_a_run_replays_to_the_same_score_from_its_start_and_from_its_midst() -> 
 @pytest.mark.parametrize(
     ("best", "well", "words"),
     [
-        pytest.param(0, True, "1.50 m, then the slack was used up", id="the first run"),
-        pytest.param(1_499, True, "1.50 m, then the slack was used up; the best was 1.50 m", id="by a mm"),
-        pytest.param(1_500, False, "1.50 m, then the slack was used up; the best was 1.50 m", id="as far"),
-        pytest.param(2_250, False, "1.50 m, then the slack was used up; the best was 2.25 m", id="less far"),
+        pytest.param(0, True, "1.50 m, then its time was up", id="the first run"),
+        pytest.param(1_499, True, "1.50 m, then its time was up; the best was 1.50 m", id="by a mm"),
+        pytest.param(1_500, False, "1.50 m, then its time was up; the best was 1.50 m", id="as far"),
+        pytest.param(2_250, False, "1.50 m, then its time was up; the best was 2.25 m", id="less far"),
     ],
 )
 def test_a_run_that_is_over_is_compared_with_the_best(best: int, well: bool, words: str) -> None:

@@ -318,13 +318,13 @@ def test_a_recording_keeps_to_the_scene_it_began_with(
     opened.type("g")
     written(here, "crank = 50", "crank = 45")
     opened.press(pygame.K_F5)
-    assert message(opened).startswith("a recording keeps to the scenes it began with")
+    assert message(opened).startswith("a recording holds only the scenes that it began with")
     assert opened.state.scene is good
 
 
 def test_without_a_scene_file_there_is_none_to_load_again(player: Player) -> None:
     player.press(pygame.K_F5)
-    assert message(player).startswith("F5 reloads a scene opened from a file")
+    assert message(player).startswith("F5 load the scene's file again")
 
 
 @pytest.mark.parametrize(

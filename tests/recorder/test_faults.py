@@ -357,7 +357,7 @@ def test_a_frame_s_name_that_is_another_s_is_refused_before_any_work(tmp_path: P
     for name in (taken, "disc-20240101.png"):
         (tmp_path / name).write_bytes(BEFORE)
     frames = at_frame(0, pytest.fail, "png")
-    with pytest.raises(BadInput, match=rf"{taken} is not known to be linkanim's.*choose another name"):
+    with pytest.raises(BadInput, match=rf"{taken} may not be linkanim's own.*choose another name"):
         write(frames, frames.plan, tmp_path / "disc.png")
     assert contents(tmp_path) == {taken: BEFORE, "disc-20240101.png": BEFORE}
 

@@ -52,7 +52,7 @@ FORMS = ("html", "tex", "md")
 BOUND = re.compile(r"(is|are) the (most|least)|at the most|(figure|report) holds")
 """What says that something is more than is made, before work begins."""
 NOT_OF_ALL = re.compile(
-    r"nothing of it moves so clearly that a question can be made of it"
+    r"nothing in it moves clearly enough for a question"
     r"|its input is a slider, which has no angle"
 )
 """Why some output is not made of every scene."""

@@ -586,7 +586,7 @@ def _written(pin: Pin, *, turned: bool) -> Ground:
 NO_RANGE = 1e-12
 """Ranges that overlap by no more than this, in radians, touch."""
 ONE_PLACE = (
-    "it can be put together at one angle of the input only, so that nothing could move; "
+    "it can be put together at one angle of the input only, so nothing could move; "
     "make one length a little longer or shorter"
 )
 
