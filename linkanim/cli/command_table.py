@@ -269,7 +269,7 @@ COMMANDS: Mapping[str, tuple[str, ...]] = {
         "linkanim make jansen --json",
     ),
     "gallery": (
-        "record every built-in scene as a small GIF, and draw the chart of bench",
+        "record every built-in scene as a small GIF, and draw all of them on one sheet",
         "linkanim gallery",
         "linkanim gallery --into slides/linkages",
     ),

@@ -267,6 +267,12 @@ class MeasuredCurve:
         """The row with the largest difference."""
         return int(np.nanargmax(np.where(np.isfinite(self.differences), abs(self.differences), np.nan)))
 
+    def percent(self) -> Floats:
+        """Return the differences in percent of our values."""
+        with np.errstate(divide="ignore", invalid="ignore"):
+            found: Floats = 100 * self.differences / abs(self.ours)
+        return found
+
     def table(self, length_unit: str) -> str:
         """Return both and their difference, in the unit and in percent of ours, in aligned columns."""
         one = self.curve.quantity
@@ -278,9 +284,7 @@ class MeasuredCurve:
             f"difference {unit}".rstrip(),
             "percent",
         ]
-        with np.errstate(divide="ignore", invalid="ignore"):
-            percent = 100 * self.differences / abs(self.ours)
-        found = np.stack([self.inputs, self.ours, self.values, self.differences, percent], axis=1)
+        found = np.stack([self.inputs, self.ours, self.values, self.differences, self.percent()], axis=1)
         rows = [[significant(cell, _DIGITS if n < 3 else 3) for n, cell in enumerate(row)] for row in found]
         if len(rows) > _MOST_SHOWN:
             left_out = [f"... {len(rows) - 2 * _ENDS:,} more", *[""] * (len(titles) - 1)]
@@ -306,6 +310,37 @@ def read_table(path: Path, over: Over) -> MeasuredTable:
                 "stands between columns; put semicolons between the columns"
             )
     return MeasuredTable(where, found.heading[0] if found.heading else "", found.rows)
+
+
+def read_tables(path: Path) -> dict[str, MeasuredTable]:
+    """Return each further column of a table beside its first one, by the quantity that heads it.
+
+    BadInput as `read_table`, and where columns have no names or a row has not as many numbers.
+    """
+    where = named(path)
+    found = read_numbers(_TABLE_FILE.read(path, where), where, "angle, then a column for each quantity")
+    tokens = found.heading[1:]
+    if not tokens:
+        raise BadInput(f"{where}: its columns have no names; head them, such as angle, 3.angular_velocity")
+    for line, numbers in found.rows:
+        if len(numbers) != len(found.heading):
+            counts = f"{len(numbers)} numbers under {len(found.heading)} names"
+            raise BadInput(f"{where}: line {line} has {counts}; give a number under each")
+    return {
+        token: MeasuredTable(
+            where, found.heading[0], tuple(NumberRow(line, (row[0], row[n])) for line, row in found.rows)
+        )
+        for n, token in enumerate(tokens, 1)
+    }
+
+
+def compared(
+    scene: Scene, token: str, pace: Pace, table: MeasuredTable, label: str
+) -> tuple[Curves, MeasuredCurve]:
+    """Return the curve of a quantity with a table beside it, over what heads that; errors as `beside`."""
+    over: Over | None = "time" if _SECONDS.match(table.heading) else None
+    curves = curves_of(scene, (token,), (pace,), over)
+    return curves, beside(curves, table, label)
 
 
 def usual_over(curves: Curves) -> Over:

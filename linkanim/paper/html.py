@@ -35,6 +35,9 @@ table.values { width: 100%; } tbody th[scope=rowgroup] { font-weight: 600; paddi
 caption, figcaption { text-align: left; color: #424a53; font-size: .92em; padding: .1rem 0 .25rem; }
 sub { font-size: .75em; line-height: 0; }
 p.note { color: #57606a; font-size: .92em; margin-top: 0; }
+p.seen { font-size: .92em; margin: 0; }
+.figures ul { columns: 2; margin: .2rem 0 0; padding: 0; list-style: none; font-size: .92em; }
+.figures a { color: inherit; }
 p.equation { margin: .2rem 0 .2rem 1.4rem; }
 figure { margin: .5rem 0 .9rem; break-inside: avoid; }
 figure svg { width: 100%; height: auto; display: block; }
@@ -58,6 +61,8 @@ _ATTRIBUTES = re.compile(r""" (?:id="[^"]*"|role='[^']*'|aria-label='[^']*')""")
 """Of a picture, which would be twice on the page."""
 _APART = " style='break-before: page'"
 _KEPT, _LONG = "<div class='keep'>", "<div class='long'>"
+_LISTED = 3
+"""So many figures have a list of their own."""
 _ROWS_KEPT = 24
 """A table of so many rows at the most stands on one page."""
 
@@ -71,11 +76,15 @@ def embedded(picture: str, title: str, style: str = "") -> str:
 
 @dataclass(frozen=True)
 class FigurePart:
-    """A picture as SVG, with what it shows, which its number comes before; how high it is at the most."""
+    """A picture as SVG, with what it shows, which its number comes before; how high it is at the most.
+
+    `words` stand under the caption: what is seen in it.
+    """
 
     picture: str
     caption: str
     highest: int = 140
+    words: str = ""
 
 
 @dataclass(frozen=True)
@@ -116,12 +125,14 @@ def page(
     meta = "<meta charset='utf-8'><meta name='viewport' content='width=device-width'>"
     start = f"{meta}<title>{escape(title)}</title><style>{style}</style>"
     figures, tables = count(1), count(1)
+    chapters = [(name, list(parts)) for name, parts in chapters]
     numbered = [
         (n, name, [_written(part, figures, tables) for part in parts])
         for n, (name, parts) in enumerate(chapters, start=1)
     ]
     entries = "".join(f"<li><a href='#chapter-{n}'>{n} {symbol(name)}</a></li>" for n, name, _ in numbered)
     contents = f"<nav aria-label='Contents'><ul>{entries}</ul></nav>"
+    listed = _figures_of(chapters)
     body = "\n".join([heading(1, title), *head, contents])
     sections = "\n".join(
         f"<section id='chapter-{n}'{_APART * (name in apart)}>\n"
@@ -131,8 +142,28 @@ def page(
     )
     return (
         f"<!doctype html>\n<html lang='en'><head>{start}</head><body>\n"
-        f"<header>\n{body}\n</header>\n<main>\n{sections}\n</main>\n</body></html>\n"
+        f"<header>\n{body}\n</header>\n<main>\n{sections}\n{listed}\n</main>\n</body></html>\n"
     )
+
+
+def _figures_of(chapters: Iterable[tuple[str, Iterable[Part]]]) -> str:
+    """Return the list of figures, in the order in which they are numbered; nothing of a few."""
+    captions = [part.caption for _, parts in chapters for part in _figures_in(parts)]
+    if len(captions) < _LISTED:
+        return ""
+    numbered = enumerate(captions, 1)
+    entries = "".join(f"<li><a href='#figure-{n}'>{n} {symbol(one)}</a></li>" for n, one in numbered)
+    return f"<nav class='figures keep' aria-label='Figures'>{heading(2, 'Figures')}<ul>{entries}</ul></nav>"
+
+
+def _figures_in(parts: Iterable[Part]) -> Iterator[FigurePart]:
+    for part in parts:
+        match part:
+            case FigurePart():
+                yield part
+            case Beside(inside):
+                for one in inside:
+                    yield from _figures_in(one if isinstance(one, tuple) else (one,))
 
 
 def _sectioned(title: str, parts: list[str]) -> str:
@@ -152,10 +183,13 @@ def _written(part: Part, figures: Iterator[int], tables: Iterator[int]) -> str:
     match part:
         case str():
             return part
-        case FigurePart(picture, caption, highest):
-            title = f"Figure {next(figures)}. {caption}"
-            drawn = embedded(picture, title, f"max-height: {highest}mm")
-            return f"<figure>{drawn}<figcaption>{symbol(title)}</figcaption></figure>"
+        case FigurePart(picture, caption, highest, words):
+            number = next(figures)
+            title = f"Figure {number}. {caption}"
+            drawn = embedded(picture, f"{title}. {words}" if words else title, f"max-height: {highest}mm")
+            below = paragraph(words, "seen") if words else ""
+            told = f"<figcaption>{symbol(title)}</figcaption>{below}"
+            return f"<figure id='figure-{number}'>{drawn}{told}</figure>"
         case TablePart():
             title = f"Table {next(tables)}. {part.caption}"
             table = f"<table class='{part.kind}'><caption>{symbol(title)}</caption>{part.rows}</table>"

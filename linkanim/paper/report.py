@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import chain
 
+import numpy as np
+
+from linkanim import __version__
 from linkanim.explain.documents import HTML, chapters
 from linkanim.explain.solution import PoseRequest, Solution, solution
 from linkanim.export import csv_head, csv_rows
 from linkanim.paper import html
 from linkanim.paper.chart import Page
-from linkanim.paper.curves import Pace, curves_of
+from linkanim.paper.curves import MeasuredCurve, MeasuredTable, Pace, compared, curves_of
 from linkanim.paper.figure import Figured
 from linkanim.paper.findings import (
     Instant,
@@ -26,21 +29,25 @@ from linkanim.paper.findings import (
     topics,
     value_tables,
 )
-from linkanim.paper.html import Beside, FigurePart, Part
+from linkanim.paper.html import Beside, FigurePart, Part, TablePart
+from linkanim.paper.sentences import about, closing
 from linkanim.paper.svg import svg
 from linkanim.paper.vectors import vectors_svg
 from linkanim.picture.figure import figure
 from linkanim.picture.look import Look
 from linkanim.scenes.editing import dimensions
 from linkanim.scenes.scene import Scene
+from linkanim.units import rounded
 
-_CHART = (400, 170)
+_CHART = (400, 225)
 _WIDE, _TALL = (820, 440), (440, 700)
 """The figure's size in pixels: as wide as the page, or beside the facts."""
 _HIGH = 1.1
 """How high for its width a scene is whose figure stands so."""
 _POLYGONS = {2: (440, 380), 3: (310, 400)}
 """By how many stand in a row."""
+_COMPARED = 19
+"""So many rows of a measured table are printed at the most."""
 _UNSAFE = re.compile(r"[^\w.-]+")
 _LONGEST = 60
 """Letters of a chart's file name that come from its quantities."""
@@ -53,7 +60,8 @@ DrawnChart = tuple[tuple[str, ...], FigurePart]
 class Report:
     """What a report is asked to show: the instants of its tables, the speeds of tables and charts, digits.
 
-    With `every` it has, behind the hand-out, a table of every quantity at each instant, and every chart.
+    A table that was `measured` of a quantity stands beside it, under its `label`. With `every` it has, behind
+    the hand-out, a table of every quantity at each instant, and every chart.
     """
 
     scene: Scene
@@ -61,6 +69,8 @@ class Report:
     paces: tuple[Pace, ...]
     digits: int = 4
     every: bool = False
+    measured: Mapping[str, MeasuredTable] = field(default_factory=dict)
+    label: str = "measured"
 
     def files(self) -> Iterator[tuple[str, str]]:
         """Yield the report's files, the page first: (name, text)."""
@@ -106,24 +116,35 @@ class Report:
 
     def _drawn(self, tokens: tuple[str, ...], caption: str) -> DrawnChart:
         order, paces = self.scene.quantities[tokens[0]].order, paces_of(self.scene, tokens[0], self.paces)
-        drawn = Page(curves_of(self.scene, tokens, paces), _CHART, brief=True)
+        curves = curves_of(self.scene, tokens, paces)
+        drawn = Page(curves, _CHART, brief=True)
         picture = svg(_CHART, drawn.background, drawn.groups(), title=caption)
         at = f", at {paces[0].words}" if order and len(paces) == 1 else ""
-        return tokens, FigurePart(picture, f"{caption}{at}")
+        return tokens, FigurePart(picture, f"{caption}{at}", words=about(curves))
 
     def _head(self) -> Iterator[str]:
         yield html.paragraph(self.scene.source, "source")
         if self.scene.look_at:
             yield html.paragraph(self.scene.look_at)
+        speeds = ", ".join(pace.words for pace in self.paces)
+        yield html.paragraph(
+            f"Positions, velocities and accelerations are solved in closed form by linkanim {__version__}, "
+            f"{self.scene.info.input_name} speed {speeds}, which is constant."
+        )
 
     def _chapters(self) -> Iterator[tuple[str, Iterable[Part]]]:
         yield "The mechanism", self._mechanism()
         if self._worked.loops:
             yield "Vector loops", self._vector_loops()
+        if len(self.instants) > 1:
+            yield "Poses", self._poses()
         yield "Values", self._tables()
         for title, charts in self._topics.items():
             yield title, _in_rows([chart for _, chart in charts])
+        if self.measured:
+            yield f"Beside {self.label}", self._beside()
         yield "Velocity and acceleration polygons", self._polygons()
+        yield "In short", [html.paragraph(sentence) for sentence in closing(self.scene, self.paces[0])]
         if self.every:
             speeds = [pace.words for pace in self.paces]
             for instant in self.instants:
@@ -141,7 +162,7 @@ class Report:
         stated = ((item.label, f"{item.value:.10g} {item.unit}".strip()) for item in dimensions(scene))
         facts, lengths = ("Facts", scene.info.lines), ("Dimensions", tuple(stated))
         if self._tall:
-            yield Beside((drawn, (html.facts(*facts, 1), html.facts(*lengths, 1))))
+            yield from (Beside((drawn, html.facts(*facts, 1))), html.facts(*lengths, 3))
         else:
             yield from (html.facts(*facts, 2), drawn, html.facts(*lengths, 3))
 
@@ -152,6 +173,53 @@ class Report:
         # behind the headings of both and the figure
         _, _, _, *equations = chapters(alone, HTML)
         yield Beside((FigurePart(vectors_svg(alone), caption, 90), tuple(equations)))
+
+    def _beside(self) -> Iterator[Part]:
+        """Yield a chart and a table of each quantity that was measured: both values and their difference."""
+        for token, given in self.measured.items():
+            curves, measured = compared(self.scene, token, self.paces[0], given, self.label)
+            words = self.scene.quantities[token].words
+            drawn = Page(curves, _CHART, brief=True, measured=measured)
+            worst = measured.worst
+            unit = self.scene.quantities[token].shown_unit(self.scene.length_unit)
+            off = f"{rounded(abs(float(measured.differences[worst])), 3)} {unit}".strip()
+            at = f"{measured.inputs[worst]:.6g} {'s' if measured.over == 'time' else '°'}".replace(" °", "°")
+            chart = FigurePart(
+                svg(_CHART, drawn.background, drawn.groups(), title=words),
+                f"{words}, at {self.paces[0].words}, beside {self.label}",
+                words=f"The largest difference is {off}, at {at}.",
+            )
+            yield Beside((chart, self._differences(measured, words, unit)))
+
+    def _differences(self, measured: MeasuredCurve, words: str, unit: str) -> TablePart:
+        """Return some rows of a measured table, evenly chosen: both values and their difference."""
+        count = len(measured.inputs)
+        chosen = np.unique(np.linspace(0, count - 1, min(count, _COMPARED)).round().astype(int))
+        columns = (measured.ours, measured.values, measured.differences, measured.percent())
+        rows = [
+            [f"{measured.inputs[n]:.6g}", *(rounded(float(column[n]), self.digits) for column in columns)]
+            for n in chosen
+        ]
+        at = "time (s)" if measured.over == "time" else "input (°)"
+        of = f" ({unit})" if unit else ""
+        heads = [at, f"this solution{of}", f"{self.label}{of}", f"difference{of}", "percent"]
+        left_out = f", {len(chosen)} of {count} rows" if len(chosen) < count else ""
+        return html.table(f"{words}: this solution and {self.label}{left_out}", heads, rows)
+
+    def _poses(self) -> Iterator[Part]:
+        """Yield a figure of the scene at each instant."""
+        look = Look(names=1, hud=False, trace=False)
+        across = 3 if self._tall else 2
+        size = (_TALL[0], _TALL[1]) if self._tall else (_WIDE[0] // 2, _WIDE[1] * 5 // 8)
+        figures = (
+            FigurePart(
+                Figured(self.scene, size, look, instant.phase).document(),
+                f"The mechanism at {place_of(self.scene, instant)}",
+                90,
+            )
+            for instant in self.instants
+        )
+        return iter(_in_rows([*figures], across))
 
     def _tables(self) -> Iterator[Part]:
         for one in value_tables(self._values, self.instants, self.paces, self.digits):

@@ -10,12 +10,16 @@ from math import radians, tau
 
 import numpy as np
 
+from linkanim.mechanics.measures import output_body, output_slider
 from linkanim.mechanics.quantities import input_symbol
 from linkanim.mechanics.search import sign_changes
-from linkanim.paper.curves import Curve, Curves, extremes
+from linkanim.paper.curves import Curve, Curves, Pace, curves_of, extremes
 from linkanim.picture.quantities import Floats, driven_words
-from linkanim.units import significant, typeset
+from linkanim.scenes.scene import Scene
+from linkanim.units import rounded, typeset
 
+_CLOSING = ("input", "stroke", "time ratio", "transmission angle", "true period")
+"""What of a scene's facts a report ends with."""
 _MOST = 3
 """So many curves of a chart are told of; of more the one that goes farthest."""
 _MOST_ZEROS = 4
@@ -29,6 +33,26 @@ _NOTHING = 1e-9
 def about(curves: Curves) -> str:
     """Return what a chart shows, in sentences; nothing of curves that are level or somewhere unbounded."""
     return " ".join(sentence for curve in _told(curves) for sentence in _sentences(curves, curve))
+
+
+def closing(scene: Scene, pace: Pace) -> Iterator[str]:
+    """Yield what a report comes to: the class, what the output does, its velocity and acceleration."""
+    facts = [f"{label}: {value}" for label, value in scene.info.lines if label in _CLOSING]
+    yield " ".join(_sentence(text) for text in (scene.info.class_name, *facts))
+    output = output_slider(scene.linkage) or output_body(scene.linkage)
+    if output is None:
+        return
+    kinds = ("travel", "travel_velocity", "travel_acceleration")
+    if not output.slider:
+        kinds = ("angle", "angular_velocity", "angular_acceleration")
+    tokens = [token for kind in kinds if (token := f"{output.name}.{kind}") in scene.quantities]
+    for token in tokens:
+        if said := about(curves_of(scene, (token,), (pace,))):
+            yield f"{scene.quantities[token].words}. {said}"
+
+
+def _sentence(text: str) -> str:
+    return f"{text[:1].upper()}{text[1:].rstrip('.')}."
 
 
 def _told(curves: Curves) -> Sequence[Curve]:
@@ -121,5 +145,5 @@ def _at(curves: Curves, angle: float, *, bare: bool = False) -> str:
 
 def _value(curves: Curves, curve: Curve, value: float) -> str:
     unit = curve.quantity.shown_unit(curves.scene.length_unit)
-    number = typeset(significant(0.0 if abs(value) < _NOTHING else value, _DIGITS))
+    number = typeset(rounded(0.0 if abs(value) < _NOTHING else value, _DIGITS))
     return f"{number}{'' if unit == '°' else ' '}{unit}".rstrip()

@@ -18,7 +18,6 @@ from linkanim.cli import main
 from linkanim.cli.command_table import parse
 from linkanim.cli.commands.record import advance, bar
 from linkanim.cli.picture_options import look_of
-from linkanim.errors import BadInput
 from linkanim.player import tape_file
 from linkanim.player.action import Action
 from linkanim.player.state import begin
@@ -218,45 +217,12 @@ def test_a_gallery_that_cannot_be_is_refused(tmp_path: Path, capsys: pytest.Capt
 def test_a_gallery_is_a_gif_for_each_scene_and_a_sheet(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    def not_installed() -> None:
-        raise BadInput("bench compares with others, which are not installed")
-
     monkeypatch.setattr("linkanim.cli.commands.gallery.names", lambda: ("parallelogram",))
-    monkeypatch.setattr("linkanim.cli.commands.gallery.require_extra", not_installed)
     assert main(["gallery", "--into", "shown"]) == 0
     printed = capsys.readouterr()
     assert printed.out.splitlines() == ["shown/parallelogram.gif", "shown/contact-sheet.png"]
-    assert printed.err.startswith("shown/speed-vs-error.png is left as it is: bench compares with others")
     made = [".linkanim-gallery.json", "contact-sheet.png", "parallelogram.gif"]
     assert files(tmp_path / "shown") == made
-
-
-@pytest.mark.slow
-def test_a_gallery_has_the_chart_of_speed_and_error_where_it_can_be_measured(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    def charted(path: Path) -> Path:
-        path.touch()
-        return path
-
-    monkeypatch.setattr("linkanim.cli.commands.gallery.names", lambda: ("parallelogram",))
-    monkeypatch.setattr("linkanim.cli.commands.gallery.require_extra", lambda: None)
-    monkeypatch.setattr("linkanim.cli.commands.gallery._charted", charted)
-    assert main(["gallery", "--into", "shown"]) == 0
-    printed = capsys.readouterr()
-    assert printed.out.splitlines()[-1] == "shown/speed-vs-error.png"
-    made = [".linkanim-gallery.json", "contact-sheet.png", "parallelogram.gif", "speed-vs-error.png"]
-    assert files(tmp_path / "shown") == made
-
-
-def test_a_gallery_leaves_a_foreign_picture_under_the_chart_s_name(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    Path("speed-vs-error.png").write_bytes(b"mine")
-    monkeypatch.setattr("linkanim.cli.commands.gallery.require_extra", lambda: None)
-    monkeypatch.setattr("linkanim.cli.commands.gallery.make_gallery", pytest.fail)
-    assert main(["gallery", "--into", "."]) == 2
-    assert "speed-vs-error.png may not be linkanim's own" in capsys.readouterr().err
 
 
 # Ctrl-C and SIGTERM in the middle of the work: what was there stays, and nothing else is there

@@ -95,8 +95,8 @@ def test_the_page_holds_everything_and_loads_nothing(press: Path) -> None:
     page = Parts(text)
     assert page.loaded == []
     assert not page.all("script")
-    # the figure, the loops, and the polygons at two angles
-    assert len(page.all("svg")) == 2 + 2 + len(list(press.glob("chart-*.svg")))
+    # the figure, the loops, and the pose and the polygons at two angles
+    assert len(page.all("svg")) == 2 + 2 * 2 + len(list(press.glob("chart-*.svg")))
     assert "@page { size: A4;" in text
     assert not re.search(r"url\(|@import|https?://(?!www\.w3\.org)", text)
 
@@ -131,15 +131,22 @@ def test_its_chapters_go_as_a_report_on_a_mechanism_does(press: Path) -> None:
     assert chapters == [
         "1 The mechanism",
         "2 Vector loops",
-        "3 Values",
-        "4 Positions",
-        "5 Velocities",
-        "6 Accelerations",
-        "7 Centres of mass",
-        "8 Springs, dampers and input",
-        "9 Velocity and acceleration polygons",
+        "3 Poses",
+        "4 Values",
+        "5 Positions",
+        "6 Velocities",
+        "7 Accelerations",
+        "8 Centres of mass",
+        "9 Springs, dampers and input",
+        "10 Velocity and acceleration polygons",
+        "11 In short",
+        "Figures",
     ]
-    assert [words for _, words in re.findall(r"<li><a href='#chapter-(\d)'>(.*?)</a>", text)] == chapters
+    listed = re.findall(r"<li><a href='#chapter-\d+'>(.*?)</a>", text)
+    assert listed == chapters[:-1]
+    figures = re.findall(r"<li><a href='#figure-\d+'>(.*?)</a>", text)
+    assert figures == [words.replace("Figure ", "", 1).replace(". ", " ", 1) for words in
+                       re.findall(r"<figcaption>(.*?)</figcaption>", text)]  # fmt: skip
     assert f"<p class='source'>{html.escape(scene.source)}</p>" in text
     assert f"<p>{html.escape(scene.look_at)}</p>" in text
 
@@ -149,7 +156,7 @@ def test_its_chapters_go_as_a_report_on_a_mechanism_does(press: Path) -> None:
 def test_all_has_every_quantity_behind_the_hand_out(every: Path, press: Path) -> None:
     text = (every / "report.html").read_text(encoding="utf-8")
     chapters = re.findall(r"<h2>\d+ (.*?)</h2>", text)
-    assert chapters[9:] == [
+    assert chapters[11:] == [
         "Every quantity at θ₂ = 87.00°",
         "Every quantity at θ₂ = 306.00°",
         "Every quantity over one period, at 5 rad/s, 10 rad/s, 20 rad/s",
@@ -168,7 +175,7 @@ def test_its_pictures_are_well_formed_and_as_large_as_each_other(press: Path) ->
         assert root.tag == "{http://www.w3.org/2000/svg}svg"
         sizes.setdefault(path.stem.partition("-")[0], set()).add((root.get("width"), root.get("height")))
     assert sizes.pop("loops")
-    assert sizes == {"figure": {("440", "700")}, "chart": {("400", "170")}}
+    assert sizes == {"figure": {("440", "700")}, "chart": {("400", "225")}}
 
 
 def test_its_figure_names_the_dimensions_and_has_no_other_words(press: Path) -> None:

@@ -9,6 +9,7 @@ from linkanim.bounds import MOST_CHARTED
 from linkanim.cli.commands.chart import paces
 from linkanim.errors import BadInput
 from linkanim.manifest import FileSet, replacing
+from linkanim.paper.curves import MeasuredTable, read_tables
 from linkanim.paper.findings import instants_at, usual_instants
 from linkanim.paper.report import Report
 from linkanim.scenes import load
@@ -33,10 +34,24 @@ def run(options: Namespace) -> None:
         instants = instants_at(scene, options.angles) if options.angles else usual_instants(scene)
         if options.all:
             _refuse_many(scene, len(paces(scene, options)))
-        report = Report(scene, instants, paces(scene, options), options.digits, options.all)
+        given = (paces(scene, options), options.digits, options.all)
+        report = Report(scene, instants, *given, _measured(options), options.label or _name(options))
         for name, text in report.files():
             (folder / name).write_text(text, encoding="utf-8")
     print(target / "report.html")
+
+
+def _measured(options: Namespace) -> dict[str, MeasuredTable]:
+    """Return the columns of `--data` by their quantities; none without it."""
+    if options.data is None:
+        if options.label is not None:
+            raise BadInput("--label names the table of --data; add --data OTHER.csv")
+        return {}
+    return read_tables(options.data)
+
+
+def _name(options: Namespace) -> str:
+    return options.data.stem if options.data else ""
 
 
 def _refuse_many(scene: Scene, speeds: int) -> None:

@@ -1,0 +1,116 @@
+"""What stands under a chart is so: its numbers are those of a motion solved as finely as it takes."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from linkanim.cli import main
+from linkanim.paper.curves import Pace, curves_of
+from linkanim.paper.sentences import about, closing
+from linkanim.scenes import load
+
+PACE = Pace(10.0, "10 rad/s")
+
+
+def said(scene: str, *tokens: str) -> str:
+    return about(curves_of(load(scene), tokens, (PACE,)))
+
+
+def numbers(text: str) -> list[float]:
+    return [float(found.replace("−", "-")) for found in re.findall(r"[−]?\d+(?:\.\d+)?", text)]
+
+
+def test_the_ram_falls_slowly() -> None:
+    text = said("press", "5.travel")
+    assert text == (
+        "s₅ rises from −611.0 mm at θ₂ = 316.7° to −543.8 mm at θ₂ = 70.9° and falls again; "
+        "the way down is the slow one (245.8° of the input), time ratio 2.15."
+    )
+    assert f"time ratio {load('press').info.time_ratio:.2f}" in text
+
+
+def test_extremes_and_zeros_are_where_a_fine_motion_has_them() -> None:
+    scene, text = load("crank-rocker"), said("crank-rocker", "rocker.angular_velocity")
+    angles = np.radians(np.arange(0, 360, 0.02))
+    values = scene.solve(angle=angles, speed=10.0).angular_velocity["rocker"]
+    found = re.findall(r"(−?[\d.]+) rad/s, at θ₂ = ([\d.]+)°", text)
+    for (value, place), index in zip(found, (values.argmax(), values.argmin()), strict=True):
+        assert float(value.replace("−", "-")) == pytest.approx(values[index], rel=2e-4)
+        assert float(place) == pytest.approx(np.degrees(angles[index]), abs=0.06)
+    crossing = np.flatnonzero(np.diff(np.sign(values)))
+    zeros = re.findall(r"([\d.]+)°", text.partition("sign at")[2])
+    assert [float(zero) for zero in zeros] == pytest.approx(np.degrees(angles[crossing]), abs=0.08)
+
+
+def test_what_is_backwards_in_time_falls_where_it_rose() -> None:
+    curves = [curves_of(load("press"), ("5.travel",), (Pace(speed, ""),)) for speed in (10.0, -10.0)]
+    forth, back = map(about, curves)
+    assert "the way down is the slow one" in forth
+    assert "the way up is the slow one" in back
+
+
+@pytest.mark.parametrize(
+    ("scene", "tokens"),
+    [("drag-link", ("crank.angular_velocity",)), ("double-rocker", ("coupler.second_coefficient",))],
+)
+def test_nothing_is_said_of_what_is_level_or_unbounded(scene: str, tokens: tuple[str, ...]) -> None:
+    assert said(scene, *tokens) == ""
+
+
+def test_a_report_ends_with_what_the_output_does() -> None:
+    first, *others = closing(load("press"), PACE)
+    assert first.startswith("Geared five-bar with slider. Input: turns fully.")
+    assert len(others) == 3
+
+
+@pytest.mark.slow
+def test_a_measured_table_stands_beside_this_solution(tmp_path: Path) -> None:
+    scene, degrees = load("crank-rocker"), np.arange(0, 360, 15.0)
+    motion = scene.solve(angle=np.radians(degrees), speed=10.0)
+    rates = 1.01 * motion.angular_velocity["rocker"]
+    rows = [f"{at:g},{rate!r}" for at, rate in zip(degrees.tolist(), rates.tolist(), strict=True)]
+    data = tmp_path / "other.csv"
+    data.write_text("\n".join(["angle,rocker.angular_velocity", *rows]))
+    out = tmp_path / "report"
+    words = [
+        "report",
+        "crank-rocker",
+        "-o",
+        str(out),
+        "--speeds",
+        "10 rad/s",
+        "--data",
+        str(data),
+        "--label",
+        "MBS",
+    ]
+    assert main(words) == 0
+    text = (out / "report.html").read_text(encoding="utf-8")
+    assert "Beside MBS" in text
+    table = text[text.index("this solution and MBS") :]
+    table = table[: table.index("</table>")]
+    percent = re.findall(r"<td>([^<]*)</td></tr>", table)
+    assert len(percent) == 19
+    assert {abs(float(cell.replace("−", "-"))) for cell in percent} == {1.0}
+
+
+@pytest.mark.parametrize(
+    ("table", "said"),
+    [
+        ("0,1\n90,2\n", "have no names"),
+        ("angle,rocker.speed\n0,1\n90,2\n", "rocker.speed"),
+        ("angle,rocker.angle,coupler.angle\n0,1.5,2\n90.5,2\n", "give a number under each"),
+    ],
+)
+def test_a_table_that_cannot_be_laid_beside_is_refused(
+    table: str, said: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    data, out = tmp_path / "other.csv", tmp_path / "report"
+    data.write_text(table)
+    assert main(["report", "crank-rocker", "-o", str(out), "--data", str(data)]) == 2
+    assert said in capsys.readouterr().err
+    assert not out.exists()
