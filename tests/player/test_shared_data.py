@@ -11,6 +11,7 @@ import pygame
 import pytest
 from playing import SIZE, Player
 
+from linkanim import atomic_files
 from linkanim.play.arcade import Arcade
 from linkanim.play.scores import load as scores_of
 from linkanim.player import screen
@@ -22,15 +23,18 @@ from linkanim.player.window import Window
 from linkanim.scenes import load
 
 # Draws a ground pin further right, keeps the draft and a best score, again and again; then ends as if killed.
+# It waits for the others for as long as it takes: the machine may be busy.
 PROCESS = """
 import os, sys
 from pathlib import Path
+from linkanim import atomic_files
 from linkanim.play.arcade import Arcade
 from linkanim.player.action import Action
 from linkanim.player.actions import carried
 from linkanim.player.state import begin
 from linkanim.player.files import DraftFile
 from linkanim.scenes import load
+atomic_files._PATIENCE = 600.0
 data, who, count = Path(sys.argv[1]), sys.argv[2], int(sys.argv[3])
 arcade, drafts = Arcade(data / "scores.json"), DraftFile(data / "draft.json")
 state = carried(begin(load("press")), Action("sheet"))
@@ -91,6 +95,12 @@ def kept(each: int, here: Path) -> None:
         assert later[0].state.mode == "build"
         for window in later:
             window.window.close()
+
+
+@pytest.fixture(autouse=True)
+def patient(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A window waits for the others for as long as it takes, too."""
+    monkeypatch.setattr(atomic_files, "_PATIENCE", 600.0)
 
 
 @pytest.mark.slow
