@@ -20,6 +20,8 @@ MOST_POSES = 360
 """Poses of one figure behind its own."""
 MOST_DRAWN = 6_000
 """Joints in all of them: so many are drawn in some ten seconds."""
+MOST_DRAWN_PIXELS = 1920 * 1080
+"""Pixels of a picture up to which they are; of a larger one fewer in proportion."""
 MOST_ASKED = 3_000
 """Joints in all figures of a round of questions."""
 MOST_CHARTED = 1_000

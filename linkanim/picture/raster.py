@@ -294,6 +294,8 @@ _KEPT_BYTES = 16 << 20
 """More than a frame's largest arrays take together."""
 _MOST_AT_ONCE = 1 << 28
 """So many layers times pixels of the surface are worked out together: thirty at 3840 × 2160."""
+_PIECES = 8
+"""Where there are more, the pieces are so many times smaller: they take a quarter of the memory."""
 
 
 class Outlines(Sequence[Loop]):
@@ -432,6 +434,7 @@ def in_turn(surface: pygame.Surface, parts: Iterable[Shapes]) -> Iterator[Iterab
     if sum(len(layers) + len(over) for layers, _, over in known) <= most:
         yield from ([cover] for cover in covers(surface, [Shapes(*part) for part in known]))
         return
+    most = max(most // _PIECES, 1)
     for layers, ends, over in known:
         pieces = [Shapes(layers[n : n + most], ends) for n in range(0, len(layers), most)]
         pieces += [Shapes(over[n : n + most]) for n in range(0, len(over), most)]

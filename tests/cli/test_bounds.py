@@ -23,6 +23,10 @@ from linkanim.scenes import load, names
 # The words of a command, and what its refusal says; `chain.toml` has 62 dyads, each with a mass.
 REFUSED = {
     "many poses of many joints": ("draw chain.toml --poses 360", "a figure holds 47 poses"),
+    "many poses on many pixels": (
+        "draw chain.toml --poses 40 -o a.png --size 3840x2160",
+        "a figure holds 11 poses at 3840x2160; take 11 or fewer",
+    ),
     "a picture of many pixels": ("draw kite -o a.png --size 16384x16384", "33,177,600 are the most"),
     "a chart of many pixels": ("chart kite --quantity B.velocity --size 9000x9000", "33,177,600 are the"),
     "a recording of many pixels": ("record kite --size 16384x16384", "33,177,600 are the most"),
@@ -64,7 +68,7 @@ def test_what_is_too_much_is_refused_with_the_bound(
 
 
 def test_an_outline_has_no_pixels_to_hold(folder: Path) -> None:
-    assert main(["draw", "kite", "-o", "kite.svg", "--size", "16384x16384"]) == 0
+    assert main(["draw", "kite", "-o", "kite.svg", "--size", "16384x16384", "--poses", "20"]) == 0
 
 
 def test_the_bounds_leave_room_for_every_built_in_scene() -> None:

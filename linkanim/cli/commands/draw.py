@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from argparse import Namespace
+from math import prod
 
-from linkanim.bounds import MOST_DRAWN
+from linkanim.bounds import MOST_DRAWN, MOST_DRAWN_PIXELS
 from linkanim.cli.commands.solve import phase_at
 from linkanim.cli.picture_options import look_of, scene_size_target
 from linkanim.errors import BadInput
@@ -18,7 +19,8 @@ def run(options: Namespace) -> None:
     """Write the figure that was asked for, and print its path; of a pose of our choice where the input is."""
     scene, size, target = scene_size_target(options, OF_A_FIGURE, ".svg")
     look = look_of(scene, options)
-    _refuse_many(scene, options.poses or 0)
+    is_raster = target.path.suffix.lower() == ".png"
+    _refuse_many(scene, options.poses or 0, size if is_raster else (0, 0))
     if options.construction is not None:
         from linkanim.paper.construction import ConstructionPage
 
@@ -43,11 +45,13 @@ def _write(shown: Written, target: Output, *, latex: bool) -> None:
         print(labels_of(target).path)
 
 
-def _refuse_many(scene: Scene, poses: int) -> None:
-    joints = len(scene.linkage.joints)
-    if poses * joints > MOST_DRAWN:
-        most = MOST_DRAWN // joints
+def _refuse_many(scene: Scene, poses: int, size: tuple[int, int]) -> None:
+    """Refuse more poses than a picture of so many pixels holds; one of lines alone has none."""
+    joints, larger = len(scene.linkage.joints), max(prod(size) / MOST_DRAWN_PIXELS, 1.0)
+    most = int(MOST_DRAWN / larger) // joints
+    if poses > most:
+        place = f" at {size[0]}x{size[1]}" if larger > 1.0 else ""
         raise BadInput(
-            f"--poses {poses}: of {scene.name}, which has {joints} joints, a figure holds {most} poses; "
-            f"take {most} or fewer"
+            f"--poses {poses}: of {scene.name}, which has {joints} joints, a figure holds {most} poses"
+            f"{place}; take {most} or fewer"
         )
