@@ -25,14 +25,14 @@ Place = Any
 
 
 def _weights(order: int) -> list[Any]:
-    """Return by what the half differences, or the mean sums, of places are taken for a derivative at 0."""
+    """Return the weights of half differences, or mean sums, for a derivative at 0, or a value."""
     with mp.workdps(DIGITS):
         powers = [2 * n + order % 2 for n in range(len(REACH))]
         inverse = mp.matrix([[mpf(k) ** power for power in powers] for k in REACH]) ** -1
-        return [order * inverse[order // 2, n] for n in range(len(REACH))]
+        return [max(order, 1) * inverse[order // 2, n] for n in range(len(REACH))]
 
 
-WEIGHTS = {order: _weights(order) for order in (1, 2)}
+WEIGHTS = {order: _weights(order) for order in (0, 1, 2)}
 
 
 @dataclass(frozen=True)
@@ -66,7 +66,7 @@ class ExactRates:
             return {k: self._motion.at(self._there + k * mpf(STEP)) for n in REACH for k in (n, -n)}
 
     def by_phase(self, of: Callable[[dict[str, Place]], Any], order: int) -> Any:
-        """Return a derivative by the phase of what is read from a pose."""
+        """Return a derivative by the phase of what is read from a pose; by `order` 0 that itself."""
         with mp.workdps(DIGITS):
             found = _derivative({k: of(places) for k, places in self._around.items()}, order)
             return -found if self._back and order == 1 else found
@@ -110,11 +110,9 @@ class ExactRates:
 
     def pole(self, body: Body) -> Any:
         """Return about which point a body turns at the instant, x + yi."""
-        joint = body.joints[0]
+        place, moving = (self.by_phase(lambda at: at[body.joints[0]], order) for order in (0, 1))
         with mp.workdps(DIGITS):
-            return self._motion.at(self._there)[joint] + 1j * self.by_phase(
-                lambda at: at[joint], 1
-            ) / self.of_body(body, 1)
+            return place + 1j * moving / self.of_body(body, 1)
 
     def power(self) -> tuple[Any, Any]:
         """Return what the input delivers, in W, and how fast it runs: in rad/s, or in m/s."""
@@ -139,7 +137,7 @@ class ExactRates:
         def length(at: dict[str, Place]) -> Any:
             return abs(at[ends[1]] - at[ends[0]]) * mpf(self.scene.linkage.metre)
 
-        return length(self._motion.at(self._there)), self.by_phase(length, 1) * mpf(self._motion.speed)
+        return self.by_phase(length, 0), self.by_phase(length, 1) * mpf(self._motion.speed)
 
     def _taken_by(self, body: Body) -> Any:
         """Return what a body's weight, mass and inertia take, in W."""
@@ -166,7 +164,7 @@ def _centre(body: Body, at: dict[str, Place]) -> Place:
 
 
 def _derivative(found: Mapping[int, Any], order: int) -> Any:
-    """Return the first or second derivative of what is known at so many steps from a place."""
+    """Return a derivative of what is known at so many steps from a place; by `order` 0 that itself."""
     sign = -1 if order == 1 else 1
     terms = ((found[n] + sign * found[-n]) / 2 for n in REACH)
     return sum(w * term for w, term in zip(WEIGHTS[order], terms, strict=True)) / mpf(STEP) ** order
