@@ -201,7 +201,7 @@ def test_a_stated_mobility_is_that_of_the_constraints(part: int) -> None:
     assert sum(after(seed) for seed in range(10 * part, 10 * part + 10)) > 10
 
 
-@pytest.mark.long  # a minute each
+@pytest.mark.long  # 12 s each
 @pytest.mark.parametrize("part", range(8))
 def test_of_two_thousand_drafts(part: int) -> None:
     assert sum(after(5000 + 250 * part + seed) for seed in range(250)) > 250
