@@ -176,6 +176,14 @@ def test_readme_s_five_rows_and_its_sentence_are_those_of_the_manual() -> None:
 def test_the_changelog_begins_with_this_version() -> None:
     changes = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
     assert re.findall(r"^## (\S+)", changes, re.MULTILINE)[0] == linkanim.__version__
+    citation = (ROOT / ".github" / "CITATION.cff").read_text(encoding="utf-8")
+    assert f"\nversion: {linkanim.__version__}\n" in citation
+
+
+def test_the_newest_changes_begin_with_ten_lines() -> None:
+    changes = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8").split("\n## ")[1]
+    summary = changes.partition("\n### Details\n")[0]
+    assert re.findall(r"^(\d+)\. ", summary, re.MULTILINE) == [str(n) for n in range(1, 11)]
 
 
 # The pictures that a command of the manual writes, and the command.

@@ -171,13 +171,13 @@ def _block(kind: str, lines: list[str], chapter: str) -> str:
             return f"<pre>{escape(textwrap.dedent(chr(10).join(lines)))}</pre>"
         case "table":
             head, *rows = _cells(lines)
-            top = "".join(f"<th>{_inline(cell, chapter)}</th>" for cell in head)
-            body = "".join(
-                f"<tr>{''.join(f'<td>{_inline(cell, chapter)}</td>' for cell in row)}</tr>" for row in rows
+            top = " ".join(f"<th>{_inline(cell, chapter)}</th>" for cell in head)
+            body = "\n".join(
+                f"<tr>{' '.join(f'<td>{_inline(cell, chapter)}</td>' for cell in row)}</tr>" for row in rows
             )
-            return f"<table><thead><tr>{top}</tr></thead><tbody>{body}</tbody></table>"
+            return f"<table><thead><tr>{top}</tr></thead>\n<tbody>{body}</tbody></table>"
         case "list":
-            items = "".join(f"<li>{_inline(item, chapter)}</li>" for item in _items(lines))
+            items = "\n".join(f"<li>{_inline(item, chapter)}</li>" for item in _items(lines))
             return f"<ul>{items}</ul>"
     return f"<p>{_inline(' '.join(lines), chapter)}</p>"
 

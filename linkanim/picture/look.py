@@ -65,17 +65,15 @@ def _toggle(default: Default, *options: Option, **how: Any) -> Default:
 class Look:
     """What is shown; two pictures of one pose with equal looks and sizes have the same bytes.
 
-    `vectors` holds "v" (velocity) and "a" (acceleration). `chart` names one of
-    `scene.quantities`, None for no chart; it runs `over` what is usual of the scene's input where that is
-    None, or an axis that the scene has not. Lengths are shown in `unit`, the scene's own where it is None.
-    With `background` False what is not drawn stays transparent. `zoom` multiplies the fitted scale; `pan`
-    shifts the picture right and down, in fractions of the window's height. `ghost` draws the other closure
-    faintly, where it is given. `names` is 0 for none, 1 for those of joints and links with the ground line
-    and the input's direction of turning, 2 for dimensions and the input's angle as well. With `caption` the
-    scene's sentence on what to watch for stands below. `polygons` draws those of velocity and acceleration
-    beside the linkage; `chain` lets the input's colour fade along it, in the order in which joints are
-    solved. `centres` is 0 for none, 1 for the instant centres, 2 for the coupler's centrodes as
-    well.
+    `vectors` holds "v" (velocity) and "a" (acceleration). `chart` is one of `scene.quantities`, or None for
+    no chart; `over` is its horizontal axis, "angle", "time" or "phase", or None for the usual
+    one. Lengths are shown in `unit`, or in the scene's own if it is None. With `background` False the ground
+    stays transparent. `zoom` multiplies the fitted scale; `pan` shifts the picture right and down, in
+    fractions of the window's height. `ghost` draws the other closure faintly. `names` is 0 for none, 1 for
+    the names of joints and links with the input's direction of turning, 2 for dimensions and the input's
+    angle as well. `caption` adds the scene's sentence on what to watch for. `polygons` draws the velocity and
+    acceleration polygons beside the linkage. `chain` colours the links in the order in which they are solved.
+    `centres` is 0 for none, 1 for the instant centres, 2 for the coupler's centrodes as well.
     """
 
     trace: bool = _toggle(

@@ -226,11 +226,11 @@ def record(
 ) -> Recording:
     """Record whole periods of a scene's motion as a GIF, MP4 or numbered PNG, by the path's ending.
 
-    `size` in pixels; `speed` is dφ/dt in rad/s, the scene's own where None; `seconds` sets the length
-    instead of `periods` (true periods), and the clip need not close then; `start` is the first frame's
-    phase. With `noted` the HUD says where a limit or a change point is near. `progress` is called with
-    (frames done, frames in all). The file appears when it is whole, or not at all. `BadInput` for what
-    cannot be recorded, before any work; `RecordingFailed` where disk or encoder give up.
+    `size` is in pixels. `speed` is dφ/dt in rad/s, the scene's own if it is None. `seconds` sets the length
+    instead of `periods` (true periods); the clip need not close then. `start` is the phase of the first
+    frame. With `noted` the text notes nearby limits and change points. `progress` is called with (frames
+    done, frames in all). The file appears when it is whole, or not at all. `BadInput`, before any work, for
+    what cannot be recorded; `RecordingFailed` if the disk or the encoder gives up.
     """
     _, form = checked_path(path)
     refuse_size(size)

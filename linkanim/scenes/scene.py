@@ -126,7 +126,7 @@ class Scene:
 
     @cached_property
     def info(self) -> Info:
-        """The linkage's class, input range, toggles, change points and what else is told of it."""
+        """What is known of the linkage: class, input range, toggles, change points, stroke and more."""
         from linkanim.mechanics.analysis import Info
 
         if self.towards is not None:
@@ -135,7 +135,7 @@ class Scene:
 
     @cached_property
     def quantities(self) -> Mapping[str, Quantity]:
-        """All quantities by their tokens, bodies called by what they do."""
+        """All quantities by their tokens, such as "rocker.angle"; words call bodies by what they do."""
         from linkanim.mechanics.quantities import register
 
         return register(self.linkage, self.info.link_names)
@@ -159,7 +159,7 @@ class Scene:
 
     @property
     def period(self) -> float:
-        """The true period in phase: 2π, or a whole multiple where it takes longer to be back."""
+        """The true period in phase: 2π, or a whole multiple of it if all joints are back only then."""
         return 2 * math.pi * self.mechanism.periods
 
     @property
@@ -187,8 +187,8 @@ class Scene:
         `speed` (rad/s) and `acceleration` (rad/s²) are those of what is given: of the crank's angle,
         or of the phase; the scene's own speed where none is given. `derivatives` 0, 1 or 2 says how
         much is worked out. An angle outside the input's range gives NaN; rates at a limit are
-        infinite. BadInput where neither or both of angle and phase are given, and for the angle of an
-        input that is a slider.
+        infinite. BadInput if neither or both of angle and phase are given, and for an angle if the
+        input is a slider.
         """
         if (angle is None) == (phase is None):
             raise BadInput("give either angle= or phase=, in radians")
@@ -219,9 +219,9 @@ class Scene:
         speed: float | None = None,
         acceleration: float = 0.0,
     ) -> Pose:
-        """Return the motion at one phase in plain floats: the way of a frame.
+        """Return the motion at one phase in plain floats, as fast as a frame needs it.
 
-        BadInput for what is no number, or for other `derivatives` than 0, 1 and 2.
+        BadInput for anything but numbers, and for `derivatives` other than 0, 1 and 2.
         """
         if derivatives not in (0, 1, 2):
             _check_derivatives(derivatives)

@@ -611,8 +611,8 @@ def function(
     """Return linkages whose output follows a function as their input turns, the best first.
 
     `given` is an expression in x as "y = log10(x)", over x from `first` to `last`, or the rows (x, y) of a
-    table. `options` are those of `task_of`. BadInput for what is no function, for ranges that make no sense,
-    and where no linkage was found.
+    table. The other options are described below. BadInput for what is not a function, for ranges that make no
+    sense, and if no linkage was found.
     """
     refuse_count(count)
     return answers(task_of(given, first, last, **options), count)
@@ -636,10 +636,10 @@ def task_of(
 ) -> FunctionTask:
     """Return what is asked for, checked.
 
-    `kind` is "four-bar" or "slider-crank"; `points` how many precision points there are, 3 to 5, as many as
-    what is given leaves unless stated. Ranges and starts of the scales on input and output are in radians, of
-    a slider's output in `unit`; negative ranges run backwards. Without `level` the precision points stay
-    where Chebyshev has them.
+    `kind` is "four-bar" or "slider-crank". `points` is the number of precision points, 3 to 5; by default as
+    many as the other options leave room for. The ranges and starts of the scales on input and output are in
+    radians, those of a slider in `unit`; negative ranges run backwards. With `level` False the precision
+    points keep Chebyshev's spacing.
     """
     if kind not in GENERATORS:
         raise BadInput(f"kind={shown(kind)}: take {' or '.join(GENERATORS)}")

@@ -127,10 +127,10 @@ class GuidedLinkage(CouplerLinkage):
 def guide(poses: ArrayLike, *, count: int = COUNT, **options: Any) -> tuple[GuidedLinkage, ...]:
     """Return linkages whose coupler passes poses (n, 3), 2 to 5 rows of x, y and angle (rad), the best first.
 
-    Those without a defect come first, then small ones with a large transmission angle: `prefer` is "compact"
-    or "angle" for more of one of them. Of five poses the answers are all there are, of fewer a choice that
-    differs. Further `options` are those of `task_of`. BadInput for poses and limits that make no sense, and
-    where no linkage of the kind passes the poses, with the reason.
+    Linkages without a defect come first, then small ones with a large transmission angle; `prefer` is
+    "compact" or "angle" to weigh one of these more. For five poses all linkages are returned, for fewer a
+    choice of different ones. The other options are described below. BadInput, with the reason, for poses and
+    limits that make no sense, and if no linkage of the kind passes the poses.
     """
     refuse_count(count)
     prefer = options.pop("prefer", None)
@@ -153,9 +153,10 @@ def task_of(
 ) -> GuideTask:
     """Return what is asked for, checked.
 
-    `kind` is "four-bar" or "slider-crank"; `pivots` are fixed pins in any order, None for one that is free,
-    `box` is x, y, width and height, in which all fixed pins lie, `largest` the longest link in sizes of the
-    poses' places, `least_angle` the least transmission angle (rad) from the first pose to the last.
+    `kind` is "four-bar" or "slider-crank". `pivots` are fixed pins in any order, None for one that is free.
+    `box` is the x, y, width and height of the rectangle in which all fixed pins lie, `largest` the longest
+    link in sizes of the set of poses, `least_angle` the least transmission angle (rad) on the way from the
+    first pose to the last.
     """
     if kind not in KINDS:
         raise BadInput(f"kind={shown(kind)}: take {' or '.join(KINDS)}")

@@ -302,13 +302,13 @@ def path(
     progress: Progress | None = None,
     **options: object,
 ) -> tuple[Fit, ...]:
-    """Return the best few linkages that differ whose coupler point follows points (n, 2), the best first.
+    """Return different linkages whose coupler point follows points (n, 2), the best first.
 
-    A closed curve is passed in one turn of the crank, its points in their order; an open one within the
-    input's range. `cognates` adds each four-bar's two Roberts cognates after it, as far as they keep to the
-    same options; `rounding` rounds all lengths to that step, each time fitting the rest again. `options` are
-    those of `task_of`. BadInput for points or limits that make no sense, and where nothing was found that
-    keeps to the limits.
+    A closed curve is followed in one turn of the crank, its points in their order; an open one within the
+    input's range. `cognates` adds the two Roberts cognates of each four-bar, as far as they keep to the same
+    options. `rounding` rounds the lengths to that step one by one, each time fitting the rest again. Other
+    options are described below. BadInput for points or limits that make no sense, and if no linkage was found
+    that keeps to the limits.
     """
     refuse_count(count)
     if cognates and options.get("kind", "four-bar") != "four-bar":
@@ -353,8 +353,8 @@ def task_of(
     step from each point to the next; with `free_start`, the default for a step, all may be shifted by one
     angle. `box` is x, y, width and height for the pivots, `largest` the longest link or side of the coupler
     in curve sizes, `least_angle` the least transmission angle in radians. `pivots` are O2 and O4, None for
-    one that is free; `lengths` gives some of the kind's parameters. `weights` (n,) say how much points count,
-    `exactly` which are to be passed through exactly.
+    one that is free; `lengths` fixes some of the parameters of the kind. `weights` (n,) say how much each
+    point counts, and `exactly` lists the points to pass exactly.
     """
     if kind not in KINDS:
         raise BadInput(f"kind={shown(kind)}: take {' or '.join(KINDS)}")

@@ -182,10 +182,10 @@ def quick_return(
 ) -> tuple[QuickReturn, ...]:
     """Return linkages whose output takes `ratio` times as long one way as the other, the best first.
 
-    Of a slider-crank the `stroke` is given, of a crank-rocker the `swing` (rad), and maybe the stroke as the
-    chord between the dead centres of its pin. The first has the largest least transmission angle there is,
-    the others lie evenly along the family; at `place`, from 0 to 1, it is that one alone. BadInput for
-    numbers that make no sense, and for what no linkage of the kind does.
+    For a slider-crank give the `stroke`; for a crank-rocker the `swing` (rad) and perhaps, as `stroke`, the
+    chord between the dead centres of its pin. The first linkage has the largest least transmission angle of
+    the family, the others lie evenly along it; `place`, from 0 to 1, takes that one alone. BadInput for
+    numbers that make no sense, and if no linkage of the kind does it.
     """
     kind = kind or ("slider-crank" if swing is None else "crank-rocker")
     if kind not in KINDS:

@@ -53,10 +53,10 @@ def make(
     `way` is "cardboard" (a PDF to print), "laser" (SVG and DXF) or "print" (STL). Lengths are in mm: the
     width of a `bar`, a `hole`'s diameter, the material's `thickness`; by how much a hole is wider than its
     pin (`clearance`), how far from each other parts of a layer pass (`gap`), what a cut takes away (`kerf`);
-    the width and height of a `sheet`, or a page, "A4" or "Letter". It is in true size, or scaled so that each
-    part `fit`s a page. With a `bridge` fixed pins may hang from a plate above. What cannot be made flat comes
-    back with the reason in `refused`; with an `output` that is BadInput. BadInput for sizes that make no
-    sense, and `WorkFailed` where disk or folder refuse.
+    the width and height of a `sheet`, or a page, "A4" or "Letter". Parts are in true size, or scaled so that
+    each `fit`s a page. With a `bridge`, fixed pins may hang from a plate above. If the linkage cannot be made
+    flat, `refused` says why; with an `output` that is BadInput. BadInput also for sizes that make no sense,
+    and `WorkFailed` if the disk or the folder refuses.
     """
     if way not in WAYS:
         raise BadInput(f"way={shown(way)}: take {', '.join(WAYS)}")
