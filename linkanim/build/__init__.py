@@ -10,6 +10,7 @@ From the ground up; a module imports from those before it only:
     gestures    what a hand draws, what is done to the chosen thing, what lies under the pointer
     dimensions  the numbers of the chosen thing, and digits typed for one of them
     storing     a draft as plain data, and back
+    tools       the tools of a sheet, as data
 
 The window keeps one `Building`: the `draft`, the `chosen` thing, the digits `typed` for its
 number `row`, `past` and `future`, and a `sentence` of what the last gesture did or why not. Every gesture is
@@ -18,7 +19,7 @@ them. A thing is a pair (kind, name): ("joints", "A"), ("bars", "A–B"), ("guid
 ("drive", "input"), ... Points are in the draft's unit of length, y upwards.
 
 By pointer: `reach` is how near counts as on it, `snap` the step of places, lengths and
-(so that ends move less than it) angles: 1 or 10 for a grid, 0.1 with Shift, 0 with Alt. Tools: see `TOOLS`.
+(so that ends move less than it) angles: 1 or 10 for a grid, 0.1 with Shift, 0 with Alt.
 
     click(building, tool, x, y, reach=, snap=)    a ground pin on paper; else chooses what is there
     double_click(building, x, y, reach=, snap=)    a point of the body there

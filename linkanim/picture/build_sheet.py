@@ -370,7 +370,7 @@ def _pointer(at: complex, setting: DrawSetting) -> Iterator[Layer]:
 def _words(shown: BuildShown, setting: DrawSetting) -> Group:
     """Return what is missing or what the linkage is, at the top, off the tools, on a backing."""
     layout, theme = setting.layout, setting.theme
-    cells = tool_cells(layout, len(shown.tools.tools)) if shown.tools else ()
+    cells = tool_cells(layout) if shown.tools else ()
     beside = max((cell.right for cell in cells), default=0) if layout.size[0] >= layout.size[1] else 0
     left, y, captions = beside + layout.margin, layout.margin, []
     room = 0.93 * (layout.stage.right - layout.margin - left)

@@ -6,18 +6,23 @@ These are data only, in the scene's unit and y up where they are places; `panels
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Literal, NamedTuple, TypeVar
 
 from linkanim.build.draft import Photo
 from linkanim.build.places import Shape
 from linkanim.mechanics.linkage import Point
 from linkanim.picture.look import ThemeName
+from linkanim.scenes import chapter_of, titles
 from linkanim.scenes.scene import Scene
 
 if TYPE_CHECKING:
     from linkanim.synthesis.answers import PathAnswer
     from linkanim.synthesis.curves import DrawnCurve
+
+Key = TypeVar("Key")
 
 # What is shown of a linkage that is being built, as data: places in the scene's unit, y up.
 
@@ -38,19 +43,10 @@ class Rubber(NamedTuple):
     words: str = ""
 
 
-class ToolShown(NamedTuple):
-    """A tool of the bar: which icon, its name, its key."""
-
-    icon: str
-    name: str
-    key: str
-
-
 @dataclass(frozen=True)
 class ToolBar:
-    """The bar of tools: the one in hand, and the one that the mouse is over."""
+    """The bar of tools: the number of the one in hand, and of the one that the mouse is over."""
 
-    tools: tuple[ToolShown, ...]
     chosen: int = 0
     pointed: int | None = None
 
@@ -142,23 +138,70 @@ class Quantities:
     title: str = "Quantities"
 
 
-@dataclass(frozen=True)
-class Shelf:
-    """All mechanisms, those of the catalogue by their names, the chosen one's place, and how many frames it
-    has been open; `still` while paused. The places of `edited` are not as their files have them.
+NEW = -1
+"""The place of an empty sheet on the shelf, before all mechanisms."""
+NEW_TITLE = "New: an empty sheet"
 
-    `found` are the places that have the `sieve` in them; the row numbered `top` is the first where it can be.
+
+def found_among(entries: Sequence[Scene | str], sieve: str) -> tuple[int, ...]:
+    """Return the places of the mechanisms that have all the sieve's words in name, title or chapter."""
+    return sifted(dict(enumerate((NEW_TITLE, *_searched(entries)), start=NEW)), sieve)
+
+
+def sifted(texts: Mapping[Key, str], sieve: str) -> tuple[Key, ...]:
+    """Return the keys of the texts that have all the sieve's words."""
+    if not (words := sieve.casefold().split()):
+        return tuple(texts)
+    found = [(key, text.casefold()) for key, text in texts.items()]
+    for word in words:
+        found = [(key, text) for key, text in found if word in text]
+    return tuple(key for key, _ in found)
+
+
+def _searched(entries: Sequence[Scene | str]) -> Iterator[str]:
+    named = titles()
+    for entry in entries:
+        if isinstance(entry, str):
+            yield f"{entry} {named[entry]} {chapter_of(entry)}"
+        else:
+            yield f"{entry.name} {entry.title} {entry.chapter}"
+
+
+@dataclass(frozen=True)
+class Browsing:
+    """The open shelf: its mechanisms as the state has them, the one that is chosen, the frame of opening.
+
+    Letters sift it; it is scrolled to the row numbered `top`.
     """
 
     entries: tuple[Scene | str, ...]
     chosen: int
+    since: int
+    sieve: str = ""
+    top: int = 0
+
+    @cached_property
+    def found(self) -> tuple[int, ...]:
+        """The places of those that have all the sieve's words."""
+        return found_among(self.entries, self.sieve)
+
+    def sifted(self, sieve: str) -> Browsing:
+        """Return it with other letters, at the first that is found where the chosen one is not."""
+        other = replace(self, sieve=sieve, top=0)
+        return other if self.chosen in other.found else replace(other, chosen=(*other.found, self.chosen)[0])
+
+
+class Shelf(NamedTuple):
+    """The open shelf in its theme, and how many frames it has been open; `still` while paused.
+
+    The places of `edited` are not as their files have them.
+    """
+
+    browsing: Browsing
     frame: int
     theme: ThemeName
     still: bool = False
     edited: frozenset[int] = frozenset()
-    found: tuple[int, ...] = ()
-    sieve: str = ""
-    top: int = 0
 
 
 @dataclass(frozen=True)

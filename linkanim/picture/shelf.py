@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from itertools import groupby
 from math import ceil
-from typing import TYPE_CHECKING, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 import pygame
@@ -14,7 +14,7 @@ import pygame
 from linkanim.picture.board import Board
 from linkanim.picture.layout import Layout, layout
 from linkanim.picture.look import Look
-from linkanim.picture.overlay import AnswerRow, Shelf
+from linkanim.picture.overlay import NEW, NEW_TITLE, AnswerRow, Browsing, Shelf
 from linkanim.picture.picture import Picture
 from linkanim.picture.raster import Layer, Loop, paint
 from linkanim.picture.shapes import box, disc
@@ -30,7 +30,6 @@ if TYPE_CHECKING:
 
 # The shelf: all mechanisms as small live pictures with their titles, chapter by chapter, over the window.
 
-Key = TypeVar("Key")
 _SHAPE = 1.6
 """How much wider than high a picture is."""
 _WIDE = (185.0, 100.0)
@@ -45,9 +44,6 @@ _CHOSEN_TURNS = 2
 _AT_ONCE = 5
 """The chosen picture moves at every second frame; of the others so many at each, in turns."""
 _PER_SECOND = 60
-NEW = -1
-"""The place of an empty sheet, before all mechanisms."""
-_NEW = "New: an empty sheet"
 _NONE = "no title or chapter contains that"
 _TITLE = "Mechanisms"
 
@@ -88,13 +84,13 @@ class Grid(NamedTuple):
         return place in self.cells and self.cells[place].bottom <= self.room.bottom + 1
 
 
-def grid(size: tuple[int, int], shelf: Shelf) -> Grid:
+def grid(size: tuple[int, int], browsing: Browsing) -> Grid:
     """Return where a shelf's mechanisms stand, scrolled no further than the chosen one is in sight."""
-    shape = _Shape(size, shelf)
+    shape = _Shape(size, browsing)
     last = len(shape.rows) - 1
-    chosen = next((n for n, row in enumerate(shape.rows) if shelf.chosen in row), 0)
-    top = min(max(shelf.top, 0), chosen, max(last, 0))
-    while top < chosen and not shape.grid(top).whole(shelf.chosen):
+    chosen = next((n for n, row in enumerate(shape.rows) if browsing.chosen in row), 0)
+    top = min(max(browsing.top, 0), chosen, max(last, 0))
+    while top < chosen and not shape.grid(top).whole(browsing.chosen):
         top += 1
     # no further than that the last row stands at the foot
     while top > 0 and shape.grid(top - 1).whole(shape.rows[last][0]):
@@ -105,7 +101,7 @@ def grid(size: tuple[int, int], shelf: Shelf) -> Grid:
 class _Shape:
     """How large things are on a shelf, and which mechanisms are in a row."""
 
-    def __init__(self, size: tuple[int, int], shelf: Shelf) -> None:
+    def __init__(self, size: tuple[int, int], browsing: Browsing) -> None:
         unit = layout(size).unit
         self.text = max(round(15.0 * unit), 11)
         edge = max(14.0 * unit, 4.0)
@@ -115,7 +111,9 @@ class _Shape:
         columns = max(int((self._room.width + self._gap) / (least + self._gap)), 1)
         self._wide = (self._room.width - (columns - 1) * self._gap) / columns
         self.line = (1.2 * _LINES + 0.3) * self.text
-        groups = [(name, [*members]) for name, members in groupby(shelf.found, lambda n: _chapter(shelf, n))]
+        groups = [
+            (name, [*members]) for name, members in groupby(browsing.found, lambda n: _chapter(browsing, n))
+        ]
         self._heads = [name for name, members in groups for _ in range(ceil(len(members) / columns))]
         self.rows = tuple(
             tuple(members[n : n + columns]) for _, members in groups for n in range(0, len(members), columns)
@@ -140,11 +138,11 @@ class _Shape:
         return Grid(cells, seen, self.rows, top, self._room, self.line, self.text)
 
 
-def _chapter(shelf: Shelf, place: int) -> str:
+def _chapter(browsing: Browsing, place: int) -> str:
     """Return what stands over a mechanism: its chapter, in capitals where it begins."""
     if place == NEW:  # it leads the first chapter
-        return next((_chapter(shelf, n) for n in shelf.found if n != NEW), "Your own")
-    entry = shelf.entries[place]
+        return next((_chapter(browsing, n) for n in browsing.found if n != NEW), "Your own")
+    entry = browsing.entries[place]
     name = (chapter_of(entry) or "") if isinstance(entry, str) else entry.chapter or "opened"
     return name[:1].upper() + name[1:]
 
@@ -182,14 +180,14 @@ class ShelfPrinter:
     def draw(self, surface: pygame.Surface, shelf: Shelf) -> None:
         """Draw the shelf instead of the picture, with one mechanism more than before."""
         size = surface.get_size()
-        if self._made_for != (size, shelf.theme, shelf.entries):
+        if self._made_for != (size, shelf.theme, shelf.browsing.entries):
             self.close()
-            self._made_for = size, shelf.theme, shelf.entries
+            self._made_for = size, shelf.theme, shelf.browsing.entries
         self._type = self._type or Type()
-        board, found = Board(layout(size), self._type, theme_of(shelf.theme)), grid(size, shelf)
-        shown = (found.top, shelf.found, shelf.sieve)
+        board, found = Board(layout(size), self._type, theme_of(shelf.theme)), grid(size, shelf.browsing)
+        shown = (found.top, shelf.browsing.found, shelf.browsing.sieve)
         if self._still is None or self._still[0] != shown:
-            self._still = shown, _still(size, board, found, shelf)
+            self._still = shown, _still(size, board, found, shelf.browsing)
         surface.blit(self._still[1], (0, 0))
         self._join(found, shelf)
         for n in _due(self._live, found, shelf):
@@ -199,16 +197,16 @@ class ShelfPrinter:
             live = self._live.get(n)
             if live and live.printed:
                 surface.blit(live.printed, (round(cell.x), round(cell.y)))
-            _mark(surface, board, cell, chosen=n == shelf.chosen, edited=n in shelf.edited)
+            _mark(surface, board, cell, chosen=n == shelf.browsing.chosen, edited=n in shelf.edited)
         surface.set_clip(None)
-        _foot(surface, board, found, shelf, self._live.get(shelf.chosen))
+        _foot(surface, board, found, shelf, self._live.get(shelf.browsing.chosen))
 
     def _join(self, found: Grid, shelf: Shelf) -> None:
         """Read the next mechanism in sight, the chosen one first."""
-        order = sorted(found.cells, key=lambda n: n != shelf.chosen)
+        order = sorted(found.cells, key=lambda n: n != shelf.browsing.chosen)
         n = next((n for n in order if n not in self._live and n != NEW), None)
         if n is not None:
-            entry, cell = shelf.entries[n], found.cells[n]
+            entry, cell = shelf.browsing.entries[n], found.cells[n]
             scene = load(entry) if isinstance(entry, str) else entry
             size = round(cell.width), round(cell.height - found.line)
             look = Look(theme=shelf.theme, hud=False, background=False)
@@ -221,31 +219,32 @@ def _due(live: dict[int, Live], found: Grid, shelf: Shelf) -> list[int]:
     first = shelf.frame * _AT_ONCE % max(len(seen), 1)
     order = seen[first:] + seen[:first]
     stale = [n for n in order if live[n].turn != _turn(shelf, n, len(found.cells))]
-    at_once = [n for n in stale if n == shelf.chosen or live[n].printed is None]
+    at_once = [n for n in stale if n == shelf.browsing.chosen or live[n].printed is None]
     return at_once + [n for n in stale if n not in at_once][:_AT_ONCE]
 
 
 def _turn(shelf: Shelf, n: int, count: int) -> int:
     """Return the frame that a place's picture shows: the places in sight take turns in moving on."""
-    turns = _CHOSEN_TURNS if n == shelf.chosen else ceil(count / _AT_ONCE)
+    turns = _CHOSEN_TURNS if n == shelf.browsing.chosen else ceil(count / _AT_ONCE)
     return 0 if shelf.still else max((shelf.frame - n) // turns * turns, 0)
 
 
-def _still(size: tuple[int, int], board: Board, found: Grid, shelf: Shelf) -> pygame.Surface:
+def _still(size: tuple[int, int], board: Board, found: Grid, browsing: Browsing) -> pygame.Surface:
     """Return what of a shelf keeps still: frames, titles, headings, and what has been typed."""
     still = pygame.Surface(size, 0, 32)
     still.fill(board.theme.background)
-    words, colour = (f"{shelf.sieve}_", board.theme.velocity) if shelf.sieve else (_TITLE, board.theme.ink)
+    typed = f"{browsing.sieve}_" if browsing.sieve else ""
+    words, colour = (typed, board.theme.velocity) if typed else (_TITLE, board.theme.ink)
     text, x, y = found.text, found.room.x, 0.7 * found.text
     board.write(still, words, (x, y), size=text, colour=colour, strong=True)
     count = (
-        f"{len([n for n in shelf.found if n != NEW])} of {len(shelf.entries)}"
-        if shelf.sieve
-        else f"{len(shelf.entries)}"
+        f"{len([n for n in browsing.found if n != NEW])} of {len(browsing.entries)}"
+        if browsing.sieve
+        else f"{len(browsing.entries)}"
     )
-    hint = count if shelf.sieve else f"type to filter   {count}"
+    hint = count if browsing.sieve else f"type to filter   {count}"
     board.write(still, hint, (found.room.right, y), size=text, colour=board.theme.dim, anchor="right")
-    if not shelf.found:
+    if not browsing.found:
         board.write(still, _NONE, (x, found.room.y), size=text, colour=board.theme.warning)
     for name, at in found.headings:
         board.write(still, name, (at.x, at.y), size=round(_HEADING * text), strong=True)
@@ -256,9 +255,9 @@ def _still(size: tuple[int, int], board: Board, found: Grid, shelf: Shelf) -> py
     for n, cell in found.cells.items():
         if n == NEW:
             paint(still, [Layer(board.theme.dim, _plus(cell, found.line, board.layout.unit))])
-            _title(still, board, _NEW, cell, found)
+            _title(still, board, NEW_TITLE, cell, found)
             continue
-        entry = shelf.entries[n]
+        entry = browsing.entries[n]
         _title(still, board, named[entry] if isinstance(entry, str) else entry.title, cell, found)
     still.fill(board.theme.background, pygame.Rect(0, int(found.room.bottom), *size))
     return still
@@ -313,7 +312,7 @@ def _mark(surface: pygame.Surface, board: Board, cell: Rect, *, chosen: bool, ed
 
 def _foot(surface: pygame.Surface, board: Board, found: Grid, shelf: Shelf, live: Live | None) -> None:
     """Write what to watch for of the chosen mechanism at the foot, in two lines at the most."""
-    if live is None or shelf.chosen not in shelf.found:
+    if live is None or shelf.browsing.chosen not in shelf.browsing.found:
         return
     text, room = found.text, found.room
     for size in range(text, _LEAST - 1, -1):
@@ -331,30 +330,6 @@ def frame_of(cell: Rect, board: Board, by: float) -> Loop:
     corner = 7 * board.layout.unit
     outline: Loop = middle + box(cell.width + 2 * by, cell.height + 2 * by, corner + by)
     return outline
-
-
-def found_among(entries: Sequence[Scene | str], sieve: str) -> tuple[int, ...]:
-    """Return the places of the mechanisms that have all the sieve's words in name, title or chapter."""
-    return sifted(dict(enumerate((_NEW, *_searched(entries)), start=NEW)), sieve)
-
-
-def sifted(texts: Mapping[Key, str], sieve: str) -> tuple[Key, ...]:
-    """Return the keys of the texts that have all the sieve's words."""
-    if not (words := sieve.casefold().split()):
-        return tuple(texts)
-    found = [(key, text.casefold()) for key, text in texts.items()]
-    for word in words:
-        found = [(key, text) for key, text in found if word in text]
-    return tuple(key for key, _ in found)
-
-
-def _searched(entries: Sequence[Scene | str]) -> Iterator[str]:
-    named = titles()
-    for entry in entries:
-        if isinstance(entry, str):
-            yield f"{entry} {named[entry]} {chapter_of(entry)}"
-        else:
-            yield f"{entry.name} {entry.title} {entry.chapter}"
 
 
 # A row of small live pictures at the window's foot: the linkages that follow a path, numbered.

@@ -11,12 +11,13 @@ from math import ceil
 import numpy as np
 import pygame
 
+from linkanim.build.tools import TOOLS, Tool
 from linkanim.picture.board import Board
 from linkanim.picture.bodies import pin_stamp
 from linkanim.picture.fittings import Coil, barrel, block_layers, hatched
 from linkanim.picture.layout import Gauge, Layout
 from linkanim.picture.motion_marks import turning_arrow
-from linkanim.picture.overlay import ToolBar, ToolShown
+from linkanim.picture.overlay import ToolBar
 from linkanim.picture.raster import Layer, paint
 from linkanim.picture.shapes import box, directions, disc, lined, rod, segments, slotted, stroke
 from linkanim.picture.text import Type
@@ -32,9 +33,9 @@ Icon = Callable[[Gauge, Theme], list[Layer]]
 """Draws an icon about 0, within 10 thin lines each way."""
 
 
-def tool_cells(layout: Layout, count: int) -> tuple[Rect, ...]:
-    """Return where so many tools stand: in columns at the left, in rows at the foot if it is upright."""
-    (width, height), edge = layout.size, 10.8 * layout.unit
+def tool_cells(layout: Layout) -> tuple[Rect, ...]:
+    """Return where the tools stand: in columns at the left, in rows at the foot if it is upright."""
+    (width, height), edge, count = layout.size, 10.8 * layout.unit, len(TOOLS)
     long = height - 2 * edge if width >= height else width - 2 * edge
     side = max(min(_SIDE * layout.unit, long / count / (1 + _GAP)), min(_LEAST, long / 4), 1.0)
     step = (1 + _GAP) * side
@@ -48,9 +49,9 @@ def tool_cells(layout: Layout, count: int) -> tuple[Rect, ...]:
     return tuple(Rect(left + n * step, foot + line * step, side, side) for line, n in places)
 
 
-def tool_at(layout: Layout, count: int, x: float, y: float) -> int | None:
+def tool_at(layout: Layout, x: float, y: float) -> int | None:
     """Return the number of the tool under a pixel; None beside them."""
-    return next((n for n, cell in enumerate(tool_cells(layout, count)) if cell.holds(x, y)), None)
+    return next((n for n, cell in enumerate(tool_cells(layout)) if cell.holds(x, y)), None)
 
 
 @dataclass
@@ -65,19 +66,19 @@ class ToolPrinter:
         if bar is None:
             self._kept = None
             return
-        board, cells = Board(layout, self._type, theme), tool_cells(layout, len(bar.tools))
+        board, cells = Board(layout, self._type, theme), tool_cells(layout)
         made_for = layout.size, theme, replace(bar, pointed=None)
         if self._kept is None or self._kept[0] != made_for:
             self._kept = made_for, _bar(board, cells, bar)
         surface.blit(self._kept[1], (0, 0))
-        if bar.pointed is not None and bar.pointed < len(bar.tools):
-            _tooltip(surface, board, cells[bar.pointed], bar.tools[bar.pointed])
+        if bar.pointed is not None:
+            _tooltip(surface, board, cells[bar.pointed], TOOLS[bar.pointed])
 
 
 def _bar(board: Board, cells: tuple[Rect, ...], bar: ToolBar) -> pygame.Surface:
     sheet = pygame.Surface(board.layout.size, pygame.SRCALPHA, 32)
     theme, line = board.theme, max(1.2 * board.layout.unit, 1.0)
-    for n, (cell, tool) in enumerate(zip(cells, bar.tools, strict=True)):
+    for n, (cell, tool) in enumerate(zip(cells, TOOLS, strict=True)):
         chosen, corner = n == bar.chosen, 0.18 * cell.width
         rim = theme.velocity if chosen else theme.rule
         fill = mixed(theme.panel, theme.chosen, 1.0 if chosen else 0.0)
@@ -91,7 +92,7 @@ def _bar(board: Board, cells: tuple[Rect, ...], bar: ToolBar) -> pygame.Surface:
     return sheet
 
 
-def _tooltip(surface: pygame.Surface, board: Board, cell: Rect, tool: ToolShown) -> None:
+def _tooltip(surface: pygame.Surface, board: Board, cell: Rect, tool: Tool) -> None:
     """Write a tool's name and key beside it."""
     size = board.layout.small_size
     words = f"{tool.name}   {tool.key}".rstrip()

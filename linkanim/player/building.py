@@ -12,13 +12,13 @@ from linkanim.build import dimensions, gestures
 from linkanim.build.building import Building, building_of
 from linkanim.build.draft import JOINT
 from linkanim.build.storing import restored, stored
+from linkanim.build.tools import TOOLS
 from linkanim.errors import BadInput
 from linkanim.intake import Intake, Section, unnameable
 from linkanim.picture.figure import figure
-from linkanim.picture.shelf import NEW
+from linkanim.picture.overlay import NEW
 from linkanim.picture.view import Box
 from linkanim.player import pencil
-from linkanim.player.action import TOOLS
 from linkanim.player.clock import FRAMES_PER_SECOND
 from linkanim.player.edits import drop, exchanged
 from linkanim.player.edits import put as put_on

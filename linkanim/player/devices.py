@@ -15,7 +15,8 @@ from typing import Literal, NamedTuple
 import pygame
 from pygame.event import Event
 
-from linkanim.player.action import TOOLS, Action, Mode
+from linkanim.build.tools import TOOLS
+from linkanim.player.action import Action, Mode
 from linkanim.player.keys import Bind, Press, bind_of, button_name, hat_name, key_names, key_of
 from linkanim.player.screen import Screen
 from linkanim.player.state import State

@@ -9,8 +9,8 @@ from decimal import Decimal
 
 from linkanim.errors import LinkanimError
 from linkanim.mechanics.analysis import Info
+from linkanim.picture.overlay import Browsing
 from linkanim.player.state import (
-    Browsing,
     Edited,
     Editing,
     FileNames,

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
+from linkanim.build.tools import TOOLS
 from linkanim.picture.look import TOGGLES
-from linkanim.player.action import TOOLS, Action, Mode, Value
+from linkanim.player.action import Action, Mode, Value
 
 # The one table of gamepad buttons: which key each stands for; window, help and README read it.
 #

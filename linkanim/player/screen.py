@@ -23,17 +23,17 @@ from linkanim.build.gestures import under
 from linkanim.errors import NoDisplay
 from linkanim.picture.build_sheet import grid_step, pencil
 from linkanim.picture.layout import layout
-from linkanim.picture.overlay import Overlay
+from linkanim.picture.overlay import Browsing, Overlay
 from linkanim.picture.picture import Picture
 from linkanim.picture.shelf import Grid, RowPrinter, ShelfPrinter, grid, row_cells
 from linkanim.picture.surface import SurfacePrinter
 from linkanim.picture.theme import theme_of
 from linkanim.picture.tools import ToolPrinter, tool_at
 from linkanim.picture.view import Rect
-from linkanim.player.action import TOOLS, Action
+from linkanim.player.action import Action
 from linkanim.player.framing import Fade, Framing
-from linkanim.player.shown import Hover, shelf_of
-from linkanim.player.state import PIVOTS, Browsing, BuildSheet, State, driven_bar
+from linkanim.player.shown import Hover
+from linkanim.player.state import PIVOTS, BuildSheet, State, driven_bar
 from linkanim.scenes.editing import handles
 
 # The display: a window on a screen that is really there.
@@ -383,7 +383,7 @@ class Screen:
 
     def tool_at(self, x: float, y: float) -> int | None:
         """Return the number of the tool of the sheet under a pixel; None beside them."""
-        return tool_at(self._framing.last.layout, len(TOOLS), x, y)
+        return tool_at(self._framing.last.layout, x, y)
 
     def handed(self, x: float, y: float, part: float) -> tuple[float, float, float, float]:
         """Return a place of the sheet, how near counts as on it, and the usual step times a part.
@@ -439,7 +439,7 @@ class Screen:
 
     def shelf_grid(self, browsing: Browsing) -> Grid:
         """Return where the mechanisms of a shelf stand; it need not be painted yet."""
-        return grid(self.size, shelf_of(self.state, browsing))
+        return grid(self.size, browsing)
 
     def shelf_at(self, x: float, y: float) -> int | None:
         """Return the place on the open shelf under a pixel; None between its pictures."""

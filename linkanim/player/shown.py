@@ -13,11 +13,13 @@ from linkanim.build.dimensions import numbers_of
 from linkanim.build.draft import JOINT, Draft, Thing
 from linkanim.build.gestures import under
 from linkanim.build.places import Shape, as_point, drawn, foot, from_span, line_of, snapped
+from linkanim.build.tools import TOOLS
 from linkanim.mechanics.linkage import Body, Point
 from linkanim.mechanics.motion import Pose
 from linkanim.mechanics.quantities import Quantity
 from linkanim.picture.overlay import (
     AnswerRow,
+    Browsing,
     BuildShown,
     DimensionLine,
     DraftShown,
@@ -31,17 +33,14 @@ from linkanim.picture.overlay import (
     Shelf,
     Snap,
     ToolBar,
-    ToolShown,
 )
 from linkanim.picture.quantities import quantity
 from linkanim.picture.text import subscripted
-from linkanim.player.action import TOOLS
 from linkanim.player.clock import FRAMES_PER_SECOND
 from linkanim.player.keys import help_groups
 from linkanim.player.state import (
     FLASH_FRAMES,
     SHUTTER_FRAMES,
-    Browsing,
     BuildSheet,
     Grip,
     Listing,
@@ -55,7 +54,6 @@ from linkanim.units import significant, stepped, typeset
 
 # What a sheet shows: its draft or the linkage it makes, words, tools, what is under the hand.
 
-_SHOWN = tuple(ToolShown(tool.icon, tool.name, tool.key) for tool in TOOLS)
 _STRETCHED = ("bar", "spring", "damper", "cylinder", "slot", "gear")
 """The tools that draw from a joint."""
 
@@ -87,7 +85,7 @@ def built(state: State, sheet: BuildSheet, hover: Hover | None = None) -> BuildS
         hand=sheet.grip.at if sheet.grip else None,
         photo=building.draft.photo,
         anchor=sheet.anchor,
-        tools=ToolBar(_SHOWN, tool, hover.tool if hover else None),
+        tools=ToolBar(tool, hover.tool if hover else None),
         is_warning=bool(building.sentence),
     )
 
@@ -244,7 +242,7 @@ def _kept(state: State, items: tuple[Dimension, ...], over: Hover | None = None)
         help=help_groups(state.mode, pad=state.pad) if state.help else None,
         panel=_panel(state, items) if state.editing.open else None,
         quantities=_quantities(state, state.listing) if state.listing else None,
-        shelf=shelf_of(state, state.browsing) if state.browsing else None,
+        shelf=_shelf(state, state.browsing) if state.browsing else None,
         path=_path(state.sketch) if state.sketch else None,
         row=_answer_row(state, state.sketch) if state.sketch and not state.sketch.is_blank else None,
         build=built(state, state.building, over) if state.building else None,
@@ -312,19 +310,8 @@ def _percent(share: float) -> str:
     return f"{significant(share, 2)} %" if share >= 1e-5 else "0 %"
 
 
-def shelf_of(state: State, browsing: Browsing) -> Shelf:
-    """Return the open shelf as it is shown."""
-    return Shelf(
-        browsing.entries,
-        browsing.chosen,
-        state.frame - browsing.since,
-        state.look.theme,
-        state.clock.paused,
-        state.edited,
-        browsing.found,
-        browsing.sieve,
-        browsing.top,
-    )
+def _shelf(state: State, browsing: Browsing) -> Shelf:
+    return Shelf(browsing, state.frame - browsing.since, state.look.theme, state.clock.paused, state.edited)
 
 
 def _chip(state: State) -> Fading | None:

@@ -23,9 +23,8 @@ from linkanim.mechanics.analysis import Info
 from linkanim.mechanics.linkage import Point
 from linkanim.mechanics.motion import stopped
 from linkanim.picture.look import Look
-from linkanim.picture.overlay import Overlay
+from linkanim.picture.overlay import Browsing, Overlay, sifted
 from linkanim.picture.quantities import quantity
-from linkanim.picture.shelf import found_among, sifted
 from linkanim.picture.view import Box, eased
 from linkanim.player.action import Action, Mode
 from linkanim.player.clock import FRAMES_PER_SECOND, Clock
@@ -81,30 +80,6 @@ class Listing:
     def sifted(self, sieve: str) -> Listing:
         """Return it with other letters, at its top."""
         return Listing(0, sieve, self.files and replace(self.files, sieve=sieve))
-
-
-@dataclass(frozen=True)
-class Browsing:
-    """The open shelf: its mechanisms as the state has them, the one that is chosen, the frame of opening.
-
-    Letters sift it; it is scrolled to the row numbered `top`.
-    """
-
-    entries: tuple[Scene | str, ...]
-    chosen: int
-    since: int
-    sieve: str = ""
-    top: int = 0
-
-    @cached_property
-    def found(self) -> tuple[int, ...]:
-        """The places of those that have all the sieve's words."""
-        return found_among(self.entries, self.sieve)
-
-    def sifted(self, sieve: str) -> Browsing:
-        """Return it with other letters, at the first that is found where the chosen one is not."""
-        other = replace(self, sieve=sieve, top=0)
-        return other if self.chosen in other.found else replace(other, chosen=(*other.found, self.chosen)[0])
 
 
 def listed(scene: Scene, sieve: str) -> tuple[str, ...]:

@@ -22,6 +22,7 @@ from linkanim import intake
 from linkanim.build.draft import UNTITLED
 from linkanim.errors import BadInput, LinkanimError
 from linkanim.picture.look import Look
+from linkanim.picture.overlay import Browsing
 from linkanim.picture.photograph import SUFFIXES, lack
 from linkanim.player import files, screen
 from linkanim.player.action import Action
@@ -36,7 +37,7 @@ from linkanim.player.keys import bind_of
 from linkanim.player.screen import Screen
 from linkanim.player.shown import Hover, kept, overlay
 from linkanim.player.sound import Speaker, cues
-from linkanim.player.state import RESOLVED, Browsing, BuildSheet, Game, State, Take, begin, recovered, report
+from linkanim.player.state import RESOLVED, BuildSheet, Game, State, Take, begin, recovered, report
 from linkanim.player.tape import Tape, Taping
 from linkanim.scenes import load
 from linkanim.scenes.editing import under_class

@@ -12,7 +12,7 @@ from pictures import pixels
 
 from linkanim.picture.board import Board
 from linkanim.picture.layout import layout
-from linkanim.picture.overlay import Shelf
+from linkanim.picture.overlay import NEW, Browsing, Shelf
 from linkanim.picture.picture import Picture
 from linkanim.picture.shelf import ShelfPrinter, grid, titled
 from linkanim.picture.text import Type
@@ -58,7 +58,7 @@ SIZES = [(320, 180), (1280, 720), (720, 1280), (3840, 2160), (1000, 300)]
 @pytest.mark.parametrize("size", SIZES)
 def test_every_title_of_the_catalogue_stands_whole_in_its_place(size: tuple[int, int]) -> None:
     board = Board(layout(size), Type(), theme_of("light"))
-    found = grid(size, _shelf(names()))
+    found = grid(size, _shelf(names()).browsing)
     cell = next(iter(found.cells.values()))
     for title in titles().values():
         lines, _ = titled(board, title, found.text, cell.width - 0.5 * found.text)
@@ -66,7 +66,7 @@ def test_every_title_of_the_catalogue_stands_whole_in_its_place(size: tuple[int,
 
 
 def _shelf(entries: tuple[str, ...], chosen: int = 0, frame: int = 0, top: int = 0) -> Shelf:
-    return Shelf(entries, chosen, frame, "light", still=True, found=(*range(len(entries)),), top=top)
+    return Shelf(Browsing(entries, chosen, 0, top=top), frame, "light", still=True)
 
 
 def _shown(size: tuple[int, int], chosen: int) -> pygame.Surface:
@@ -83,9 +83,9 @@ def _shown(size: tuple[int, int], chosen: int) -> pygame.Surface:
 def test_the_chosen_mechanism_is_in_sight_in_any_window_and_nothing_overlaps(
     size: tuple[int, int], chosen: int, top: int
 ) -> None:
-    found = grid(size, _shelf(names(), chosen, top=top))
+    found = grid(size, _shelf(names(), chosen, top=top).browsing)
     assert found.whole(chosen)
-    assert sorted(n for row in found.rows for n in row) == list(range(len(names())))
+    assert sorted(n for row in found.rows for n in row) == list(range(NEW, len(names())))
     for _, heading in found.headings:
         assert not any(heading.inset(0.5).meets(cell.inset(0.5)) for cell in found.cells.values())
     for one, other in combinations(found.cells.values(), 2):
@@ -101,18 +101,18 @@ def test_the_chosen_mechanism_is_in_sight_in_any_window_and_nothing_overlaps(
 
 
 def test_a_shelf_scrolls_no_further_than_its_last_row() -> None:
-    found = grid((1280, 720), _shelf(names(), len(names()) - 1, top=99))
+    found = grid((1280, 720), _shelf(names(), len(names()) - 1, top=99).browsing)
     last = found.cells[len(names()) - 1]
     assert last.bottom <= found.room.bottom
     assert last.bottom > found.room.bottom - 2 * last.height
-    alone = grid((1280, 720), _shelf(THREE, 0, top=5))
+    alone = grid((1280, 720), _shelf(THREE, 0, top=5).browsing)
     assert alone.top == 0
 
 
 def test_each_chapter_begins_a_row_and_the_rows_are_gone_through_whatever_their_length() -> None:
-    found = grid((1280, 720), _shelf(names()))
+    found = grid((1280, 720), _shelf(names()).browsing)
     lengths = [len(row) for row in found.rows]
-    assert sum(lengths) == len(names())
+    assert sum(lengths) == len(names()) + 1  # an empty sheet leads them
     first, (short, after) = found.rows[0], next(pair for pair in pairwise(found.rows) if len(pair[0]) < 6)
     assert found.beside(first[2], 1) == found.rows[1][min(2, len(found.rows[1]) - 1)]
     assert found.beside(after[-1], -1) == short[-1]
@@ -123,14 +123,14 @@ def test_each_chapter_begins_a_row_and_the_rows_are_gone_through_whatever_their_
 def test_the_first_paint_has_every_frame_and_title_and_a_picture_comes_with_each() -> None:
     size, painter = (1280, 720), ShelfPrinter()
     surface = pygame.Surface(size, 0, 32)
-    found = grid(size, _shelf(names()))
+    found = grid(size, _shelf(names()).browsing)
     shots = []
-    for frame in range(len(found.cells) + 1):
+    for frame in range(len(found.cells)):  # an empty sheet has no picture
         painter.draw(surface, _shelf(names(), 0, frame))
         shots.append(pixels(surface))
     drawn = [{n for n, cell in found.cells.items() if _differs(shot, shots[0], cell)} for shot in shots]
     assert all(len(after - before) == 1 for before, after in pairwise(drawn[:-1]))
-    assert drawn[-1] == drawn[-2] == {*found.cells} - {0}
+    assert drawn[-1] == drawn[-2] == {*found.cells} - {NEW, 0}
     for n, cell in found.cells.items():  # titles stand below the pictures, from the first on
         foot = cell._replace(y=cell.bottom - found.line, height=found.line)
         if foot.bottom <= found.room.bottom:
@@ -163,7 +163,7 @@ def test_a_closed_shelf_keeps_no_picture() -> None:
 def test_the_chosen_mechanism_has_a_frame_of_its_own(chosen: int) -> None:
     size, colour = (640, 480), theme_of("light").velocity
     surface = _shown(size, chosen)
-    for n, cell in grid(size, _shelf(THREE, chosen)).cells.items():
+    for n, cell in grid(size, _shelf(THREE, chosen).browsing).cells.items():
         beside = [tuple(surface.get_at((round(cell.x) - 1, y)))[:3] for y in _middle(cell)]
         assert all((pixel == colour) == (n == chosen) for pixel in beside), n
 
@@ -174,7 +174,7 @@ def _middle(cell: Rect) -> range:
 
 def test_what_to_watch_for_of_the_chosen_one_stands_at_the_foot() -> None:
     size = (640, 480)
-    low = round(grid(size, _shelf(THREE)).room.bottom) + 1
+    low = round(grid(size, _shelf(THREE).browsing).room.bottom) + 1
     feet = [pixels(_shown(size, chosen))[low:] for chosen in (0, 2)]
     assert all((foot != foot[-1, 0]).any() for foot in feet)
     assert (feet[0] != feet[1]).any()

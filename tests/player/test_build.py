@@ -13,13 +13,14 @@ import pytest
 from playing import CTRL, SHIFT, NoSearch, Player
 
 from linkanim.build.draft import Photo
+from linkanim.build.tools import TOOLS
 from linkanim.errors import BadInput
+from linkanim.picture.overlay import NEW
 from linkanim.picture.photograph import lack
-from linkanim.picture.shelf import NEW
 from linkanim.picture.tools import ICONS, tool_cells
 from linkanim.play.arcade import Arcade
 from linkanim.player import beside, screen
-from linkanim.player.action import TOOLS, Action
+from linkanim.player.action import Action
 from linkanim.player.actions import advance, carried
 from linkanim.player.files import DraftFile
 from linkanim.player.shown import overlay
@@ -210,7 +211,7 @@ def test_the_crank_is_turned_by_the_hand(builder: Builder) -> None:
 
 def test_icons_take_tools_and_act(builder: Builder) -> None:
     builder.click(0, 0)
-    cells = tool_cells(builder.window.screen._framing.last.layout, len(TOOLS))
+    cells = tool_cells(builder.window.screen._framing.last.layout)
     undo = next(n for n, tool in enumerate(TOOLS) if tool.icon == "undo")
     builder.drag((cells[undo].middle.real, cells[undo].middle.imag))
     assert not builder.sheet.building.draft.places
@@ -646,9 +647,7 @@ def test_a_sheet_is_opened_out_of_the_title_and_is_there_again_after_it(here: Pa
 
 def test_tools_are_as_large_for_their_window_at_every_size(builder: Builder) -> None:
     layout = builder.window.screen._framing.last.layout
-    sides = [
-        tool_cells(replace(layout, size=(1280 * n, 720 * n), unit=float(n)), 10)[0].width for n in (1, 2, 3)
-    ]
+    sides = [tool_cells(replace(layout, size=(1280 * n, 720 * n), unit=float(n)))[0].width for n in (1, 2, 3)]
     assert sides == pytest.approx([40.0, 80.0, 120.0])
 
 

@@ -26,6 +26,7 @@ from playing import SIZE
 from test_sessions import SESSIONS
 
 from linkanim.build.building import Building, building_of
+from linkanim.build.tools import TOOLS
 from linkanim.errors import LinkanimError
 from linkanim.picture.photograph import refuse_lacking
 from linkanim.picture.surface import SurfacePrinter
@@ -33,7 +34,7 @@ from linkanim.play.arcade import Arcade
 from linkanim.play.games import GameWords, game_of
 from linkanim.play.match import FOLDER, level_of
 from linkanim.play.scores import load as scores_of
-from linkanim.player.action import TOOLS, Action
+from linkanim.player.action import Action
 from linkanim.player.actions import advance, carried
 from linkanim.player.building import DRAFT, restored_sheet, stored_text
 from linkanim.player.framing import Framing
