@@ -247,7 +247,7 @@ _IN_A_MODE: Table = {
         ),
         KeyRow("type", "filter by title or chapter"),
         KeyRow("PgUp, PgDn, wheel", "scroll", _both("pageup", "pagedown", "scroll", 2)),
-        KeyRow("Enter, click", "put it on", _enter("pick", "unsift")),
+        KeyRow("Enter, click", "put it on", _enter("put_chosen", "unsift")),
     ),
     # beside all others, while the picture stands still
     "paused": (KeyRow("digits, Enter", "go to that input angle", _enter("go", "erase_place")),),

@@ -43,9 +43,6 @@ if TYPE_CHECKING:
 # Both belong to the window alone, and no tape keeps them: what is chosen there is asked for by an action of
 # its own ("plot", "put"), and that a tape does keep.
 
-RESOLVED = frozenset({"pick", "row", "scroll", "files_here", "aim", "enter"})
-"""What a key asks for in a list, on the shelf or a sheet; the window asks for what it means there instead."""
-
 
 @dataclass(frozen=True)
 class FileNames:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import gc
 import os
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
@@ -22,10 +22,9 @@ from linkanim import intake
 from linkanim.build.draft import UNTITLED
 from linkanim.errors import BadInput, LinkanimError
 from linkanim.picture.look import Look
-from linkanim.picture.overlay import Browsing
 from linkanim.picture.photograph import SUFFIXES, lack
 from linkanim.player import files, screen
-from linkanim.player.action import Action
+from linkanim.player.action import Action, Value
 from linkanim.player.actions import aged, carried, leave, settled
 from linkanim.player.building import left, written
 from linkanim.player.clock import FRAMES_PER_SECOND
@@ -37,7 +36,7 @@ from linkanim.player.keys import bind_of
 from linkanim.player.screen import Screen
 from linkanim.player.shown import Hover, kept, overlay
 from linkanim.player.sound import Speaker, cues
-from linkanim.player.state import RESOLVED, BuildSheet, Game, State, Take, begin, recovered, report
+from linkanim.player.state import BuildSheet, Game, State, Take, begin, recovered, report
 from linkanim.player.tape import Tape, Taping
 from linkanim.scenes import load
 from linkanim.scenes.editing import under_class
@@ -178,33 +177,44 @@ class Window:
         yield from self._news()
 
     def _resolved(self, action: Action) -> Iterator[Action]:
-        """Yield an action; what depends on an open list or shelf, as what it means there."""
-        browsing, listing = self.state.browsing, self.state.listing
-        if action.name == "row" and browsing and isinstance(action.value, int):
-            yield Action("point", self.screen.shelf_grid(browsing).beside(browsing.chosen, action.value))
-            yield from self._in_sight()
-        elif action.name == "scroll" and browsing and isinstance(action.value, int):
-            yield from self._scrolled(browsing, action.value)
-        elif action.name == "move" and browsing:
-            yield action
-            yield from self._in_sight()
-        elif action.name == "pick" and browsing:
-            yield from [Action("put", browsing.chosen)] * (browsing.chosen in browsing.found)
-        elif action.name == "files_here":
-            yield from self._files()
-        elif action.name == "pick" and listing:
-            row = action.value if isinstance(action.value, int) else listing.chosen
+        """Yield an action; one that depends on what is in sight or in the folder as what it means there."""
+        meaning = MEANINGS.get(action.name)
+        yield from meaning(self, action.value) if meaning else (action,)
+
+    def _back(self, _: Value) -> Iterator[Action]:
+        """Yield what Esc leaves: an overlay, the full screen, a recording, in this order."""
+        if self.state.is_covered or not (screen.is_full() or self.state.recording):
+            yield Action("back")
+        elif not screen.is_full() and self.state.recording:
+            yield Action("record", self.state.recording.format)
+        elif not self.state.kiosk:
+            yield Action("fullscreen")
+
+    def _pick(self, row: Value) -> Iterator[Action]:
+        """Yield what takes a row of the open list, the chosen one unless it is given."""
+        if listing := self.state.listing:
+            row = row if isinstance(row, int) else listing.chosen
             yield from () if listing.files is None else (Action("back"),)
             deed = "plot" if listing.files is None else "open_file"
             yield from (Action(deed, name) for name in listing.found(self.state.scene)[row : row + 1])
-        elif action.name in ("aim", "enter") and self.state.building and self.screen.state.building:
-            yield from self._by_keys(self.state.building, action)
-        elif action.name == "back" and not self.state.is_covered and screen.is_full():
-            yield from [] if self.state.kiosk else [Action("fullscreen")]
-        elif action.name == "back" and not self.state.is_covered and self.state.recording:
-            yield Action("record", self.state.recording.format)
-        elif action.name not in RESOLVED:
-            yield action
+
+    def _put_chosen(self, _: Value) -> Iterator[Action]:
+        """Yield what puts on the mechanism that is chosen on the shelf, where the sieve has left one."""
+        browsing = self.state.browsing
+        if browsing and browsing.chosen in browsing.found:
+            yield Action("put", browsing.chosen)
+
+    def _move(self, further: Value) -> Iterator[Action]:
+        """Yield a step in the list or along the shelf, which scrolls with it."""
+        yield Action("move", further)
+        yield from self._in_sight()
+
+    def _row(self, rows: Value) -> Iterator[Action]:
+        """Yield what chooses the mechanism so many rows further down on the shelf."""
+        browsing = self.state.browsing
+        if browsing and isinstance(rows, int):
+            yield Action("point", self.screen.shelf_grid(browsing).beside(browsing.chosen, rows))
+            yield from self._in_sight()
 
     def _followed(self) -> Iterator[Action]:
         """Yield what the search for linkages has replied."""
@@ -233,8 +243,11 @@ class Window:
         if self.state.browsing:
             yield Action("top", self.screen.shelf_grid(self.state.browsing).top)
 
-    def _scrolled(self, browsing: Browsing, rows: int) -> Iterator[Action]:
+    def _scroll(self, rows: Value) -> Iterator[Action]:
         """Yield what scrolls the shelf by so many rows; one that goes out of sight is chosen no more."""
+        browsing = self.state.browsing
+        if browsing is None or not isinstance(rows, int):
+            return
         before = self.screen.shelf_grid(browsing)
         if not before.rows:
             return
@@ -246,16 +259,22 @@ class Window:
             seen = [n for n in free.cells if free.whole(n)] or [*free.cells]
             yield from (Action("point", n) for n in (seen[:1] if rows > 0 else seen[-1:]))
 
-    def _files(self) -> Iterator[Action]:
+    def _files_here(self, _: Value) -> Iterator[Action]:
         """Yield what opens the list of the scene files in the current folder."""
         names = scene_files()
         yield Action("files", "\n".join(names)) if names else Action("note", _NO_FILES)
 
-    def _by_keys(self, sheet: BuildSheet, action: Action) -> Iterator[Action]:
-        """Yield what arrows and Enter mean on a sheet: its cursor goes on, the hand goes down or up there."""
-        if action.name == "aim" and isinstance(action.value, tuple):
-            yield Action("cursor", self.screen.aimed(sheet, action.value))
-        elif sheet.building.typed:
+    def _aim(self, way: Value) -> Iterator[Action]:
+        """Yield what an arrow means on a sheet: its cursor goes on."""
+        if self._sheet and isinstance(way, tuple):
+            yield Action("cursor", self.screen.aimed(self._sheet, way))
+
+    def _enter(self, twice: Value) -> Iterator[Action]:
+        """Yield what Enter means on a sheet: a number is taken, or the hand goes down or up at its cursor."""
+        sheet = self._sheet
+        if sheet is None:
+            return
+        if sheet.building.typed:
             yield Action("take_number")
         elif sheet.grip:
             yield Action("hand_up")
@@ -263,7 +282,12 @@ class Window:
             at = self.screen.pixel(*sheet.cursor)
             click = Action("hand_down", self.screen.handed(*at, 1.0)), Action("hand_up")
             on_paper = self.screen.sheet_at(*at) == "paper"
-            yield from 2 * click if action.value else click if on_paper else click[:1]
+            yield from 2 * click if twice else click if on_paper else click[:1]
+
+    @property
+    def _sheet(self) -> BuildSheet | None:
+        """The sheet that is open, once it has been seen."""
+        return self.state.building if self.screen.state.building else None
 
     def _of_the_tape(self) -> Iterator[Action]:
         """Yield what the tape does at this frame; what it would do outside is left out."""
@@ -475,6 +499,20 @@ class Window:
         bind = bind_of(press, self.state.mode, typing=self.state.typing) if press else None
         self._keyboard.hold(event, bind, self._now)
         return (bind.action,) if bind else ()
+
+
+MEANINGS: Mapping[str, Callable[[Window, Value], Iterator[Action]]] = {
+    "back": Window._back,
+    "pick": Window._pick,
+    "put_chosen": Window._put_chosen,
+    "move": Window._move,
+    "row": Window._row,
+    "scroll": Window._scroll,
+    "files_here": Window._files_here,
+    "aim": Window._aim,
+    "enter": Window._enter,
+}
+"""What the table of keys asks for that depends on what is in sight or in the folder: actions of the state."""
 
 
 # The window: events to actions, `advance`, paint, flip; and what is asked of the outside.

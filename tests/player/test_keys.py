@@ -26,7 +26,7 @@ from linkanim.player.keys import (
     help_groups,
     key_names,
 )
-from linkanim.player.state import RESOLVED
+from linkanim.player.window import MEANINGS
 
 TABLES: dict[Mode, Table] = {"play": KEYS, **MODES}
 ROWS = {name: [row for rows in table.values() for row in rows] for name, table in TABLES.items()}
@@ -161,7 +161,7 @@ def test_a_key_while_the_quantities_are_open(press: Press, typing: bool, action:
 BROWSING = {
     "left": (Press("left"), Action("move", -1)),
     "down": (Press("down"), Action("row", 1)),
-    "enter": (Press("return", "\r"), Action("pick")),
+    "enter": (Press("return", "\r"), Action("put_chosen")),
     "o closes": (Press("o", "o"), Action("shelf")),
     "escape": (Press("escape", "\x1b"), Action("back")),
     "l": (Press("l", "l"), Action("sift", "l")),
@@ -198,7 +198,7 @@ def test_a_letter_that_is_typed_repeats_while_it_is_held(mode: Mode) -> None:
 
 @pytest.mark.parametrize("bind", BINDS, ids=lambda bind: bind.key)
 def test_every_key_asks_for_a_known_action(bind: Bind) -> None:
-    assert is_known(bind.action) or bind.action.name in RESOLVED
+    assert is_known(bind.action) or bind.action.name in MEANINGS
 
 
 @pytest.mark.parametrize("table", ROWS)
