@@ -210,6 +210,8 @@ def back(state: State, _: None) -> State:
 
     From a mechanism it leads back to the title, where the window opened on that.
     """
+    if state.naming:
+        return replace(state, naming=None)
     if state.help:
         return replace(state, help=False)
     if state.listing or state.browsing:
@@ -239,6 +241,47 @@ def quit_(state: State, _: None) -> State:
 def close(state: State, _: None) -> State:
     """Ask for the window's end by its own button; once more where a draft is in no file."""
     return building.closing(state) or with_effect(state, "quit")
+
+
+_LONGEST_FILE = 100
+
+
+def save(state: State, _: None) -> State:
+    """Write the scene to the file under which it was saved; ask for a name where it was not."""
+    return _saved(state, ("save", state.saved_as) if state.saved_as else ("name", None))
+
+
+def save_as(state: State, _: None) -> State:
+    """Ask for the name of another file, and write the scene there."""
+    return _saved(state, ("name", None))
+
+
+def _saved(state: State, asked: tuple[str, str | None]) -> State:
+    missing = state.building.building.made.missing if state.building else ""
+    if missing:
+        return with_toast(state, f"only what can move can be saved; the draft is kept. {missing}")
+    return with_effect(state, *asked)
+
+
+def write_name(state: State, text: str) -> State:
+    """Add to the name that is typed, which takes the proposal's place."""
+    return _named(state, lambda typed: (typed + text)[:_LONGEST_FILE])
+
+
+def erase_name(state: State, _: None) -> State:
+    """Take the last letter off the name, of the proposal too."""
+    naming = state.naming
+    return _named(state, lambda typed: (typed or (naming.proposal if naming else ""))[:-1])
+
+
+def _named(state: State, work: Callable[[str], str]) -> State:
+    naming = state.naming
+    return replace(state, naming=naming and naming._replace(typed=work(naming.typed), refusal=""))
+
+
+def take_name(state: State, _: None) -> State:
+    """Write the scene under the name, and ask no more."""
+    return with_effect(replace(state, naming=None), "save_new", state.naming.name) if state.naming else state
 
 
 def record(state: State, form: Literal["gif", "mp4"]) -> State:
@@ -557,7 +600,11 @@ ACTIONS: Mapping[str, Rule] = {
     "svg": Rule(_nothing, shot("svg"), taped=False),
     "share": Rule(_nothing, effect("share"), taped=False),
     "fullscreen": Rule(_nothing, effect("fullscreen"), taped=False),
-    "save": Rule(_nothing, effect("save"), taped=False),
+    "save": Rule(_nothing, save, taped=False),
+    "save_as": Rule(_nothing, save_as, taped=False),
+    "write_name": Rule(_text, write_name, taped=False),
+    "erase_name": Rule(_nothing, erase_name, taped=False),
+    "take_name": Rule(_nothing, take_name, taped=False),
     "reload": Rule(_nothing, effect("reload"), taped=False),
     "quit": Rule(_nothing, quit_, taped=False),
     "close": Rule(_nothing, close, taped=False),  # the window's own button

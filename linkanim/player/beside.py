@@ -21,7 +21,7 @@ from linkanim.atomic_files import made_folder
 from linkanim.errors import WorkFailed
 from linkanim.player import tape_file
 from linkanim.player.action import Action
-from linkanim.player.files import FOLDER, free_stem
+from linkanim.player.files import FOLDER, free_stem, where
 from linkanim.player.state import PIVOTS, Sketch
 from linkanim.player.tape import Tape
 from linkanim.scenes.scene import Scene
@@ -132,7 +132,7 @@ class Rendering:
             share = f"{100 * int(counts[-1][0]) // max(int(counts[-1][1]), 1)} %" if counts else "…"
             return f"{self.target}: {share}"
         if code == 0:
-            return f"{self.target} saved"
+            return where(self.target)
         reason = tail.strip().splitlines()[-1] if tail.strip() else f"the process ended with code {code}"
         return f"{self.target}: {reason.removeprefix('linkanim: ')}"
 

@@ -75,7 +75,7 @@ def _opened(state: State, building: Building, *, known: bool = False) -> State:
     editing = nothing_begun(replace(state.editing, open=False))
     sheet = BuildSheet(state.scene, state.clock, editing, building, HOME, written=building.draft)
     if last and not known:
-        sheet = replace(sheet, written=last.written, tool=last.tool, home=last.home)
+        sheet = replace(sheet, written=last.written, saved=last.saved, tool=last.tool, home=last.home)
     elif building.draft.places:
         sheet = replace(sheet, home=figure(state.scene).box)
     look = replace(state.look, unit=None, zoom=1.0, pan=(0.0, 0.0), chart=None)
@@ -92,7 +92,10 @@ def left(state: State) -> State:
     kept = replace(kept, faded=state.frame, look=replace(state.look, zoom=1.0, pan=(0.0, 0.0)))
     if sheet.building.made.scene is None:
         return replace(kept, scene=sheet.before, clock=sheet.clock, editing=sheet.editing)
-    return replace(kept, editing=with_undo(sheet.editing, sheet.before))
+    editing = with_undo(sheet.editing, sheet.before)
+    if sheet.saved:
+        editing = replace(editing, saved=(state.scene.name, sheet.saved))
+    return replace(kept, editing=replace(editing, original=state.scene) if sheet.is_written else editing)
 
 
 def draft(state: State, text: str) -> State:
@@ -134,12 +137,16 @@ def restored_sheet(state: State, text: str, where: str = "the draft") -> BuildSh
     )
 
 
-def written(state: State) -> State:
-    """Return the state with its draft known to be in a scene file."""
+def written(state: State, file: str) -> State:
+    """Return the state with its scene, and the draft that makes it, known to be in a scene file."""
     sheet = state.sheet
-    if sheet is None or sheet.building.made.scene is not state.scene:
+    if sheet and sheet.building.made.scene == state.scene:
+        sheet = replace(sheet, written=sheet.building.draft, saved=file, warned=False, closes=False)
+        state = replace(state, sheet=sheet)
+    if state.building:
         return state
-    return replace(state, sheet=replace(sheet, written=sheet.building.draft, warned=False, closes=False))
+    editing = replace(state.editing, original=state.scene, saved=(state.scene.name, file))
+    return replace(state, editing=editing)
 
 
 def closing(state: State) -> State | None:

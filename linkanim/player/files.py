@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import replace
@@ -13,13 +14,16 @@ import pygame
 
 from linkanim import atomic_files, intake
 from linkanim.atomic_files import Claim
-from linkanim.build.draft import Draft
+from linkanim.build.draft import UNTITLED, Draft
 from linkanim.errors import BadInput, WorkFailed
 from linkanim.picture.raster import png_bytes
 from linkanim.player.building import DRAFT, offered, stored_text
 from linkanim.player.state import BuildSheet, State
 from linkanim.scenes import load
+from linkanim.scenes.editing import under_class
 from linkanim.scenes.scene import Scene
+from linkanim.scenes.toml import content
+from linkanim.units import shown as quoted
 
 # Files that the window writes, under names that were free, and the scene file that it was opened on.
 
@@ -99,7 +103,7 @@ class SceneFile:
             return []
         name = intake.named(self._path.name)
         if self._seen is None:
-            return [f"{name} is gone; the linkage runs on, and Ctrl+S writes it as a new file"]
+            return [f"{name} is gone; the linkage runs on, and Ctrl+Shift+S writes it as a new file"]
         return [f"{name} has changed; F5 loads it"]
 
     def load(self) -> Scene:
@@ -113,6 +117,55 @@ class SceneFile:
             found = self._path.stat()
             return found.st_mtime_ns, found.st_size, found.st_ino
         return None
+
+
+class SavedScenes:
+    """The scene files that a window wrote: these, as it left them, are all that it writes over."""
+
+    def __init__(self) -> None:
+        self._wrote: dict[Path, bytes] = {}
+
+    def proposal(self, scene: Scene) -> str:
+        """Return the scene's name, of a new linkage that of its class; with a number where it is taken."""
+        name = scene.name
+        if scene.title == UNTITLED:
+            name = "-".join(re.findall(r"\w+", scene.info.class_name.lower())) or name
+        names = (name, *(f"{name}-{number}" for number in range(2, 10_000)))
+        return next((one for one in names if not os.path.lexists(f"{one}.toml")), name)
+
+    def add(self, scene: Scene, name: str) -> Path:
+        """Write a new scene file under a name; BadInput for a name that is taken or that no file can have."""
+        if reason := intake.unnameable(name):
+            raise BadInput(f"{quoted(name)}: {reason}; type another name")
+        target = Path(from_anywhere(f"{name.removesuffix('.toml')}.toml"))
+        path = atomic_files.checked_target(target, (".toml",))
+        if os.path.lexists(path):
+            raise BadInput(f"{intake.named(path.name)} is there already; type another name")
+        data = content(_entitled(scene), path.parent)
+        self._wrote[path] = data
+        return atomic_files.add(data, path)
+
+    def write(self, scene: Scene, path: Path) -> Path:
+        """Write a file that is ours again; BadInput where it was changed meanwhile."""
+        with suppress(OSError):
+            if path.read_bytes() != self._wrote.get(path):
+                raise BadInput(
+                    f"{intake.named(path.name)} was changed after it was saved; Ctrl+Shift+S writes another"
+                )
+        data = content(_entitled(scene), path.parent)
+        atomic_files.write_text(path, data.decode("utf-8"))
+        self._wrote[path] = data
+        return path
+
+
+def _entitled(scene: Scene) -> Scene:
+    """Return the scene, a new linkage under its class."""
+    return under_class(scene) if scene.title == UNTITLED else scene
+
+
+def where(path: Path) -> str:
+    """Say that a file is saved, by its whole path."""
+    return f"{intake.named(from_anywhere(str(path)))} saved"
 
 
 def scene_files() -> list[str]:

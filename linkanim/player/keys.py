@@ -202,8 +202,8 @@ KEYS: Table = {
         KeyRow("Shift+G", "hand on: one page that moves", _on("shift+g", "share")),
         KeyRow(
             "Ctrl+S, O",
-            "save the scene as a new file; open a file",
-            _on("ctrl+s", "save") + _on("ctrl+o", "files_here"),
+            "save the scene (Shift: under another name); open one",
+            _on("ctrl+s", "save") + _on("ctrl+shift+s", "save_as") + _on("ctrl+o", "files_here"),
         ),
         KeyRow("F5", "load the scene's file again", _on("f5", "reload")),
     ),
@@ -249,6 +249,10 @@ _IN_A_MODE: Table = {
         KeyRow("PgUp, PgDn, wheel", "scroll", _both("pageup", "pagedown", "scroll", 2)),
         KeyRow("Enter, click", "put it on", _enter("put_chosen", "unsift")),
     ),
+    "saving": (
+        KeyRow("type", "the name of the scene file"),
+        KeyRow("Enter", "write it; Esc does not", _enter("take_name", "erase_name") + _on("escape", "back")),
+    ),
     # beside all others, while the picture stands still
     "paused": (KeyRow("digits, Enter", "go to that input angle", _enter("go", "erase_place")),),
     "in W": (
@@ -291,7 +295,7 @@ _IN_A_MODE: Table = {
 """What the keys do in a mode, before what they do else, by its subject."""
 _SUBJECTS: Mapping[Mode, str] = {
     **{"edit": "in E", "list": "in K", "shelf": "in O", "paused": "paused"},
-    **{"pencil": "in W", "game": "in a game", "build": "in F2"},
+    **{"pencil": "in W", "game": "in a game", "build": "in F2", "name": "saving"},
 }
 MODES: Mapping[Mode, Table] = {mode: {subject: _IN_A_MODE[subject]} for mode, subject in _SUBJECTS.items()}
 """The same by mode."""
@@ -302,6 +306,7 @@ _TYPED: Mapping[Mode, tuple[str, frozenset[str]]] = {
     "list": ("sift", frozenset({"space", "h", "k"})),
     "shelf": ("sift", frozenset({"space", "h", "o"})),
     "paused": ("type_place", frozenset()),
+    "name": ("write_name", frozenset()),
     "build": ("digits", frozenset()),
 }
 """Where what can be printed is typed: the action, and the keys that keep their meaning until it is begun."""
@@ -324,7 +329,7 @@ def bind_of(press: Press, mode: Mode = "play", *, typing: bool = False) -> Bind 
     """
     if _is_typed(press, mode, typing):
         return Bind(press.key, Action(_TYPED[mode][0], press.text), repeats=True)
-    tables = (MODES.get(mode, {}), KEYS)
+    tables = (MODES.get(mode, {}), {} if mode == "name" else KEYS)
     found = (bind for table in tables for name in _names(press) for bind in _binds(table) if bind.key == name)
     # any other letter goes on in a game, as a title's "any key" has it
     others = Bind(press.key, Action("next")) if mode == "game" and press.text and not press.ctrl else None

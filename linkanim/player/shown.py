@@ -44,6 +44,7 @@ from linkanim.player.state import (
     BuildSheet,
     Grip,
     Listing,
+    Naming,
     Sketch,
     State,
     driven_bar,
@@ -212,7 +213,7 @@ def overlay(
         lists,
         panel=lists.panel and replace(lists.panel, pointed=row),
         quantities=lists.quantities and replace(lists.quantities, pointed=row),
-        toast=state.toast.text if state.toast else None,
+        toast=_naming(state.naming) if state.naming else state.toast.text if state.toast else None,
         chip=_chip(state),
         hint=_hint_bar(state),
         watch=None if state.game else _watch(state),
@@ -312,6 +313,12 @@ def _percent(share: float) -> str:
 
 def _shelf(state: State, browsing: Browsing) -> Shelf:
     return Shelf(browsing, state.frame - browsing.since, state.look.theme, state.clock.paused, state.edited)
+
+
+def _naming(naming: Naming) -> str:
+    """Return the line in which a name is asked for."""
+    asked = f"Save as {naming.name}_ .toml   Enter writes it, Esc does not"
+    return f"{naming.refusal}: {asked}" if naming.refusal else asked
 
 
 def _chip(state: State) -> Fading | None:

@@ -97,7 +97,7 @@ class Editing:
     `typed` is a value begun in the chosen row and not taken, `drafts` those begun in rows that were passed
     on from, `refusal` the reason why they were not taken; `refused` is the document that was dragged to. With
     `warned` they can be taken all the same, by asking once more. `original` is the scene as its file has it,
-    once that was left.
+    once that was left. `saved` is the name of the scene that was saved, and its file.
     """
 
     open: bool = False
@@ -110,6 +110,7 @@ class Editing:
     past: tuple[Scene, ...] = ()
     future: tuple[Scene, ...] = ()
     original: Scene | None = None
+    saved: tuple[str, str] | None = None
 
     @property
     def changed(self) -> bool:
@@ -277,9 +278,9 @@ class BuildSheet:
     `home` is the part of the plane that is seen unless it is zoomed. `tool` is what is in hand, `grip` what
     the hand does, `clicked` the frame and place of its last click; `cursor` is the place of the keys' own,
     `anchor` the point of a photograph that is put where it belongs. `rests` is the frame at which a linkage
-    that runs by itself has shown one period. `written` is the draft as a scene file has it; `warned` tells
-    that the next asking lets go of what is in none, `closes` that the next one closes the window all the
-    same. While it is not `open` the sheet is kept, to be gone on with.
+    that runs by itself has shown one period. `written` is the draft as the scene file `saved` has it;
+    `warned` tells that the next asking lets go of what is in none, `closes` that the next one closes the
+    window all the same. While it is not `open` the sheet is kept, to be gone on with.
     """
 
     before: Scene
@@ -295,6 +296,7 @@ class BuildSheet:
     anchor: Point | None = None
     rests: int | None = None
     written: Draft = field(default_factory=Draft)
+    saved: str = ""
     warned: bool = False
     closes: bool = False
 
@@ -406,6 +408,19 @@ class Take:
     since: int
 
 
+class Naming(NamedTuple):
+    """The name of the scene file to be written: as proposed, or as typed, and why that was refused."""
+
+    proposal: str
+    typed: str = ""
+    refusal: str = ""
+
+    @property
+    def name(self) -> str:
+        """What Enter takes."""
+        return self.typed or self.proposal
+
+
 class Edited(NamedTuple):
     """The scene of a place of the shelf as it was edited, and where its editing stood."""
 
@@ -452,7 +467,8 @@ class State:
     `kept` are the other places whose scenes were edited. `chip` is the
     answer to the last key; `faded` is the frame
     at which another mechanism or theme came on, `shot` that of a screenshot, while there is something to see.
-    `place_typed` is the input's angle, or travel, that is being typed while paused.
+    `place_typed` is the input's angle, or travel, that is being typed while paused, `naming` the name under
+    which the scene is to be saved, while that is asked for.
     `game` is the game that is on, over the state `beneath`, and `games` reads one from its words.
     `held` is the joint that is being dragged, `pad` whether a gamepad is plugged in.
     `home` is what of the scene's plane a game keeps in sight, where that is not the scene as it fits.
@@ -463,7 +479,8 @@ class State:
     which the mechanism came on, `turned` that at which an edit made another class of the linkage, while the
     list shows it. `effects` is what the last
     advance asks of the outside: "record" and "render" (with a format), "screenshot", "svg", "share",
-    "fullscreen", "save", "reload", "quit", "pencil" (it was taken), "search" and "follow" (answers to the
+    "fullscreen", "name" (a name is to be proposed), "save" (the file), "save_new"
+    (a name), "reload", "quit", "pencil" (it was taken), "search" and "follow" (answers to the
     sketch, or the one that is shown again), "begin" (a game, with its words), "score" (with what is to be
     kept of one), "sound" (a cue), and "report" (with the text of a fault's report).
     """
@@ -489,6 +506,7 @@ class State:
     turned: int | None = None
     arrived: int | None = None
     place_typed: str = ""
+    naming: Naming | None = None
     toast: Toast | None = None
     chip: Toast | None = None
     faded: int | None = None
@@ -516,6 +534,8 @@ class State:
     @property
     def mode(self) -> Mode:
         """What the keys are for."""
+        if self.naming:
+            return "name"
         if self.game:
             return "game"
         if self.editing.open:
@@ -545,6 +565,14 @@ class State:
         return self.mode == "play" and not (self.help or self.recording or self.held)
 
     @property
+    def saved_as(self) -> str | None:
+        """The file under which what is on was saved; None where it was not."""
+        if self.building:
+            return self.building.saved or None
+        name, file = self.editing.saved or ("", "")
+        return file if name == self.scene.name else None
+
+    @property
     def is_audible(self) -> bool:
         """Whether sounds are on: by U, and of their own accord nowhere but in games."""
         return (self.game is not None and self.game.covers) if self.sounds is None else self.sounds
@@ -564,6 +592,8 @@ class State:
     @property
     def typing(self) -> bool:
         """Whether something has been begun in the open list."""
+        if self.naming:
+            return True
         if self.editing.open:
             return self.editing.typed != ""
         begun = self.building.building.typed if self.building else self.place_typed

@@ -19,7 +19,6 @@ import pygame
 from pygame.event import Event
 
 from linkanim import intake
-from linkanim.build.draft import UNTITLED
 from linkanim.errors import BadInput, LinkanimError
 from linkanim.picture.look import Look
 from linkanim.picture.photograph import SUFFIXES, lack
@@ -30,19 +29,17 @@ from linkanim.player.building import left, written
 from linkanim.player.clock import FRAMES_PER_SECOND
 from linkanim.player.devices import MOUSE_EVENTS, PAD_EVENTS, Fingers, Keyboard, Mouse, Pads, latest
 from linkanim.player.edits import renewed
-from linkanim.player.files import DraftFile, SceneFile, beside, scene_files
+from linkanim.player.files import DraftFile, SavedScenes, SceneFile, beside, scene_files
 from linkanim.player.framing import Halving
 from linkanim.player.keys import bind_of
 from linkanim.player.screen import Screen
 from linkanim.player.shown import Hover, kept, overlay
 from linkanim.player.sound import Speaker, cues
-from linkanim.player.state import BuildSheet, Game, State, Take, begin, recovered, report
+from linkanim.player.state import BuildSheet, Game, Naming, State, Take, begin, recovered, report
 from linkanim.player.tape import Tape, Taping
 from linkanim.scenes import load
-from linkanim.scenes.editing import under_class
 from linkanim.scenes.files import path_of
 from linkanim.scenes.scene import Scene
-from linkanim.scenes.toml import save
 
 if TYPE_CHECKING:
     from linkanim.player.beside import Following, Queue
@@ -77,7 +74,8 @@ _BESIDE_A_TAPE = frozenset({"screenshot", "svg", "share", "fullscreen", "quit", 
 class Window:
     """One open window: `state` is what it shows, and `screen` how.
 
-    A tape plays in it until a key is pressed. A scene file that it was opened on is watched.
+    A tape plays in it until a key is pressed. A scene file that it was opened on is watched. A draft that was
+    kept of another window is on `offer`.
     """
 
     def __init__(
@@ -87,9 +85,11 @@ class Window:
         file: SceneFile | None = None,
         keeper: GameKeeper | None = None,
         drafts: DraftFile | None = None,
+        *,
+        offer: bool = True,
     ) -> None:
         self.state = state
-        self._file, self._drafts = file, drafts
+        self._file, self._drafts, self._saved = file, drafts, SavedScenes()
         self._keeper, self._begun = keeper, ""
         self._tape = tape
         self._taping: Taping | None = None
@@ -107,7 +107,8 @@ class Window:
         self._reported: set[str] = set()
         self._unkept: str | None = None
         self._warned: str | None = None
-        self._offer()
+        if offer:
+            self._offer()
 
     def tick(self, frames: int = 1) -> bool:
         """Go so many frames on, paint and flip; False when the window is to be closed.
@@ -367,17 +368,21 @@ class Window:
                 self._stop("mp4" if effect.value == "mp4" else "gif")
             case "screenshot":
                 picture = self.screen.picture(self.state, kept(self.state))
-                self._notes.append(f"{files.screenshot(picture, self.state.scene.name)} saved")
+                self._notes.append(files.where(files.screenshot(picture, self.state.scene.name)))
             case "svg":
-                self._notes.append(f"{files.vector(self.state, pygame.display.get_window_size())} saved")
+                self._notes.append(files.where(files.vector(self.state, pygame.display.get_window_size())))
             case "share":
-                self._notes.append(f"{files.page(self.state)} saved")
+                self._notes.append(files.where(files.page(self.state)))
             case "sound" if self.state.is_audible:
                 self._speaker.play(str(effect.value))
             case "report":
                 self._report(str(effect.value))
+            case "name":
+                self.state = replace(self.state, naming=Naming(self._saved.proposal(self.state.scene)))
             case "save":
-                self._save()
+                self._noted(self._saved.write(self.state.scene, Path(str(effect.value))))
+            case "save_new":
+                self._save_new(str(effect.value))
             case "open":
                 self._open_file(Path(str(effect.value)))
             case "reload":
@@ -393,14 +398,17 @@ class Window:
             case "quit":
                 self._quit()
 
-    def _save(self) -> None:
-        """Write the scene as a new file, a new linkage under its class; a draft on a sheet once it moves."""
-        if self.state.building and (missing := self.state.building.building.made.missing):
-            raise BadInput(f"only what can move can be saved; the draft is kept. {missing}")
-        scene = self.state.scene
-        scene = under_class(scene) if scene.title == UNTITLED else scene
-        self._notes.append(f"{save(scene, Path())} saved")
-        self.state = written(self.state)
+    def _save_new(self, name: str) -> None:
+        """Write the scene under a name; ask again, with the reason, where that cannot be."""
+        try:
+            self._noted(self._saved.add(self.state.scene, name))
+        except LinkanimError as error:
+            self.state = replace(self.state, naming=Naming(name, refusal=str(error)))
+
+    def _noted(self, path: Path) -> None:
+        """Take note that the scene is in a file."""
+        self._notes.append(files.where(path))
+        self.state = written(self.state, str(path))
 
     def _offer(self) -> None:
         """Offer the draft that was kept of another window."""
@@ -541,7 +549,8 @@ def run(
     does not leave that, and a mechanism that runs gives way to the title when left alone for a minute.
     NoDisplay where there is no screen, or none any more; BadInput as loading raises it. Whatever ends the
     window, a recording that runs is finished. `drafts` is the file in which a draft is
-    kept; with `sheet` the window opens on an empty one, on a `photo` if there is one. `game` are the words of
+    kept; with `sheet` the window opens on the one that was kept, else on an empty one,
+    on a `photo` of its own if there is one. `game` are the words of
     one to begin with.
     """
     tape = _tape(scene, keeper)
@@ -555,9 +564,9 @@ def run(
     with screen.opened(size) as connection:
         state = replace(state, from_title=attract or scene is None, kiosk=attract)
         kept = DraftFile(drafts) if drafts and not tape else None
-        window = Window(state, tape, None if tape else _file(scene), keeper, kept)
+        window = Window(state, tape, None if tape else _file(scene), keeper, kept, offer=photo is None)
         if sheet:
-            window.state = carried(window.state, Action("sheet"))
+            window.state = carried(window.state, Action("build"))
         if photo:
             window.state = carried(window.state, Action("photo", beside(str(photo))))
         if attract:

@@ -144,9 +144,13 @@ def save(scene: Scene, folder: Path) -> Path:
     The name is the scene's, or that with -2, -3, ...: an older file stays as it is. A photograph is named by
     its path from there. WorkFailed, with nothing left behind, where the folder cannot be written.
     """
-    scene = _photographed(scene, folder)
     numbered = (folder / f"{scene.name}-{number}.toml" for number in count(2))
-    return atomic_files.add(text(scene).encode("utf-8"), folder / f"{scene.name}.toml", numbered)
+    return atomic_files.add(content(scene, folder), folder / f"{scene.name}.toml", numbered)
+
+
+def content(scene: Scene, folder: Path) -> bytes:
+    """Return what a scene file in `folder` holds: a photograph is named by its path from there."""
+    return text(_photographed(scene, folder)).encode("utf-8")
 
 
 def _photographed(scene: Scene, folder: Path) -> Scene:

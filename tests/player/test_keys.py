@@ -184,7 +184,7 @@ def test_keys_that_hold_are_those_that_move() -> None:
     held = {bind.action.name for bind in BINDS if bind.repeats}
     assert held == {
         *("step", "speed", "zoom", "choose", "nudge", "erase", "undo", "redo"),
-        *("move", "row", "unsift", "scroll", "take_back", "erase_place", "turn", "raise"),
+        *("move", "row", "unsift", "scroll", "take_back", "erase_place", "erase_name", "turn", "raise"),
         *("aim", "number", "undigit", "unbuild", "rebuild"),
     }
 

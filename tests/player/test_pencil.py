@@ -323,6 +323,7 @@ def test_a_path_is_drawn_with_the_mouse_and_its_linkage_written(player: Player, 
     player.type("2")
     assert sketch_of(player.state).chosen == 1
     player.press(pygame.K_s, CTRL)
+    player.press(pygame.K_RETURN)
     player.tick()
     assert load(here / "path.toml").linkage == player.state.scene.linkage
     player.press(pygame.K_ESCAPE)

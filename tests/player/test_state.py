@@ -63,7 +63,7 @@ CHANGES: dict[str, tuple[Action, Callable[[State], object], object]] = {
     "svg": (Action("svg"), lambda s: s.effects, (Action("svg"),)),
     "share": (Action("share"), lambda s: s.effects, (Action("share"),)),
     "fullscreen": (Action("fullscreen"), lambda s: s.effects, (Action("fullscreen"),)),
-    "save": (Action("save"), lambda s: s.effects, (Action("save"),)),
+    "save": (Action("save"), lambda s: s.effects, (Action("name"),)),
     "quit": (Action("quit"), lambda s: s.effects, (Action("quit"),)),
     "escape says what quits": (Action("back"), lambda s: s.toast and s.toast.text, "Q quits"),
     "the window's button": (Action("close"), lambda s: s.effects, (Action("quit"),)),

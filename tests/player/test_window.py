@@ -442,14 +442,53 @@ def test_a_screenshot_that_cannot_be_written_is_told(player: Player, here: Path)
     assert "recordings" in player.state.toast.text
 
 
-def test_ctrl_s_writes_a_new_file_that_opens_to_the_same_linkage(player: Player, here: Path) -> None:
+def test_ctrl_s_asks_once_for_a_name_and_then_writes_the_same_file(player: Player, here: Path) -> None:
     player.press(*plain("e"))
     player.press(*bare(pygame.K_RIGHT))
+    player.press(pygame.K_s, CTRL, "\x13")
+    assert "Save as crank-rocker_" in str(player.window.screen.over.toast)
+    for letter in "mine":
+        player.press(*plain(letter))
+    player.press(*bare(pygame.K_RETURN))
+    player.tick()
+    assert player.state.toast
+    assert player.state.toast.text == f"{here / 'mine.toml'} saved"
+    assert player.state.place not in player.state.edited
+    player.press(*bare(pygame.K_RIGHT))
+    assert player.state.place in player.state.edited
+    player.press(pygame.K_s, CTRL, "\x13")
+    assert [path.name for path in here.glob("*.toml")] == ["mine.toml"]
+    assert load(here / "mine.toml").linkage == player.state.scene.linkage
+
+
+def test_ctrl_shift_s_writes_another_file_and_a_name_that_is_taken_is_refused(
+    player: Player, here: Path
+) -> None:
+    (here / "crank-rocker.toml").write_text("not ours")
     for _ in range(2):
-        player.press(pygame.K_s, CTRL, "\x13")
-    saved = sorted(here.glob("*.toml"))
-    assert len(saved) == 2
-    assert all(load(file).linkage == player.state.scene.linkage for file in saved)
+        player.press(pygame.K_s, CTRL | SHIFT, "\x13")
+        player.press(*bare(pygame.K_RETURN))
+    assert {path.name for path in here.glob("*.toml")} == {f"crank-rocker{n}.toml" for n in ("", "-2", "-3")}
+    player.press(pygame.K_s, CTRL | SHIFT, "\x13")
+    for letter in "crank-rocker":
+        player.press(*plain(letter))
+    player.press(*bare(pygame.K_RETURN))
+    player.tick()
+    assert "is there already" in str(player.window.screen.over.toast)
+    player.press(*bare(pygame.K_ESCAPE))
+    assert player.state.naming is None
+    assert (here / "crank-rocker.toml").read_text() == "not ours"
+
+
+def test_a_file_that_was_changed_after_it_was_saved_is_not_written_over(player: Player, here: Path) -> None:
+    player.press(pygame.K_s, CTRL, "\x13")
+    player.press(*bare(pygame.K_RETURN))
+    (here / "crank-rocker.toml").write_text("by hand")
+    player.press(pygame.K_s, CTRL, "\x13")
+    player.tick()
+    assert player.state.toast
+    assert "was changed" in player.state.toast.text
+    assert (here / "crank-rocker.toml").read_text() == "by hand"
 
 
 def test_a_value_is_typed_with_its_unit(player: Player) -> None:
