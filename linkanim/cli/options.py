@@ -394,6 +394,12 @@ _ANGLE = _value("--angle ANGLE", units.angle, 'the crank angle, such as "87 deg"
 _PHASE = _value(
     "--phase PHASE", units.angle, "a phase instead of an angle (default: where the joints are farthest apart)"
 )
+_ACCELERATION = _value(
+    "--acceleration ACC",
+    units.ANGULAR_ACCELERATION.read,
+    'the input\'s acceleration, such as "2 rad/s^2" (default: 0)',
+    0.0,
+)
 _SPEED = _value(
     "--speed SPEED", units.angular_speed, "the input's speed, such as \"30 rpm\" (default: the scene's)"
 )
@@ -460,12 +466,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         ),
         _value("--sweep A:B:STEP", sweep, "a row for each angle from A to B, in degrees"),
         _SPEED,
-        _value(
-            "--acceleration ACC",
-            units.ANGULAR_ACCELERATION.read,
-            'the input\'s acceleration, such as "2 rad/s^2" (default: 0)',
-            0.0,
-        ),
+        _ACCELERATION,
         _either(
             _flag("--json", "print one object, or a list of them for a sweep"),
             _value("--csv OUT", str, "write the sweep to the file OUT (- for stdout)"),
@@ -544,6 +545,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _output("write OUT.html, OUT.tex or OUT.md (default: Markdown on stdout)"),
         _either(_ANGLE, _PHASE),
         _SPEED,
+        _ACCELERATION,
         _flag("--exercise", "leave the numbers open, and put the key on a page of its own"),
         _value(
             "--seed N",

@@ -26,6 +26,7 @@ from linkanim.explain.steps import (
     Equation,
     Given,
     Item,
+    Outcome,
     System,
     Unknown,
     ValueLine,
@@ -127,9 +128,11 @@ body { font: 16px/1.5 "Source Sans Pro", "Source Sans 3", "Helvetica Neue", Aria
 h1 { font-size: 1.8rem; margin: 0; } p { margin: .3rem 0; }
 h2 { font-size: 1.35rem; margin: 2rem 0 .5rem; border-bottom: 2px solid #d0d7de; }
 h3 { font-size: 1.05rem; margin: 1.2rem 0 .2rem; } h2, h3 { break-after: avoid; }
-.key { break-before: page; } @page { size: A4; margin: 16mm 14mm; }
-@media print { body { margin: 0; max-width: none; font-size: 10.5pt; }
-               math[display=block] { font-size: 9pt; overflow: visible; } }
+.key { break-before: page; } @page { size: A4; margin: 14mm; }
+@media print { body { margin: 0; padding: 0; max-width: none; font-size: 9pt; line-height: 1.25; }
+  h1 { font-size: 15pt; } h2 { font-size: 12pt; margin: .7rem 0 .2rem; }
+  h3 { font-size: 10pt; margin: .4rem 0 .1rem; }
+  math[display=block] { font-size: 8.5pt; overflow: visible; margin: .1rem 0 .1rem 1rem; } }
 """
 MATH_STYLE = """
 math[display=block] { width: fit-content; max-width: 100%; margin: .35rem 0 .35rem 1rem;
@@ -170,10 +173,22 @@ class DocumentForm:
 def document(found: Solution, form: DocumentForm, *, exercise: bool = False) -> str:
     """Return the whole document; of an exercise with its numbers left open, and then the key."""
     parts = [form.heading(1, found.title), _where(found, form), *chapters(found, form, blank=exercise)]
+    parts += [] if exercise else _results(found, form)
     if exercise:
         parts += [form.new_page, form.heading(1, f"Key: {found.title}"), _where(found, form)]
         parts += _key(found, form)
     return form.page(found.title, "\n\n".join(part for part in parts if part))
+
+
+def _results(found: Solution, form: DocumentForm) -> Iterator[str]:
+    """Yield all that was found, link by link and joint by joint."""
+    lines = [result for result in found.results if result.value.symbol is not None]
+    yield form.heading(2, "All results")
+    owners: dict[str, list[Outcome]] = {}
+    for line in lines:
+        owners.setdefault(line.token.partition(".")[0], []).append(line)
+    for some in owners.values():
+        yield form.listed([_listed(_short(line.value), line.unit, "", form) for line in some])
 
 
 def _where(found: Solution, form: DocumentForm) -> str:

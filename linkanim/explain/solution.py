@@ -59,25 +59,31 @@ from linkanim.mechanics.quantities import input_symbol, link_labels
 from linkanim.mechanics.solver.strokes import CylinderStroke, Stroke
 from linkanim.picture.figure import figure
 from linkanim.scenes.scene import Scene
+from linkanim.units import significant
 
 # Where the input is and how it moves: as it was asked for, or from the phase.
 
 _PI = Formula("leaf", symbol=Symbol("π"), shown="3.14159265359")
-_ONCE = Powers(rate=1)
+_ONCE, _TWICE = Powers(rate=1), Powers(rate=2)
 
 
 @dataclass(frozen=True)
 class PoseRequest:
-    """Which pose of a scene is worked out: `by` its "angle" or "phase", in rad, at its speed."""
+    """Which pose of a scene is worked out: `by` its "angle" or "phase", in rad, at its speed.
+
+    The input has an `acceleration`, in rad/s², or in the scene's length unit where a slider drives.
+    """
 
     scene: Scene
     by: Literal["angle", "phase"]
     value: float
     speed: float
+    acceleration: float = 0.0
 
     def motion(self) -> Any:
         """Return the pose as solving gives it."""
-        return self.scene.solve(**{self.by: self.value}, speed=self.speed)  # type: ignore[arg-type]
+        moving = {self.by: self.value, "speed": self.speed, "acceleration": self.acceleration}
+        return self.scene.solve(**moving)  # type: ignore[arg-type]
 
     @property
     def swings(self) -> bool:
@@ -101,7 +107,11 @@ def place_input(request: PoseRequest, rates: Rates) -> None:
 def _stated(request: PoseRequest, rates: Rates, symbol: Symbol) -> Formula:
     """Take the angle as it is asked for, or from the start and the phase."""
     work = rates.work
-    rates.start(work.known(rates.symbol(work.driver, 1), request.speed, _ONCE, "the input"))
+    rate = work.known(rates.symbol(work.driver, 1), request.speed, _ONCE, "the input")
+    second = ZERO
+    if request.acceleration:
+        second = work.known(rates.symbol(work.driver, 2), request.acceleration, _TWICE, "the input")
+    rates.start(rate, second)
     if request.by == "angle":
         return work.known(symbol, request.value, ANGLE, "the input")
     phase = work.known(Symbol("φ"), request.value, ANGLE, "phase")
@@ -244,9 +254,7 @@ def effort(rates: Rates, known: Mapping[str, Formula]) -> Iterator[Outcome]:
     """
     work, linkage = rates.work, rates.work.linkage
     if not rates.struts.keys() >= set(_forceful(rates)):
-        work.say(
-            "The rate of a spring or damper does not follow here, nor does what the input delivers."
-        )
+        work.say("The rate of a spring or damper does not follow here, nor does what the input delivers.")
         return
     work.say("The input delivers the power of springs, dampers and masses, over its own rate:")
     powers = [*_strut_powers(rates), *_body_powers(rates, known)]
@@ -322,9 +330,11 @@ _BY_INPUT = (
     "unknowns follow by Cramer's rule."
 )
 _IN_TIME = (
-    "The loops differentiated in time: the same equations, the input running at its own speed.",
-    "Differentiated once more: the same matrix, with ω² and what Coriolis adds on the right sides.",
+    "By the chain rule each rate is its coefficient times the input's rate.",
+    "By the chain rule once more: the second coefficient times the square of the input's rate, and the first "
+    "times its acceleration, if it has one.",
 )
+_CHECK = "Check: put into the differentiated loops, these rates leave {} at the most."
 _CARRIED = "Enough digits are carried to give every result to five significant digits."
 _NO_LOOP = "There is none to close: each joint follows from the input alone."
 _SINGULAR = (
@@ -461,14 +471,17 @@ class _Draft:
         self.work = Work(self.linkage, names, self.motion, scale, places)
         rate, per = (1.0, "") if angular else (1.0 / length, scale.unit)
         by = Scale(digits, scale.unit, length, rate, per)
-        self.rates, self.slopes = Rates(self.work, IN_TIME, scale), Rates(self.work, BY_INPUT, by)
+        self.slopes = Rates(self.work, BY_INPUT, by)
+        self.rates = Rates(self.work, IN_TIME, scale, slopes=self.slopes)
         self.results: list[Outcome] = []
+        self.loops: tuple[VectorLoop, ...] = ()
         self.steps: list[Step] = []
 
     def solution(self, rates: bool) -> Solution:
         """Return it, with velocities and accelerations or without."""
         places = self._placed()
         loops = loops_of(self.work, places)
+        self.loops = loops
         self.work.items.clear()
         if rates:
             rest = [*self._by_input(), *self._in_time(), *self._parts()]
@@ -539,7 +552,24 @@ class _Draft:
                 moving = self.rates.of(joint.name, order)
                 self.results += self.rates.scale.outcomes(f"{joint.name}.{word}", moving, order)
             self._tell_links(self.rates, order, f"angular_{word}", f"travel_{word}")
+            self._step("Sizes", partial(self._sizes, order, word))
+            if self.loops:
+                self._step("", partial(self.work.say, _CHECK.format(self._left_over(order))))
             yield from self._chapter(title)
+
+    def _sizes(self, order: Order, word: str) -> None:
+        """Add how fast joints move, or how strongly they are accelerated."""
+        for joint in self.linkage.joints:
+            moving = self.rates.of(joint.name, order)
+            if moving.x.value or moving.y.value:
+                formula = sqrt(square(moving.x) + square(moving.y))
+                size = self.rates.let(Symbol("va"[order - 1], joint.name), formula, Powers(1, order))
+                self.results.append(self.rates.scale.outcome(f"{joint.name}.{word}", size, Powers(1, order)))
+
+    def _left_over(self, order: Order) -> str:
+        """Return by how much the rates of an order miss the differentiated loops at the most."""
+        found, self.rates.left_over = self.rates.left_over, 0.0
+        return f"{significant(found, 2)} {self.rates.scale.unit_of(Powers(1, order))}"
 
     def _moved(self, rates: Rates, order: Order, words: str = "") -> None:
         """Add a step for each joint that moves."""

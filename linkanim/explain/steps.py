@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from decimal import Decimal
 from functools import cached_property
@@ -479,6 +479,10 @@ class Rates:
     known: dict[tuple[Way, str], list[Formula]] = field(default_factory=lambda: {(0, "s"): [ZERO, ZERO]})
     moving: dict[str, list[Components]] = field(default_factory=dict)
     struts: dict[Spring | Damper, tuple[Formula, Formula]] = field(default_factory=dict)
+    slopes: Rates | None = None
+    """The coefficients, from which rates in time follow by the chain rule."""
+    left_over: float = 0.0
+    """By how much rates from coefficients miss the differentiated loops at the most."""
 
     def let(self, symbol: Symbol, formula: Formula, measure: Powers) -> Formula:
         """Add the line that gives a symbol its value, and return it."""
@@ -498,6 +502,11 @@ class Rates:
     def let_moving(self, joint: str, formula: Components, order: Order) -> None:
         """Add the lines that say how a joint moves."""
         mark, measure = self.letters.moving[order - 1], Powers(1, order)
+        slopes = self.slopes.moving.get(joint, []) if self.slopes else []
+        if slopes:
+            formula = Components(
+                self._chain([one.x for one in slopes], order), self._chain([one.y for one in slopes], order)
+            )
         x = self.let(Symbol("x", joint, mark), formula.x, measure)
         y = self.let(Symbol("y", joint, mark), formula.y, measure)
         self.moving.setdefault(joint, []).append(Components(x, y))
@@ -545,7 +554,21 @@ class Rates:
     def solve(
         self, index: str, unknowns: tuple[UnknownRate, UnknownRate], right: Components, order: Order
     ) -> None:
-        """Add the two equations and what they give; ZeroDivisionError where that is nothing."""
+        """Add the two equations and what they give; ZeroDivisionError where that is nothing.
+
+        In time each rate follows from its coefficient, and the equations are the check.
+        """
+        if self.slopes is not None:
+            known = (self.slopes.known[one.way, one.letter] for one in unknowns)
+            chained = [self._chain(slopes, order) for slopes in known]
+            found = [
+                self.let_rate(one.way, formula, order, one.letter)
+                for one, formula in zip(unknowns, chained, strict=True)
+            ]
+            sides = (one.column.times(rate) for one, rate in zip(unknowns, found, strict=True))
+            miss = sum(sides, NOWHERE) - right
+            self.left_over = max(self.left_over, abs(miss.x.value), abs(miss.y.value))
+            return
         one, other = (unknown.column for unknown in unknowns)
         left, beside = (LENGTH if isinstance(unknown.way, int) else RATIO for unknown in unknowns)
         first, second = (self.symbol(unknown.way, order, unknown.letter) for unknown in unknowns)
@@ -558,6 +581,11 @@ class Rates:
         det = self.let(Symbol("D", index), a * e - b * d, Powers(left.length + beside.length))
         for unknown, formula in zip(unknowns, (c * e - b * f, a * f - d * c), strict=True):
             self.let_rate(unknown.way, formula / det, order, unknown.letter)
+
+    def _chain(self, slopes: Sequence[Formula], order: Order) -> Formula:
+        """Return h·θ̇ of what has these coefficients h and h′, or h′·θ̇² + h·θ̈."""
+        rate, second = self.known[self.work.driver, "s"]
+        return slopes[0] * rate if order == 1 else slopes[1] * square(rate) + slopes[0] * second
 
     def _right(self, right: Components, measure: Powers) -> Components:
         """Return the right sides; long ones have lines of their own before the equations."""

@@ -118,8 +118,9 @@ def test_the_press_has_the_values_of_the_report(degrees: int, capsys: pytest.Cap
 WRITTEN = [
     r"$\mathbf{R}_{2} + \mathbf{R}_{3} = \mathbf{R}_{1} + \mathbf{R}_{4}$",
     r"$x_{A} = r_{2} \, \cos \theta_{2} = 50 \cdot \cos 60^{\circ} = 25.00000\,\mathrm{mm}$",
-    "The loops differentiated in time: the same equations, the input running at its own speed.",
-    "Differentiated once more: the same matrix, with ω² and what Coriolis adds on the right sides.",
+    "By the chain rule each rate is its coefficient times the input's rate.",
+    "By the chain rule once more: the second coefficient times the square of the input's rate, and the first "
+    "times its acceleration, if it has one.",
 ]
 
 
@@ -416,3 +417,34 @@ def test_digits_that_a_short_bar_needs_leave_a_rod_across_its_guide_there() -> N
     found = solution(_request(scene_from(ACROSS, name="my", where="my.toml"), 0.0))
     (rod,) = (one for one in found.results if one.token == "rod.angle")
     assert abs(rod.value.value) <= 2 * rod.least
+
+
+def test_rates_miss_the_differentiated_loops_by_rounding_alone() -> None:
+    text = document(solution(PoseRequest(load("press"), "angle", 1.5, 10.0)), MARKDOWN)
+    found = re.findall(r"these rates leave (\S+) mm/s²? at the most", text)
+    assert len(found) == 2
+    assert all(0 <= float(value) < 0.05 for value in found)
+
+
+def test_an_accelerated_input_adds_its_share() -> None:
+    request = PoseRequest(load("crank-rocker"), "angle", 1.0, 10.0, 30.0)
+    found = {result.token: result.value.value for result in solution(request).results}
+    motion = load("crank-rocker").solve(angle=1.0, speed=10.0, acceleration=30.0)
+    assert found["rocker.angular_acceleration"] == pytest.approx(
+        motion.angular_acceleration["rocker"], rel=1e-5
+    )
+    speed = float(np.hypot(*motion.velocity["B"]))
+    assert found["B.velocity"] == pytest.approx(speed, rel=1e-5)
+
+
+def test_all_results_stand_at_the_end_but_not_of_an_exercise() -> None:
+    found = solution(PoseRequest(load("crank-rocker"), "angle", 1.0, 10.0))
+    assert document(found, MARKDOWN).partition("## All results")[2].count("- $") > 20
+    assert "All results" not in document(found, MARKDOWN, exercise=True)
+
+
+def test_an_input_that_swings_has_an_acceleration_by_its_angle_alone(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert main(["explain", "double-rocker", "--phase", "30 deg", "--acceleration", "2 rad/s^2"]) == 2
+    assert "give --angle with it" in capsys.readouterr().err

@@ -9,6 +9,7 @@ from math import isnan
 from linkanim.atomic_files import checked_target, write_text
 from linkanim.cli.commands.solve import phase_at
 from linkanim.cli.options import inputs_of
+from linkanim.errors import BadInput
 from linkanim.explain.documents import HTML, MARKDOWN, TEX, document
 from linkanim.explain.solution import PoseRequest, Solution, solution
 from linkanim.explain.variant import variant
@@ -74,6 +75,9 @@ def _pose(scene: Scene, options: Namespace) -> PoseRequest:
     speed = scene.linkage.drive.speed if options.speed is None else options.speed
     if options.angle is None:
         phase = figure(scene).clearest if options.phase is None else options.phase
-        return PoseRequest(scene, "phase", float(phase), speed)
+        request = PoseRequest(scene, "phase", float(phase), speed, options.acceleration)
+        if options.acceleration and request.swings:
+            raise BadInput("--acceleration is the input's own; of an input that swings give --angle with it")
+        return request
     phase_at(scene, options.angle)  # which says why where it is not reached
-    return PoseRequest(scene, "angle", float(options.angle), speed)
+    return PoseRequest(scene, "angle", float(options.angle), speed, options.acceleration)
