@@ -471,9 +471,9 @@ def loops_of(work: Work, places: Chapter) -> tuple[VectorLoop, ...]:
 
 def _cylinder(length: Formula, work: Work) -> VectorLoop:
     """Return the loop of a cylinder that drives the crank, from the crank's pivot over its foot and head."""
-    between, crank = work.linkage.drive.actuator.along, work.linkage.crank(work.linkage.drive.joint)
+    between, crank = work.linkage.drive.actuator.along, work.linkage.driven
     assert between is not None
-    (pivot, foot, head), turned = (crank.pivot, *between), work.angles[crank.pivot, crank.name]
+    (pivot, foot, head), turned = (crank.pivot, *between), work.angles[crank.pivot, crank.joint.name]
     ends = [work.place(name) for name in (pivot, foot, head)]
     tilt = Formula("leaf", symbol=Symbol("θ", CYLINDER.letter), shown="0")
     names = [Symbol(letter, index, bold=True) for letter, index in (("R", "g"), ("L", ""), ("R", "c"))]

@@ -94,7 +94,7 @@ class PoseRequest:
 def place_input(request: PoseRequest, rates: Rates) -> None:
     """Add the lines of the input's place, and put its rates where they stand."""
     work = rates.work
-    joint = work.linkage.joint(work.linkage.drive.joint)
+    joint = work.linkage.driven.joint
     ends = (joint.pivot, joint.name) if isinstance(joint, Crank) else None
     symbol = work.angle_symbol(*ends) if ends else work.names.slide(joint.name)
     found = (_swinging if request.swings else _stated)(request, rates, symbol)
@@ -168,7 +168,7 @@ def _cylinder(
     work, between = rates.work, rates.work.linkage.drive.actuator.along
     assert between is not None
     length, once, twice = way
-    pivot = work.linkage.crank(work.linkage.drive.joint).pivot
+    pivot = work.linkage.driven.pivot
     sides = [side * path.unscale for side in path.sides]
     g, r = (
         work.known(Symbol(name), side, LENGTH, f"{marked(pivot)}–{marked(end)}")

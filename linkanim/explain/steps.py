@@ -379,7 +379,7 @@ class Work:
     @property
     def driver(self) -> int | str:
         """What drives: the crank by its rigid body, or the slider by its joint."""
-        joint = self.linkage.joint(self.linkage.drive.joint)
+        joint = self.linkage.driven.joint
         return self.frame((joint.pivot, joint.name)) if isinstance(joint, Crank) else joint.name
 
     def guide(self, line: Travel, joint: str) -> GuideLine:

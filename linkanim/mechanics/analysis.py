@@ -27,7 +27,7 @@ from linkanim.mechanics.linkage import RRR, Body, DrivenSlider, Joint, Linkage, 
 from linkanim.mechanics.measures import output_body, output_slider, pivots_of, said, transmission_angle
 from linkanim.mechanics.motion import Mechanism, Motion
 from linkanim.mechanics.program import Array, batch
-from linkanim.mechanics.quantities import driven_body, input_symbol
+from linkanim.mechanics.quantities import input_symbol
 from linkanim.mechanics.search import around, changes_by_row, highest, in_blocks, own_rows, sign_changes
 from linkanim.mechanics.solver.closing import CLOSERS, walk_at
 from linkanim.mechanics.solver.signed_root import Kind
@@ -148,7 +148,7 @@ def _of_chain(mechanism: Mechanism) -> Iterator[tuple[str, Array]]:
 def _reaches_its_end(mechanism: Mechanism, name: str) -> bool:
     """Tell whether a dyad's bars fall into one line: at a limit of its own, or at a change point."""
     root = mechanism.assembly.chain.get(name)
-    return bool(root and root.zeros) or name in mechanism.assembly.path.ends
+    return bool(root and root.zeros) or name in mechanism.stops
 
 
 def _emptied(factors: Array, *, at_end: bool) -> list[list[float]]:
@@ -340,7 +340,7 @@ def _change_point_name(bar: FourBar) -> str:
 
 def turning_bodies(mechanism: Mechanism) -> tuple[str, ...]:
     """Return the bodies that turn fully over one true period: a crank with the input, another as it winds."""
-    linkage, full_turn = mechanism.linkage, mechanism.assembly.path.full_turn
+    linkage, full_turn = mechanism.linkage, mechanism.full_turn
     bodies = [body for body in linkage.bodies if body.slider is None]
     turns = {body.name: full_turn for body in bodies if linkage.crank_of(body)}
     others = [body for body in bodies if body.name not in turns]
@@ -378,7 +378,7 @@ def link_names(mechanism: Mechanism, turning: Collection[str]) -> dict[str, str]
     coupler has none. Of cranks the input is the crank, others are driven cranks; of rockers the input is the
     input rocker. Further ones of a sort are counted: second coupler. Every other name stays.
     """
-    full_turn = mechanism.assembly.path.full_turn
+    full_turn = mechanism.full_turn
     parts = {body.name: _part_of(mechanism, body, turning) for body in mechanism.linkage.bodies}
     driven = [name for name, (_, drives) in parts.items() if not drives]
     first = next((noun for noun, drives in parts.values() if drives and noun), None)
@@ -407,7 +407,7 @@ def _part_of(mechanism: Mechanism, body: Body, turning: Collection[str]) -> tupl
     drives = linkage.drive.joint in linkage.rigid_bodies[holding(linkage.rigid_bodies, body.joints) or 0]
     if not pivoted:
         return "coupler", False
-    turns = mechanism.assembly.path.full_turn if drives else body.name in turning
+    turns = mechanism.full_turn if drives else body.name in turning
     return "crank" if turns else "rocker", drives
 
 
@@ -452,7 +452,7 @@ class Info:
     @property
     def why_swinging(self) -> str | None:
         """What keeps the input from turning fully, lengths or joints; None where nothing does."""
-        stops = tuple(dict.fromkeys(filter(None, self.mechanism.assembly.path.ends)))
+        stops = tuple(dict.fromkeys(filter(None, self.mechanism.stops)))
         if not stops:
             return None
         if self._four_bar is None or stops != (self._four_bar.joint,):
@@ -464,7 +464,7 @@ class Info:
     @property
     def input_range(self) -> tuple[float, float]:
         """How far the driven angle, or the travel of a slider that drives, goes."""
-        return self.mechanism.assembly.path.input_range
+        return self.mechanism.input_range
 
     @cached_property
     def ends(self) -> tuple[float, float]:
@@ -475,13 +475,13 @@ class Info:
     @property
     def full_turn(self) -> bool:
         """Whether the input turns fully."""
-        return self.mechanism.assembly.path.full_turn
+        return self.mechanism.full_turn
 
     @property
     def unreached_start(self) -> float | None:
         """The start that is stated, where the input swings and does not come to it; else None."""
-        start, path = self.mechanism.linkage.drive.stated_start, self.mechanism.assembly.path
-        return None if start is None or self.full_turn or path.holds(start) else start
+        start = self.mechanism.linkage.drive.stated_start
+        return None if start is None or self.full_turn or self.mechanism.comes_to(start) else start
 
     @property
     def toggles(self) -> tuple[float, ...]:
@@ -554,7 +554,7 @@ class Info:
         A crank or a driven slider is a link and a joint, a dyad or a driving cylinder are two and three.
         """
         linkage = self.mechanism.linkage
-        inputs = len(tuple(linkage.cranks)) + isinstance(linkage.joint(linkage.drive.joint), DrivenSlider)
+        inputs = len(tuple(linkage.cranks)) + isinstance(linkage.driven.joint, DrivenSlider)
         pairs = sum(joint.dyad for joint in linkage.joints) + (linkage.drive.actuator.along is not None)
         links, joints = 1 + inputs + 2 * pairs, inputs + 3 * pairs
         meshes = sum(crank.gear is not None for crank in linkage.cranks)
@@ -608,7 +608,7 @@ class Info:
 
         One that swings goes by its name in the scene; named crank it is the rocker, or the input rocker.
         """
-        body, noun = driven_body(self.mechanism.linkage), self.mechanism.linkage.drive.actuator.noun
+        body, noun = self.mechanism.linkage.driven.body, self.mechanism.linkage.drive.actuator.noun
         if noun is not None:
             return noun
         if self.full_turn:

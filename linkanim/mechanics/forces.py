@@ -103,7 +103,7 @@ def _aside(motion: Any, effort: Array, ends: NDArray[np.bool_]) -> Array:
         for value in (motion.phase, motion.input_speed, motion.input_acceleration)
     )
     end = math.pi * np.rint(phase / math.pi)
-    solve = motion.setting.solve
+    solve = motion.mechanism.solve
     there = _power(solve(phase=end, speed=speed, acceleration=second), _MOVING)
     step, weights = _ASIDE
     way = np.where(phase < end, -step, step)
@@ -130,7 +130,7 @@ class _Power(NamedTuple):
 
 def _power(motion: Any, way: _Way) -> _Power:
     """Return what forces and inertia take, in W; of what starts from rest per second."""
-    linkage = motion.setting.linkage
+    linkage = motion.mechanism.linkage
     struts = _strut_power(motion, way, linkage.springs + linkage.dampers)
     nothing = 0.0 * motion.phase
     return _Power(
@@ -140,7 +140,7 @@ def _power(motion: Any, way: _Way) -> _Power:
 
 def _strut_power(motion: Any, way: _Way, struts: Iterable[Spring | Damper]) -> Iterator[tuple[Any, Any, Any]]:
     """Yield what each spring and damper takes, its weight, and its rounding errors."""
-    linkage, points = motion.setting.linkage, getattr(motion, way.points)
+    linkage, points = motion.mechanism.linkage, getattr(motion, way.points)
     metre, usual = linkage.metre, linkage.extent * abs(motion.input_speed)
     for strut in struts:
         # what keeps its length takes nothing
@@ -155,7 +155,7 @@ def _strut_power(motion: Any, way: _Way, struts: Iterable[Spring | Damper]) -> I
 
 def _body_power(motion: Any, way: _Way) -> Iterator[tuple[Any, Any, Any]]:
     """Yield what each mass and each inertia takes, its weight, and its rounding errors."""
-    linkage = motion.setting.linkage
+    linkage = motion.mechanism.linkage
     metre = linkage.metre
     jolt, jerk = rounding_of(motion, "{}/s²", 2) * metre, rounding_of(motion, "rad/s²", 2)
     usual = abs(motion.input_speed)
@@ -177,7 +177,7 @@ def _body_power(motion: Any, way: _Way) -> Iterator[tuple[Any, Any, Any]]:
 
 def _pace(motion: Any, way: _Way) -> Any:
     """Return how fast the input moves, in rad/s; a cylinder's length, or a slider, in m/s."""
-    linkage = motion.setting.linkage
+    linkage = motion.mechanism.linkage
     ends = linkage.drive.actuator.along
     if ends is None:
         rate = getattr(motion, way.input)
@@ -235,7 +235,7 @@ def demand(solved: Callable[[Array], Any], phases: Array) -> Demand:
 
 def _needs_of(cycle: Any) -> tuple[Array, Array]:
     """Return the input's effort, and the power that dampers use up."""
-    linkage, used = cycle.setting.linkage, 0.0 * np.asarray(cycle.phase)
+    linkage, used = cycle.mechanism.linkage, 0.0 * np.asarray(cycle.phase)
     for item in linkage.dampers:
         if item.coefficient is not None and holding(linkage.rigid_bodies, item.between) is None:
             rate = said(cycle, cycle.damper[item.name].rate, "{}/s", 1) * linkage.metre

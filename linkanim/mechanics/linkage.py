@@ -844,6 +844,17 @@ class Damper:
         return self.coefficient is not None
 
 
+class Driven(NamedTuple):
+    """What the drive moves: a crank about its pivot, or a slider.
+
+    `body` is the crank's, None where it has no name; a slider has no such body, and its pivot is "".
+    """
+
+    joint: Crank | DrivenSlider
+    pivot: str
+    body: Body | None
+
+
 @dataclass(frozen=True)
 class Linkage(Stated):
     """A planar linkage with one input."""
@@ -914,6 +925,20 @@ class Linkage(Stated):
     def by_name(self) -> dict[str, Joint]:
         """Map each joint's name to the joint."""
         return {joint.name: joint for joint in self.joints}
+
+    @cached_property
+    def driven(self) -> Driven:
+        """What the drive moves."""
+        joint = self.by_name[self.drive.joint]
+        if isinstance(joint, DrivenSlider):
+            return Driven(joint, "", None)
+        assert isinstance(joint, Crank)
+        ends = {joint.pivot, joint.name}
+        return Driven(joint, joint.pivot, next((one for one in self.bodies if ends <= set(one.joints)), None))
+
+    def body(self, name: str) -> Body:
+        """Return the body of that name; KeyError where there is none."""
+        return next(body for body in self.bodies if body.name == name)
 
     @cached_property
     def unsized(self) -> Linkage:

@@ -73,7 +73,7 @@ def rounding_of(motion: Any, unit: str, order: int) -> Any:
 
     An array where the speed is one; 0 of what is neither an angle nor a length, nor a rate of one.
     """
-    size = _size(unit, motion.setting.linkage.extent)
+    size = _size(unit, motion.mechanism.linkage.extent)
     if not order:
         return size
     speed, acceleration = motion.input_speed, motion.input_acceleration
@@ -208,7 +208,7 @@ def pole(motion: Any, body: Body, other: Body | None = None) -> tuple[Any, Any]:
     the body. Those of three bodies lie in one line (Aronhold and Kennedy). Infinite where they turn alike.
     A fixed pin is the centre of what turns about it, and at rest they are those of the motion by the input.
     """
-    linkage, still = motion.setting.linkage, 0.0 * motion.phase
+    linkage, still = motion.mechanism.linkage, 0.0 * motion.phase
     pin = linkage.pivot(body.joints) if other is None and body.slider is None else None
     if pin is not None:
         x, y = linkage.pin(pin).position
@@ -237,7 +237,7 @@ def _rate(motion: Any, body: Body) -> Any:
     """Return a body's angular velocity: of what slides that of its guide."""
     if body.slider is None:
         return motion.angular_velocity[body.name]
-    (guide, *_) = motion.setting.linkage.joint(body.slider).slides
+    (guide, *_) = motion.mechanism.linkage.joint(body.slider).slides
     if guide.axis is None:
         return 0.0 * motion.coordinate_rate
     arm, moving = between(motion.position, guide.axis), between(motion.velocity, guide.axis)
@@ -266,7 +266,7 @@ def transmission_angle(motion: Any, dyad: str) -> Any:
     def way(start: str, end: str) -> Way:
         return between(motion.position, (start, end))
 
-    return motion.setting.linkage.joint(dyad).transmission_at(way)
+    return motion.mechanism.linkage.joint(dyad).transmission_at(way)
 
 
 def worst_transmission(motion: Any, dyads: tuple[str, ...]) -> Any:
@@ -314,8 +314,8 @@ def mechanical_advantage(motion: Any, output: Body) -> Any:
     Without losses both are ratios of speeds (Uicker, Pennock and Shigley, Theory of Machines and
     Mechanisms); not negative, infinite where the output rests, 0 where the input does.
     """
-    linkage = motion.setting.linkage
-    crank, turning = linkage.joint(linkage.drive.joint), output.slider is None
+    linkage = motion.mechanism.linkage
+    crank, turning = linkage.driven.joint, output.slider is None
     length = crank.length if isinstance(crank, Crank) and not turning else 1.0
     first, _ = coefficients_of(linkage, turning=turning)
 
@@ -427,7 +427,7 @@ def _strut(motion: Any, item: Spring | Damper, found: Any, name: str) -> Any:
     value = getattr(found, name)
     if value is None:
         return None
-    rigid = holding(motion.setting.linkage.rigid_bodies, item.between) is not None
+    rigid = holding(motion.mechanism.linkage.rigid_bodies, item.between) is not None
     if rigid and (name == "rate" or (name == "force" and isinstance(item, Damper))):
         return 0.0 * motion.phase
     if name == "force":
@@ -443,7 +443,7 @@ def force_rounding(motion: Any, item: Spring | Damper) -> Any:
     """Return how large the rounding errors of a strut's force may be (N)."""
     factor = item.stiffness if isinstance(item, Spring) else item.coefficient
     unit, order = ("{}", 0) if isinstance(item, Spring) else ("{}/s", 1)
-    return rounding_of(motion, unit, order) * (abs(factor or 0.0) * motion.setting.linkage.metre)
+    return rounding_of(motion, unit, order) * (abs(factor or 0.0) * motion.mechanism.linkage.metre)
 
 
 def _of_struts(kind: str) -> tuple[Measure, ...]:
@@ -451,7 +451,7 @@ def _of_struts(kind: str) -> tuple[Measure, ...]:
 
     def measure(name: str, symbol: str, words: str, unit: str, order: int) -> Measure:
         def read(motion: Any, strut: str) -> Any:
-            item = next(one for one in getattr(motion.setting.linkage, f"{kind}s") if one.name == strut)
+            item = next(one for one in getattr(motion.mechanism.linkage, f"{kind}s") if one.name == strut)
             return _strut(motion, item, getattr(motion, kind)[strut], name)
 
         return Measure(name, name, symbol, words, unit, order, name, read)
@@ -470,11 +470,11 @@ SPRING, DAMPER = _of_struts("spring"), _of_struts("damper")
 
 def _radius(motion: Any, prefix: str, part: str) -> float | None:
     """Return the radius of the circle on which a joint, or a centre of mass, runs; None where on none."""
-    linkage = motion.setting.linkage
+    linkage = motion.mechanism.linkage
     if not prefix:
         found: float | None = linkage.radii.get(part)
         return found
-    body = motion.setting.body(part)
+    body = motion.mechanism.linkage.body(part)
     if (pivot := linkage.pivot(body.joints)) is None:
         return None
     frame = linkage.rigid_bodies[holding(linkage.rigid_bodies, body.joints) or 0]
@@ -501,7 +501,7 @@ def _radius_of_curvature(motion: Any, prefix: str, part: str) -> Any:
         return radius + 0.0 * motion.phase
     rates = _rates(motion, prefix, part)
     found, share = _curved(motion, rates), _share(*rates)
-    steady = motion.setting.assembly.path.full_turn and not np.any(motion.input_acceleration)
+    steady = motion.mechanism.full_turn and not np.any(motion.input_acceleration)
     if (steady and np.all(motion.input_speed)) or not np.any(share < _SHARP):
         return found
     others = _rates(motion.per_input, prefix, part)

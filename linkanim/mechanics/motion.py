@@ -244,36 +244,6 @@ class Instants(NamedTuple):
     back: NDArray[np.bool_] | None = None
 
 
-class Setting(ABC):
-    """What motions and poses of one linkage share: it, and what solves it."""
-
-    linkage: Linkage
-    assembly: Assembly
-
-    @abstractmethod
-    def program(self, variant: Variant, kinds: tuple[str, ...]) -> tuple[Batch, ResultLayout]:
-        """Return the program over arrays that works quantities out, and where its results lie."""
-
-    @abstractmethod
-    def solve(
-        self, *, phase: ArrayLike, speed: ArrayLike, acceleration: ArrayLike = ..., derivatives: int = ...
-    ) -> Motion:
-        """Return the motion at phases."""
-
-    @abstractmethod
-    def pose_per_input(self, phase: float) -> Pose:
-        """Return one instant, its rates by the input's angle, or travel, instead of those in time."""
-
-    def crank_of(self, body: Body) -> tuple[Gearing, bool] | None:
-        """Return how a crank's body turns with the input, and whether it is named from its pin."""
-        crank = self.linkage.crank_of(body)
-        return (self.assembly.gears[crank.name], body.joints[0] == crank.name) if crank else None
-
-    def body(self, name: str) -> Body:
-        """Return the body of that name; KeyError where there is none."""
-        return next(body for body in self.linkage.bodies if body.name == name)
-
-
 Vector = TypeVar("Vector")
 Number = TypeVar("Number")
 
@@ -284,7 +254,7 @@ class Derived(ABC, Generic[Vector, Number]):
     `coordinate` is the input's: its angle, or a driving slider's travel.
     """
 
-    setting: Setting
+    mechanism: Mechanism
     position: Mapping[str, Vector]
     velocity: Mapping[str, Vector]
     acceleration: Mapping[str, Vector]
@@ -306,7 +276,7 @@ class Derived(ABC, Generic[Vector, Number]):
     @property
     def crank_angle(self) -> Any:
         """The angle of the bar that is driven; AttributeError where a slider drives, which has none."""
-        if not self.setting.linkage.drive.coordinate.is_angle:
+        if not self.mechanism.linkage.drive.coordinate.is_angle:
             raise AttributeError  # which asks __getattr__ for it
         return self.coordinate
 
@@ -323,12 +293,12 @@ class Derived(ABC, Generic[Vector, Number]):
         A crank's own angle counts its turns. The others' are in one turn at one instant, and of many
         instants without jumps along the first axis.
         """
-        bodies = tuple(body.name for body in self.setting.linkage.bodies if body.slider is None)
+        bodies = tuple(body.name for body in self.mechanism.linkage.bodies if body.slider is None)
         return Lazy(bodies, self._angle)
 
     def _angle(self, name: str) -> Any:
-        body = self.setting.body(name)
-        crank = self.setting.crank_of(body)
+        body = self.mechanism.linkage.body(name)
+        crank = self.mechanism.crank_of(body)
         if crank is not None:
             return _crank_angle(self.coordinate, self.phase, *crank)
         return self._continuous((body.joints[0], body.joints[1]))
@@ -363,12 +333,12 @@ class Derived(ABC, Generic[Vector, Number]):
     @cached_property
     def spring(self) -> Mapping[str, Strut]:
         """Each spring's length, rate and force."""
-        return self._struts(self.setting.linkage.springs)
+        return self._struts(self.mechanism.linkage.springs)
 
     @cached_property
     def damper(self) -> Mapping[str, Strut]:
         """Each damper's length, rate and force."""
-        return self._struts(self.setting.linkage.dampers)
+        return self._struts(self.mechanism.linkage.dampers)
 
     def _struts(self, items: tuple[Spring, ...] | tuple[Damper, ...]) -> Mapping[str, Strut]:
         by_name = {item.name: item for item in items}
@@ -380,7 +350,7 @@ class Derived(ABC, Generic[Vector, Number]):
         if self.velocity:
             moving = between(self.velocity, item.between)
             rate, turning = growth(apart, moving), over(cross(apart, moving), length * length)
-        force = _force(item, self.setting.linkage.metre, length, rate)
+        force = _force(item, self.mechanism.linkage.metre, length, rate)
         return Strut(length, rate, force, self._continuous(item.between), turning)
 
 
@@ -403,15 +373,18 @@ class Motion(Derived[Array, Array]):
     instants: Instants
 
     def __init__(
-        self, setting: Setting, input_speed: Any, input_acceleration: Any, instants: Instants
+        self, mechanism: Mechanism, input_speed: Any, input_acceleration: Any, instants: Instants
     ) -> None:
         vars(self).update(
-            setting=setting, input_speed=input_speed, input_acceleration=input_acceleration, instants=instants
+            mechanism=mechanism,
+            input_speed=input_speed,
+            input_acceleration=input_acceleration,
+            instants=instants,
         )
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Go through a pickle as what was asked for, which is worked out anew."""
-        return Motion, (self.setting, self.input_speed, self.input_acceleration, self.instants)
+        return Motion, (self.mechanism, self.input_speed, self.input_acceleration, self.instants)
 
     def __getattr__(self, name: str) -> Any:
         """Work a quantity out, with those that come out of the same pass."""
@@ -446,8 +419,8 @@ class Motion(Derived[Array, Array]):
         return {kind: columns(names, results, self.instants.shape) for kind, names in places.places.items()}
 
     def _run(self, kinds: tuple[str, ...]) -> tuple[ResultLayout, Array]:
-        instants, path = self.instants, self.setting.assembly.path
-        program, places = self.setting.program(instants.variant, kinds)
+        instants, path = self.instants, self.mechanism.assembly.path
+        program, places = self.mechanism.program(instants.variant, kinds)
         rates = instants.rates if instants.variant.accelerates else instants.rates[:1]
         ways = instants.distances
         with np.errstate(all="ignore"):
@@ -464,7 +437,7 @@ class Motion(Derived[Array, Array]):
 
     def _input(self) -> dict[str, Any]:
         """Return the phase, and the input's coordinate with its two rates."""
-        instants, path, names = self.instants, self.setting.assembly.path, ("phase", *COORDINATE)
+        instants, path, names = self.instants, self.mechanism.assembly.path, ("phase", *COORDINATE)
         x, rates = instants.x.reshape(instants.shape), (self.input_speed, self.input_acceleration)
         if not instants.variant.by_phase:
             with np.errstate(all="ignore"):
@@ -483,9 +456,9 @@ class Motion(Derived[Array, Array]):
     def per_input(self) -> Motion:
         """The same instants, with rates by the input's angle, or travel, instead of those in time."""
         by_phase = self.instants.variant.by_phase
-        variant = Variant(by_phase, False, per_input=by_phase and not self.setting.assembly.path.full_turn)
+        variant = Variant(by_phase, False, per_input=by_phase and not self.mechanism.full_turn)
         instants = self.instants._replace(variant=variant, rates=(1.0, 0.0), back=None)
-        return Motion(self.setting, 1.0, 0.0, instants)
+        return Motion(self.mechanism, 1.0, 0.0, instants)
 
     def paced(self, factor: float) -> Motion:
         """Return the same motion run so many times as fast; backwards where the factor is negative.
@@ -503,7 +476,7 @@ class Motion(Derived[Array, Array]):
         steps = np.diff(principal, axis=0)
         x, at = self.instants.x.reshape(principal.shape), partial(self._direction, ends)
         rows = [(values[:-1].reshape(-1), values[1:].reshape(-1)) for values in (x, principal)]
-        ways = turned(rows[0], rows[1], at, self.setting.assembly.quickest)
+        ways = turned(rows[0], rows[1], at, self.mechanism.assembly.quickest)
         turns = np.rint((ways.reshape(steps.shape) - steps) / math.tau)
         whole = np.zeros_like(principal)
         np.cumsum(np.nan_to_num(turns), axis=0, out=whole[1:])
@@ -511,10 +484,10 @@ class Motion(Derived[Array, Array]):
 
     def _direction(self, ends: tuple[str, str], x: Array) -> Array:
         """Return the direction of one joint to another at other instants."""
-        distances = self.instants.distances and self.setting.assembly.path.distances(x)
+        distances = self.instants.distances and self.mechanism.assembly.path.distances(x)
         w, a = (np.ones_like(x) if isinstance(rate, np.ndarray) else rate for rate in self.instants.rates)
         instants = self.instants._replace(x=x, distances=distances, rates=(w, a), shape=x.shape, back=None)
-        found = Motion(self.setting, 1.0, 0.0, instants).position
+        found = Motion(self.mechanism, 1.0, 0.0, instants).position
         return np.asarray(direction(between(found, ends)))
 
 
@@ -523,7 +496,7 @@ class _Paced(Motion):
 
     def __init__(self, motion: Motion, factor: float) -> None:
         speed, acceleration = motion.input_speed * factor, motion.input_acceleration * factor**2
-        super().__init__(motion.setting, speed, acceleration, motion.instants)
+        super().__init__(motion.mechanism, speed, acceleration, motion.instants)
         vars(self).update(motion=motion, factor=factor, per_input=motion.per_input)
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -571,7 +544,7 @@ class Pose(Derived[Pair, float]):
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Go through a pickle as what was solved, without what follows from it."""
-        kinds = (*ORDER, "setting", "input_speed", "input_acceleration")
+        kinds = (*ORDER, "mechanism", "input_speed", "input_acceleration")
         return Pose, ({kind: vars(self)[kind] for kind in kinds if kind in vars(self)},)
 
     def __getattr__(self, name: str) -> Any:
@@ -584,7 +557,7 @@ class Pose(Derived[Pair, float]):
     def per_input(self) -> Pose:
         """The same instant, with rates by the input's angle, or travel, instead of those in time."""
         rated = self.angular_acceleration or self.travel_acceleration
-        return self.setting.pose_per_input(self.phase) if rated else self
+        return self.mechanism.pose_per_input(self.phase) if rated else self
 
     def _continuous(self, ends: tuple[str, str]) -> float:
         return float(direction(between(self.position, ends)))
@@ -604,7 +577,7 @@ Traced = tuple[tuple[str, ...], Rows]
 
 
 @dataclass(frozen=True)
-class Mechanism(Setting):
+class Mechanism:
     """A linkage with its loops, path and signs, and the programs that solve it.
 
     One that is `passing` is solved at a few instants only: they come from the program over arrays, which
@@ -641,7 +614,38 @@ class Mechanism(Setting):
     @property
     def retraced(self) -> bool:
         """Whether the input swings and comes back by the way it came: each pose is one of the way up."""
-        return self.linkage.drive.retraced and not self.assembly.path.full_turn
+        return self.linkage.drive.retraced and not self.full_turn
+
+    @property
+    def full_turn(self) -> bool:
+        """Whether the input turns fully."""
+        return self.assembly.path.full_turn
+
+    @property
+    def input_range(self) -> tuple[float, float]:
+        """How far the driven angle, or the travel of a slider that drives, goes; the lower end first."""
+        return self.assembly.path.input_range
+
+    @property
+    def stops(self) -> tuple[str, ...]:
+        """The dyads that stop the input at its lower and its upper end, "" where it merely turns back.
+
+        Of an input that turns fully there are none.
+        """
+        return self.assembly.path.ends
+
+    def comes_to(self, place: float) -> bool:
+        """Tell whether the input comes to an angle, or to a travel of a slider that drives."""
+        return self.assembly.path.holds(place)
+
+    def phase_of(self, place: float, near: float) -> float:
+        """Return the phase nearest to `near` at which the input stands at a place, or at its end."""
+        return self.assembly.path.phase_of(place, near)
+
+    def crank_of(self, body: Body) -> tuple[Gearing, bool] | None:
+        """Return how a crank's body turns with the input, and whether it is named from its pin."""
+        crank = self.linkage.crank_of(body)
+        return (self.assembly.gears[crank.name], body.joints[0] == crank.name) if crank else None
 
     @property
     def hindered(self) -> bool:
@@ -680,7 +684,7 @@ class Mechanism(Setting):
 
     def pose_per_input(self, phase: float) -> Pose:
         """Return one instant, its rates by the input's angle, or travel, instead of those in time."""
-        return self.pose(phase, 1.0, 0.0, 2, not self.assembly.path.full_turn)
+        return self.pose(phase, 1.0, 0.0, 2, not self.full_turn)
 
     def _in_floats(self, key: _Key) -> Callable[..., dict[str, Any]]:
         """Return the program of one instant; ValueError where it would cost more than it saves."""
@@ -723,7 +727,7 @@ class Mechanism(Setting):
         motion = motion.per_input if per_input else motion
         found = {kind: _plain(values) for kind, values in motion.every.items()}
         inputs = ("phase", "input_speed", "input_acceleration", *COORDINATE)
-        return found | {name: float(getattr(motion, name)) for name in inputs} | {"setting": self}
+        return found | {name: float(getattr(motion, name)) for name in inputs} | {"mechanism": self}
 
     def solve(
         self,
@@ -772,13 +776,13 @@ class Mechanism(Setting):
 def _scalar(names: tuple[str, ...], rows: Rows, derivatives: int) -> Callable[..., dict[str, Any]]:
     """Return the program of one instant in plain floats."""
     outputs: list[Value] = []
-    parts = ["'setting': setting, 'phase': x, 'input_speed': w, 'input_acceleration': a"]
+    parts = ["'mechanism': mechanism, 'phase': x, 'input_speed': w, 'input_acceleration': a"]
     for kind, values in rows.items():
         if kind in COORDINATE or (values and DERIVATIVE_OF[kind] <= derivatives):
             outputs.extend(component for components in values.values() for component in components)
             parts.append(f"{kind!r}: {'{}' if kind in COORDINATE else _dict_display(values)}")
     display = f"{{{{{', '.join(parts)}}}}}"
-    return scalar((*names, "w", "a", "setting"), outputs, display)
+    return scalar((*names, "w", "a", "mechanism"), outputs, display)
 
 
 def _plain(values: Mapping[str, Array]) -> dict[str, Any]:

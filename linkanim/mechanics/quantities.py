@@ -92,15 +92,9 @@ def called(body: Body, names: Mapping[str, str]) -> str:
     return f"{'Slider' if body.slider else 'Link'} {body.name}"
 
 
-def driven_body(linkage: Linkage) -> Body | None:
-    """Return the body that the drive turns: the one of the crank pin and its pivot; None without a name."""
-    ends = {linkage.drive.joint, getattr(linkage.joint(linkage.drive.joint), "pivot", None)}
-    return next((body for body in linkage.bodies if ends <= set(body.joints)), None)
-
-
 def input_symbol(linkage: Linkage) -> str:
     """Return the input's symbol: θ₂, of a four-bar driven at its rocker θ₄, of a slider s."""
-    coordinate, body = linkage.drive.coordinate, driven_body(linkage)
+    coordinate, body = linkage.drive.coordinate, linkage.driven.body
     if not coordinate.is_angle:
         return coordinate.letter
     return indexed(coordinate.letter, link_labels(linkage)[body.name] if body else "2")
@@ -151,7 +145,7 @@ class Quantity:
         divisor, phases = self.divisor, cycle.phase
         if divisor is None or len(phases) < 2:
             return np.empty(0)
-        solve = partial(cycle.setting.solve, speed=1.0)
+        solve = partial(cycle.mechanism.solve, speed=1.0)
         around = np.append(phases, 2 * phases[-1] - phases[-2])
         found = sign_changes(lambda near: np.asarray(divisor(solve(phase=near))), around)
         unbounded: Any = np.isinf(self.read(solve(phase=found)))
@@ -241,7 +235,7 @@ def _quantities(linkage: Linkage, names: Mapping[str, str], *, still: bool) -> I
 
 
 def _pole(motion: Any, name: str) -> Any:
-    found = said(motion, pole(motion, motion.setting.body(name)), "{}", 0)
+    found = said(motion, pole(motion, motion.mechanism.linkage.body(name)), "{}", 0)
     return found if isinstance(motion.phase, float) else np.stack(found, axis=-1)
 
 
@@ -378,7 +372,7 @@ def key_quantities(cycle: Motion, traced: tuple[str, ...] = ()) -> tuple[str, ..
     What it is there to move, the forces, how its links turn, the torque at its input, the first of the
     `traced` joints whose speed changes, how well it transmits; nothing that stands still over the cycle.
     """
-    linkage = cycle.setting.linkage
+    linkage = cycle.mechanism.linkage
     changing = {token for token, one in register(linkage).items() if one.changes(cycle)}
     point = tuple(name for name in traced if f"{name}.velocity" in changing)[:1]
     candidates = [token for token in _candidates(linkage, point) if token in changing]

@@ -72,18 +72,18 @@ def _beside(picture: str, table: str) -> str:
 
 def _unit(motion: Motion) -> str:
     """Return the unit of length of a motion."""
-    return motion.setting.linkage.unit
+    return motion.mechanism.linkage.unit
 
 
 def _quantities(motion: Motion) -> Mapping[str, Quantity]:
     """Return all quantities by their tokens, bodies called by what they do."""
-    solved = mechanism(motion.setting.linkage)
+    solved = mechanism(motion.mechanism.linkage)
     return register(solved.linkage, link_names(solved, turning_bodies(solved)))
 
 
 def _shown(motion: Motion) -> Iterator[Quantity]:
     """Yield what the table has: where moving joints are, and how far bodies have turned or slid."""
-    linkage, known = motion.setting.linkage, _quantities(motion)
+    linkage, known = motion.mechanism.linkage, _quantities(motion)
     for joint in linkage.joints:
         if not joint.fixed:
             yield from (known[f"{joint.name}.position.{axis}"] for axis in "xy")
@@ -93,7 +93,7 @@ def _shown(motion: Motion) -> Iterator[Quantity]:
 
 def _table(motion: Motion) -> str:
     """Return the input's angle, phase, joints and bodies, a row for each instant."""
-    unit, coordinate, shown = _unit(motion), motion.setting.linkage.drive.coordinate, list(_shown(motion))
+    unit, coordinate, shown = _unit(motion), motion.mechanism.linkage.drive.coordinate, list(_shown(motion))
     titles = [f"input {coordinate.name} ({coordinate.shown_unit(unit)})", "phase (°)"]
     titles += [one.headed(unit) for one in shown]
     inputs = coordinate.shown(motion.coordinate), np.degrees(motion.phase)
@@ -114,7 +114,7 @@ def _row(values: Any) -> str:
 
 def _telling(motion: Motion) -> Quantity:
     """Return the quantity that is charted: how fast the output moves, or where it is without rates."""
-    linkage, known = motion.setting.linkage, _quantities(motion)
+    linkage, known = motion.mechanism.linkage, _quantities(motion)
     output = output_body(linkage)
     if output is None:
         return known[linkage.drive.coordinate.rate_token]
@@ -124,7 +124,7 @@ def _telling(motion: Motion) -> Quantity:
 
 def _chart(motion: Motion, quantity: Quantity) -> str:
     """Return a chart of a quantity over the input's angle, or over the phase where the input swings."""
-    coordinate, steps = motion.setting.linkage.drive.coordinate, np.diff(motion.coordinate)
+    coordinate, steps = motion.mechanism.linkage.drive.coordinate, np.diff(motion.coordinate)
     turns = coordinate.is_angle and bool((steps > 0).all() or (steps < 0).all())
     x = np.degrees(motion.coordinate if turns else motion.phase)
     values = np.asarray(quantity.shown(motion), float)

@@ -51,17 +51,17 @@ class Finding(NamedTuple):
 
 def instants_at(scene: Scene, angles: tuple[float, ...]) -> tuple[Instant, ...]:
     """Return the instants at angles of the input (rad); OutOfRange for one that it does not come to."""
-    path = scene.mechanism.assembly.path
+    mechanism = scene.mechanism
     if angles:
         scene.linkage.drive.check_angle(scene.name, "leave --angles out")
     for angle in angles:
-        if not path.holds(angle):
-            low, high = (f"{degrees(limit):.6g} deg" for limit in path.input_range)
+        if not mechanism.comes_to(angle):
+            low, high = (f"{degrees(limit):.6g} deg" for limit in mechanism.input_range)
             raise OutOfRange(
                 f"{scene.name}: --angles {degrees(angle):.6g} deg cannot be reached; "
                 f"the {scene.info.input_name} angle goes from {low} to {high}"
             )
-    return tuple(Instant(path.phase_of(angle, 0.0), "") for angle in angles)
+    return tuple(Instant(mechanism.phase_of(angle, 0.0), "") for angle in angles)
 
 
 def usual_instants(scene: Scene) -> tuple[Instant, ...]:

@@ -167,7 +167,7 @@ def colours_of(figure: Figure, theme: Theme) -> dict[str, Colour]:
     """
     drive = figure.linkage.drive.joint
     named = [body for body in figure.linkage.bodies if len(body.joints) > 1]
-    crank = {drive, getattr(figure.linkage.joint(drive), "pivot", None)}
+    crank = {drive, figure.linkage.driven.pivot}
     first = sorted(named, key=lambda body: not crank <= {*body.joints})
     count, taken = len(theme.bodies), int(figure.linkage.joint(drive).travels)
     own = {body.name: figure.scene.style(body.name).colour for body in first}

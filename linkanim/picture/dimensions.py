@@ -14,7 +14,6 @@ from typing import NamedTuple
 import numpy as np
 
 from linkanim.mechanics.linkage import Body, Brace, Rigid
-from linkanim.mechanics.quantities import driven_body
 from linkanim.picture.figure import Figure
 from linkanim.picture.layout import Gauge
 from linkanim.picture.raster import Colour, Layer, Loop
@@ -166,7 +165,7 @@ def leg_part(point: Rigid, view: View, gauge: Gauge, colour: Colour) -> Part:
 def pivots(figure: Figure) -> list[str]:
     """Return the fixed pins on which bars turn: the driven one, then as joints need them."""
     ends = {name for body in figure.bodies for name in body.joints}
-    first = getattr(figure.linkage.joint(figure.linkage.drive.joint), "pivot", None)
+    first = figure.linkage.driven.pivot
     needed = [name for joint in figure.linkage.joints for name in joint.needs]
     order = [first, *needed, *figure.fixed]
     return sorted((name for name in figure.fixed if name in ends), key=order.index)
@@ -263,7 +262,7 @@ def _named(*joints: str) -> str:
 
 
 def _angle(figure: Figure) -> str:
-    driven = driven_body(figure.linkage)
+    driven = figure.linkage.driven.body
     joints = set(driven.joints) if driven else {""}
     number = next((n for body, n in figure.numbers.items() if joints <= set(body.joints)), "2")
     return subscripted(f"θ{number}")

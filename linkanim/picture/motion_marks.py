@@ -303,7 +303,7 @@ def motion_of(context: DrawContext) -> Turning | Sliding | None:
     None where the input is neither a slider nor a crank on a pivot.
     """
     figure, view, gauge, theme = context.known
-    joint, info = figure.linkage.joint(figure.linkage.drive.joint), figure.scene.info
+    joint, info = figure.linkage.driven.joint, figure.scene.info
     fastest = float(np.nanmax(np.abs(figure.cycle.coordinate_rate)))
     ink = theme.ink, theme.background
     if isinstance(joint, DrivenSlider):

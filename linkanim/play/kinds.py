@@ -468,7 +468,7 @@ def _taken_for_fastest(puzzle: Puzzle, names: list[str]) -> Iterator[tuple[str, 
     """Yield what is taken for the fastest of some joints, and why."""
     linkage = puzzle.scene.linkage
     if linkage.drive.coordinate.is_angle:
-        pivot = linkage.crank(linkage.drive.joint).pivot
+        pivot = linkage.driven.pivot
         ways = {name: abs(puzzle.apart(pivot, name)) for name in names}
         *_, next_to, far = sorted(names, key=lambda name: ways[name])
         if ways[far] - ways[next_to] > CLEAR * ways[far]:
@@ -695,7 +695,7 @@ def _in_line(puzzle: Puzzle, body: Body, exact: Mapping[float, float]) -> str:
     """Return, after a colon, which bar is in line with the crank as the output turns back; "" if none."""
     linkage = puzzle.scene.linkage
     pin = linkage.drive.joint
-    pivot = linkage.crank(pin).pivot
+    pivot = linkage.driven.pivot
     poses = [puzzle.scene.pose(phase, 0).position for phase in exact.values()]
     for name in (body.slider, *body.joints):
         if name and pin in (end for end, _ in linkage.joint(name).bars):
@@ -733,7 +733,7 @@ def _are_apart(one: Swing, other: Swing) -> bool:
 
 def _overlooked(puzzle: Puzzle) -> str:
     """Return what is overlooked by who has an input turn fully that swings."""
-    if any(puzzle.scene.mechanism.assembly.path.ends):
+    if any(puzzle.scene.mechanism.stops):
         return "the limit overlooked: beyond it the loop does not close"
     return "the stroke of the drive overlooked"
 
@@ -780,7 +780,7 @@ def _why_fully(puzzle: Puzzle) -> str:
 def _why_swinging(puzzle: Puzzle) -> str:
     """Return why an input swings: what is in its way at both ends."""
     linkage, info = puzzle.scene.linkage, puzzle.scene.info
-    clauses = [linkage.joint(end).at_limit for end in puzzle.scene.mechanism.assembly.path.ends if end]
+    clauses = [linkage.joint(end).at_limit for end in puzzle.scene.mechanism.stops if end]
     if not clauses:
         return f"Its stroke is all: {linkage.drive.actuator.at_ends(puzzle.scene.length_unit)}."
     if len(set(clauses)) == 1:
@@ -794,7 +794,7 @@ def _why_swinging(puzzle: Puzzle) -> str:
 def closure(puzzle: Puzzle) -> QuizQuestion | None:
     """Return on which closure an input that swings comes back; taken wrongly, on the one it came by."""
     info, mechanism = puzzle.scene.info, puzzle.scene.mechanism
-    ends = [end for end in zip(info.input_range, mechanism.assembly.path.ends, strict=False) if end[1]]
+    ends = [end for end in zip(info.input_range, mechanism.stops, strict=False) if end[1]]
     if not ends:
         return None
     place, dyad = puzzle.random.choice(ends)

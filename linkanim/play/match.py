@@ -542,7 +542,7 @@ def _scene_of(game: MatchGame) -> tuple[Scene, float]:
     document = document_of(FOUR_BAR, joints.row, joints.closure, (joints.angle, 1.0), **stated)
     scene = scene_from(document, name="match", where=game.level)
     near = 0.0 if scene.info.full_turn else math.pi / 2
-    return scene, scene.mechanism.assembly.path.phase_of(joints.angle, near=near)
+    return scene, scene.mechanism.phase_of(joints.angle, near=near)
 
 
 def _home(game: MatchGame) -> Box:

@@ -175,17 +175,17 @@ def go(state: State, _: None) -> State:
     text, state = state.place_typed, replace(state, place_typed="", chip=None)
     if not text:
         return state
-    scene, path = state.displayed, state.displayed.mechanism.assembly.path
+    scene, mechanism = state.displayed, state.displayed.mechanism
     try:
         value = float(text)
     except ValueError:
         return with_toast(state, f"{text} is no number")
     place = radians(value) if scene.linkage.drive.coordinate.is_angle else value
-    if not isfinite(place) or not path.holds(place):
+    if not isfinite(place) or not mechanism.comes_to(place):
         unit = scene.linkage.drive.coordinate.shown_unit(f" {scene.length_unit}")
         ends = "…".join(driven_words(scene, end) for end in scene.info.input_range)
         return with_toast(state, f"the {scene.info.input_name} does not reach {text}{unit}; it goes {ends}")
-    phase = path.phase_of(place, state.phase)
+    phase = mechanism.phase_of(place, state.phase)
     return replace(state, clock=state.clock.go(state.frame, phase, paused=True))
 
 

@@ -354,7 +354,7 @@ def carry(state: State, to: tuple[float, float, float]) -> State:
     if state.scene is before:
         return state
     angle = held.scene.pose(held.phase, 0).coordinate
-    phase = state.scene.mechanism.assembly.path.phase_of(angle, state.phase)
+    phase = state.scene.mechanism.phase_of(angle, state.phase)
     return replace(state, clock=state.clock.go(state.frame, phase, paused=True))
 
 
