@@ -329,10 +329,13 @@ def _values(scene: Scene) -> Values:
 def shared_otherwise(scene: Scene, phase: float) -> Iterator[str]:
     """Yield what the shared page's table says otherwise, read as its script does."""
     data: Any = _shared(scene)
+    geared = any("gear" in joint for joint in scene.document.get("joints", {}).values())
     for one in measured(scene):
         own = float(one.quantity.shown(scene.pose(phase)))
         value = read_tables.row(data, one.label, phase)
         least = 1e-6 * (_largest(scene, one.quantity.token) + 1e-2 * one.step)
+        if geared:  # a table's steps are those of the input, whose quick gears go farther in one
+            least = max(least, one.step / 2)
         near = abs(value - own) <= 1e-6 * abs(own) + least if math.isfinite(own) else value == own
         if not near:
             yield f"{one.label}: {own} is {value} on a page"
