@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, Generic, TypeVar
 
 from linkanim.build.draft import DRIVE, Draft, Thing, numbered
 from linkanim.build.places import sides
@@ -21,10 +21,33 @@ from linkanim.scenes.scene import Scene
 # A drawing at work: what is drawn, what is chosen, what was typed, and the way back.
 
 _KEPT = 200
+Kept = TypeVar("Kept")
+Step = tuple[Kept, tuple[Kept, ...], tuple[Kept, ...]]
+"""What is stood at next, and then the past and the future."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Undoable(Generic[Kept]):
+    """What undo goes back to and redo goes on to, the nearest one last."""
+
+    past: tuple[Kept, ...] = ()
+    future: tuple[Kept, ...] = ()
+
+    def remembering(self, now: Kept, most: int) -> tuple[Kept, ...]:
+        """Return the past with `now`, and no more than so many of it; a change has no future."""
+        return (*self.past, now)[-most:]
+
+    def back(self, now: Kept) -> Step[Kept] | None:
+        """Return the step before `now`; None where there is none."""
+        return (self.past[-1], self.past[:-1], (*self.future, now)) if self.past else None
+
+    def onward(self, now: Kept) -> Step[Kept] | None:
+        """Return the step that was last gone back from; None where there is none."""
+        return (self.future[-1], (*self.past, now), self.future[:-1]) if self.future else None
 
 
 @dataclass(frozen=True)
-class Building:
+class Building(Undoable[Draft]):
     """A draft with what was `chosen` of it, the digits begun for its number `row`, and what undo goes to.
 
     `sentence` says what the last gesture did besides, or why it did nothing; "" where that is plain.
@@ -34,8 +57,6 @@ class Building:
     chosen: Thing | None = None
     row: int = 0
     typed: str = ""
-    past: tuple[Draft, ...] = ()
-    future: tuple[Draft, ...] = ()
     sentence: str = ""
 
     @cached_property
@@ -47,7 +68,7 @@ class Building:
 def changed(building: Building, draft: Draft, chosen: Thing | None, sentence: str = "") -> Building:
     """Return the building with another draft, which undo takes back."""
     settled = draft.having_all("sides", sides(draft))
-    past = (*building.past, building.draft)[-_KEPT:]
+    past = building.remembering(building.draft, _KEPT)
     after = Building(settled, chosen, past=past, sentence=sentence)
     scene, before = after.made.scene, building.made.scene
     swung = bool(before and not before.info.full_turn)
@@ -86,24 +107,19 @@ def choosing(building: Building, thing: Thing | None) -> Building:
 
 def undo(building: Building) -> Building:
     """Return the building before its last change; digits begun are let go of first."""
-    past, future = building.past, building.future
-    if building.typed or not past:
-        return replace(building, typed="", sentence="")
-    return _standing(building, past[-1], past[:-1], (*future, building.draft))
+    return _standing(building, None if building.typed else building.back(building.draft))
 
 
 def redo(building: Building) -> Building:
     """Return the building with the change that undo took back last."""
-    past, future = building.past, building.future
-    if not future:
+    return _standing(building, building.onward(building.draft))
+
+
+def _standing(building: Building, step: Step[Draft] | None) -> Building:
+    """Return the building at a step, with what is chosen if it is there; as it is, nothing typed, without one."""
+    if step is None:
         return replace(building, typed="", sentence="")
-    return _standing(building, future[-1], (*past, building.draft), future[:-1])
-
-
-def _standing(
-    building: Building, draft: Draft, past: tuple[Draft, ...], future: tuple[Draft, ...]
-) -> Building:
-    """Return the building with another draft, what is chosen still so if it is in it."""
+    draft, past, future = step
     chosen = building.chosen if building.chosen in set(draft.things()) else None
     return choosing(replace(building, draft=draft, past=past, future=future), chosen)
 

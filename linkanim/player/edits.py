@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from decimal import Decimal
 
+from linkanim.build.building import Step
 from linkanim.errors import LinkanimError
 from linkanim.mechanics.analysis import Info
 from linkanim.picture.overlay import Browsing
@@ -291,19 +292,20 @@ def undo(state: State, _: None) -> State:
     editing = state.editing
     if editing.begun:
         return replace(state, editing=nothing_begun(editing))
-    if not editing.past:
-        return state
-    *earlier, last = editing.past
-    return _remade(state, cleared(editing, past=tuple(earlier), future=(*editing.future, state.scene)), last)
+    return _stepped(state, editing.back(state.scene))
 
 
 def redo(state: State, _: None) -> State:
     """Go on to the scene that the last undo left."""
-    editing = state.editing
-    if not editing.future:
+    return _stepped(state, state.editing.onward(state.scene))
+
+
+def _stepped(state: State, step: Step[Scene] | None) -> State:
+    """Return the state at a step of undo or redo; as it is without one."""
+    if step is None:
         return state
-    *later, following = editing.future
-    return _remade(state, cleared(editing, past=(*editing.past, state.scene), future=tuple(later)), following)
+    scene, past, future = step
+    return _remade(state, cleared(state.editing, past=past, future=future), scene)
 
 
 def reset(state: State, _: None) -> State:

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Protocol
 
 import numpy as np
 
-from linkanim.build.building import Building
+from linkanim.build.building import Building, Undoable
 from linkanim.build.draft import Draft, Thing
 from linkanim.errors import BadInput, LinkanimError
 from linkanim.mechanics.analysis import Info
@@ -91,7 +91,7 @@ _KEPT = 100
 
 
 @dataclass(frozen=True)
-class Editing:
+class Editing(Undoable[Scene]):
     """Where the editing stands; `past` and `future` are the scenes that undo and redo go to.
 
     `typed` is a value begun in the chosen row and not taken, `drafts` those begun in rows that were passed
@@ -107,8 +107,6 @@ class Editing:
     refusal: str | None = None
     refused: Mapping[str, Any] | None = None
     warned: bool = False
-    past: tuple[Scene, ...] = ()
-    future: tuple[Scene, ...] = ()
     original: Scene | None = None
     saved: tuple[str, str] | None = None
 
@@ -137,7 +135,7 @@ def nothing_begun(editing: Editing) -> Editing:
 def with_undo(editing: Editing, scene: Scene) -> Editing:
     """Return the editing after `scene` was exchanged for another; undo goes back to it."""
     original = editing.original or scene
-    return cleared(editing, past=(*editing.past, scene)[-_KEPT:], future=(), original=original)
+    return cleared(editing, past=editing.remembering(scene, _KEPT), future=(), original=original)
 
 
 def loss_of_turning(before: Info, after: Info) -> str | None:
