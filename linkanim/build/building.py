@@ -116,7 +116,7 @@ def redo(building: Building) -> Building:
 
 
 def _standing(building: Building, step: Step[Draft] | None) -> Building:
-    """Return the building at a step, with what is chosen if it is there; as it is, nothing typed, without one."""
+    """Return the building at a step, what is chosen still so if it is there; else with nothing typed."""
     if step is None:
         return replace(building, typed="", sentence="")
     draft, past, future = step
