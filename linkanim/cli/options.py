@@ -502,7 +502,11 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
             'where the tables are, such as "87 deg,306 deg" (default: the start and the extremes)',
         ),
         _speeds("the speeds of tables and charts"),
-        _value("--data OTHER.csv", Path, "lay a table beside: angle or time, then a column a quantity"),
+        _value(
+            "--data OTHER.csv",
+            Path,
+            "lay measured values beside the solution: angle or time, then a column for each quantity",
+        ),
         _value("--label TEXT", str, "the name of that table (default: its file's name)"),
         _value("--digits N", digits, "significant digits in the tables (default: 4)", 4),
         _flag("--all", "add every quantity, and a chart of each"),
