@@ -90,6 +90,8 @@ class Drawing:
 
     def dead_centres_in(self, view: View) -> DeadCentres | None:
         """Return the ticks on a slider's guide in a view; None where there are none."""
+        if not self.setting.look.dead_centres:
+            return None
         from linkanim.picture.dead_centres import dead_centres_of
 
         return dead_centres_of(replace(self.setting, view=view))

@@ -71,9 +71,10 @@ class Look:
     stays transparent. `zoom` multiplies the fitted scale; `pan` shifts the picture right and down, in
     fractions of the window's height. `ghost` draws the other closure faintly. `names` is 0 for none, 1 for
     the names of joints and links with the input's direction of turning, 2 for dimensions and the input's
-    angle as well. `caption` adds the scene's sentence on what to watch for. `polygons` draws the velocity and
-    acceleration polygons beside the linkage. `chain` colours the links in the order in which they are solved.
-    `centres` is 0 for none, 1 for the instant centres, 2 for the coupler's centrodes as well.
+    angle as well; with either a slider's guide has its `dead_centres`, unless they would give an answer away.
+    `caption` adds the scene's sentence on what to watch for. `polygons` draws the velocity and acceleration
+    polygons beside the linkage. `chain` colours the links in the order in which they are solved. `centres` is
+    0 for none, 1 for the instant centres, 2 for the coupler's centrodes as well.
     """
 
     trace: bool = _toggle(
@@ -195,6 +196,7 @@ class Look:
         Option("transparent", "leave the background out", False, commands=("draw",)),
         steps=(True, False),
     )
+    dead_centres: bool = True
     zoom: float = 1.0
     pan: tuple[float, float] = (0.0, 0.0)
 

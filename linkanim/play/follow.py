@@ -306,11 +306,7 @@ class FollowRun:
     @property
     def _verdict(self) -> str:
         before = f"; the best was {self.best / 1e3:.2f} m" if self.best else ""
-        end = (
-            "to the end of the paper"
-            if self.paper >= 1_000 * LENGTH
-            else "then its time was up"
-        )
+        end = "to the end of the paper" if self.paper >= 1_000 * LENGTH else "then its time was up"
         return f"{self.metres:.2f} m, {end}{before}"
 
     def _lane(self, state: State) -> Lane:

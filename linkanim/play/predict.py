@@ -32,7 +32,7 @@ _HOLD = 75
 """So many frames the answer stands at the question's pose before the input runs on."""
 _SLOW = -4
 """How slowly it runs then, in rungs of the clock's ladder."""
-_BARE = Look(hud=False, trace=False)
+_BARE = Look(hud=False, trace=False, dead_centres=False)
 
 
 class GivenAnswer(NamedTuple):

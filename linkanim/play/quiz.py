@@ -119,6 +119,9 @@ _PRINTED = 12
 """So many of a curve's values stand in plain text."""
 LETTERS = "abcd"
 _SIZE = (480, 300)
+_A_PAGE = 5
+"""Questions of a printed page at the most."""
+_SIGNED = "<p class='signed'><span>Name</span><span>Date</span></p>"
 _STYLE = """
 body { font: 15px/1.45 "Source Sans Pro", "Source Sans 3", "Helvetica Neue", Arial, sans-serif;
        color: #1b1f23; margin: 2rem auto; max-width: 54rem; padding: 0 1rem; }
@@ -128,8 +131,13 @@ section { display: grid; grid-template-columns: 1fr 1.1fr; gap: 0 1.5rem; break-
 section > h2 { grid-column: 1 / -1; } figure { margin: 0; }
 figure svg { width: 100%; height: auto; display: block; }
 figcaption { color: #57606a; font-size: .92em; } ol.answers { list-style: lower-alpha; margin: .3rem 0; }
-.key { break-before: page; } @page { size: A4; margin: 16mm 14mm; }
-@media print { body { margin: 0; max-width: none; font-size: 10pt; } }
+.signed { display: flex; gap: 2rem; } .signed span { flex: 1; border-bottom: 1px solid #57606a; }
+.signed span:first-child { flex: 2; }
+.key { break-before: page; } @page { size: A4; margin: 12mm 14mm; }
+@media print { body { margin: 0; padding: 0; max-width: none; font-size: 9pt; line-height: 1.3; }
+  h1 { font-size: 14pt; margin: 0 0 .3rem; } h2 { font-size: 10.5pt; } section { margin: .5rem 0; }
+  section figure svg { height: 41mm; width: auto; }
+  .page + .page { break-before: page; } .page { break-inside: avoid; } }
 """
 
 
@@ -148,7 +156,7 @@ def pose_words(question: QuizQuestion) -> str:
 
 def question_figure(question: QuizQuestion) -> Figured:
     """Return the figure of a question as it stands on paper: answers that are places are lettered dots."""
-    look = Look(hud=False, trace=False, names=question.names)
+    look = Look(hud=False, trace=False, names=question.names, dead_centres=False)
     spots = (
         Spot(letter, one.place)
         for n, (letter, one) in enumerate(zip(LETTERS, question.answers, strict=False))
@@ -186,8 +194,18 @@ def as_html(
     `progress` is called with (figures drawn, in all).
     """
     head = f"<meta charset='utf-8'><title>{escape(title)}</title><style>{_STYLE}</style>"
-    body = "\n".join([f"<h1>{escape(title)}</h1>", *_sections(round_, progress), *_key_page(round_, title)])
+    sections = [*_sections(round_, progress)]
+    pages = (f"<div class='page'>{''.join(some)}</div>" for some in _pages(sections))
+    head_lines = (f"<h1>{escape(title)}</h1>", _SIGNED)
+    body = "\n".join([*head_lines, *pages, *_key_page(round_, title)])
     return f"<!doctype html>\n<html lang='en'><head>{head}</head><body>\n{body}\n</body></html>\n"
+
+
+def _pages(sections: Sequence[str]) -> Iterator[Sequence[str]]:
+    """Yield the questions of each printed page: as many on each as can be, never one alone."""
+    count = -(-len(sections) // _A_PAGE)
+    for n in range(count):
+        yield sections[n * len(sections) // count : (n + 1) * len(sections) // count]
 
 
 def _sections(round_: Sequence[QuizQuestion], progress: Callable[[int, int], None]) -> Iterator[str]:
@@ -256,4 +274,4 @@ def _slips(question: QuizQuestion) -> str:
 
 
 def _key(question: QuizQuestion) -> str:
-    return f"{LETTERS[question.right]}) {question.answers[question.right].text}. {question.why}"
+    return f"{LETTERS[question.right]}) {answer_text(question, question.right)}. {question.why}"

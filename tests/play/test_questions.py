@@ -223,6 +223,16 @@ def test_a_chapter_is_asked_scene_by_scene_on_a_sheet_with_its_key_apart(tmp_pat
         assert f">{load(name).title}</text>" not in text  # no words in the figure that tell the answer
 
 
+def test_a_sheet_has_lines_for_a_name_and_at_most_five_questions_a_page(tmp_path: Path) -> None:
+    sheet = tmp_path / "sheet.html"
+    assert main(["quiz", "slider-crank", "-n", "11", "-o", str(sheet)]) == 0
+    text = sheet.read_text(encoding="utf-8")
+    assert text.count("<span>Name</span><span>Date</span>") == 1
+    pages = text.partition("class='key'")[0].split("<div class='page'>")[1:]
+    assert [page.count("<section>") for page in pages] == [3, 4, 4]
+    assert "dead centre" not in re.sub(r"<h2>.*?</h2>|<ol.*?</ol>", "", "".join(pages))
+
+
 @pytest.mark.parametrize(
     ("words", "said"),
     [

@@ -202,9 +202,7 @@ def test_a_file_that_another_window_does_not_let_go_of_is_waited_for_and_told(
     monkeypatch.setattr("linkanim.atomic_files._PATIENCE", 0.0)
     arcade = Arcade(path)
     arcade.keep("best=all.1:50")
-    assert arcade.news() == [
-        f"{path}: cannot be written: another linkanim is using it; scores are not kept"
-    ]
+    assert arcade.news() == [f"{path}: cannot be written: another linkanim is using it; scores are not kept"]
     claim.release()
     arcade.keep("door=play")
     assert load(path).best == {"all.1": 50}
