@@ -587,6 +587,7 @@ ACTIONS: Mapping[str, Rule] = {
     "rebuild": Rule(_nothing, building.redo, answer=_stuck("nothing to redo")),
     "back": Rule(_nothing, back),
     "list": Rule(_nothing, edits.list_, taped=False),
+    "menu": Rule(_nothing, edits.menu, taped=False),
     "shelf": Rule(_nothing, edits.open_shelf, taped=False),
     "files": Rule(_text, edits.files, taped=False),  # scene files, one a line
     "open_file": Rule(_text, effect("open"), taped=False),

@@ -17,7 +17,7 @@ from pygame.event import Event
 
 from linkanim.build.tools import TOOLS
 from linkanim.player.action import Action, Mode
-from linkanim.player.keys import Bind, Press, bind_of, button_name, hat_name, key_names, key_of
+from linkanim.player.keys import MENU_IN, Bind, Press, bind_of, button_name, hat_name, key_names, key_of
 from linkanim.player.screen import Screen
 from linkanim.player.state import State
 from linkanim.scenes.editing import phase_along, phase_towards
@@ -281,6 +281,8 @@ def _bound(name: str, mode: Mode) -> Bind | None:
 # The mouse: the wheel zooms, a drag pans, or moves the crank, the chart's cursor, a joint or a value.
 
 _REACH = 0.035  # of the window's height
+_RIGHT = 3
+"""The number of the right button, which opens the list of commands."""
 _TENTHS = 0.1
 _PULL = 0.011
 """How far a value is dragged for a step, in the window's height."""
@@ -327,6 +329,8 @@ class Mouse:
         """Return what a mouse event asks for."""
         kind, notches, (x, y) = _KINDS[event.type], getattr(event, "y", 0), self._at
         self._seen = self._seen or kind in ("move", "down")
+        if kind == "down" and event.button == _RIGHT:
+            return (Action("menu"),) * (screen.state.mode in MENU_IN)
         if getattr(event, "button", 1) != 1 or (kind == "wheel" and not notches):
             return ()
         self._at = getattr(event, "pos", self._at)

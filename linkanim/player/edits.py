@@ -11,10 +11,13 @@ from linkanim.build.building import Step
 from linkanim.errors import LinkanimError
 from linkanim.mechanics.analysis import Info
 from linkanim.picture.overlay import Browsing
+from linkanim.player.action import Action
+from linkanim.player.keys import MENU_IN, commands
 from linkanim.player.state import (
     Edited,
     Editing,
-    FileNames,
+    Entries,
+    Entry,
     Held,
     Listing,
     State,
@@ -201,7 +204,16 @@ def _relisted(state: State, sieve: str) -> State:
 
 def files(state: State, names: str) -> State:
     """Open the list of files, one name a line."""
-    return replace(state, listing=Listing(0, files=FileNames(tuple(names.splitlines()))), browsing=None)
+    entries = tuple(Entry(name, "", Action("open_file", name)) for name in names.splitlines())
+    return replace(state, listing=Listing(0, others=Entries("Scene files here", entries)), browsing=None)
+
+
+def menu(state: State, _: None) -> State:
+    """Open the list of all commands that there are in the mode that is on; close it where it is open."""
+    if state.listing or state.mode not in MENU_IN:
+        return replace(state, listing=None)
+    entries = tuple(Entry(*one) for one in commands(state.mode))
+    return replace(state, listing=Listing(0, others=Entries("Commands", entries)), help=False)
 
 
 def plot(state: State, token: str) -> State:

@@ -176,6 +176,7 @@ KEYS: Table = {
         KeyRow("L", "light / dark", _of_look("theme")),
         KeyRow("U", "sounds: dead centres and limits", _on("u", "sounds")),
         KeyRow("F11", "full screen", _on("f11", "fullscreen")),
+        KeyRow("F10, right click", "the list of all commands", _on("f10", "menu")),
         KeyRow("H, F1, ?", "help", _on("h f1 ? shift+/", "help")),
         KeyRow(
             "Esc, Q",
@@ -356,6 +357,69 @@ def _names(press: Press) -> tuple[str, ...]:
         return ("ctrl+shift+" + press.key,) if press.shift else ("ctrl+" + press.key,)
     symbol = () if press.text.isalpha() else (press.text,)
     return ("shift+" + press.key, *symbol, press.key) if press.shift else (press.key, *symbol)
+
+
+MENU_IN: frozenset[Mode] = frozenset({"play", "paused", "pencil", "build", "list"})
+"""The modes in which the list of commands can be opened, or is."""
+_NEEDS_KEYS = frozenset({"aim", "enter", "type_place"})
+"""What makes no sense in a list: it moves what only keys move."""
+_APART: Mapping[Action, str] = {
+    Action("step", -1): "a step back",
+    Action("step", 1): "a step on",
+    Action("step", -10): "ten steps back",
+    Action("step", 10): "ten steps on",
+    Action("speed", -1): "slower",
+    Action("speed", 1): "faster",
+    Action("mechanism", -1): "the mechanism before",
+    Action("mechanism", 1): "the next mechanism",
+    **{Action("select", n): f"mechanism {n + 1} of the chapter" for n in range(9)},
+    Action("vectors", "v"): "velocities",
+    Action("vectors", "a"): "accelerations",
+    Action("zoom", (1.0, 0.0, 0.0)): "nearer",
+    Action("zoom", (-1.0, 0.0, 0.0)): "farther",
+    Action("back"): "close what is open, leave full screen",
+    Action("quit"): "quit",
+    Action("chart", -1): "chart: the quantity before",
+    Action("chart", 1): "chart: the next quantity",
+    Action("build"): "build a linkage",
+    Action("build_on"): "build on with this linkage",
+    Action("pencil"): "draw a path to follow",
+    Action("own_trace"): "draw on from this linkage's curve",
+    Action("closure"): "the other closure",
+    Action("ghost"): "the other closure, faintly",
+    Action("undo"): "undo",
+    Action("redo"): "redo",
+    Action("screenshot"): "screenshot (PNG)",
+    Action("svg"): "figure (SVG)",
+    Action("record", "gif"): "record a GIF: start, stop",
+    Action("record", "mp4"): "record an MP4: start, stop",
+    Action("save"): "save the scene",
+    Action("save_as"): "save the scene under another name",
+    Action("files_here"): "open a scene file of this folder",
+    Action("unbuild"): "undo",
+    Action("rebuild"): "redo",
+}
+"""What each command is called where a row of the table has several."""
+_WRITTEN = {"left": "←", "right": "→", "up": "↑", "down": "↓", "return": "Enter", "escape": "Esc"}
+
+
+def commands(mode: Mode) -> tuple[tuple[str, str, Action], ...]:
+    """Return all that keys ask for in a mode, each but once: in words, by its first key, as an action."""
+    tables = (MODES.get(mode, {}), KEYS)
+    every = [(row, bind) for table in tables for rows in table.values() for row in rows for bind in row.binds]
+    found: dict[Action, tuple[str, str, Action]] = {}
+    for row, bind in every:
+        if bind.action.name not in _NEEDS_KEYS | {"menu"}:
+            found.setdefault(
+                bind.action, (_APART.get(bind.action, row.words), _as_written(bind.key), bind.action)
+            )
+    return tuple(found.values())
+
+
+def _as_written(key: str) -> str:
+    """Return a key as it is written for readers, as Ctrl+Shift+S."""
+    *held, last = key.split("+") if len(key) > 1 else [key]
+    return "+".join([*map(str.capitalize, held), _WRITTEN.get(last, last.capitalize())])
 
 
 def key_names() -> tuple[str, ...]:

@@ -185,10 +185,9 @@ _HINT = (
     "↑ ↓ choose   ← → nudge   type a value   Tab next   Enter takes   Ctrl+Z undo   Ctrl+R reset   "
     "Ctrl+S save   Esc closes"
 )
-_FILES = "Scene files here"
-_FILES_HINT = "↑ ↓ choose   type to filter   Enter opens   Esc closes"
+_OTHERS_HINT = "↑ ↓ choose   type to filter   Enter takes   Esc closes"
 _LIST_HINT = "↑ ↓ choose   type to filter   Enter charts   Esc closes"
-_BAR = "Space pause · Tab next · drag the crank pin · H keys"
+_BAR = "Space pause · Tab next · drag the crank pin · right click: all commands · H keys"
 _BAR_FRAMES = 6 * FRAMES_PER_SECOND
 _WATCH_FRAMES = 6 * FRAMES_PER_SECOND
 _NAME = re.compile(r"\b[^\W\d_]\w*")
@@ -253,8 +252,8 @@ def _kept(state: State, items: tuple[Dimension, ...], over: Hover | None = None)
 
 def _quantities(state: State, listing: Listing) -> Quantities:
     scene = state.displayed
-    if listing.files is not None:
-        return Quantities(listing.files.rows, listing.chosen, listing.sieve, _FILES_HINT, title=_FILES)
+    if others := listing.others:
+        return Quantities(others.rows, listing.chosen, listing.sieve, _OTHERS_HINT, title=others.title)
     found = [quantity(scene, token) for token in listing.found(scene)]
     # Four times a second while it runs: values that change faster are not read, and each costs its drawing.
     pose = scene.pose(state.clock.at(state.frame // _READ * _READ), speed=state.clock.speed)
@@ -317,7 +316,7 @@ def _shelf(state: State, browsing: Browsing) -> Shelf:
 
 def _naming(naming: Naming) -> str:
     """Return the line in which a name is asked for."""
-    asked = f"Save as {naming.name}_ .toml   Enter writes it, Esc does not"
+    asked = f"Save as {naming.name}_.toml · Enter writes it · Esc does not"
     return f"{naming.refusal}: {asked}" if naming.refusal else asked
 
 

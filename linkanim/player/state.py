@@ -44,39 +44,56 @@ if TYPE_CHECKING:
 # its own ("plot", "put"), and that a tape does keep.
 
 
-@dataclass(frozen=True)
-class FileNames:
-    """Names of files, of which a folder may have a hundred thousand, and the letters that sift them."""
+class Entry(NamedTuple):
+    """A row of a list: its words, the key that does the same, and what it asks for."""
 
-    names: tuple[str, ...]
+    words: str
+    key: str
+    action: Action
+
+
+@dataclass(frozen=True)
+class Entries:
+    """Rows under a title, of which a folder may give a hundred thousand, and the letters that sift them."""
+
+    title: str
+    entries: tuple[Entry, ...]
     sieve: str = ""
 
     @cached_property
-    def found(self) -> tuple[str, ...]:
+    def found(self) -> tuple[Entry, ...]:
         """Those that have all the sieve's words."""
-        return sifted({name: name for name in self.names}, self.sieve)
+        return sifted({one: f"{one.words} {one.key}" for one in self.entries}, self.sieve)
 
     @cached_property
     def rows(self) -> tuple[tuple[str, str], ...]:
-        """The same as rows of a list: words, and nothing behind them."""
-        return tuple((name, "") for name in self.found)
+        """The same as rows of a list: words, and the key behind them."""
+        return tuple((one.words, one.key) for one in self.found)
 
 
 @dataclass(frozen=True)
 class Listing:
-    """The open list: the row that is chosen, and the letters that sift it; of quantities, or of `files`."""
+    """The open list: the row that is chosen, and the letters that sift it; of quantities, or of `others`."""
 
     chosen: int
     sieve: str = ""
-    files: FileNames | None = None
+    others: Entries | None = None
 
     def found(self, scene: Scene) -> tuple[str, ...]:
-        """Return the files, or a scene's quantities by their tokens, that have all the sieve's words."""
-        return listed(scene, self.sieve) if self.files is None else self.files.found
+        """Return the tokens of quantities, or the words of others, that have all the sieve's words."""
+        if self.others is None:
+            return listed(scene, self.sieve)
+        return tuple(one.words for one in self.others.found)
+
+    def asked(self, scene: Scene, row: int) -> Action | None:
+        """Return what a row asks for; None where there is none."""
+        if self.others is not None:
+            return next((one.action for one in self.others.found[row : row + 1]), None)
+        return next((Action("plot", token) for token in self.found(scene)[row : row + 1]), None)
 
     def sifted(self, sieve: str) -> Listing:
         """Return it with other letters, at its top."""
-        return Listing(0, sieve, self.files and replace(self.files, sieve=sieve))
+        return Listing(0, sieve, self.others and replace(self.others, sieve=sieve))
 
 
 def listed(scene: Scene, sieve: str) -> tuple[str, ...]:

@@ -195,9 +195,9 @@ class Window:
         """Yield what takes a row of the open list, the chosen one unless it is given."""
         if listing := self.state.listing:
             row = row if isinstance(row, int) else listing.chosen
-            yield from () if listing.files is None else (Action("back"),)
-            deed = "plot" if listing.files is None else "open_file"
-            yield from (Action(deed, name) for name in listing.found(self.state.scene)[row : row + 1])
+            asked = listing.asked(self.state.scene, row)
+            yield from () if listing.others is None else (Action("back"),)
+            yield from self._resolved(asked) if asked else ()
 
     def _put_chosen(self, _: Value) -> Iterator[Action]:
         """Yield what puts on the mechanism that is chosen on the shelf, where the sieve has left one."""

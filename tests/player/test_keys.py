@@ -23,6 +23,7 @@ from linkanim.player.keys import (
     as_markdown,
     as_text,
     bind_of,
+    commands,
     help_groups,
     key_names,
 )
@@ -240,3 +241,8 @@ def test_all_of_the_help_is_there_in_a_small_window_too(
     for keys, does in (line for _, lines in groups for line in lines):
         assert keys in drawn
         assert does in " ".join(drawn) or set(does.split()) <= set(" ".join(drawn).split())
+
+
+def test_commands_in_the_list_are_told_apart_by_their_words() -> None:
+    words = [said for said, _, _ in commands("play")]
+    assert sorted(words) == sorted(set(words))

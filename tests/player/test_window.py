@@ -25,7 +25,8 @@ from linkanim.player.action import Action
 from linkanim.player.actions import carried
 from linkanim.player.clock import STEP
 from linkanim.player.framing import Framing
-from linkanim.player.shown import _FILES_HINT, overlay
+from linkanim.player.keys import commands
+from linkanim.player.shown import _OTHERS_HINT, overlay
 from linkanim.player.state import FRAMES, TOAST_FRAMES, State, begin
 from linkanim.player.tape_file import read
 from linkanim.scenes import load, names
@@ -716,7 +717,7 @@ def test_ctrl_o_lists_the_scene_files_here_and_opens_one(player: Player, here: P
     player.press(pygame.K_o, CTRL)
     player.type("pr")
     assert overlay(player.state).quantities == Quantities(
-        (("my-press.toml", ""),), 0, "pr", _FILES_HINT, title="Scene files here"
+        (("my-press.toml", ""),), 0, "pr", _OTHERS_HINT, title="Scene files here"
     )
     player.press(pygame.K_RETURN)
     assert (player.state.listing, player.state.scene.name) == (None, "my-press")
@@ -753,3 +754,46 @@ def test_a_file_is_opened_before_an_edited_first_mechanism_which_stays_as_it_was
     assert (player.state.scene, player.state.place) == (load("press"), 0)
     player.window.state = carried(player.state, Action("mechanism", 1))
     assert (player.state.scene, player.state.place) == (edited, 1)
+
+
+def test_every_command_is_reached_by_mouse_alone(player: Player) -> None:
+    player.mouse(pygame.MOUSEBUTTONDOWN, (200, 90), button=3)
+    asked = []
+    for place, (_, _, action) in enumerate(commands("paused")):
+        screen, listing = player.window.screen, player.state.listing
+        assert listing
+        y = next(y for y in range(2, SIZE[1], 2) if screen.row_at(40, y) == place)
+        click = pygame.event.Event(pygame.MOUSEBUTTONDOWN, pos=(40, y), button=1)
+        assert player.window._mouse.actions(click, screen) == (Action("pick", place),)
+        asked.append((listing.asked(player.state.scene, place), action))
+        player.mouse(pygame.MOUSEBUTTONUP, (40, y), button=1)
+        pygame.event.post(pygame.event.Event(pygame.MOUSEWHEEL, y=-1))
+        player.tick()
+    assert all(found == action for found, action in asked)
+    assert len(asked) > 50
+
+
+def test_every_command_is_reached_by_keys_alone(player: Player) -> None:
+    for words, key, action in commands("paused"):
+        player.press(pygame.K_F10)
+        assert player.state.listing
+        others = player.state.listing.others
+        assert others
+        found = [one for one in others.entries if (one.words, one.key) == (words, key)]
+        assert [one.action for one in found] == [action]
+        player.press(pygame.K_F10)
+        assert not player.state.listing
+
+
+def test_the_list_of_commands_opens_by_a_right_click_and_does_what_is_chosen(player: Player) -> None:
+    player.mouse(pygame.MOUSEBUTTONDOWN, (200, 90), button=3)
+    assert player.state.listing
+    player.type("coupler")
+    player.press(pygame.K_RETURN)
+    after = player.state
+    assert after.listing is None
+    assert not after.look.trace
+    player.mouse(pygame.MOUSEBUTTONDOWN, (200, 90), button=3)
+    assert player.state.listing
+    player.mouse(pygame.MOUSEBUTTONDOWN, (200, 90), button=3)
+    assert player.state.listing is None
