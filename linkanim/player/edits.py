@@ -17,9 +17,9 @@ from linkanim.player.state import (
     Edited,
     Editing,
     Entries,
-    Entry,
     Held,
     Listing,
+    ListRow,
     State,
     check_of_turning,
     chosen,
@@ -204,7 +204,7 @@ def _relisted(state: State, sieve: str) -> State:
 
 def files(state: State, names: str) -> State:
     """Open the list of files, one name a line."""
-    entries = tuple(Entry(name, "", Action("open_file", name)) for name in names.splitlines())
+    entries = tuple(ListRow(name, "", Action("open_file", name)) for name in names.splitlines())
     return replace(state, listing=Listing(0, others=Entries("Scene files here", entries)), browsing=None)
 
 
@@ -212,7 +212,7 @@ def menu(state: State, _: None) -> State:
     """Open the list of all commands that there are in the mode that is on; close it where it is open."""
     if state.listing or state.mode not in MENU_IN:
         return replace(state, listing=None)
-    entries = tuple(Entry(*one) for one in commands(state.mode))
+    entries = tuple(ListRow(*one) for one in commands(state.mode))
     return replace(state, listing=Listing(0, others=Entries("Commands", entries)), help=False)
 
 

@@ -44,7 +44,7 @@ if TYPE_CHECKING:
 # its own ("plot", "put"), and that a tape does keep.
 
 
-class Entry(NamedTuple):
+class ListRow(NamedTuple):
     """A row of a list: its words, the key that does the same, and what it asks for."""
 
     words: str
@@ -57,11 +57,11 @@ class Entries:
     """Rows under a title, of which a folder may give a hundred thousand, and the letters that sift them."""
 
     title: str
-    entries: tuple[Entry, ...]
+    entries: tuple[ListRow, ...]
     sieve: str = ""
 
     @cached_property
-    def found(self) -> tuple[Entry, ...]:
+    def found(self) -> tuple[ListRow, ...]:
         """Those that have all the sieve's words."""
         return sifted({one: f"{one.words} {one.key}" for one in self.entries}, self.sieve)
 
