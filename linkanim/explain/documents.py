@@ -122,17 +122,24 @@ def _at(place: complex) -> str:
 
 # A worked solution as a document: HTML with MathML, LaTeX, or Markdown with LaTeX's formulas.
 
-_STYLE = """
-body { font: 16px/1.5 "Source Sans Pro", "Source Sans 3", "Helvetica Neue", Arial, sans-serif;
-       color: #1b1f23; margin: 2rem auto; max-width: 56rem; padding: 0 1rem; }
-h1 { font-size: 1.8rem; margin: 0; } p { margin: .3rem 0; }
-h2 { font-size: 1.35rem; margin: 2rem 0 .5rem; border-bottom: 2px solid #d0d7de; }
-h3 { font-size: 1.05rem; margin: 1.2rem 0 .2rem; } h2, h3 { break-after: avoid; }
-.key { break-before: page; } @page { size: A4; margin: 14mm; }
-@media print { body { margin: 0; padding: 0; max-width: none; font-size: 9pt; line-height: 1.25; }
-  h1 { font-size: 15pt; } h2 { font-size: 12pt; margin: .7rem 0 .2rem; }
-  h3 { font-size: 10pt; margin: .4rem 0 .1rem; }
-  math[display=block] { font-size: 8.5pt; overflow: visible; margin: .1rem 0 .1rem 1rem; } }
+
+def body_style(font: str, wide: int) -> str:
+    """Return how the text of a page is set: `font` is its size and line height, `wide` its width in rem."""
+    return f"""
+body {{ font: {font} "Source Sans Pro", "Source Sans 3", "Helvetica Neue", Arial, sans-serif;
+       color: #1b1f23; margin: 2rem auto; max-width: {wide}rem; padding: 0 1rem; }}
+"""
+
+
+_STYLE = f"""{body_style("16px/1.5", 56)}\
+h1 {{ font-size: 1.8rem; margin: 0; }} p {{ margin: .3rem 0; }}
+h2 {{ font-size: 1.35rem; margin: 2rem 0 .5rem; border-bottom: 2px solid #d0d7de; }}
+h3 {{ font-size: 1.05rem; margin: 1.2rem 0 .2rem; }} h2, h3 {{ break-after: avoid; }}
+.key {{ break-before: page; }} @page {{ size: A4; margin: 14mm; }}
+@media print {{ body {{ margin: 0; padding: 0; max-width: none; font-size: 9pt; line-height: 1.25; }}
+  h1 {{ font-size: 15pt; }} h2 {{ font-size: 12pt; margin: .7rem 0 .2rem; }}
+  h3 {{ font-size: 10pt; margin: .4rem 0 .1rem; }}
+  math[display=block] {{ font-size: 8.5pt; overflow: visible; margin: .1rem 0 .1rem 1rem; }} }}
 """
 MATH_STYLE = """
 math[display=block] { width: fit-content; max-width: 100%; margin: .35rem 0 .35rem 1rem;

@@ -13,42 +13,40 @@ from html import escape
 from itertools import count
 from typing import Literal
 
-from linkanim.explain.documents import MATH_STYLE
+from linkanim.explain.documents import MATH_STYLE, body_style
 from linkanim.paper.findings import Column, Finding, ValueTable
 
-_STYLE = """
-:root { color-scheme: light; }
-body { font: 15px/1.45 "Source Sans Pro", "Source Sans 3", "Helvetica Neue", Arial, sans-serif;
-       color: #1b1f23; margin: 2rem auto; max-width: 60rem; padding: 0 1rem; }
-h1, h2, h3 { break-after: avoid; } h1 { font-size: 1.9rem; line-height: 1.2; margin: 0 0 .2rem; }
-h2 { font-size: 1.35rem; margin: 2rem 0 .6rem; border-bottom: 2px solid #d0d7de; }
-h3 { font-size: 1.05rem; margin: 1.2rem 0 .3rem; }
-p { margin: .4rem 0; } p.source { color: #57606a; margin-top: 0; }
-nav ul { columns: 2; margin: .4rem 0 0; padding: 0; list-style: none; } nav a { color: inherit; }
-table { border-collapse: collapse; margin: .3rem 0 .2rem; font-variant-numeric: tabular-nums; }
-th, td { padding: .12rem .9rem .12rem 0; text-align: left; vertical-align: top; font-weight: 400; }
-thead th { font-weight: 600; vertical-align: bottom; }
-thead tr:last-child > * { border-bottom: 1px solid #8c959f; }
-th[scope=colgroup] { text-align: center; } .n { text-align: right; white-space: nowrap; }
-table.values .n { padding-left: .9rem; padding-right: 0; }
-table.values { width: 100%; } tbody th[scope=rowgroup] { font-weight: 600; padding-top: .4rem; }
-caption, figcaption { text-align: left; color: #424a53; font-size: .92em; padding: .1rem 0 .25rem; }
-sub { font-size: .75em; line-height: 0; }
-p.note { color: #57606a; font-size: .92em; margin-top: 0; }
-p.seen { font-size: .92em; margin: 0; }
-.figures ul { columns: 2; margin: .2rem 0 0; padding: 0; list-style: none; font-size: .92em; }
-.figures a { color: inherit; }
-p.equation { margin: .2rem 0 .2rem 1.4rem; }
-figure { margin: .5rem 0 .9rem; break-inside: avoid; }
-figure svg { width: 100%; height: auto; display: block; }
-.beside { display: grid; gap: 0 1.4rem; align-items: start; }
-.keep, .beside, .long tbody, caption, thead, tr { break-inside: avoid; } caption { break-after: avoid; }
-tbody tr:nth-child(-n+2):not(:last-child), tbody tr:nth-last-child(2) { break-after: avoid; }
-@page { size: A4; margin: 15mm 14mm 16mm; FOOT }
-@media print { body { margin: 0; padding: 0; max-width: none; font-size: 9.5pt; line-height: 1.35; }
-  h1 { font-size: 17pt; } h2 { font-size: 12.5pt; margin: .8rem 0 .3rem; }
-  table { font-size: 8.5pt; line-height: 1.25; } th, td { padding-top: .08rem; padding-bottom: .08rem; }
-  figure { margin: .2rem 0 .4rem; } }
+_STYLE = f"""
+:root {{ color-scheme: light; }}{body_style("15px/1.45", 60)}\
+h1, h2, h3 {{ break-after: avoid; }} h1 {{ font-size: 1.9rem; line-height: 1.2; margin: 0 0 .2rem; }}
+h2 {{ font-size: 1.35rem; margin: 2rem 0 .6rem; border-bottom: 2px solid #d0d7de; }}
+h3 {{ font-size: 1.05rem; margin: 1.2rem 0 .3rem; }}
+p {{ margin: .4rem 0; }} p.source {{ color: #57606a; margin-top: 0; }}
+nav ul {{ columns: 2; margin: .4rem 0 0; padding: 0; list-style: none; }} nav a {{ color: inherit; }}
+table {{ border-collapse: collapse; margin: .3rem 0 .2rem; font-variant-numeric: tabular-nums; }}
+th, td {{ padding: .12rem .9rem .12rem 0; text-align: left; vertical-align: top; font-weight: 400; }}
+thead th {{ font-weight: 600; vertical-align: bottom; }}
+thead tr:last-child > * {{ border-bottom: 1px solid #8c959f; }}
+th[scope=colgroup] {{ text-align: center; }} .n {{ text-align: right; white-space: nowrap; }}
+table.values .n {{ padding-left: .9rem; padding-right: 0; }}
+table.values {{ width: 100%; }} tbody th[scope=rowgroup] {{ font-weight: 600; padding-top: .4rem; }}
+caption, figcaption {{ text-align: left; color: #424a53; font-size: .92em; padding: .1rem 0 .25rem; }}
+sub {{ font-size: .75em; line-height: 0; }}
+p.note {{ color: #57606a; font-size: .92em; margin-top: 0; }}
+p.seen {{ font-size: .92em; margin: 0; }}
+.figures ul {{ columns: 2; margin: .2rem 0 0; padding: 0; list-style: none; font-size: .92em; }}
+.figures a {{ color: inherit; }}
+p.equation {{ margin: .2rem 0 .2rem 1.4rem; }}
+figure {{ margin: .5rem 0 .9rem; break-inside: avoid; }}
+figure svg {{ width: 100%; height: auto; display: block; }}
+.beside {{ display: grid; gap: 0 1.4rem; align-items: start; }}
+.keep, .beside, .long tbody, caption, thead, tr {{ break-inside: avoid; }} caption {{ break-after: avoid; }}
+tbody tr:nth-child(-n+2):not(:last-child), tbody tr:nth-last-child(2) {{ break-after: avoid; }}
+@page {{ size: A4; margin: 15mm 14mm 16mm; FOOT }}
+@media print {{ body {{ margin: 0; padding: 0; max-width: none; font-size: 9.5pt; line-height: 1.35; }}
+  h1 {{ font-size: 17pt; }} h2 {{ font-size: 12.5pt; margin: .8rem 0 .3rem; }}
+  table {{ font-size: 8.5pt; line-height: 1.25; }} th, td {{ padding-top: .08rem; padding-bottom: .08rem; }}
+  figure {{ margin: .2rem 0 .4rem; }} }}
 """
 _FOOT = (
     "@bottom-left { content: %s; font: 8pt sans-serif; color: #57606a; } "

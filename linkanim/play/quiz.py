@@ -8,6 +8,7 @@ from math import tau
 from random import Random
 
 from linkanim.errors import BadInput, WorkFailed
+from linkanim.explain.documents import body_style
 from linkanim.paper.figure import Figured
 from linkanim.paper.html import embedded
 from linkanim.paper.svg import svg
@@ -122,9 +123,9 @@ _SIZE = (480, 300)
 _A_PAGE = 5
 """Questions of a printed page at the most."""
 _SIGNED = "<p class='signed'><span>Name</span><span>Date</span></p>"
-_STYLE = """
-body { font: 15px/1.45 "Source Sans Pro", "Source Sans 3", "Helvetica Neue", Arial, sans-serif;
-       color: #1b1f23; margin: 2rem auto; max-width: 54rem; padding: 0 1rem; }
+_STYLE = (
+    body_style("15px/1.45", 54)
+    + """\
 h1 { font-size: 1.7rem; line-height: 1.2; } h2 { font-size: 1.1rem; margin: 0 0 .3rem; }
 section { display: grid; grid-template-columns: 1fr 1.1fr; gap: 0 1.5rem; break-inside: avoid;
           margin: 1.2rem 0; }
@@ -139,6 +140,7 @@ figcaption { color: #57606a; font-size: .92em; } ol.answers { list-style: lower-
   section figure svg { height: 41mm; width: auto; }
   .page + .page { break-before: page; } .page { break-inside: avoid; } }
 """
+)
 
 
 def pose_words(question: QuizQuestion) -> str:
