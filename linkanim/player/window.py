@@ -67,6 +67,7 @@ class GameKeeper(Protocol):
 
 _UNCOVERED = (pygame.WINDOWEXPOSED, pygame.WINDOWSIZECHANGED)
 _NEWS_EVERY = 15
+_TAKEN_UP = "this is the unsaved work that was kept; Ctrl+N begins an empty sheet"
 _NO_FILES = "there is no scene file in the current folder; Ctrl+S writes one"
 _BESIDE_A_TAPE = frozenset({"screenshot", "svg", "share", "fullscreen", "quit", "close", "back"})
 
@@ -410,6 +411,12 @@ class Window:
         self._notes.append(files.where(path))
         self.state = written(self.state, str(path))
 
+    def open_sheet(self) -> None:
+        """Open an empty sheet, or the draft that another window left."""
+        if self.state.sheet:
+            self._notes = [_TAKEN_UP]
+        self.state = carried(self.state, Action("build"))
+
     def _offer(self) -> None:
         """Offer the draft that was kept of another window."""
         with self._noting():
@@ -566,7 +573,7 @@ def run(
         kept = DraftFile(drafts) if drafts and not tape else None
         window = Window(state, tape, None if tape else _file(scene), keeper, kept, offer=photo is None)
         if sheet:
-            window.state = carried(window.state, Action("build"))
+            window.open_sheet()
         if photo:
             window.state = carried(window.state, Action("photo", beside(str(photo))))
         if attract:
