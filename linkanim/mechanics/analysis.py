@@ -181,8 +181,7 @@ _ORDINALS = {2: "second", 3: "third"}
 _ENDINGS = {1: "st", 2: "nd", 3: "rd"}
 
 
-@dataclass(frozen=True)
-class FourBar:
+class FourBar(NamedTuple):
     """The four links of a four-bar by their part, seen from its input, and which of two closures it has.
 
     `joint` is the one in which coupler and output meet.

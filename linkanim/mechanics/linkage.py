@@ -591,8 +591,7 @@ class Pin(Joint):
         return ({**bodies[0], self.name: complex(*self.position)}, *bodies[1:])
 
 
-@dataclass(frozen=True, slots=True)
-class Gear:
+class Gear(NamedTuple):
     """A gear pair: angle = ratio × (angle of the crank `mate`) + offset."""
 
     mate: str
@@ -636,8 +635,7 @@ class DrivenSlider(Guided):
 # What moves a linkage, as data: a motor on its crank, a cylinder, a slider; and what tells where it is.
 
 
-@dataclass(frozen=True, slots=True)
-class Coordinate:
+class Coordinate(NamedTuple):
     """What tells where the input is: an angle in radians, or a travel in the scene's unit of length.
 
     `name` is its word and its key in JSON, `letter` its symbol, `velocity` the words for its rate. In `unit`,

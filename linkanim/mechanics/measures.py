@@ -10,9 +10,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -338,8 +337,7 @@ def input_rate(motion: Any) -> Any:
     return motion.coordinate_rate + 0.0 * motion.phase
 
 
-@dataclass(frozen=True, slots=True)
-class Measure:
+class Measure(NamedTuple):
     """What is known of each part of one sort, such as the angular velocity of a body.
 
     `name` ends the token, and is Motion's attribute where that holds it; `key` is the name in JSON and

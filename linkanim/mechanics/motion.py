@@ -61,8 +61,7 @@ class Place:
     fixed: Pair | None = None
 
 
-@dataclass(frozen=True)
-class ResultLayout:
+class ResultLayout(NamedTuple):
     """The places of all quantities by kind and name, and the kind that each row holds."""
 
     places: Mapping[str, Mapping[str, Place]]

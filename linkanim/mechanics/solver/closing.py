@@ -108,8 +108,7 @@ BESIDE_AN_END = 1e-3
 """Sine of the phase below which half the way to an end of a swing has the digits of that to a place."""
 
 
-@dataclass(frozen=True, slots=True)
-class PolynomialFit:
+class PolynomialFit(NamedTuple):
     """A smooth function for arguments up to `width`: a polynomial in (x - centre)/half."""
 
     width: float
@@ -142,8 +141,7 @@ class Way(NamedTuple):
     share: Value = 1.0
 
 
-@dataclass(frozen=True, slots=True)
-class Near:
+class Near(NamedTuple):
     """What is fitted next to a zero: R, and D over the argument where the ends of equal bars meet there.
 
     `least` is what the margin comes down to where that is not zero: then R² is fitted.
@@ -944,8 +942,7 @@ def yoke_name(joint: RPP, assembly: Assembly) -> str:
     return "Scotch yoke" if unit(joint.slot)[0] == 0 else "Scotch yoke, oblique slot"
 
 
-@dataclass(frozen=True, slots=True)
-class Closer:
+class Closer(NamedTuple):
     """What solves one kind of joint.
 
     `close` adds the joint's motion, and its bars', to a walk. `loop` returns the loop that it closes from a

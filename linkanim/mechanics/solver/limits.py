@@ -365,8 +365,7 @@ class Sampled(NamedTuple):
         return self.at(order[np.diff(self.phases[order], prepend=-math.inf) > 0])
 
 
-@dataclass(frozen=True)
-class Extreme:
+class Extreme(NamedTuple):
     """A place where a dyad's separation is extreme and its margin next to nothing, settled in many digits.
 
     `closes` is +1 where the dyad closes there, -1 where it does not, 0 where its bars just fall into line.

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from decimal import Decimal, localcontext
 from fractions import Fraction
 from functools import partial
@@ -72,8 +72,7 @@ CANCELLED = 16.0
 """Square of the share of its terms' difference below which their sum counts as cancelled."""
 
 
-@dataclass(frozen=True, slots=True)
-class Links:
+class Links(NamedTuple):
     """Ground, crank, coupler and rocker, and what the ground is longer than the crank in small parts."""
 
     ground: float
@@ -214,8 +213,7 @@ def _collinear(links: Links, closing: Closure) -> tuple[_Grown, _Grown]:
     return one, two
 
 
-@dataclass(frozen=True, slots=True)
-class Triangle:
+class Triangle(NamedTuple):
     """P, Q and the third corner: D, shares of it, and what its rates need.
 
     `near` = p/(2L²) and `far` = 1 - near are the shares of D under each bar; `lift` runs from D to
@@ -293,7 +291,7 @@ def pin_triangle(loop: PinLoop, lengths: tuple[float, float], root: SignedRoot) 
     links = Links(loop.ground.high, loop.crank, a, b, (loop.ground.high, loop.ground.low, -loop.crank))
     if root.slack is None or not links.kite:
         return triangle
-    return replace(triangle, longer=_longer(loop, links, root, triangle.turn_of_longer(a < b)))
+    return triangle._replace(longer=_longer(loop, links, root, triangle.turn_of_longer(a < b)))
 
 
 def _longer(loop: PinLoop, links: Links, root: SignedRoot, turn: Slope) -> Slope:
@@ -384,16 +382,14 @@ ONE_POINT = 2.0**-100
 """Share of a crank's length within which two pins are one point."""
 
 
-@dataclass(frozen=True, slots=True)
-class Gearing:
+class Gearing(NamedTuple):
     """How a crank turns with the input: angle = ratio × θ + offset."""
 
     ratio: Fraction = Fraction(1)
     offset: Sum = STRAIGHT
 
 
-@dataclass(frozen=True, slots=True)
-class Ground:
+class Ground(NamedTuple):
     """The ground link between two fixed pins: length, direction, and the angle of that direction.
 
     `rest` is what rounding took from a length that is read from coordinates.
@@ -509,7 +505,7 @@ def ground_between(linkage: Linkage, crank: Crank, end: str) -> Ground | None:
     if ground and ground.length < ONE_POINT * crank.length:
         return None
     if ground and gap(ground.length, ground.rest, -crank.length) == 0:
-        return replace(ground, length=crank.length, rest=0.0)
+        return ground._replace(length=crank.length, rest=0.0)
     return ground
 
 

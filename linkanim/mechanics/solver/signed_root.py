@@ -66,8 +66,7 @@ class Kind(Enum):
     LIMIT = "crosses zero: the crank can go no further"
 
 
-@dataclass(frozen=True, slots=True)
-class Factor:
+class Factor(NamedTuple):
     """One factor of the root: `least` + K·cos² (or sin²), between `least` and `most`.
 
     `reach` is how far ψ may go from the factor's own best position (0 for U, π for W), and
@@ -480,8 +479,7 @@ def _part_by_angle(
     return _PartByAngle(value, whole, whole, touching, other * factor.least / value)
 
 
-@dataclass(frozen=True, slots=True)
-class _Part:
+class _Part(NamedTuple):
     """One signed root: whole, its regular part, what is left of sin or cos(ψ/2), the ends it holds."""
 
     whole: Value
