@@ -86,7 +86,7 @@ MAKES = {
 def test_a_script_runs(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     if name in NEEDS:
         pytest.importorskip(NEEDS[name])
-    for path in FOLDER.iterdir():
+    for path in (FOLDER / name for name in EVERY):
         shutil.copy(path, tmp_path)
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("PYTHONPATH", str(Path(linkanim.__file__).parents[1]))

@@ -863,7 +863,7 @@ class Checked:
 
     def expected_as(self, answer: QuizAnswer, part: str, place: str) -> bool:
         """Who takes a part for the shortest, or the longest, finds it in a wrong place elsewhere."""
-        return answer.text == part and self.written()["sl".index(place)] != part
+        return answer.text == part and self.written()[("shortest", "longest").index(place)] != part
 
     def of_order(self, answer: QuizAnswer, taken: str, wanted: str) -> bool:
         orders = ["position", "velocity", "acceleration"]
@@ -948,7 +948,9 @@ MISCONCEPTIONS: dict[str, dict[str, Callable[..., bool]]] = {
         r"the sums compared the wrong way round": Checked.other_way_round,
         r"equal sums taken for unequal ones": Checked.equal_sums,
     },
-    "grashof sum": {r"the (input|ground) expected as (s|l), whatever its length": Checked.expected_as},
+    "grashof sum": {
+        r"the (input|ground) taken for the (shortest|longest), whatever its length": Checked.expected_as
+    },
     "curves": {
         r"the (position|velocity|acceleration) taken for the (velocity|acceleration)": Checked.of_order
     },

@@ -120,7 +120,7 @@ def test_of_several_recordings_one_is_rendered_and_the_rest_wait(
     assert len(started) == 1
     for number, words in ((1, " · 1 waits"), (2, ""), (3, "")):
         started[-1][1].code = 0
-        assert queue.news() == (f"{Path('recordings', f'kite-{number}.gif')} saved{words}",)
+        assert queue.news() == (f"{here / 'recordings' / f'kite-{number}.gif'} saved{words}",)
     assert queue.news() == ()
     assert [Path(command[-2]).name for command, _ in started] == ["kite-1.gif", "kite-2.gif", "kite-3.gif"]
     queue.close()

@@ -340,7 +340,7 @@ def test_a_gallery_leaves_files_that_are_not_its_own_and_draws_nothing_then(
 ) -> None:
     (tmp_path / name).write_bytes(b"mine")
     monkeypatch.setattr(gallery, "load", pytest.fail)
-    with pytest.raises(BadInput, match=f"{name} is not known .*move it away"):
+    with pytest.raises(BadInput, match=f"{name} may not be linkanim.s own .*move it away"):
         make_gallery(tmp_path, ["kite", "press"])
     assert [(path.name, path.read_bytes()) for path in tmp_path.iterdir()] == [(name, b"mine")]
 
