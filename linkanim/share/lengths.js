@@ -5,7 +5,7 @@ const lengthsOf = (model, { kinds, part, put, say, unit, add, by, xy, line, view
   const solver = solverOf(model), first = model.values.slice();
   const [scale, left, top] = view;
   const root = byId("own"), picture = byId("picture"), whole = picture.getAttribute("viewBox");
-  let range = null, moves = [], tracks = new Map(), flips = () => ({}), on = false;
+  let range = null, moves = [], tracks = new Map(), flips = () => Object.create(null), on = false;
 
   const pixel = ([x, y]) => [left + scale * x, top - scale * y];
   const turned = ([x, y]) => [scale * x, -scale * y];
@@ -21,7 +21,7 @@ const lengthsOf = (model, { kinds, part, put, say, unit, add, by, xy, line, view
   const kept = { phase: NaN, found: null };
   function posed(phase) {
     if (kept.phase === phase) return kept.found;
-    const [angle, rate, second] = inputAt(phase), joints = solver.solve(angle, flips(phase)), found = {};
+    const [angle, rate, second] = inputAt(phase), joints = solver.solve(angle, flips(phase)), found = Object.create(null);
     for (const name in joints || {}) {
       const { p, v, a } = joints[name];
       found[name] = {
@@ -49,7 +49,7 @@ const lengthsOf = (model, { kinds, part, put, say, unit, add, by, xy, line, view
     const stops = range ? range.map((angle) => solver.stopAt(angle)) : [];
     const turning = dyads.length === 1 && stops.length ? dyads[0] : null;
     return (phase) => {
-      const found = {};
+      const found = Object.create(null);
       if (state.side) found[dyads[0]] = -1;
       if (turning && Math.sin(phase) < 0) found[turning] = -(found[turning] || 1);
       return found;

@@ -67,8 +67,9 @@ const solverOf = (model) => {
 
   // Returns all joints by name at an input's angle, null where the linkage does not close; `flips` is -1 for the
   // dyads on their other closure.
-  function solve(angle, flips = {}) {
-    const joints = {};
+  function solve(angle, flips = Object.create(null)) {
+    // by name: an object with a prototype has names that nobody gave it, such as "constructor"
+    const joints = Object.create(null);
     gap = 1;
     for (const joint of model.joints) {
       const before = gap;
