@@ -9,7 +9,19 @@ import subprocess
 import sys
 from pathlib import Path
 
-command = [sys.executable, "-m", "linkanim", "quiz", "crank-rocker", "-n", "10", "--seed", "1", "--json"]
+command = [
+    sys.executable,
+    "-P",
+    "-m",
+    "linkanim",
+    "quiz",
+    "crank-rocker",
+    "-n",
+    "10",
+    "--seed",
+    "1",
+    "--json",
+]
 questions = json.loads(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
 
 
