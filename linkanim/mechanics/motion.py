@@ -667,19 +667,12 @@ class Mechanism:
         self, phase: float, speed: float, acceleration: float, derivatives: int, per_input: bool = False
     ) -> Pose:
         """Return one instant, solved in plain floats; its rates by the input instead of time `per_input`."""
-        at, w, a = phase, speed, acceleration
-        if self.retraced:
-            at, sign = (float(part) for part in retraced(phase))
-            w, a = (w, a) if per_input else (sign * w, sign * a)
-        key = derivatives, a != 0.0, per_input
+        key = derivatives, acceleration != 0.0, per_input
         try:
             program = self._poses.get(key) or self._in_floats(key)
-            pose = Pose(program(at, w, a, self))
+            return Pose(program(phase, speed, acceleration, self))
         except (ZeroDivisionError, ValueError):
-            pose = Pose(self._from_arrays(key, at, w, a))
-        if self.retraced and not per_input:
-            vars(pose).update(phase=phase, input_speed=speed, input_acceleration=acceleration)
-        return pose
+            return Pose(self._from_arrays(key, phase, speed, acceleration))
 
     def pose_per_input(self, phase: float) -> Pose:
         """Return one instant, its rates by the input's angle, or travel, instead of those in time."""
@@ -691,7 +684,8 @@ class Mechanism:
             raise ValueError("a mechanism on its way is solved from arrays")
         derivatives, accelerates, per_input = key
         trace = self.trace(Variant(True, accelerates, per_input=per_input))
-        found = self._poses[key] = _scalar(*trace, derivatives)
+        program = _scalar(*trace, derivatives)
+        found = self._poses[key] = _there_and_back(program, per_input) if self.retraced else program
         return found
 
     def trace(self, variant: Variant) -> Traced:
@@ -782,6 +776,19 @@ def _scalar(names: tuple[str, ...], rows: Rows, derivatives: int) -> Callable[..
             parts.append(f"{kind!r}: {'{}' if kind in COORDINATE else _dict_display(values)}")
     display = f"{{{{{', '.join(parts)}}}}}"
     return scalar((*names, "w", "a", "mechanism"), outputs, display)
+
+
+def _there_and_back(
+    program: Callable[..., dict[str, Any]], per_input: bool
+) -> Callable[..., dict[str, Any]]:
+    """Return the program of one instant of an input that comes back by the way it came."""
+
+    def solved(phase: float, w: float, a: float, mechanism: Mechanism) -> dict[str, Any]:
+        at, sign = (float(part) for part in retraced(phase))
+        found = program(at, *((w, a) if per_input else (sign * w, sign * a)), mechanism)
+        return found | {"phase": phase, "input_speed": w, "input_acceleration": a}
+
+    return solved
 
 
 def _plain(values: Mapping[str, Array]) -> dict[str, Any]:

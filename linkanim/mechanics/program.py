@@ -11,12 +11,12 @@ from __future__ import annotations
 import math
 from bisect import bisect_left
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Set
 from ctypes import addressof, c_char
 from dataclasses import dataclass, field
 from decimal import Decimal
 from functools import lru_cache
-from types import CodeType
+from types import CodeType, FunctionType
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -240,11 +240,11 @@ def _compiled(name: str, inputs: Iterable[str], lines: Iterable[str]) -> CodeTyp
     return compile(source, f"<linkanim {name}>", "exec")
 
 
-def _function(code: CodeType, name: str, names: Mapping[str, Any]) -> Callable[..., Any]:
+def _function(code: CodeType, name: str, names: Mapping[str, Any]) -> FunctionType:
     """Return the function that code defines, given what it uses."""
     space = dict(names)
     exec(code, space)
-    function: Callable[..., Any] = space.pop(name)
+    function: FunctionType = space.pop(name)
     return function
 
 
@@ -264,33 +264,61 @@ def scalar(inputs: Sequence[str], outputs: Sequence[Value], layout: str) -> Call
     """
     constants = _Constants()
     operations, results = constants.operations(needed(outputs)), tuple(map(constants.name, outputs))
-    code = _scalar_code(
-        (*inputs, *(f"{name}={name}" for name in constants.numbers)), operations, results, layout
+    code = _scalar_code(tuple(inputs), operations, results, layout)
+    marked = {_mark(name): number for name, number in constants.floats.items()}
+    return FunctionType(code.replace(co_consts=_with_numbers(code.co_consts, marked)), dict(FLOAT_NAMES))
+
+
+_FIRST_MARK = 2.0**60
+_APART = 2.0**8
+
+
+def _mark(name: str) -> float:
+    """Return the number that stands in a pose's code where the constant of that name is to be put.
+
+    Arguments, or names, would be fetched one by one at every call. No operation has constants alone, so that
+    none is worked out with a mark.
+    """
+    return _FIRST_MARK + _APART * int(name.removeprefix("k"))
+
+
+def _with_numbers(constants: tuple[Any, ...], marked: Mapping[float, float]) -> tuple[Any, ...]:
+    """Return the constants of a code with numbers instead of their marks, in pairs as well."""
+    return tuple(
+        _with_numbers(value, marked)
+        if isinstance(value, tuple)
+        else marked.get(value, value)
+        if isinstance(value, float)
+        else value
+        for value in constants
     )
-    return _function(code, "pose", FLOAT_NAMES | constants.floats)
 
 
 @lru_cache(maxsize=_KEPT)
 def _scalar_code(
     inputs: tuple[str, ...], operations: tuple[Operation, ...], outputs: tuple[int | str, ...], layout: str
 ) -> CodeType:
-    """Return the code of a pose."""
-    lines, texts = _inlined(operations, outputs)
+    """Return the code of a pose, with marks for its constants."""
+    lines, texts = _inlined(operations, outputs, set(inputs))
     result = layout.format(*(texts.get(value, value) for value in outputs))
-    return _compiled("pose", inputs, [*lines, f"return {result}"])
+    return _function(_compiled("pose", inputs, [*lines, f"return {result}"]), "pose", FLOAT_NAMES).__code__
 
 
 def _inlined(
-    operations: Sequence[Operation], outputs: Sequence[int | str]
+    operations: Sequence[Operation], outputs: Sequence[int | str], inputs: Set[str]
 ) -> tuple[list[str], dict[int | str, str]]:
-    """Return assignments to variables, and what stands for each node: a name, or in brackets its formula.
+    """Return assignments to variables, and what stands for each value but the inputs.
 
-    A formula stands where it is used, if that is at one place only.
+    That is a mark for a constant, and for a node a name, or in brackets its formula: one that is used at one
+    place only stands there.
     """
     uses = Counter(outputs)
     for _, op, arguments in operations:
         uses.update(arguments * (1 if op in _IN_PLACE else 2))
-    lines, texts, depths = [], dict[int | str, str](), dict[int | str, int]()
+    texts: dict[int | str, str] = {
+        value: repr(_mark(value)) for value in uses if isinstance(value, str) and value not in inputs
+    }
+    lines, depths = [], dict[int | str, int]()
     for index, op, arguments in operations:
         depth = max([depths.get(argument, 0) for argument in arguments])
         text = FORMULAS[op].format(*[texts.get(argument, argument) for argument in arguments])
