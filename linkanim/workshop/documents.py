@@ -33,17 +33,23 @@ _RULER = 100
 _OVERLAP = 10.0
 """By which pages of one part lie over each other, in mm."""
 _MOST_PAGES = 100
+_READABLE = 2.0
+"""The least height of words on paper, in mm; those that have less room stand above their part."""
 _SUNK = 1 / 3
 """How deep a printed pin's head and its cap lie in the plates, as a share of their thickness."""
 
 
 class FlatPart(NamedTuple):
-    """A flat part as it is cut: what is written on it and where, its edge, and those of what is cut out."""
+    """A flat part as it is cut: what is written on it and where, its edge, and those of what is cut out.
+
+    Words on it are no higher than `room`, in mm.
+    """
 
     label: str
     at: complex
     edge: Outline
     holes: tuple[Outline, ...]
+    room: float = math.inf
 
 
 def flat_parts(made: MadeLinkage) -> list[FlatPart]:
@@ -58,7 +64,8 @@ def flat_parts(made: MadeLinkage) -> list[FlatPart]:
         for ring in pin.spacers:
             hole = rounded([0j], made.sizes.hole / 2 - grown)
             edge = rounded([0j], ring.diameter / 2 + grown)
-            found.append(FlatPart("", -0.25j * (ring.diameter + made.sizes.hole), edge, (hole,)))
+            middle, room = -0.25j * (ring.diameter + made.sizes.hole), 0.4 * (ring.diameter - made.sizes.hole)
+            found.append(FlatPart(f"{pin.name} {ring.layer}", middle, edge, (hole,), room))
     return found
 
 
@@ -107,12 +114,12 @@ def svg(made: MadeLinkage) -> str:
         f'<rect x="{n * sheets.step:g}" y="0" width="{wide:g}" height="{high:g}" stroke="#999"/>'
         for n in range(sheets.many)
     ]
-    size = 0.35 * made.sizes.bar
     for part, at, turn in sheets.places():
         outlines = [moved(outline, at, turn) for outline in (part.edge, *part.holes)]
         lines.append(f'<path stroke="#f00" d="{"".join(_path(outline, high) for outline in outlines)}"/>')
         if part.label:
             place, lean = at + turn * part.at, -math.degrees(math.atan2(turn.imag, turn.real))
+            size = min(0.35 * made.sizes.bar, part.room)
             how = f'transform="translate({place.real:.3f} {high - place.imag:.3f}) rotate({lean:.3f})"'
             lines.append(
                 f'<text {how} font-size="{size:.2f}" text-anchor="middle" dominant-baseline="central" '
@@ -175,9 +182,8 @@ def dxf(made: MadeLinkage) -> str:
                 space.add_lwpolyline(points, format="xyb", close=True, dxfattribs={"layer": "CUT"})
         if part.label:
             place, lean = at + turn * part.at, math.degrees(math.atan2(turn.imag, turn.real))
-            text = space.add_text(
-                part.label, height=0.3 * made.sizes.bar, rotation=lean, dxfattribs={"layer": "ENGRAVE"}
-            )
+            size = min(0.3 * made.sizes.bar, part.room)
+            text = space.add_text(part.label, height=size, rotation=lean, dxfattribs={"layer": "ENGRAVE"})
             text.set_placement((place.real, place.imag), align=TextEntityAlignment.MIDDLE_CENTER)
     written = StringIO()
     drawing.write(written)
@@ -284,8 +290,11 @@ def _drawn(made: MadeLinkage, part: FlatPart, at: complex, turn: complex) -> Ite
             for way in (1.5, 1.5j):
                 yield _line(made, middle - way, middle + way, _HAIR / 2)
     if part.label:
-        size = min(max(made.sizes.bar / 3, 2.0), 5.0)
+        size = min(max(made.sizes.bar / 3, _READABLE), 5.0, max(part.room, _READABLE))
         place = _on_page(made, at + turn * part.at)
+        if part.room < _READABLE:
+            top = max((at + turn * point).imag for point in polygon(part.edge))
+            place = _on_page(made, complex(at.real, top + 0.65 * size))
         yield Caption(
             part.label,
             (place.real, place.imag - 0.65 * size * _PIXELS),

@@ -32,7 +32,8 @@ _BY_HAND = ("heading", "turning", "dead centre", "input range", "fastest")
 _KEY = "Key"
 _WAYS = {
     "cardboard": "Print parts.pdf at 100 %, hold a ruler against the one at the foot, glue the pages on "
-    "cardboard, and cut. Pins are brads, or pieces of a round rod, {pin} mm thick.",
+    "cardboard, and cut. Pins are brads, or pieces of a round rod, {pin} mm thick. The heads of brads and "
+    "their bent legs count as nothing in the layers: where a part passes over one, take a rod instead.",
     "laser": "Cut the sheet parts-{thick}mm, SVG or DXF: red lines are cut, blue words engraved. Pins are "
     "pieces of a round rod, {pin} mm thick, glued into the ground, or into the lowest of their plates.",
     "print": "Print each STL file lying as it is. A pin goes through from below, its head sunk in the lowest "
@@ -89,14 +90,22 @@ class Sheet:
         heads = "no.", "part", "quantity", "layer", "holes", "slots for", "measure"
         plates = [(*self._row(number),) for number in range(len(made.plates))]
         yield html.table("Flat parts, numbered as in the figures", heads, plates)
-        heads = "pin", "quantity", "thick", "long", "from, to", "stands", "rings: layer, outer width"
+        heads = (
+            "pin",
+            "quantity",
+            "thick",
+            "long",
+            "from, to",
+            "stands",
+            "rings, marked pin and layer: outer width",
+        )
         pins = [
             (
                 *(subscripted(pin.name), "1", f"{significant(sizes.pin, 3)} mm"),
                 f"{(pin.high - pin.low + 1) * sizes.thickness:g} mm",
                 f"{_level(pin.low)}, {_level(pin.high)}",
                 {"below": "in the ground", "above": "in the bridge", None: ""}[pin.side],
-                "; ".join(f"{ring.layer}, {_mm(ring.diameter)}" for ring in pin.spacers),
+                "; ".join(f"{pin.name} {ring.layer}: {_mm(ring.diameter)}" for ring in pin.spacers),
             )
             for pin in made.pins
         ]

@@ -9,24 +9,22 @@ from pathlib import Path
 
 from linkanim import units
 from linkanim.atomic_files import checked_target
+from linkanim.cli.answers import deliver, target_of
 from linkanim.errors import BadInput
-from linkanim.export import columns, json_text
 from linkanim.intake import Intake, named, read_numbers
 from linkanim.manifest import Output
-from linkanim.synthesis.answers import file_set, write
 from linkanim.synthesis.generation import Generated, function
 from linkanim.units import significant
 
 _TABLE_FILE = Intake("a table of x and y", most_bytes=1_000_000, most_values=100_000)
 _SUFFIXES = (".csv", ".txt", ".tsv", ".dat")
 _CHARTS = (".svg", ".png", ".pdf", ".csv")
-_TITLES = ("file", "largest error", "of y's range", "input", "output", "transmission", "class")
+_TITLES = ("largest error", "of y's range", "input", "output", "transmission", "class")
 
 
 def run(options: Namespace) -> None:
     """Find the linkages, write their files, and print the table or JSON; draw the error where asked to."""
-    target = checked_target(options.output_file or Path("function.toml"), (".toml",))
-    file_set(target).refuse_foreign([target.name])
+    target = target_of(options.output_file, "function.toml")
     chart = None if options.chart is None else checked_target(options.chart, _CHARTS, [options.given])
     given = _table(Path(options.given)) if _names_a_file(options.given) else options.given
     sliding = options.kind == "slider-crank"
@@ -43,14 +41,9 @@ def run(options: Namespace) -> None:
         name=target.stem,
         source=f"linkanim function {options.given}",
     )
-    files = write([one.scene for one in found], target)
+    deliver(found, target, options, _TITLES, _cells, _object)
     if chart is not None:
         _draw(found[0], chart)
-    rows = list(zip(found, files, strict=True))
-    if options.json:
-        print(json_text([_object(one, file) for one, file in rows], indent=2))
-    else:
-        print(columns([_TITLES, *(_cells(one, file) for one, file in rows)]))
 
 
 def _names_a_file(text: str) -> bool:
@@ -96,22 +89,21 @@ def _span(one: Generated, start: float, over: float, *, turning: bool) -> str:
     return f"{significant(ends[0], 4)}…{significant(ends[1], 4)} {'deg' if turning else one.task.unit}"
 
 
-def _cells(one: Generated, file: Path) -> tuple[str, ...]:
+def _cells(one: Generated) -> tuple[str, ...]:
     share = f"{significant(100 * one.error / abs(one.task.function.span), 2)} %"
     angle = f"{significant(math.degrees(one.transmission_angle), 3)} deg"
     return (
-        *(str(file), significant(one.error, 3), share),
+        *(significant(one.error, 3), share),
         _span(one, one.input_start, one.input_range, turning=True),
         _span(one, one.output_start, one.output_range, turning=one.task.generator.turning),
         *(angle, one.class_name),
     )
 
 
-def _object(one: Generated, file: Path) -> dict[str, object]:
+def _object(one: Generated) -> dict[str, object]:
     """Return what `--json` prints of an answer."""
     given = one.task.function
     return {
-        "file": str(file),
         "error": one.error,
         "defects": [],
         "input_start": one.input_start,

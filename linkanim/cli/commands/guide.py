@@ -10,18 +10,16 @@ from pathlib import Path
 
 import numpy as np
 
-from linkanim.atomic_files import checked_target
+from linkanim.cli.answers import deliver, target_of
 from linkanim.errors import BadInput
-from linkanim.export import columns, json_text
 from linkanim.intake import named
-from linkanim.synthesis.answers import file_set, write
 from linkanim.synthesis.curve_files import read_curve
 from linkanim.synthesis.guidance import GuidedLinkage, guide
 from linkanim.synthesis.linkages import Real
 from linkanim.units import significant
 
 _UNIT = "mm"
-_TITLES = ("file", "defects", f"off {_UNIT}", "transmission", f"longest link {_UNIT}", "sizes", "class")
+_TITLES = ("defects", f"off {_UNIT}", "transmission", f"longest link {_UNIT}", "sizes", "class")
 _HANDED_ON = ("kind", "count", "pivots", "box", "largest", "least_angle", "prefer")
 """Options that are called alike here and there."""
 
@@ -29,20 +27,14 @@ _HANDED_ON = ("kind", "count", "pivots", "box", "largest", "least_angle", "prefe
 def run(options: Namespace) -> None:
     """Find the linkages, write their files, and print the table or JSON; what is worth a remark on stderr."""
     poses = _poses(options.poses)
-    target = checked_target(options.output or Path(f"{options.poses.stem}.toml"), (".toml",))
-    file_set(target).refuse_foreign([target.name])
+    target = target_of(options.output, f"{options.poses.stem}.toml")
     found = guide(
         poses,
         **{name: getattr(options, name) for name in _HANDED_ON},
         name=target.stem,
         source=f"linkanim guide for {named(options.poses.name)}",
     )
-    files = write([one.scene for one in found], target)
-    rows = list(zip(found, files, strict=True))
-    if options.json:
-        print(json_text([_object(one, file) for one, file in rows], indent=2))
-    else:
-        print(columns([_TITLES, *(_cells(one, file) for one, file in rows)]))
+    deliver(found, target, options, _TITLES, _cells, _object)
     _remark(found)
 
 
@@ -54,20 +46,19 @@ def _poses(path: Path) -> Real:
     return np.column_stack([table.points.real, table.points.imag, table.angles])
 
 
-def _cells(one: GuidedLinkage, file: Path) -> tuple[str, ...]:
+def _cells(one: GuidedLinkage) -> tuple[str, ...]:
     angle = f"{significant(math.degrees(one.transmission_angle), 3)} deg"
     sizes = significant(one.size / one.task.poses.size, 3)
     defects = ", ".join(one.defects) or "none"
     return (
-        *(str(file), defects, significant(one.error, 2), angle),
+        *(defects, significant(one.error, 2), angle),
         *(significant(one.size, 4), sizes, one.class_name),
     )
 
 
-def _object(one: GuidedLinkage, file: Path) -> dict[str, object]:
+def _object(one: GuidedLinkage) -> dict[str, object]:
     """Return what `--json` prints of an answer."""
     return {
-        "file": str(file),
         "error": one.error,
         "defects": one.defects,
         "transmission_angle": one.transmission_angle,

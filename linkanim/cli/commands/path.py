@@ -6,14 +6,12 @@ import math
 import sys
 from argparse import Namespace
 from collections.abc import Sequence
-from pathlib import Path
 
-from linkanim.atomic_files import checked_target
+from linkanim.cli.answers import deliver, target_of
 from linkanim.cli.commands.record import bar
 from linkanim.errors import BadInput
-from linkanim.export import columns, json_text
 from linkanim.intake import named
-from linkanim.synthesis.answers import Fit, file_set, write
+from linkanim.synthesis.answers import Fit
 from linkanim.synthesis.curve_files import CurveFile, read_curve
 from linkanim.synthesis.linkages import Real
 from linkanim.synthesis.path import path
@@ -25,15 +23,13 @@ _POOR = 5.0
 _SAME_ANGLE = 1e-6
 _HANDED_ON = ("kind", "count", "box", "largest", "least_angle", "cognates")
 """Options that are called alike here and there."""
-_TITLES = ("file", f"rms {_UNIT}", "%", f"largest {_UNIT}", "%", "transmission", "longest link", "class")
+_TITLES = (f"rms {_UNIT}", "%", f"largest {_UNIT}", "%", "transmission", "longest link", "class")
 
 
 def run(options: Namespace) -> None:
     """Find the linkages, write their files, and print the table or JSON; what is worth a remark on stderr."""
     curve = read_curve(options.curve)
-    stem = options.curve.stem
-    target = checked_target(options.output or Path(f"{stem}.toml"), (".toml",))
-    file_set(target).refuse_foreign([target.name])
+    target = target_of(options.output, f"{options.curve.stem}.toml")
     with bar(unit=" steps") as progress:
         fits = path(
             curve.points,
@@ -45,12 +41,7 @@ def run(options: Namespace) -> None:
             source=f"linkanim path for {named(options.curve.name)}",
             progress=progress,
         )
-    files = write([fit.scene for fit in fits], target)
-    found = list(zip(fits, files, strict=True))
-    if options.json:
-        print(json_text([_object(fit, file) for fit, file in found], indent=2))
-    else:
-        print(columns([_TITLES, *(_cells(fit, file) for fit, file in found)]))
+    deliver(fits, target, options, _TITLES, _cells, _object)
     _remark(fits, cognates=options.cognates)
 
 
@@ -66,19 +57,18 @@ def _percent(distance: float, fit: Fit) -> float:
     return 100 * distance / fit.task.curve.size
 
 
-def _cells(fit: Fit, file: Path) -> tuple[str, ...]:
+def _cells(fit: Fit) -> tuple[str, ...]:
     distances = (fit.rms, _percent(fit.rms, fit), fit.largest, _percent(fit.largest, fit))
     whole = fit.scene.info.transmission
     along = " along it" if whole and whole.least < fit.transmission_angle - _SAME_ANGLE else ""
     angle = f"{significant(math.degrees(fit.transmission_angle), 3)} deg{along}"
     cells = (significant(distance, 3) for distance in distances)
-    return (str(file), *cells, angle, significant(fit.size, 4), fit.class_name)
+    return (*cells, angle, significant(fit.size, 4), fit.class_name)
 
 
-def _object(fit: Fit, file: Path) -> dict[str, object]:
+def _object(fit: Fit) -> dict[str, object]:
     """Return what `--json` prints of an answer; see DESIGN's contract for its keys."""
     found: dict[str, object] = {
-        "file": str(file),
         "rms": fit.rms,
         "largest": fit.largest,
         "rms_percent": _percent(fit.rms, fit),

@@ -1,0 +1,48 @@
+"""Answers of a synthesis: as scene files, and on stdout as a table or JSON."""
+
+from __future__ import annotations
+
+from argparse import Namespace
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Protocol, TypeVar
+
+from linkanim.atomic_files import checked_target
+from linkanim.export import columns, json_text
+from linkanim.scenes.scene import Scene
+from linkanim.synthesis.answers import file_set, write
+
+
+class Designed(Protocol):
+    """What a synthesis finds."""
+
+    @property
+    def scene(self) -> Scene:
+        """The linkage."""
+
+
+Found = TypeVar("Found", bound=Designed)
+
+
+def target_of(output: Path | None, name: str) -> Path:
+    """Return where the first answer goes: what `-o` names, else `name`; BadInput if it cannot be ours."""
+    target = checked_target(output or Path(name), (".toml",))
+    file_set(target).refuse_foreign([target.name])
+    return target
+
+
+def deliver(
+    found: Sequence[Found],
+    target: Path,
+    options: Namespace,
+    titles: Sequence[str],
+    cells: Callable[[Found], Sequence[str]],
+    values: Callable[[Found], dict[str, object]],
+) -> None:
+    """Write the answers' files, and print each file with its `cells` in a table, or its `values` as JSON."""
+    files = [str(file) for file in write([one.scene for one in found], target)]
+    rows = list(zip(files, found, strict=True))
+    if options.json:
+        print(json_text([{"file": file} | values(one) for file, one in rows], indent=2))
+    else:
+        print(columns([("file", *titles), *((file, *cells(one)) for file, one in rows)]))
