@@ -11,6 +11,7 @@ From the ground up; a module imports from those before it only:
     solver      closing it; no other room imports this one
     measures    what follows from solved quantities
     motion      a linkage made ready; its motion and its poses
+    nearest     the phase at which a point is nearest to a place
     forces      what the input has to deliver
     quantities  the register of all that is known of a linkage
     polygons    velocity and acceleration polygons

@@ -11,6 +11,9 @@ from typing import Self
 FRAMES_PER_SECOND = 60
 STEP = math.radians(1.0)
 
+COAST_FRAMES = 80
+"""So long a motion that was let go by a hand takes to come to its own speed."""
+
 _LADDER = (1.0, 1.25, 1.6, 2.0, 2.5, 3.2, 4.0, 5.0, 6.3, 8.0)  # Renard's R10 series
 _LEVELS = (-20, 10)  # a hundredth to ten times the scene's own speed
 
@@ -27,6 +30,7 @@ class Clock:
 
     `rate` is the scene's own dφ/dt (rad/s, negative clockwise). `steps` counts degrees stepped
     by hand since the anchor, so that a step there and back is the same phase to the last bit.
+    `coast` is by how much (rad/s) it ran faster at frame `since`, when a hand let it go; that fades.
     """
 
     rate: float
@@ -36,6 +40,8 @@ class Clock:
     level: int = 0
     direction: int = 1
     paused: bool = False
+    coast: float = 0.0
+    since: int = 0
 
     @property
     def speed(self) -> float:
@@ -45,11 +51,26 @@ class Clock:
     def at(self, frame: float) -> float:
         """Return the phase (rad) at a frame; a fractional frame is allowed, for other frame rates."""
         still = self.phase + self.steps * STEP
+        if self.coast:
+            still += self._coasted(frame) - self._coasted(self.frame)
         return still if self.paused else still + self.speed * (frame - self.frame) / FRAMES_PER_SECOND
+
+    def _coasted(self, frame: float) -> float:
+        """Return the phase gained since: the extra speed goes with the square of the time left."""
+        left = 1.0 - min(max(frame - self.since, 0.0), COAST_FRAMES) / COAST_FRAMES
+        return self.coast * COAST_FRAMES / FRAMES_PER_SECOND / 3.0 * (1.0 - left**3)
 
     def pause(self, frame: int, paused: bool) -> Self:
         """Return the clock paused or running from `frame` on, phase continuous."""
-        return self if paused == self.paused else replace(self._anchored(frame), paused=paused)
+        if paused == self.paused:
+            return self
+        clock = self._anchored(frame)
+        return replace(clock, paused=paused, coast=0.0 if paused else clock.coast)
+
+    def let_go(self, frame: int, speed: float, *, paused: bool) -> Self:
+        """Return the clock swinging on at a hand's dφ/dt (rad/s) and easing to its own, or to a stand."""
+        clock = self.go(frame, self.at(frame), paused=paused)
+        return replace(clock, coast=speed - (0.0 if paused else clock.speed), since=frame)
 
     def turn(self, frame: int) -> Self:
         """Return the clock running the other way, phase continuous."""
@@ -64,12 +85,14 @@ class Clock:
         """Return the clock paused, the crank moved so many degrees along the way it runs."""
         along = degrees if self.speed > 0 else -degrees
         still = self.pause(frame, True)
+        if still.coast:
+            still = replace(still._anchored(frame), coast=0.0)
         return replace(still, steps=still.steps + along)
 
     def go(self, frame: int, phase: float, *, paused: bool | None = None) -> Self:
         """Return the clock standing at `phase` at `frame`; paused or running as before, if not told."""
         stays = self.paused if paused is None else paused
-        return replace(self, frame=frame, phase=phase, steps=0, paused=stays)
+        return replace(self, frame=frame, phase=phase, steps=0, paused=stays, coast=0.0)
 
     def at_rate(self, frame: int, rate: float) -> Self:
         """Return the clock with another scene's own speed, phase continuous."""
@@ -78,5 +101,8 @@ class Clock:
     def _anchored(self, frame: int) -> Self:
         """Move the anchor to `frame`; a paused clock keeps its steps countable."""
         if self.paused:
-            return replace(self, frame=frame)
+            # what coasting gained so far goes into the phase
+            return replace(
+                self, frame=frame, phase=self.at(frame) - self.steps * STEP if self.coast else self.phase
+            )
         return replace(self, frame=frame, phase=self.at(frame), steps=0)

@@ -17,6 +17,7 @@ from linkanim.player.state import (
     Edited,
     Editing,
     Entries,
+    Grasp,
     Held,
     Listing,
     ListRow,
@@ -116,6 +117,7 @@ def _verdict(info: Info) -> tuple[str, bool, bool]:
 
 def put_on(state: State, place: int) -> State:
     """Start a mechanism of the shelf as it was left, else as its file says, paused where the last one was."""
+    state = drop(state, None)
     entry, kept = state.shelf[place], _kept_edits(state)
     was = next((one for one in kept if one.place == place), None)
     scene = proved(was.scene if was else load(entry) if isinstance(entry, str) else entry, 0.0)
@@ -346,7 +348,12 @@ def way_back(_: State, after: State) -> str | None:
 
 
 def grab(state: State, joint: str) -> State:
-    """Take hold of a joint while the list is open: the picture stands still, the list at its dimension."""
+    """Take hold of a joint: it leads the input, or, while the list is open, the dimensions that it follows.
+
+    The picture stands still; the list goes to the joint's dimension.
+    """
+    if not state.editing.open:
+        return _grasped(state, joint)
     keys = [item.key for item in dimensions(state.scene)]
     found = handles(state.scene, joint) if joint in state.scene.linkage.by_name else ()
     if not state.editing.open or not found:
@@ -358,7 +365,9 @@ def grab(state: State, joint: str) -> State:
 
 
 def carry(state: State, to: tuple[float, float, float]) -> State:
-    """Drag the held joint to a point of the scene as shown, in whole units of its own times `to[2]`."""
+    """Drag the held joint to a point of the scene as shown, its lengths in whole units times `to[2]`."""
+    if state.grasp:
+        return _led(state, state.grasp, to)
     held = state.held
     if held is None or not held.joint or not to[2] > 0.0:
         return state
@@ -394,11 +403,41 @@ def pull(state: State, steps: int) -> State:
 
 
 def drop(state: State, _: None) -> State:
-    """Let go of the joint; what ran before runs on."""
+    """Let go of the joint; what ran before runs on, and what a hand led swings on with its speed."""
+    if grasp := state.grasp:
+        clock = state.clock.let_go(state.frame, grasp.speed(state.frame), paused=not grasp.ran)
+        return replace(state, grasp=None, clock=clock)
     if state.held is None:
         return state
     clock = state.clock.pause(state.frame, not state.held.ran)
     return replace(state, held=None, clock=clock, editing=replace(state.editing, refusal=None))
+
+
+_SLACK = 0.01
+"""A pose as near to the hand as the nearest, but for so much of the course's size, is as good."""
+
+
+def _grasped(state: State, joint: str) -> State:
+    """Take hold of a joint that moves, and stand still with it."""
+    state = drop(state, None)
+    if joint not in state.scene.linkage.by_name or not state.scene.point_path(joint).moves:
+        return state
+    phase, clock = state.phase, state.clock
+    grasp = Grasp(joint, not clock.paused, ((state.frame, phase),), clock.speed > 0.0)
+    return replace(state, grasp=grasp, clock=clock.go(state.frame, phase, paused=True), glide=None)
+
+
+def _led(state: State, grasp: Grasp, to: tuple[float, float, float]) -> State:
+    """Let the joint come as near to the hand as the input lets it, on a pose next to the one that is on."""
+    scene = state.displayed
+    if grasp.joint not in scene.linkage.by_name:
+        return replace(state, grasp=None)
+    course, at = scene.point_path(grasp.joint), state.phase
+    phase = course.nearest(
+        (to[0], to[1]), at, slack=_SLACK * max(to[2], 0.0) * course.size, forward=grasp.forward
+    )
+    clock = state.clock.go(state.frame, phase, paused=True)
+    return replace(state, clock=clock, grasp=grasp.led(state.frame, phase))
 
 
 def _dragged(state: State, held: Held, values: Mapping[Key, str]) -> State:

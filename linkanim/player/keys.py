@@ -167,7 +167,7 @@ KEYS: Table = {
         ),
         KeyRow("O", "the shelf: all mechanisms", _on("o", "shelf")),
         KeyRow("F3", "the title, and what can be played", _on("f3", "play", "title door=play")),
-        KeyRow("drag the crank pin", "move the crank; the chart's cursor does the same"),
+        KeyRow("drag any joint", "lead the motion by hand; the chart's cursor does the same"),
     ),
     "look": (
         *_looks("look"),

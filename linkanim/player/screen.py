@@ -235,6 +235,8 @@ _NEAR = 0.022
 """How near to a thing counts as on it, in the window's height."""
 _PULLED = 6.0
 """How near to a line of the grid counts as on it, in units."""
+_LEADING = ("play", "paused", "list")
+"""The modes in which a joint leads the input."""
 _VISIBLE = 1.0
 """The least of a step of what is drawn, in pixels."""
 
@@ -320,15 +322,25 @@ class Screen:
         return self._framing.last.crank_pin_px(self.state.displayed.pose(self.state.phase, 0))
 
     def handle_at(self, x: float, y: float, reach: float) -> str | None:
-        """Return the joint under a pixel that can be dragged, in the list or in a game; None elsewhere."""
-        if not (self.state.editing.open or self.over.handles):
+        """Return the joint under a pixel that can be dragged; None elsewhere.
+
+        In the list it has dimensions of its own, in a game it is one of those that this frees, else it moves.
+        """
+        state, free = self.state, self.over.handles
+        scene = state.displayed
+        leads = state.mode in _LEADING
+        if not (state.editing.open or free or leads):
             return None
-        scene, free = self.state.displayed, self.over.handles
         places = scene.pose(self.state.phase, 0).position.items()
         away = {name: max(map(abs, self._from(place, x, y))) for name, place in places}
         near = sorted((far, name) for name, far in away.items() if far <= reach)
-        found = (name for _, name in near if name in free or (not free and handles(scene, name)))
-        return next(found, None)
+
+        def can_be_dragged(name: str) -> bool:
+            if free:
+                return name in free
+            return scene.point_path(name).moves if leads else bool(handles(scene, name))
+
+        return next((name for _, name in near if can_be_dragged(name)), None)
 
     def _from(self, place: tuple[float, float], x: float, y: float) -> tuple[float, float]:
         px, py = self.pixel(*place)

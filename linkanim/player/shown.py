@@ -187,7 +187,7 @@ _HINT = (
 )
 _OTHERS_HINT = "↑ ↓ choose   type to filter   Enter takes   Esc closes"
 _LIST_HINT = "↑ ↓ choose   type to filter   Enter charts   Esc closes"
-_BAR = "Space pause · Tab next · drag the crank pin · right click: all commands · H keys"
+_BAR = "Space pause · Tab next · drag any joint · right click: all commands · H keys"
 _BAR_FRAMES = 6 * FRAMES_PER_SECOND
 _WATCH_FRAMES = 6 * FRAMES_PER_SECOND
 _NAME = re.compile(r"\b[^\W\d_]\w*")
@@ -217,11 +217,17 @@ def overlay(
         hint=_hint_bar(state),
         watch=None if state.game else _watch(state),
         measured=tuple(_measured(state, items)),
-        glow=(state.held.joint or None) if state.held else hover,
+        glow=_glow(state, hover),
         grip=state.look.chart is not None and not state.game,
         shutter=0 if state.shot is None else 8 - 8 * (state.frame - state.shot) // SHUTTER_FRAMES,
         game=lists.game and replace(lists.game, pointed=row),
     )
+
+
+def _glow(state: State, hover: str | None) -> str | None:
+    """Return the joint that is lit: the one in the hand, else the one under the mouse."""
+    held = state.held or state.grasp
+    return (held.joint or None) if held else hover
 
 
 def kept(state: State) -> Overlay:
@@ -236,7 +242,7 @@ def _items(state: State) -> tuple[Dimension, ...]:
 
 def _kept(state: State, items: tuple[Dimension, ...], over: Hover | None = None) -> Overlay:
     found = Overlay(
-        paused=state.clock.paused and not (state.game or state.building),
+        paused=_stands(state) and not (state.game or state.building),
         noted=True,
         recording=_recording(state),
         help=help_groups(state.mode, pad=state.pad) if state.help else None,
@@ -248,6 +254,11 @@ def _kept(state: State, items: tuple[Dimension, ...], over: Hover | None = None)
         build=built(state, state.building, over) if state.building else None,
     )
     return state.game.shown(state, found) if state.game else found
+
+
+def _stands(state: State) -> bool:
+    """Whether the motion is paused, and not merely led by a hand."""
+    return state.clock.paused and not (state.grasp and state.grasp.ran)
 
 
 def _quantities(state: State, listing: Listing) -> Quantities:

@@ -196,6 +196,39 @@ class Held:
         return tuple((handle, units[handle.key]) for handle in handles(self.scene, self.joint))
 
 
+_TRAIL, _JUMP, _FASTEST = 6, 1.0, 20.0
+"""Frames over which a hand's speed is taken, the most of it (rad/s), and a step (rad) that has none."""
+
+
+@dataclass(frozen=True)
+class Grasp:
+    """A joint that a hand leads, and the input with it: whether the motion `ran` and goes on so.
+
+    `trail` holds the last frames and their phases, `forward` the way the phase went last.
+    """
+
+    joint: str
+    ran: bool
+    trail: tuple[tuple[int, float], ...]
+    forward: bool
+
+    def led(self, frame: int, phase: float) -> Grasp:
+        """Return it with the phase to which the hand has led the input."""
+        step = phase - self.trail[-1][1]
+        forward = step > 0.0 if step else self.forward
+        before = self.trail if abs(step) < _JUMP else ()
+        return replace(self, trail=(*before, (frame, phase))[-_TRAIL - 1 :], forward=forward)
+
+    def speed(self, frame: int) -> float:
+        """The hand's speed (rad/s of phase) at a frame: 0 where it has stood still."""
+        at, last = self.trail[-1]
+        earlier = [one for one in self.trail if one[0] <= frame - _TRAIL][-1:] or self.trail[:1]
+        since, phase = earlier[0]
+        # a button is let go of a frame or two after the mouse has moved last
+        rate = (last - phase) * FRAMES_PER_SECOND / max(max(at, frame - 2) - since, 1)
+        return min(max(rate, -_FASTEST), _FASTEST)
+
+
 # A changed length is followed smoothly: the scenes between the old one and the new.
 
 FRAMES = 16
@@ -485,7 +518,8 @@ class State:
     `place_typed` is the input's angle, or travel, that is being typed while paused, `naming` the name under
     which the scene is to be saved, while that is asked for.
     `game` is the game that is on, over the state `beneath`, and `games` reads one from its words.
-    `held` is the joint that is being dragged, `pad` whether a gamepad is plugged in.
+    `held` is the joint whose lengths are being dragged, `grasp` the one that leads the input, `pad` whether a
+    gamepad is plugged in.
     `home` is what of the scene's plane a game keeps in sight, where that is not the scene as it fits.
     `sounds` says whether the motion is heard, None where nobody has.
     With `from_title` Esc leads from a mechanism back to the title. In a `kiosk` a mechanism that runs and is
@@ -509,6 +543,7 @@ class State:
     help: bool = False
     editing: Editing = field(default_factory=Editing)
     held: Held | None = None
+    grasp: Grasp | None = None
     kept: tuple[Edited, ...] = ()
     listing: Listing | None = None
     browsing: Browsing | None = None
@@ -577,7 +612,7 @@ class State:
     @property
     def is_bare(self) -> bool:
         """Whether a mechanism runs, and nothing is open, begun, paused or recorded."""
-        return self.mode == "play" and not (self.help or self.recording or self.held)
+        return self.mode == "play" and not (self.help or self.recording or self.held or self.grasp)
 
     @property
     def saved_as(self) -> str | None:

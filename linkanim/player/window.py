@@ -305,7 +305,8 @@ class Window:
 
     def _show(self) -> None:
         """Paint and flip; a scene that cannot be painted gives way to the last that could."""
-        free = self._good is not None and not self.state.held  # what is held glows by itself
+        # what is held glows by itself
+        free = self._good is not None and not (self.state.held or self.state.grasp)
         hover = self._mouse.hovered(self.screen) if free else None
         if hover not in self.state.shown.linkage.by_name:
             hover = None  # a joint of the scene that was there until now

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from linkanim.mechanics.analysis import Info
     from linkanim.mechanics.linkage import Linkage
     from linkanim.mechanics.motion import Mechanism, Motion, Pose
+    from linkanim.mechanics.nearest import PointPath
     from linkanim.mechanics.quantities import Quantity
 
 # What a linkage was made for, as its file keeps it: poses, a function, or a stroke and its time ratio.
@@ -156,6 +157,21 @@ class Scene:
     def elsewhere(self) -> dict[str, Scene]:
         """The scene in other units of length, as far as `in_unit` was asked for them."""
         return {}
+
+    @cached_property
+    def _point_paths(self) -> dict[str, PointPath]:
+        return {}
+
+    def point_path(self, joint: str) -> PointPath:
+        """Return where a joint passes over one true period, and where it is nearest to a place.
+
+        KeyError for a name that is no joint's.
+        """
+        from linkanim.mechanics.nearest import point_path
+
+        if joint not in self._point_paths:
+            self._point_paths[joint] = point_path(self.mechanism, joint)
+        return self._point_paths[joint]
 
     @property
     def period(self) -> float:

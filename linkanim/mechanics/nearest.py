@@ -1,0 +1,147 @@
+"""Find the phase at which a moving point is nearest to a place: what the input is solved for by a hand.
+
+A point's course over one true period is sampled once. Of a place all minima of the distance are bracketed
+there and then solved in plain floats, so that the answer is the nearest pose of all, and not only the nearest
+of those close by. One true period holds every pose that the input reaches: both ranges of a swing that comes
+back on the other closure, and what lies behind a change point.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkanim.mechanics.linkage import Point
+from linkanim.mechanics.motion import Mechanism
+from linkanim.mechanics.program import Array
+
+_TURNING = math.cos(math.radians(30.0))
+"""Between samples whose directions differ by more, the distance may have several minima."""
+_PARTS = 16
+"""Into so many such a step is divided."""
+_EXACT = 1e-13
+"""How narrow a bracket ends, in radians of phase."""
+_ROUNDS = 100
+_EQUAL = 1e-9
+"""Distances that differ by less than so much of the course's size are equal."""
+_BACK = 1.5
+"""So many times as far a pose counts that is on the way back: past a dead centre the motion goes on."""
+
+Complex = NDArray[np.complex128]
+
+
+@dataclass(frozen=True)
+class PointPath:
+    """Where a joint is at equal steps of phase over one true period (N,), in the scene's unit.
+
+    `places` are complex, x + yi, and `ways` their derivatives by the phase.
+    """
+
+    mechanism: Mechanism
+    joint: str
+    phases: Array
+    places: Complex
+    ways: Complex
+
+    @property
+    def size(self) -> float:
+        """The diagonal of the box around the course; 0 of a joint that does not move."""
+        return float(math.hypot(np.ptp(self.places.real), np.ptp(self.places.imag)))
+
+    @property
+    def moves(self) -> bool:
+        """Whether the joint moves at all."""
+        return bool(np.abs(self.ways).max() > 0.0)
+
+    def nearest(self, place: Point, near: float, *, slack: float = 0.0, forward: bool = True) -> float:
+        """Return the phase at which the joint is nearest to a place (the scene's unit), in any turn.
+
+        Of several equally near it is the one nearest to the phase `near`, what is on the way on, `forward` or
+        not, before what is on the way back. A minimum that is farther by at most `slack` counts as equally
+        near. `near` itself for a joint that does not move.
+        """
+        target, period = complex(*place), 2 * math.pi * self.mechanism.periods
+        found = list(self._minima(target, slack))
+        least = min(far for far, _ in found) if found else 0.0
+        equal = least + slack + _EQUAL * self.size
+        shifts = (math.remainder(phase - near, period) for far, phase in found if far <= equal)
+
+        def way_to(shift: float) -> float:
+            return abs(shift) if (shift > 0.0) == forward else _BACK * abs(shift)
+
+        return near + min(shifts, key=way_to) if self.moves and found else near
+
+    def _minima(self, target: complex, slack: float) -> Iterator[tuple[float, float]]:
+        """Yield distance and phase of each minimum that may be the least, or farther by the slack."""
+        apart = self.places - target
+        far = np.abs(apart)
+        slope = (apart * self.ways.conj()).real
+        after = np.roll(np.arange(len(far)), -1)
+        speed = np.abs(self.ways)
+        cosine = (self.ways * self.ways[after].conj()).real
+        turning = cosine < _TURNING * speed * speed[after]
+        falls = (slope < 0.0) & (slope[after] >= 0.0)
+        step = 2 * math.pi * self.mechanism.periods / len(far)
+        reached = np.minimum(far, far[after]) - 2.0 * step * np.maximum(speed, speed[after])
+        least = int(far.argmin())
+        yield float(far[least]), float(self.phases[least])
+        for n in np.flatnonzero((falls | turning) & (reached <= far[least] + slack)):
+            low = float(self.phases[n])
+            parts = _PARTS if turning[n] else 1
+            yield from self._within(target, [low + step * part / parts for part in range(parts + 1)])
+
+    def _within(self, target: complex, phases: list[float]) -> Iterator[tuple[float, float]]:
+        """Yield distance and phase of each minimum between neighbouring phases."""
+
+        def slope(phase: float) -> float:
+            apart, way = self._at(phase, target)
+            return apart.real * way.real + apart.imag * way.imag
+
+        slopes = [slope(phase) for phase in phases]
+        for n, (first, last) in enumerate(pairwise(slopes)):
+            if first < 0.0 <= last:
+                phase = _root(slope, (phases[n], first), (phases[n + 1], last))
+                yield abs(self._at(phase, target)[0]), phase
+
+    def _at(self, phase: float, target: complex) -> tuple[complex, complex]:
+        """Return the way from a place to the joint, and that joint's derivative by the phase."""
+        pose = self.mechanism.pose(phase, 1.0, 0.0, 1)
+        return complex(*pose.position[self.joint]) - target, complex(*pose.velocity[self.joint])
+
+
+def point_path(mechanism: Mechanism, joint: str) -> PointPath:
+    """Return a joint's course over one true period; KeyError for a name that is no joint's."""
+    phases = mechanism.phases
+    motion = mechanism.solve(phase=phases, speed=1.0, derivatives=1)
+    places, ways = motion.position[joint], motion.velocity[joint]
+    return PointPath(mechanism, joint, phases, _complex(places), _complex(ways))
+
+
+def _complex(vectors: Array) -> Complex:
+    return np.asarray(vectors[..., 0] + 1j * vectors[..., 1])
+
+
+def _root(function: Callable[[float], float], low: tuple[float, float], high: tuple[float, float]) -> float:
+    """Return where a function rises through zero between two places, each with its value there.
+
+    False position after Dowell and Jarratt (the Illinois rule, BIT 11, 1971): the value of an end that stays
+    is halved, so that both ends close in.
+    """
+    (a, at_a), (b, at_b) = low, high
+    for _ in range(_ROUNDS):
+        if b - a <= _EXACT or at_b == 0.0:
+            break
+        middle = a - at_a * (b - a) / (at_b - at_a)
+        if not a < middle < b:
+            break
+        value = function(middle)
+        if value < 0.0:
+            a, at_a, at_b = middle, value, at_b / 2
+        else:
+            b, at_b, at_a = middle, value, at_a / 2
+    return b
