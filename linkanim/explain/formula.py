@@ -32,7 +32,9 @@ class Symbol(NamedTuple):
     bold: bool = False
 
 
-Operation = Literal["leaf", "+", "-", "·", "/", "neg", "sqrt", "square", "cos", "sin", "atan2", "arccos"]
+Operation = Literal[
+    "leaf", "+", "-", "·", "/", "neg", "sqrt", "square", "cos", "sin", "atan2", "arccos", "arcsin"
+]  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
@@ -133,6 +135,7 @@ _VALUES: Mapping[str, Callable[..., float]] = {
     "sin": lambda a: math.sin(math.radians(a)),
     "atan2": lambda y, x: math.degrees(math.atan2(y, x)),
     "arccos": lambda a: math.degrees(math.acos(a)),
+    "arcsin": lambda a: math.degrees(math.asin(a)),
 }
 
 
@@ -178,6 +181,11 @@ def atan2(y: Formula, x: Formula) -> Formula:
 def arccos(e: Formula) -> Formula:
     """Return the angle from 0 to 180 degrees that has this cosine."""
     return Formula("arccos", (e,))
+
+
+def arcsin(e: Formula) -> Formula:
+    """Return the angle from -90 to 90 degrees that has this sine."""
+    return number("0", in_degrees=True) if e.constant == 0 else Formula("arcsin", (e,))
 
 
 class Components(NamedTuple):
@@ -310,7 +318,7 @@ class _Setting:
             right = right.parts[0]
         while left.operation == "·":
             left = left.parts[1]
-        swallows = left.operation in ("cos", "sin", "atan2", "arccos")
+        swallows = left.operation in ("cos", "sin", "atan2", "arccos", "arcsin")
         return self.numbers or right.constant is not None or swallows
 
 

@@ -8,11 +8,15 @@ Its parts, in reading order:
 
 from __future__ import annotations
 
-from cmath import phase
+import math
+from cmath import phase, rect
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from itertools import takewhile
 from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
 
 from linkanim.explain.formula import (
     NOWHERE,
@@ -33,6 +37,7 @@ from linkanim.explain.formula import (
 from linkanim.explain.steps import (
     ANGLE,
     LENGTH,
+    SQUARE,
     Chapter,
     Equation,
     GuideLine,
@@ -50,8 +55,12 @@ from linkanim.explain.steps import (
     slide_sides,
 )
 from linkanim.mechanics.linkage import RPP, RPR, RRP, RRR, Brace, Crank, DrivenSlider, Gear, Joint, Pin, Rigid
+from linkanim.units import significant
 
 # How each kind of joint is worked out by hand, and the one list of them.
+
+Places = NDArray[np.complex128]
+Lengths = NDArray[np.float64]
 
 
 def place_pin(pin: Pin, work: Work) -> None:
@@ -217,6 +226,44 @@ def _why_left(joint: RRR, left: bool) -> str:
     if left == (joint.side > 0):
         return f"{found}: as the scene file states."
     return f"{found}: the motion came to this closure through a limit or a change point."
+
+
+def half_angle(joint: RRR, work: Work) -> None:
+    """Add the second bar's angle by the half-angle form, where its digits give it.
+
+    The first bar's angle is eliminated from the loop, A cos θ + B sin θ = C remains, and t = tan(θ/2) makes
+    it a quadratic: Freudenstein's way, as most books and the source reports go.
+    """
+    (p, q), name = joint.ends, joint.name
+    a, b = (work.length(end, name, length) for end, length in joint.bars)
+    way, angle = work.points[q] - work.points[p], work.angles[q, name]
+    before = len(work.items)
+    work.say(
+        f"With the angle of {marked(p)}–{marked(name)} eliminated the loop is A cos θ + B sin θ = C, a "
+        f"quadratic for tan(θ/2):"
+    )
+    cosine = work.let(Symbol("A", name), TWO * b * way.x, SQUARE)
+    sine = work.let(Symbol("B", name), TWO * b * way.y, SQUARE)
+    right = work.let(Symbol("C", name), square(a) - square(b) - square(way.x) - square(way.y), SQUARE)
+    under = square(cosine) + square(sine) - square(right)
+    size = math.hypot(cosine.value, sine.value)
+    root = work.let(Symbol("W", name), sqrt(under), SQUARE) if under.value > 0 else ZERO
+    above, below = (sine + root if _left(joint, work) else sine - root), cosine + right
+    if math.hypot(above.value, below.value) < _HALF_ANGLE_LEFT * size:
+        # both vanish at 180°, and what rounding leaves of them has no direction
+        del work.items[before:]
+        return
+    found = work.let(Symbol("θ", "half"), TWO * atan2(above, below), ANGLE)
+    miss = abs(math.remainder(found.value - angle.value, 360))
+    sign = "plus" if _left(joint, work) else "minus"
+    work.say(
+        f"The root takes {sign} on this closure. The angle of {marked(q)}–{marked(name)} above is the same, "
+        f"to {significant(max(miss, 10.0 ** (1 - work.scale.digits)), 1)}°."
+    )
+
+
+_HALF_ANGLE_LEFT = 1e-3
+"""Of their size: a half angle whose tangent has so little left above and below has lost its digits."""
 
 
 def move_bars(joint: RRR, rates: Rates, order: Order) -> None:
@@ -400,18 +447,73 @@ def loop_of_yoke(joint: RPP, work: Work) -> tuple[Route, Route]:
     return Route(joint.pin, ()), Route(start, (*sides, last))
 
 
+class Reach(NamedTuple):
+    """Within which bounds a dyad closes: of what, from joints' places as x + yi (n,), low and high."""
+
+    what: str
+    of: Callable[[Mapping[str, Places]], Lengths]
+    low: float
+    high: float
+
+
+def reach_of_bars(joint: RRR, work: Work) -> Reach:
+    """Add the least and the greatest distance of two bars' ends."""
+    p, q = joint.ends
+    bars = (work.length(end, joint.name, length) for end, length in joint.bars)
+    short, long = sorted(bars, key=lambda bar: bar.value)
+    work.say(
+        f"The bars that meet in {marked(joint.name)} close while the distance of {marked(p)} and {marked(q)} "
+        f"lies between the difference and the sum of their lengths:"
+    )
+    low = work.let(Symbol("d", "min"), long - short if long.value > short.value else ZERO, LENGTH)
+    high = work.let(Symbol("d", "max"), long + short, LENGTH)
+    return Reach("The distance", lambda at: np.abs(at[p] - at[q]), low.value, high.value)
+
+
+def reach_of_slider(joint: RRP, work: Work) -> Reach:
+    """Say how far a bar's end may be from its guide."""
+    line, turned = joint.line, rect(1.0, joint.line.angle)
+
+    def aside(at: Mapping[str, Places]) -> Lengths:
+        way = (at[joint.name] - at[joint.end]) / turned
+        if line.on is not None:
+            carried = at[line.on[1]] - at[line.on[0]]
+            way = way * abs(carried) / carried
+        return np.abs(way.imag)
+
+    length = work.length(joint.end, joint.name, joint.length)
+    work.say(
+        f"The bar of {marked(joint.name)} reaches its guide while {marked(joint.end)} is no farther from it "
+        f"than the bar is long, {length.shown} {work.scale.unit}."
+    )
+    return Reach("That distance", aside, -math.inf, joint.length)
+
+
+def reach_of_slot(joint: RPR, work: Work) -> Reach | None:
+    """Say how near the pin may come to the pivot of an offset slot; one without an offset takes every pin."""
+    if not joint.offset:
+        return None
+    offset = abs(joint.offset)
+    work.say(
+        f"The slot of {marked(joint.name)} takes {marked(joint.through)} while that is at least as far from "
+        f"{marked(joint.pivot)} as the slot is offset, {significant(offset, 6)} {work.scale.unit}."
+    )
+    return Reach("That distance", lambda at: np.abs(at[joint.through] - at[joint.pivot]), offset, math.inf)
+
+
 @dataclass(frozen=True, slots=True)
 class KindSteps:
     """The steps of one kind of joint.
 
     `place` adds the lines of its position, `move` those of its rates of an order. `route` is the way to it
-    from a joint before it, `loop` of a dyad the two ways that meet.
+    from a joint before it, `loop` of a dyad the two ways that meet, `reach` its bounds.
     """
 
     place: Callable[[Any, Work], None]
     move: Callable[[Any, Rates, Order], None]
     route: Callable[[Any, Work], Route] | None = None
     loop: Callable[[Any, Work], tuple[Route, Route]] | None = None
+    reach: Callable[[Any, Work], Reach | None] | None = None
 
 
 KINDS: Mapping[type[Joint], KindSteps] = {
@@ -420,9 +522,11 @@ KINDS: Mapping[type[Joint], KindSteps] = {
     DrivenSlider: KindSteps(place_slider, move_slider, route_of_guide),
     Rigid: KindSteps(place_point, move_point, route_of_point),
     Brace: KindSteps(place_point, move_point, route_of_point),
-    RRR: KindSteps(place_bars, move_bars, route_of_bar, loop_of_bars),
-    RRP: KindSteps(place_slider_on_bar, move_slider_on_bar, route_of_bar, loop_of_slider_on_bar),
-    RPR: KindSteps(place_slot, move_slot, route_of_bar, loop_of_slot),
+    RRR: KindSteps(place_bars, move_bars, route_of_bar, loop_of_bars, reach_of_bars),
+    RRP: KindSteps(
+        place_slider_on_bar, move_slider_on_bar, route_of_bar, loop_of_slider_on_bar, reach_of_slider
+    ),
+    RPR: KindSteps(place_slot, move_slot, route_of_bar, loop_of_slot, reach_of_slot),
     RPP: KindSteps(place_yoke, move_yoke, route_of_guide, loop_of_yoke),
 }
 """Every kind that a linkage can be made of."""

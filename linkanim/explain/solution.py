@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any, Literal
 
@@ -30,7 +30,7 @@ from linkanim.explain.formula import (
     sqrt,
     square,
 )
-from linkanim.explain.joints import KINDS, LoopArrow, VectorLoop, body_point, loops_of
+from linkanim.explain.joints import KINDS, LoopArrow, VectorLoop, body_point, half_angle, loops_of
 from linkanim.explain.steps import (
     ANGLE,
     BY_INPUT,
@@ -53,8 +53,9 @@ from linkanim.explain.steps import (
     rounded,
 )
 from linkanim.explain.synthesis import synthesis
+from linkanim.explain.whole_motion import whole_motion
 from linkanim.mechanics.forces import effort_token
-from linkanim.mechanics.linkage import Body, Crank, Damper, Spring
+from linkanim.mechanics.linkage import RRR, Body, Crank, Damper, Spring
 from linkanim.mechanics.quantities import input_symbol, link_labels
 from linkanim.mechanics.solver.strokes import CylinderStroke, Stroke
 from linkanim.picture.figure import figure
@@ -401,14 +402,18 @@ def solution(request: PoseRequest) -> Solution:
         # a root or a quotient of rounded digits is none near a limit: more of them are taken
         with suppress(ZeroDivisionError, ValueError):
             places: dict[Symbol, int] = {}
-            found = _Draft(request, names, digits, places).solution(rates)
+            draft = _Draft(request, names, digits, places)
+            found = draft.solution(rates)
             # what follows from a number in fewer digits is another number, and may have fewer that are right
             while _agrees(found) and not (fewer := _right_places(found)).items() <= places.items():
                 places |= fewer
-                found = _Draft(request, names, digits, places).solution(rates)
+                draft = _Draft(request, names, digits, places)
+                found = draft.solution(rates)
             if _agrees(found):
                 break
-    return found
+    pose = len(found.chapters) - found.made
+    whole = whole_motion(request.scene, draft.work)
+    return replace(found, chapters=(*found.chapters[:pose], *whole, *found.chapters[pose:]))
 
 
 def _compared(found: Solution) -> Iterator[tuple[Outcome, float]]:
@@ -482,6 +487,7 @@ class _Draft:
         places = self._placed()
         loops = loops_of(self.work, places)
         self.loops = loops
+        halves = self._half_angles()
         self.work.items.clear()
         if rates:
             rest = [*self._by_input(), *self._in_time(), *self._parts()]
@@ -492,7 +498,7 @@ class _Draft:
         )
         steps = tuple(loop.step for loop in loops) or (Step("", (Words(_NO_LOOP),)),)
         made = synthesis(self.request.scene, self.work.names)
-        chapters = (given, Chapter("Vector loops", steps), places, *rest, *made)
+        chapters = (given, Chapter("Vector loops", steps), places, *halves, *rest, *made)
         known = self.request.scene.quantities
         # of parts with one name the last has the token, as it has among the quantities
         results = tuple({one.token: one for one in self.results if one.token in known}.values())
@@ -524,6 +530,13 @@ class _Draft:
                 travel = self.work.slides[body.slider]
                 self.results.append(scale.outcome(f"{body.name}.travel", travel, LENGTH))
         return self._chapter("Positions")[0]
+
+    def _half_angles(self) -> list[Chapter]:
+        """Return the chapter of the other closed form of two bars, which many books have."""
+        for joint in self.linkage.joints:
+            if isinstance(joint, RRR):
+                self._step(f"Joint {marked(joint.name)}", partial(half_angle, joint, self.work))
+        return self._chapter("The same by the half-angle form")
 
     def _angles(self) -> None:
         for body in self._turning():

@@ -235,7 +235,7 @@ class Powers(NamedTuple):
     angle: bool = False
 
 
-RATIO, LENGTH = Powers(), Powers(1)
+RATIO, LENGTH, SQUARE = Powers(), Powers(1), Powers(2)
 ANGLE = Powers(angle=True)
 
 

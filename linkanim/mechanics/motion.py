@@ -778,9 +778,7 @@ def _scalar(names: tuple[str, ...], rows: Rows, derivatives: int) -> Callable[..
     return scalar((*names, "w", "a", "mechanism"), outputs, display)
 
 
-def _there_and_back(
-    program: Callable[..., dict[str, Any]], per_input: bool
-) -> Callable[..., dict[str, Any]]:
+def _there_and_back(program: Callable[..., dict[str, Any]], per_input: bool) -> Callable[..., dict[str, Any]]:
     """Return the program of one instant of an input that comes back by the way it came."""
 
     def solved(phase: float, w: float, a: float, mechanism: Mechanism) -> dict[str, Any]:

@@ -15,6 +15,7 @@ _FUNCTIONS: dict[str, Callable[[float], float]] = {
     "\\cos": lambda a: math.cos(math.radians(a)),
     "\\sin": lambda a: math.sin(math.radians(a)),
     "\\arccos": lambda a: math.degrees(math.acos(a)),
+    "\\arcsin": lambda a: math.degrees(math.asin(a)),
 }
 
 
@@ -142,7 +143,7 @@ def _numbers_of(matrices: list[str]) -> list[str]:
 
 
 def _symbols(tex: str) -> bool:
-    plain = re.sub(r"\\(cos|sin|arccos|operatorname\{atan2\}|left|right|frac|sqrt|cdot|circ)", "", tex)
+    plain = re.sub(r"\\(cos|sin|arccos|arcsin|operatorname\{atan2\}|left|right|frac|sqrt|cdot|circ)", "", tex)
     return re.search(r"[^\W\d_]", plain) is not None
 
 
@@ -196,7 +197,7 @@ def _tex(e: Element) -> str:
             return "&".join(inside)
         case "mi" if text == "atan2":
             return "\\operatorname{atan2}"
-        case "mi" if text in ("cos", "sin", "arccos"):
+        case "mi" if text in ("cos", "sin", "arccos", "arcsin"):
             return f"\\{text} "
         case "mo":
             return _SIGNS.get(text, text)

@@ -20,6 +20,7 @@ from linkanim.explain.solution import PoseRequest, Solution, solution
 from linkanim.explain.steps import System, ValueLine
 from linkanim.explain.variant import variant
 from linkanim.mechanics.forces import effort_token
+from linkanim.mechanics.linkage import RRR
 from linkanim.scenes import load, names
 from linkanim.scenes.editing import dimensions, in_unit
 from linkanim.scenes.reading import scene_from
@@ -448,3 +449,75 @@ def test_an_input_that_swings_has_an_acceleration_by_its_angle_alone(
 ) -> None:
     assert main(["explain", "double-rocker", "--phase", "30 deg", "--acceleration", "2 rad/s^2"]) == 2
     assert "give --angle with it" in capsys.readouterr().err
+
+
+# closed forms: four-bars and slider-cranks by their class, offset, and driven the other way
+CLOSED = ["crank-rocker", "slider-crank", "engine", "isosceles-slider", "wiper"]
+# found by search: gears, a slot, a second dyad, inputs that swing; one comes to a dead centre twice
+SEARCHED = ["press", "whitworth", "crank-shaper", "six-bar", "double-rocker", "triple-rocker", "andrews"]
+
+
+def _lines_of(found: Solution, title: str) -> dict[str, float]:
+    chapters = [chapter for chapter in found.chapters if chapter.title == title]
+    lines = (item for chapter in chapters for item in chapter.items if isinstance(item, ValueLine))
+    return {
+        f"{line.value.symbol.letter}{line.value.symbol.sub}": line.value.value
+        for line in lines
+        if line.value.symbol
+    }
+
+
+@pytest.mark.parametrize("name", CLOSED + SEARCHED)
+def test_stroke_swing_and_time_ratio_are_derived_as_info_has_them(name: str) -> None:
+    found = solution(_request(name, 50.0))
+    info, lines = found.request.scene.info, _lines_of(found, "Dead centres and time ratio")
+    if info.stroke:
+        assert lines["H"] == pytest.approx(info.stroke, rel=2e-6)
+    elif info.swing:
+        assert lines["ψswing"] == pytest.approx(math.degrees(info.swing.stroke), abs=1e-3)
+    else:
+        assert lines == {}
+        return
+    if name == "six-bar":
+        assert "TR" not in lines
+        return
+    assert lines["TR"] == pytest.approx(info.time_ratio, rel=2e-6)
+
+
+@pytest.mark.parametrize(
+    "lengths",
+    [(110, 130, 80, 115), (100, 60, 45, 50), (100, 30, 85, 80), (100, 70, 40, 50)],
+    ids=["double-rocker", "triple-rocker", "crank-rocker", "triple-rocker, ground longest"],
+)
+def test_the_input_turns_back_at_derived_angles(lengths: tuple[int, ...]) -> None:
+    sides = dict(zip(("ground", "crank", "coupler", "rocker"), lengths, strict=True))
+    document = {"four-bar": sides | {"ground_angle": "20 deg"}}
+    found = solution(PoseRequest(scene_from(document, name="my", where="my.toml"), "phase", 0.7, 2.0))
+    info, lines = found.request.scene.info, _lines_of(found, "How far the input goes")
+    angles = [value for name, value in lines.items() if name.startswith("θ")]
+    assert bool(angles) is not info.full_turn
+    for end in () if info.full_turn else map(math.degrees, info.input_range):
+        assert min(abs(math.remainder(end - angle, 360)) for angle in angles) < 1e-3
+
+
+@pytest.mark.parametrize("offset", [0, 25, -25])
+def test_a_crank_longer_than_its_rod_turns_back_where_the_rod_stands_square(offset: int) -> None:
+    written = {"slider-crank": {"crank": 80, "rod": 60, "offset": offset}}
+    found = solution(PoseRequest(scene_from(written, name="my", where="my.toml"), "phase", 0.7, 2.0))
+    angles = [v for name, v in _lines_of(found, "How far the input goes").items() if name.startswith("θ")]
+    for end in map(math.degrees, found.request.scene.info.input_range):
+        assert min(abs(math.remainder(end - angle, 360)) for angle in angles) < 1e-3
+
+
+@pytest.mark.parametrize("name", ["crank-rocker", "press", "double-rocker", "jansen", "watt-1"])
+@pytest.mark.parametrize("degrees", [40.0, 200.0])
+def test_the_half_angle_form_gives_the_angle_found(name: str, degrees: float) -> None:
+    found = solution(_request(name, degrees))
+    (chapter,) = [one for one in found.chapters if "half-angle" in one.title]
+    places = found.request.motion().position
+    for step in chapter.steps:
+        joint = found.request.scene.linkage.joint(step.title.split()[1].strip("\x02\x03"))
+        assert isinstance(joint, RRR)
+        x, y = places[joint.name] - places[joint.ends[1]]
+        (angle,) = [item.value.value for item in step.items if isinstance(item, ValueLine)][-1:]
+        assert abs(math.remainder(angle - math.degrees(math.atan2(y, x)), 360)) < 1e-2

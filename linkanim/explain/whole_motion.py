@@ -1,0 +1,450 @@
+"""Work out the whole motion by hand: how far the input goes, and where the output turns back.
+
+Its parts, in reading order:
+
+- How far the input goes: whether the bars of each dyad reach over the whole motion.
+- Dead centres and time ratio: where the output turns back, how far it goes, and how long each way takes.
+
+What has a closed form is derived: four-bars and slider-cranks on the driven crank. Of other dyads the lengths
+give the bounds, and the motion says how near it comes to them.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from functools import partial
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from linkanim.explain.formula import (
+    TWO,
+    Formula,
+    Symbol,
+    arccos,
+    arcsin,
+    number,
+    sqrt,
+    square,
+)
+from linkanim.explain.joints import KINDS, Reach
+from linkanim.explain.steps import (
+    ANGLE,
+    LENGTH,
+    RATIO,
+    Chapter,
+    Given,
+    Item,
+    Powers,
+    Step,
+    Work,
+    marked,
+    rounded,
+)
+from linkanim.mechanics.analysis import FourBar, four_bar_of
+from linkanim.mechanics.linkage import RRP, RRR, Body, Crank, Joint
+from linkanim.mechanics.measures import output_body, output_slider
+from linkanim.mechanics.search import around, highest
+from linkanim.scenes.scene import Scene
+from linkanim.units import significant
+
+_STRAIGHT, _ROUND = number("180", in_degrees=True), number("360", in_degrees=True)
+_TOUCHES = 1e-9
+"""Of the longest bar: a distance that is nearer to its bound comes to it."""
+_NEAR = 1e-6
+"""Of the longest bar: what a search finds nearer to a bound comes to it."""
+_ONE = 1e-9
+"""A cosine that is nearer to 1 is 1."""
+_ALIKE = 1e-4
+"""Time ratios that differ by a smaller share are one."""
+_DIGITS = 6
+
+
+def whole_motion(scene: Scene, work: Work) -> tuple[Chapter, ...]:
+    """Return the chapters on the whole motion; none where nothing has to close and nothing turns back.
+
+    `work` has the positions of a pose, whose symbols are used.
+    """
+    found = _WholeMotion(scene, work)
+    chapters = [
+        Chapter("How far the input goes", tuple(found.reach())),
+        Chapter("Dead centres and time ratio", tuple(found.dead_centres())),
+    ]
+    return tuple(chapter for chapter in chapters if chapter.steps)
+
+
+class _Bars(NamedTuple):
+    """A four-bar on the driven crank: its joints, its lengths, and the ground's angle."""
+
+    joints: tuple[str, str, str, str]
+    ground: Formula
+    crank: Formula
+    coupler: Formula
+    output: Formula
+    tilt: Formula
+
+
+class _SliderCrank(NamedTuple):
+    """A slider-crank on the driven crank; its pivot lies `beside` the guide, positive to the left."""
+
+    joint: RRP
+    crank: Formula
+    rod: Formula
+    beside: Formula
+    guide: Formula
+
+
+class _WholeMotion:
+    """Chapters while they are written."""
+
+    def __init__(self, scene: Scene, work: Work) -> None:
+        self.scene, self.work, self.info = scene, work, scene.info
+        self.dyads = [joint for joint in scene.linkage.joints if joint.dyad]
+        drive = scene.linkage.drive
+        turned = drive.actuator.along is None and isinstance(scene.linkage.driven.joint, Crank)
+        self.four_bar = four_bar_of(scene.mechanism) if turned else None
+        self.cranked = turned
+
+    def _step(self, title: str, write: Callable[[], object]) -> Step | None:
+        """Return a step with the lines that are written meanwhile, after what they take as given."""
+        work, before = self.work, set(self.work.given)
+        work.items.clear()
+        write()
+        given = [item for symbol, item in work.given.items() if symbol not in before]
+        items: tuple[Item, ...] = (*given, *work.items)
+        return Step(title, items) if items else None
+
+    # How far the input goes: whether the bars of each dyad reach over the whole motion.
+
+    def reach(self) -> Iterator[Step]:
+        """Yield a step for each dyad whose bars may not reach, and what follows for the input."""
+        steps = [self._step(f"Reach of {marked(one.name)}", partial(self._of, one)) for one in self.dyads]
+        found = [step for step in steps if step]
+        yield from found
+        if found or not self.info.full_turn:
+            self.work.items.clear()
+            goes = f"the {self.info.input_name} {self.info.input_words}"
+            self.work.say(f"So {goes}." if found else f"T{goes[1:]}, as the scene states.")
+            if self.info.grashof:
+                self.work.say(f"Grashof: {self.info.grashof}, which makes it a {self.info.class_name}.")
+            yield Step("", tuple(self.work.items))
+
+    def _of(self, joint: Joint) -> None:
+        if self.four_bar is not None and joint.name == self.four_bar.joint:
+            self._limits_of_bars(self._bars(self.four_bar))
+        elif (found := self._slider_crank(joint)) is not None:
+            self._limits_of_slider(found)
+        elif (reach := KINDS[type(joint)].reach) is not None:
+            self._bounded(joint, reach)
+
+    def _bars(self, four_bar: FourBar) -> _Bars:
+        work, linkage = self.work, self.scene.linkage
+        joint, pivot = linkage.joint(four_bar.joint), linkage.driven.pivot
+        assert isinstance(joint, RRR)
+        pin = linkage.drive.joint
+        fixed = next(end for end in joint.ends if end != pin)
+        names = (pivot, pin, joint.name, fixed)
+        pairs = {"ground": (pivot, fixed), "input": (pivot, pin), "coupler": (pin, joint.name)}
+        pairs["output"] = fixed, joint.name
+        ground, crank, coupler, output = (
+            work.known(Symbol("r", work.names.length(*ends)), four_bar.links[part], LENGTH)
+            for part, ends in pairs.items()
+        )
+        way = work.points[fixed] - work.points[pivot]
+        level = way.y.constant == 0 and way.x.value > 0
+        stated = work.given.get(Symbol("θ", work.names.length(pivot, fixed)))
+        tilt = (
+            number("0", in_degrees=True) if level else stated.value if stated else work.angle_of(pivot, fixed)
+        )
+        return _Bars(names, ground, crank, coupler, output, tilt)
+
+    def _limits_of_bars(self, bars: _Bars) -> None:
+        """Add where coupler and output lie in one line: the cosine rule with the ground and the crank."""
+        work, (pivot, pin, joint, fixed) = self.work, bars.joints
+        work.say(
+            f"At a limit of the input the bars that meet in {marked(joint)} lie in one line, stretched or "
+            f"folded, so that {marked(pin)} is as far from {marked(fixed)} as their lengths add up to, or "
+            f"differ by. The cosine rule in the triangle {marked(pivot)}, {marked(pin)}, {marked(fixed)} "
+            f"gives the angle ψ of the crank from the ground line:"
+        )
+        g, r = bars.ground, bars.crank
+        for name, reach, low in (
+            ("stretched", bars.coupler + bars.output, True),
+            ("folded", bars.coupler - bars.output, False),
+        ):
+            index = name[0]
+            cosine = work.let(
+                Symbol("k", index), (square(g) + square(r) - square(reach)) / (TWO * g * r), RATIO
+            )
+            if 1 - abs(cosine.value) > _ONE:
+                corner = work.let(Symbol("ψ", index), arccos(cosine), ANGLE)
+                for sign, angle in (("1", bars.tilt + corner), ("2", bars.tilt - corner)):
+                    work.let(Symbol("θ", f"{index}{sign}"), angle, ANGLE)
+                work.say(f"With the bars {name} the input may turn back at these two angles.")
+            elif abs(abs(cosine.value) - 1) <= _ONE:
+                work.say(
+                    f"This is {round(cosine.value)}: the bars are {name} with all four in one line, a change "
+                    f"point."
+                )
+            else:
+                bound = "below −1" if low else "above 1"
+                work.say(f"This cosine is {bound}, so the bars are never {name}.")
+
+    def _slider_crank(self, joint: Joint) -> _SliderCrank | None:
+        """Return the slider-crank that a joint closes on the driven crank; None where it closes none."""
+        work, linkage = self.work, self.scene.linkage
+        if not (isinstance(joint, RRP) and self.cranked and joint.end == linkage.drive.joint):
+            return None
+        if joint.line.on is not None or not linkage.joint(joint.line.through).fixed:
+            return None
+        pivot = linkage.driven.pivot
+        crank = work.length(pivot, joint.end, dict(linkage.joint(joint.end).bars)[pivot])
+        guide = work.guide(joint.line, joint.name)
+        way, u = work.points[pivot] - work.points[guide.through], guide.direction
+        beside = way.y * u.x - way.x * u.y - guide.offset
+        return _SliderCrank(
+            joint, crank, work.length(joint.end, joint.name, joint.length), beside, guide.angle
+        )
+
+    def _beside(self, found: _SliderCrank) -> Formula:
+        """Return how far the pivot lies left of the guide, as a symbol."""
+        return self.work.let(Symbol("c", found.joint.name), found.beside, LENGTH)
+
+    @staticmethod
+    def _where_beside(found: _SliderCrank) -> str:
+        if found.beside.constant == 0:
+            return "The crank's pivot lies on the guide's line."
+        return "c is how far the crank's pivot lies to the left of the guide."
+
+    def _limits_of_slider(self, found: _SliderCrank) -> None:
+        """Add whether the rod reaches the guide from everywhere on the crank's circle."""
+        work, joint, crank, rod = self.work, found.joint, found.crank, found.rod
+        work.say(
+            f"The rod reaches its guide where {marked(joint.end)} is no farther from the guide than the rod "
+            f"is long. {self._where_beside(found)} n is the farthest that {marked(joint.end)} comes from it:"
+        )
+        beside = self._beside(found)
+        farthest = work.let(Symbol("n", "max"), crank + (beside if beside.value >= 0 else -beside), LENGTH)
+        if rod.value - farthest.value > _TOUCHES * rod.value:
+            work.say(f"This is less than the rod, {rod.shown} {work.scale.unit}: it reaches at every angle.")
+            return
+        if self.info.full_turn:
+            work.say("This is the rod's length: where it stands square to its guide is a change point.")
+            return
+        work.say("This is more than the rod: where it stands square to its guide the input may turn back:")
+        for index, reach in (("l", rod), ("r", -rod)):
+            sine = (reach - beside) / crank
+            if abs(sine.value) <= 1 - _ONE:
+                corner = work.let(Symbol("ψ", index), arcsin(sine), ANGLE)
+                for sign, angle in (("1", found.guide + corner), ("2", found.guide + _STRAIGHT - corner)):
+                    work.let(Symbol("θ", f"{index}{sign}"), angle, ANGLE)
+
+    def _bounded(self, joint: Joint, reach: Callable[[Any, Work], Reach | None]) -> None:
+        """Add the bounds within which a dyad closes, and how near the motion comes to them."""
+        found = reach(joint, self.work)
+        if found is None:
+            return
+
+        def apart(phases: np.ndarray) -> np.ndarray:
+            at = self.scene.solve(phase=phases, derivatives=0).position
+            return found.of({name: place[:, 0] + 1j * place[:, 1] for name, place in at.items()})
+
+        self._say_bounds(joint.name, found, self._ends(apart))
+
+    def _ends(self, function: Callable[[np.ndarray], np.ndarray]) -> tuple[float, float]:
+        """Return the least and the greatest value over one true period."""
+        mechanism = self.scene.mechanism
+        places, step = (
+            around(mechanism.periods, mechanism.assembly.samples),
+            math.tau / mechanism.assembly.samples,
+        )
+        values = function(places)
+        found = []
+        for sign in (-1, 1):
+            at = float(places[np.nanargmax(sign * values)])
+            best = highest(partial(_signed, function, sign), at, step)
+            found.append(float(function(np.array([best]))[0]))
+        return found[0], found[1]
+
+    def _say_bounds(self, joint: str, reach: Reach, ends: tuple[float, float]) -> None:
+        unit, least = self.work.scale.unit, _NEAR * self.scene.linkage.longest
+        low, high = (significant(end, _DIGITS) for end in ends)
+        runs = f"{reach.what} runs from {low} {unit} to {high} {unit} over the motion"
+        if reach.low <= 0:
+            runs = f"{reach.what} is {high} {unit} at the most over the motion"
+        elif math.isinf(reach.high):
+            runs = f"{reach.what} is {low} {unit} at the least over the motion"
+        if ends[0] - reach.low > least and reach.high - ends[1] > least:
+            self.work.say(f"{runs}, which is within the bounds: no limit comes from here.")
+        elif joint in self.scene.mechanism.stops:
+            self.work.say(f"{runs}. It comes to its bound where the input turns back.")
+        else:
+            self.work.say(f"{runs}. It comes to its bound at a change point, through which the motion runs.")
+
+    # Dead centres and time ratio: where the output turns back, how far it goes, and how long each way takes.
+
+    def dead_centres(self) -> Iterator[Step]:
+        """Yield the step of the output's two dead centres; none where it does not turn back."""
+        slider, body = output_slider(self.scene.linkage), output_body(self.scene.linkage)
+        if slider is not None and self.info.stroke:
+            title = f"Slider {slider.name}" if slider.name.isdecimal() else slider.name.capitalize()
+            step = self._step(title, partial(self._of_slider, slider))
+        elif slider is None and body is not None and self.info.swing is not None:
+            step = self._step(self.info.link_names[body.name].capitalize(), partial(self._of_rocker, body))
+        else:
+            return
+        if step:
+            yield step
+
+    def _of_slider(self, slider: Body) -> None:
+        joint = self.scene.linkage.joint(str(slider.slider))
+        found = self._slider_crank(joint) if self._steady and not self.info.change_points else None
+        if found is not None:
+            self._dead_centres_of_slider(found)
+        else:
+            self._searched(slider, self.info.dead_centres, self.info.stroke or 0.0)
+
+    def _of_rocker(self, body: Body) -> None:
+        bars = self._bars(self.four_bar) if self.four_bar is not None else None
+        if (
+            bars is not None
+            and self._steady
+            and self._is_crank_rocker
+            and set(bars.joints[2:]) <= set(body.joints)
+        ):
+            self._dead_centres_of_rocker(bars)
+        elif self.info.swing is not None:
+            self._searched(body, self.info.swing.dead_centres, self.info.swing.stroke)
+
+    @property
+    def _steady(self) -> bool:
+        """Whether the crank turns fully once in a true period, so that angles of the crank are times."""
+        return self.info.full_turn and self.info.true_period == 1
+
+    @property
+    def _is_crank_rocker(self) -> bool:
+        bar = self.four_bar
+        return bar is not None and bar.margin > 0 and bar.shortest == "input" and not bar.change_points
+
+    def _dead_centres_of_slider(self, found: _SliderCrank) -> None:
+        """Add stroke and time ratio of a slider-crank whose crank turns fully."""
+        work, crank, rod = self.work, found.crank, found.rod
+        work.say(
+            "The slider turns back where crank and rod lie in one line, stretched and folded. "
+            f"{self._where_beside(found)}"
+        )
+        beside = self._beside(found)
+        square_ = square(beside)
+        ends = [
+            work.let(Symbol("s", index), sqrt(square(reach) - square_), LENGTH)
+            for index, reach in (("max", rod + crank), ("min", rod - crank))
+        ]
+        work.let(Symbol("H"), ends[0] - ends[1], LENGTH)
+        away = beside if beside.value >= 0 else -beside
+        leans = [
+            work.let(Symbol("α", index), arcsin(away / reach), ANGLE)
+            for index, reach in (("1", rod + crank), ("2", rod - crank))
+        ]
+        self._ratio(_STRAIGHT + leans[1] - leans[0])
+
+    def _dead_centres_of_rocker(self, bars: _Bars) -> None:
+        """Add swing and time ratio of a crank-rocker."""
+        work, (pivot, pin, joint, fixed) = self.work, bars.joints
+        work.say(
+            f"The rocker turns back where crank and coupler lie in one line, stretched and folded: "
+            f"{marked(joint)} is then as far from {marked(pivot)} as their lengths add up to, or differ by. "
+            f"The cosine rule gives the angles β at {marked(pivot)} and ψ at {marked(fixed)} of the triangle "
+            f"{marked(pivot)}, {marked(joint)}, {marked(fixed)}:"
+        )
+        g, r = bars.ground, bars.output
+        at_pivot, at_fixed = [], []
+        for index, reach in (("1", bars.coupler + bars.crank), ("2", bars.coupler - bars.crank)):
+            long = work.let(Symbol("ℓ", index), reach, LENGTH)
+            at_pivot.append(
+                work.let(
+                    Symbol("β", index),
+                    arccos((square(g) + square(long) - square(r)) / (TWO * g * long)),
+                    ANGLE,
+                )
+            )
+            at_fixed.append(
+                work.let(
+                    Symbol("ψ", index), arccos((square(g) + square(r) - square(long)) / (TWO * g * r)), ANGLE
+                )
+            )
+        places = self.work.pose.position
+        corners = [complex(*places[name]) for name in (pin, fixed, joint)]
+        left = ((corners[1] - corners[0]).conjugate() * (corners[2] - corners[0])).imag > 0
+        side = "left" if left else "right"
+        work.say(
+            f"{marked(joint)} stays to the {side} of {marked(pin)} → {marked(fixed)}. The crank is then at"
+        )
+        turned = [angle if left else -angle for angle in at_pivot]
+        work.let(Symbol("θ", "stretched"), bars.tilt + turned[0], ANGLE)
+        work.let(Symbol("θ", "folded"), bars.tilt + _STRAIGHT + turned[1], ANGLE)
+        work.say("Swing of the rocker, and the crank's angle over the slow way:")
+        work.let(Symbol("ψ", "swing"), at_fixed[0] - at_fixed[1], ANGLE)
+        lean = at_pivot[0] - at_pivot[1]
+        self._ratio(_STRAIGHT + (lean if lean.value >= 0 else at_pivot[1] - at_pivot[0]))
+
+    def _searched(self, body: Body, phases: tuple[float, float] | None, stroke: float) -> None:
+        """Add what follows from dead centres that are found by search, where no closed form gives them."""
+        if phases is None:
+            return
+        work, scene, sliding = self.work, self.scene, body.slider is not None
+        rate = "rate of its travel" if sliding else "angular velocity of the link"
+        work.say(f"It turns back where the {rate} is zero. A search finds these places:")
+        motion = scene.solve(phase=np.array(phases), derivatives=0)
+        # an angle is told in one turn; how far it goes on from there is known
+        first = (
+            float(motion.travel[body.name][0])
+            if sliding
+            else float(scene.pose(phases[0], 0).angle[body.name])
+        )
+        first = first if sliding else math.remainder(first, math.tau)
+        measure, letter, words = (LENGTH, "s", "travel") if sliding else (ANGLE, "ψ", "angle")
+        by_angle = self._steady and scene.linkage.drive.coordinate.is_angle
+        inputs = motion.coordinate if by_angle else phases
+        places = [
+            self._found(
+                Symbol("θ" if by_angle else "φ", index),
+                float(at) % math.tau,
+                ANGLE,
+                f"{what}, furthest {end}",
+            )
+            for index, at, end in zip("bf", inputs, ("back", "forward"), strict=True)
+            for what in ("input" if by_angle else "phase",)
+        ]
+        ends = [
+            self._found(Symbol(letter, index), value, measure, f"{words} there")
+            for index, value in (("b", first), ("f", first + stroke))
+        ]
+        work.let(Symbol("H") if sliding else Symbol("ψ", "swing"), ends[1] - ends[0], measure)
+        forth = places[1] - places[0]
+        forth = forth if forth.value >= 0 else forth + _ROUND
+        slow = forth if forth.value >= _STRAIGHT.value else _ROUND - forth
+        ratio, whole = self.info.time_ratio or 0.0, slow.value / (_ROUND.value - slow.value)
+        if self.info.true_period == 1 and math.isclose(ratio, whole, rel_tol=_ALIKE):
+            self._ratio(slow)
+        else:
+            work.say(
+                "It comes to one of them more than once in a true period. From one to the next the slow way "
+                f"takes {ratio:.4f} times as long as the quick one."
+            )
+
+    def _found(self, symbol: Symbol, value: float, measure: Powers, words: str) -> Formula:
+        """List a number that a search found as a symbol's value, and return it."""
+        shown = rounded(math.degrees(value) if measure.angle else value, self.work.scale.decimals(measure))
+        found = Formula("leaf", symbol=symbol, shown=shown, in_degrees=measure.angle)
+        self.work.items.append(Given(found, self.work.scale.unit_of(measure), words))
+        return found
+
+    def _ratio(self, slow: Formula) -> None:
+        """Add the angle of the slow way, and how much longer it takes than the quick one."""
+        found = self.work.let(Symbol("θ", "slow"), slow, ANGLE)
+        self.work.let(Symbol("T", "R"), found / (_ROUND - found), RATIO)
+
+
+def _signed(function: Callable[[np.ndarray], np.ndarray], sign: int, places: np.ndarray) -> np.ndarray:
+    return sign * function(places)
