@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -133,6 +134,25 @@ def test_what_follows_it_is_as_exact() -> None:
     position, rate = worst(piston((95.0, 150.0), *further))
     assert position <= 1e-14
     assert rate <= 1e-12
+
+
+@pytest.mark.parametrize("bars", [(7.4, 0.9), (1.8, 0.7), (79 / 25.4, 40 / 25.4)])
+@pytest.mark.parametrize("away", [1e4, 1e6 / 25.4, 1e6])
+def test_far_from_the_origin_it_runs_through_its_dead_centres_as_near_it(
+    bars: tuple[float, float], away: float
+) -> None:
+    ends = bars[0] - bars[1], bars[0] + bars[1]
+    near = piston(ends, bars=bars)
+    moved = tuple(
+        replace(joint, position=(away, 0.0)) if isinstance(joint, Pin) else joint for joint in near.joints
+    )
+    phases = np.concatenate([np.linspace(0, 4 * np.pi, 41), np.pi + np.array([-1e-3, -1e-9, 1e-9, 1e-3])])
+    here, there = (
+        mechanism(one).solve(phase=phases, speed=1.0) for one in (near, replace(near, joints=moved))
+    )
+    assert there.position["A"] - [away, 0] == pytest.approx(here.position["A"], abs=64 * EPS * away)
+    assert there.velocity["A"] == pytest.approx(here.velocity["A"], abs=1e-9 * bars[0])
+    assert there.acceleration["A"] == pytest.approx(here.acceleration["A"], abs=1e-8 * bars[0])
 
 
 def test_the_travel_runs_as_it_is_asked_also_of_extreme_lengths() -> None:

@@ -67,9 +67,27 @@ class ExactMotion:
         phase = mpf(phase)
         if phase not in self._known:
             with mp.workdps(DIGITS):
-                coordinate, signs = self.coordinate(phase), self.signs(float(phase))
-                self._known[phase] = places(self.scene.linkage, coordinate, signs)
+                self._known[phase] = self._placed(phase)
         return self._known[phase]
+
+    def _placed(self, phase: Any) -> dict[str, Place]:
+        """Return where every joint lies at a phase.
+
+        Where the ends of a dyad all but meet, its closure tells no side: they part again the other way. Of
+        its two places there it has the one that the motion goes through.
+        """
+        linkage, coordinate, signs = self.scene.linkage, self.coordinate(phase), self.signs(float(phase))
+        found = places(linkage, coordinate, signs)
+        for joint in linkage.joints:
+            if (
+                isinstance(joint, RRR)
+                and abs(found[joint.ends[1]] - found[joint.ends[0]]) < NEARLY_ONE * self.size
+            ):
+                seen = complex(*self.scene.pose(float(phase), 0).position[joint.name])
+                other = places(linkage, coordinate, {**signs, joint.name: -signs[joint.name]})
+                if abs(other[joint.name] - seen) < abs(found[joint.name] - seen):
+                    signs[joint.name], found = -signs[joint.name], other
+        return found
 
     def rate(self, of: Callable[[dict[str, Place]], Any], phase: float, order: int = 1) -> Any:
         """Return how fast something that is read from a pose changes in time, or its rate by `order` 2."""

@@ -54,7 +54,7 @@ BOUND = re.compile(r"(is|are) the (most|least)|at the most|(figure|report) holds
 NOT_OF_ALL = re.compile(
     r"nothing in it moves clearly enough for a question"
     r"|its input is a slider, which has no angle"
-    r"|--angles .* cannot be reached; the input"
+    r"|--angles .* cannot be reached; the .* goes from "
 )
 """Why some output is not made of every scene."""
 

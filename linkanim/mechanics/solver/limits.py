@@ -325,7 +325,10 @@ def _by_way(assembly: Assembly, path: Swing, name: str, end: End) -> Callable[[D
 # the margin U·W could come to zero between them, until rate and slope leave no room for another extreme.
 
 TOUCHING = 1e-12
-"""Share of a margin's scale within which floats cannot tell its sign."""
+"""Share of a margin's scale within which floats cannot tell its sign, where the pins are near the origin."""
+OFF = 2.0**-46
+"""That share for pins as far from the origin as the longest bar is long, where that is more: it grows with
+what coordinates lose of a bar's digits."""
 BARELY = 1 / 64
 """Share of its greatest value below which a margin that turns back costs what is made of it its digits."""
 MOST_TOUCHING = 24
@@ -343,19 +346,24 @@ AT_END = 1e-6
 
 
 class Sampled(NamedTuple):
-    """Phases (N,), and there for every dyad (4, D, N): s', s'', and over their scale U·W and U - W."""
+    """Phases (N,), and there for every dyad (4, D, N): s', s'', and over their scale U·W and U - W.
+
+    Below the `blur` a margin over its scale has no sign.
+    """
 
     phases: Array
     rows: Array
+    blur: float
 
     def at(self, index: NDArray[np.intp] | slice) -> Sampled:
         """Return some of them."""
-        return Sampled(self.phases[index], self.rows[..., index])
+        return self._replace(phases=self.phases[index], rows=self.rows[..., index])
 
     def followed(self, other: Sampled) -> Sampled:
         """Return these, then the others."""
-        return Sampled(
-            np.concatenate([self.phases, other.phases]), np.concatenate([self.rows, other.rows], axis=-1)
+        return self._replace(
+            phases=np.concatenate([self.phases, other.phases]),
+            rows=np.concatenate([self.rows, other.rows], axis=-1),
         )
 
     @property
@@ -435,17 +443,18 @@ def separations(assembly: Assembly) -> Separations:
     scale, barely = np.array([*scales.values()]).T
     found = walk_at(assembly, Graph().input("x"), Slope(1.0)).closings
     closings = {name: found[name] for name in scales}
-    sampled = _sampler_separation(closings.values(), scale)
+    blur = _blur(assembly.linkage)
+    sampled = _sampler_separation(closings.values(), scale, blur)
     samples = _halved(sampled, sampled(phases))
     extremes = _places(sampled, samples, _turning(samples, barely), 0)
     peaks = _places(sampled, samples, _passing(samples), 3)
     samples = samples.followed(sampled(np.concatenate([*extremes, *peaks]))).ordered
     low = {
-        name: _low(assembly, name, (places, sampled(places).rows[2, row]), barely[row])
+        name: _low(assembly, name, (places, sampled(places).rows[2, row]), (-blur, barely[row]))
         for row, (name, places) in enumerate(zip(closings, extremes, strict=True))
     }
     settled = {
-        name: tuple(_settled_separation(assembly, name, places[margins <= TOUCHING]))
+        name: tuple(_settled_separation(assembly, name, places[margins <= blur]))
         for name, (places, margins) in low.items()
     }
     return Separations(
@@ -453,12 +462,19 @@ def separations(assembly: Assembly) -> Separations:
         samples.phases,
         _shut(samples, [*settled.values()]),
         settled,
-        {name: tuple(places[margins > TOUCHING].tolist()) for name, (places, margins) in low.items()},
+        {name: tuple(places[margins > blur].tolist()) for name, (places, margins) in low.items()},
         lambda phases: np.asarray(sampled(phases).rows[2]),
     )
 
 
-def _sampler_separation(found: Collection[Closing], scale: Array) -> Callable[[Array], Sampled]:
+def _blur(linkage: Linkage) -> float:
+    """Return the share of a margin's scale within which floats cannot tell its sign."""
+    farthest = max((abs(place) for pin in linkage.pins for place in pin.position), default=0.0)
+    bars = (abs(length) for joint in linkage.joints if not joint.fixed for length in joint.lengths)
+    return max(TOUCHING, OFF * farthest / (max(bars, default=0.0) or 1.0))
+
+
+def _sampler_separation(found: Collection[Closing], scale: Array, blur: float) -> Callable[[Array], Sampled]:
     """Return the function of phases (N,) that gives s', s'', and over their scale U·W and U - W (4, D, N)."""
     run = _compiled(
         [
@@ -473,7 +489,7 @@ def _sampler_separation(found: Collection[Closing], scale: Array) -> Callable[[A
         rows = run(phases)
         with np.errstate(all="ignore"):
             rows[2:] /= scale[:, None]
-        return Sampled(phases, rows)
+        return Sampled(phases, rows, blur)
 
     return sampled
 
@@ -507,10 +523,10 @@ def _scales(assembly: Assembly, phases: Array) -> Mapping[str, tuple[float, floa
     closings = walk_at(assembly, Graph().input("x"), Slope(0.0)).closings
     found = closings.values()
     rows = _compiled([[one.u * one.w for one in found], [one.size for one in found]])(phases)
-    margins, sizes = rows
-    rows[:, _behind(margins < -TOUCHING * sizes)] = math.nan
+    (margins, sizes), blur = rows, _blur(assembly.linkage)
+    rows[:, _behind(margins < -blur * sizes)] = math.nan
     most, size = np.fmax.reduce(np.abs(rows), axis=2)
-    nothing = (most <= TOUCHING * size) | (most <= (TOUCHING * assembly.linkage.longest) ** 2)
+    nothing = (most <= blur * size) | (most <= (TOUCHING * assembly.linkage.longest) ** 2)
     for name in (name for name, flat in zip(closings, nothing, strict=True) if flat):
         raise AssemblyError(f"joint {name}: {AT_ITS_LIMIT}")
     scale = np.minimum(most, size)
@@ -569,7 +585,7 @@ def _near_separation(left: Sampled, right: Sampled, fastest: Array | float = 0.0
     """Tell where a margin could be nothing between neighbours (D, N), changing so fast at least."""
     before, after = left.rows[2], right.rows[2]
     speed = np.maximum(np.maximum(_speed(left), _speed(right)), fastest)
-    least = np.maximum(2 * (right.phases - left.phases) * speed, TOUCHING)
+    least = np.maximum(2 * (right.phases - left.phases) * speed, left.blur)
     clear = (np.minimum(np.abs(before), np.abs(after)) > least) & (before * after > 0)
     return np.asarray(np.isfinite(before + after) & ~clear & ~_behind(clear & (before < 0)))
 
@@ -596,7 +612,7 @@ def _turning(samples: Sampled, barely: Array) -> Bools:
     low = (np.minimum(margins[:, 1:], margins[:, :-1]) > 0) & (margins[:, 1:] <= barely[:, None])
     near = _near_separation(*_neighbours(samples)) | low
     # Between two cranks that turn alike the separation stays as it is: what changes there is rounding.
-    moves = _fastest_change(samples)[:, None] > TOUCHING
+    moves = _fastest_change(samples)[:, None] > samples.blur
     return np.asarray(near & moves & (positive[:, 1:] != positive[:, :-1]))
 
 
@@ -625,11 +641,13 @@ def _places(sampled: Callable[[Array], Sampled], samples: Sampled, cells: Bools,
     return [found[dyads == dyad] for dyad in range(len(cells))]
 
 
-def _low(assembly: Assembly, name: str, extremes: tuple[Array, Array], barely: float) -> tuple[Array, Array]:
-    """Return of extremes, phases and margins, those at which a dyad barely closes, if it does."""
+def _low(
+    assembly: Assembly, name: str, extremes: tuple[Array, Array], between: tuple[float, float]
+) -> tuple[Array, Array]:
+    """Return of extremes, phases and margins, those with a margin that barely closes a dyad, if it does."""
     phases, margins = extremes
     inside = [not _at_own_end(assembly.path, name, phase) for phase in phases.tolist()]
-    low = (margins >= -TOUCHING) & (margins <= barely) & np.array(inside, bool)
+    low = (margins >= between[0]) & (margins <= between[1]) & np.array(inside, bool)
     return phases[low], margins[low]
 
 
@@ -653,7 +671,7 @@ def _at_own_end(path: InputPath, name: str, phase: float) -> bool:
 
 def _shut(samples: Sampled, settled: Sequence[Sequence[Extreme]]) -> Bools:
     """Tell of every dyad at every sample whether it does not close there (D, N)."""
-    shut = ~(samples.rows[2] >= -TOUCHING)
+    shut = ~(samples.rows[2] >= -samples.blur)
     for row, extremes in enumerate(settled):
         for found in extremes:
             shut[row, np.searchsorted(samples.phases, found.phase)] = found.closes < 0
