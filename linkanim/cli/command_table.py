@@ -265,6 +265,7 @@ COMMANDS: Mapping[str, tuple[str, ...]] = {
         "linkanim make crank-rocker -o rocker --fit A4",
         "linkanim make press -o press-parts --way laser --thickness 4 --sheet 900x600",
         "linkanim make drag-link -o drag --fit Letter --bridge",
+        "linkanim make jansen --fit A4 --preview",
         "linkanim make jansen --preview leg.png",
         "linkanim make jansen --json",
     ),

@@ -23,6 +23,7 @@ From the ground up; a module imports from those before it only:
     polygons      the velocity and the acceleration polygon
     centres       instant centres and centrodes
     dead_centres  a slider's dead centres on its guide
+    layered       parts in layers, from above or lifted off each other
     labels        names and dimensions, and where there is room for them
     drawing       a linkage drawn in one view, back to front
     hud           the words about a scene
@@ -31,6 +32,7 @@ From the ground up; a module imports from those before it only:
     board         what every panel is drawn on
     game_panel    what a game shows
     panels        help, lists, chips, marks of state
+    slider        a small slider on the picture
     marks         the bar being edited, handles, a ram's lane
     photograph    a photograph behind a sheet
     tools         the bar of tools

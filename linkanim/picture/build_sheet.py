@@ -6,7 +6,7 @@ A path is the pencil's line, and then the stroke behind its trace, with handles.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from math import ceil
 
@@ -31,7 +31,7 @@ from linkanim.picture.shapes import box, dashes, disc, glazed, hull, lined, segm
 from linkanim.picture.text import subscripted
 from linkanim.picture.theme import ORANGE, Theme, mixed
 from linkanim.picture.tools import tool_cells
-from linkanim.picture.view import Box, View, view_of
+from linkanim.picture.view import Box, Rect, View, view_of
 
 # A path that is drawn: the sheet, the pencil's line, and then the stroke behind its trace, with handles.
 
@@ -306,7 +306,8 @@ def hand(shown: BuildShown, setting: DrawSetting) -> Iterator[Group]:
             yield Group(name, [_crosshair(setting.view.place(at), setting)], over=True)
     if shown.hand and not shown.tools:
         yield Group("hand", [*_pointer(setting.view.place(shown.hand), setting)], over=True)
-    yield _words(shown, setting)
+    cells = tool_cells(setting.layout) if shown.tools else ()
+    yield worded(setting, shown.sentence, shown.facts, is_warning=shown.is_warning, cells=cells)
 
 
 def _chosen(shown: BuildShown, setting: DrawSetting) -> Iterator[Group]:
@@ -367,16 +368,26 @@ def _pointer(at: complex, setting: DrawSetting) -> Iterator[Layer]:
     yield Layer(setting.theme.ink, [arrow])
 
 
-def _words(shown: BuildShown, setting: DrawSetting) -> Group:
-    """Return what is missing or what the linkage is, at the top, off the tools, on a backing."""
+def worded(
+    setting: DrawSetting,
+    sentence: str,
+    facts: Sequence[str] = (),
+    *,
+    is_warning: bool = False,
+    cells: Sequence[Rect] = (),
+    room: float = 0.93,
+) -> Group:
+    """Return a sentence and facts below it, at the top, off the cells of tools, on a backing.
+
+    They take that share of the stage's width at the most.
+    """
     layout, theme = setting.layout, setting.theme
-    cells = tool_cells(layout) if shown.tools else ()
     beside = max((cell.right for cell in cells), default=0) if layout.size[0] >= layout.size[1] else 0
     left, y, captions = beside + layout.margin, layout.margin, []
-    room = 0.93 * (layout.stage.right - layout.margin - left)
-    sentence = shown.sentence, layout.text_size, theme.warning if shown.is_warning else theme.ink
-    for words, size, colour in (sentence, *((fact, layout.small_size, theme.dim) for fact in shown.facts)):
-        for line in setting.type.wrapped(words, size, room):
+    wide = room * (layout.stage.right - layout.margin - left)
+    first = sentence, layout.text_size, theme.warning if is_warning else theme.ink
+    for words, size, colour in (first, *((fact, layout.small_size, theme.dim) for fact in facts)):
+        for line in setting.type.wrapped(words, size, wide) if words else ():
             captions.append(Caption(line, (left, y), size, colour, strong=size == layout.text_size))
             y += 1.35 * size
     if not captions:

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple, TypeVar
 from linkanim.build.draft import Photo
 from linkanim.build.places import Shape
 from linkanim.mechanics.linkage import Point
+from linkanim.picture.layered import Layered
 from linkanim.picture.look import ThemeName
 from linkanim.scenes import chapter_of, titles
 from linkanim.scenes.scene import Scene
@@ -88,6 +89,33 @@ class BuildShown:
     photo: Photo | None = None
     anchor: Point | None = None
     is_warning: bool = False
+
+
+# A linkage in the layers in which it can be made.
+
+
+@dataclass(frozen=True)
+class LayersShown:
+    """Parts in layers instead of the linkage, lifted off each other by a share of what has room.
+
+    Without `parts` a sentence says what is waited for, or as a warning why there are none.
+    """
+
+    parts: Layered | None = None
+    apart: float = 0.0
+    sentence: str = ""
+    facts: tuple[str, ...] = ()
+    is_warning: bool = False
+
+
+class SliderShown(NamedTuple):
+    """A slider: what it is about, what its ends stand for, how many steps it has, and where it stands."""
+
+    label: str
+    low: str
+    high: str
+    steps: int
+    at: int
 
 
 # What lies over the picture for a while: help, the edit list, a toast, the marks of state.
@@ -361,6 +389,8 @@ class Overlay:
     path: PathShown | None = None
     row: AnswerRow | None = None
     build: BuildShown | None = None
+    layers: LayersShown | None = None
+    slider: SliderShown | None = None
     game: GamePanel | None = None
     spots: tuple[Spot, ...] = ()
     lane: Lane | None = None

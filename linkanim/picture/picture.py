@@ -20,18 +20,21 @@ from linkanim.picture.build_sheet import (
     loose,
     paper,
     sheet,
+    worded,
 )
 from linkanim.picture.chart import ChartPanel, chart_panel, pen_for
 from linkanim.picture.drawing import Drawing
 from linkanim.picture.figure import DrawSetting, Figure, figure
 from linkanim.picture.hud import Hud, Legend, caption_lines, legend_for, measured
 from linkanim.picture.items import Caption, Group, Item, grouped
+from linkanim.picture.layered import Layered, LayerView, lifted
 from linkanim.picture.layout import CAPTION_STEP, Gauge, Layout, gauge
 from linkanim.picture.look import Look
 from linkanim.picture.marks import glow, grip, measure, spots
 from linkanim.picture.motion_marks import motion_of
-from linkanim.picture.overlay import Lane, Overlay, PathShown
+from linkanim.picture.overlay import Lane, LayersShown, Overlay, PathShown
 from linkanim.picture.shapes import Part
+from linkanim.picture.slider import slider
 from linkanim.picture.text import Type
 from linkanim.picture.theme import Theme, theme_of
 from linkanim.picture.view import Box, Rect, View, moved
@@ -43,6 +46,14 @@ if TYPE_CHECKING:
     from linkanim.picture.labels import Names
     from linkanim.picture.polygons import Polygon
     from linkanim.synthesis.curves import DrawnCurve
+
+_NOTHING_STILL = Group("nothing", (), still=True)
+_LINES_OF_LAYERS = 2.0
+"""The room for words above parts in layers, in heights of their text."""
+_THIN = 0.6
+"""The thinnest that parts are drawn, in pixels of a page."""
+_ROOM_BESIDE_SLIDER = 0.52
+"""The share of the stage's width that words beside a slider take."""
 
 
 class Earlier(NamedTuple):
@@ -208,6 +219,10 @@ class Picture:
         if path and path.blank:
             yield from (self._sheet, drawn_line(self.drawing.setting, path))
             return
+        if overlay.layers and overlay.layers.parts:
+            yield from self._layers(pose, overlay.layers, overlay.layers.parts)
+            yield from slider(self.drawing.setting, overlay.slider) if overlay.slider else ()
+            return
         build = overlay.build
         if build and build.draft:
             yield self._paper(build.photo)
@@ -229,6 +244,19 @@ class Picture:
         yield from self._within(self._named_groups(pose))
         yield from self._words(pose, noted=overlay.noted)
         yield from self._handled(pose, overlay)
+
+    def _layers(self, pose: Pose, shown: LayersShown, parts: Layered) -> Iterator[Group]:
+        """Yield the parts in their layers, in the room that is left below the words on them."""
+        layout, stage = self.layout, self.layout.stage
+        words = layout.margin + _LINES_OF_LAYERS * layout.text_size
+        stage = stage._replace(y=stage.y + words, height=stage.height - words).inset(2 * layout.margin)
+        view = LayerView.fitting(parts.reach, parts.layers, shown.apart, stage)
+        middle, pan = complex(*self.size) / 2, complex(*self.look.pan) * self.size[1]
+        view = view.moved(middle, self.look.zoom, pan)
+        text, unit, pixel = layout.small_size, self.scene.length_unit, max(layout.unit, _THIN)
+        yield _NOTHING_STILL
+        yield grouped("layers", lifted(parts, pose, unit, view, self.theme, text, pixel=pixel))
+        yield worded(self.drawing.setting, shown.sentence, shown.facts, room=_ROOM_BESIDE_SLIDER)
 
     def _lane(self, shown: Lane) -> Group:
         from linkanim.picture.marks import lane
@@ -371,6 +399,9 @@ class Picture:
             if overlay.build.loose:
                 yield from loose(overlay.build.loose, self.drawing.setting)
             yield from hand(overlay.build, self.drawing.setting)
+        if overlay.layers:
+            sentence, warns = overlay.layers.sentence, overlay.layers.is_warning
+            yield worded(self.drawing.setting, sentence, is_warning=warns)
         for shown in overlay.measured:
             at, head = map(self.view.place, (pose.position[name] for name in shown.frame))
             way = head - at if shown.frame[0] != shown.frame[1] else complex(self.view.scale)

@@ -9,6 +9,7 @@ From the ground up; a module imports from those before it only:
     edits      another scene is put on; dimensions are edited
     pencil     a stroke is drawn, answers come, one is kept
     building   a linkage is built on the sheet
+    making     a linkage is shown in the layers in which it can be made
     actions    the table of actions, and `advance(state, actions)`
     tape       what was done, frame by frame
     tape_file  a tape as a file

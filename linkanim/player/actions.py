@@ -18,7 +18,7 @@ from linkanim.intake import control_in
 from linkanim.mechanics.quantities import input_symbol
 from linkanim.picture.look import TOGGLES, Look, answer, toggled
 from linkanim.picture.quantities import axes_of, axis_of, driven_words, quantity, speed_words
-from linkanim.player import building, edits, pencil
+from linkanim.player import building, edits, making, pencil
 from linkanim.player.action import Action
 from linkanim.player.clock import Clock
 from linkanim.player.edits import drop, edit
@@ -222,6 +222,8 @@ def back(state: State, _: None) -> State:
         return building.let_go(state) or building.left(state)
     if state.editing.open and state.editing.begun:
         return replace(state, editing=nothing_begun(state.editing))
+    if state.layers:
+        return making.closed(state)
     if state.place_typed:
         return replace(state, place_typed="", chip=None)
     if state.editing.open:
@@ -320,9 +322,8 @@ def play(state: State, words: str) -> State:
     if state.beneath is None:
         state = drop(left(state), None)
         state = replace(state, beneath=replace(state, help=False, listing=None, browsing=None))
-    bare = replace(
-        state, listing=None, browsing=None, glide=None, home=None, place_typed="", chip=None, toast=None
-    )
+    bare = replace(state, listing=None, browsing=None, glide=None, home=None, toast=None, layers=None)
+    bare = replace(bare, place_typed="", chip=None)
     editing = Editing()
     return game.entered(replace(bare, game=game, editing=editing, help=False, faded=state.frame))
 
@@ -585,6 +586,10 @@ ACTIONS: Mapping[str, Rule] = {
     "drive_by": Rule(_nothing, building.drive),
     "unbuild": Rule(_nothing, building.undo, answer=_stuck("nothing to undo")),
     "rebuild": Rule(_nothing, building.redo, answer=_stuck("nothing to redo")),
+    "layers": Rule(_nothing, making.layers),
+    "layered": Rule(_text, making.found),  # the layers as `linkanim make --json` prints them
+    "lift": Rule(_whole, making.lift),  # steps
+    "slide": Rule(_whole, making.lift_to),  # the step of the slider that is shown
     "back": Rule(_nothing, back),
     "list": Rule(_nothing, edits.list_, taped=False),
     "menu": Rule(_nothing, edits.menu, taped=False),
@@ -600,6 +605,7 @@ ACTIONS: Mapping[str, Rule] = {
     "screenshot": Rule(_nothing, shot("screenshot"), taped=False),
     "svg": Rule(_nothing, shot("svg"), taped=False),
     "share": Rule(_nothing, effect("share"), taped=False),
+    "make": Rule(_nothing, making.make, taped=False),
     "fullscreen": Rule(_nothing, effect("fullscreen"), taped=False),
     "save": Rule(_nothing, save, taped=False),
     "save_as": Rule(_nothing, save_as, taped=False),
@@ -633,11 +639,13 @@ def is_taped(action: Action) -> bool:
 
 _WITHOUT_PENCIL = frozenset({"unit", "undo", "redo"})
 """What is not done while a path is drawn: its points are in the unit of then, and edits are the scene's."""
-_KEEPS = frozenset({"edit"})
+_KEEPS = frozenset({"edit", "layers"})
 _LEAVES = frozenset({"mechanism", "select", "put", "closure", "reset", "returns"})
 """What keeps the answer that the pencil has, and what goes back to the scene before."""
 _OFF_THE_SHEET = _KEEPS | _LEAVES | {"pencil", "own_trace"}
 """What is not done on a sheet, which is left for it."""
+_OFF_THE_LAYERS = frozenset({"edit", "pencil", "own_trace", "build", "build_on", "sheet", "draft", "photo"})
+"""What is done with the linkage itself, which is shown for it."""
 Change = Callable[[State], State]
 
 _SHEETS = frozenset({"build", "sheet", "draft", "photo"})
@@ -670,6 +678,8 @@ def aged(state: State) -> State:
     over = [name for name, since, life in sinces if since is not None and state.frame >= since + life]
     state = replace(state, **dict.fromkeys(over)) if over else state  # type: ignore[arg-type]
     state = building.rested(come(state) if state.sketch else state)
+    if state.layers and state.layers.scene is not state.scene:
+        state = making.asked(state)
     if state.glide:
         state = _tried(state, Action("glide"), _followed, lambda before: replace(before, glide=None))
     return _tried(state, Action("play"), state.game.aged, leave) if state.game else state
@@ -692,6 +702,8 @@ def carried(state: State, action: Action) -> State:
             return state  # the sheet that was open beneath
     if action.name in _OFF_THE_SHEET:
         state = building.left(state)
+    if action.name in _OFF_THE_LAYERS:
+        state = making.closed(state)
     if action.name in _KEEPS | _LEAVES:
         state = keep(state, None) if action.name in _KEEPS else left(state)
 

@@ -1,4 +1,4 @@
-"""Run what takes longer than a frame as processes beside the window: a search, a rendered recording.
+"""Run what takes longer than a frame as processes beside the window: searches, parts, recordings.
 
 The search for linkages along a stroke replies as actions. A taped recording is rendered while the window
 runs on, and after it, too.
@@ -11,7 +11,7 @@ import os
 import re
 import subprocess
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from pathlib import Path
 from typing import BinaryIO, NamedTuple, TextIO, cast
@@ -25,6 +25,7 @@ from linkanim.player.files import FOLDER, free_stem, where
 from linkanim.player.state import PIVOTS, Sketch
 from linkanim.player.tape import Tape
 from linkanim.scenes.scene import Scene
+from linkanim.scenes.toml import content
 from linkanim.synthesis.follower import Follow, Reply, lines_of
 
 # The search for linkages along a stroke: a process beside the window, and what it replies as actions.
@@ -97,6 +98,63 @@ class Following:
         with suppress(OSError):
             self._process.stdin.close()
         self._process.wait()
+
+
+# The layers in which a scene can be made, and its parts: found and written by `linkanim make`.
+
+
+class Making:
+    """`linkanim make` under way for a scene, which it is given as a file of its own.
+
+    With a folder it writes the parts there, with `words` as its options; without, it says what they are.
+    WorkFailed where it cannot be started.
+    """
+
+    def __init__(self, scene: Scene, words: Sequence[str], folder: Path | None = None) -> None:
+        self.scene, self._folder = scene, folder
+        self._room = tempfile.TemporaryDirectory()
+        room = Path(self._room.name)
+        (room / f"{scene.name}.toml").write_bytes(content(scene, room))
+        asked = ("-o", str(folder)) if folder else ("--json",)
+        command = child.module("linkanim", "make", str(room / f"{scene.name}.toml"), *words, *asked)
+        self._out, self._log = ((room / name).open("w+b") for name in ("out", "log"))
+        try:
+            self._process = _start(command, self._log.fileno(), self._out.fileno())
+        except OSError as error:
+            self.close()
+            raise WorkFailed(f"{scene.name}: the layers cannot be looked for: {error.strerror}") from None
+
+    @property
+    def done(self) -> bool:
+        """Whether the process has ended."""
+        return self._process.poll() is not None
+
+    def found(self) -> str:
+        """Return what the layers are, as JSON on one line; why there are none where it has failed."""
+        if self._process.poll() == 0:
+            return json.dumps(json.loads(self._said(self._out)), ensure_ascii=False)
+        return json.dumps({"refused": self._reason()}, ensure_ascii=False)
+
+    def words(self) -> str:
+        """Say where the parts went and what they are, or why there are none."""
+        if self._process.poll() != 0 or self._folder is None:
+            return self._reason()
+        first, *_, last = self._said(self._out).splitlines() or ["", ""]
+        return f"{where(Path(first))}: {last}"
+
+    def close(self) -> None:
+        """End it, and forget what it said."""
+        self._out.close()
+        self._log.close()
+        self._room.cleanup()
+
+    def _reason(self) -> str:
+        said = self._said(self._log).strip().splitlines() or ["the search for layers has ended"]
+        return said[-1].removeprefix("linkanim: ")
+
+    def _said(self, log: BinaryIO) -> str:
+        log.seek(0)
+        return log.read().decode("utf-8", "replace")
 
 
 # A taped recording rendered by a process of its own while the window runs on, and after it, too.
@@ -227,12 +285,12 @@ def _forgotten(name: str) -> None:
         Path(name).unlink()
 
 
-def _start(command: list[str], log: int) -> subprocess.Popen[bytes]:
+def _start(command: list[str], log: int, out: int = subprocess.DEVNULL) -> subprocess.Popen[bytes]:
     """Start a process that neither Ctrl-C in our terminal nor our end takes with it."""
     return subprocess.Popen(
         command,
         stdin=subprocess.DEVNULL,
-        stdout=subprocess.DEVNULL,
+        stdout=out,
         stderr=log,
         env=child.env(),
         start_new_session=True,

@@ -287,7 +287,7 @@ _TENTHS = 0.1
 _PULL = 0.011
 """How far a value is dragged for a step, in the window's height."""
 _COARSE = 10
-Drag = Literal["pan", "crank", "chart", "joint", "row", "pen", "lead", "hand", "paper"]
+Drag = Literal["pan", "crank", "chart", "joint", "row", "pen", "lead", "hand", "paper", "slider"]
 _KINDS: Mapping[int, Literal["wheel", "down", "up", "move"]] = {
     pygame.MOUSEWHEEL: "wheel",
     pygame.MOUSEBUTTONDOWN: "down",
@@ -341,7 +341,14 @@ class Mouse:
         gesture = Gesture(kind, notches, ((self._at[0] - x) / height, (self._at[1] - y) / height))
         if screen.state.browsing:
             return self._on_the_shelf(gesture, screen)
-        modes = {"build": self._of_the_sheet, "pencil": self._of_the_pencil, "game": self._in_a_game}
+        if self._drag == "slider" or (kind == "down" and screen.slider_at(*self._at)):
+            return self._on_the_slider(gesture, screen)
+        modes = {
+            "layers": self._of_the_layers,
+            "build": self._of_the_sheet,
+            "pencil": self._of_the_pencil,
+            "game": self._in_a_game,
+        }
         mode = modes.get(screen.state.mode)
         found = mode(gesture, screen) if mode else None
         found = self._on_a_list(gesture, screen) if found is None else found
@@ -422,7 +429,7 @@ class Mouse:
         if not self._seen or screen.state.browsing or self._drag in ("pan", "chart", "row"):
             return None
         on_a_list = self._drag is None and screen.row_at(*self._at) is not None
-        if on_a_list or screen.state.mode in ("pencil", "build"):
+        if on_a_list or screen.state.mode in ("pencil", "build", "layers"):
             return None
         at_pin = screen.state.scene.linkage.drive.joint if self._is_at_pin(screen) else None
         return screen.handle_at(*self._at, _REACH * screen.size[1]) or at_pin
@@ -486,6 +493,18 @@ class Mouse:
         """Return where the mouse is over an open sheet, in pixels; None elsewhere, and before it was seen."""
         shown = self._seen and screen.state.mode == "build" and self._drag in (None, "hand")
         return self._at if shown else None
+
+    def _on_the_slider(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...]:
+        """Take the slider's knob along, from where the button went down on it."""
+        self._drag = None if gesture.kind == "up" else "slider"
+        return (Action("slide", screen.slid(self._at[0])),) if gesture.kind in ("down", "move") else ()
+
+    def _of_the_layers(self, gesture: Gesture, _: Screen) -> tuple[Action, ...] | None:
+        """Shift the parts, among which there is no crank pin to be dragged; None for what else there is."""
+        if gesture.kind == "down":
+            self._drag = "pan"
+            return ()
+        return None
 
     def _grabbed(self, screen: Screen) -> Literal["pan", "crank", "chart"]:
         if self._is_at_pin(screen):

@@ -136,6 +136,8 @@ class Framing:
 
     def _look(self, state: State) -> Look:
         """Return the look of a state; where it is captioned, names come with what to watch for."""
+        if state.layers:
+            return replace(Look(theme=state.look.theme, hud=False), zoom=state.look.zoom, pan=state.look.pan)
         look = replace(state.look, hud=False) if state.building else state.look
         return replace(look, caption=True) if self._captioned and look.names else look
 

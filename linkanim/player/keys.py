@@ -151,6 +151,7 @@ def _aims() -> tuple[Bind, ...]:
 
 _RECORD = _on("g", "record", "gif") + _on("m", "record", "mp4")
 _BUILD = _on("f2", "build") + _on("shift+f2", "build_on")
+_MAKE = _on("f6", "layers") + _on("shift+f6", "make")
 _PATH = _on("w", "pencil") + _on("shift+w", "own_trace")
 
 KEYS: Table = {
@@ -201,6 +202,7 @@ KEYS: Table = {
         KeyRow("S, F12 (Shift+S: SVG)", "screenshot", _on("s f12", "screenshot") + _on("shift+s", "svg")),
         KeyRow("G, M", "record GIF, MP4: start, stop", _RECORD),
         KeyRow("Shift+G", "hand on: one page that moves", _on("shift+g", "share")),
+        KeyRow("F6 (Shift: write them)", "its parts in layers, to be made", _MAKE),
         KeyRow(
             "Ctrl+S, O",
             "save the scene (Shift: under another name); open one",
@@ -269,6 +271,11 @@ _IN_A_MODE: Table = {
         KeyRow("↑ ↓", "choose", _both("down", "up", "raise")),
         KeyRow("Esc", "out of it", ()),
     ),
+    "in F6": (
+        KeyRow("↑ ↓, slider", "lift the layers off each other", _both("down", "up", "lift")),
+        KeyRow("Enter", "write the parts, as pages to print, into a folder", _on("return kp_enter", "make")),
+        KeyRow("Esc, F6", "the linkage again"),
+    ),
     "in F2": (
         KeyRow(
             "click, drag",
@@ -296,7 +303,7 @@ _IN_A_MODE: Table = {
 """What the keys do in a mode, before what they do else, by its subject."""
 _SUBJECTS: Mapping[Mode, str] = {
     **{"edit": "in E", "list": "in K", "shelf": "in O", "paused": "paused"},
-    **{"pencil": "in W", "game": "in a game", "build": "in F2", "name": "saving"},
+    **{"pencil": "in W", "game": "in a game", "build": "in F2", "layers": "in F6", "name": "saving"},
 }
 MODES: Mapping[Mode, Table] = {mode: {subject: _IN_A_MODE[subject]} for mode, subject in _SUBJECTS.items()}
 """The same by mode."""
@@ -359,7 +366,7 @@ def _names(press: Press) -> tuple[str, ...]:
     return ("shift+" + press.key, *symbol, press.key) if press.shift else (press.key, *symbol)
 
 
-MENU_IN: frozenset[Mode] = frozenset({"play", "paused", "pencil", "build", "list"})
+MENU_IN: frozenset[Mode] = frozenset({"play", "paused", "pencil", "build", "layers", "list"})
 """The modes in which the list of commands can be opened, or is."""
 _NEEDS_KEYS = frozenset({"aim", "enter", "type_place"})
 """What makes no sense in a list: it moves what only keys move."""
@@ -393,6 +400,10 @@ _APART: Mapping[Action, str] = {
     Action("svg"): "figure (SVG)",
     Action("record", "gif"): "record a GIF: start, stop",
     Action("record", "mp4"): "record an MP4: start, stop",
+    Action("lift", 1): "lift the layers farther off each other",
+    Action("lift", -1): "lay the layers nearer together",
+    Action("layers"): "the layers in which it can be made",
+    Action("make"): "write its parts, to be cut and pinned together",
     Action("save"): "save the scene",
     Action("save_as"): "save the scene under another name",
     Action("files_here"): "open a scene file of this folder",

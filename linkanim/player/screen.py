@@ -26,6 +26,7 @@ from linkanim.picture.layout import layout
 from linkanim.picture.overlay import Browsing, Overlay
 from linkanim.picture.picture import Picture
 from linkanim.picture.shelf import Grid, RowPrinter, ShelfPrinter, grid, row_cells
+from linkanim.picture.slider import slider_rect, slider_step
 from linkanim.picture.surface import SurfacePrinter
 from linkanim.picture.theme import theme_of
 from linkanim.picture.tools import ToolPrinter, tool_at
@@ -392,6 +393,15 @@ class Screen:
     def _near(self) -> float:
         """How near counts as on a thing, in the sheet's unit."""
         return _NEAR * self.size[1] / self._framing.last.view.scale
+
+    def slider_at(self, x: float, y: float) -> bool:
+        """Return whether a pixel lies on the slider that is shown."""
+        return self.over.slider is not None and slider_rect(self._framing.last.layout).holds(x, y)
+
+    def slid(self, x: float) -> int:
+        """Return the step of the slider that is nearest to a pixel's column."""
+        shown = self.over.slider
+        return slider_step(self._framing.last.layout, shown, x) if shown else 0
 
     def tool_at(self, x: float, y: float) -> int | None:
         """Return the number of the tool of the sheet under a pixel; None beside them."""

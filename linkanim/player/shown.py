@@ -25,12 +25,14 @@ from linkanim.picture.overlay import (
     DraftShown,
     EditRow,
     Fading,
+    LayersShown,
     Overlay,
     Panel,
     PathShown,
     Quantities,
     Rubber,
     Shelf,
+    SliderShown,
     Snap,
     ToolBar,
 )
@@ -40,9 +42,11 @@ from linkanim.player.clock import FRAMES_PER_SECOND
 from linkanim.player.keys import help_groups
 from linkanim.player.state import (
     FLASH_FRAMES,
+    LIFTED,
     SHUTTER_FRAMES,
     BuildSheet,
     Grip,
+    Layering,
     Listing,
     Naming,
     Sketch,
@@ -188,6 +192,7 @@ _HINT = (
 _OTHERS_HINT = "↑ ↓ choose   type to filter   Enter takes   Esc closes"
 _LIST_HINT = "↑ ↓ choose   type to filter   Enter charts   Esc closes"
 _BAR = "Space pause · Tab next · drag any joint · right click: all commands · H keys"
+_MAKE_HINT = "Enter writes the parts"
 _BAR_FRAMES = 6 * FRAMES_PER_SECOND
 _WATCH_FRAMES = 6 * FRAMES_PER_SECOND
 _NAME = re.compile(r"\b[^\W\d_]\w*")
@@ -252,6 +257,8 @@ def _kept(state: State, items: tuple[Dimension, ...], over: Hover | None = None)
         path=_path(state.sketch) if state.sketch else None,
         row=_answer_row(state, state.sketch) if state.sketch and not state.sketch.is_blank else None,
         build=built(state, state.building, over) if state.building else None,
+        layers=_layers(state.layers) if state.layers else None,
+        slider=_slider(state),
     )
     return state.game.shown(state, found) if state.game else found
 
@@ -259,6 +266,25 @@ def _kept(state: State, items: tuple[Dimension, ...], over: Hover | None = None)
 def _stands(state: State) -> bool:
     """Whether the motion is paused, and not merely led by a hand."""
     return state.clock.paused and not (state.grasp and state.grasp.ran)
+
+
+def _layers(shown: Layering) -> LayersShown:
+    """Return parts in layers with what there is to know of them in words."""
+    parts = shown.parts
+    if parts is None:
+        waits = f"{shown.scene.title}: looking for layers in which it can turn"
+        return LayersShown(sentence=shown.refused or waits, is_warning=bool(shown.refused))
+    times = "in true size" if parts.ratio == 1 else f"{significant(parts.ratio, 3)} times as large"
+    on = f"{parts.layers} layer{'s' * (parts.layers != 1)} on the ground"
+    facts = f"{len(parts.plates)} parts, {len(parts.pins)} pins, {times}", _MAKE_HINT
+    return LayersShown(parts, shown.lifted / LIFTED, f"{shown.scene.title}: {on}", facts)
+
+
+def _slider(state: State) -> SliderShown | None:
+    """Return the slider that is there for what is on."""
+    if state.layers and state.layers.parts:
+        return SliderShown("layers", "flat", "lifted", LIFTED, state.layers.lifted)
+    return None
 
 
 def _quantities(state: State, listing: Listing) -> Quantities:

@@ -22,6 +22,7 @@ from linkanim.errors import BadInput, LinkanimError
 from linkanim.mechanics.analysis import Info
 from linkanim.mechanics.linkage import Point
 from linkanim.mechanics.motion import stopped
+from linkanim.picture.layered import Layered
 from linkanim.picture.look import Look
 from linkanim.picture.overlay import Browsing, Overlay, sifted
 from linkanim.picture.quantities import quantity
@@ -427,6 +428,25 @@ class Sketch:
         return bool(self.pen) or not self.answers
 
 
+# The layers in which the scene that is on can be made.
+
+LIFTED = 20
+"""Steps by which layers are lifted off each other, from flat to as far as there is room."""
+
+
+class Layering(NamedTuple):
+    """The layers of a scene: its parts once they are known, or in a sentence why it cannot be made.
+
+    They are `lifted` by so many steps; `text` is what was found out, as a tape keeps it.
+    """
+
+    scene: Scene
+    parts: Layered | None = None
+    refused: str = ""
+    lifted: int = 0
+    text: str = ""
+
+
 # The player's state: all that one frame of the window shows, as a frozen value.
 #
 # What must be done outside (a screenshot, full screen, a file to write) is left in `State.effects`,
@@ -512,6 +532,7 @@ class State:
     `shelf` holds the mechanisms that Tab walks through, by their catalogue names or as scenes, and
     `place` the one that is on; `listing` and `browsing` are the open list of quantities and the open shelf,
     `sketch` what the pencil has drawn, `sheet` what is built, or was while it is not open.
+    `layers` are those in which the scene can be made, while they are shown.
     `kept` are the other places whose scenes were edited. `chip` is the
     answer to the last key; `faded` is the frame
     at which another mechanism or theme came on, `shot` that of a screenshot, while there is something to see.
@@ -530,7 +551,8 @@ class State:
     advance asks of the outside: "record" and "render" (with a format), "screenshot", "svg", "share",
     "fullscreen", "name" (a name is to be proposed), "save" (the file), "save_new"
     (a name), "reload", "quit", "pencil" (it was taken), "search" and "follow" (answers to the
-    sketch, or the one that is shown again), "begin" (a game, with its words), "score" (with what is to be
+    sketch, or the one that is shown again), "layers" (of the scene), "make" (its parts),
+    "begin" (a game, with its words), "score" (with what is to be
     kept of one), "sound" (a cue), and "report" (with the text of a fault's report).
     """
 
@@ -549,6 +571,7 @@ class State:
     browsing: Browsing | None = None
     sketch: Sketch | None = None
     sheet: BuildSheet | None = None
+    layers: Layering | None = None
     game: Game | None = None
     games: Callable[[str], Game] | None = None
     beneath: State | None = None
@@ -596,6 +619,8 @@ class State:
             return "pencil"
         if self.building:
             return "build"
+        if self.layers:
+            return "layers"
         return "paused" if self.clock.paused else "play"
 
     @property

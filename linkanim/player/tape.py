@@ -91,7 +91,11 @@ def resumed(state: State) -> Iterator[Action]:
     if state.game:
         yield Action("play", state.game.words)
         return
-    sketch = state.sketch
+    sketch, layers = state.sketch, state.layers
+    if layers:
+        yield Action("layers")
+        yield from (Action("layered", text) for text in [layers.text] if text)
+        yield Action("slide", layers.lifted)
     if state.building:
         yield Action("draft", stored_text(state.building))
     if sketch is None:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import gc
 import os
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
@@ -42,7 +42,7 @@ from linkanim.scenes.files import path_of
 from linkanim.scenes.scene import Scene
 
 if TYPE_CHECKING:
-    from linkanim.player.beside import Following, Queue
+    from linkanim.player.beside import Following, Making, Queue
 
 # What the window needs of games from outside: which there are, and what is kept of them.
 
@@ -67,6 +67,8 @@ class GameKeeper(Protocol):
 
 _UNCOVERED = (pygame.WINDOWEXPOSED, pygame.WINDOWSIZECHANGED)
 _NEWS_EVERY = 15
+_USUALLY_MADE = ("--fit", "A4")
+"""Options of `linkanim make` for what is made from the window."""
 _TAKEN_UP = "this is the unsaved work that was kept; Ctrl+N begins an empty sheet"
 _NO_FILES = "there is no scene file in the current folder; Ctrl+S writes one"
 _BESIDE_A_TAPE = frozenset({"screenshot", "svg", "share", "fullscreen", "quit", "close", "back"})
@@ -96,6 +98,9 @@ class Window:
         self._taping: Taping | None = None
         self._renderings: Queue | None = None
         self._following: Following | None = None
+        self._layering: Making | None = None
+        self._making: Making | None = None
+        self._as_made: Sequence[str] = _USUALLY_MADE
         self.screen = Screen(state)
         self._keyboard, self._mouse, self._fingers, self._pads = Keyboard(), Mouse(), Fingers(), Pads()
         self._speaker, self._halving = Speaker(), Halving()
@@ -142,7 +147,7 @@ class Window:
             if self._drafts:
                 self._drafts.close()
             self._speaker.close()
-            for process in (self._renderings, self._following):
+            for process in (self._renderings, self._following, self._layering, self._making):
                 if process:
                     process.close()
 
@@ -163,6 +168,7 @@ class Window:
         """Yield what the frame is asked for, by the tape, the events, a held key and what is done outside."""
         yield from self._of_the_tape()
         yield from self._followed()
+        yield from self._layered()
         if self._begun:
             words, self._begun = self._begun, ""
             yield Action("play", words)
@@ -227,6 +233,29 @@ class Window:
         for reply in self._following.replies():
             if action := action_of(reply, self.state.sketch):
                 yield action
+
+    def _layered(self) -> Iterator[Action]:
+        """Yield what has been found out of the layers that are waited for."""
+        making, shown = self._layering, self.state.layers
+        if making and making.done:
+            if shown and shown.scene is making.scene:
+                yield Action("layered", making.found())
+            making.close()
+            self._layering = None
+
+    def _make(self, *, whole: bool) -> None:
+        """Have the layers of what is on looked for, or for the `whole` its parts written."""
+        from linkanim.player.beside import Making
+
+        scene = self.state.scene
+        if not whole:
+            if self._layering:
+                self._layering.close()
+            self._layering = Making(scene, self._as_made)
+        elif self._making:
+            self._notes.append("the parts are being written")
+        else:
+            self._making = Making(scene, self._as_made, Path(f"{scene.name}-parts"))
 
     def _ask_for(self, name: str) -> None:
         """Have linkages searched for the sketch, all or only the one that is shown; start that beforehand."""
@@ -344,6 +373,10 @@ class Window:
         sources = ((self._keeper, 1), (self._file, FRAMES_PER_SECOND), (self._renderings, _NEWS_EVERY))
         for source, every in sources:
             notes += source.news() if source and self.state.frame % every == 0 else ()
+        if self._making and self._making.done:
+            notes.append(self._making.words())
+            self._making.close()
+            self._making = None
         return tuple(Action("note", text) for text in notes)
 
     def _photo_news(self) -> list[str]:
@@ -389,6 +422,8 @@ class Window:
                 self._open_file(Path(str(effect.value)))
             case "reload":
                 self._reload()
+            case "layers" | "make":
+                self._make(whole=effect.name == "make")
             case "pencil" | "search" | "follow":
                 self._ask_for(effect.name)
             case "begin" if self._keeper:
@@ -411,6 +446,13 @@ class Window:
         """Take note that the scene is in a file."""
         self._notes.append(files.where(path))
         self.state = written(self.state, str(path))
+
+    def open_layers(self, words: Sequence[str]) -> None:
+        """Show the layers of the scene, to be made with these words as options of `linkanim make`."""
+        self._as_made = words
+        self.state = carried(self.state, Action("layers"))
+        with self._noting():
+            self._make(whole=False)
 
     def open_sheet(self) -> None:
         """Open an empty sheet, or the draft that another window left."""
@@ -548,6 +590,7 @@ def run(
     keeper: GameKeeper | None = None,
     drafts: Path | None = None,
     sheet: bool = False,
+    layers: Sequence[str] | None = None,
     game: str | None = None,
     photo: Path | None = None,
 ) -> int:
@@ -558,7 +601,8 @@ def run(
     NoDisplay where there is no screen, or none any more; BadInput as loading raises it. Whatever ends the
     window, a recording that runs is finished. `drafts` is the file in which a draft is
     kept; with `sheet` the window opens on the one that was kept, else on an empty one,
-    on a `photo` of its own if there is one. `game` are the words of
+    on a `photo` of its own if there is one. With `layers` it shows those of the scene, to be made
+    with these options of `linkanim make`. `game` are the words of
     one to begin with.
     """
     tape = _tape(scene, keeper)
@@ -575,6 +619,8 @@ def run(
         window = Window(state, tape, None if tape else _file(scene), keeper, kept, offer=photo is None)
         if sheet:
             window.open_sheet()
+        if layers is not None:
+            window.open_layers(layers)
         if photo:
             window.state = carried(window.state, Action("photo", beside(str(photo))))
         if attract:

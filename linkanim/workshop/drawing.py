@@ -11,8 +11,9 @@ import numpy as np
 from linkanim.paper.illustration import Illustration
 from linkanim.picture.figure import figure
 from linkanim.picture.items import Caption, Halo, Item, grouped
+from linkanim.picture.layered import LayerView, layer_colour, lifted, room_of
 from linkanim.picture.raster import Colour, Layer, Loop
-from linkanim.picture.shapes import disc, hull, segments, stroke
+from linkanim.picture.shapes import disc, stroke
 from linkanim.picture.text import Type, subscripted
 from linkanim.picture.theme import LIGHT, Theme, mixed
 from linkanim.picture.view import Box, Rect, View, view_of
@@ -22,14 +23,8 @@ from linkanim.workshop.shapes import polygon
 _CHORD = 0.05
 """How far a drawn outline stays within its arcs, in mm."""
 _TEXT = 15
-_LEAN, _FLAT = 0.42, 0.5
-"""Of an exploded picture: how far right a step back goes, and how far up."""
-_THICK, _EDGE = 5.0, 24.0
-"""How thick a plate of an exploded picture is, and what is left free around it, in pixels."""
 _SHADOW = ((2 + 2.5j, 0.16), (3.5 + 4.5j, 0.1))
 """How far a plate's shadow lies from it, in pixels, and how dark it is: twice, for its soft edge."""
-_LIFTED = 0.62
-"""The share of the height for layers to be lifted in."""
 
 
 @dataclass(frozen=True)
@@ -69,7 +64,7 @@ class Drawn:
     def _colour(self, number: int) -> Colour:
         """Return a plate's colour: its layer's, pale where others are new."""
         layer, theme = self.made.layer[number], self.theme
-        colour = theme.gear if layer == 0 else theme.bodies[(layer - 1) % len(theme.bodies)]
+        colour = layer_colour(layer, theme)
         pale = self.new is not None and number not in self.new
         return mixed(colour, theme.background, 0.72 if pale and layer else 0.0)
 
@@ -251,50 +246,10 @@ class Drawn:
 
     def exploded(self, apart: float = 1.0) -> Iterator[Item]:
         """Yield the layers lifted off each other, seen aslant: `apart` from 0, flat, to 1, as far as fits."""
-        width, height = self.size
-        flat = [[_aslant(loop) for loop in loops] for loops in self._loops]
-        points = np.concatenate([loops[0] for loops in flat])
-        wide, deep = float(np.ptp(points.real)), float(np.ptp(points.imag))
-        room, layers = height - 2 * _EDGE - _THICK, self.made.layers
-        scale = min((width - 2 * _EDGE) / wide, (1 - _LIFTED) * room / deep)
-        lift = apart * (room - scale * deep) / max(layers, 1)
-        left = (width - scale * wide) / 2 - scale * float(points.real.min())
-        foot = (height + scale * deep + lift * layers) / 2 + scale * float(points.imag.min())
-
-        def seen(places: Loop, layer: float) -> Loop:
-            found: Loop = left + scale * places.real + 1j * (foot - scale * places.imag - lift * layer)
-            return found
-
-        pins = [(pin, complex(_aslant(np.array([at]))[0])) for pin, at in self._pins()]
-        for layer in range(layers + 1):
-            for number in (n for n in self._order() if self.made.layer[n] == layer):
-                loops = [seen(loop, layer) for loop in flat[number]]
-                colour = self._colour(number)
-                below = Layer(mixed(colour, self.theme.outline, 0.45), [loops[0] + 1j * _THICK])
-                if self.made.plates[number].teeth is None:
-                    sides = np.concatenate((loops[0], loops[0] + 1j * _THICK))
-                    below = below._replace(loops=[np.array(hull(sides.tolist()))])
-                yield below
-                yield Layer(colour, [loops[0], *(loop[::-1] for loop in loops[1:])])
-                yield Layer(
-                    self.theme.outline, [line for loop in loops for line in stroke(loop, 0.8, closed=True)]
-                )
-            for pin, at in pins:
-                place = complex(seen(np.array([at]), layer)[0])
-                if any(self.made.layer[number] == layer for number in pin.plates):
-                    yield Layer(self.theme.outline, [place + disc(2.6)])
-                if pin.low <= layer < pin.high:
-                    above = complex(seen(np.array([at]), layer + 1)[0])
-                    yield Layer(self.theme.outline, segments(place, above, 1.4), 0.75)
-                if layer == pin.high and not pin.stuck:
-                    halo = Halo(self.theme.background, 2.5)
-                    yield Caption(
-                        subscripted(pin.name),
-                        (place.real + 4, place.imag - 1.1 * _TEXT),
-                        _TEXT,
-                        self.theme.ink,
-                        halo=halo,
-                    )
+        made, points = self.made, np.concatenate([loops[0] for loops in self._loops])
+        view = LayerView.fitting(points, made.layers, apart, room_of(self.size))
+        pose = made.scene.pose(self.phase, 0)
+        return lifted(made.layered, pose, made.scene.length_unit, view, self.theme, _TEXT)
 
 
 def preview(made: MadeLinkage, size: tuple[int, int] = (1280, 640)) -> Illustration:
@@ -340,9 +295,3 @@ def _span(loop: Loop) -> tuple[float, float]:
 
 def _corners(left: float, right: float, top: float, foot: float) -> Sequence[tuple[float, float]]:
     return (left, top), (right, top), (right, foot), (left, foot)
-
-
-def _aslant(loop: Loop) -> Loop:
-    """Return places in the plane as they are seen from aside and above."""
-    found: Loop = loop.real + _LEAN * loop.imag + 1j * _FLAT * loop.imag
-    return found

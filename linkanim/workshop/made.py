@@ -8,17 +8,22 @@ from functools import cached_property
 from itertools import count
 from typing import Literal, NamedTuple
 
+import numpy as np
+
 from linkanim import units
 from linkanim.errors import BadInput
 from linkanim.mechanics.motion import Pose
 from linkanim.picture.figure import figure
+from linkanim.picture.layered import Frame, Layered, LayeredPin, LayeredPlate
 from linkanim.scenes.scene import Scene
 from linkanim.workshop.layers import Stack, Unstackable, stacked
 from linkanim.workshop.media import Size, Way
 from linkanim.workshop.parts import Band, Hole, Kit, Plate, Sizes, kit, refuse_thin
 from linkanim.workshop.shapes import box, polygon
-from linkanim.workshop.sweep import GROUND, Cycle, Frame
+from linkanim.workshop.sweep import GROUND, Cycle
 
+_CHORD = 0.05
+"""How far a drawn outline stays within its arcs, in mm."""
 _TRUE = 1e-12
 """By so much a scale of 1 may be off."""
 _THINNER = (0.7, 0.5, 0.25)
@@ -106,6 +111,26 @@ class MadeLinkage:
         name, own = self.plates[number].name, self.numbers[number]
         return own if name == own else f"{own} {name}"
 
+    @cached_property
+    def layered(self) -> Layered:
+        """The parts as they are drawn."""
+        plates = (
+            LayeredPlate(
+                plate.frame,
+                layer,
+                number,
+                plate.clearest,
+                tuple(np.array(polygon(one, _CHORD)) for one in (plate.outline(), *plate.cuts())),
+                plate.teeth is not None,
+            )
+            for plate, layer, number in zip(self.plates, self.layer, self.numbers, strict=True)
+        )
+        pins = (
+            LayeredPin(pin.frame, pin.at, pin.low, pin.high, "" if pin.stuck else pin.name)
+            for pin in self.pins
+        )
+        return Layered(self.scene, self.ratio, tuple(plates), tuple(pins))
+
     def placed(self, phase: float) -> list[tuple[complex, complex]]:
         """Return where each plate's frame lies at a phase: its origin in mm, and its direction."""
         pose = self.scene.pose(phase, 0)
@@ -151,6 +176,8 @@ class MadeLinkage:
             "body": plate.bodies[0] if plate.bodies else plate.name,
             "bodies": plate.bodies,
             "number": self.numbers[number],
+            "number_at": _pair(plate.clearest),
+            "teeth": plate.teeth.wheel.teeth if plate.teeth else None,
             "layer": self.layer[number],
             **_framed(plate.frame),
             "outline": [_pair(point) for point in polygon(plate.outline())],

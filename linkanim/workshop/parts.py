@@ -18,9 +18,10 @@ import numpy as np
 
 from linkanim.errors import BadInput
 from linkanim.mechanics.linkage import Body, Damper, Line, Slide, Spring
+from linkanim.picture.layered import Frame
 from linkanim.workshop.gears import GearWheel, NotFlat, meshes
 from linkanim.workshop.shapes import Outline, hull, moved, rounded
-from linkanim.workshop.sweep import GROUND, Cycle, Frame, MovingPiece, Real, hulls_apart
+from linkanim.workshop.sweep import GROUND, Cycle, MovingPiece, Real, hulls_apart
 
 Role = Literal["ground", "link", "slider", "wheel", "ring", "bridge"]
 

@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from linkanim.picture.layered import Frame
 from linkanim.scenes.scene import Scene
 
 Real = NDArray[np.float64]
@@ -26,17 +27,6 @@ _MOST_SAMPLES = 11_520
 _HALVINGS = 9
 _CAUTION = 2.0
 """How much more an acceleration may be within a step than at its ends."""
-
-
-class Frame(NamedTuple):
-    """How a piece moves: the joint that its origin is, and its x axis, `turn` from one joint to another.
-
-    None stands for the origin and the x axis of the ground.
-    """
-
-    origin: str | None = None
-    axis: tuple[str, str] | None = None
-    turn: complex = 1 + 0j
 
 
 GROUND = Frame()

@@ -8,6 +8,8 @@ from pathlib import Path
 import pytest
 
 from linkanim.cli import main
+from linkanim.cli.command_table import build
+from linkanim.player import window
 from linkanim.workshop import documents
 
 Capture = pytest.CaptureFixture[str]
@@ -101,8 +103,9 @@ def test_a_folder_and_a_picture_are_written_at_once(tmp_path: Path, capsys: Capt
 BAD = [
     (
         ["crank-rocker"],
-        "name a folder for the parts (-o FOLDER), a picture (--preview FILE), or take --json",
+        "name a folder for the parts (-o FOLDER), take --preview to see them, or --json",
     ),
+    (["crank-rocker", "-o", "parts", "--preview"], "--preview without a picture's name opens the window"),
     (["crank-rocker", "--json", "--hole", "9", "--bar", "8"], "a hole of 9 mm is no narrower than its bar"),
     (["crank-rocker", "--json", "--thickness", "0"], "thickness=0: give a length in mm"),
     (["crank-rocker", "--json", "--bar", "wide"], '"wide" is not a length'),
@@ -147,3 +150,16 @@ def test_a_library_of_the_extra_that_is_missing_is_named(
     assert f"needs {library}, which is not installed" in said
     assert 'pip install "linkanim[make]"' in said
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_preview_without_a_name_opens_the_window_with_the_options_that_were_given(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    opened: dict[str, object] = {}
+    monkeypatch.setattr(window, "run", lambda scene, layers: opened.update(scene=scene, layers=layers))
+    words = ["--bar", "12", "--sheet", "500x300", "--fit", "A4", "--bridge"]
+    assert main(["make", "crank-rocker", *words, "--preview"]) == 0
+    assert opened["scene"] == "crank-rocker"
+    again = build().parse_args(["make", "crank-rocker", *opened["layers"]])  # type: ignore[misc]
+    given = build().parse_args(["make", "crank-rocker", *words])
+    assert vars(again) == vars(given)

@@ -56,7 +56,7 @@ class _Ended:
         return 0
 
 
-def start_nothing(command: list[str], log: int) -> Any:
+def start_nothing(command: list[str], log: int, out: int = 0) -> Any:
     """Return a process that has ended, in place of one that renders."""
     return _Ended()
 

@@ -7,6 +7,7 @@ from itertools import combinations
 import numpy as np
 import pytest
 
+from linkanim.picture.layered import Frame
 from linkanim.scenes import load
 from linkanim.workshop import sweep
 from linkanim.workshop.layers import pieces_of
@@ -61,7 +62,7 @@ def test_a_way_that_speeds_do_not_account_for_counts_as_straying() -> None:
 def test_where_it_is_nearest_is_the_phase_that_is_told() -> None:
     scene = load("crank-rocker")
     cycle = Cycle(scene, 1.0)
-    moving = MovingPiece(sweep.Frame("A"), ((0j,),), 1.0)
+    moving = MovingPiece(Frame("A"), ((0j,),), 1.0)
     still = MovingPiece(GROUND, ((53.0 + 0j,),), 1.0)
     (near,) = cycle.nearness([moving, still], [(0, 1, 2.0)])
     # the crank, 50 long, comes to 53 along x at its start
@@ -72,7 +73,7 @@ def test_where_it_is_nearest_is_the_phase_that_is_told() -> None:
 
 def test_what_passes_just_as_near_as_asked_passes() -> None:
     cycle = Cycle(load("crank-rocker"), 1.0)
-    moving = MovingPiece(sweep.Frame("A"), ((0j,),), 1.0)
+    moving = MovingPiece(Frame("A"), ((0j,),), 1.0)
     ring = [60.0 * np.exp(2j * np.pi * n / 7) for n in range(7)]
     pieces = [moving, *(MovingPiece(GROUND, ((complex(place),),), 1.0) for place in ring)]
     for asked, apart in ((7.99, True), (8.01, False)):

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import sys
 from argparse import Namespace
+from collections.abc import Iterator
+from pathlib import Path
 
 from linkanim.cli.options import inputs_of
 from linkanim.errors import BadInput
@@ -18,16 +20,27 @@ from linkanim.workshop.request import make
 
 _HANDED_ON = ("way", "bar", "hole", "thickness", "clearance", "gap", "kerf", "sheet", "fit", "bridge")
 """Options that are called alike here and there."""
+_IN_THE_WINDOW = Path()
+"""What `--preview` is without a picture's name."""
 
 
 def run(options: Namespace) -> None:
-    """Write the parts or a picture of their layers and print the path, or print all numbers.
+    """Write the parts, draw their layers, print all numbers, or show the layers in the window.
 
     BadInput for sizes that make no sense, and for a linkage that cannot be made flat: with `--json` alone the
     object says so.
     """
     if options.output is None and options.preview is None and not options.json:
-        raise BadInput("name a folder for the parts (-o FOLDER), a picture (--preview FILE), or take --json")
+        raise BadInput("name a folder for the parts (-o FOLDER), take --preview to see them, or --json")
+    if options.preview == _IN_THE_WINDOW:
+        if options.output is not None or options.json:
+            raise BadInput(
+                "--preview without a picture's name opens the window; leave out -o and --json there"
+            )
+        from linkanim.player.window import run as play
+
+        play(options.scene, layers=list(_words(options)))
+        return
     picture = options.preview and checked_output(options.preview, "", OF_A_FIGURE, inputs_of(options))
     made = make(load(options.scene), **{name: getattr(options, name) for name in _HANDED_ON})
     if made.refused is None:
@@ -49,3 +62,14 @@ def run(options: Namespace) -> None:
         print(f"{len(made.plates)} parts in {made.layers} layers on the ground, {made.size_words}")
     if not made.fewest:
         print("there may be a way with fewer layers; the search was given up", file=sys.stderr)
+
+
+def _words(options: Namespace) -> Iterator[str]:
+    """Yield the options that were given, as words of a command."""
+    for name in _HANDED_ON:
+        value = getattr(options, name)
+        if isinstance(value, bool) or value is None:
+            yield from (f"--{name}",) * bool(value)
+        else:
+            yield f"--{name}"
+            yield "x".join(f"{side:g}" for side in value) if isinstance(value, tuple) else str(value)

@@ -1,0 +1,227 @@
+"""A linkage as flat parts in layers, at a pose: from above, or lifted off each other and seen aslant.
+
+Plates and pins are told in millimetres, each in a frame that it moves with.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from linkanim.mechanics.measures import as_complex
+from linkanim.mechanics.motion import Pose
+from linkanim.picture.items import Caption, Halo, Item
+from linkanim.picture.raster import Colour, Layer, Loop
+from linkanim.picture.shapes import disc, hull, segments, stroke
+from linkanim.picture.text import subscripted
+from linkanim.picture.theme import Theme, mixed
+from linkanim.picture.view import Rect
+from linkanim.scenes.scene import Scene
+from linkanim.units import metre
+
+_LEAN, _FLAT = 0.42, 0.5
+"""Of parts seen aslant: how far right a step back goes, and how far up."""
+_THICK, _EDGE = 5.0, 24.0
+"""How thick a plate is drawn, and what is left free around all, in pixels of a page."""
+_SHADOW = ((2 + 2.5j, 0.16), (3.5 + 4.5j, 0.1))
+"""How far a plate's shadow lies from it, in such pixels, and how dark it is: twice, for its soft edge."""
+_LIFTED = 0.62
+"""The share of the height for layers to be lifted in."""
+_PHASES = 48
+"""At which it is looked how far parts reach."""
+_NUMBERED = 0.5
+"""Numbers stand on plates while they are lifted less than that."""
+
+
+class Frame(NamedTuple):
+    """How a piece moves: the joint that its origin is, and its x axis, `turn` from one joint to another.
+
+    None stands for the origin and the x axis of the ground.
+    """
+
+    origin: str | None = None
+    axis: tuple[str, str] | None = None
+    turn: complex = 1 + 0j
+
+
+class LayeredPlate(NamedTuple):
+    """A plate: its layer from the ground, 0, up, its number and where that stands, its edge and its cuts."""
+
+    frame: Frame
+    layer: int
+    number: str
+    at: complex
+    loops: tuple[Loop, ...]
+    toothed: bool = False
+
+
+class LayeredPin(NamedTuple):
+    """A pin from its lowest to its highest layer; a dowel has no name."""
+
+    frame: Frame
+    at: complex
+    low: int
+    high: int
+    name: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Layered:
+    """Parts of a scene in their layers, `ratio` times as large as the scene."""
+
+    scene: Scene
+    ratio: float
+    plates: tuple[LayeredPlate, ...]
+    pins: tuple[LayeredPin, ...]
+
+    @property
+    def layers(self) -> int:
+        """How many layers lie on the ground."""
+        return max((plate.layer for plate in self.plates), default=0)
+
+    @cached_property
+    def reach(self) -> Loop:
+        """Corners of the plane, in mm, within which all plates stay over the whole period."""
+        motion = self.scene.cycle(_PHASES, derivatives=0)
+        scale = self._scale(self.scene.length_unit)
+        found = []
+        for plate in self.plates:
+            edge = np.array(hull(plate.loops[0].tolist()))
+            origin, axis, turn = plate.frame
+            at = np.zeros(_PHASES, np.complex128)
+            if origin:
+                at += scale * as_complex(motion.position[origin])
+            ways = np.full(_PHASES, turn)
+            if axis:
+                one, other = (as_complex(motion.position[name]) for name in axis)
+                ways *= (other - one) / np.abs(other - one)
+            found.append((at[:, None] + np.multiply.outer(ways, edge)).ravel())
+        return np.array(hull(np.concatenate(found).tolist()))
+
+    def lying(self, frames: Sequence[Frame], pose: Pose, unit: str) -> list[tuple[complex, complex]]:
+        """Return where frames lie at a pose in a unit of length: origins in mm, and directions."""
+        return [self._lying(frame, pose, self._scale(unit)) for frame in frames]
+
+    def _scale(self, unit: str) -> float:
+        return 1000 * metre(unit) * self.ratio
+
+    def _lying(self, frame: Frame, pose: Pose, scale: float) -> tuple[complex, complex]:
+        origin, axis, turn = frame
+        at = complex(*pose.position[origin]) if origin else 0j
+        bar = complex(*pose.position[axis[1]]) - complex(*pose.position[axis[0]]) if axis else 1 + 0j
+        return scale * at, turn * bar / abs(bar)
+
+
+class LayerView(NamedTuple):
+    """How parts are seen: by how much they are lifted and aslant, and where the plane lies in pixels."""
+
+    apart: float
+    scale: float
+    origin: complex
+    lift: float
+
+    @classmethod
+    def fitting(cls, points: Loop, layers: int, apart: float, room: Rect) -> LayerView:
+        """Return the view in which points of the plane (mm) have room: `apart` from 0, flat, to 1."""
+        aslant = _aslant(points, apart)
+        left, right = float(aslant.real.min()), float(aslant.real.max())
+        low, high = float(aslant.imag.min()), float(aslant.imag.max())
+        share = 1 - _LIFTED * apart * (layers > 0)
+        scale = min(room.width / max(right - left, 1e-9), share * room.height / max(high - low, 1e-9))
+        lift = apart * (room.height - scale * (high - low)) / max(layers, 1)
+        x = room.middle.real - scale * (left + right) / 2
+        y = room.middle.imag + scale * (low + high) / 2 + lift * layers / 2
+        return cls(apart, scale, complex(x, y), lift)
+
+    def seen(self, places: Loop, layer: float) -> Loop:
+        """Return where places of a layer (mm) are, in pixels."""
+        flat = self.scale * _aslant(places, self.apart)
+        return np.asarray(self.origin + np.conj(flat) - 1j * self.lift * layer)
+
+    def moved(self, about: complex, zoom: float, pan: complex) -> LayerView:
+        """Return it zoomed about a pixel, and shifted."""
+        origin = about + (self.origin - about) * zoom + pan
+        return self._replace(scale=self.scale * zoom, origin=origin, lift=self.lift * zoom)
+
+
+def room_of(size: tuple[int, int]) -> Rect:
+    """Return what a page of that size has free for parts that are lifted."""
+    return Rect(_EDGE, _EDGE, size[0] - 2 * _EDGE, size[1] - 2 * _EDGE - _THICK)
+
+
+def layer_colour(layer: int, theme: Theme) -> Colour:
+    """Return the colour of a layer's plates."""
+    return theme.gear if layer == 0 else theme.bodies[(layer - 1) % len(theme.bodies)]
+
+
+def _aslant(places: Loop, apart: float) -> Loop:
+    """Return places in the plane as they are seen from above, and the more from aside the more apart."""
+    return np.asarray(
+        places.real + apart * _LEAN * places.imag + 1j * (1 - apart * (1 - _FLAT)) * places.imag
+    )
+
+
+def lifted(
+    parts: Layered, pose: Pose, unit: str, view: LayerView, theme: Theme, text: int, *, pixel: float = 1.0
+) -> Iterator[Item]:
+    """Yield parts at a pose in a unit of length, layer by layer, and the names of their pins.
+
+    Each plate throws a shadow on what is below. Names have that height, in pixels; lines and edges are drawn
+    for a page whose pixel is so large.
+    """
+    places = parts.lying([plate.frame for plate in parts.plates], pose, unit)
+    flat = [
+        [at + turn * loop for loop in plate.loops]
+        for plate, (at, turn) in zip(parts.plates, places, strict=True)
+    ]
+    held = parts.lying([pin.frame for pin in parts.pins], pose, unit)
+    pins = [(pin, np.array([at + turn * pin.at])) for pin, (at, turn) in zip(parts.pins, held, strict=True)]
+    thick, halo = _THICK * pixel * view.apart, Halo(theme.background, 2.5 * pixel)
+    names: list[Caption] = []
+    for layer in range(parts.layers + 1):
+        lying = [n for n, plate in enumerate(parts.plates) if plate.layer == layer]
+        for n in lying if layer else ():
+            for far, alpha in _SHADOW:
+                edge = view.seen(flat[n][0], layer - 1) + pixel * far
+                yield Layer(theme.outline, [edge], alpha)
+        for n in lying:
+            yield from _plate(
+                parts.plates[n], [view.seen(loop, layer) for loop in flat[n]], theme, thick, pixel
+            )
+        for pin, at in pins:
+            if not pin.low <= layer <= pin.high:
+                continue
+            place = complex(view.seen(at, layer)[0])
+            yield Layer(theme.outline, [place + disc(2.6 * pixel)])
+            if layer < pin.high and view.lift:
+                above = complex(view.seen(at, layer + 1)[0])
+                yield Layer(theme.outline, segments(place, above, 1.4 * pixel), 0.75)
+            if layer == pin.high and pin.name:
+                beside = place.real + 4 * pixel, place.imag - 1.1 * text
+                names.append(Caption(subscripted(pin.name), beside, text, theme.ink, halo=halo))
+    if view.apart < _NUMBERED:
+        for plate, (origin, turn) in zip(parts.plates, places, strict=True):
+            if plate.layer:
+                place = complex(view.seen(np.array([origin + turn * plate.at]), plate.layer)[0])
+                top = place.real, place.imag - 0.5 * text
+                names.append(Caption(plate.number, top, text, theme.ink, "centre", strong=True, halo=halo))
+    yield from names
+
+
+def _plate(
+    plate: LayeredPlate, loops: Sequence[Loop], theme: Theme, thick: float, pixel: float
+) -> Iterator[Item]:
+    """Yield a plate, and below it the edge that is seen of one that lies aslant."""
+    colour = layer_colour(plate.layer, theme)
+    if thick:
+        below = loops[0] + 1j * thick
+        if not plate.toothed:
+            below = np.array(hull(np.concatenate((loops[0], below)).tolist()))
+        yield Layer(mixed(colour, theme.outline, 0.45), [below])
+    yield Layer(colour, [loops[0], *(loop[::-1] for loop in loops[1:])])
+    lines = [line for loop in loops for line in stroke(loop, 0.8 * pixel, closed=True)]
+    yield Layer(theme.outline, lines)

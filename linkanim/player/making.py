@@ -1,0 +1,147 @@
+"""Actions on the layers in which a scene can be made: they are shown, lifted, written as parts."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from linkanim.errors import BadInput
+from linkanim.intake import Intake, Section
+from linkanim.mechanics.linkage import Linkage
+from linkanim.picture.layered import Frame, Layered, LayeredPin, LayeredPlate
+from linkanim.picture.raster import Loop
+from linkanim.picture.shapes import disc, hull
+from linkanim.player.edits import drop
+from linkanim.player.state import LIFTED, Layering, State, with_effect, with_toast
+from linkanim.scenes.scene import Scene
+
+_MADE = Intake("the layers of a linkage", most_bytes=10_000_000, most_values=1_000_000)
+_WHERE, _DAMAGED = "the layers", "are damaged, or not what linkanim make prints"
+_MOST_LAYERS = 1_000
+
+
+def layers(state: State, _: None) -> State:
+    """Show the layers in which the scene can be made, once they are found; or the scene again."""
+    if state.layers:
+        return closed(state)
+    bare = drop(replace(state, listing=None, browsing=None, glide=None, toast=None), None)
+    return asked(replace(bare, faded=state.frame))
+
+
+def closed(state: State) -> State:
+    """Return the state without layers: its scene is drawn as a linkage again."""
+    return replace(state, layers=None, faded=state.frame) if state.layers else state
+
+
+def asked(state: State) -> State:
+    """Return the state with the layers of its scene asked for."""
+    lifted = state.layers.lifted if state.layers else 0
+    return with_effect(replace(state, layers=Layering(state.scene, lifted=lifted)), "layers")
+
+
+def found(state: State, text: str) -> State:
+    """Show the layers that `linkanim make --json` has printed, or say why there are none."""
+    shown = state.layers
+    if shown is None:
+        return state
+    document = _MADE.parsed(text, _WHERE, _DAMAGED)
+    if not isinstance(document, dict):
+        raise BadInput(f"{_WHERE}: {_DAMAGED}")
+    top = Section(_WHERE, document)
+    if document.get("refused") is not None:
+        return replace(state, layers=shown._replace(refused=top.text("refused"), text=text))
+    return replace(state, layers=shown._replace(parts=_parts(shown.scene, top), text=text))
+
+
+def lift(state: State, by: int) -> State:
+    """Lift the layers off each other by so many steps more."""
+    return lift_to(state, state.layers.lifted + by) if state.layers else state
+
+
+def lift_to(state: State, step: int) -> State:
+    """Lift the layers off each other by so many steps."""
+    lifted = min(max(step, 0), LIFTED)
+    return replace(state, layers=state.layers and state.layers._replace(lifted=lifted))
+
+
+def make(state: State, _: None) -> State:
+    """Ask for the parts of what is on to be written into a folder."""
+    missing = state.building.building.made.missing if state.building else ""
+    if missing:
+        return with_toast(state, f"only what can move can be made; the draft is kept. {missing}")
+    return with_effect(state, "make")
+
+
+def _parts(scene: Scene, top: Section) -> Layered:
+    """Return parts in layers as they were printed; BadInput for what is not of this scene."""
+    plates = tuple(_plate(scene.linkage, one) for key in ("parts", "fittings") for one in _each(top, key))
+    pins = [_pin(scene.linkage, one, named=True) for one in _each(top, "pins")]
+    pins += [_pin(scene.linkage, one, named=False) for one in _each(top, "dowels")]
+    if not plates:
+        raise BadInput(f"{_WHERE}: {_DAMAGED}")
+    return Layered(scene, top.number("scale"), plates, tuple(pins))
+
+
+def _each(top: Section, key: str) -> list[Section]:
+    items = top.listed(key)
+    return [items.table(item) for item in items.values]
+
+
+def _plate(linkage: Linkage, part: Section) -> LayeredPlate:
+    loops = [_loop(part, "outline")]
+    loops += [at + disc(wide / 2) for at, wide in (_circle(row) for row in _rows(part, "holes", 3))]
+    loops += [_slot(row) for row in _rows(part, "slots", 5)]
+    cuts = part.listed("cuts")
+    loops += [_loop(cuts, cut) for cut in cuts.values]
+    layer, toothed = part.whole("layer", 0, _MOST_LAYERS), part.values.get("teeth") is not None
+    return LayeredPlate(
+        _frame(linkage, part), layer, part.text("number"), _point(part, "number_at"), tuple(loops), toothed
+    )
+
+
+def _pin(linkage: Linkage, pin: Section, *, named: bool) -> LayeredPin:
+    low, high = (pin.whole(key, 0, _MOST_LAYERS) for key in ("from", "to"))
+    return LayeredPin(_frame(linkage, pin), _point(pin, "at"), low, high, pin.text("joint") if named else "")
+
+
+def _frame(linkage: Linkage, part: Section) -> Frame:
+    origin = part.text("origin") if part.values.get("origin") is not None else None
+    ends = part.texts("towards") if part.values.get("towards") is not None else ()
+    if not {origin, *ends} - {None} <= linkage.by_name.keys() or len(ends) not in (0, 2):
+        raise part.error("origin", "names a joint that the linkage does not have")
+    turn = complex(np.exp(1j * part.number("turned")))
+    return Frame(origin, (ends[0], ends[1]) if ends else None, turn)
+
+
+def _point(part: Section, key: str) -> complex:
+    pair = part.listed(key, 2)
+    x, y = (pair.number(item) for item in pair.values)
+    return complex(x, y)
+
+
+def _rows(part: Section, key: str, count: int) -> list[tuple[float, ...]]:
+    rows = part.listed(key)
+    found = []
+    for row in rows.values:
+        items = rows.listed(row, count)
+        found.append(tuple(items.number(item) for item in items.values))
+    return found
+
+
+def _circle(row: tuple[float, ...]) -> tuple[complex, float]:
+    x, y, wide = row
+    return complex(x, y), wide
+
+
+def _slot(row: tuple[float, ...]) -> Loop:
+    *ends, wide = row
+    round_ends = [complex(*at) + disc(wide / 2) for at in (ends[:2], ends[2:])]
+    return np.array(hull(np.concatenate(round_ends).tolist()))
+
+
+def _loop(part: Section, key: str) -> Loop:
+    points = _rows(part, key, 2)
+    if len(points) < 3:
+        raise part.error(key, "must be three corners or more")
+    return np.array([complex(*point) for point in points])

@@ -1,0 +1,273 @@
+"""The layers in which a scene can be made, in the window: shown, lifted, asked for again, taped, written."""
+
+from __future__ import annotations
+
+import json
+import time
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+from typing import ClassVar
+
+import numpy as np
+import pygame
+import pytest
+from playing import SHIFT, Player
+
+from linkanim.export import json_text
+from linkanim.picture.layered import LayerView
+from linkanim.picture.slider import slider_rect
+from linkanim.picture.view import Rect
+from linkanim.player import beside, screen
+from linkanim.player.action import Action
+from linkanim.player.actions import advance
+from linkanim.player.beside import Making
+from linkanim.player.keys import commands
+from linkanim.player.shown import overlay
+from linkanim.player.state import LIFTED, State, begin
+from linkanim.player.tape import Taping
+from linkanim.scenes import load
+from linkanim.workshop.request import make
+
+
+def made_text(name: str) -> str:
+    return json_text(make(load(name), fit="A4").as_object())
+
+
+def after(state: State, *actions: Action | str) -> State:
+    for one in actions:
+        state = advance(state, [Action(one) if isinstance(one, str) else one])
+    return state
+
+
+@pytest.fixture(scope="module")
+def text() -> str:
+    return made_text("jansen")
+
+
+@pytest.fixture
+def shown(text: str) -> State:
+    return after(begin(load("jansen")), "layers", Action("layered", text))
+
+
+def test_layers_are_asked_for_at_once_and_shown_when_they_are_found(text: str) -> None:
+    waiting = after(begin(load("jansen")), "layers")
+    assert [effect.name for effect in waiting.effects] == ["layers"]
+    assert (waiting.mode, overlay(waiting).slider) == ("layers", None)
+    found = after(waiting, Action("layered", text))
+    layers, slider = overlay(found).layers, overlay(found).slider
+    assert layers is not None
+    assert layers.parts is not None
+    assert slider is not None
+    assert (layers.parts.layers, len(layers.parts.plates), slider.at) == (3, 8, 0)
+    assert "3 layers on the ground" in layers.sentence
+
+
+@pytest.mark.parametrize("name", ["jansen", "press", "scotch-yoke"])
+def test_what_is_read_back_is_drawn_as_what_was_made(name: str) -> None:
+    made = make(load(name), fit="A4")
+    state = after(begin(load(name)), "layers", Action("layered", json_text(made.as_object())))
+    assert state.layers
+    assert state.layers.parts
+    read, drawn = state.layers.parts, made.layered
+    assert read.ratio == pytest.approx(drawn.ratio)
+    by_number = {plate.number: plate for plate in read.plates}
+    pose = made.scene.pose(1.0, 0)
+    for plate in drawn.plates:
+        other = by_number[plate.number]
+        assert (plate.layer, plate.toothed) == (other.layer, other.toothed)
+        assert len(plate.loops) == len(other.loops)
+        (at, way), (place, turn) = read.lying([plate.frame, other.frame], pose, made.scene.length_unit)
+        assert (place, turn) == pytest.approx((at, way))
+        one, two = (box_of(loops[0]) for loops in (plate.loops, other.loops))
+        assert two == pytest.approx(one, abs=0.2)
+    assert sorted((pin.low, pin.high) for pin in read.pins) == sorted(
+        (pin.low, pin.high) for pin in drawn.pins
+    )
+
+
+def box_of(loop: np.ndarray) -> tuple[float, float, float, float]:
+    return float(loop.real.min()), float(loop.real.max()), float(loop.imag.min()), float(loop.imag.max())
+
+
+def test_what_cannot_be_made_is_said_in_a_sentence() -> None:
+    state = after(begin(load("drag-link")), "layers", Action("layered", made_text("drag-link")))
+    layers = overlay(state).layers
+    assert layers is not None
+    assert layers.parts is None
+    assert layers.is_warning
+    assert "cannot be made flat" in layers.sentence
+    assert overlay(state).slider is None
+
+
+@pytest.mark.parametrize(
+    "damaged",
+    ["{", "[]", '{"parts": 1}', '{"scale": 1, "parts": [], "fittings": [], "pins": [], "dowels": []}'],
+)
+def test_a_tape_with_damaged_layers_shows_none(damaged: str) -> None:
+    state = after(begin(load("jansen")), "layers", Action("layered", damaged))
+    assert state.layers is not None
+    assert state.layers.parts is None
+    assert state.toast is not None
+    assert "the layers" in state.toast.text
+
+
+def test_layers_of_another_scene_are_refused(text: str) -> None:
+    state = after(begin(load("crank-rocker")), "layers", Action("layered", text))
+    assert state.layers is not None
+    assert state.layers.parts is None
+    assert state.toast is not None
+    assert "a joint that the linkage does not have" in state.toast.text
+
+
+def test_layers_are_lifted_step_by_step_from_flat_to_all_the_room(shown: State) -> None:
+    assert after(shown, Action("lift", -1)).layers == shown.layers
+    high = after(shown, *[Action("lift", 1)] * (LIFTED + 3)).layers
+    slid = after(shown, Action("slide", LIFTED)).layers
+    assert high == slid
+    assert high is not None
+    assert high.lifted == LIFTED
+
+
+def test_another_scene_has_its_layers_asked_for_and_stays_lifted(shown: State) -> None:
+    state = after(shown, Action("slide", 7), Action("mechanism", 1), "direction")
+    assert state.layers is not None
+    assert (state.layers.parts, state.layers.lifted) == (None, 7)
+    assert state.layers.scene is state.scene
+
+
+@pytest.mark.parametrize("name", ["edit", "pencil", "build"])
+def test_what_is_done_with_the_linkage_shows_it_again(shown: State, name: str) -> None:
+    assert after(shown, name).layers is None
+
+
+def test_esc_goes_back_to_the_linkage(shown: State) -> None:
+    state = after(shown, "back")
+    assert (state.layers, state.scene) == (None, shown.scene)
+
+
+def test_a_linkage_on_a_sheet_is_kept_for_its_layers() -> None:
+    state = after(begin(load("crank-rocker")), "build_on", "layers")
+    assert state.sheet is not None
+    assert not state.sheet.open
+    assert state.layers is not None
+    assert state.layers.scene is state.scene
+
+
+def test_a_draft_that_cannot_move_cannot_be_made() -> None:
+    state = after(begin(load("crank-rocker")), "build", "make")
+    assert [effect.name for effect in state.effects] == []
+    assert state.toast is not None
+    assert "only what can move can be made" in state.toast.text
+
+
+def test_a_tape_that_begins_amid_layers_has_them(shown: State) -> None:
+    state = after(shown, Action("slide", 5))
+    taping = Taping(state, (640, 360))
+    begun = taping.tape(state.frame).begun
+    assert begun.layers is not None
+    assert begun.layers.parts is not None
+    assert begun.layers.lifted == 5
+
+
+@pytest.mark.parametrize("mode", ["play", "paused", "pencil", "build", "layers"])
+def test_the_list_of_commands_makes_the_parts_in_every_mode(mode: str) -> None:
+    assert Action("make") in [action for *_, action in commands(mode)]  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("apart", [0.0, 0.3, 1.0])
+def test_all_that_moves_stays_in_its_room_at_every_lift(shown: State, apart: float) -> None:
+    assert shown.layers
+    assert shown.layers.parts
+    parts, room = shown.layers.parts, Rect(20, 30, 500, 300)
+    view = LayerView.fitting(parts.reach, parts.layers, apart, room)
+    for phase in np.linspace(0, 2 * np.pi, 24):
+        pose = parts.scene.pose(float(phase), 0)
+        for plate in parts.plates:
+            ((at, turn),) = parts.lying([plate.frame], pose, parts.scene.length_unit)
+            seen = view.seen(at + turn * plate.loops[0], plate.layer)
+            assert room.inset(-2).holds(seen.real.min(), seen.imag.min())
+            assert room.inset(-2).holds(seen.real.max(), seen.imag.max())
+
+
+class _Found:
+    """Stands where `linkanim make` would."""
+
+    text = ""
+    started: ClassVar[list[Path | None]] = []
+
+    def __init__(self, scene: object, words: object, folder: Path | None = None) -> None:
+        self.scene, self.done = scene, True
+        self.started.append(folder)
+
+    def found(self) -> str:
+        return self.text
+
+    def words(self) -> str:
+        return "the parts are written"
+
+    def close(self) -> None:
+        pass
+
+
+@pytest.fixture
+def player(monkeypatch: pytest.MonkeyPatch, text: str, here: Path) -> Iterator[Player]:
+    monkeypatch.setattr(_Found, "text", text)
+    monkeypatch.setattr(_Found, "started", [])
+    monkeypatch.setattr(beside, "Making", _Found)
+    with screen.opened((640, 360)):
+        player = Player(begin(load("jansen")))
+        yield player
+        player.window.close()
+
+
+def test_the_keys_show_the_layers_and_write_the_parts(player: Player) -> None:
+    before = player.pixels
+    player.press(pygame.K_F6)
+    player.tick()
+    assert player.state.layers
+    assert player.state.layers.parts
+    assert player.pixels != before
+    player.press(pygame.K_RETURN)
+    player.press(pygame.K_F6, SHIFT)
+    player.tick(2)
+    assert _Found.started == [None, Path("jansen-parts"), Path("jansen-parts")]
+    assert player.state.toast is not None
+    assert player.state.toast.text == "the parts are written"
+
+
+def test_the_slider_is_dragged(player: Player) -> None:
+    player.press(pygame.K_F6)
+    player.tick()
+    rect = slider_rect(player.window.screen._framing.last.layout)
+    row = rect.middle.imag
+    player.drag((rect.x + 15, row), (rect.right + 40, row))
+    assert player.state.layers is not None
+    assert player.state.layers.lifted == LIFTED
+    player.drag((rect.right - 15, row), (rect.x, row + 80))
+    assert player.state.layers.lifted == 0
+    assert player.state.look == replace(player.state.look, pan=(0.0, 0.0))
+
+
+@pytest.mark.slow
+def test_parts_of_what_is_on_are_found_and_written_by_a_process_beside(here: Path) -> None:
+    scene = replace(load("crank-rocker"))
+    found, written = Making(scene, ("--fit", "A4")), Making(scene, ("--fit", "A4"), here / "rocker-parts")
+    for making in (found, written):
+        for _ in range(600):
+            if making.done:
+                break
+            time.sleep(0.1)
+    assert json.loads(found.found())["layers"] == 2
+    assert "saved: 4 parts in 2 layers" in written.words()
+    assert (here / "rocker-parts" / "assembly.html").exists()
+    # what another has put there is not written over
+    (here / "taken").mkdir()
+    (here / "taken" / "assembly.html").write_text("mine")
+    refused = Making(scene, (), here / "taken")
+    while not refused.done:
+        time.sleep(0.1)
+    assert "assembly.html" in refused.words()
+    assert "saved" not in refused.words()
+    for making in (found, written, refused):
+        making.close()
