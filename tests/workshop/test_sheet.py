@@ -122,7 +122,7 @@ def test_layers_that_are_lifted_take_all_the_height_there_is() -> None:
     for apart in (0.0, 0.5, 1.0):
         loops = [loop for item in drawn.exploded(apart) if isinstance(item, Layer) for loop in item.loops]
         lines = np.concatenate(loops).imag
-        assert 340 < np.ptp(lines) < 400
+        assert 240 < np.ptp(lines) < 400
         assert 10 < lines.min() < lines.max() < 410
 
 
