@@ -227,6 +227,10 @@ _THINNEST = 0.68
 """What is drawn is no thinner than this on a small stage, in thicknesses of the whole window's."""
 _EDGE = 9.0
 """From the stage's edge to what is drawn, in units."""
+_EDGE_OF_STILL = 22.0
+"""Likewise in a still, which nothing leaves."""
+_ROOM_FOR_LINES = 2.8
+"""What dimension lines need on each side of a still, in heights of their text."""
 
 
 Corner = tuple[int, int]
@@ -250,13 +254,15 @@ def arranged(
     shortest: float,
     blocks: Iterable[Sequence[WordBlock]],
     shapes: Iterable[tuple[float, float]] = (),
+    edge: float | None = None,
 ) -> Arrangement:
     """Return the arrangement of a scene that sweeps this, its `shortest` bar in the scene's unit.
 
     `blocks` are the words, set in several ways: the first group of which one finds its place is taken.
-    `shapes` are those of the sentence that is shown for a while, the best first.
+    `shapes` are those of the sentence that is shown for a while, the best first. What is drawn keeps `edge`
+    pixels from the stage's edge, the usual distance without it.
     """
-    ways_ = _WaysToArrange(parts, sweep, shortest)
+    ways_ = _WaysToArrange(parts, sweep, shortest, _EDGE * parts.unit if edge is None else edge)
     found = (one for group in blocks for one in ways_.placed(group))
     bare = Arrangement(parts, ways_.view(ways_.largest, (0.5, 0.5)), ways_.gauge, None)
     arrangement = next(found, bare)
@@ -268,9 +274,9 @@ def arranged(
 class _WaysToArrange:
     """What all ways to arrange one scene have in common."""
 
-    def __init__(self, parts: Layout, sweep: Sweep, shortest: float) -> None:
+    def __init__(self, parts: Layout, sweep: Sweep, shortest: float, edge: float) -> None:
         self.parts, self.sweep = parts, sweep
-        self.room = parts.stage.inset(_EDGE * parts.unit)
+        self.room = parts.stage.inset(edge)
         box = sweep.box
         self._wide, self._high = max(box.right - box.left, 1e-12), max(box.high - box.low, 1e-12)
         extended = max(self._wide, self._high) > 1e-12
@@ -279,7 +285,8 @@ class _WaysToArrange:
         self.gauge = gauge(parts.unit * max(share, _THINNEST), shortest * bare)
         self._reaches = [(box, self.gauge.around[kind]) for box, kind in sweep.parts]
         self.largest = self._largest(bare)
-        self.least = min(HIGH * parts.stage.height / self._high, WIDE * parts.stage.width / self._wide)
+        high, wide = (side - 2 * edge + 2 * _EDGE * parts.unit for side in parts.stage[:1:-1])
+        self.least = min(HIGH * high / self._high, WIDE * wide / self._wide)
         share = min(self.least / self.largest, 1.0)
         self._shares = [1.0 - (1.0 - share) * step / _STEPS for step in range(_STEPS + 1)]
         self._scales = [share * self.largest for share in self._shares]
@@ -449,13 +456,20 @@ class FitRequest(NamedTuple):
     table: tuple[int, float] = (0, 0.0)
     """How many rows a table beside the figure has, and how wide they are."""
     caption: bool = False
+    still: bool = False
+    """Whether it is of one pose, which keeps farther from the edge than what moves."""
+    lined: bool = False
+    """Whether that pose has dimension lines."""
 
 
-def request_of(size: tuple[int, int], look: Look, *, listed: bool, row: bool) -> FitRequest:
+def request_of(
+    size: tuple[int, int], look: Look, *, listed: bool, row: bool, still: bool = False
+) -> FitRequest:
     """Return what an arrangement for a look depends on."""
     chart, keys = look.chart is not None, len(look.vectors) + look.chain
     captioned = look.caption and not listed
-    return FitRequest(size, chart, keys, look.hud, listed, look.polygons, row, caption=captioned)
+    request = FitRequest(size, chart, keys, look.hud, listed, look.polygons, row, caption=captioned)
+    return request._replace(still=still, lined=still and look.names > 1)
 
 
 @dataclass(frozen=True)
@@ -576,4 +590,6 @@ def _with_chart(subject: Subject, request: FitRequest, type_: Type, *, beside: b
     worded = request.hud and not request.listed
     words = blocks(subject.scenes, subject.rows, parts, request.keys, type_) if worded else ()
     shapes = shapes_of(sentence, parts, type_) if worded and not parts.caption else ()
-    return arranged(parts, subject.sweep, subject.figure.shortest, words, shapes)
+    edge = _EDGE_OF_STILL * parts.unit if request.still else None
+    edge = _ROOM_FOR_LINES * parts.small_size if request.lined else edge
+    return arranged(parts, subject.sweep, subject.figure.shortest, words, shapes, edge)

@@ -133,6 +133,8 @@ SHAPES: Mapping[str, Callable[..., list[Layer]]] = {
     "none": lambda *_: [],
 }
 """How a body is drawn that says its `look`."""
+BEYOND = ("bucket", "hook", "pad")
+"""Of these what reaches beyond the body's joints."""
 
 
 # Bodies: rounded bars and plates, the pins on top of them, centres of mass.

@@ -6,8 +6,8 @@ measured, with lines that lead there, and arcs of angles.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from itertools import count, pairwise
+from collections.abc import Iterable, Iterator
+from itertools import pairwise
 from math import degrees
 from typing import NamedTuple
 
@@ -137,18 +137,16 @@ def symbols(figure: Figure) -> Symbols:
     r₁ is the ground from the driven pivot to the next, r₂ the first body's bar; a further ground length
     comes after the body on whose pivot it begins, a body's second length after that, β with its number the
     angle between the two. Then come points of bodies: one length in line with the body, else along it and to
-    its side; e is how far a guide is from the first pivot.
+    its side; e is how far a guide is from the first pivot. A span that several bodies have is stated once.
     """
     bodies = [body for body in figure.bodies if body.name or not figure.linkage.bodies]
     ground = (*_ground(figure), *_offsets(figure))
     if bodies and all(body.name.isdecimal() for body in bodies):
         named = [_bar(figure, body.name, *body.joints[:2], bare=len(body.joints) == 2) for body in bodies]
         return Symbols((*ground, *named), (), _angle(figure))
-    numbers = (str(n) for n in count(2))
-    found = list(_numbered(figure, bodies, numbers))
     points = _points(figure)
-    legs = [leg for point in points for leg in _legs(figure, point, numbers)]
-    return Symbols((*ground, *found, *legs), tuple(points), _angle(figure))
+    found = (*_measured(figure, bodies), *(leg for point in points for leg in _legs(figure, point)))
+    return Symbols((*ground, *_numbered(figure, found)), tuple(points), _angle(figure))
 
 
 def leg_part(point: Rigid, view: View, gauge: Gauge, colour: Colour) -> Part:
@@ -197,34 +195,55 @@ def _offsets(figure: Figure) -> Iterator[Measurement]:
         yield Measurement(symbol, abs(foot), about, (names[0], names[0]), 0, foot.conjugate(), frozenset())
 
 
-def _numbered(figure: Figure, bodies: list[Body], numbers: Iterator[str]) -> Iterator[Measurement]:
+def _numbered(figure: Figure, found: Iterable[Measurement]) -> Iterator[Measurement]:
+    """Yield each span once, numbered from 2, and an angle with the number of the length that it leads to."""
+    numbers: dict[frozenset[complex], int] = {}
+    for one in found:
+        if not one.angle:
+            span = _span(figure, one)
+            stated = span in numbers
+            number = numbers.setdefault(span, len(numbers) + 2)
+        if one.angle or not stated:
+            yield one._replace(symbol=subscripted(f"{one.symbol}{number}"))
+
+
+def _span(figure: Figure, one: Measurement) -> frozenset[complex]:
+    """Return where the ends of a length stand as the cycle begins, to a small part of the figure."""
+    at, head = (figure.start(name) for name in one.frame)
+    way, grain = head - at if one.frame[0] != one.frame[1] else 1 + 0j, _NONE * figure.extent
+    ends = (at + complex(place).conjugate() * way for place in (one.begin, one.end))
+    return frozenset(complex(round(end.real / grain), round(end.imag / grain)) for end in ends)
+
+
+def _measured(figure: Figure, bodies: list[Body]) -> Iterator[Measurement]:
+    """Yield the lengths of bodies and between pivots, each before its angle; they have no numbers yet."""
     others = pivots(figure)
     for body in bodies:
         first, *rest = [name for n, name in enumerate(body.joints) if n < 2 or name in figure.pins]
-        yield _bar(figure, next(numbers), first, rest[0], bare=len(body.joints) == 2)
+        yield _bar(figure, "", first, rest[0], bare=len(body.joints) == 2)
         if len(others) > 2 and others[1] in body.joints:
-            yield from _with_angle(figure, next(numbers), others[1], others[0], others[2], bare=True)
+            yield from _with_angle(figure, others[1], others[0], others[2], bare=True)
             others = others[1:]
         for name in rest[1:]:
-            yield from _with_angle(figure, next(numbers), first, rest[0], name)
+            yield from _with_angle(figure, first, rest[0], name)
         for joint in (joint for joint in figure.linkage.joints if isinstance(joint, Brace)):
             for start, _ in joint.bars if {*joint.on, joint.name} <= set(body.joints) else ():
                 if first not in (start, joint.name):
-                    yield _bar(figure, next(numbers), start, joint.name)
+                    yield _bar(figure, "", start, joint.name)
 
 
 def _with_angle(
-    figure: Figure, number: str, at: str, side: str, name: str, *, bare: bool = False
+    figure: Figure, at: str, side: str, name: str, *, bare: bool = False
 ) -> Iterator[Measurement]:
     """Yield the length from joint to joint, and the angle there from another of its body, if it has one."""
-    yield _bar(figure, number, at, name, bare=bare)
+    yield _bar(figure, "", at, name, bare=bare)
     if figure.start(side) == figure.start(at):
         return
     turn = (figure.start(name) - figure.start(at)) / (figure.start(side) - figure.start(at))
     if abs(turn.imag) > _NONE * abs(turn) and not isinstance(figure.linkage.joint(name), Brace):
         value, own = abs(degrees(float(np.angle(turn)))), frozenset() if bare else frozenset((at, side, name))
-        symbol, about = subscripted(f"β{number}"), _named(side, at, name)
-        yield Measurement(symbol, value, about, (at, side), 1, turn.conjugate(), own, angle=True)
+        about = _named(side, at, name)
+        yield Measurement("β", value, about, (at, side), 1, turn.conjugate(), own, angle=True)
 
 
 def _points(figure: Figure) -> list[Rigid]:
@@ -232,7 +251,7 @@ def _points(figure: Figure) -> list[Rigid]:
     return [joint for joint in joints if isinstance(joint, Rigid) and joint.name not in figure.pins]
 
 
-def _legs(figure: Figure, point: Rigid, numbers: Iterator[str]) -> Iterator[Measurement]:
+def _legs(figure: Figure, point: Rigid) -> Iterator[Measurement]:
     """Yield a point's distance from its body's first joint; off the body's line, along it and aside."""
     (first, second), (along, left), name = point.on, point.at, point.name
     span, own = abs(figure.start(second) - figure.start(first)), frozenset((first, second, name))
@@ -241,8 +260,7 @@ def _legs(figure: Figure, point: Rigid, numbers: Iterator[str]) -> Iterator[Meas
     level = f"{_named(first)} along {_named(first, second)}" if left else _named(first, name)
     for value, begin, end, about in ((along, 0j, corner, level), (left, corner, there, aside)):
         if value:
-            symbol = subscripted(f"r{next(numbers)}")
-            yield Measurement(symbol, abs(value), about, point.on, begin, end, own)
+            yield Measurement("r", abs(value), about, point.on, begin, end, own)
 
 
 def _bar(figure: Figure, number: str, begin: str, end: str, *, bare: bool = False) -> Measurement:
@@ -254,7 +272,8 @@ def _bar(figure: Figure, number: str, begin: str, end: str, *, bare: bool = Fals
     apart = abs(figure.start(end) - figure.start(begin))
     value, ends = stated.get(frozenset((begin, end)), apart), (begin, end)
     own = frozenset(() if begin in figure.fixed and end in figure.fixed else ends)
-    return Measurement(subscripted(f"r{number}"), value, _named(*ends), ends, 0, 1, own, bare)
+    symbol = subscripted(f"r{number}") if number else "r"
+    return Measurement(symbol, value, _named(*ends), ends, 0, 1, own, bare)
 
 
 def _named(*joints: str) -> str:

@@ -8,6 +8,7 @@ from itertools import combinations
 from math import tau
 
 import numpy as np
+from numpy.typing import NDArray
 
 from linkanim.mechanics.linkage import Body, Brace, Damper, Linkage, Spring, holding
 from linkanim.mechanics.motion import Motion
@@ -160,9 +161,14 @@ class Figure:
 
     @cached_property
     def clearest(self) -> float:
-        """The phase at which its joints are farthest apart: the two nearest, or bars from lying in line.
+        """The phase at which its joints are farthest `apart`, the first of several; 0 where it is rigid."""
+        return float(self.cycle.phase[self.apart.argmax()])
 
-        What keeps its distance does not count; the first of several such phases; 0 of one that is rigid.
+    @cached_property
+    def apart(self) -> NDArray[np.float64]:
+        """How far apart its joints are at each moment of the cycle: the two nearest, or bars from one line.
+
+        In parts of its extent; what keeps its distance does not count; 1 for one that is rigid.
         """
         places = {name: np.atleast_2d(self.cycle.position[name]) @ DOWN for name in self.shown}
         far = [np.abs(places[one] - places[other]) for one, other in combinations(places, 2)]
@@ -177,7 +183,7 @@ class Figure:
         apart = np.stack([*far, np.full(len(self.cycle.phase), self.extent)])
         moving = apart[np.ptp(apart, axis=1) > _STILL * self.extent]
         nearest = np.round(np.nan_to_num(moving).min(axis=0, initial=self.extent) / (_STILL * self.extent))
-        return float(self.cycle.phase[nearest.argmax()])
+        return np.asarray(_STILL * nearest, np.float64)
 
     @property
     def extent(self) -> float:

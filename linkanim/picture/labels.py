@@ -10,7 +10,7 @@ from collections.abc import Generator, Iterable, Iterator, Mapping, Sequence, Se
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import chain, pairwise, product
-from math import ceil, pi
+from math import ceil, inf, pi
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from linkanim.mechanics.linkage import Body
 from linkanim.mechanics.motion import Pose
+from linkanim.picture.bodies import BEYOND, body_parts
 from linkanim.picture.dead_centres import DeadCentres
 from linkanim.picture.dimensions import AngleArc, MeasureLine, Measurement, Symbols
 from linkanim.picture.figure import SAMPLES, DrawSetting, Figure
@@ -27,7 +28,7 @@ from linkanim.picture.layout import Gauge, Layout
 from linkanim.picture.motion_marks import Sliding, Turning
 from linkanim.picture.placing import MOMENTS, Clutter, LabelPlaces, Placer, Solid
 from linkanim.picture.raster import Colour, Layer, Loop
-from linkanim.picture.shapes import Part, Places, directions, framed, hull, lengths
+from linkanim.picture.shapes import Part, Places, directions, framed, hull, units
 from linkanim.picture.text import subscripted
 from linkanim.picture.view import Rect, View
 
@@ -56,10 +57,18 @@ _BLOCK = 2.7
 """How far a slider's block reaches, in half widths of a bar."""
 _MIDDLE = (0.5, 0.42, 0.58)
 """Where along its own bar a length may stand."""
-_LEVELS = 3
-"""So many dimension lines may lie beside each other."""
+_LEVELS = 5
+"""So many dimension lines may lie beside each other, on either side."""
+_TIER = 1.4
+"""From one to the next, in heights of their text."""
+_ON_LINE = (0.5, 0.3, 0.7)
+"""Where along a dimension line its text may stand."""
+_TEXT_OFF, _GAP = 0.2, 0.55
+"""How far a dimension's text is from its line, and other lines from that line, in heights of its text."""
 _RINGS = (3, 6)
 """In so many rings a name may stand round a joint, and round a slider's block."""
+_EVERY_CORNER = 4
+"""Of the corners round a body that reaches beyond its joints so many count as one."""
 _ROOMY = (1.0, 1.7, 2.6)
 """The radii of an angle's arc, in those of the smallest."""
 
@@ -89,7 +98,7 @@ class Spots(NamedTuple):
         """Return the middles in pixels, for frames at `at` and labels with these sides (w + hi)."""
         at, span, sides = (np.asarray(one, np.complex128) for one in (at, span, sides))
         along = (self.end - self.begin) * span
-        normal = 1j * _units(along)
+        normal = 1j * units(along)
         clear = 0.5 * (np.abs(normal.real) * sides.real + np.abs(normal.imag) * sides.imag) + _CLEAR * bar
         aside = self.aside * (clear + self.further) * normal
         middles: Loop = at + self.begin * span + self.share * along + aside + self.off
@@ -197,16 +206,18 @@ class Surroundings:
             return
         ends, (_, way), mine = (about.begin, about.end), self._frame(about.frame), self._numbers(about.own)
         if about.bare and size[0] < abs(way[0] * (ends[1] - ends[0])):
-            yield self._line(about.frame, ends, size, product((1, -1), _MIDDLE), mine)
-        low, step = 2.0 * self.setting.gauge.bar + 9 * self.setting.layout.unit, 1.4 * size[1]
+            by_bar = self._line(about.frame, ends, size, product((1, -1), _MIDDLE), mine)
+            yield replace(by_bar, candidates=by_bar.candidates._replace(gap=_GAP * size[1]))
+        low, step = 2.0 * self.setting.gauge.bar + 9 * self.setting.layout.unit, _TIER * size[1]
         levels = [(side, low + n * step) for n in range(_LEVELS) for side in (1.0, -1.0)]
         lines = [MeasureLine(about.frame, *ends, side * level) for side, level in levels]
-        drawn, share = np.array([*product(range(len(lines)), (0.5, 0.3, 0.7))]).T
+        drawn, share = np.array([*product(range(len(lines)), _ON_LINE)]).T
         aside, level = np.array(levels)[drawn.astype(int)].T
         price = 0.3 * (drawn // 2) + 0.6 * abs(share - 0.5)
         where: dict[str, Any] = {"begin": ends[0], "end": ends[1], "share": share, "aside": aside}
-        where["further"] = level + 0.2 * size[1] - _CLEAR * self.setting.gauge.bar
-        yield self._lined(self._spots(about.frame, size, price, beside=mine, **where), lines, drawn)
+        where["further"] = level + _TEXT_OFF * size[1] - _CLEAR * self.setting.gauge.bar
+        lined = self._lined(self._spots(about.frame, size, price, beside=mine, **where), lines, drawn)
+        yield replace(lined, candidates=lined.candidates._replace(gap=_GAP * size[1]))
 
     def _by_angle(self, about: Measurement, size: Size) -> LabelSpots:
         """Return places outside arcs about where two lines of a body meet."""
@@ -281,7 +292,8 @@ class Surroundings:
     def clutter(self) -> Clutter:
         """Return what is in the labels' way."""
         solids = tuple(thing.solid for thing in self.things)
-        return Clutter(self.setting.layout.stage.inset(2), self.setting.layout.words, solids)
+        links = frozenset(n for n, thing in enumerate(self.things) if thing.linked)
+        return Clutter(self.setting.layout.stage.inset(2), self.setting.layout.words, solids, links)
 
     @cached_property
     def things(self) -> tuple[Thing, ...]:
@@ -291,11 +303,25 @@ class Surroundings:
     def _links(self) -> Iterator[Thing]:
         """Yield what each of the bodies covers, and each spring and damper."""
         figure, bar = self.setting.figure, self.setting.gauge.bar
-        links = [(body.joints, self._corners(body), bar + 0.5) for body in figure.bodies]
+        shaped = {body for body in figure.bodies if figure.scene.style(body.name).outline in BEYOND}
+        parts = {part.name: part for part in body_parts(self.setting)} if shaped else {}
+        for body in shaped:
+            outline = np.concatenate([loop for layer in parts[body.name].layers for loop in layer.loops])
+            solid = self._moving(parts[body.name], np.array(hull(outline.tolist()))[::_EVERY_CORNER])
+            yield Thing(frozenset(body.joints), solid, True)
+        links = [
+            (body.joints, self._corners(body), bar + 0.5) for body in figure.bodies if body not in shaped
+        ]
         struts = [(strut.between, strut.between, 1.1 * bar) for strut in figure.struts]
         for joints, corners, half in (*links, *struts):
             solid = Solid(np.stack([self._paths[name] for name in corners], axis=1), half)
             yield Thing(frozenset(joints), solid, True)
+
+    def _moving(self, part: Part, corners: Loop) -> Solid:
+        """Return what corners in the frame of a part cover."""
+        way = self._paths[part.head] - self._paths[part.tail]
+        turn = way / np.where(way == 0, 1, np.abs(way)) + (way == 0)
+        return Solid(self._paths[part.at][:, None] + turn[:, None] * corners, 0.0)
 
     def _pins(self) -> Iterator[Thing]:
         for name in self.setting.figure.pins:
@@ -306,10 +332,7 @@ class Surroundings:
         """Yield blocks, slotted bars, cylinders, and the guides on the ground."""
         for fitting in fittings(self.setting):
             for part in (*fitting.behind, *fitting.before):
-                corners = framed(np.concatenate(part.layers[0].loops))
-                way = self._paths[part.head] - self._paths[part.tail]
-                turn = way / np.where(way == 0, 1, np.abs(way)) + (way == 0)
-                solid = Solid(self._paths[part.at][:, None] + turn[:, None] * corners, 0.0)
+                solid = self._moving(part, framed(np.concatenate(part.layers[0].loops)))
                 yield Thing(frozenset((part.at, part.tail, part.head)), solid, part.tail != part.head)
         for loops in (*rails_of(self.setting), *rails_under(self.setting)):
             yield Thing(frozenset(), Solid(framed(np.concatenate(loops))[None], 0.0))
@@ -346,13 +369,6 @@ def _off(turns: Loop, size: tuple[float, float], radius: float) -> Loop:
     return off
 
 
-def _units(vectors: Loop) -> Loop:
-    """Return the directions; to the right where there is none."""
-    length = lengths(vectors)
-    directions_: Loop = np.where(length > 0, vectors / np.where(length > 0, length, 1), 1)
-    return directions_
-
-
 # Names on the picture: of joints and links, then their dimensions, each in one place for the whole cycle.
 
 _ROOM = 0.6
@@ -370,6 +386,8 @@ _LEAST_MEASURED = 0.4
 """A dimension likewise: it then stands in the table."""
 _ROW = 1.3
 """From row to row of the table, in heights of its text."""
+_TRIES = 3
+"""So many orders more are tried for what has no place yet, after the best."""
 _GRID = (9, 9)
 """So many places are tried for the table, across and down."""
 
@@ -431,6 +449,8 @@ class Names:
     unlisted: tuple[Label, ...] = ()
     """Rows for which there is no room."""
     scale: float = 1.0
+    missing: int = 0
+    """How many labels do not stand on the picture at all times at what they name."""
 
     def captions(self, pose: Pose, places: Places) -> list[Caption]:
         """Return every label that shows, as a line of text, and the table."""
@@ -538,15 +558,37 @@ def names_of(
     planned = [_joints(ground, fixed), _links(ground)]
     planned += [_dimensions(ground, known), _angle(ground, known)] if known else []
     planned += [_dead_centres(ground, dead_centres)] if dead_centres else []
-    placer, kept, left = Placer(ground.clutter()), [], []
-    for forms in chain(*planned, _joints(ground, moving)):
-        placed, (label, _) = (yield from _placed(placer, forms)), forms[0]
-        kept += placed
-        if label.about and not any(one.shown is not None and one.shown.all() for one in placed):
-            left.append(label)
-    rows, found = tuple(left), (setting.figure.scene.period, setting.gauge.bar, _halo(setting))
+    every, clutter = chain(*planned, _joints(ground, moving)), ground.clutter()
+    placer, placed, left = yield from _attempts([*every] if ground.phase is not None else every, clutter)
+    rows = tuple(label for label in left if label.about)
+    found = (setting.figure.scene.period, setting.gauge.bar, _halo(setting))
     table = (yield from _tabled(ground, placer, rows)) if rows else None
-    return Names(tuple(kept), *found, table, () if table else rows, setting.view.scale)
+    return Names(placed, *found, table, () if table else rows, setting.view.scale, len(left))
+
+
+Attempt = tuple[Placer, tuple[Label, ...], tuple[Label, ...]]
+"""What has been placed, where, and what is left over for some of the time or for all of it."""
+
+
+def _attempts(every: Iterable[tuple[Form, ...]], clutter: Clutter) -> Generator[None, None, Attempt]:
+    """Return the best of some attempts to place labels; those in a sequence are tried in other orders, too.
+
+    What was left over has the first choice the next time.
+    """
+    best, fewest, order = None, inf, [*every] if isinstance(every, Sequence) else every
+    while True:
+        placer, kept, left = Placer(clutter), list[Label](), list[tuple[Form, ...]]()
+        for forms in order:
+            placed = yield from _placed(placer, forms)
+            kept += placed
+            left += [] if any(one.shown is not None and one.shown.all() for one in placed) else [forms]
+        if best is None or len(left) < fewest:
+            best, fewest = (placer, tuple(kept), tuple(forms[0][0] for forms in left)), len(left)
+            tries = 0
+        tries += 1
+        if not left or not isinstance(every, Sequence) or tries > _TRIES:
+            return best
+        order = [*left, *(forms for forms in order if forms not in left)]
 
 
 def _placed(placer: Placer, forms: tuple[Form, ...]) -> Generator[None, None, list[Label]]:
@@ -663,9 +705,19 @@ def _dead_centres(ground: Surroundings, found: DeadCentres) -> Forms:
 
 
 def _dimensions(ground: Surroundings, known: Symbols) -> Forms:
-    """Yield the lengths and angles beside what they measure, those of the ground first."""
+    """Yield the lengths and angles beside what they measure, those of the ground first.
+
+    Of the others the shorter come first: of two lines beside each other the longer is the outer one.
+    """
     setting = ground.setting
     unit, size = setting.figure.scene.length_unit, setting.layout.small_size
-    for one in known.dimensions:
+    for one in sorted(known.dimensions, key=lambda one: _order(setting.figure, one)):
         label = _label(setting, one.written(unit), size, setting.theme.dim, one.symbol, one.about)
         yield tuple((label, spots) for spots in ground.dimension(one, label.size))
+
+
+def _order(figure: Figure, one: Measurement) -> tuple[bool, float]:
+    """Return in which order a dimension is placed: with a body's after the ground's, the shorter first."""
+    at, head = map(figure.start, one.frame)
+    way = abs(head - at) if one.frame[0] != one.frame[1] else 1.0
+    return bool(one.own), 0.0 if one.angle else round(way * abs(one.end - one.begin) / figure.extent, 9)

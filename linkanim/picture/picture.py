@@ -104,7 +104,7 @@ class Picture:
         self._beside = self._other_closure(before) if look.ghost else None
         self._apart, self._moment = apart, moment
         follows = held or self.scene.towards is not None
-        request = request_of(size, look, listed=listed, row=row)
+        request = request_of(size, look, listed=listed, row=row, still=moment is not None)
         if before and moment is None and (size, look.names) == (before.size, before.look.names):
             same = follows or before._goal is self._goal
             request = request._replace(table=before.fit.request.table) if same else request

@@ -18,6 +18,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import ArrayLike, NDArray
 
 from linkanim.picture.raster import Loop
+from linkanim.picture.shapes import lengths, units
 from linkanim.picture.view import Rect
 
 _Floats = NDArray[np.float64]
@@ -33,10 +34,12 @@ _BESIDE = 2.0
 """What it costs to lie on a solid that a label belongs to."""
 _CROSSING = 0.4
 """What it costs a line to cross a solid."""
-_ALONG = np.linspace(0.05, 0.95, 7)
-"""Where along a line is looked whether it does."""
 _THICK = 1.0
 """Half as thick as lines that go with labels are taken to be, in pixels."""
+_MOST_CROSSED = 1
+"""A line crosses no more links than this."""
+_CHAINED = 0.5
+"""Lines whose ends are so near to each other, in pixels, follow each other."""
 _GONE = 3
 """How many moments before it would lie on something a label is gone."""
 _SOFT = 3
@@ -82,6 +85,8 @@ class Clutter:
     inside: Rect
     rects: tuple[Rect, ...] = ()
     solids: tuple[Solid, ...] = ()
+    links: frozenset[int] = frozenset()
+    """The numbers of the solids that are links."""
 
     @cached_property
     def boxes(self) -> tuple[_Floats, ...]:
@@ -117,7 +122,9 @@ class LabelPlaces(NamedTuple):
     """A label: how large, and where its middle may stand at each of n moments (n, k), at which price.
 
     It may lie on the solids of the numbers `own`, and had better not on those `beside` it. With a place go
-    some `lines` (n moments, lines, begin and end): those whose number `drawn` has for it, -1 for none.
+    some `lines` (n moments, lines, begin and end): those whose number `drawn` has for it, -1 for none. The
+    first of them is a dimension line where the label has a `gap`: so far, in pixels, such lines stay off
+    each other, and words off the lines of others.
     """
 
     size: tuple[float, float]
@@ -127,6 +134,7 @@ class LabelPlaces(NamedTuple):
     beside: frozenset[int] = frozenset()
     lines: tuple[Loop, ...] = ()
     drawn: NDArray[np.int64] | None = None
+    gap: float = 0.0
 
     def at(self, moments: slice, which: slice = slice(None)) -> LabelPlaces:
         """Return it with some of the moments, and of the places."""
@@ -150,7 +158,7 @@ class Placer:
         self.clutter = clutter
         self._taken = np.array([[rect.middle for rect in clutter.rects]], np.complex128)
         self._sizes = np.array([(rect.width, rect.height) for rect in clutter.rects]).reshape(-1, 2).T
-        self._lines = np.zeros((1, 0, 2), np.complex128)
+        self._lines = self._measures = np.zeros((1, 0, 2), np.complex128)
 
     def first(
         self,
@@ -190,18 +198,22 @@ class Placer:
             self._taken = _joined(self._taken, label.places[:, placed.which : placed.which + 1])
             self._sizes = np.column_stack((self._sizes, label.size))
             number = -1 if label.drawn is None else int(label.drawn[placed.which])
-            self._lines = _joined(self._lines, label.lines[number]) if number >= 0 else self._lines
+            if number >= 0:
+                self._lines = _joined(self._lines, label.lines[number])
+            if number >= 0 and label.gap:
+                self._measures = _joined(self._measures, label.lines[number][:, :1])
 
     def _cost(self, label: LabelPlaces, moments: slice, clutter: Clutter) -> _Floats:
         """Return what each place costs at each moment: `_FORBIDDEN` for touching what it must not."""
         places, size = label.places, label.size
         forbidden: _Bools = np.logical_not(_within(places, size, clutter.inside))
         cost = np.zeros(places.shape)
-        taken, placed_lines = (
-            all_[moments] if len(all_) > 1 else all_ for all_ in (self._taken, self._lines)
+        taken, placed_lines, measures = (
+            all_[moments] if len(all_) > 1 else all_ for all_ in (self._taken, self._lines, self._measures)
         )
         forbidden |= _over(places[:, :, None] - taken[:, None], size, self._sizes).any(axis=2)
         forbidden |= _cut(places, size, placed_lines, _THICK)
+        forbidden |= _cut(places, size, measures, max(label.gap, _THICK))
         minor = clutter.little.copy()
         minor[[*label.beside]] = True
         for numbers, touched in _touched(places, size, clutter, but=label.own):
@@ -211,9 +223,15 @@ class Placer:
         if label.drawn is not None and len(lined):
             used, which = np.unique(label.drawn[lined], return_inverse=True)
             groups = [label.lines[n] for n in used]
-            forbidden[:, lined] |= self._barred(groups, taken, clutter)[:, which]
             firsts = np.stack([lines[:, 0] for lines in groups], axis=1)
-            cost[:, lined] += _CROSSING * _crossings(firsts, clutter)[:, which]
+            crossed, links = _crossings(firsts, clutter)
+            barred = self._barred(groups, taken, clutter)
+            if label.gap:
+                barred |= links > _MOST_CROSSED
+                barred |= _hits(taken, self._sizes, firsts, label.gap).any(axis=1)
+                barred |= _too_near(firsts, measures, label.gap)
+            forbidden[:, lined] |= barred[:, which]
+            cost[:, lined] += _CROSSING * crossed[:, which]
         return cost + _FORBIDDEN * forbidden
 
     def _barred(self, groups: Sequence[Loop], taken: Loop, clutter: Clutter) -> _Bools:
@@ -297,13 +315,55 @@ def _joined(one: Loop, other: Loop) -> Loop:
     return np.concatenate([*wide], axis=1)
 
 
-def _crossings(lines: Loop, clutter: Clutter) -> _Floats:
-    """Return how many solids each of some lines (n, m, 2) crosses at each moment (n, m)."""
-    places = lines[..., :1] + _ALONG * (lines[..., 1:] - lines[..., :1])
-    found, points = np.zeros(lines.shape[:2]), places.reshape(len(places), -1)
-    for _, touched in _touched(points, (0.0, 0.0), clutter):
-        found += touched.reshape(*places.shape, -1).any(axis=2).sum(axis=2)
-    return found
+def _crossings(lines: Loop, clutter: Clutter) -> tuple[_Floats, _Floats]:
+    """Return how many solids, and how many links, each of some lines (n, m, 2) crosses (n, m)."""
+    found = np.zeros((2, *lines.shape[:2]))
+    links = np.zeros(len(clutter.solids), np.bool_)
+    links[[*clutter.links]] = True
+    for numbers, solids in clutter.alike:
+        crossed = _run_through(lines, solids)
+        found += crossed.sum(axis=2), crossed[..., links[numbers]].sum(axis=2)
+    return found[0], found[1]
+
+
+def _run_through(lines: Loop, solids: Solids) -> _Bools:
+    """Return which lines (n, k, 2) run through which solids (n, k, m): nothing parts the two."""
+    ends, corners, half = lines[:, :, None], solids.corners[:, None], solids.half
+    parted = np.zeros(np.broadcast_shapes(ends.shape[:-1], corners.shape[:-1]), np.bool_)
+    count = corners.shape[-1]
+    edges = [corners[..., n] - corners[..., n - 1] for n in range(count if count > 2 else count - 1)]
+    for edge in (ends[..., 1] - ends[..., 0], *edges):
+        way = units(edge)[..., None].conj()
+        line, solid = ends * way, corners * way
+        for one, other in ((line.real, solid.real), (line.imag, solid.imag)):
+            parted |= (one.min(axis=-1) >= other.max(axis=-1) + half) | (
+                one.max(axis=-1) <= other.min(axis=-1) - half
+            )
+    return np.asarray(np.logical_not(parted))
+
+
+def _too_near(lines: Loop, others: Loop, gap: float) -> _Bools:
+    """Return which lines (n, k, 2) come nearer than a gap to one of some others (n, m, 2), as (n, k).
+
+    One that follows another in the same line, end to end, is not too near.
+    """
+    if not others.shape[1]:
+        return np.zeros(lines.shape[:2], np.bool_)
+    one, other = lines[:, :, None], others[:, None]
+    far, crossing, level, beyond = [], [], [], []
+    for ends, base in ((one, other), (other, one)):
+        along = base[..., 1] - base[..., 0]
+        long = lengths(along)
+        place = (ends - base[..., :1]) * units(along).conj()[..., None]
+        off = np.maximum(np.maximum(-place.real, place.real - long[..., None]), 0)
+        far.append(lengths(off + 1j * place.imag).min(axis=-1))
+        crossing.append(place.imag[..., 0] * place.imag[..., 1] < 0)
+        level.append(np.abs(place.imag).max(axis=-1) < _CHAINED)
+        beyond.append((place.real.max(axis=-1) < _CHAINED) | (place.real.min(axis=-1) > long - _CHAINED))
+    near = np.minimum(*far) < gap
+    near |= crossing[0] & crossing[1]
+    near &= ~(level[0] & level[1] & beyond[0])
+    return np.asarray(near.any(axis=2))
 
 
 def _straddles(corners: _Floats, middle: _Floats, reach: _Floats | float) -> _Bools:

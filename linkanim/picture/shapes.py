@@ -269,6 +269,13 @@ def unit(vector: complex) -> complex:
     return vector / size if size > 0 else 1 + 0j
 
 
+def units(vectors: Loop) -> Loop:
+    """Return the directions of vectors; to the right where one has no length."""
+    length_ = lengths(vectors)
+    found: Loop = np.where(length_ > 0, vectors / np.where(length_ > 0, length_, 1), 1)
+    return found
+
+
 def hull(points: Sequence[complex]) -> list[complex]:
     """Return the corners of the convex hull (monotone chain, Andrew 1979)."""
     ordered = sorted(set(points), key=lambda point: (point.real, point.imag))

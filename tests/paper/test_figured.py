@@ -72,7 +72,7 @@ def test_chart_words_and_key_stand_as_in_the_window(look: Look) -> None:
 
 @pytest.mark.parametrize("size", [SIZE, (450, 800)])
 def test_what_stands_beside_a_zoomed_scene_is_kept_clear_of_it(size: tuple[int, int]) -> None:
-    figured = Figured(load("crank-rocker"), size, Look(zoom=2.0, chart="rocker.angle", names=2), phase=1.0)
+    figured = Figured(load("crank-rocker"), size, Look(zoom=3.0, chart="rocker.angle", names=2), phase=1.0)
     reach, groups, cut = figured.picture.layout.reach, _groups(figured), 0
     assert reach.right < size[0] or reach.bottom < size[1]
     for name in groups.keys() - {"chart", "reading", "words", "key", "backing"}:
