@@ -30,6 +30,7 @@ from linkanim.picture.placing import MOMENTS, Clutter, LabelPlaces, Placer, Soli
 from linkanim.picture.raster import Colour, Layer, Loop
 from linkanim.picture.shapes import Part, Places, directions, framed, hull, units
 from linkanim.picture.text import subscripted
+from linkanim.picture.theme import Theme
 from linkanim.picture.view import Rect, View
 
 # Where labels may stand: round joints, on links, beside what is measured; what is in their way.
@@ -496,6 +497,20 @@ class Names:
         values = {one.symbol: one.written(unit) for one in known.dimensions} if known else {}
         table = self.table and replace(self.table, rows=_reread(self.table.rows, values))
         return replace(self, labels=_reread(self.labels, values), table=table, scale=scale)
+
+    def in_theme(self, one: Theme, other: Theme) -> Names:
+        """Return the names, which have the colours of one theme, where they are in those of another."""
+        colours = {one.ink: other.ink, one.dim: other.dim}
+        halo = self.halo._replace(colour=other.background)
+
+        def coloured(labels: Iterable[Label]) -> tuple[Label, ...]:
+            return tuple(replace(label, colour=colours[label.colour]) for label in labels)
+
+        table = self.table and replace(
+            self.table, rows=coloured(self.table.rows), colour=colours[self.table.colour], halo=halo
+        )
+        labels, unlisted = coloured(self.labels), coloured(self.unlisted)
+        return replace(self, labels=labels, halo=halo, table=table, unlisted=unlisted)
 
     def _shown(self, phase: float) -> list[float]:
         """Return how far each label shows at a phase."""

@@ -111,9 +111,8 @@ class Picture:
         self.late = earlier is not None
         """Whether what stands still is that of an earlier picture."""
         self._arrange(request, before, held=held)
-        coloured = before is not None and before.theme == self.theme
         anew = before is not None and not self._named_as(before, held=held)
-        self.hurried: bool = hurried and look.names > 0 and coloured and anew
+        self.hurried: bool = hurried and look.names > 0 and anew
         """Whether its names are those of another picture."""
         if self.hurried and before and before.fit.request.table[0] and before._goal is self._goal:
             self._arrange(request._replace(table=self._table_size()), before, held=held)
@@ -466,14 +465,15 @@ class Picture:
     def _placed(self, before: Picture | None, *, held: bool) -> Iterator[None]:
         """Place the names of joints and links, and their dimensions, as the scene fits the window, in steps.
 
-        Those of a picture `before` keep their places where it differs by its zoom and pan alone, while the
-        scene is on its way to another, and in a hurry.
+        Those of a picture `before` keep their places where it differs by its zoom, its pan and its theme
+        alone, while the scene is on its way to another, and in a hurry.
         """
         if before and (self.hurried or self._named_as(before, held=held)):
             names = before.names if self.figure.shown == before.figure.shown else None
             names = replace(names, table=None, unlisted=()) if names and self.hurried else names
             unit, scale = self.scene.length_unit, self.view.scale
-            self.names = names and names.measuring(self.drawing.symbols, unit, scale)
+            names = names and names.measuring(self.drawing.symbols, unit, scale)
+            self.names = names and names.in_theme(before.theme, self.theme)
             return
         from linkanim.picture.labels import Surroundings, names_of
 
@@ -496,7 +496,7 @@ class Picture:
 
     def _named_as(self, other: Picture, *, held: bool) -> bool:
         """Return whether the names on another picture are this one's."""
-        looks = ((one.theme, one.look.names, one.size) for one in (self, other))
+        looks = ((one.look.names, one.size) for one in (self, other))
         same = (self.scene, self.fitted, self.layout) == (other.scene, other.fitted, other.layout)
         follows = (held or self.scene.towards is not None) and self.figure.shown == other.figure.shown
         whole = other.names is not None and not other.hurried and self._moment is None

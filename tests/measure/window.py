@@ -93,7 +93,7 @@ class WindowRun:
 
 def run() -> WindowRun:
     """Measure the press with trace, names and dimensions, vectors, chart and HUD at both sizes."""
-    with _dummy():
+    with dummy():
         frames = tuple(measured(size) for size in SIZES)
         true = frame_decibels(load(SCENE)), jitter()
         return WindowRun(this_machine(), frames, first_frame(), *true)
@@ -143,7 +143,7 @@ def _started(compiled: str) -> float:
 
 
 @contextmanager
-def _dummy() -> Iterator[None]:
+def dummy() -> Iterator[None]:
     """Draw into no window meanwhile."""
     before = os.environ.get("SDL_VIDEODRIVER")
     os.environ["SDL_VIDEODRIVER"] = "dummy"

@@ -288,11 +288,21 @@ def _spots(picture: Picture) -> list[object]:
     return [label.spot for label in labelled(picture).labels]
 
 
-def test_zooming_panning_and_gliding_place_no_name_anew_and_a_theme_does() -> None:
+@pytest.mark.parametrize("level", [1, 2])
+def test_another_theme_places_no_name_anew_and_shows_the_same_as_if_it_did(level: int) -> None:
+    scene, size, look = load("press"), (640, 360), Look(names=level)
+    dark, first = replace(look, theme="dark"), Picture(scene, size, look)
+    taken, anew = Picture(scene, size, dark, first), Picture(scene, size, dark)
+    assert all(one is other for one, other in zip(_spots(first), _spots(taken), strict=True))
+    surfaces = [offscreen(size) for _ in "tn"]
+    for surface, picture in zip(surfaces, (taken, anew), strict=True):
+        SurfacePrinter().paint(surface, picture, scene.pose(1.0))
+    assert np.array_equal(pixels(surfaces[0]), pixels(surfaces[1]))
+
+
+def test_zooming_panning_and_gliding_place_no_name_anew() -> None:
     scene, size, look = load("press"), (640, 360), Look(names=1)
     first = Picture(scene, size, look)
-    dark = Picture(scene, size, replace(look, theme="dark"), first)
-    assert not any(one is other for one, other in zip(_spots(first), _spots(dark), strict=True))
     near = Picture(scene, size, replace(look, zoom=2.0, pan=(0.1, 0.2)), Picture(scene, size, look, first))
     on_its_way = Picture(replace(scene, towards=scene), size, look, first)
     for other in (near, on_its_way):

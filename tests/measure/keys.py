@@ -1,0 +1,93 @@
+"""What each key of the window costs on every scene: the frame that heeds it, and the worst of those after."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Iterable
+from statistics import median
+from typing import NamedTuple
+
+from window import dummy
+
+from linkanim.bench.result import this_machine
+from linkanim.export import columns
+from linkanim.player import screen as display
+from linkanim.player.action import Action
+from linkanim.player.actions import advance
+from linkanim.player.keys import Press, bind_of
+from linkanim.player.screen import Screen
+from linkanim.player.shown import overlay
+from linkanim.player.state import State, begin
+from linkanim.scenes import load, names
+
+KEYS = "lnptcvaibjhkoe"
+"""The letters measured: those that change what is shown."""
+BEFORE, AFTER = 12, 8
+"""Frames shown before a key, so that nothing of the start is left, and after it."""
+BOUNDS_MS = {(1280, 720): 33.0, (1920, 1080): 50.0}
+"""For the frame that heeds a key; those after it take no longer than the first of them."""
+TITLES = ("key", "median", "worst", "on", "worst after it", "on")
+
+
+class KeyCost(NamedTuple):
+    """Processor time of the frame that heeds a key, and of the slowest of those after it, in ms."""
+
+    key: str
+    scene: str
+    heeded: float
+    after: float
+
+
+def measured(size: tuple[int, int], scenes: Iterable[str], keys: str = KEYS) -> list[KeyCost]:
+    """Press each key once on each scene in a window of that size, everything else as at the start."""
+    return [found for name in scenes for found in _on_scene(size, name, keys)]
+
+
+def _on_scene(size: tuple[int, int], name: str, keys: str) -> list[KeyCost]:
+    begun, costs = begin(load(name)), []
+    for key in keys:
+        bind = bind_of(Press(key, key))
+        assert bind is not None, f"the key {key} does nothing"
+        with display.opened(size):
+            screen = Screen(begun)
+            state = begun
+            for _ in range(BEFORE):
+                state, _ = _frame(screen, state)
+            state, heeded = _frame(screen, state, bind.action)
+            later = []
+            for _ in range(AFTER):
+                state, spent = _frame(screen, state)
+                later.append(spent)
+        costs.append(KeyCost(key, name, heeded, max(later)))
+    return costs
+
+
+def _frame(screen: Screen, state: State, *actions: Action) -> tuple[State, float]:
+    """Return the state after a frame with these actions, and the processor time of it all in ms."""
+    start = time.process_time()
+    state = advance(state, actions)
+    screen.show(state, overlay(state))
+    return state, 1e3 * (time.process_time() - start)
+
+
+def as_text(size: tuple[int, int], costs: list[KeyCost]) -> str:
+    """Return a line for each key: its median and its worst over the scenes."""
+    rows = [TITLES]
+    for key in dict.fromkeys(cost.key for cost in costs):
+        of_key = [cost for cost in costs if cost.key == key]
+        worst = max(of_key, key=lambda cost: cost.heeded)
+        later = max(of_key, key=lambda cost: cost.after)
+        middle = median(cost.heeded for cost in of_key)
+        figures = (f"{middle:.0f} ms", f"{worst.heeded:.0f} ms", worst.scene)
+        rows.append((key.upper(), *figures, f"{later.after:.0f} ms", later.scene))
+    width, height = size
+    return f"{width}x{height}, at most {BOUNDS_MS[size]:g} ms wanted\n{columns(rows)}"
+
+
+if __name__ == "__main__":
+    chosen = sys.argv[1:] or [*names()]
+    print(this_machine().line)
+    with dummy():
+        for window in BOUNDS_MS:
+            print("\n" + as_text(window, measured(window, chosen)))
