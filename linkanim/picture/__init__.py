@@ -15,6 +15,7 @@ From the ground up; a module imports from those before it only:
     bodies        bars, plates, pins, centres of mass, the causal chain
     gears         wheels, teeth, belts
     motion_marks  traces, the input's arrow, velocity and acceleration arrows
+    ink           traces thickened and coloured by speed
     dimensions    symbols of dimensions, and dimension lines
     quantities    quantities over one true period, and axes
     chart         charts, and the chart beside the scene

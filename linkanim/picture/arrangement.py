@@ -18,7 +18,15 @@ from linkanim.picture.bodies import ENDED, WHEELS
 from linkanim.picture.figure import Figure, figure
 from linkanim.picture.fittings import outlines
 from linkanim.picture.gears import wheels
-from linkanim.picture.hud import WidestRow, WordBlock, blocks, caption_lines, shapes_of, widest_rows
+from linkanim.picture.hud import (
+    WidestRow,
+    WordBlock,
+    blocks,
+    caption_lines,
+    key_lines,
+    shapes_of,
+    widest_rows,
+)
 from linkanim.picture.layout import Gauge, Layout, gauge, layout, with_caption, with_table
 from linkanim.picture.look import Look
 from linkanim.picture.text import Type
@@ -466,7 +474,7 @@ def request_of(
     size: tuple[int, int], look: Look, *, listed: bool, row: bool, still: bool = False
 ) -> FitRequest:
     """Return what an arrangement for a look depends on."""
-    chart, keys = look.chart is not None, len(look.vectors) + look.chain
+    chart, keys = look.chart is not None, key_lines(look)
     captioned = look.caption and not listed
     request = FitRequest(size, chart, keys, look.hud, listed, look.polygons, row, caption=captioned)
     return request._replace(still=still, lined=still and look.names > 1)

@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     from linkanim.picture.bodies import CausalChain
     from linkanim.picture.centres import Centres
     from linkanim.picture.dead_centres import DeadCentres
+    from linkanim.picture.ink import Ink
 
 # What only some looks ask for is imported where they do: the first frame does not wait for it.
 
@@ -56,6 +57,7 @@ class Parts:
     mass: Stamp
     traces: tuple[Trace, ...]
     marks: Mapping[str, Stamp]
+    inks: tuple[Ink, ...]
     arrows: tuple[Arrows, ...]
     turning: Turning | Sliding | None
     legs: tuple[Part, ...]
@@ -129,6 +131,8 @@ class Drawing:
         yield Group("ground", ground_layers(self.setting), still=True)
         if look.names:
             yield Group("ground-line", ground_line(pivots(figure), self.setting), still=True)
+        for ink in self.parts.inks:
+            yield Group(f"ink-{ink.joint}", ink.layers, still=True, made_of=ink)
         for trace in self.parts.traces:
             yield Group(f"curve-{trace.joint}", [trace.whole()], still=True, made_of=trace)
         if self._rolling:
@@ -200,7 +204,7 @@ class Drawing:
 def _parts(setting: DrawSetting, known: Symbols | None) -> Parts:
     figure, view, gauge, theme = setting.known
     look = setting.look
-    curves = traces(setting) if look.trace else ()
+    curves = traces(setting) if look.trace or look.ink else ()
     bodies = body_parts(setting)
     chain = _chain(setting) if look.chain else None
     marked = [trace.joint for trace in curves if trace.joint not in figure.pins]
@@ -213,14 +217,21 @@ def _parts(setting: DrawSetting, known: Symbols | None) -> Parts:
         pinned=by_depth(bodies, (*figure.pins, *marked)),
         pins=chain.pins(gauge) if chain else dict.fromkeys(figure.pins, pin_stamp(gauge, theme)),
         mass=mass_stamp(gauge, theme),
-        traces=curves,
+        traces=() if look.ink else curves,
         marks={trace.joint: mark_stamp(trace.colour, gauge, theme) for trace in reversed(curves)},
+        inks=_inks(setting) if look.ink else (),
         arrows=tuple(arrows_of(figure, kind, height, gauge, theme) for kind in kinds),
         turning=motion_of(setting) if look.names else None,
         legs=tuple(leg_part(point, view, gauge, theme.dim) for point in known.points) if known else (),
         centres=_centres(setting) if look.centres else None,
         chain=chain,
     )
+
+
+def _inks(setting: DrawSetting) -> tuple[Ink, ...]:
+    from linkanim.picture.ink import inks
+
+    return inks(setting)
 
 
 def _centres(setting: DrawSetting) -> Centres:

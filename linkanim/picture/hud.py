@@ -12,13 +12,14 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import groupby, zip_longest
 from math import degrees, floor, inf, log10, pi, tau
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from linkanim.mechanics.forces import effort_token
 from linkanim.mechanics.motion import Pose
 from linkanim.mechanics.quantities import Quantity, register
 from linkanim.picture.items import Caption, Group, Item, grouped
 from linkanim.picture.layout import Layout
+from linkanim.picture.look import Look
 from linkanim.picture.motion_marks import Arrows
 from linkanim.picture.quantities import driven_words, sign_of, speed_in, speed_unit, speed_words
 from linkanim.picture.raster import Colour, Layer
@@ -29,6 +30,9 @@ from linkanim.picture.view import Rect, eased
 from linkanim.scenes.editing import beyond_title
 from linkanim.scenes.scene import Scene
 from linkanim.units import stepped, three_digits
+
+if TYPE_CHECKING:
+    from linkanim.picture.ink import InkScale
 
 # What the HUD tells of a pose: its rows of numbers, and what is special about it.
 
@@ -321,6 +325,8 @@ class Hud:
 
 # The key to the colours: of arrows with how much the one shown there stands for, of the causal chain.
 
+INK_LINES = 2
+"""Of the key to the ink: its colours, its dots."""
 KEY_STEP = 1.5
 """From line to line of the key to the arrows."""
 _SMALLEST = 8
@@ -331,7 +337,7 @@ _DISC_STEP = 1.2
 
 @dataclass(frozen=True)
 class Legend:
-    """A line for each kind of arrow at the foot of the HUD's column, and one for the chain's colours."""
+    """A line for each kind of arrow at the foot of the HUD's column, then those of ink and chain."""
 
     kinds: tuple[Arrows, ...]
     column: Rect
@@ -340,11 +346,29 @@ class Legend:
     type: Type
     theme: Theme
     chain: tuple[Colour, ...] = ()
+    ink: InkScale | None = None
 
     def group(self, speed: float) -> Group:
         """Return the key at this input speed (rad/s)."""
-        chained = self._chained(self._top(len(self.kinds))) if self.chain else ()
-        return grouped("key", [*self._arrows(speed), *chained], still=True)
+        inked = self._inked(self.ink, len(self.kinds), speed) if self.ink else ()
+        line = len(self.kinds) + (INK_LINES if self.ink else 0)
+        chained = self._chained(self._top(line)) if self.chain else ()
+        return grouped("key", [*self._arrows(speed), *inked, *chained], still=True)
+
+    def _inked(self, scale: InkScale, line: int, speed: float) -> Iterator[Item]:
+        """Yield what the ink says: its colours up to the greatest speed, and the time between its dots."""
+        size, dim, left = self.size, self.theme.dim, self.column.x
+        words = (("speed", scale.greatest_words(speed)), ("dots every", scale.interval_words(speed)))
+        for n, (name, meaning) in enumerate(words):
+            top = self._top(line + n)
+            sample = complex(left, top + 0.5 * size)
+            yield from (
+                scale.wedge(sample, self._reach, size, self.theme)
+                if n == 0
+                else scale.row_of_dots(sample, self._reach, size, self.theme)
+            )
+            yield Caption(name, (left + self._reach + 0.6 * size, top), size, dim)
+            yield Caption(meaning, (self.column.right, top), size, dim, "right")
 
     def _arrows(self, speed: float) -> Iterator[Item]:
         """Yield the arrows, what they are called, and how much each stands for."""
@@ -377,7 +401,9 @@ class Legend:
     @property
     def fits(self) -> bool:
         """Whether words and values stand side by side, with room for values a digit longer."""
-        lines = (f"{kind.words}  0{self.meaning(kind, kind.drive)}" for kind in self.kinds)
+        lines = [f"{kind.words}  0{self.meaning(kind, kind.drive)}" for kind in self.kinds]
+        if self.ink:
+            lines.append(f"speed  0{self.ink.greatest_words(self.ink.drive)}")
         room = self.column.width - self._reach - 0.6 * self.size
         return all(self.type.width(line, self.size) <= room for line in lines)
 
@@ -390,15 +416,25 @@ class Legend:
         return self.column.y + KEY_STEP * self.size * line
 
 
+def key_lines(look: Look) -> int:
+    """Return how many lines the key to a look's colours has."""
+    return len(look.vectors) + look.chain + INK_LINES * look.ink
+
+
 def legend_for(
-    kinds: tuple[Arrows, ...], layout: Layout, type_: Type, theme: Theme, chain: tuple[Colour, ...] = ()
+    kinds: tuple[Arrows, ...],
+    layout: Layout,
+    type_: Type,
+    theme: Theme,
+    chain: tuple[Colour, ...] = (),
+    ink: InkScale | None = None,
 ) -> Legend | None:
-    """Return the key to arrows and chain, its text as large as fits; None without any or a place for it."""
+    """Return the key to arrows, ink and chain, its text as large as fits; None without any or a place."""
     column = layout.legend
-    if column is None or not (kinds or chain):
+    if column is None or not (kinds or chain or ink):
         return None
     sizes = range(layout.small_size, _SMALLEST - 1, -1)
-    legends = [Legend(kinds, column, size, type_, theme, chain) for size in sizes]
+    legends = [Legend(kinds, column, size, type_, theme, chain, ink) for size in sizes]
     return next((legend for legend in legends if legend.fits), legends[-1])
 
 

@@ -100,7 +100,7 @@ class Trace:
     @cached_property
     def _courses(self) -> tuple[_Course, _Course]:
         """Two rounds of the path, and two the other way."""
-        side = _sides(self.path)
+        side = sides_of(self.path)
         corner = _corners(np.stack([self.path + way * side for way in (self.width, -self.width)]))
         there = _Course(np.tile(self.path, 2), np.tile(side, 2), np.tile(corner, 2))
         return there, _Course(there.path[::-1], -there.side[::-1], there.corner[::-1])
@@ -133,7 +133,7 @@ def _cuts(count: int) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
     return cuts, needed
 
 
-def _sides(path: Loop) -> Loop:
+def sides_of(path: Loop) -> Loop:
     """Return at each point of a closed path the way to the left edge of a line 2 wide; 0 where none moves."""
     moved = path != np.roll(path, 1)
     points = path[moved]

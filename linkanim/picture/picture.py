@@ -445,7 +445,8 @@ class Picture:
     def _legend(self) -> Legend | None:
         parts = self.drawing.parts
         chain = parts.chain.colours if parts.chain else ()
-        return legend_for(parts.arrows, self.layout, self.type, self.theme, chain)
+        ink = parts.inks[0].scale if parts.inks else None
+        return legend_for(parts.arrows, self.layout, self.type, self.theme, chain, ink)
 
     def _chart_panel(self) -> ChartPanel | None:
         if self.look.chart is None:

@@ -41,6 +41,8 @@ class Theme:
     """The driven crank's first, then in the order of the scene."""
     traces: tuple[Colour, ...]
     """For the joints traced, in their order, repeating."""
+    speeds: tuple[Colour, ...]
+    """From standing still to the greatest speed."""
 
 
 LIGHT = Theme(
@@ -60,6 +62,7 @@ LIGHT = Theme(
     chosen=(222, 236, 247),
     bodies=(VERMILLION, BLUE, GREEN, ORANGE, SKY, PURPLE),
     traces=((174, 70, 128), (0, 128, 96), ORANGE),
+    speeds=((52, 108, 190), (126, 56, 150), (204, 30, 80), (232, 104, 0)),
 )
 
 DARK = Theme(
@@ -79,6 +82,7 @@ DARK = Theme(
     chosen=(32, 58, 82),
     bodies=(VERMILLION, BLUE, GREEN, ORANGE, SKY, PURPLE),
     traces=((232, 150, 196), (60, 200, 160), YELLOW),
+    speeds=((84, 140, 230), (178, 120, 220), (240, 110, 140), (255, 176, 64)),
 )
 
 _THEMES = {"light": LIGHT, "dark": DARK}

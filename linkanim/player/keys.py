@@ -172,8 +172,11 @@ KEYS: Table = {
     ),
     "look": (
         *_looks("look"),
-        KeyRow("+, −, wheel, drag", "zoom, pan", _zoom("+ = kp_plus", 1.0) + _zoom("- kp_minus", -1.0)),
-        KeyRow("0, Home", "fit", _on("0 kp0 home", "fit")),
+        KeyRow(
+            "+, −, drag; 0: fit",
+            "zoom (wheel), pan",
+            _zoom("+ = kp_plus", 1.0) + _zoom("- kp_minus", -1.0) + _on("0 kp0 home", "fit"),
+        ),
         KeyRow("L", "light / dark", _of_look("theme")),
         KeyRow("U", "sounds: dead centres and limits", _on("u", "sounds")),
         KeyRow("F11", "full screen", _on("f11", "fullscreen")),
@@ -384,6 +387,7 @@ _APART: Mapping[Action, str] = {
     Action("vectors", "a"): "accelerations",
     Action("zoom", (1.0, 0.0, 0.0)): "nearer",
     Action("zoom", (-1.0, 0.0, 0.0)): "farther",
+    Action("fit"): "fit",
     Action("back"): "close what is open, leave full screen",
     Action("quit"): "quit",
     Action("chart", -1): "chart: the quantity before",
