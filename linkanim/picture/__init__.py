@@ -33,7 +33,7 @@ From the ground up; a module imports from those before it only:
     board         what every panel is drawn on
     game_panel    what a game shows
     panels        help, lists, chips, marks of state
-    slider        a small slider on the picture
+    slider        a small slider on the picture, and the dial of the pencil
     marks         the bar being edited, handles, a ram's lane
     photograph    a photograph behind a sheet
     tools         the bar of tools

@@ -15,6 +15,8 @@ _SHARE_BELOW, _SHARE_BESIDE = 0.27, 0.45
 """A chart's share of the height, or of the width."""
 _ROW_OF_ANSWERS = 0.17
 """The height of a row of small pictures, in heights of the window."""
+_SLIDER = 1.9
+"""The height of a slider's room, in heights of small text."""
 _NARROW = 30
 """A window narrower than so many heights of its text has a list at its foot, not at its left."""
 _SHARE_LISTED = 0.42
@@ -55,6 +57,8 @@ class Layout:
     """Where the words on what there is to press stand; without width where there is no room for them."""
     row: Rect | None = None
     """Where a row of small pictures stands, if there is one."""
+    dial: Rect | None = None
+    """Where a slider stands above that row."""
     table: Rect | None = None
     """Where a table of dimensions stands, if it is given room."""
     caption: Rect | None = None
@@ -154,9 +158,11 @@ def _charted(size: tuple[int, int], *, chart: bool, beside: bool, listed: bool, 
     empty = replace(empty, lists=_lists(empty))
     room = _beside(empty.lists, whole) if listed else whole
     if row:
-        high = _ROW_OF_ANSWERS * room.height
-        empty = replace(empty, row=Rect(room.x, room.bottom - high, room.width, high).inset(4 * unit))
-        room = room._replace(height=room.height - high)
+        high, slider = _ROW_OF_ANSWERS * room.height, _SLIDER * empty.small_size
+        place = Rect(room.x, room.bottom - high, room.width, high).inset(4 * unit)
+        dial = Rect(room.x, place.y - slider, room.width, slider)
+        empty = replace(empty, row=place, dial=dial)
+        room = room._replace(height=dial.y - room.y)
     if not chart:
         return replace(empty, stage=room)
     if beside:

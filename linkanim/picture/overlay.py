@@ -249,20 +249,32 @@ class PathShown:
     marked: bool = True
 
 
+class DialShown(NamedTuple):
+    """Where a knob stands, from 0 at the left to 1, between two words; the track may have `marks`."""
+
+    value: float
+    low: str
+    high: str
+    marks: tuple[float, ...] = ()
+    held: bool = False
+
+
 @dataclass(frozen=True)
 class AnswerRow:
     """Linkages that follow a path, as answers or scenes, what is said of each, and which one is shown.
 
-    Lengths are in `unit`; pictures are those of a `frame`, and `still` while paused.
+    Lengths are in `unit`; pictures are those of a `frame`, and `still` while paused. A `dial` stands above.
     """
 
     entries: tuple[PathAnswer | Scene, ...]
+    names: tuple[str, ...]
     words: tuple[str, ...]
     chosen: int
     unit: str
     frame: int
     theme: ThemeName
     still: bool = False
+    dial: DialShown | None = None
 
 
 @dataclass(frozen=True)

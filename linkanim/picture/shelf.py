@@ -18,6 +18,7 @@ from linkanim.picture.overlay import NEW, NEW_TITLE, AnswerRow, Browsing, Shelf
 from linkanim.picture.picture import Picture
 from linkanim.picture.raster import Layer, Loop, paint
 from linkanim.picture.shapes import box, disc
+from linkanim.picture.slider import draw_dial
 from linkanim.picture.surface import SurfacePrinter
 from linkanim.picture.text import Type, hyphened
 from linkanim.picture.theme import ORANGE, theme_of
@@ -368,11 +369,13 @@ class RowPrinter:
             return
         self._type = self._type or Type()
         board, cells = Board(layout, self._type, theme_of(row.theme)), row_cells(layout, len(row.entries))
-        kind = layout.size, row.theme, row.words, row.chosen
+        if row.dial and layout.dial:
+            draw_dial(surface, board, layout.dial, row.dial)
+        kind = layout.size, row.theme, row.names, row.words, row.chosen
         if self._still is None or self._still[0] != kind:
             self._still = kind, _still_answers(board, layout.row, cells, row)
         surface.blit(self._still[1], (round(layout.row.x), round(layout.row.y)))
-        for live, cell in self._shown(row, cells, 1.3 * layout.small_size):
+        for live, cell in self._shown(row, cells, _lines(row) * layout.small_size):
             assert live.printed
             surface.blit(live.printed, (round(cell.x), round(cell.y)))
 
@@ -405,10 +408,22 @@ def _still_answers(board: Board, room: Rect, cells: tuple[Rect, ...], row: Answe
         inner = frame_of(cell.inset(width * board.layout.unit), board, 0.0)
         paint(sheet, [Layer(ink, [frame_of(cell, board, 0.0)]), Layer(board.theme.panel, [inner])])
         number, off = f"{n + 1}", row.words[n]
-        words = board.fitting((f"{number}   {off}", off, number), size, cell.width - size)
-        at = cell.x + cell.width / 2, cell.bottom - 1.45 * size
-        board.write(sheet, words, at, size=size, anchor="centre", strong=chosen)
+        name = f"{number}   {row.names[n]}" if row.names[n] else number
+        lines = (
+            ((name, number), (off, off.split(" · ")[0]))
+            if any(row.names)
+            else ((f"{number}   {off}", off, number),)
+        )
+        for line, ways in enumerate(lines, start=1 - len(lines)):
+            words = board.fitting(ways, size, cell.width - 0.6 * size)
+            at = cell.x + cell.width / 2, cell.bottom - (1.45 - 1.1 * line) * size
+            board.write(sheet, words, at, size=size, anchor="centre", strong=chosen)
     return sheet
+
+
+def _lines(row: AnswerRow) -> float:
+    """Return how high the words below a picture are, in heights of their text."""
+    return 2.45 if any(row.names) else 1.3
 
 
 def _scene(entry: PathAnswer | Scene, unit: str) -> Scene:

@@ -1,15 +1,22 @@
-"""A slider at the upper right of the picture: its label, words at both ends, a knob at a step."""
+"""Sliders: a track with a knob and words at both ends.
+
+One stands at the upper right of the picture, its knob at a step; the dial stands above a row of answers.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
+import pygame
+
+from linkanim.picture.board import Board
 from linkanim.picture.figure import DrawSetting
 from linkanim.picture.items import Caption, Group
 from linkanim.picture.layout import Layout
-from linkanim.picture.overlay import SliderShown
-from linkanim.picture.raster import Layer
+from linkanim.picture.overlay import DialShown, SliderShown
+from linkanim.picture.raster import Colour, Layer, paint
 from linkanim.picture.shapes import box, disc, segments
+from linkanim.picture.theme import Theme
 from linkanim.picture.view import Rect
 
 _WIDE, _SHARE = 250.0, 0.42
@@ -39,13 +46,10 @@ def slider(setting: DrawSetting, shown: SliderShown) -> Iterator[Group]:
     rect, small, (left, wide) = slider_rect(layout), layout.small_size, _way(layout)
     row, line = rect.y + 1.9 * small, max(1.6 * layout.unit, 1.0)
     plate = rect.middle + box(rect.width, rect.height, 0.4 * small)
-    knob = complex(left + wide * shown.at / shown.steps, row)
-    layers = [
-        Layer(theme.background, [plate], _BACKING),
-        Layer(theme.rule, segments(complex(left, row), complex(left + wide, row), 2 * line)),
-        Layer(theme.ink, [knob + disc(0.42 * small)]),
-        Layer(theme.background, [knob + disc(0.42 * small - line)]),
-    ]
+    track = _track(
+        complex(left, row), wide, shown.at / shown.steps, 0.42 * small, line, theme, theme.background
+    )
+    layers = [Layer(theme.background, [plate], _BACKING), *track]
     middle, below = rect.x + rect.width / 2, row + 0.7 * small
     captions = [
         Caption(shown.label, (middle, rect.y + 0.1 * small), small, theme.dim, "centre"),
@@ -55,7 +59,56 @@ def slider(setting: DrawSetting, shown: SliderShown) -> Iterator[Group]:
     yield Group("slider", layers, captions, over=True)
 
 
+def _track(
+    left: complex, wide: float, share: float, radius: float, line: float, theme: Theme, filled: Colour
+) -> list[Layer]:
+    """Return a track from its left end, and the knob at a share of it, filled with a colour."""
+    knob = left + wide * share
+    return [
+        Layer(theme.rule, segments(left, left + wide, 2 * line)),
+        Layer(theme.ink, [knob + disc(radius)]),
+        Layer(filled, [knob + disc(radius - line)]),
+    ]
+
+
 def _way(layout: Layout) -> tuple[float, float]:
     """Return where the knob's way begins, and how long it is."""
     rect, edge = slider_rect(layout), 0.9 * layout.small_size
     return rect.x + edge, rect.width - 2 * edge
+
+
+_DIAL = 0.34
+"""The share of its room that the track of a dial is wide."""
+_BESIDE = 0.5
+"""How far beside its track a dial is still taken hold of, in heights of its room."""
+
+
+def dial_track(room: Rect) -> Rect:
+    """Return where the track of a dial runs, in the middle of its room."""
+    wide = _DIAL * room.width
+    return Rect(room.x + (room.width - wide) / 2, room.y, wide, room.height)
+
+
+def dial_value(room: Rect, x: float) -> float:
+    """Return the value at a pixel's x; beyond the ends of the track that of the end."""
+    way = dial_track(room)
+    return min(max((x - way.x) / max(way.width, 1.0), 0.0), 1.0)
+
+
+def is_on_dial(room: Rect, x: float, y: float) -> bool:
+    """Return whether a pixel is on a dial."""
+    way, reach = dial_track(room), _BESIDE * room.height
+    return way._replace(x=way.x - reach, width=way.width + 2 * reach).holds(x, y)
+
+
+def draw_dial(surface: pygame.Surface, board: Board, room: Rect, dial: DialShown) -> None:
+    """Draw a dial in its room, its words beside the ends of the track."""
+    way, size, unit = dial_track(room), board.layout.small_size, board.layout.unit
+    row, line, radius = way.y + way.height / 2, max(1.6 * unit, 1.0), 0.5 * size
+    marks = [complex(way.x + at * way.width, row) + box(2 * line, 0.6 * size) for at in dial.marks]
+    filled = board.theme.velocity if dial.held else board.theme.background
+    track = _track(complex(way.x, row), way.width, dial.value, radius, line, board.theme, filled)
+    paint(surface, [Layer(board.theme.rule, marks), *track])
+    top, gap, dim = row - 0.65 * size, radius + 0.7 * size, board.theme.dim
+    board.write(surface, dial.low, (way.x - gap, top), size=size, colour=dim, anchor="right")
+    board.write(surface, dial.high, (way.right + gap, top), size=size, colour=dim)

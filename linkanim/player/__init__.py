@@ -7,6 +7,7 @@ From the ground up; a module imports from those before it only:
     keys       the one table of keys and gamepad buttons
     state      all that one frame of the window shows
     edits      another scene is put on; dimensions are edited
+    dial       along the front, from the exact answer to the compact one
     pencil     a stroke is drawn, answers come, one is kept
     building   a linkage is built on the sheet
     making     a linkage is shown in the layers in which it can be made

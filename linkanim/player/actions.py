@@ -18,7 +18,7 @@ from linkanim.intake import control_in
 from linkanim.mechanics.quantities import input_symbol
 from linkanim.picture.look import TOGGLES, Look, answer, toggled
 from linkanim.picture.quantities import axes_of, axis_of, driven_words, quantity, speed_words
-from linkanim.player import building, edits, making, pencil
+from linkanim.player import building, dial, edits, making, pencil
 from linkanim.player.action import Action
 from linkanim.player.clock import Clock
 from linkanim.player.edits import drop, edit
@@ -385,6 +385,10 @@ def _number(value: object) -> bool:
     return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) <= LARGEST_NUMBER
 
 
+def _share(value: object) -> bool:
+    return _number(value) and 0.0 <= cast(float, value) <= 1.0
+
+
 def _text(value: object) -> bool:
     return isinstance(value, str) and not control_in(value)
 
@@ -423,12 +427,18 @@ def _hand(value: object) -> bool:
 
 def _answer(value: object) -> bool:
     # of the search nothing is imported before the pencil is taken
-    from linkanim.synthesis.answers import NUMBERS
+    from linkanim.synthesis.answers import EARLIER, NUMBERS
 
-    return _numbers(NUMBERS)(value)
+    return _numbers(NUMBERS)(value) or _numbers(EARLIER)(value)
 
 
 def _answers(value: object) -> bool:
+    from linkanim.synthesis.answers import EARLIER
+
+    return _grouped(value, EARLIER)
+
+
+def _cards(value: object) -> bool:
     from linkanim.synthesis.answers import NUMBERS
 
     return _grouped(value, NUMBERS)
@@ -551,7 +561,11 @@ ACTIONS: Mapping[str, Rule] = {
     "pen_off": Rule(_nothing, pencil.off),
     "stroke": Rule(_pairs, pencil.stroke),  # 1 closed, 0 open; x, y of each point
     "follow": Rule(_answer, pencil.follow),  # an answer's numbers
-    "answers": Rule(_answers, pencil.answers),  # which one is shown; the numbers of each
+    "answers": Rule(_answers, pencil.answers),  # on older tapes: as "cards", without sizes and angles
+    "cards": Rule(_cards, pencil.cards),  # which one is shown; the numbers of each
+    "way": Rule(_cards, pencil.way),  # 0; the numbers of each answer along the front
+    "dial": Rule(_share, dial.dial),  # from 0, the most exact, to 1, the most compact
+    "dial_on": Rule(_whole, dial.dial_on),  # so many answers further
     "answer": Rule(_whole, pencil.choose),  # its place in the row
     "take_point": Rule(_whole, pencil.take_point),  # its place on the stroke
     "take_pivot": Rule(_text, pencil.take_pivot),

@@ -42,15 +42,18 @@ def request_of(sketch: Sketch, *, search: bool) -> Follow | None:
     return Follow(sketch.strokes, points, curve.closed, pivots, near, search)
 
 
-def action_of(reply: Reply, sketch: Sketch | None) -> Action | None:
-    """Return what a reply does; None where it is to another stroke."""
+def actions_of(reply: Reply, sketch: Sketch | None) -> Iterator[Action]:
+    """Yield what a reply does; nothing where it is to another stroke."""
     if sketch is None or reply.stroke != sketch.strokes:
-        return None
+        return
     if reply.error:
-        return Action("note", reply.error)
-    if not reply.whole:
-        return Action("follow", tuple(reply.numbers))
-    return Action("answers", (float(reply.chosen), *reply.numbers))
+        yield Action("note", reply.error)
+    elif not reply.whole:
+        yield Action("follow", tuple(reply.numbers))
+    else:
+        yield Action("cards", (float(reply.chosen), *reply.numbers))
+        if reply.way:
+            yield Action("way", (0.0, *reply.way))
 
 
 class Following:

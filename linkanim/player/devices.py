@@ -287,7 +287,7 @@ _TENTHS = 0.1
 _PULL = 0.011
 """How far a value is dragged for a step, in the window's height."""
 _COARSE = 10
-Drag = Literal["pan", "crank", "chart", "joint", "row", "pen", "lead", "hand", "paper", "slider"]
+Drag = Literal["pan", "crank", "chart", "joint", "row", "pen", "lead", "dial", "hand", "paper", "slider"]
 _KINDS: Mapping[int, Literal["wheel", "down", "up", "move"]] = {
     pygame.MOUSEWHEEL: "wheel",
     pygame.MOUSEBUTTONDOWN: "down",
@@ -297,7 +297,7 @@ _KINDS: Mapping[int, Literal["wheel", "down", "up", "move"]] = {
 MOUSE_EVENTS = tuple(_KINDS)
 _STILL = 0.006
 """How far the hand may move in a click on paper, in the window's height."""
-_PENCIL: Mapping[str, Drag] = {"pen_down": "pen", "take_point": "lead", "take_pivot": "lead"}
+_PENCIL: Mapping[str, Drag] = {"pen_down": "pen", "take_point": "lead", "take_pivot": "lead", "dial": "dial"}
 """What the mouse does on while its button is down, by what the pencil has begun."""
 
 
@@ -455,8 +455,10 @@ class Mouse:
             begun = screen.pencil_at(*self._at, reach)
             self._drag = _PENCIL.get(begun.name)
             return (begun,)
-        if self._drag not in ("pen", "lead") or gesture.kind not in ("move", "up"):
+        if self._drag not in ("pen", "lead", "dial") or gesture.kind not in ("move", "up"):
             return None
+        if gesture.kind == "move" and self._drag == "dial":
+            return (Action("dial", screen.dialled(self._at[0])),)
         if gesture.kind == "move":
             return (Action("pen_to" if self._drag == "pen" else "lead", screen.world(*self._at)),)
         drag, self._drag = self._drag, None

@@ -264,6 +264,7 @@ _IN_A_MODE: Table = {
     "in W": (
         KeyRow("mouse", "draw a path in one stroke; drag its points and the fixed pins"),
         KeyRow("1–9, click", "take another answer", _digits("answer")),
+        KeyRow(", .", "the dial: more exact, more compact", _both(",", ".", "dial_on")),
         KeyRow("Ctrl+Z", "undo the last stroke or drag", _on("ctrl+z", "take_back", held=True)),
         KeyRow("Enter", "keep the linkage as the scene; Esc goes back", _enter("keep")),
     ),

@@ -7,8 +7,18 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from linkanim.errors import BadInput
+from linkanim.player.dial import dialled, ready
 from linkanim.player.edits import drop, exchanged, followed
-from linkanim.player.state import PIVOTS, Sketch, State, nothing_begun, with_effect, with_toast, with_undo
+from linkanim.player.state import (
+    DIAL,
+    PIVOTS,
+    Sketch,
+    State,
+    nothing_begun,
+    with_effect,
+    with_toast,
+    with_undo,
+)
 from linkanim.scenes.editing import in_unit
 from linkanim.scenes.scene import Scene
 
@@ -115,7 +125,7 @@ def _searched(state: State, curve: DrawnCurve) -> State:
     """Return the state with another stroke, linkages for which are asked for."""
     assert state.sketch
     earlier = replace(state.sketch, pen=())
-    bare = replace(earlier, answers=(), chosen=0, pivots=(), held=None, earlier=earlier)
+    bare = replace(undialled(earlier), answers=(), chosen=0, names=(), way=(), pivots=(), earlier=earlier)
     sketch = replace(bare, curve=curve, strokes=bare.strokes + 1)
     return with_effect(replace(state, sketch=sketch, toast=None), "search")
 
@@ -136,14 +146,7 @@ def follow(state: State, numbers: tuple[float, ...]) -> State:
     answers = tuple(answer if n == sketch.chosen else one for n, one in enumerate(sketch.answers))
     if sketch.held is None:
         return followed(_sketching(state, answers=answers), answer.scene(unit))
-    return _sketching(state, answers=answers, coming=_ready(answer.scene(unit, sketch.base), state.phase))
-
-
-def _ready(scene: Scene, phase: float) -> Scene:
-    """Return a scene with what the next frame asks first worked out: that frame has its picture to make."""
-    _ = scene.cycle(1, derivatives=0).position
-    scene.pose(phase, 0)
-    return scene
+    return _sketching(state, answers=answers, coming=ready(answer.scene(unit, sketch.base), state.phase))
 
 
 def come(state: State) -> State:
@@ -153,22 +156,62 @@ def come(state: State) -> State:
 
 
 def answers(state: State, numbers: tuple[float, ...]) -> State:
-    """Take all answers in place of those that are there: which is to be shown, and the numbers of each."""
-    from linkanim.synthesis.answers import NUMBERS, answer_from
+    """Take all answers as they are on older tapes, without sizes and angles."""
+    from linkanim.synthesis.answers import EARLIER
 
+    return _taken(state, round(numbers[0]), _answers_of(numbers[1:], EARLIER))
+
+
+def cards(state: State, numbers: tuple[float, ...]) -> State:
+    """Take all answers in place of those that are there: which is to be shown, and the numbers of each.
+
+    One that was chosen meanwhile stays.
+    """
+    from linkanim.synthesis.answers import NUMBERS
+    from linkanim.synthesis.front import names_of
+
+    sketch, first, found = state.sketch, round(numbers[0]), _answers_of(numbers[1:], NUMBERS)
+    if sketch and sketch.picked and isinstance(sketch.answer, tuple):
+        found = (*found, *([] if sketch.answer in found else [sketch.answer]))
+        first = found.index(sketch.answer)
+    state = _taken(state, first, found)
+    known = all(one.size > 0 for one in found)
+    if not known or state.sketch is None or state.sketch.answers[-len(found) :] != found:
+        return state
+    own = len(state.sketch.answers) - len(found)
+    return _sketching(state, names=(*own * ("",), *names_of([one.figures for one in found])))
+
+
+def way(state: State, numbers: tuple[float, ...]) -> State:
+    """Take the answers along the front, from the exact end to the compact one: 0, and the numbers of each."""
+    from linkanim.synthesis.answers import NUMBERS
+
+    if state.sketch is None or state.sketch.held is not None:
+        return state
+    return _sketching(state, way=_answers_of(numbers[1:], NUMBERS))
+
+
+def _answers_of(numbers: tuple[float, ...], each: int) -> tuple[PathAnswer, ...]:
+    from linkanim.synthesis.answers import answer_from
+
+    return tuple(answer_from(numbers[n : n + each]) for n in range(0, len(numbers), each))
+
+
+def _taken(state: State, first: int, found: tuple[PathAnswer, ...]) -> State:
+    """Return the state with answers in place of those that are there, and one of them shown."""
     sketch = state.sketch
     if sketch is None or sketch.curve is None or sketch.held is not None:
         return state
-    first, parts = round(numbers[0]), [numbers[n : n + NUMBERS] for n in range(1, len(numbers), NUMBERS)]
-    found = tuple(map(answer_from, parts))
     if not 0 <= first < len(found):
         return state
     if sketch.answers and isinstance(sketch.answers[0], Scene):
         own = in_unit(sketch.answers[0], sketch.unit)
         others = tuple(one for one in found if not _stands_on(own, one, sketch.curve.size))
         return _sketching(state, answers=(sketch.answers[0], *others))
-    was_none = not sketch.answers
+    was_none, before = not sketch.answers, sketch.answer
     state = _sketching(state, answers=found, chosen=first)
+    if before == found[first]:
+        return state
     scene = found[first].scene(sketch.unit)
     if was_none:
         return replace(exchanged(state, scene), glide=None, faded=state.frame)
@@ -186,13 +229,13 @@ def _stands_on(scene: Scene, answer: PathAnswer, size: float) -> bool:
 def choose(state: State, place: int) -> State:
     """Show another of the answers."""
     sketch = state.sketch
-    if sketch is None or sketch.held is not None or place == sketch.chosen:
+    if sketch is None or sketch.held is not None or (place == sketch.chosen and not sketch.dialled):
         return state
     if not 0 <= place < len(sketch.answers):
         return state
     scene = _scene_of(sketch.answers[place], sketch.unit)
     state = replace(exchanged(state, scene), glide=None, faded=state.frame)
-    return _sketching(state, chosen=place)
+    return replace(state, sketch=replace(undialled(sketch), chosen=place, picked=True))
 
 
 def take_point(state: State, point: int) -> State:
@@ -200,7 +243,7 @@ def take_point(state: State, point: int) -> State:
     sketch = state.sketch
     if sketch is None or sketch.curve is None or not 0 <= point < len(sketch.curve.points):
         return state
-    return _sketching(replace(state, glide=None), held=point, base=state.scene, earlier=sketch)
+    return _held(state, sketch, point)
 
 
 def take_pivot(state: State, pivot: str) -> State:
@@ -208,7 +251,22 @@ def take_pivot(state: State, pivot: str) -> State:
     sketch = state.sketch
     if sketch is None or pivot not in PIVOTS or sketch.answer is None or isinstance(sketch.answer, Scene):
         return state
-    return _sketching(replace(state, glide=None), held=pivot, base=state.scene, earlier=sketch)
+    return _held(state, sketch, pivot)
+
+
+def _held(state: State, sketch: Sketch, held: int | str) -> State:
+    """Return the state with something of a sketch taken hold of; what the dial shows becomes an answer."""
+    found = undialled(sketch)
+    if sketch.dialled:
+        answers = (*sketch.answers[: sketch.chosen], sketch.dialled, *sketch.answers[sketch.chosen + 1 :])
+        found = replace(found, answers=answers)
+    found = replace(found, way=(), names=(), picked=False, held=held, base=state.scene, earlier=sketch)
+    return replace(state, glide=None, sketch=found)
+
+
+def undialled(sketch: Sketch) -> Sketch:
+    """Return a sketch of which nothing is dragged, its dial where the answer that was chosen is."""
+    return replace(sketch, dial=None, dialled=None, held=None, picked=False)
 
 
 def lead(state: State, to: tuple[float, float]) -> State:
@@ -216,7 +274,7 @@ def lead(state: State, to: tuple[float, float]) -> State:
     from linkanim.synthesis.curves import bent
 
     sketch = state.sketch
-    if sketch is None or sketch.held is None:
+    if sketch is None or sketch.held is None or sketch.held == DIAL:
         return state
     if isinstance(sketch.held, str):
         pivots = {**dict(sketch.pivots), sketch.held: to}
@@ -233,7 +291,7 @@ def take_back(state: State, _: None) -> State:
     sketch = state.sketch
     if sketch is None or sketch.earlier is None or sketch.held is not None:
         return state
-    back = replace(sketch.earlier, pen=(), strokes=sketch.strokes + 1)
+    back = replace(sketch.earlier, pen=(), strokes=sketch.strokes + (sketch.held != DIAL))
     state = replace(state, sketch=back)
     if back.answer is None:
         return with_effect(state, "search") if back.curve else state
@@ -255,6 +313,8 @@ def let_go(state: State, _: None) -> State:
     sketch = state.sketch
     if sketch is None or sketch.held is None:
         return state
+    if sketch.held == DIAL:
+        return dialled(state)
     answer = sketch.answer
     state = _sketching(state, held=None, base=None, coming=None)
     if answer and not isinstance(answer, Scene) and state.scene is not sketch.base:

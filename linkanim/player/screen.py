@@ -26,7 +26,7 @@ from linkanim.picture.layout import layout
 from linkanim.picture.overlay import Browsing, Overlay
 from linkanim.picture.picture import Picture
 from linkanim.picture.shelf import Grid, RowPrinter, ShelfPrinter, grid, row_cells
-from linkanim.picture.slider import slider_rect, slider_step
+from linkanim.picture.slider import dial_value, is_on_dial, slider_rect, slider_step
 from linkanim.picture.surface import SurfacePrinter
 from linkanim.picture.theme import theme_of
 from linkanim.picture.tools import ToolPrinter, tool_at
@@ -359,6 +359,9 @@ class Screen:
         place = next((n for n, cell in enumerate(self.answer_cells()) if cell.holds(x, y)), None)
         if place is not None:
             return Action("answer", place)
+        room = self._framing.last.layout.dial
+        if room and len(sketch.way) > 1 and is_on_dial(room, x, y):
+            return Action("dial", dial_value(room, x))
         pose = self.state.displayed.pose(self.state.phase, 0)
         pivots = [name for name in PIVOTS if name in pose.position] if sketch.follows else []
         for pivot in pivots:
@@ -369,6 +372,11 @@ class Screen:
         if away and min(away) <= reach:
             return Action("take_point", away.index(min(away)))
         return Action("pen_down", self.world(x, y))
+
+    def dialled(self, x: float) -> float:
+        """Return the share of the dial at a pixel's x."""
+        room = self._framing.last.layout.dial
+        return dial_value(room, x) if room else 0.0
 
     def sheet_at(self, x: float, y: float) -> Literal["hand", "crank", "paper"]:
         """Return what the hand does at a pixel of a sheet: it draws, turns the crank, shifts the paper."""

@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import replace
 from math import atan2, degrees, hypot, isfinite, isnan
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -21,6 +22,7 @@ from linkanim.picture.overlay import (
     AnswerRow,
     Browsing,
     BuildShown,
+    DialShown,
     DimensionLine,
     DraftShown,
     EditRow,
@@ -39,8 +41,10 @@ from linkanim.picture.overlay import (
 from linkanim.picture.quantities import quantity
 from linkanim.picture.text import subscripted
 from linkanim.player.clock import FRAMES_PER_SECOND
+from linkanim.player.dial import place_of
 from linkanim.player.keys import help_groups
 from linkanim.player.state import (
+    DIAL,
     FLASH_FRAMES,
     LIFTED,
     SHUTTER_FRAMES,
@@ -56,6 +60,9 @@ from linkanim.player.state import (
 from linkanim.scenes.editing import Dimension, dimensions, in_unit, stretches
 from linkanim.scenes.scene import Scene
 from linkanim.units import significant, stepped, typeset
+
+if TYPE_CHECKING:
+    from linkanim.synthesis.answers import PathAnswer
 
 # What a sheet shows: its draft or the linkage it makes, words, tools, what is under the hand.
 
@@ -325,11 +332,23 @@ def _four_digits(value: float) -> str:
 
 
 def _path(sketch: Sketch) -> PathShown:
-    curve, off = sketch.curve, None if sketch.off is None else f"{_percent(sketch.off)} off"
+    curve, off = sketch.curve, _off(sketch)
     held = sketch.held if isinstance(sketch.held, int) else None
     searched = "searching" if curve and not sketch.pen else None
     pins = tuple(place for _, place in sketch.pivots)
     return PathShown(curve, sketch.pen, sketch.is_blank, searched if sketch.is_blank else off, held, pins)
+
+
+def _off(sketch: Sketch) -> str | None:
+    """Say by how much the answer shown is off, and what else it is judged by."""
+    answer = sketch.answer
+    if answer is None or sketch.off is None:
+        return None
+    off = f"{_percent(sketch.off)} off"
+    if isinstance(answer, Scene) or not answer.size:
+        return off
+    size, angle = significant(answer.size, 2), round(degrees(answer.angle))
+    return f"{off} · longest bar ×{size} · transmission angle {angle}°"
 
 
 def _answer_row(state: State, sketch: Sketch) -> AnswerRow:
@@ -337,9 +356,21 @@ def _answer_row(state: State, sketch: Sketch) -> AnswerRow:
     entries = tuple(
         sketch.base if sketch.base and n == sketch.chosen else one for n, one in enumerate(sketch.answers)
     )
-    words = tuple("its own" if isinstance(one, Scene) else _percent(one.off) for one in sketch.answers)
+    words = tuple("its own" if isinstance(one, Scene) else _figures(one) for one in sketch.answers)
+    names = sketch.names if len(sketch.names) == len(words) else tuple("" for _ in words)
     unit, still = sketch.unit, state.clock.paused or sketch.held is not None
-    return AnswerRow(entries, words, sketch.chosen, unit, state.frame, state.look.theme, still)
+    chosen = sketch.chosen if sketch.dialled is None else -1
+    marks = tuple(n / (len(sketch.way) - 1) for n, one in enumerate(sketch.way) if one in sketch.answers)
+    held = sketch.held == DIAL
+    dial = DialShown(place_of(sketch), "exact", "compact", marks, held) if len(sketch.way) > 1 else None
+    return AnswerRow(entries, names, words, chosen, unit, state.frame, state.look.theme, still, dial)
+
+
+def _figures(answer: PathAnswer) -> str:
+    """Return an answer's deviation, and where they are known its size and least transmission angle."""
+    if not answer.size:
+        return _percent(answer.off)
+    return f"{_percent(answer.off)} · ×{significant(answer.size, 2)} · {round(degrees(answer.angle))}°"
 
 
 def _percent(share: float) -> str:

@@ -379,6 +379,8 @@ def driven_bar(draft: Draft) -> Thing | None:
 
 PIVOTS = ("O2", "O4")
 """Of every answer."""
+DIAL = "dial"
+"""What of a sketch is held while its dial is dragged."""
 
 
 @dataclass(frozen=True)
@@ -387,8 +389,11 @@ class Sketch:
 
     All is in the `unit` of length in which scenes were shown then. `pen` holds the points of the stroke under
     way, `curve` what the last stroke meant; `strokes` counts them. Of the `answers` the `chosen` one is the
-    state's scene; the first may be the scene whose own trace was taken. `pivots` are held where they were
-    put. `held` is the number of the curve's point, or the pivot, that is being dragged, `base` the scene when
+    state's scene; the first may be the scene whose own trace was taken. `names` says what each is among
+    them. `way` goes from the exact end of the front to the compact one; where the `dial` along it was moved
+    to a share, the scene is the answer that was `dialled` there. One that was `picked` by hand stays when
+    more answers come. `pivots` are held where they were put.
+    `held` is the number of the curve's point, the pivot, or the `DIAL` that is dragged, `base` the scene when
     that was taken, `coming` the one for the next frame. `earlier` was there before the last stroke or drag.
     """
 
@@ -401,6 +406,11 @@ class Sketch:
     curve: DrawnCurve | None = None
     answers: tuple[PathAnswer | Scene, ...] = ()
     chosen: int = 0
+    names: tuple[str, ...] = ()
+    way: tuple[PathAnswer, ...] = ()
+    dial: float | None = None
+    dialled: PathAnswer | None = None
+    picked: bool = False
     pivots: tuple[tuple[str, Point], ...] = ()
     held: int | str | None = None
     base: Scene | None = None
@@ -410,7 +420,7 @@ class Sketch:
     @property
     def answer(self) -> PathAnswer | Scene | None:
         """The answer that is shown; None before the first has come."""
-        return self.answers[self.chosen] if self.answers else None
+        return self.dialled or (self.answers[self.chosen] if self.answers else None)
 
     @property
     def follows(self) -> bool:

@@ -108,8 +108,12 @@ def resumed(state: State) -> Iterator[Action]:
         points = (part for point in sketch.curve.points for part in (float(point.real), float(point.imag)))
         yield Action("stroke", (float(sketch.curve.closed), *points))
     if found:
-        yield Action("answers", (0.0, *(number for one in found for number in one.numbers)))
+        yield Action("cards", (0.0, *(number for one in found for number in one.numbers)))
         yield Action("answer", sketch.chosen)
+    if sketch.way:
+        yield Action("way", (0.0, *(number for one in sketch.way for number in one.numbers)))
+    if sketch.dial is not None:
+        yield from (Action("dial", sketch.dial), Action("let_go"))
     for pivot, to in sketch.pivots:
         yield from (Action("take_pivot", pivot), Action("lead", to), Action("let_go"))
     yield from (Action("pen_to" if n else "pen_down", (at.real, at.imag)) for n, at in enumerate(sketch.pen))

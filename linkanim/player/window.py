@@ -228,11 +228,10 @@ class Window:
         """Yield what the search for linkages has replied."""
         if self._following is None or (self.state.sketch and self.state.sketch.coming):
             return
-        from linkanim.player.beside import action_of
+        from linkanim.player.beside import actions_of
 
         for reply in self._following.replies():
-            if action := action_of(reply, self.state.sketch):
-                yield action
+            yield from actions_of(reply, self.state.sketch)
 
     def _layered(self) -> Iterator[Action]:
         """Yield what has been found out of the layers that are waited for."""

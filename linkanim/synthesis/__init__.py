@@ -8,6 +8,8 @@ From the ground up; a module imports from those before it only:
     atlas          coupler curves to start from
     fitting        what is asked for; least squares over many candidates
     answers        answers checked by the solver; cognates; files
+    search         from a curve to linkages that follow it, the best first
+    front          deviation, size and transmission angle judged together
     path           `linkanim.path`: a drawn path
     follower       the same beside the window, while a stroke is drawn
     burmester      points of a body that stay on a circle through its poses

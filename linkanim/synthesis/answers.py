@@ -34,6 +34,9 @@ from linkanim.synthesis.linkages import FOUR_BAR, Complex, Linkage4, LinkageKind
 
 # An answer: a linkage as a scene, and how well it follows the curve, as the solver says.
 
+_ROOM_POSES = 144
+"""Over a period, of which the room is taken that an answer sweeps."""
+
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class CouplerLinkage(ABC):
@@ -76,6 +79,20 @@ class CouplerLinkage(ABC):
         return math.copysign(1.0, self.scene.linkage.drive.speed)
 
 
+class Figures(NamedTuple):
+    """What an answer is judged by: the less of the first three, and the greater the angle, the better.
+
+    `deviation` is by what answers are ranked, `size` the longest link and `room` the diagonal of the
+    rectangle that all joints sweep, each as a share of the curve's size; `angle` is the least transmission
+    angle (rad).
+    """
+
+    deviation: float
+    size: float
+    room: float
+    angle: float
+
+
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Fit(CouplerLinkage):
     """A linkage beside the drawn curve; distances in the curve's unit."""
@@ -115,6 +132,15 @@ class Fit(CouplerLinkage):
         if len(self.angles) <= FEW:
             return self.rms
         return math.hypot(self.rms, max(0.0, self.stray - self.largest - self.task.curve.longest_step / 2))
+
+    @cached_property
+    def figures(self) -> Figures:
+        """What it is judged by beside other answers."""
+        places = [as_complex(at) for at in self.scene.cycle(_ROOM_POSES, derivatives=0).position.values()]
+        swept = np.concatenate([np.ravel(place) for place in places])
+        size = self.task.curve.size
+        room = float(np.hypot(np.ptp(swept.real), np.ptp(swept.imag)))
+        return Figures(self.error / size, self.size / size, room / size, self.transmission_angle)
 
 
 def document_of(
@@ -475,14 +501,17 @@ def _cognates(fit: Fit, point: Complex) -> tuple[_Joints, _Joints]:
 
 NAME = "path"
 """What the scene of an answer is called, and its file."""
-NUMBERS = 4 + len(FOUR_BAR.parameters)
+EARLIER = 4 + len(FOUR_BAR.parameters)
+NUMBERS = EARLIER + 2
+"""Of an answer; on older tapes it is without the last two."""
 
 
 class PathAnswer(NamedTuple):
     """A four-bar beside a stroke: by how much of its size in percent it is off, and what it is.
 
     `closure` is +1 or -1, `start` the crank's angle at the stroke's first point (rad), `sense` +1 or -1 the
-    way it turns from there, `row` the parameters of a four-bar.
+    way it turns from there, `row` the parameters of a four-bar. `size` is its longest link as a share of the
+    stroke's size, `angle` the least transmission angle (rad), each 0 where it is not known.
     """
 
     off: float
@@ -490,11 +519,18 @@ class PathAnswer(NamedTuple):
     start: float
     sense: float
     row: tuple[float, ...]
+    size: float = 0.0
+    angle: float = 0.0
+
+    @property
+    def figures(self) -> Figures:
+        """What it is judged by beside others; the room that it sweeps is not known here."""
+        return Figures(self.off / 100, self.size, self.size, self.angle)
 
     @property
     def numbers(self) -> tuple[float, ...]:
         """All of it in a row."""
-        return (*self[:4], *self.row)
+        return (*self[:4], *self.row, self.size, self.angle)
 
     def scene(self, unit: str, towards: Scene | None = None) -> Scene:
         """Return the linkage as a scene, maybe on the way `towards` another; errors as reading a file."""
@@ -506,15 +542,15 @@ class PathAnswer(NamedTuple):
 
 def answer_of(fit: Fit) -> PathAnswer:
     """Return a fit's answer."""
-    off = 100 * fit.error / fit.task.curve.size
-    row = tuple(float(value) for value in fit.row)
-    return PathAnswer(off, fit.closure_sign, float(fit.angles[0]), fit.sense, row)
+    figures, row = fit.figures, tuple(float(value) for value in fit.row)
+    start, off = float(fit.angles[0]), 100 * figures.deviation
+    return PathAnswer(off, fit.closure_sign, start, fit.sense, row, figures.size, figures.angle)
 
 
 def answer_from(numbers: tuple[float, ...]) -> PathAnswer:
-    """Return the answer that is all of these `NUMBERS` numbers."""
-    off, closure, start, sense, *row = numbers
-    return PathAnswer(off, closure, start, sense, tuple(row))
+    """Return the answer that is all of these `NUMBERS` numbers; the last two may be missing."""
+    off, closure, start, sense = numbers[:4]
+    return PathAnswer(off, closure, start, sense, tuple(numbers[4:EARLIER]), *numbers[EARLIER:])
 
 
 # Answers as scene files: the first under the name that was asked for, the others numbered.

@@ -248,10 +248,9 @@ def _change(problem: PathTask, state: _State, residual: Real, slopes: Real, damp
 
 def _slack_slopes(problem: PathTask, rows: Real, slack: Real) -> Real:
     """Return how each slack changes with each parameter (B, m, p)."""
-    count, size = rows.shape
-    moved = (rows[:, None, :] + _DIFFERENCE * np.eye(size)).reshape(-1, size)
-    after = problem.requirements.slack(problem.kind, moved).reshape(count, size, -1)
-    return np.asarray((after - slack[:, None, :]).transpose(0, 2, 1) / _DIFFERENCE)
+    moved = (rows + step for step in _DIFFERENCE * np.eye(rows.shape[1]))
+    after = [problem.requirements.slack(problem.kind, near) for near in moved]
+    return np.asarray((np.stack(after, axis=2) - slack[..., None]) / _DIFFERENCE)
 
 
 def _solved(normal: Real, right: Real, equations: Real, targets: Real) -> Real:

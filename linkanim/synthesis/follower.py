@@ -7,25 +7,27 @@ request that comes while another one is worked on ends that.
 from __future__ import annotations
 
 import json
+import math
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
-from itertools import chain
 from queue import SimpleQueue
 from threading import Thread
 from typing import NamedTuple, TextIO
 
 from linkanim.errors import LinkanimError
-from linkanim.synthesis.answers import NAME, Fit, answer_of, cognates_of
+from linkanim.synthesis.answers import NAME, Fit, answer_of
 from linkanim.synthesis.atlas import atlas
+from linkanim.synthesis.front import cards, cost, front_of, knee, searched_front, way_along
 from linkanim.synthesis.linkages import FOUR_BAR
-from linkanim.synthesis.path import found, glimpsed, ranked, refitted, task_of
+from linkanim.synthesis.path import task_of
+from linkanim.synthesis.search import ALIKE, found, glimpsed, refitted
 
 COUNT = 6
 """Answers for a stroke."""
-_ALIKE = 0.05
-"""Of the stroke's size: answers whose joints are apart by no more look the same."""
-_KEPT = 64
+_MUCH = math.log(1.5)
+"""By how much another answer has to be better, so that the one that is shown gives way to it."""
+_KEPT = 128
 """Fits that are known."""
 
 
@@ -46,7 +48,8 @@ class Follow(NamedTuple):
 class Reply(NamedTuple):
     """Answers to a stroke, the numbers of all of them in a row, which one is shown; or why there is none.
 
-    One that is not `whole` is a single answer, to go in the place of the one that is shown.
+    One that is not `whole` is a single answer, to go in the place of the one that is shown. `way` holds the
+    numbers of further answers, from the exact end of the front to the compact one.
     """
 
     stroke: int
@@ -54,6 +57,7 @@ class Reply(NamedTuple):
     numbers: Sequence[float] = ()
     chosen: int = 0
     error: str | None = None
+    way: Sequence[float] = ()
 
 
 class Follower:
@@ -65,47 +69,53 @@ class Follower:
     def replies(self, request: Follow, pulse: Callable[[], None] = lambda: None) -> Iterator[Reply]:
         """Yield the answer near by or the atlas's best, then all; `pulse` is called meanwhile."""
         try:
-            for fits, chosen in self._fits(request, pulse):
-                answers = [answer_of(fit) for fit in fits]
-                self._known |= {answer.numbers: fit for answer, fit in zip(answers, fits, strict=True)}
-                self._known = dict(list(self._known.items())[-_KEPT:])
-                numbers = tuple(number for one in answers for number in one.numbers)
-                yield Reply(request.stroke, chosen is not None, numbers, chosen or 0)
+            for fits, chosen, way in self._fits(request, pulse):
+                numbers, along = self._told(fits), self._told(way)
+                yield Reply(request.stroke, chosen is not None, numbers, chosen or 0, way=along)
         except LinkanimError as error:
             yield Reply(request.stroke, whole=True, error=str(error))
 
+    def _told(self, fits: Sequence[Fit]) -> tuple[float, ...]:
+        """Return the numbers of fits, which are known from now on."""
+        answers = [answer_of(fit) for fit in fits]
+        self._known |= {answer.numbers: fit for answer, fit in zip(answers, fits, strict=True)}
+        self._known = dict(list(self._known.items())[-_KEPT:])
+        return tuple(number for one in answers for number in one.numbers)
+
     def _fits(
         self, request: Follow, pulse: Callable[[], None]
-    ) -> Iterator[tuple[tuple[Fit, ...], int | None]]:
-        """Yield answers and which of them is shown, None where it is only one that is followed."""
+    ) -> Iterator[tuple[tuple[Fit, ...], int | None, tuple[Fit, ...]]]:
+        """Yield answers, which of them is shown, and the way along the front.
+
+        It is None where it is only one that is followed. First come answers from many limits, then with them
+        those that are the most exact of all.
+        """
         task = task_of(request.points, request.closed, pivots=request.pivots, name=NAME)
         before = self._known.get(tuple(request.near)) if request.near else None
         near = refitted(task, before) if before else glimpsed(task)
         if near:
-            yield (near,), None
+            yield (near,), None, ()
         if not request.search:
             return
-        fits = found(task, 2 * COUNT, lambda *_: pulse(), widely=False)
-        if not (before and near):
-            yield _row(fits[0], fits), 0
-            return
-        like = next((fit for fit in fits if fit.apart(near) <= _ALIKE), near)
-        row = _row(like, fits)
-        yield row, row.index(like)
+        shown = near if before else None
+        front = searched_front(task, [shown] if shown else [], pulse)
+        if front:
+            shown = _shown(front, shown)
+            row = cards(front, shown, COUNT)
+            yield row, row.index(shown), ()
+        exact = found(task, 2 * COUNT, lambda *_: pulse(), widely=False)
+        front = front_of([*front, *exact])
+        shown = _shown(front, shown)
+        row = cards(front, shown, COUNT)
+        yield row, row.index(shown), way_along(task, front, pulse)
 
 
-def _row(shown: Fit, fits: tuple[Fit, ...]) -> tuple[Fit, ...]:
-    """Return answers that differ visibly, that which is shown among them, and cognates where they are few."""
-    kept = [shown]
-    # a cognate has pivots of its own
-    parents = () if shown.task.requirements.given else (shown, *fits)
-    for fit in chain(fits, *map(cognates_of, parents)):
-        if len(kept) == COUNT:
-            break
-        turns = fit.scene.info.full_turn or not shown.scene.info.full_turn
-        if turns and not any(fit.apart(one) <= _ALIKE for one in kept):
-            kept.append(fit)
-    return tuple(ranked(kept))
+def _shown(front: Sequence[Fit], before: Fit | None) -> Fit:
+    """Return the answer to be shown: that which is shown already, unless another one is much better."""
+    best = front[knee([fit.figures for fit in front])]
+    if before is None or cost(before.figures) > cost(best.figures) + _MUCH:
+        return best
+    return next((fit for fit in front if fit.apart(before) <= ALIKE), before)
 
 
 def lines_of(stream: TextIO) -> SimpleQueue[str | None]:

@@ -72,7 +72,7 @@ class LinkageKind(ABC):
         """Close the coupler on the ground, with the pins A (B, n)."""
 
     @abstractmethod
-    def slack(self, rows: Real, least_angle: float) -> Real:
+    def slack(self, rows: Real, least_angle: float | Real) -> Real:
         """Return (B, 2), both positive where the crank turns fully above a least transmission angle."""
 
     @abstractmethod
@@ -202,7 +202,7 @@ class FourBarKind(LinkageKind):
         arm, other = np.hypot(rows[:, 4], rows[:, 5]), np.hypot(rows[:, 4] - rows[:, 3], rows[:, 5])
         return np.stack([rows[:, 2], rows[:, 3], arm, rows[:, 8], ground, other], axis=1)
 
-    def slack(self, rows: Real, least_angle: float) -> Real:
+    def slack(self, rows: Real, least_angle: float | Real) -> Real:
         """Return how far the two extremes of the transmission angle are from the least."""
         crank, a, b = rows[:, 2], rows[:, 3], rows[:, 8]
         ground = np.hypot(rows[:, 6] - rows[:, 0], rows[:, 7] - rows[:, 1])
@@ -258,7 +258,7 @@ class SliderCrankKind(LinkageKind):
         arm, other = np.hypot(rows[:, 4], rows[:, 5]), np.hypot(rows[:, 4] - rows[:, 3], rows[:, 5])
         return np.stack([rows[:, 2], rows[:, 3], arm, other], axis=1)
 
-    def slack(self, rows: Real, least_angle: float) -> Real:
+    def slack(self, rows: Real, least_angle: float | Real) -> Real:
         """Return how far the rod is from too steep, on either side of the line."""
         reach, offset = rows[:, 3] * np.cos(least_angle) - rows[:, 2], rows[:, 7]
         return np.stack([reach - offset, reach + offset], axis=-1)
@@ -340,12 +340,13 @@ class Requirements:
 
     `least_angle` is the transmission angle asked for, 0 where none is, and above `LEAST_ANGLE` all the same;
     `box` is x, y, width and height, in which all pivots lie; `given` are values of parameters that stay;
-    `full_turn` says whether the crank has to turn fully.
+    `full_turn` says whether the crank has to turn fully. Where many candidates are fitted at once, each may
+    have a longest link (B, 1) and a least angle (B,) of its own.
     """
 
-    largest: float
+    largest: float | Real
     shortest: float
-    least_angle: float = 0.0
+    least_angle: float | Real = 0.0
     box: tuple[float, ...] | None = None
     given: Mapping[str, float] = field(default_factory=dict)
     full_turn: bool = True
@@ -386,12 +387,12 @@ class Requirements:
             limits += [pivots.real - x, x + width - pivots.real, pivots.imag - y, y + height - pivots.imag]
         return np.concatenate([*turning, *limits], axis=1)
 
-    def angle_to_keep(self, by: str) -> float:
+    def angle_to_keep(self, by: str) -> float | Real:
         """Return the least transmission angle of an answer that goes along the curve by its crank's "angle".
 
         One that goes by "phase", through its limits, keeps what is asked for only: there it is 0.
         """
-        return max(self.least_angle, LEAST_ANGLE) if by == "angle" else self.least_angle
+        return np.maximum(self.least_angle, LEAST_ANGLE) if by == "angle" else self.least_angle
 
     def held(self, kind: LinkageKind) -> tuple[Real, Real]:
         """Return which parameters are given, as a mask, and their values (0 for the others)."""

@@ -51,10 +51,14 @@ class Search(NoSearch):
         random = self._random
         for request in self.asked if random.random() < 0.2 else ():
             row = (0.1, 1.0, *(length + random.uniform(-2, 2) for length in _LINKS))
-            numbers = PathAnswer(random.random(), 1.0, 0.3, 1.0, row).numbers
+            size, angle = random.uniform(0.3, 3.0), random.uniform(0.0, 1.2)
+            numbers = PathAnswer(random.random(), 1.0, 0.3, 1.0, row, size, angle).numbers
             whole = random.random() < 0.5
+            way = numbers * random.randint(0, 4) if whole else ()
             error = "no linkage follows that" if random.random() < 0.1 else ""
-            yield Reply(request.stroke, whole, numbers * random.randint(1, 3) if whole else numbers, 0, error)
+            yield Reply(
+                request.stroke, whole, numbers * random.randint(1, 3) if whole else numbers, 0, error, way
+            )
         if random.random() < 0.3:
             self.asked: list[Follow] = []
 

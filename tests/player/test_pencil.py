@@ -15,19 +15,19 @@ from playing import CTRL, SHIFT, NoSearch, Player
 from linkanim.player import beside as following
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
-from linkanim.player.beside import action_of, request_of
+from linkanim.player.beside import actions_of, request_of
 from linkanim.player.state import FADE_FRAMES, FRAMES, TOAST_FRAMES, Sketch, State, begin
 from linkanim.player.tape import Tape, Taping
 from linkanim.player.tape_file import read, write
 from linkanim.scenes import load
-from linkanim.synthesis.answers import PathAnswer
+from linkanim.synthesis.answers import NUMBERS, PathAnswer
 from linkanim.synthesis.follower import Reply
-from linkanim.synthesis.linkages import FOUR_BAR
 
 ROW = (9.0, 7.0, 30.0, 90.0, 45.0, 30.0, 100.0, 0.0, 80.0)
 WIDER = (8.0, 9.0, 32.0, 95.0, 45.0, 30.0, 105.0, 5.0, 85.0)
 FIRST, BETTER, OTHER = (
-    PathAnswer(off, 1.0, 0.3, 1.0, row).numbers for off, row in ((1.5, ROW), (0.12, WIDER), (0.4, ROW))
+    PathAnswer(off, 1.0, 0.3, 1.0, row, size, angle).numbers
+    for off, row, size, angle in ((1.5, ROW, 0.9, 0.7), (0.12, WIDER, 1.1, 0.5), (0.4, ROW, 0.9, 0.7))
 )
 LOOP = [(100 + 40 * math.cos(turn), 50 + 25 * math.sin(turn)) for turn in np.linspace(0, 6.2, 40)]
 
@@ -62,7 +62,7 @@ def stroke(plain: State) -> State:
 
 @pytest.fixture
 def answered(stroke: State) -> State:
-    return after(stroke, Action("follow", FIRST), Action("answers", (0.0, *BETTER, *OTHER)))
+    return after(stroke, Action("follow", FIRST), Action("cards", (0.0, *BETTER, *OTHER)))
 
 
 def test_a_stroke_that_ends_near_its_start_is_closed(plain: State, stroke: State) -> None:
@@ -91,7 +91,7 @@ def test_a_dot_is_no_stroke(plain: State, name: str) -> None:
 def test_the_first_answer_is_shown_at_once_and_glides_to_the_refined_one(stroke: State) -> None:
     first = after(stroke, Action("follow", FIRST))
     assert (sketch_of(first).off, first.scene.name, first.glide) == (1.5, "path", None)
-    whole = after(first, Action("answers", (0.0, *BETTER, *OTHER)))
+    whole = after(first, Action("cards", (0.0, *BETTER, *OTHER)))
     assert (sketch_of(whole).off, len(sketch_of(whole).answers)) == (0.12, 2)
     assert whole.glide is not None
     settled = after(whole, *["direction"] * (FRAMES + 1))
@@ -192,16 +192,21 @@ def test_strokes_and_drags_are_taken_back_one_by_one(answered: State) -> None:
 
 
 def test_answers_that_come_while_something_is_dragged_wait_for_the_next(answered: State) -> None:
-    held = after(answered, Action("take_point", 10), Action("answers", (1.0, *FIRST, *OTHER)))
+    held = after(answered, Action("take_point", 10), Action("cards", (1.0, *FIRST, *OTHER)))
     assert sketch_of(held).answers == sketch_of(answered).answers
 
 
 def test_replies_to_another_stroke_are_dropped(answered: State) -> None:
     sketch = sketch_of(answered)
-    assert action_of(Reply(sketch.strokes, whole=False, numbers=FIRST), sketch) == Action("follow", FIRST)
-    assert action_of(Reply(sketch.strokes - 1, whole=False, numbers=FIRST), sketch) is None
-    assert action_of(Reply(sketch.strokes, whole=True, error="no room"), sketch) == Action("note", "no room")
-    assert action_of(Reply(sketch.strokes, whole=False, numbers=FIRST), None) is None
+    one = Reply(sketch.strokes, whole=False, numbers=FIRST)
+    assert [*actions_of(one, sketch)] == [Action("follow", FIRST)]
+    assert [*actions_of(one._replace(stroke=sketch.strokes - 1), sketch)] == []
+    none = Reply(sketch.strokes, whole=True, error="no room")
+    assert [*actions_of(none, sketch)] == [Action("note", "no room")]
+    assert [*actions_of(one, None)] == []
+    whole = Reply(sketch.strokes, whole=True, numbers=(*FIRST, *OTHER), chosen=1, way=FIRST)
+    cards, way = Action("cards", (1.0, *FIRST, *OTHER)), Action("way", (0.0, *FIRST))
+    assert [*actions_of(whole, sketch)] == [cards, way]
 
 
 def test_a_scene_s_own_trace_is_the_stroke_and_the_scene_is_among_the_answers(plain: State) -> None:
@@ -212,7 +217,7 @@ def test_a_scene_s_own_trace_is_the_stroke_and_the_scene_is_among_the_answers(pl
     request = request_of(sketch, search=True)
     assert request is not None
     assert request.near is None
-    whole = after(own, Action("follow", FIRST), Action("answers", (0.0, *BETTER, *OTHER)))
+    whole = after(own, Action("follow", FIRST), Action("cards", (0.0, *BETTER, *OTHER)))
     assert (whole.scene, len(sketch_of(whole).answers)) == (plain.scene, 3)
     bent = after(whole, Action("take_point", 3), Action("lead", (0.0, 0.0)))
     assert len(sketch_of(bent).answers) == 2
@@ -221,7 +226,7 @@ def test_a_scene_s_own_trace_is_the_stroke_and_the_scene_is_among_the_answers(pl
 def test_the_scene_itself_is_no_second_answer_to_its_own_trace(plain: State) -> None:
     pins = [plain.scene.linkage.pin(name).position for name in ("O2", "O4")]
     same = PathAnswer(0.0, 1.0, 0.3, 1.0, (*pins[0], *ROW[2:6], *pins[1], ROW[8])).numbers
-    whole = after(plain, "own_trace", Action("answers", (0.0, *same, *BETTER)))
+    whole = after(plain, "own_trace", Action("cards", (0.0, *same, *BETTER)))
     assert [one.off for one in sketch_of(whole).answers[1:]] == [0.12]  # type: ignore[union-attr]
 
 
@@ -234,15 +239,15 @@ def test_a_scene_without_a_trace_has_none_to_take(plain: State) -> None:
 
 # Values that no key or mouse gives, and a tape may hold.
 NONSENSE = {
-    "no answer": Action("answers", (0.0,)),
-    "an answer cut off": Action("answers", (0.0, *BETTER[:-1])),
+    "no answer": Action("cards", (0.0,)),
+    "an answer cut off": Action("cards", (0.0, *BETTER[:-1])),
     "too few numbers": Action("follow", BETTER[:-1]),
     "half a point": Action("stroke", (1.0, 2.0)),
     "a stroke of no size": Action("stroke", (1.0, *(0.0, 0.0) * 5)),
     "a negative length": Action("follow", (*BETTER[:6], -3.0, *BETTER[7:])),
     "a place that is none": Action("take_point", -4),
     "a pin that is none": Action("take_pivot", "Z"),
-    "an answer that is none": Action("answers", (9.0, *BETTER)),
+    "an answer that is none": Action("cards", (9.0, *BETTER)),
 }
 
 
@@ -275,7 +280,7 @@ def test_a_recording_begun_in_a_sketch_begins_with_it(answered: State, tmp_path:
 
 def test_a_tape_has_what_was_found_and_searches_for_nothing(plain: State) -> None:
     actions = [Action("pencil"), Action("stroke", (1.0, *(part for at in LOOP for part in at)))]
-    actions += [Action("follow", FIRST), Action("answers", (0.0, *BETTER, *OTHER))]
+    actions += [Action("follow", FIRST), Action("cards", (0.0, *BETTER, *OTHER))]
     tape = Tape(plain, 30, tuple((3 * n, one) for n, one in enumerate(actions, start=1)))
     *_, last = tape.states()
     assert sketch_of(last).off == 0.12
@@ -379,12 +384,77 @@ def test_the_process_answers_a_stroke(stroke: State) -> None:
     beside = following.Following()
     try:
         beside.ask(request)
-        first, whole = beside.wait(), beside.wait()
+        first, whole, last = beside.wait(), beside.wait(), beside.wait()
     finally:
         beside.close()
     assert first is not None
     assert whole is not None
+    assert last is not None
     assert (first.whole, whole.whole, whole.error) == (False, True, None)
     assert whole.numbers[0] < 1.0
-    assert len(whole.numbers) % (4 + len(FOUR_BAR.parameters)) == 0
-    assert whole.numbers[0] <= first.numbers[0]
+    assert last.numbers[0] <= first.numbers[0]
+    for numbers in (first.numbers, whole.numbers, last.numbers, last.way):
+        assert len(numbers) >= NUMBERS
+        assert len(numbers) % NUMBERS == 0
+    assert (
+        last.numbers[NUMBERS * last.chosen :][:NUMBERS] == whole.numbers[NUMBERS * whole.chosen :][:NUMBERS]
+    )
+
+
+NARROW = (9.0, 7.0, 29.0, 88.0, 44.0, 29.0, 98.0, 0.0, 79.0)
+
+
+@pytest.fixture
+def fronted(answered: State) -> State:
+    """Answers, and three along the front: the last is of another closure, the first two of one family."""
+    narrow = PathAnswer(0.3, 1.0, 0.4, 1.0, NARROW, 0.8, 0.8).numbers
+    crossed = PathAnswer(0.9, -1.0, 0.3, 1.0, ROW, 0.7, 0.6).numbers
+    return after(answered, Action("way", (0.0, *OTHER, *narrow, *crossed)))
+
+
+def test_the_dial_goes_from_one_answer_over_to_the_next(fronted: State) -> None:
+    sketch = sketch_of(after(fronted, Action("dial", 0.25)))
+    assert sketch.dialled
+    assert sketch.dialled.row == pytest.approx([(a + b) / 2 for a, b in zip(ROW, NARROW, strict=True)])
+    assert (sketch.dialled.size, sketch.off) == pytest.approx((0.85, 0.35))
+
+
+def test_the_dial_jumps_to_another_family_and_no_linkage_between_is_shown(fronted: State) -> None:
+    before, then = (sketch_of(after(fronted, Action("dial", at))).dialled for at in (0.7, 0.8))
+    assert before
+    assert then
+    assert (before.row, before.closure, then.row, then.closure) == (NARROW, 1.0, ROW, -1.0)
+
+
+def test_the_dial_rests_at_an_answer_and_undo_takes_it_back(fronted: State) -> None:
+    rest = after(fronted, Action("dial", 0.4), "let_go")
+    assert (sketch_of(rest).dial, sketch_of(rest).held, sketch_of(rest).off) == (0.5, None, 0.3)
+    assert rest.scene.document["joints"]["A"]["length"] == NARROW[2]
+    back = after(rest, "take_back")
+    assert (sketch_of(back).dialled, sketch_of(back).off) == (None, 0.12)
+
+
+def test_keys_step_the_dial_from_the_answer_that_is_shown(fronted: State) -> None:
+    one = after(fronted, Action("dial_on", 1))
+    assert sketch_of(one).dial == 0.5
+    assert sketch_of(after(one, Action("dial_on", 1), Action("dial_on", 1))).dial == 1.0
+    assert sketch_of(after(one, Action("dial_on", -5))).dial == 0.0
+
+
+def test_a_card_puts_the_dial_where_its_answer_is(fronted: State) -> None:
+    taken = after(fronted, Action("dial_on", 1), Action("answer", 1))
+    assert (sketch_of(taken).dial, sketch_of(taken).dialled, sketch_of(taken).chosen) == (None, None, 1)
+    assert taken.scene.document["joints"]["A"]["length"] == ROW[2]
+
+
+def test_an_answer_that_was_taken_by_hand_stays_when_more_come(answered: State) -> None:
+    taken = after(answered, Action("answer", 1))
+    again = after(taken, Action("cards", (0.0, *FIRST, *BETTER)))
+    assert sketch_of(again).answer == sketch_of(taken).answer
+    assert len(sketch_of(again).answers) == 3
+
+
+def test_answers_of_an_older_tape_come_without_figures(stroke: State) -> None:
+    older = after(stroke, Action("answers", (0.0, *BETTER[:-2], *OTHER[:-2])))
+    assert [one.size for one in sketch_of(older).answers if isinstance(one, PathAnswer)] == [0.0, 0.0]
+    assert sketch_of(older).names == ()

@@ -21,7 +21,8 @@ from linkanim.synthesis.atlas import Candidates, atlas, matched
 from linkanim.synthesis.curves import DrawnCurve
 from linkanim.synthesis.fitting import refined
 from linkanim.synthesis.linkages import FOUR_BAR, Complex, Real
-from linkanim.synthesis.path import best_of, ranked, task_of
+from linkanim.synthesis.path import task_of
+from linkanim.synthesis.search import best_of, ranked
 
 PERCENT = 0.01
 KUNJUR = [

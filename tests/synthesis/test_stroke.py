@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from dataclasses import replace
 from itertools import combinations
 from typing import Any
@@ -11,10 +13,12 @@ import pytest
 from random_curves import curves
 
 from linkanim.errors import BadInput
-from linkanim.synthesis.answers import NUMBERS, answer_from
+from linkanim.synthesis.answers import NUMBERS, PathAnswer, answer_from
 from linkanim.synthesis.curves import DrawnCurve, bent, stroke_of, trace_of
 from linkanim.synthesis.follower import COUNT, Follow, Follower, Reply
-from linkanim.synthesis.path import found, glimpsed, refitted, task_of
+from linkanim.synthesis.front import cost
+from linkanim.synthesis.path import task_of
+from linkanim.synthesis.search import found, glimpsed, refitted
 
 
 @pytest.mark.slow
@@ -90,32 +94,62 @@ def followed(points: DrawnCurve, **more: Any) -> tuple[Follower, list[Reply]]:
     return follower, list(follower.replies(Follow(1, pairs, points.closed, **more)))
 
 
+def told(numbers: Sequence[float]) -> list[PathAnswer]:
+    return [answer_from(tuple(numbers[n:][:NUMBERS])) for n in range(0, len(numbers), NUMBERS)]
+
+
 @pytest.mark.slow
 def test_replies_to_a_stroke_are_one_answer_and_then_several_that_differ() -> None:
-    _, (first, whole) = followed(stroke_of(curves("four-bar", 1, seed=54)[0]))
-    assert (first.whole, len(first.numbers), whole.whole, whole.chosen) == (False, NUMBERS, True, 0)
-    answers = [answer_from(tuple(whole.numbers[n:][:NUMBERS])) for n in range(0, len(whole.numbers), NUMBERS)]
+    _, (first, early, whole) = followed(stroke_of(curves("four-bar", 1, seed=54)[0]))
+    assert (first.whole, len(first.numbers), early.whole, whole.whole) == (False, NUMBERS, True, True)
+    answers = told(whole.numbers)
     assert 1 < len(answers) <= COUNT
-    # cognates are equally good, to rounding
-    assert [one.off for one in answers] == pytest.approx(sorted(one.off for one in answers), rel=1e-5)
+    assert [one.off for one in answers] == sorted(one.off for one in answers)
     assert answers[0].off <= first.numbers[0]
     for one, other in combinations(answers, 2):
         assert one.closure != other.closure or np.abs(np.subtract(one.row, other.row)).max() > 0.01
 
 
 @pytest.mark.slow
+def test_the_answer_that_is_shown_stays_when_more_come_and_the_way_goes_from_exact_to_compact() -> None:
+    curve = stroke_of(curves("four-bar", 1, seed=54)[0])
+    _, (_, early, whole) = followed(curve)
+    before, shown = told(early.numbers)[early.chosen], told(whole.numbers)[whole.chosen]
+    assert np.abs(np.subtract(before.row, shown.row)).max() < 0.05 * curve.size
+    way = told(whole.way)
+    assert len(way) > 4
+    assert way[0].off == min(one.off for one in way)
+    sizes = [one.size for one in way[1:]]
+    assert sizes == sorted(sizes, reverse=True)
+
+
+@pytest.mark.slow
 def test_what_is_dragged_is_followed_and_stays_shown_among_the_others() -> None:
     curve = stroke_of(curves("four-bar", 1, seed=55)[0])
-    follower, (_, whole) = followed(curve)
-    near = tuple(whole.numbers[:NUMBERS])
+    follower, (*_, whole) = followed(curve)
+    near = told(whole.numbers)[whole.chosen].numbers
     moved = bent(curve, 9, curve.points[9] + 0.01 * curve.size)
     pairs = [(float(point.real), float(point.imag)) for point in moved.points]
     (led,) = follower.replies(Follow(1, pairs, moved.closed, near=near, search=False))
     assert not led.whole
     assert np.abs(np.subtract(led.numbers, near)).max() > 0
-    again, all_ = follower.replies(Follow(1, pairs, moved.closed, near=tuple(led.numbers)))
-    shown = all_.numbers[all_.chosen * NUMBERS :][:NUMBERS]
-    assert np.abs(np.subtract(shown, again.numbers))[4:].max() < 0.05 * moved.size
+    again, *_, all_ = follower.replies(Follow(1, pairs, moved.closed, near=tuple(led.numbers)))
+    shown = told(all_.numbers)[all_.chosen]
+    assert np.abs(np.subtract(shown.row, told(again.numbers)[0].row)).max() < 0.05 * moved.size
+
+
+@pytest.mark.slow
+def test_an_answer_that_is_dragged_to_where_it_is_poor_gives_way_to_a_good_one() -> None:
+    """A quarter of the size off beside cards of three percent is nobody's choice."""
+    curve = stroke_of(curves("four-bar", 1, seed=55)[0])
+    follower, (*_, whole) = followed(curve)
+    near, count = told(whole.numbers)[whole.chosen].numbers, len(curve.points)
+    moved = bent(curve, 9, curve.points[(9 + count // 2) % count])
+    pairs = [(float(point.real), float(point.imag)) for point in moved.points]
+    *_, last = follower.replies(Follow(1, pairs, moved.closed, near=near))
+    answers = told(last.numbers)
+    best = min(cost(one.figures) for one in answers)
+    assert cost(answers[last.chosen].figures) <= best + math.log(2)
 
 
 def test_a_search_ends_when_it_is_interrupted_and_what_cannot_be_is_said() -> None:

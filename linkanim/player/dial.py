@@ -1,0 +1,101 @@
+"""The dial of the pencil: from the most exact answer along the front to the most compact one.
+
+The search gives answers along the front, each somewhat like its neighbours. Between two of one family the
+linkage goes over from one to the other; from family to family it changes at once.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from linkanim.player.edits import exchanged
+from linkanim.player.state import DIAL, Sketch, State
+from linkanim.scenes.scene import Scene
+
+if TYPE_CHECKING:
+    from linkanim.synthesis.answers import PathAnswer
+
+_FAMILY = 0.15
+"""Answers of which no length, nor pivot, differs by more, in their longest links, are of one family."""
+
+
+def answer_at(way: Sequence[PathAnswer], share: float) -> PathAnswer:
+    """Return the answer at a share of the way, 0 to 1; between neighbours of one family one in between."""
+    place = min(max(share, 0.0), 1.0) * (len(way) - 1)
+    first = min(int(place), max(len(way) - 2, 0))
+    one, other, part = way[first], way[min(first + 1, len(way) - 1)], place - first
+    if not 0 < part < 1 or not _of_one_family(one, other):
+        return one if part < 0.5 else other
+    row = tuple(mine + part * (its - mine) for mine, its in zip(one.row, other.row, strict=True))
+    off, size, angle = (
+        mine + part * (its - mine)
+        for mine, its in ((one.off, other.off), (one.size, other.size), (one.angle, other.angle))
+    )
+    start = one.start + part * math.remainder(other.start - one.start, 2 * math.pi)
+    return one._replace(off=off, start=start, row=row, size=size, angle=angle)
+
+
+def _of_one_family(one: PathAnswer, other: PathAnswer) -> bool:
+    """Return whether the linkages between two answers are like both."""
+    longest = max(map(abs, (*one.row[2:6], one.row[8])))
+    near = all(abs(mine - its) <= _FAMILY * longest for mine, its in zip(one.row, other.row, strict=True))
+    turned = abs(math.remainder(other.start - one.start, 2 * math.pi))
+    return near and turned < math.pi / 2 and (one.closure, one.sense) == (other.closure, other.sense)
+
+
+def place_of(sketch: Sketch) -> float:
+    """Return where the knob stands: where it was put, else at the answer of the way that is most like it."""
+    if sketch.dial is not None:
+        return sketch.dial
+    answer, way = sketch.answer, sketch.way
+    if len(way) < 2 or answer is None or isinstance(answer, Scene):
+        return 0.0
+    row = answer.row
+    return min(range(len(way)), key=lambda n: math.dist(way[n].row, row)) / (len(way) - 1)
+
+
+def dial(state: State, share: float) -> State:
+    """Put the knob at a share of its way, 0 to 1, and show the answer that is there."""
+    sketch = state.sketch
+    if sketch is None or not sketch.way or sketch.held not in (None, DIAL):
+        return state
+    base, earlier = (sketch.base, sketch.earlier) if sketch.held else (state.scene, sketch)
+    answer = answer_at(sketch.way, share)
+    last = sketch.answer
+    if last is None or isinstance(last, Scene) or not _of_one_family(last, answer):
+        base = answer.scene(sketch.unit)
+        state = replace(exchanged(state, base), faded=state.frame)
+    coming = ready(answer.scene(sketch.unit, base), state.phase)
+    sketch = replace(sketch, dial=share, dialled=answer, held=DIAL, base=base, earlier=earlier, coming=coming)
+    return replace(state, sketch=sketch, glide=None)
+
+
+def dial_on(state: State, steps: int) -> State:
+    """Put the knob so many answers further, towards the compact end."""
+    sketch = state.sketch
+    if sketch is None or len(sketch.way) < 2 or sketch.held is not None:
+        return state
+    last = len(sketch.way) - 1
+    return dialled(dial(state, min(max(round(place_of(sketch) * last) + steps, 0), last) / last))
+
+
+def dialled(state: State) -> State:
+    """Let go of the knob: it goes to the answer that is nearest, whose figures are those of the solver."""
+    sketch = state.sketch
+    if sketch is None or sketch.held != DIAL or sketch.dial is None:
+        return state
+    last = max(len(sketch.way) - 1, 1)
+    share = round(sketch.dial * last) / last
+    answer = answer_at(sketch.way, share)
+    bare = replace(sketch, held=None, base=None, coming=None, dial=share, dialled=answer)
+    return exchanged(replace(state, sketch=bare), answer.scene(sketch.unit))
+
+
+def ready(scene: Scene, phase: float) -> Scene:
+    """Return a scene with what the next frame asks first worked out: that frame has its picture to make."""
+    _ = scene.cycle(1, derivatives=0).position
+    scene.pose(phase, 0)
+    return scene

@@ -1,0 +1,303 @@
+"""Search the front of answers to a drawn path: deviation, size and transmission angle judged together.
+
+An answer is on the front where no other is as good in all of them (Pareto). It is searched by limits: many
+candidates are fitted at once, each within a longest link and above a least transmission angle of its own.
+
+Its parts, in reading order:
+
+- Which answers are on the front, the one that one would choose, and a few that differ to the eye.
+- Search: fits within many pairs of limits, and the way along the front from the exact end to the compact.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Sequence, Set
+from dataclasses import replace
+from itertools import pairwise
+from typing import Literal, NamedTuple
+
+import numpy as np
+
+from linkanim.synthesis.answers import Figures, Fit
+from linkanim.synthesis.atlas import CURVES, Candidates
+from linkanim.synthesis.fitting import PathTask, merit, refined
+from linkanim.synthesis.linkages import Indices, Real
+from linkanim.synthesis.search import ALIKE, MATCHED, spread, started, verified
+
+# Which answers are on the front, the one that one would choose, and a few that differ to the eye.
+
+Preference = Literal["exact", "compact", "angle"]
+PREFERENCES: tuple[Preference, ...] = ("exact", "compact", "angle")
+_SEEN = 3e-3
+"""A deviation that nobody sees: answers that are nearer are equally exact where one is chosen."""
+_TRADE = math.log(1.5, 2)
+"""How size counts beside deviation: twice the size has to save a third of the deviation."""
+_COMPACT, _NEAR = 2.5, 1.5
+"""An answer of that size at the most is chosen where its deviation is within that factor of the best one."""
+_WELL = math.radians(35)
+"""From this transmission angle on a linkage runs well; below, the angle counts as much as the deviation."""
+_FARTHEST, _TIMES = 0.03, 3.0
+"""Of the curve's size, or times the best deviation: an answer that is further off follows it no more."""
+_JAMS = math.radians(5)
+"""Below this transmission angle a linkage all but jams: such an answer is left out where others follow."""
+_FOLLOWED = 1e-4
+"""Of the curve's size: answers on the front that are nearer follow it equally well."""
+_SLACK = Figures(1.01, 1.01, 1.01, math.radians(0.3))
+"""By what factors, and angle, answers are told apart on the front."""
+
+
+def front_of(fits: Iterable[Fit]) -> tuple[Fit, ...]:
+    """Return those that follow the curve and are on the front, the most exact first."""
+    ordered = sorted(fits, key=lambda fit: (cost(fit.figures), *fit.figures))
+    best = min((fit.figures.deviation for fit in ordered), default=0.0)
+    follow = [fit for fit in ordered if fit.figures.deviation <= max(_TIMES * best, _FARTHEST)]
+    kept: list[Fit] = []
+    for fit in [fit for fit in follow if fit.figures.angle >= _JAMS] or follow:
+        if not any(_beats(one.figures, fit.figures) for one in kept):
+            kept.append(fit)
+    return tuple(sorted(kept, key=lambda fit: (fit.figures.deviation, *fit.figures)))
+
+
+def _beats(one: Figures, other: Figures) -> bool:
+    """Return whether one is as good as another in all, but for what nobody would tell apart."""
+    if one.deviation > max(_SLACK.deviation * other.deviation, _FOLLOWED):
+        return False
+    smaller = one.size <= _SLACK.size * other.size and one.room <= _SLACK.room * other.room
+    return smaller and one.angle >= other.angle - _SLACK.angle
+
+
+def cost(figures: Figures) -> float:
+    """Return one number for all figures, the less the better, of which differences count: a logarithm."""
+    seen = max(figures.deviation, _SEEN) * _of_angle(figures)
+    return math.log(seen) + _TRADE * math.log(max(figures.size, figures.room / 2))
+
+
+def _of_angle(figures: Figures) -> float:
+    """Return by what factor a deviation weighs more where the transmission angle is poor."""
+    return max(math.sin(_WELL) / max(math.sin(figures.angle), 1e-6), 1.0)
+
+
+def knee(front: Sequence[Figures]) -> int:
+    """Return which answer one would choose.
+
+    None is taken that doubles the size for less than a third of the deviation. One of at most 2.5 curve
+    sizes is chosen where its deviation is within 1.5 times the best one.
+    """
+    near = _NEAR * min(one.deviation for one in front)
+    small = [n for n, one in enumerate(front) if one.size <= _COMPACT and one.deviation <= near]
+
+    def is_worth_it(one: Figures) -> bool:
+        halves = (other for other in front if other.size <= one.size / 2)
+        return all(one.deviation <= other.deviation / _NEAR for other in halves)
+
+    worth = [n for n, one in enumerate(front) if is_worth_it(one)]
+    return min([n for n in small if n in worth] or small or worth, key=lambda n: (cost(front[n]), n))
+
+
+def preferred(fits: Iterable[Fit], prefer: Preference) -> list[Fit]:
+    """Return answers in the order in which one prefers them: by deviation, size or transmission angle."""
+    keys: dict[Preference, Callable[[Figures], float]] = {
+        "exact": lambda figures: figures.deviation,
+        "compact": lambda figures: max(figures.size, figures.room / 2),
+        "angle": lambda figures: -figures.angle,
+    }
+    return sorted(fits, key=lambda fit: (keys[prefer](fit.figures), cost(fit.figures)))
+
+
+def differing(first: Sequence[Fit], rest: Iterable[Fit], count: int) -> list[Fit]:
+    """Return at most so many answers that differ to the eye: the first ones come before the rest."""
+    kept: list[Fit] = []
+    for fit in [*first, *rest]:
+        if len(kept) < count and not any(fit.apart(one) <= ALIKE for one in kept):
+            kept.append(fit)
+    return kept
+
+
+def cards(front: Sequence[Fit], shown: Fit, count: int) -> tuple[Fit, ...]:
+    """Return at most so many of the front that differ to the eye, the most exact first.
+
+    Among them are the one that is shown, the ends of the front and, between, those that are farthest from
+    the others in their figures.
+    """
+    ends = [preferred(front, prefer)[0] for prefer in PREFERENCES] if front else []
+    kept = differing([shown, *ends], (), count)
+    rest = [fit for fit in front if all(fit.apart(one) > ALIKE for one in kept)]
+    while rest and len(kept) < count:
+        far = max(rest, key=lambda fit: min(_away(fit.figures, one.figures) for one in kept))
+        kept.append(far)
+        rest = [fit for fit in rest if fit.apart(far) > ALIKE]
+    return tuple(preferred(kept, "exact"))
+
+
+def names_of(cards: Sequence[Figures]) -> tuple[str, ...]:
+    """Say of each of some answers what it is among them; "" where it is the best in nothing."""
+    names = ["" for _ in cards]
+    if cards:
+        names[knee(cards)] = "balanced"
+        for name, best in (
+            ("best angle", max(range(len(cards)), key=lambda n: cards[n].angle)),
+            ("most compact", min(range(len(cards)), key=lambda n: cards[n].size)),
+            ("most exact", min(range(len(cards)), key=lambda n: cards[n].deviation)),
+        ):
+            names[best] = name
+    return tuple(names)
+
+
+def _away(one: Figures, other: Figures) -> float:
+    """Return how much two answers differ in their figures."""
+    off = math.log(max(one.deviation, _SEEN) / max(other.deviation, _SEEN))
+    return math.hypot(off, math.log(one.size / other.size), (one.angle - other.angle) / _WELL)
+
+
+# Search: fits within many pairs of limits, and the way along the front from the exact end to the compact.
+
+_SIZES, _ANGLES = np.geomspace(0.5, 8.0, 12), np.radians([5.0, 15.0, 30.0, 42.0])
+"""Longest links in curve sizes, and least transmission angles: candidates are fitted within each pair."""
+_POOL, _OPEN_POOL = 600, 300
+_POOL_CURVES, _OPEN_CURVES = CURVES, CURVES // 4
+"""So many of the atlas's best, among so many of its curves, from which candidates start."""
+_STARTS, _LARGER = 8, 1.3
+"""For each pair of limits: so many candidates, which may be larger than the limit by that factor."""
+_POINTS, _STEPS, _KEPT = (32, 64), (12, 40), (3, 1)
+"""In two stages: points, steps, and how many candidates of each pair are kept."""
+_STEP, _MOST_BETWEEN, _WAY_STEPS = 0.06, 6, 25
+"""From answer to answer along the front: the share by which the size changes, and at the most so many."""
+_LITTLE = 0.25
+"""Along the front a transmission angle counts by this power of what it counts elsewhere."""
+
+
+class _Limited(NamedTuple):
+    """Candidates at some points, and each one's longest link in curve sizes and least transmission angle."""
+
+    found: Candidates
+    sizes: Real
+    angles: Real
+
+    def take(self, chosen: Indices) -> _Limited:
+        return _Limited(self.found.take(chosen), self.sizes[chosen], self.angles[chosen])
+
+    def problem(self, task: PathTask, chosen: Indices) -> PathTask:
+        """Return what is asked of the candidates at chosen points, each within limits of its own."""
+        own = task.requirements
+        largest = np.minimum(self.sizes * task.curve.size, own.largest)[:, None]
+        limits = replace(own, largest=largest, least_angle=np.maximum(self.angles, own.least_angle))
+        return replace(task, requirements=limits).problem(chosen)
+
+
+def searched_front(
+    task: PathTask, known: Iterable[Fit] = (), pulse: Callable[[], None] = lambda: None
+) -> tuple[Fit, ...]:
+    """Return the front of what is found within many limits and of answers that are known.
+
+    The most exact comes first. `pulse` is called meanwhile.
+    """
+    chosen = task.thinned(MATCHED)
+    closed = task.curve.closed
+    pool = started(task, chosen, _POOL if closed else _OPEN_POOL, _POOL_CURVES if closed else _OPEN_CURVES)
+    now = _starts(task, pool)
+    for points, steps, kept in zip(_POINTS, _STEPS, _KEPT, strict=True):
+        pulse()
+        before, chosen = chosen, task.thinned(points)
+        now, costs = _fitted(task, now, before, chosen, steps)
+        now = now.take(_best_of_each(now, costs, kept))
+    pulse()
+    return front_of([*known, *verified(task, now.found, chosen)])
+
+
+def _fitted(
+    task: PathTask, now: _Limited, before: Indices, chosen: Indices, steps: int
+) -> tuple[_Limited, Real]:
+    """Return candidates fitted at chosen points within their limits, and each one's merit."""
+    now = now._replace(found=now.found._replace(angles=spread(task, now.found, before, chosen)))
+    problem = now.problem(task, chosen)
+    found, _ = refined(problem, now.found, steps)
+    return now._replace(found=found), merit(problem, found)
+
+
+def _starts(task: PathTask, pool: Candidates) -> _Limited:
+    """Return candidates for each pair of limits: those most like the curve of those that are small enough.
+
+    Ones that keep to the angle come first.
+    """
+    size = task.kind.link_lengths(pool.rows).max(axis=1) / task.curve.size
+    which: list[Indices] = []
+    limits: list[tuple[float, float]] = []
+    for angle in _ANGLES:
+        sticks = np.asarray((task.kind.slack(pool.rows, angle) <= 0).any(axis=1))
+        for longest in _SIZES:
+            fine = np.flatnonzero(size <= _LARGER * longest)
+            best = fine[np.argsort(sticks[fine], kind="stable")][:_STARTS]
+            which.append(best)
+            limits += len(best) * [(float(longest), float(angle))]
+    sizes, angles = np.array(limits).reshape(-1, 2).T
+    return _Limited(pool.take(np.concatenate(which)), sizes, angles)
+
+
+def _best_of_each(now: _Limited, costs: Real, count: int) -> Indices:
+    """Return the best few candidates of each pair of limits."""
+    order = np.lexsort((costs, now.angles, now.sizes))
+    order = order[np.isfinite(costs[order])]
+    pairs = np.stack([now.sizes[order], now.angles[order]])
+    new = np.append(True, (np.diff(pairs, axis=1) != 0).any(axis=0))
+    first = np.maximum.accumulate(np.where(new, np.arange(len(order)), 0))
+    return order[np.arange(len(order)) - first < count]
+
+
+def way_along(
+    task: PathTask, front: Sequence[Fit], pulse: Callable[[], None] = lambda: None
+) -> tuple[Fit, ...]:
+    """Return answers from the exact end of a front to the compact one, each somewhat like its neighbours.
+
+    Between those of the front that are the best of their size, answers are fitted from both.
+    """
+    exact, compact = (preferred(front, prefer)[0] for prefer in ("exact", "compact"))
+    ends = _along(front, {exact, compact, front[knee([fit.figures for fit in front])]})
+    ends.sort(key=lambda fit: fit is not exact)
+    starts, sizes, angles = list[Fit](), list[float](), list[float]()
+    for one, other in pairwise(ends):
+        gap = math.log(other.figures.size / one.figures.size)
+        between = min(round(abs(gap) / _STEP), _MOST_BETWEEN)
+        for n in range(1, between + 1):
+            part = n / (between + 1)
+            for start in (one, other):
+                starts.append(start)
+                sizes.append(one.figures.size * math.exp(part * gap))
+                angles.append((1 - part) * one.figures.angle + part * other.figures.angle)
+    if not starts:
+        return tuple(ends)
+    pulse()
+    limits = _Limited(_candidates_of(task, starts), np.array(sizes), 0.95 * np.array(angles))
+    chosen = task.thinned(_POINTS[-1])
+    now, costs = _fitted(task, limits, np.arange(len(task.curve.points)), chosen, _WAY_STEPS)
+    pulse()
+    found = verified(task, now.take(_best_of_each(now, costs, 1)).found, chosen)
+    return tuple(sorted(_along([*ends, *found], set(ends)), key=lambda fit: fit is not exact))
+
+
+def _along(fits: Iterable[Fit], kept: Set[Fit]) -> list[Fit]:
+    """Return those that are the most exact of their size, the largest first, and those that are kept.
+
+    A much better transmission angle makes up for a little deviation.
+    """
+
+    def off(fit: Fit) -> float:
+        return fit.figures.deviation * math.pow(_of_angle(fit.figures), _LITTLE)
+
+    found, least = list[Fit](), math.inf
+    for fit in sorted(fits, key=lambda fit: (fit.figures.size, off(fit))):
+        if fit in kept or off(fit) < least:
+            found.append(fit)
+            least = min(least, off(fit))
+    return found[::-1]
+
+
+def _candidates_of(task: PathTask, fits: Sequence[Fit]) -> Candidates:
+    """Return answers as candidates at all points, at size 1."""
+    parts = (
+        [fit.row for fit in fits],
+        [fit.closure_sign for fit in fits],
+        [fit.angles for fit in fits],
+        [fit.sense for fit in fits],
+    )
+    return task.normalised(Candidates(*map(np.array, parts)))

@@ -1,0 +1,280 @@
+"""Search for linkages that follow a drawn curve, and rank them.
+
+Its parts, in reading order:
+
+- From a drawn curve to the linkages that follow it: atlas, refinement, check.
+- Answers in round lengths: one length after the other is rounded and held, and the rest is fitted again.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+
+from linkanim.errors import BadInput
+from linkanim.synthesis.answers import Fit, checked, rounded
+from linkanim.synthesis.atlas import CURVES, Candidates, atlas, joined, matched, matched_few, matched_in_time
+from linkanim.synthesis.curves import DrawnCurve
+from linkanim.synthesis.fitting import FEW, PathTask, merit, refined
+from linkanim.synthesis.linkages import Complex, Indices, Real
+
+# From a drawn curve to the linkages that follow it: atlas, refinement, check.
+
+Progress = Callable[[int, int], None]
+
+
+class _Stage(NamedTuple):
+    """So many candidates, over so many points, for so many steps."""
+
+    candidates: int
+    points: int
+    steps: int
+
+
+_FEW_STAGES = (_Stage(300, FEW, 25), _Stage(80, FEW, 60), _Stage(12, FEW, 200))
+_STAGES = (_Stage(80, 32, 12), _Stage(24, 64, 40), _Stage(8, 200, 150))
+_WIDER_STAGES = (_Stage(2000, 32, 8), _Stage(300, 64, 40), _Stage(40, 64, 200))
+_FOREIGN_STAGES = (_Stage(600, 32, 8), _Stage(80, 64, 40), _Stage(12, 200, 150))
+MATCHED = 128
+"""Points at the most at which a curve is looked for in the atlas."""
+_REFIT_STEPS = 30
+_GLIMPSED, _GLIMPSED_OPEN = CURVES, CURVES // 5
+"""Curves of the atlas among which the first answer is: of each an open curve may be one of several shares."""
+_GOOD = 1e-3
+"""Of the curve's size: where an open curve is followed no better by a crank that turns, it may swing."""
+_FOLLOWED, _FOREIGN = 1e-4, 1e-2
+"""Of the curve's size: between them the best answer is likely a false minimum, and many more are tried.
+
+Below, the curve is followed; above, it is none of this kind's, and a few more candidates help a little.
+"""
+_SAME = 1e-4
+"""Of the curve's size: answers whose joints are apart by less are one."""
+ALIKE = 0.05
+"""Of the curve's size: answers whose joints are apart by no more look the same."""
+_FITTED = 1e-6
+"""Of the curve's size: answers better than this are equally good, and the one that turns best comes first."""
+_EQUAL = 6
+"""Decimals to which figures are told apart: those of a curve's cognates differ by rounding only."""
+_CLOSED = 1e-24
+"""A merit that is as good as none: candidates that are off by so little are equal."""
+
+
+def found(
+    task: PathTask, count: int, progress: Progress | None = None, *, widely: bool = True
+) -> tuple[Fit, ...]:
+    """Return the best few answers that differ, the best first; BadInput where there is none.
+
+    Where the first candidates do not follow the curve, more are tried, which takes longer, if `widely`.
+    """
+    fits = _searched(task, count, progress, widely=widely)
+    if not task.curve.closed and (not fits or fits[0].error > _GOOD * task.curve.size):
+        fits = best_of([*fits, *_searched(task.swinging(), count, progress, widely=widely)], count)
+    if not fits:
+        raise BadInput(_none_fits(task))
+    return fits
+
+
+def _none_fits(task: PathTask) -> str:
+    limits = ["the box"] if task.requirements.box else []
+    limits += [f"the given {name}" for name in task.requirements.given]
+    kept = ", ".join([*limits, "the longest link"])
+    return (
+        f"no {task.kind.name} was found that keeps to {kept} and the least transmission angle; "
+        "give it more room"
+    )
+
+
+def glimpsed(task: PathTask) -> Fit | None:
+    """Return the atlas's best as it is, in a tenth of a second, once the atlas is made."""
+    chosen = task.thinned(MATCHED)
+    start = started(task, chosen, _STAGES[0].candidates, _GLIMPSED if task.curve.closed else _GLIMPSED_OPEN)
+    traced = task.kind.points(start.rows, start.closure, start.angles)
+    off = np.abs(traced - task.normal.points[chosen]).max(axis=1)
+    return next(verified(task, start.take(np.argsort(off, kind="stable")), chosen), None)
+
+
+def started(task: PathTask, chosen: Indices, count: int, among: int = CURVES) -> Candidates:
+    """Return the best candidates of the atlas, or of its first curves, at size 1 and at chosen points."""
+    known, points = atlas(task.kind).first(among), DrawnCurve(task.normal.points[chosen], task.curve.closed)
+    if task.timing is None and len(points.points) <= FEW:
+        return joined([matched(known, points, count // 4), matched_few(known, points, count)])
+    if task.timing is None:
+        return matched(known, points, count)
+    timing = task.timing[chosen]
+    return matched_in_time(known, points.points, timing, count, free_start=task.free_start)
+
+
+def _searched(task: PathTask, count: int, progress: Progress | None, *, widely: bool) -> tuple[Fit, ...]:
+    few = len(task.curve.points) <= FEW
+    fits = _through(task, _FEW_STAGES if few else _STAGES, count, progress)
+    off = fits[0].error / task.curve.size if fits else _FOLLOWED
+    if not widely or few or off < _FOLLOWED:
+        return fits
+    further = _WIDER_STAGES if off <= _FOREIGN else _FOREIGN_STAGES
+    return best_of([*fits, *_through(task, further, count, progress)], count)
+
+
+def _through(
+    task: PathTask, stages: tuple[_Stage, ...], count: int, progress: Progress | None
+) -> tuple[Fit, ...]:
+    found, chosen = _refined_through(task, stages, progress)
+    return best_of(_enough(verified(task, found, chosen), count), count)
+
+
+def _enough(fits: Iterator[Fit], count: int) -> Iterator[Fit]:
+    """Yield answers, the best first, until so many differ and one more follows."""
+    seen: list[Fit] = []
+    for fit in fits:
+        yield fit
+        seen += [] if any(_same(fit, other) for other in seen) else [fit]
+        if len(seen) > count:
+            return
+
+
+def _refined_through(
+    task: PathTask, stages: tuple[_Stage, ...], progress: Progress | None
+) -> tuple[Candidates, Indices]:
+    """Return the best candidates after all stages, the best first, at size 1, and the points chosen last."""
+    chosen = task.thinned(MATCHED)
+    now = started(task, chosen, stages[0].candidates)
+    cost = np.zeros(len(now.rows))
+    for number, stage in enumerate(stages):
+        if progress:
+            progress(number, len(stages))
+        now = now.take(_by_merit(cost)[: stage.candidates])
+        before, chosen = chosen, task.thinned(stage.points)
+        now = now._replace(angles=spread(task, now, before, chosen))
+        problem = task.problem(chosen)
+        now, cost = refined(problem, now, stage.steps, guarded=stage is stages[-1])
+        if number:
+            cost = merit(problem, now)
+    if progress:
+        progress(len(stages), len(stages))
+    return now.take(_by_merit(cost)[: int(np.isfinite(cost).sum())]), chosen
+
+
+def _by_merit(cost: Real) -> Indices:
+    """Return the order of candidates by their merit; equal ones stay as they are."""
+    return np.argsort(np.round(np.log10(np.maximum(cost, _CLOSED)), _EQUAL), kind="stable")
+
+
+def refitted(task: PathTask, fit: Fit) -> Fit | None:
+    """Return an answer fitted again to a task that may have other points, weights or given values.
+
+    The task's points are as many as the answer's. None where it ends nowhere.
+    """
+    start = Candidates(fit.row[None], np.array([fit.closure_sign]), fit.angles[None], np.array([fit.sense]))
+    chosen = task.thinned(_STAGES[-1].points)
+    now = task.normalised(start)
+    now = now._replace(angles=spread(task, now, np.arange(len(task.normal.points)), chosen))
+    now, _ = refined(task.problem(chosen), now, _REFIT_STEPS)
+    return next(verified(task, now, chosen), None)
+
+
+def spread(task: PathTask, found: Candidates, before: Indices, after: Indices) -> Real:
+    """Return the crank angles at some points from those at others."""
+    if np.array_equal(before, after):
+        return found.angles
+    if task.timing is not None:
+        return np.asarray(found.angles[:, :1] + (task.timing[after] - task.timing[before[0]]))
+    places, angles = task.normal.places[before], found.angles
+    if task.curve.closed:
+        places = np.append(places, places[0] + 1.0)
+        angles = np.concatenate([angles, angles[:, :1] + 2 * math.pi * found.sense[:, None]], axis=1)
+    return np.stack([np.interp(task.normal.places[after], places, row) for row in angles])
+
+
+def verified(task: PathTask, normal: Candidates, chosen: Indices) -> Iterator[Fit]:
+    """Yield those that are answers, of candidates of size 1 at chosen points; of the same ones the first."""
+    everywhere = spread(task, normal, chosen, np.arange(len(task.normal.points)))
+    scaled = task.scaled(normal._replace(angles=everywhere))
+    middle = everywhere.shape[1] // 2
+    joints = task.kind.joints(scaled.rows, scaled.closure, scaled.angles[:, [0, middle]])
+    known: list[Complex] = []
+    for (row, closure, angles, _), places in zip(zip(*scaled, strict=True), joints, strict=True):
+        if any(np.abs(places - other).max() <= _SAME * task.curve.size for other in known):
+            continue
+        if fit := checked(task, rounded(task, row), float(closure), angles):
+            known.append(places)
+            yield fit
+
+
+def best_of(fits: Iterable[Fit], count: int) -> tuple[Fit, ...]:
+    """Return the best of those that differ by more than rounding."""
+    kept: list[Fit] = []
+    for fit in ranked(fits):
+        if not any(_same(fit, other) for other in kept):
+            kept.append(fit)
+    return tuple(kept[:count])
+
+
+def ranked(fits: Iterable[Fit]) -> list[Fit]:
+    """Return answers, the best first: by error, then transmission angle, longest link and place.
+
+    Each of these decides only among answers that rounding alone tells apart by those before it, so that the
+    order is the same wherever numbers come to lie in memory.
+    """
+    return _ranked([(_figures(fit), fit) for fit in fits])
+
+
+def _figures(fit: Fit) -> tuple[float, ...]:
+    size = fit.task.curve.size
+    error = math.log10(max(fit.error / size, _FITTED))
+    return error, -fit.transmission_angle, fit.size / size, *(fit.row / size)
+
+
+def _ranked(fits: Sequence[tuple[tuple[float, ...], Fit]], figure: int = 0) -> list[Fit]:
+    """Return answers in the order of a figure, those in which it is equal in the order of the next."""
+    if len(fits) < 2 or figure == len(fits[0][0]):
+        return [fit for _, fit in fits]
+    ordered = sorted(fits, key=lambda pair: pair[0][figure])
+    ends = [n for n in range(1, len(fits)) if ordered[n][0][figure] - ordered[n - 1][0][figure] > 10**-_EQUAL]
+    runs = [ordered[first:last] for first, last in pairwise([0, *ends, len(fits)])]
+    return [fit for run in runs for fit in _ranked(run, figure + 1)]
+
+
+def _same(one: Fit, other: Fit) -> bool:
+    return one.apart(other) <= _SAME
+
+
+# Answers in round lengths: one length after the other is rounded and held, and the rest is fitted again.
+
+
+def with_round_lengths(fits: tuple[Fit, ...], step: float) -> tuple[Fit, ...]:
+    """Return answers whose lengths and pivots are multiples of a step, the best first.
+
+    Each knows what it was before (`exact`). BadInput where nothing that follows the curve is left.
+    """
+    found = [fit for fit in (rounded_to(fit, step) for fit in fits) if fit is not None]
+    if not found:
+        raise BadInput(f"rounded to {step:g} no linkage is left that follows the curve; take a finer step")
+    return best_of(found, len(found))
+
+
+def rounded_to(fit: Fit, step: float) -> Fit | None:
+    """Return an answer in round lengths; None where none is left, as of one that goes through its limits."""
+    now: Fit | None = fit
+    for name in fit.task.kind.parameters:
+        if name == "line_angle" or now is None:
+            continue
+        held = [_holding(now.task, name, value) for value in _near(now.parameters[name], step)]
+        tries = [one for task in held if (one := refitted(task, now))]
+        now = min(tries, key=lambda one: one.error, default=None)
+    return now and replace(now, task=fit.task, exact=fit, cognate=fit.cognate)
+
+
+def _near(value: float, step: float) -> tuple[float, float]:
+    """Return the multiples of the step below and above, as decimals."""
+    digits = max(0, 12 - math.floor(math.log10(step)))
+    low = math.floor(value / step)
+    return round(low * step, digits), round((low + 1) * step, digits)
+
+
+def _holding(task: PathTask, name: str, value: float) -> PathTask:
+    given = {**task.requirements.given, name: value}
+    return replace(task, requirements=replace(task.requirements, given=given))
