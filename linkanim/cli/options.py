@@ -502,6 +502,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
             'where the tables are, such as "87 deg,306 deg" (default: the start and the extremes)',
         ),
         _speeds("the speeds of tables and charts"),
+        _ACCELERATION,
         _value(
             "--data OTHER.csv",
             Path,

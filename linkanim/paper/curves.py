@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from linkanim.bounds import MOST_ROWS_READ
 from linkanim.errors import BadInput, OutOfRange
@@ -46,10 +47,15 @@ _MOST_PERIODS = 8
 
 
 class Pace(NamedTuple):
-    """A speed in rad/s, and in the words in which it was asked for."""
+    """A speed in rad/s, its words as they were asked for, and the input's acceleration at it, rad/s²."""
 
     speed: float
     words: str
+    acceleration: float = 0.0
+
+    def motion(self, scene: Scene, phases: ArrayLike) -> Motion:
+        """Return a scene's motion at phases, at this speed at each of them."""
+        return scene.solve(phase=phases, speed=self.speed, acceleration=self.acceleration)
 
 
 @dataclass(frozen=True)
@@ -66,7 +72,7 @@ class Curve:
 
     def solved(self, scene: Scene, phases: Floats) -> Floats:
         """Return its values at any phases, of an angle in any turn."""
-        values = np.asarray(self.quantity.shown(scene.solve(phase=phases, speed=self.pace.speed)), float)
+        values = np.asarray(self.quantity.shown(self.pace.motion(scene, phases)), float)
         return values[:, self.quantity.columns.index(self.label)] if values.ndim == 2 else values
 
 
@@ -138,7 +144,9 @@ def _there_and_back(scene: Scene, over: Over | None) -> bool:
 
 def _of(scene: Scene, one: Quantity, pace: Pace, over: Over | None, cycle: Motion) -> Iterator[Curve]:
     """Yield the curve of a quantity, or one for each component of a vector."""
-    series = series_of(scene, one, cycle.paced(pace.speed / scene.linkage.drive.speed))
+    steady = pace.acceleration == 0
+    paced = cycle.paced(pace.speed / scene.linkage.drive.speed) if steady else pace.motion(scene, cycle.phase)
+    series = series_of(scene, one, paced)
     series = broken(series, one, cycle)
     if _there_and_back(scene, over):
         angle = np.degrees(scene.solve(phase=series.phases, derivatives=0).coordinate)

@@ -27,8 +27,8 @@ class Figured:
     """What a figure shows of a scene: a phase, and over it `poses` faint ones spread over the period.
 
     Without a phase it is that at which the joints are farthest apart.
-    Its words are for `speed`, the scene's own where none is given. Names stand as is best for its pose alone,
-    or `as_seen` in a window. The `overlay` lies over it.
+    Its words are for `speed`, the scene's own where none is given, and the input's `acceleration`. Names
+    stand as is best for its pose alone, or `as_seen` in a window. The `overlay` lies over it.
     """
 
     scene: Scene
@@ -37,6 +37,7 @@ class Figured:
     phase: float | None = None
     poses: int = 0
     speed: float | None = None
+    acceleration: float = 0.0
     as_seen: bool = False
     overlay: Overlay = Overlay()  # noqa: RUF009 -- frozen
 
@@ -60,7 +61,7 @@ class Figured:
     @cached_property
     def _poses(self) -> tuple[Pose, tuple[Pose, ...]]:
         """The pose drawn in full and the faint ones: the other closure's, then those over the period."""
-        pose, faint = self.picture.poses(self.shown_phase, self.speed)
+        pose, faint = self.picture.poses(self.shown_phase, self.speed, self.acceleration)
         phases = (self.shown_phase + self.scene.period * n / self.poses for n in range(self.poses))
         return pose, (*faint, *(self.scene.pose(phase, 0) for phase in phases))
 

@@ -106,11 +106,11 @@ class Values:
     def __init__(self, scene: Scene) -> None:
         self.scene, self._cycle = scene, scene.cycle(scene.mechanism.count(_SAMPLES))
         # each serves every quantity
-        self._motion = cache(lambda phase, speed: scene.solve(phase=phase, speed=speed))
+        self._motion = cache(lambda phase, pace: pace.motion(scene, phase))
 
     def of(self, quantity: Quantity, instant: Instant, pace: Pace) -> float:
         """Return the value of one number as people read it, NaN where it has none."""
-        return float(quantity.shown(self._motion(instant.phase, pace.speed)))
+        return float(quantity.shown(self._motion(instant.phase, pace)))
 
     def changes(self, quantity: Quantity) -> bool:
         """Whether a quantity has more than one value over the cycle, rounding errors aside."""
@@ -172,7 +172,7 @@ def table(scene: Scene, pace: Pace) -> tuple[list[str], np.ndarray]:
     start of the drive.
     """
     count = round(degrees(scene.period))
-    motion = scene.solve(phase=np.arange(count + 1) * (scene.period / count), speed=pace.speed)
+    motion = pace.motion(scene, np.arange(count + 1) * (scene.period / count))
     names = ["phase", scene.linkage.drive.coordinate.name, "time"]
     columns = [motion.phase, motion.coordinate, motion.phase / abs(pace.speed)]
     for token, quantity in scene.quantities.items():

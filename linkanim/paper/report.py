@@ -36,8 +36,9 @@ from linkanim.paper.vectors import vectors_svg
 from linkanim.picture.figure import figure
 from linkanim.picture.look import Look
 from linkanim.scenes.editing import dimensions
+from linkanim.scenes.files import PublishedTable
 from linkanim.scenes.scene import Scene
-from linkanim.units import rounded
+from linkanim.units import rounded, significant
 
 _CHART = (400, 225)
 _WIDE, _TALL = (820, 440), (440, 700)
@@ -48,6 +49,8 @@ _POLYGONS = {2: (440, 380), 3: (310, 400)}
 """By how many stand in a row."""
 _COMPARED = 19
 """So many rows of a measured table are printed at the most."""
+_PRINTED = 6
+"""Significant digits of values beside printed ones."""
 _UNSAFE = re.compile(r"[^\w.-]+")
 _LONGEST = 60
 """Letters of a chart's file name that come from its quantities."""
@@ -60,8 +63,9 @@ DrawnChart = tuple[tuple[str, ...], FigurePart]
 class Report:
     """What a report is asked to show: the instants of its tables, the speeds of tables and charts, digits.
 
-    A table that was `measured` of a quantity stands beside it, under its `label`. With `every` it has, behind
-    the hand-out, a table of every quantity at each instant, and every chart.
+    A table that was `measured` of a quantity stands beside it, under its `label`; what is `published` of the
+    scene has tables of its own. With `every` it has, behind the hand-out, a table of every quantity at each
+    instant, and every chart.
     """
 
     scene: Scene
@@ -71,6 +75,7 @@ class Report:
     every: bool = False
     measured: Mapping[str, MeasuredTable] = field(default_factory=dict)
     label: str = "measured"
+    published: tuple[PublishedTable, ...] = ()
 
     def files(self) -> Iterator[tuple[str, str]]:
         """Yield the report's files, the page first: (name, text)."""
@@ -129,7 +134,16 @@ class Report:
         speeds = ", ".join(pace.words for pace in self.paces)
         yield html.paragraph(
             f"Positions, velocities and accelerations are solved in closed form by linkanim {__version__}, "
-            f"{self.scene.info.input_name} speed {speeds}, which is constant."
+            f"{self.scene.info.input_name} speed {speeds}, {self._steadily}."
+        )
+
+    @property
+    def _steadily(self) -> str:
+        second = self.paces[0].acceleration
+        return (
+            f"and acceleration {second:g} rad/s² at every pose that is shown"
+            if second
+            else "which is constant"
         )
 
     def _chapters(self) -> Iterator[tuple[str, Iterable[Part]]]:
@@ -141,6 +155,8 @@ class Report:
         yield "Values", self._tables()
         for title, charts in self._topics.items():
             yield title, _in_rows([chart for _, chart in charts])
+        if self.published:
+            yield "Beside printed values", [self._printed(one) for one in self.published]
         if self.measured:
             yield f"Beside {self.label}", self._beside()
         yield "Velocity and acceleration polygons", self._polygons()
@@ -206,6 +222,27 @@ class Report:
         left_out = f", {len(chosen)} of {count} rows" if len(chosen) < count else ""
         return html.table(f"{words}: this solution and {self.label}{left_out}", heads, rows)
 
+    def _printed(self, printed: PublishedTable) -> TablePart:
+        """Return a table of printed values of each method, and by how much they differ from ours."""
+        scene = self.scene
+        motion = scene.solve(angle=printed.angle, speed=printed.speed)
+        heads = ["quantity", "this solution"]
+        heads += [head for method in printed.methods for head in (method, "percent")]
+        rows = []
+        for token, values in printed.values.items():
+            quantity = scene.quantities[token]
+            ours = float(quantity.shown(motion))
+            unit = quantity.shown_unit(scene.length_unit)
+            # a length of the table's is in metres
+            per = scene.linkage.metre if "{}" in quantity.unit else 1.0
+            row = [f"{quantity.words} {quantity.symbol} ({unit})", significant(ours, _PRINTED)]
+            for value in values:
+                off = 100 * (value / per - ours) / abs(ours)
+                row += [significant(value / per, _PRINTED), rounded(off, 2)]
+            rows.append(row)
+        place = place_of(scene, Instant(float(motion.phase), ""))
+        return html.table(f"{printed.source}: {place}, {printed.speed:g} rad/s", heads, rows)
+
     def _poses(self) -> Iterator[Part]:
         """Yield a figure of the scene at each instant."""
         look = Look(names=1, hud=False, trace=False)
@@ -232,7 +269,14 @@ class Report:
         pace, found = self.paces[0], []
         across = 3 if len(self.instants) % 3 == 0 else 2
         for instant in self.instants:
-            shown = Figured(self.scene, _POLYGONS[across], look, instant.phase, speed=pace.speed)
+            shown = Figured(
+                self.scene,
+                _POLYGONS[across],
+                look,
+                instant.phase,
+                speed=pace.speed,
+                acceleration=pace.acceleration,
+            )
             caption = f"Polygons at {place_of(self.scene, instant)}, {pace.words}"
             found.append(FigurePart(shown.document(), caption))
         yield from _in_rows(found, across)

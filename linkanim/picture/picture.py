@@ -193,10 +193,12 @@ class Picture:
         same = self._made_for[0] is scene and self._made_for[1:] == (size, look, listed, held, row, sheet)
         return same and self._settled
 
-    def poses(self, phase: float, speed: float | None = None) -> tuple[Pose, tuple[Pose, ...]]:
+    def poses(
+        self, phase: float, speed: float | None = None, acceleration: float = 0.0
+    ) -> tuple[Pose, tuple[Pose, ...]]:
         """Return the pose at a phase, and the faint one of the other closure where the look asks for it."""
         faint = (self._ghost.pose(phase, 0),) if self._ghost else ()
-        return self.scene.pose(phase, self._order, speed=speed), faint
+        return self.scene.pose(phase, self._order, speed=speed, acceleration=acceleration), faint
 
     @cached_property
     def _order(self) -> int:

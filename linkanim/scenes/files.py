@@ -9,13 +9,14 @@ from functools import cache
 from importlib.resources import files
 from pathlib import Path
 from types import MappingProxyType
+from typing import NamedTuple
 
 from linkanim import intake
 from linkanim.errors import BadInput
 from linkanim.intake import meant
 from linkanim.scenes.scene import Scene
 from linkanim.scenes.toml import SCENE_FILE, parse
-from linkanim.units import shown
+from linkanim.units import angle, angular_speed, shown
 
 
 @cache
@@ -44,6 +45,34 @@ def names() -> tuple[str, ...]:
 def titles() -> Mapping[str, str]:
     """Return each catalogue scene's title by its name, without checking the linkage in it."""
     return MappingProxyType({name: str(parse(_catalogue_text(name), name)["title"]) for name in names()})
+
+
+class PublishedTable(NamedTuple):
+    """Values that a source prints for a scene at an angle and a speed (rad, rad/s), in SI units.
+
+    `values` are those of each method, by the quantity's token.
+    """
+
+    source: str
+    angle: float
+    speed: float
+    methods: tuple[str, ...]
+    values: Mapping[str, tuple[float, ...]]
+
+
+@cache
+def published(name: str) -> tuple[PublishedTable, ...]:
+    """Return the values that are printed for a catalogue scene; none for any other name."""
+    return tuple(
+        PublishedTable(
+            one["source"],
+            angle(one["angle"]),
+            angular_speed(one["speed"]),
+            tuple(one["methods"]),
+            {token: tuple(map(float, values)) for token, values in one["values"].items()},
+        )
+        for one in parse(_text("published.toml"), "published.toml").get(name, ())
+    )
 
 
 def load(name_or_path: str | os.PathLike[str]) -> Scene:

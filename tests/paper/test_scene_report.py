@@ -32,6 +32,7 @@ from linkanim.paper.findings import (
 )
 from linkanim.paper.vectors import vectors_svg
 from linkanim.scenes import load, names
+from linkanim.scenes.toml import text as written
 from linkanim.units import rounded, significant, typeset
 
 PACES = tuple(Pace(speed, f"{speed:g} rad/s") for speed in (5.0, 10.0, 20.0))
@@ -455,3 +456,57 @@ def test_the_press_is_printed_on_ten_pages_at_most(press: Path, tmp_path: Path) 
     ]
     subprocess.run(command, check=True, capture_output=True)
     assert 4 <= len(re.findall(rb"/Type\s*/Page\b", target.read_bytes())) <= 10
+
+
+def test_printed_values_stand_beside_the_press_s_own(press: Path) -> None:
+    text = html.unescape((press / "report.html").read_text(encoding="utf-8"))
+    rows = re.findall(r"<tr>((?:<td>.*?</td>)+)</tr>", text.partition("Beside printed values</h2>")[2])
+    found = [re.findall(r"<td>(.*?)</td>", row) for row in rows][:9]
+    assert [len(row) for row in found] == [6] * 8 + [4]
+    motion = load("press").solve(angle=math.radians(87), speed=10.0)
+    ours = [*(motion.angular_velocity[link] for link in "346"), motion.travel_velocity["5"]]
+    for (_, own, program, percent, polygons, _), value in zip(found, ours, strict=False):
+        assert float(own.replace("−", "-")) == pytest.approx(float(value), rel=1e-5)
+        assert float(program.replace("−", "-")) == pytest.approx(float(value), rel=4e-4)
+        assert float(polygons.replace("−", "-")) == pytest.approx(float(value), rel=2e-3)
+        assert abs(float(percent.replace("−", "-"))) < 0.04
+
+
+def test_a_scene_of_that_name_in_a_file_has_no_printed_values(tmp_path: Path) -> None:
+    path = tmp_path / "press.toml"
+    path.write_text(written(load("press")), encoding="utf-8")
+    assert main(["report", str(path), "-o", str(tmp_path / "out")]) == 0
+    assert "printed values" not in (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+
+
+def test_an_accelerated_input_is_in_tables_charts_and_words(tmp_path: Path) -> None:
+    asked = ["report", "crank-rocker", "--angles", "60 deg", "--speeds", "10 rad/s"]
+    assert main([*asked, "--acceleration", "30 rad/s^2", "-o", str(tmp_path)]) == 0
+    text = html.unescape((tmp_path / "report.html").read_text(encoding="utf-8"))
+    assert "acceleration 30 rad/s² at every pose" in text
+    motion = load("crank-rocker").solve(angle=math.radians(60), speed=10.0, acceleration=30.0)
+    value = float(motion.angular_acceleration["rocker"])
+    assert f">{typeset(rounded(value, 4))}<" in text
+    with (tmp_path / "quantities-1.csv").open(encoding="utf-8") as file:
+        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+    assert float(rows[0]["rocker.angular_acceleration"]) == pytest.approx(
+        float(
+            load("crank-rocker")
+            .solve(phase=0.0, speed=10.0, acceleration=30.0)
+            .angular_acceleration["rocker"]
+        )
+    )
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (["double-rocker", "--acceleration", "2 rad/s^2"], "goes with an input that turns fully"),
+        (["press", "--acceleration", "2 rad/s^2", "--data", "x.csv"], "at a constant speed"),
+    ],
+)
+def test_an_acceleration_that_cannot_be_is_refused(
+    options: list[str], words: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["report", *options, "-o", str(tmp_path / "out")]) == 2
+    assert words in capsys.readouterr().err

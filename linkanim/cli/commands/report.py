@@ -9,11 +9,12 @@ from linkanim.bounds import MOST_CHARTED
 from linkanim.cli.commands.chart import paces
 from linkanim.errors import BadInput
 from linkanim.manifest import FileSet, replacing
-from linkanim.paper.curves import MeasuredTable, read_tables
+from linkanim.paper.curves import MeasuredTable, Pace, read_tables
 from linkanim.paper.findings import instants_at, usual_instants
 from linkanim.paper.report import Report
 from linkanim.scenes import load
 from linkanim.scenes.editing import in_unit
+from linkanim.scenes.files import path_of, published
 from linkanim.scenes.scene import Scene
 
 _ALWAYS = ("report.html", "figure.svg")
@@ -32,13 +33,25 @@ def run(options: Namespace) -> None:
     with replacing(files, _ALWAYS) as folder:
         scene = in_unit(load(options.scene), options.unit)
         instants = instants_at(scene, options.angles) if options.angles else usual_instants(scene)
+        speeds = _paces(scene, options)
         if options.all:
-            _refuse_many(scene, len(paces(scene, options)))
-        given = (paces(scene, options), options.digits, options.all)
-        report = Report(scene, instants, *given, _measured(options), options.label or _name(options))
+            _refuse_many(scene, len(speeds))
+        beside = _measured(options), options.label or _name(options)
+        printed = published(options.scene) if path_of(options.scene) is None else ()
+        report = Report(scene, instants, speeds, options.digits, options.all, *beside, printed)
         for name, text in report.files():
             (folder / name).write_text(text, encoding="utf-8")
     print(target / "report.html")
+
+
+def _paces(scene: Scene, options: Namespace) -> tuple[Pace, ...]:
+    """Return the speeds, with the input's acceleration; BadInput where that is not the phase's."""
+    second = options.acceleration
+    if second and not scene.info.full_turn:
+        raise BadInput(f"--acceleration goes with an input that turns fully; that of {scene.name} swings")
+    if second and options.data is not None:
+        raise BadInput("--data is compared at a constant speed; leave --acceleration out")
+    return tuple(pace._replace(acceleration=second) for pace in paces(scene, options))
 
 
 def _measured(options: Namespace) -> dict[str, MeasuredTable]:
