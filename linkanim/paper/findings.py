@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cache
 from itertools import chain
-from math import degrees, isinf, isnan, tau
+from math import degrees, isinf, isnan, nan, pi, sin, tau
 from typing import NamedTuple
 
 import numpy as np
@@ -65,8 +65,11 @@ def instants_at(scene: Scene, angles: tuple[float, ...]) -> tuple[Instant, ...]:
 
 
 def usual_instants(scene: Scene) -> tuple[Instant, ...]:
-    """Return the start, and where the output is furthest either way, if it turns back at all."""
-    found = [Instant(0.0, "start")]
+    """Return the start, and where the output is furthest either way, if it turns back at all.
+
+    An input that swings rests at its start; half-way to its other end everything moves.
+    """
+    found = [Instant(0.0, "start") if scene.info.full_turn else Instant(pi / 2, "half-way")]
     output = output_slider(scene.linkage) or output_body(scene.linkage)
     if output and (output.slider or output.name not in scene.info.turning_links):
         place, rate = ("travel", "travel_velocity") if output.slider else ("angle", "angular_velocity")
@@ -129,6 +132,11 @@ def sheet(values: Values, instant: Instant, paces: tuple[Pace, ...], digits: int
             found = tuple(rounded(values.of(quantity, instant, pace), digits) for pace in paces)
             rows.append(Finding(quantity, quantity.shown_unit(values.scene.length_unit), found))
     return sections
+
+
+def rests(scene: Scene, instant: Instant) -> bool:
+    """Whether the input rests at an instant: at an end of its swing."""
+    return not scene.info.full_turn and abs(sin(instant.phase)) < _SAME
 
 
 def place_of(scene: Scene, instant: Instant) -> str:
@@ -314,8 +322,11 @@ def _table(
 
 def _value(values: Values, part: str, column: Column, instant: Instant) -> float:
     quantity = _quantity(values, part, column.measure)
-    pace = column.pace or Pace(values.scene.linkage.drive.speed, "")
-    return values.of(quantity, instant, pace) if quantity else float("nan")
+    if quantity is None:
+        return nan
+    found = values.of(quantity, instant, column.pace or Pace(values.scene.linkage.drive.speed, ""))
+    # an angle is told within one turn
+    return found % 360 if quantity.unit == "rad" and quantity.order == 0 else found
 
 
 # Which charts a hand-out has, in the order in which a report on a mechanism goes.

@@ -22,19 +22,20 @@ h1, h2, h3 {{ break-after: avoid; }} h1 {{ font-size: 1.9rem; line-height: 1.2; 
 h2 {{ font-size: 1.35rem; margin: 2rem 0 .6rem; border-bottom: 2px solid #d0d7de; }}
 h3 {{ font-size: 1.05rem; margin: 1.2rem 0 .3rem; }}
 p {{ margin: .4rem 0; }} p.source {{ color: #57606a; margin-top: 0; }}
-nav ul {{ columns: 2; margin: .4rem 0 0; padding: 0; list-style: none; }} nav a {{ color: inherit; }}
+nav ul {{ columns: 3; margin: .4rem 0 0; padding: 0; list-style: none; }} nav a {{ color: inherit; }}
 table {{ border-collapse: collapse; margin: .3rem 0 .2rem; font-variant-numeric: tabular-nums; }}
 th, td {{ padding: .12rem .9rem .12rem 0; text-align: left; vertical-align: top; font-weight: 400; }}
 thead th {{ font-weight: 600; vertical-align: bottom; }}
 thead tr:last-child > * {{ border-bottom: 1px solid #8c959f; }}
 th[scope=colgroup] {{ text-align: center; }} .n {{ text-align: right; white-space: nowrap; }}
-table.values .n {{ padding-left: .9rem; padding-right: 0; }}
+table.facts td {{ white-space: nowrap; }} table.values .n {{ padding-left: .9rem; padding-right: 0; }}
 table.values {{ width: 100%; }} tbody th[scope=rowgroup] {{ font-weight: 600; padding-top: .4rem; }}
 caption, figcaption {{ text-align: left; color: #424a53; font-size: .92em; padding: .1rem 0 .25rem; }}
 sub {{ font-size: .75em; line-height: 0; }}
 p.note {{ color: #57606a; font-size: .92em; margin-top: 0; }}
 p.seen {{ font-size: .92em; margin: 0; }}
-.figures ul {{ columns: 2; margin: .2rem 0 0; padding: 0; list-style: none; font-size: .92em; }}
+.figures ul {{ columns: 3; margin: .2rem 0 0; padding: 0; list-style: none; font-size: .85em; }}
+.figures li {{ break-inside: avoid; }}
 .figures a {{ color: inherit; }}
 p.equation {{ margin: .2rem 0 .2rem 1.4rem; }}
 figure {{ margin: .5rem 0 .9rem; break-inside: avoid; }}
@@ -98,10 +99,14 @@ class TablePart:
 
 @dataclass(frozen=True)
 class Beside:
-    """Parts side by side, so many in a row, each one part or several below each other."""
+    """Parts side by side, so many in a row, each one part or several below each other.
+
+    Their `shares` of the width are the same for all where none are given.
+    """
 
     parts: tuple[Part | tuple[Part, ...], ...]
     across: int = 2
+    shares: tuple[int, ...] = ()
 
 
 Part = str | FigurePart | TablePart | Beside
@@ -193,10 +198,11 @@ def _written(part: Part, figures: Iterator[int], tables: Iterator[int]) -> str:
             table = f"<table class='{part.kind}'><caption>{symbol(title)}</caption>{part.rows}</table>"
             notes = "".join(paragraph(note, "note") for note in part.notes)
             return f"{_KEPT if part.count <= _ROWS_KEPT else _LONG}{table}{notes}</div>"
-        case Beside(parts, across):
+        case Beside(parts, across, shares):
             columns = (one if isinstance(one, tuple) else (one,) for one in parts)
             inside = ("\n".join(_written(one, figures, tables) for one in column) for column in columns)
-            grid = f"<div class='beside' style='grid-template-columns: repeat({across}, 1fr)'>"
+            widths = " ".join(f"{share}fr" for share in shares) or f"repeat({across}, 1fr)"
+            grid = f"<div class='beside' style='grid-template-columns: {widths}'>"
             return "\n".join([grid, *(f"<div>{one}</div>" for one in inside), "</div>"])
 
 
@@ -217,7 +223,7 @@ def facts(caption: str, lines: Sequence[tuple[str, str]], columns: Literal[1, 2,
         f"<th scope='row'>{symbol(label)}</th><td>{symbol(_minus(value))}</td>" for label, value in lines
     ]
     rows = "".join(f"<tr>{''.join(cells[n::high])}</tr>" for n in range(high))
-    return TablePart(caption, f"<tbody>{rows}</tbody>", high)
+    return TablePart(caption, f"<tbody>{rows}</tbody>", high, "facts")
 
 
 def table(caption: str, heads: Sequence[str], rows: Sequence[Sequence[str]]) -> TablePart:

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import chain
+from math import pi
 
 import numpy as np
 
@@ -24,6 +25,7 @@ from linkanim.paper.findings import (
     charted,
     paces_of,
     place_of,
+    rests,
     sheet,
     table,
     topics,
@@ -35,6 +37,7 @@ from linkanim.paper.svg import svg
 from linkanim.paper.vectors import vectors_svg
 from linkanim.picture.figure import figure
 from linkanim.picture.look import Look
+from linkanim.picture.text import subscripted
 from linkanim.scenes.editing import dimensions
 from linkanim.scenes.files import PublishedTable
 from linkanim.scenes.scene import Scene
@@ -42,16 +45,18 @@ from linkanim.units import rounded, significant
 
 _CHART = (400, 225)
 _WIDE, _TALL = (820, 440), (440, 700)
-"""The figure's size in pixels: as wide as the page, or beside the facts."""
+"""The figure's size in pixels: as wide as the page, or beside facts and dimensions, in these shares."""
+_SHARES = 2, 3
 _HIGH = 1.1
 """How high for its width a scene is whose figure stands so."""
-_POLYGONS = {2: (440, 380), 3: (310, 400)}
-"""By how many stand in a row."""
+_POLYGONS = 440, 380
 _COMPARED = 19
 """So many rows of a measured table are printed at the most."""
 _PRINTED = 6
 """Significant digits of values beside printed ones."""
 _UNSAFE = re.compile(r"[^\w.-]+")
+_WORD = re.compile(r"\w+")
+_DECIMALS = re.compile(r"\d+\.\d+")
 _LONGEST = 60
 """Letters of a chart's file name that come from its quantities."""
 
@@ -97,7 +102,10 @@ class Report:
 
     @cached_property
     def _figure(self) -> Figured:
-        return Figured(self.scene, _TALL if self._tall else _WIDE, Look(names=2, hud=False))
+        size, clearest = _TALL if self._tall else _WIDE, figure(self.scene).clearest
+        # at an end of its swing the input rests, and nothing has a rate
+        phase = pi / 2 if rests(self.scene, Instant(clearest, "")) else clearest
+        return Figured(self.scene, size, Look(names=2, hud=False), phase)
 
     @cached_property
     def _tall(self) -> bool:
@@ -175,12 +183,25 @@ class Report:
     def _mechanism(self) -> Iterator[Part]:
         scene, shown = self.scene, self._figure
         drawn = FigurePart(shown.document(), f"{scene.title} with its dimensions at {shown.caption}")
-        stated = ((item.label, f"{item.value:.10g} {item.unit}".strip()) for item in dimensions(scene))
-        facts, lengths = ("Facts", scene.info.lines), ("Dimensions", tuple(stated))
+        stated = (
+            (self._indexed(item.label), self._stated(item.value, item.unit)) for item in dimensions(scene)
+        )
+        known = ((label, _shorter(value, self.digits)) for label, value in scene.info.lines)
+        facts, lengths = ("Facts", tuple(known)), ("Dimensions", tuple(stated))
         if self._tall:
-            yield from (Beside((drawn, html.facts(*facts, 1))), html.facts(*lengths, 3))
+            yield Beside((drawn, (html.facts(*facts, 1), html.facts(*lengths, 2))), 2, _SHARES)
         else:
             yield from (html.facts(*facts, 2), drawn, html.facts(*lengths, 3))
+
+    def _indexed(self, label: str) -> str:
+        """Return words with the names of joints in them set as such: Pin O₂."""
+        names = {joint.name for joint in self.scene.linkage.joints}
+        return _WORD.sub(lambda found: subscripted(found[0]) if found[0] in names else found[0], label)
+
+    @staticmethod
+    def _stated(value: float, unit: str) -> str:
+        number = f"{value:.10g}"
+        return f"{number}°" if unit == "deg" else f"{number} {unit}".strip()
 
     def _vector_loops(self) -> Iterator[Part]:
         caption = f"Vector loops at {self._figure.caption}"
@@ -246,7 +267,7 @@ class Report:
     def _poses(self) -> Iterator[Part]:
         """Yield a figure of the scene at each instant."""
         look = Look(names=1, hud=False, trace=False)
-        across = 3 if self._tall else 2
+        across = 3 if self._tall or len(self.instants) % 3 == 0 else 2
         size = (_TALL[0], _TALL[1]) if self._tall else (_WIDE[0] // 2, _WIDE[1] * 5 // 8)
         figures = (
             FigurePart(
@@ -267,19 +288,23 @@ class Report:
     def _polygons(self) -> Iterator[Part]:
         look = Look(trace=False, polygons=True, hud=False)
         pace, found = self.paces[0], []
-        across = 3 if len(self.instants) % 3 == 0 else 2
-        for instant in self.instants:
+        moving = [instant for instant in self.instants if not rests(self.scene, instant)]
+        for instant in moving:
             shown = Figured(
-                self.scene,
-                _POLYGONS[across],
-                look,
-                instant.phase,
-                speed=pace.speed,
-                acceleration=pace.acceleration,
+                self.scene, _POLYGONS, look, instant.phase, speed=pace.speed, acceleration=pace.acceleration
             )
             caption = f"Polygons at {place_of(self.scene, instant)}, {pace.words}"
             found.append(FigurePart(shown.document(), caption))
-        yield from _in_rows(found, across)
+        yield from _in_rows(found)
+
+
+def _shorter(text: str, digits: int) -> str:
+    """Return words with every number in so many significant digits at the most, as the tables have them."""
+
+    def shorter(found: re.Match[str]) -> str:
+        return min(found[0], rounded(float(found[0]), digits), key=len)
+
+    return _DECIMALS.sub(shorter, text)
 
 
 def _in_rows(parts: list[FigurePart], across: int = 2) -> Iterator[Beside]:

@@ -21,9 +21,10 @@ from linkanim.picture.shapes import arrows
 from linkanim.picture.text import subscripted
 from linkanim.picture.view import Rect
 
-_SIZE = (760, 560)
-_FILLED = 0.8
-"""Of the picture's width or height the vectors take so much."""
+_WIDE, _TALL = (520, 380), (400, 520)
+"""The figure's size in pixels; printed beside its equations its letters are some 7 pt high."""
+_FILLED = 0.82
+"""Of the picture's width or height the vectors and the links take so much."""
 _SHORT = 1e-6
 """Of the picture's width: what is shorter has no direction."""
 
@@ -38,24 +39,29 @@ class _Named(NamedTuple):
 
 def vectors_svg(found: Solution) -> str:
     """Return the figure as SVG; each vector stands once, by its name, as do the joints it leads between."""
-    picture = _picture(found, _SIZE)
+    picture = _picture(found)
     ground, *_ = picture.drawing.standing()
     links = Group("links", picture.drawing.faint(found.request.scene.pose(found.phase, 0)))
     drawn = [ground, links, grouped("vectors", _drawn(found, picture))]
     title = f"Vector loops of {found.title}"
-    return svg(_SIZE, picture.theme.background, drawn, title=title)
+    return svg(picture.size, picture.theme.background, drawn, title=title)
 
 
-def _picture(found: Solution, size: tuple[int, int]) -> Picture:
+def _picture(found: Solution) -> Picture:
     """Return the links with all vectors in view, as large as there is room for."""
-    look = Look(trace=False, hud=False)
-    whole = Figured(found.request.scene, size, look, found.phase).picture
-    ends = np.array([_pixel(whole, end) for one in found.arrows for end in (one.begin, one.end)])
+    look, scene = Look(trace=False, hud=False), found.request.scene
+    bodies = {name for body in scene.linkage.bodies for name in body.joints}
+    places = [end for one in found.arrows for end in (one.begin, one.end)]
+    places += [at for name, at in found.places.items() if name in bodies]
+    high, wide = (float(np.ptp(np.imag(places))), float(np.ptp(np.real(places))))
+    size = _TALL if high > wide else _WIDE
+    whole = Figured(scene, size, look, found.phase).picture
+    ends = np.array([_pixel(whole, place) for place in places])
     spans = max(float(np.ptp(ends.real)), 1.0), max(float(np.ptp(ends.imag)), 1.0)
     zoom = min(_FILLED * size[0] / spans[0], _FILLED * size[1] / spans[1])
     off = (ends.real.max() + ends.real.min() - size[0]) / 2, (ends.imag.max() + ends.imag.min() - size[1]) / 2
     pan = -zoom * float(off[0]) / size[1], -zoom * float(off[1]) / size[1]
-    return Figured(found.request.scene, size, replace(look, zoom=zoom, pan=pan), found.phase).picture
+    return Figured(scene, size, replace(look, zoom=zoom, pan=pan), found.phase).picture
 
 
 def _pixel(picture: Picture, at: complex) -> complex:
