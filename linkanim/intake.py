@@ -15,13 +15,14 @@ import os
 import re
 import stat
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from errno import EMFILE, ENFILE, ENOMEM
 from pathlib import Path
 from typing import Any, ClassVar, NamedTuple, Self, TypeVar
 
 from linkanim.bounds import LONGEST_TEXT, MOST_DIGITS, MOST_ROWS_READ
 from linkanim.errors import BadInput, OtherVersion, WorkFailed
+from linkanim.frozen import frozen
 from linkanim.units import shown
 
 # Files from outside: read whole or refused, and weighed before a parser is let loose on them.
@@ -57,7 +58,7 @@ _OUR_TROUBLE = (EMFILE, ENFILE, ENOMEM)
 """Why the system refuses any file, not this one."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Intake:
     """A kind of file that is read: what it is called, its bytes and values at the most, and its refusal."""
 
@@ -197,7 +198,7 @@ _BREAK = re.compile(r"\s*[\t\n\r]\s*")
 _BARE_KEY = re.compile(r"[A-Za-z0-9_-]+(\[\d+\])?")
 
 
-@dataclass(frozen=True)
+@frozen
 class Section:
     """One table of a document: its values, and the keys that lead to it.
 

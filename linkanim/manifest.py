@@ -15,7 +15,6 @@ import re
 import shutil
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass
 from pathlib import Path
 
 from linkanim.atomic_files import (
@@ -29,6 +28,7 @@ from linkanim.atomic_files import (
 )
 from linkanim.atomic_files import replacing as replacing_any
 from linkanim.errors import BadInput
+from linkanim.frozen import frozen
 from linkanim.intake import Intake
 
 Sums = Mapping[str, frozenset[str]]
@@ -44,7 +44,7 @@ _STRANGE = {
 }
 
 
-@dataclass(frozen=True)
+@frozen
 class FileSet:
     """Files of one kind in a folder: the name of their list, and what their own names look like."""
 
@@ -85,7 +85,7 @@ class FileSet:
                 raise BadInput(f"{path} {_STRANGE[name in known]}; {way_out}")
 
 
-@dataclass(frozen=True)
+@frozen
 class Output:
     """A file to be written: under a name that its user gave, or else under one that we choose.
 

@@ -25,7 +25,7 @@ RANK = {
     room: rank
     for rank, rooms in enumerate(
         [
-            ("errors",),
+            ("errors", "frozen"),
             (
                 "bounds",
                 "child",
@@ -56,6 +56,7 @@ RANK = {
 
 THIRD_PARTIES = {
     "errors": set(),
+    "frozen": set(),
     "bounds": set(),
     "child": set(),
     "export": {"numpy", "orjson"},

@@ -13,7 +13,7 @@ import cmath
 import math
 from collections import deque
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from typing import Any, NamedTuple
 
@@ -39,6 +39,7 @@ from linkanim.bench.questions import (
     point_on,
 )
 from linkanim.bench.reference import Solve, answer
+from linkanim.frozen import frozen
 from linkanim.mechanics.linkage import RRR
 
 # The usual ways to solve a chain of dyads, as they are usually written, and this project's own.
@@ -430,7 +431,7 @@ ONE_BY_ONE = 720
 _DYADS = "each dyad's equations"
 
 
-@dataclass(frozen=True)
+@frozen
 class Timed:
     """Work to be timed, and how many poses it gives."""
 
@@ -438,7 +439,7 @@ class Timed:
     poses: int
 
 
-@dataclass(frozen=True)
+@frozen
 class Entry:
     """A row: the method, its accuracy's `solve`, and the work for positions and with derivatives.
 

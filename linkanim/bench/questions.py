@@ -11,12 +11,13 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from linkanim.frozen import frozen
 from linkanim.mechanics.linkage import RRP, RRR, Crank, Linkage, Pin, Rigid
 from linkanim.scenes import load
 from linkanim.scenes.reading import scene_from
@@ -105,7 +106,7 @@ def chain_of(linkage: Linkage) -> DyadChain:
     return DyadChain(pins, tuple(steps))
 
 
-@dataclass(frozen=True)
+@frozen
 class Question:
     """A scene, its chain, and a sequence of inputs.
 
@@ -187,7 +188,7 @@ Swing = Callable[[Any], tuple[Any, Any]]
 """Gives, from mpmath, the ends of an input that swings."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Case:
     """A scene and its inputs: crank angles, or phases where `by_phase`.
 
@@ -212,7 +213,7 @@ class Case:
         return self.swing is not None and not self.by_phase
 
 
-@dataclass(frozen=True)
+@frozen
 class CaseSet:
     """A kind of linkage: its easy cycle, and what is hard about it."""
 

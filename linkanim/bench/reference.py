@@ -9,7 +9,7 @@ Its parts, in reading order:
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from typing import Any
 
@@ -34,6 +34,7 @@ from linkanim.bench.questions import (
     longest_of,
     placed,
 )
+from linkanim.frozen import frozen
 from linkanim.mechanics.linkage import RRR
 
 # Answers of many digits by the plainest closed forms: where circles and lines cross.
@@ -49,7 +50,7 @@ NUDGE = mpf(10) ** -40
 Pose = dict[str, Any]
 
 
-@dataclass(frozen=True)
+@frozen
 class Exact:
     """Complex numbers to twice a float's digits: the nearest floats, and what they leave."""
 
@@ -62,7 +63,7 @@ class Exact:
         return apart
 
 
-@dataclass(frozen=True)
+@frozen
 class Answer:
     """A case put as a question, with exact positions and rates, and where each dyad's other closure is."""
 
@@ -122,7 +123,7 @@ def _order(order: int, name: str, poses: list[list[Pose]]) -> Iterator[Any]:
         yield (now, (late - early) / (2 * STEP), (late - 2 * now + early) / STEP**2)[order]
 
 
-@dataclass(frozen=True)
+@frozen
 class CasePath:
     """The poses of a case along its smooth path, in the digits that mpmath has at present."""
 
@@ -237,7 +238,7 @@ APART = 1e-8
 """In longest links: closures nearer than this count as one."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Score:
     """How many poses; the worst errors among those on the right closure; the others, counted.
 

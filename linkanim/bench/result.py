@@ -14,7 +14,7 @@ import os
 import platform
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from pathlib import Path
 from statistics import median
 from typing import Any, NamedTuple, TypeVar
@@ -25,6 +25,7 @@ from linkanim.bench.methods import Entry, Timed, entries
 from linkanim.bench.questions import MECHANISMS, CaseSet
 from linkanim.bench.reference import Score, Solve, answer, score, together
 from linkanim.export import columns, json_text, markdown
+from linkanim.frozen import frozen
 
 # Times of many pieces of work, taken in turn, so that a busy machine slows all of them alike.
 #
@@ -115,7 +116,7 @@ class Machine(NamedTuple):
         return f"{self.cpu}, {self.cores} cores, {versions}, one thread"
 
 
-@dataclass(frozen=True)
+@frozen
 class Measured:
     """One method on one mechanism: times in ns per pose (None where it gives no derivatives), and scores."""
 
@@ -130,7 +131,7 @@ class Measured:
     cases: Mapping[str, Score]
 
 
-@dataclass(frozen=True)
+@frozen
 class Result:
     """Everything one run found."""
 

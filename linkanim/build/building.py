@@ -7,13 +7,14 @@ begins with a scene, each of whose joints is taken apart into what a hand would 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import cached_property
 from typing import Any, Generic, TypeVar
 
 from linkanim.build.draft import DRIVE, Draft, Thing, numbered
 from linkanim.build.places import sides
 from linkanim.build.scene_form import Made, made, phase_of, photo_of, table_of
+from linkanim.frozen import frozen
 from linkanim.mechanics.linkage import RRP, RRR
 from linkanim.scenes.file_form import SHORTHANDS
 from linkanim.scenes.scene import Scene
@@ -26,7 +27,7 @@ Step = tuple[Kept, tuple[Kept, ...], tuple[Kept, ...]]
 """What is stood at next, and then the past and the future."""
 
 
-@dataclass(frozen=True, kw_only=True)
+@frozen(kw_only=True)
 class Undoable(Generic[Kept]):
     """What undo goes back to and redo goes on to, the nearest one last."""
 
@@ -46,7 +47,7 @@ class Undoable(Generic[Kept]):
         return (self.future[-1], (*self.past, now), self.future[:-1]) if self.future else None
 
 
-@dataclass(frozen=True)
+@frozen
 class Building(Undoable[Draft]):
     """A draft with what was `chosen` of it, the digits begun for its number `row`, and what undo goes to.
 

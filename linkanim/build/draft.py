@@ -7,10 +7,11 @@ and O4 for ground pins, A and B for joints, P for points, 2 and 3 for bodies.
 from __future__ import annotations
 
 from collections.abc import Container, Iterable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from itertools import chain, count
 from typing import Any, NamedTuple
 
+from linkanim.frozen import frozen
 from linkanim.mechanics.linkage import Point
 
 # What has been drawn: joints with their places, bars, points, guides, and what else hangs on them.
@@ -41,7 +42,7 @@ class Photo(NamedTuple):
     turn: float = 0.0
 
 
-@dataclass(frozen=True)
+@frozen
 class Draft:
     """A linkage as it is drawn, whole or not; nothing in it is changed in place.
 

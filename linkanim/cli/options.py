@@ -11,7 +11,6 @@ import math
 import re
 from argparse import Action, BooleanOptionalAction, Namespace, _ActionsContainer
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from decimal import Decimal, InvalidOperation
 from pathlib import Path
 from typing import Any, NoReturn
@@ -19,6 +18,7 @@ from typing import Any, NoReturn
 from linkanim import units
 from linkanim.bounds import LARGEST_SIDE, MOST_LISTED, MOST_POSES
 from linkanim.errors import BadInput
+from linkanim.frozen import frozen
 from linkanim.picture.look import TOGGLES, Look, Option, Toggle
 from linkanim.units import shown
 from linkanim.workshop.media import PAGES, WAYS
@@ -283,7 +283,7 @@ Argument = Callable[[_ActionsContainer], object]
 """What adds an argument, or several, to a parser."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Preset:
     """What `record --for` stands for: size in pixels, frames a second, the suffix of the format."""
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import reduce
 from html import escape
 from itertools import groupby, pairwise
@@ -34,6 +34,7 @@ from linkanim.explain.steps import (
     decimals,
     rounded,
 )
+from linkanim.frozen import frozen
 
 # The rows of one item of a worked solution in a notation: sides of equations, one below the other.
 
@@ -156,7 +157,7 @@ _INDEXED = re.compile(r"(?<=[^\W\d_])_?(\d+)$")
 _KEY_DIGITS = 5
 
 
-@dataclass(frozen=True)
+@frozen
 class DocumentForm:
     """How one kind of document is written; names of joints are marked in headings and in text.
 

@@ -11,10 +11,11 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from html import escape
 from typing import Literal, NamedTuple
 from unicodedata import normalize
+
+from linkanim.frozen import frozen
 
 # Formulas of a worked solution as trees, whose leaves hold the digits that are printed.
 #
@@ -37,7 +38,7 @@ Operation = Literal[
 ]  # fmt: skip
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Formula:
     """A formula: an operation on others, or a leaf with its `shown` digits, and a symbol if it has one.
 
@@ -236,7 +237,7 @@ _NOT_SET = re.compile("[^\0-\u017f]|[ĦħĸĿŀŉŦŧſ]")
 """What LaTeX's standard fonts have no letter for."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Notation:
     """How formulas are put together in one language; every function takes and gives markup."""
 
@@ -259,7 +260,7 @@ def typeset(e: Formula, how: Notation, *, numbers: bool = False) -> str:
     return _Setting(how, numbers).of(e)
 
 
-@dataclass(frozen=True)
+@frozen
 class _Setting:
     """How a formula is set; a minus that is not the `first` sign of its formula stands in parentheses."""
 

@@ -11,7 +11,6 @@ from __future__ import annotations
 import math
 from cmath import phase, rect
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from itertools import takewhile
 from typing import Any, NamedTuple
 
@@ -54,6 +53,7 @@ from linkanim.explain.steps import (
     route_of_bar,
     slide_sides,
 )
+from linkanim.frozen import frozen
 from linkanim.mechanics.linkage import RPP, RPR, RRP, RRR, Brace, Crank, DrivenSlider, Gear, Joint, Pin, Rigid
 from linkanim.units import significant
 
@@ -501,7 +501,7 @@ def reach_of_slot(joint: RPR, work: Work) -> Reach | None:
     return Reach("That distance", lambda at: np.abs(at[joint.through] - at[joint.pivot]), offset, math.inf)
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class KindSteps:
     """The steps of one kind of joint.
 

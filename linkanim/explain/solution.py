@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from typing import Any, Literal
 
@@ -54,6 +54,7 @@ from linkanim.explain.steps import (
 )
 from linkanim.explain.synthesis import synthesis
 from linkanim.explain.whole_motion import whole_motion
+from linkanim.frozen import frozen
 from linkanim.mechanics.forces import effort_token
 from linkanim.mechanics.linkage import RRR, Body, Crank, Damper, Spring
 from linkanim.mechanics.quantities import input_symbol, link_labels
@@ -68,7 +69,7 @@ _PI = Formula("leaf", symbol=Symbol("π"), shown="3.14159265359")
 _ONCE, _TWICE = Powers(rate=1), Powers(rate=2)
 
 
-@dataclass(frozen=True)
+@frozen
 class PoseRequest:
     """Which pose of a scene is worked out: `by` its "angle" or "phase", in rad, at its speed.
 
@@ -344,7 +345,7 @@ _SINGULAR = (
 )
 
 
-@dataclass(frozen=True)
+@frozen
 class Solution:
     """A pose worked out: chapters as they are read, loops to draw, results, and where joints lie (x + yi)."""
 

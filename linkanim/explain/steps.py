@@ -31,6 +31,7 @@ from linkanim.explain.formula import (
     number,
     square,
 )
+from linkanim.frozen import frozen
 from linkanim.mechanics.linkage import Crank, Damper, Joint, Linkage, Spring, holding
 from linkanim.mechanics.linkage import Line as Travel
 from linkanim.mechanics.motion import Pose
@@ -41,7 +42,7 @@ from linkanim.picture.figure import Figure
 # What a worked solution consists of, whatever it is printed as: chapters, steps, lines.
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Words:
     """A sentence; names of joints in it are `marked`."""
 
@@ -57,7 +58,7 @@ MARKED = re.compile("\x02([^\x02\x03]*)\x03")
 """A name that is marked."""
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class ValueLine:
     """A symbol = a formula = the formula with its numbers = a value, in shown digits, with its unit."""
 
@@ -66,7 +67,7 @@ class ValueLine:
     unit: str
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Given:
     """A number that the scene states: a symbol = a value with its unit."""
 
@@ -75,7 +76,7 @@ class Given:
     words: str
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Equation:
     """Two sides in symbols alone."""
 
@@ -83,7 +84,7 @@ class Equation:
     right: Formula
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class System:
     """Two linear equations for two unknowns: formulas, the same with numbers, then the values.
 
@@ -100,7 +101,7 @@ class System:
         return any(entry.operation != "leaf" for row in self.formulas for entry in row)
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Unknown:
     """The symbols that two equations are solved for."""
 
@@ -110,7 +111,7 @@ class Unknown:
 Item = Words | ValueLine | Given | Equation | System | Unknown
 
 
-@dataclass(frozen=True)
+@frozen
 class Step:
     """One stage of a chapter under a heading, such as a joint; names of joints are marked."""
 
@@ -118,7 +119,7 @@ class Step:
     items: tuple[Item, ...]
 
 
-@dataclass(frozen=True)
+@frozen
 class Chapter:
     """A part of the solution."""
 
@@ -135,7 +136,7 @@ NOTHING = 5e-7
 """Of what a number is at a typical length and rate: less is nothing but rounding."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Outcome:
     """A number that the solution leads to: of which quantity, and below what it is nothing but rounding.
 
@@ -155,7 +156,7 @@ Pair = tuple[str, str]
 _PLAIN = str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789")
 
 
-@dataclass(frozen=True)
+@frozen
 class SymbolNames:
     """What lengths, angles and bodies of a linkage are called.
 
@@ -239,7 +240,7 @@ RATIO, LENGTH, SQUARE = Powers(), Powers(1), Powers(2)
 ANGLE = Powers(angle=True)
 
 
-@dataclass(frozen=True)
+@frozen
 class Scale:
     """How numbers are shown: to so many digits of a typical length, and of what it is at a typical rate.
 

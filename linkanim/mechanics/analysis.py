@@ -13,7 +13,6 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Collection, Iterator, Mapping
-from dataclasses import dataclass
 from functools import cached_property, partial
 from operator import itemgetter
 from typing import NamedTuple
@@ -21,6 +20,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from linkanim.frozen import frozen
 from linkanim.mechanics.arithmetic import Graph, Slope
 from linkanim.mechanics.forces import Demand, demand, usual_effort
 from linkanim.mechanics.linkage import RRR, Body, DrivenSlider, Joint, Linkage, Rigid, holding
@@ -422,7 +422,7 @@ def _counted(words: str, number: int) -> str:
 SAME_ANGLE = 1e-9
 
 
-@dataclass(frozen=True)
+@frozen
 class Info:
     """What is known of a linkage; angles in radians, lengths in the scene's unit.
 

@@ -10,11 +10,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from typing import Any, NamedTuple
 
+from linkanim.frozen import frozen
 from linkanim.mechanics.arithmetic import Constant, Expr, Value, rint, select
 from linkanim.units import PI_REST, Angle
 
@@ -97,7 +97,7 @@ class Squares(NamedTuple):
     product: Value
 
 
-@dataclass(frozen=True)
+@frozen
 class Half:
     """Half an angle, worked out as far as it is read.
 
@@ -326,7 +326,7 @@ QUARTER_TURN_LOW = PI_REST / 2
 """π/2 is the sum of the two, to 32 digits."""
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Sum:
     """A number held as an unevaluated sum of two floats; the second is below half a last digit."""
 

@@ -14,12 +14,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from fractions import Fraction
 from functools import cached_property, reduce
 from typing import Any, ClassVar, NamedTuple, Self
 
 from linkanim.errors import BadInput
+from linkanim.frozen import frozen
 from linkanim.units import short, stepped, unit_of
 
 # What a joint is, whatever its kind: what all kinds have, and the lines along which sliders travel.
@@ -39,7 +40,7 @@ class Stated:
     sized: ClassVar[tuple[str, ...]] = ()
 
     @property
-    def lengths(self) -> tuple[float, ...]:
+    def stated_lengths(self) -> tuple[float, ...]:
         """All of them, of either sign."""
         return tuple(length for name in self.sized for length in _lengths_in(getattr(self, name)))
 
@@ -52,7 +53,7 @@ def _lengths_in(value: Any) -> Iterator[float]:
     if isinstance(value, tuple):
         yield from (length for part in value for length in _lengths_in(part))
     elif value is not None:
-        yield from value.lengths if isinstance(value, Stated) else (value,)
+        yield from value.stated_lengths if isinstance(value, Stated) else (value,)
 
 
 def _times(value: Any, factor: float) -> Any:
@@ -63,7 +64,7 @@ def _times(value: Any, factor: float) -> Any:
     return value.scaled(factor) if isinstance(value, Stated) else value * factor
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Line(Stated):
     """A line of travel: through the joint `through`, at `angle`, shifted by `offset` to its left.
 
@@ -111,7 +112,7 @@ class Slide(NamedTuple):
         return self.line.angle
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Joint(Stated):
     """A joint: how it is found from joints before it.
 
@@ -222,7 +223,7 @@ class Guided(Joint):
 # Dyads as data: two bars, a bar and a slider, a slotted bar, a bar that slides. None is closed here.
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class RRR(Joint):
     """Two bars that meet in a pin: `lengths[i]` from `ends[i]`.
 
@@ -293,7 +294,7 @@ class RRR(Joint):
         return f"the bars of {a:g} and {b:g} {unit} cannot meet at any angle of the input: {ends} is {apart}"
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class RRP(Guided):
     """A bar from `end` to a slider on `line`; `side` +1 is the closure further forward, -1 back."""
 
@@ -347,7 +348,7 @@ class RRP(Guided):
         )
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class RPR(Joint):
     """A bar that turns about the joint `pivot`, its slot passing through the joint `through`.
 
@@ -422,7 +423,7 @@ class RPR(Joint):
         )
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class RPP(Guided):
     """A bar sliding along `line`, the joint `pin` in its slot; the joint is where the slot crosses the line.
 
@@ -487,7 +488,7 @@ def share_of(frame: RigidBody, on: tuple[str, str], at: tuple[float, float]) -> 
     return complex(*at) / abs(frame[on[1]] - frame[on[0]])
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Rigid(Joint):
     """A point of a body: `at` = (along `on[0]` -> `on[1]`, to the left of it) from `on[0]`."""
 
@@ -521,7 +522,7 @@ class Rigid(Joint):
         return (*bodies[:n], {**bodies[n], self.name: place}, *bodies[n + 1 :])
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Brace(Rigid):
     """A point of a body stated by its distances from two joints of it: a corner of a rigid triangle."""
 
@@ -556,7 +557,7 @@ def brace(dyad: RRR, frame: RigidBody) -> Brace:
 # Joints that are given, not closed: fixed pins, crank pins, the slider that drives.
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Polar(Stated):
     """Where a fixed pin lies as it was written: `length` at `angle` from `base`.
 
@@ -571,7 +572,7 @@ class Polar(Stated):
     sized: ClassVar[tuple[str, ...]] = ("length",)
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Pin(Joint):
     """A fixed pin on the ground."""
 
@@ -582,7 +583,7 @@ class Pin(Joint):
     sized: ClassVar[tuple[str, ...]] = ("position", "polar")
 
     @property
-    def lengths(self) -> tuple[float, ...]:
+    def stated_lengths(self) -> tuple[float, ...]:
         """Its coordinates."""
         return self.position
 
@@ -599,7 +600,7 @@ class Gear(NamedTuple):
     offset: float = 0.0
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Crank(Joint):
     """A pin that turns about the fixed pin `pivot`: the input; or about any joint, geared to another crank.
 
@@ -623,7 +624,7 @@ class Crank(Joint):
         return ((self.pivot, self.length),)
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class DrivenSlider(Guided):
     """A slider on the fixed `line`; the drive gives its travel, from the joint that the line runs through."""
 
@@ -674,7 +675,7 @@ ANGLE = Coordinate("angle", "θ", "rad", "angular velocity")
 TRAVEL = Coordinate("travel", "s", "{}", "velocity")
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Actuator(Stated):
     """What drives the input: as it is, a motor on the crank.
 
@@ -700,7 +701,7 @@ class Actuator(Stated):
         return ""
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Cylinder(Actuator):
     """A cylinder that turns the crank: its length runs from `first` to `last` and back.
 
@@ -726,7 +727,7 @@ class Cylinder(Actuator):
         return f"the cylinder {'–'.join(self.between)} is {lengths}"
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Travel(Actuator):
     """How far the slider that drives the linkage travels along its line: from `first` to `last` and back."""
 
@@ -746,7 +747,7 @@ MOTOR = Actuator()
 """What turns the crank itself."""
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Drive(Stated):
     """What moves the linkage: the input's joint, its speed (rad/s, negative clockwise) and start (rad).
 
@@ -786,7 +787,7 @@ class Drive(Stated):
 # Joints stand in the order in which they can be solved: each one names only joints before it.
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Body(Stated):
     """A named body: its angle is that of first -> second joint; `com` is its centre of mass.
 
@@ -810,7 +811,7 @@ class Body(Stated):
         return self.mass is not None or self.inertia is not None
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Spring:
     """A spring between two joints; `stiffness` in N/m, `free_length` in the scene's unit.
 
@@ -828,7 +829,7 @@ class Spring:
         return self.stiffness is not None and self.free_length is not None
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Damper:
     """A damper between two joints; `coefficient` in N·s/m, None where the force is not known."""
 
@@ -853,7 +854,7 @@ class Driven(NamedTuple):
     body: Body | None
 
 
-@dataclass(frozen=True)
+@frozen
 class Linkage(Stated):
     """A planar linkage with one input."""
 
@@ -911,13 +912,13 @@ class Linkage(Stated):
     @property
     def longest(self) -> float:
         """The longest length that the definition of a joint states; without any that of the drive, or 1."""
-        stated = max((abs(length) for joint in self.joints for length in joint.lengths), default=0.0)
-        return stated or max(map(abs, self.drive.actuator.lengths), default=0.0) or 1.0
+        stated = max((abs(length) for joint in self.joints for length in joint.stated_lengths), default=0.0)
+        return stated or max(map(abs, self.drive.actuator.stated_lengths), default=0.0) or 1.0
 
     @cached_property
     def extent(self) -> float:
         """How far from the origin any joint may come: all lengths together; 1 without any."""
-        return math.fsum(map(abs, self.lengths)) or 1.0
+        return math.fsum(map(abs, self.stated_lengths)) or 1.0
 
     @cached_property
     def by_name(self) -> dict[str, Joint]:

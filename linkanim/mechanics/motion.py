@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import FrozenInstanceError, dataclass
+from dataclasses import FrozenInstanceError
 from functools import cached_property, lru_cache, partial
 from types import MappingProxyType
 from typing import Any, Generic, NamedTuple, TypeVar
@@ -20,6 +20,7 @@ from typing import Any, Generic, NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from linkanim.frozen import frozen
 from linkanim.mechanics.arithmetic import Graph, Slope, Value
 from linkanim.mechanics.linkage import Body, Damper, Linkage, Spring
 from linkanim.mechanics.measures import (
@@ -52,7 +53,7 @@ from linkanim.mechanics.solver.loop import Gearing
 Pair = tuple[float, float]
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Place:
     """The first row of a quantity and how many it has; a `fixed` pair has none."""
 
@@ -575,7 +576,7 @@ Traced = tuple[tuple[str, ...], Rows]
 """The formulas as traced for one way of asking: the inputs' names, and every quantity."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Mechanism:
     """A linkage with its loops, path and signs, and the programs that solve it.
 

@@ -10,12 +10,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
+from linkanim.frozen import frozen
 from linkanim.mechanics.linkage import Point
 from linkanim.mechanics.motion import Mechanism
 from linkanim.mechanics.program import Array
@@ -35,7 +35,7 @@ _BACK = 1.5
 Complex = NDArray[np.complex128]
 
 
-@dataclass(frozen=True)
+@frozen
 class PointPath:
     """Where a joint is at equal steps of phase over one true period (N,), in the scene's unit.
 

@@ -13,9 +13,9 @@ Mechanisms). Vectors are x + yi: complex numbers for a `Pose`, arrays (N,) for a
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator
-from dataclasses import dataclass
 from typing import Any, Literal, NamedTuple
 
+from linkanim.frozen import frozen
 from linkanim.mechanics.angles import unit
 from linkanim.mechanics.linkage import Linkage, Rigid, Slide
 from linkanim.mechanics.measures import as_complex, over
@@ -72,7 +72,7 @@ def chains(motion: Any, linkage: Linkage, order: Order, points: Collection[str] 
     return tuple(_Images(motion, linkage, order, points).chains())
 
 
-@dataclass(frozen=True)
+@frozen
 class _Images:
     """A motion, and which polygon of it."""
 

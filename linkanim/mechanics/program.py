@@ -22,6 +22,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from linkanim.frozen import frozen
 from linkanim.mechanics.arithmetic import WHOLE, Expr, Value, digits_of
 from linkanim.mechanics.precise import cosine, sine, square_root
 
@@ -353,7 +354,7 @@ def _tuple_code(
     return _compiled(name, inputs, [*lines, f"return ({result})"])
 
 
-@dataclass(frozen=True)
+@frozen
 class Batch:
     """A compiled pass over arrays: call it with one value or array (N,) for each input."""
 

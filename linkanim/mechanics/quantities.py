@@ -9,7 +9,7 @@ Symbols are those of the textbooks; their subscripts are Unicode's digits (ω₃
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import lru_cache, partial
 from types import MappingProxyType
 from typing import Any
@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 
 from linkanim.errors import BadInput
+from linkanim.frozen import frozen
 from linkanim.mechanics.forces import effort_token, input_effort
 from linkanim.mechanics.linkage import Body, Damper, Linkage, Pin, Spring, holding
 from linkanim.mechanics.measures import (
@@ -112,7 +113,7 @@ _LEVEL = 1e-9
 Path = tuple[str | int, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Quantity:
     """A quantity of one linkage: `rocker.angular_velocity`, ω₄, "Rocker: angular velocity", rad/s.
 

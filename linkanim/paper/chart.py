@@ -6,7 +6,7 @@ Extremes are marked and labelled beside their dots; names of many curves stand a
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from itertools import pairwise
 from math import radians
@@ -16,6 +16,7 @@ import numpy as np
 import pygame
 
 from linkanim.export import csv_head, csv_rows
+from linkanim.frozen import frozen
 from linkanim.paper.curves import Curve, Curves, MeasuredCurve, Peak, extremes, table
 from linkanim.picture.chart import (
     Pen,
@@ -91,7 +92,7 @@ class _Words(NamedTuple):
     dotted: bool = False
 
 
-@dataclass(frozen=True)
+@frozen
 class Annotations:
     """What is written on the curves of a chart, in the colours that they have."""
 
@@ -242,7 +243,7 @@ _LINE, _LIFT = 1.5, 0.2
 """From line to line, and from a line's top to its words, in heights of their text."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Page:
     """A chart of so many pixels."""
 

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
 import pygame
 
 from linkanim.export import csv_head, csv_rows
+from linkanim.frozen import frozen
 from linkanim.picture.chart import Pen, Plot, axes, curve_layer, dot, line_layer, pen_for, plot_area, x_title
 from linkanim.picture.construction import box_of, construction_items, view_of
 from linkanim.picture.items import Caption, Group, Item, grouped
@@ -35,7 +36,7 @@ _LINE = 1.35
 """From line to line, in heights of their text."""
 
 
-@dataclass(frozen=True)
+@frozen
 class ConstructionPage:
     """The first steps of a scene's construction, all where `steps` is None, in so many pixels."""
 
@@ -121,7 +122,7 @@ _LEVEL = 1e-3
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
-@dataclass(frozen=True)
+@frozen
 class ErrorChart:
     """The structural error of a linkage over x, in so many pixels."""
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 from itertools import chain
 from math import degrees, tau
 from pathlib import Path
@@ -20,6 +19,7 @@ from numpy.typing import ArrayLike
 from linkanim.bounds import MOST_ROWS_READ
 from linkanim.errors import BadInput, OutOfRange
 from linkanim.export import columns
+from linkanim.frozen import frozen
 from linkanim.intake import Intake, NumberRow, named, read_numbers
 from linkanim.mechanics.motion import Motion
 from linkanim.mechanics.quantities import Quantity, plain_unit
@@ -58,7 +58,7 @@ class Pace(NamedTuple):
         return scene.solve(phase=phases, speed=self.speed, acceleration=self.acceleration)
 
 
-@dataclass(frozen=True)
+@frozen
 class Curve:
     """One curve: its places along the axis and values there, and the phase at each place."""
 
@@ -76,7 +76,7 @@ class Curve:
         return values[:, self.quantity.columns.index(self.label)] if values.ndim == 2 else values
 
 
-@dataclass(frozen=True)
+@frozen
 class Curves:
     """All curves of a chart, and the axis that they share."""
 
@@ -249,7 +249,7 @@ class MeasuredTable(NamedTuple):
         return np.array([row.numbers[number] for row in self.rows])
 
 
-@dataclass(frozen=True)
+@frozen
 class MeasuredCurve:
     """A table beside a curve: its places along the curve's axis, both values and their difference (n,).
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import cached_property
 
 import pygame
 
+from linkanim.frozen import frozen
 from linkanim.mechanics.motion import Pose
 from linkanim.mechanics.quantities import input_symbol
 from linkanim.paper.svg import svg
@@ -22,7 +22,7 @@ from linkanim.picture.surface import SurfacePrinter
 from linkanim.scenes.scene import Scene
 
 
-@dataclass(frozen=True)
+@frozen
 class Figured:
     """What a figure shows of a scene: a phase, and over it `poses` faint ones spread over the period.
 
@@ -39,7 +39,7 @@ class Figured:
     speed: float | None = None
     acceleration: float = 0.0
     as_seen: bool = False
-    overlay: Overlay = Overlay()  # noqa: RUF009 -- frozen
+    overlay: Overlay = Overlay()
 
     @cached_property
     def shown_phase(self) -> float:

@@ -7,7 +7,6 @@ which a report on a mechanism goes.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from functools import cache
 from itertools import chain
 from math import degrees, isinf, isnan, nan, pi, sin, tau
@@ -16,6 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from linkanim.errors import OutOfRange
+from linkanim.frozen import frozen
 from linkanim.mechanics.forces import effort_token
 from linkanim.mechanics.linkage import Linkage
 from linkanim.mechanics.measures import TRAVELLING, TURNING, coefficients_of, output_body, output_slider
@@ -227,7 +227,7 @@ class Column(NamedTuple):
     pace: Pace | None
 
 
-@dataclass(frozen=True)
+@frozen
 class ValueTable:
     """A table: its title, what it has, its columns, and under each instant a row for each part."""
 
@@ -349,7 +349,7 @@ def topics(values: Values, paces: tuple[Pace, ...]) -> dict[str, list[PlannedCha
     return {title: charts for title, charts in found.items() if charts}
 
 
-@dataclass(frozen=True)
+@frozen
 class _ChartChoice:
     values: Values
     several: bool

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from html import escape
 from itertools import count
 from typing import Literal
 
 from linkanim.explain.documents import MATH_STYLE, body_style
+from linkanim.frozen import frozen
 from linkanim.paper.findings import Column, Finding, ValueTable
 
 _STYLE = f"""
@@ -73,7 +73,7 @@ def embedded(picture: str, title: str, style: str = "") -> str:
     return drawn.replace("<svg ", spoken, 1)
 
 
-@dataclass(frozen=True)
+@frozen
 class FigurePart:
     """A picture as SVG, with what it shows, which its number comes before; how high it is at the most.
 
@@ -86,7 +86,7 @@ class FigurePart:
     words: str = ""
 
 
-@dataclass(frozen=True)
+@frozen
 class TablePart:
     """Rows of a table under their head, as markup, with its caption, class and the notes below."""
 
@@ -97,7 +97,7 @@ class TablePart:
     notes: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True)
+@frozen
 class Beside:
     """Parts side by side, so many in a row, each one part or several below each other.
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import cached_property
 from itertools import chain
 from math import pi
@@ -15,6 +15,7 @@ from linkanim import __version__
 from linkanim.explain.documents import HTML, chapters
 from linkanim.explain.solution import PoseRequest, Solution, solution
 from linkanim.export import csv_head, csv_rows
+from linkanim.frozen import frozen
 from linkanim.paper import html
 from linkanim.paper.chart import Page
 from linkanim.paper.curves import MeasuredCurve, MeasuredTable, Pace, compared, curves_of
@@ -64,7 +65,7 @@ DrawnChart = tuple[tuple[str, ...], FigurePart]
 """A chart's quantities, and how it is shown."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Report:
     """What a report is asked to show: the instants of its tables, the speeds of tables and charts, digits.
 

@@ -6,7 +6,7 @@ What a linkage sweeps in a cycle is measured once. It outlasts pans, zooms and t
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from itertools import combinations, product
 from typing import NamedTuple
@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from linkanim.frozen import frozen
 from linkanim.picture.bodies import ENDED, WHEELS
 from linkanim.picture.figure import Figure, figure
 from linkanim.picture.fittings import outlines
@@ -46,7 +47,7 @@ Sides = tuple[Numbers, Numbers, Numbers, Numbers]
 """Left, low, right and high of rectangles, in the scene's unit."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Sweep:
     """Points x + yi of the plane, in the scene's unit, so close that nothing of size lies between them.
 
@@ -95,7 +96,7 @@ class Sweep:
         return Sweep(*(np.concatenate(both) for both in zip(mine, theirs, strict=True)))
 
 
-@dataclass(frozen=True)
+@frozen
 class _Grid:
     """How many cells with points in them lie left of and below each corner of a grid."""
 
@@ -246,7 +247,7 @@ Views = tuple[Numbers, Numbers, Numbers]
 """Scales of views, and x and y of their origins, all of one shape."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Arrangement:
     """Where scene and words stand: the parts of the window, the view, the thicknesses, the words."""
 
@@ -480,7 +481,7 @@ def request_of(
     return request._replace(still=still, lined=still and look.names > 1)
 
 
-@dataclass(frozen=True)
+@frozen
 class Subject:
     """A scene's figure, what it sweeps together with the scene beside it, and the words about them."""
 
@@ -505,7 +506,7 @@ class Subject:
         return (self.figure.scene, self.beside) if self.beside else (self.figure.scene,)
 
 
-@dataclass(frozen=True)
+@frozen
 class SceneFit:
     """A subject, and how it is arranged for a request."""
 

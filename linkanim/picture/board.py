@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from math import floor
 from typing import NamedTuple
 
 import pygame
 
+from linkanim.frozen import frozen
 from linkanim.picture.layout import Layout
 from linkanim.picture.raster import Colour, Cover, Layer, Shapes, covers, paint
 from linkanim.picture.shapes import box
@@ -26,7 +27,7 @@ _KEPT_SHEETS = 4
 """A list has as many heights: without a refusal, and with one of one to three lines."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Board:
     """The window's layout, type and theme, and how a panel is made of them."""
 

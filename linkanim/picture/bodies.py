@@ -7,11 +7,12 @@ in which their joints are solved.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
 
+from linkanim.frozen import frozen
 from linkanim.mechanics.linkage import Body, holding
 from linkanim.picture.figure import DrawContext, Figure
 from linkanim.picture.fittings import BARREL, PISTON, ROD, SLOT, SLOTTED, Bar, fittings, piston
@@ -256,7 +257,7 @@ _FADED = 0.8
 """How much of the background is in the colour of the last step."""
 
 
-@dataclass(frozen=True)
+@frozen
 class CausalChain:
     """Each joint's step, 0 on the ground, and what the colours are that stand for them.
 

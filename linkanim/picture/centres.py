@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations
 from typing import NamedTuple
 
 import numpy as np
 
+from linkanim.frozen import frozen
 from linkanim.mechanics.linkage import Body
 from linkanim.mechanics.measures import centrodes, coupler_body, pole
 from linkanim.mechanics.motion import Pose
@@ -36,7 +36,7 @@ class BodyPair(NamedTuple):
     label: str
 
 
-@dataclass(frozen=True)
+@frozen
 class Centres:
     """The instant centres of a figure in a view, and the coupler's centrodes where the look has them."""
 

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from cmath import isfinite
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from linkanim.frozen import frozen
 from linkanim.mechanics.motion import Motion, Pose
 from linkanim.mechanics.quantities import Quantity
 from linkanim.picture.figure import Figure
@@ -41,7 +42,7 @@ _FOOT = 1.6
 """From the plot down to the title of the horizontal axis, in heights of small text."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Plot:
     """Where a chart's curves are drawn, and its axes."""
 
@@ -58,7 +59,7 @@ class Plot:
         return pixels
 
 
-@dataclass(frozen=True)
+@frozen
 class Pen:
     """What a chart is drawn with."""
 
@@ -191,7 +192,7 @@ _GAP = 1.2
 """Between two things in that line, in heights of its text."""
 
 
-@dataclass(frozen=True)
+@frozen
 class ChartPanel:
     """A quantity of a motion that runs at `speed` (rad/s, negative: the phase runs back), `over` an axis."""
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from functools import cached_property, partial
 from itertools import pairwise
 from math import degrees
 
 import numpy as np
 
+from linkanim.frozen import frozen
 from linkanim.mechanics.measures import output_slider
 from linkanim.mechanics.quantities import input_symbol
 from linkanim.picture.figure import DrawSetting
@@ -30,7 +30,7 @@ _NEAR = 0.3
 _FEW = 1e-6
 
 
-@dataclass(frozen=True)
+@frozen
 class DeadCentres:
     """The dead centres of a figure's output slider, which slides on the ground.
 

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from itertools import groupby, zip_longest
 from math import isfinite
 from typing import TYPE_CHECKING
 
+from linkanim.frozen import frozen
 from linkanim.mechanics.motion import Pose
 from linkanim.picture.bodies import body_parts, mark_stamp, mass_stamp, pin_stamp
 from linkanim.picture.dimensions import Symbols, leg_part, pivots, symbols
@@ -44,7 +45,7 @@ _FAINT = 0.78
 """How much of the background is in the colours of what is drawn faintly."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Parts:
     """All that moves, ready to be placed."""
 

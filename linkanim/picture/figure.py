@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property, partial, reduce
 from itertools import combinations
 from math import tau
@@ -10,6 +10,7 @@ from math import tau
 import numpy as np
 from numpy.typing import NDArray
 
+from linkanim.frozen import frozen
 from linkanim.mechanics.linkage import Body, Brace, Damper, Linkage, Spring, holding
 from linkanim.mechanics.motion import Motion
 from linkanim.picture.layout import Gauge, Layout
@@ -31,7 +32,7 @@ Parts = dict[Body, tuple[str, ...]]
 """Every body that is drawn, with the names of those that it stands for."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Figure:
     """A scene and one cycle of it, from which everything that is drawn once takes its measures."""
 
@@ -218,7 +219,7 @@ class Figure:
         return path
 
 
-@dataclass(frozen=True)
+@frozen
 class DrawContext:
     """What every part is made from: a figure, where it lies in pixels, how thick and in which colours."""
 
@@ -233,7 +234,7 @@ class DrawContext:
         return self.figure, self.view, self.gauge, self.theme
 
 
-@dataclass(frozen=True)
+@frozen
 class DrawSetting(DrawContext):
     """The same within a whole picture: how it is laid out, what its look asks for, and its letters."""
 

@@ -8,7 +8,6 @@ sliders.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from itertools import pairwise
 from math import frexp, pi
@@ -16,6 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from linkanim.frozen import frozen
 from linkanim.mechanics.linkage import Damper, Joint, Line, Slide, Spring
 from linkanim.picture.figure import DOWN, DrawContext, Figure
 from linkanim.picture.layout import Gauge
@@ -74,7 +74,7 @@ def reach(figure: Figure, view: View, item: Spring | Damper) -> StrutSpan:
     return StrutSpan(float(np.nanmin(apart)), float(np.nanmax(apart)))
 
 
-@dataclass(frozen=True)
+@frozen
 class Coil:
     """A spring to draw: its radius and the straight length at either end in pixels, its coils."""
 
@@ -129,7 +129,7 @@ def _leads(lead: float, radius: float, width: float) -> tuple[Loop, Loop]:
     return first, -first.conj()[::-1]
 
 
-@dataclass(frozen=True)
+@frozen
 class Damping:
     """A damper to draw: how far it reaches, its cylinder's length and where that begins, in pixels.
 
@@ -236,7 +236,7 @@ _RINGS, _HEAD = (0.5, 0.72), 1.3
 """Where its rings and, as it is furthest out, the cylinder's head are between its pin and its crown."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Bar:
     """What a joint makes of the bar from one joint to another: a slotted bar, or a rod with a piston.
 
@@ -263,7 +263,7 @@ class GuideRails(NamedTuple):
     head: bool = False
 
 
-@dataclass(frozen=True)
+@frozen
 class Fitting:
     """What a joint adds to the picture: parts behind the bodies and before them, its guide on the ground.
 

@@ -7,12 +7,13 @@ and teeth, outlines and holes that turn.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import ceil, cos, floor, pi, radians
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from linkanim.frozen import frozen
 from linkanim.mechanics.linkage import Crank
 from linkanim.picture.figure import DrawContext, Figure
 from linkanim.picture.layout import Gauge
@@ -39,7 +40,7 @@ _BELT = 0.3
 """The larger pulley's radius, as a share of the distance between the pivots."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Wheel:
     """A wheel about a joint, its radius in the scene's unit; `teeth` is 0 for a pulley.
 
@@ -64,7 +65,7 @@ class Wheel:
         return self.radius * (1 + beyond / self.teeth) if self.teeth else self.radius
 
 
-@dataclass(frozen=True)
+@frozen
 class WheelPair:
     """Two wheels that roll on each other, or share a belt; a planet rolls on a wheel that stands still."""
 

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from itertools import groupby, zip_longest
 from math import degrees, floor, inf, log10, pi, tau
 from typing import TYPE_CHECKING, NamedTuple
 
+from linkanim.frozen import frozen
 from linkanim.mechanics.forces import effort_token
 from linkanim.mechanics.motion import Pose
 from linkanim.mechanics.quantities import Quantity, register
@@ -232,7 +232,7 @@ class WordLine(NamedTuple):
     width: int
 
 
-@dataclass(frozen=True)
+@frozen
 class WordBlock:
     """Words at one size, all places from the block's top left corner."""
 
@@ -271,7 +271,7 @@ class WordBlock:
         ) if self.height > self.key else None
 
 
-@dataclass(frozen=True)
+@frozen
 class Hud:
     """The words about a scene where they stand: what keeps still is drawn once, values at every frame."""
 
@@ -335,7 +335,7 @@ _DISC_STEP = 1.2
 """From the colour of a step to the next one's, in heights of the text."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Legend:
     """A line for each kind of arrow at the foot of the HUD's column, then those of ink and chain."""
 

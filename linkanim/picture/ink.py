@@ -7,13 +7,13 @@ shows both ways side by side. Dots on it are equal times apart.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from linkanim.frozen import frozen
 from linkanim.picture.figure import DrawContext, Figure
 from linkanim.picture.layout import Gauge
 from linkanim.picture.motion_marks import sides_of
@@ -97,7 +97,7 @@ def _speed(figure: Figure, joint: str) -> NDArray[np.float64]:
     return np.where(np.isfinite(speed), speed, 0.0)
 
 
-@dataclass(frozen=True)
+@frozen
 class Ink:
     """The curve of one joint in pixels at equal steps of phase (N,), and its `share` of the greatest speed.
 

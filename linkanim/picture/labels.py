@@ -7,7 +7,7 @@ is solid or only clutter. `placing` chooses among them.
 from __future__ import annotations
 
 from collections.abc import Generator, Iterable, Iterator, Mapping, Sequence, Set
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from itertools import chain, pairwise, product
 from math import ceil, inf, pi
@@ -16,6 +16,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from linkanim.frozen import frozen
 from linkanim.mechanics.linkage import Body
 from linkanim.mechanics.motion import Pose
 from linkanim.picture.bodies import BEYOND, body_parts
@@ -111,7 +112,7 @@ def stacked(spots: Sequence[Spots]) -> Spots:
     return Spots("", "", *(np.array(part) for part in list(zip(*spots, strict=True))[2:]))
 
 
-@dataclass(frozen=True)
+@frozen
 class LabelSpots:
     """Where a label may stand, what is to be placed of it, and the lines that may go with it."""
 
@@ -129,7 +130,7 @@ class Thing(NamedTuple):
     """Whether it is a body, a spring or a damper."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Surroundings:
     """Where all is that labels stand by or keep off, at the moments for which they are placed.
 
@@ -393,7 +394,7 @@ _GRID = (9, 9)
 """So many places are tried for the table, across and down."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Label:
     """A line of text with its place; what measures has its `symbol`, and maybe a line drawn with it.
 
@@ -419,7 +420,7 @@ class Label:
         return f"{self.text}, {self.about}"
 
 
-@dataclass(frozen=True)
+@frozen
 class DimensionTable:
     """Rows of words beside the figure, in columns."""
 
@@ -438,7 +439,7 @@ class DimensionTable:
             yield Caption(label.row, at, self.size, self.colour, strong=True, halo=self.halo)
 
 
-@dataclass(frozen=True)
+@frozen
 class Names:
     """All labels of a picture, in their halo, and a table of what is not on the picture all the time."""
 

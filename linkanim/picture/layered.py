@@ -6,12 +6,12 @@ Plates and pins are told in millimetres, each in a frame that it moves with.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
+from linkanim.frozen import frozen
 from linkanim.mechanics.measures import as_complex
 from linkanim.mechanics.motion import Pose
 from linkanim.picture.items import Caption, Halo, Item
@@ -69,7 +69,7 @@ class LayeredPin(NamedTuple):
     name: str = ""
 
 
-@dataclass(frozen=True, eq=False)
+@frozen(eq=False)
 class Layered:
     """Parts of a scene in their layers, `ratio` times as large as the scene."""
 

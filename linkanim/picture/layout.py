@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from math import ceil
 
+from linkanim.frozen import frozen
 from linkanim.picture.view import Rect
 
 _DRAWN_FOR = (1280, 720)
@@ -36,7 +37,7 @@ _SHARE_OF_POLYGONS = 0.36
 """The polygons' share of what is left beside a chart: of its width, or of its height if that is greater."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Layout:
     """The parts of a window; `unit` is one pixel of a window of 1280 × 720, or upright."""
 
@@ -192,7 +193,7 @@ def _beside(lists: Rect, whole: Rect) -> Rect:
     return Rect(left, 0, whole.width - left, whole.height)
 
 
-@dataclass(frozen=True)
+@frozen
 class Gauge:
     """How thick things are drawn, in pixels."""
 

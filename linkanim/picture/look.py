@@ -7,9 +7,10 @@ the commands read it, so that a field added here is in all of them.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import field, fields, replace
 from typing import Any, Literal, NamedTuple, TypeVar
 
+from linkanim.frozen import frozen
 from linkanim.units import LENGTH_UNITS
 
 ThemeName = Literal["light", "dark"]
@@ -61,7 +62,7 @@ def _toggle(default: Default, *options: Option, **how: Any) -> Default:
     return field(default=default, metadata={"toggle": Toggle(options=options, **how)})
 
 
-@dataclass(frozen=True, kw_only=True)
+@frozen(kw_only=True)
 class Look:
     """What is shown; two pictures of one pose with equal looks and sizes have the same bytes.
 
@@ -169,7 +170,7 @@ class Look:
         ),
         steps=(),
     )
-    over: Over | None = _toggle(  # noqa: RUF009 -- gives a field
+    over: Over | None = _toggle(
         None,
         Option(
             "over",
@@ -191,7 +192,7 @@ class Look:
         answers=tuple(f"lengths in {unit}" for unit in LENGTH_UNITS),
         keys=("shift+u",),
     )
-    theme: ThemeName = _toggle(  # noqa: RUF009 -- gives a field
+    theme: ThemeName = _toggle(
         "light",
         Option("theme", "the colours (default: light)", commands=("play", "record", "chart", "draw")),
         Option("theme", "the colours (default: as the reader's system is set)", commands=("share",)),

@@ -7,7 +7,6 @@ turns, and is straight where a slider is driven.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from itertools import accumulate, pairwise
 from math import ceil, floor, pi, tau
@@ -16,6 +15,7 @@ from typing import Any, Literal, NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from linkanim.frozen import frozen
 from linkanim.mechanics.linkage import DrivenSlider
 from linkanim.mechanics.motion import Motion, Pose
 from linkanim.picture.figure import DrawContext, Figure
@@ -51,7 +51,7 @@ _NEAR, _LONGEST_RUN = 0.01, 16
 """How far off a straight piece may points lie that it passes over, in pixels, and so many in all."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Trace:
     """The curve of one joint in pixels, at equal steps of phase over one true period."""
 
@@ -184,7 +184,7 @@ _CLEAR, _LONGEST = 3.0, 6.0
 """How far from a slider's middle a straight one begins, and its length at most, in half widths of a bar."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Turning:
     """What shows how the bar from `pivot` to `pin` turns; radii in pixels, `fastest` in rad/s.
 
@@ -265,7 +265,7 @@ def _bent(sweep: float, radius: float, thick: float, colours: tuple[Colour, Colo
     return joined(map(Layer, reversed(colours), loops))
 
 
-@dataclass(frozen=True)
+@frozen
 class Sliding:
     """What shows how a slider that drives runs along its guide, y down; `fastest` in the scene's unit/s."""
 
@@ -338,7 +338,7 @@ LONGEST = 0.22
 ORDER = {"v": 1, "a": 2}
 
 
-@dataclass(frozen=True)
+@frozen
 class Arrows:
     """Arrows of one kind, all to one scale over the whole cycle.
 

@@ -7,12 +7,13 @@ These are data only, in the scene's unit and y up where they are places; `panels
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Literal, NamedTuple, TypeVar
 
 from linkanim.build.draft import Photo
 from linkanim.build.places import Shape
+from linkanim.frozen import frozen
 from linkanim.mechanics.linkage import Point
 from linkanim.picture.layered import Layered
 from linkanim.picture.look import ThemeName
@@ -44,7 +45,7 @@ class Rubber(NamedTuple):
     words: str = ""
 
 
-@dataclass(frozen=True)
+@frozen
 class ToolBar:
     """The bar of tools: the number of the one in hand, and of the one that the mouse is over."""
 
@@ -52,7 +53,7 @@ class ToolBar:
     pointed: int | None = None
 
 
-@dataclass(frozen=True)
+@frozen
 class DraftShown:
     """A draft that does not move yet: its shapes from the back to the front.
 
@@ -65,7 +66,7 @@ class DraftShown:
     traced: tuple[Point, ...] = ()
 
 
-@dataclass(frozen=True)
+@frozen
 class BuildShown:
     """A sheet with what is built on it: the `draft`, or the linkage itself and what is `loose` beside it.
 
@@ -94,7 +95,7 @@ class BuildShown:
 # A linkage in the layers in which it can be made.
 
 
-@dataclass(frozen=True)
+@frozen
 class LayersShown:
     """Parts in layers instead of the linkage, lifted off each other by a share of what has room.
 
@@ -121,7 +122,7 @@ class SliderShown(NamedTuple):
 # What lies over the picture for a while: help, the edit list, a toast, the marks of state.
 
 
-@dataclass(frozen=True)
+@frozen
 class EditRow:
     """One dimension in the edit list: its name, its value as written, and whether it is chosen.
 
@@ -134,7 +135,7 @@ class EditRow:
     draft: bool = False
 
 
-@dataclass(frozen=True)
+@frozen
 class Panel:
     """The edit list; `error` is the reason, in words, why the chosen value is refused.
 
@@ -151,7 +152,7 @@ class Panel:
     pointed: int | None = None
 
 
-@dataclass(frozen=True)
+@frozen
 class Quantities:
     """A list, as of quantities: rows of words and symbol, the chosen one's number, what has been typed.
 
@@ -195,7 +196,7 @@ def _searched(entries: Sequence[Scene | str]) -> Iterator[str]:
             yield f"{entry.name} {entry.title} {entry.chapter}"
 
 
-@dataclass(frozen=True)
+@frozen
 class Browsing:
     """The open shelf: its mechanisms as the state has them, the one that is chosen, the frame of opening.
 
@@ -232,7 +233,7 @@ class Shelf(NamedTuple):
     edited: frozenset[int] = frozenset()
 
 
-@dataclass(frozen=True)
+@frozen
 class PathShown:
     """A path that is drawn: the `pen`'s points while it is down, then the curve that was meant, as x + yi.
 
@@ -259,7 +260,7 @@ class DialShown(NamedTuple):
     held: bool = False
 
 
-@dataclass(frozen=True)
+@frozen
 class AnswerRow:
     """Linkages that follow a path, as answers or scenes, what is said of each, and which one is shown.
 
@@ -277,7 +278,7 @@ class AnswerRow:
     dial: DialShown | None = None
 
 
-@dataclass(frozen=True)
+@frozen
 class Fading:
     """Words that come and go: shown as strongly as so many eighths say."""
 
@@ -337,7 +338,7 @@ class Spot(NamedTuple):
     mood: Mood = ""
 
 
-@dataclass(frozen=True)
+@frozen
 class GamePanel:
     """What a game shows in the room of a list: from its heading down to what there is to press.
 
@@ -380,7 +381,7 @@ Help = tuple[tuple[str, tuple[tuple[str, str], ...]], ...]
 """Subjects, each with its lines of (key, what it does)."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Overlay:
     """What one frame shows beside the scene; the empty one shows nothing.
 

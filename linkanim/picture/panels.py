@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import pygame
 
+from linkanim.frozen import frozen
 from linkanim.picture.board import STEP, Board, Rows, around
 from linkanim.picture.game_panel import answer_rows, game_panel
 from linkanim.picture.layout import Layout
@@ -118,7 +119,7 @@ _FLASH = 0.45
 """How much of the flash's colour is in the bar behind the facts at its brightest."""
 
 
-@dataclass(frozen=True)
+@frozen
 class _Division:
     """How the list is divided: its text's size and width, the lines above and below the rows, the rows."""
 

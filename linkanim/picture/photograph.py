@@ -10,7 +10,6 @@ import stat
 import warnings
 from cmath import rect
 from contextlib import suppress
-from dataclasses import dataclass
 from functools import lru_cache
 from math import ceil
 from pathlib import Path
@@ -24,6 +23,7 @@ from linkanim import intake
 from linkanim.bounds import LARGEST_SIDE
 from linkanim.build.draft import Photo
 from linkanim.errors import BadInput
+from linkanim.frozen import frozen
 from linkanim.picture.raster import Colour
 from linkanim.picture.view import View
 
@@ -56,7 +56,7 @@ def refuse_lacking(file: str) -> None:
         raise BadInput(found)
 
 
-@dataclass(frozen=True)
+@frozen
 class Photograph:
     """A photograph as it lies in a view, on paper of a colour."""
 

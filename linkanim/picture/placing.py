@@ -9,7 +9,7 @@ of one moment, such as a chart or a figure, a label stands there or not at all.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property, reduce
 from typing import NamedTuple
 
@@ -17,6 +17,7 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import ArrayLike, NDArray
 
+from linkanim.frozen import frozen
 from linkanim.picture.raster import Loop
 from linkanim.picture.shapes import lengths, units
 from linkanim.picture.view import Rect
@@ -78,7 +79,7 @@ class Solids(NamedTuple):
         return Solids(self.corners.take(which, axis=1), self.half[which])
 
 
-@dataclass(frozen=True)
+@frozen
 class Clutter:
     """What labels must stay off: all that is not `inside`, rectangles, and solids."""
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
+from linkanim.frozen import frozen
 from linkanim.mechanics.motion import Pose
 from linkanim.mechanics.polygons import Order, Side, Sort, chains
 from linkanim.picture.chart import Pen
@@ -53,7 +53,7 @@ class Arrow(NamedTuple):
         return abs(self.foot - other.foot) + abs(self.reach - other.reach) < 1e-3
 
 
-@dataclass(frozen=True)
+@frozen
 class Polygon:
     """One polygon of a figure in its place: all poses of the cycle at one scale, about one pole.
 

@@ -7,7 +7,6 @@ in which its speed is told, stands here, too.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from functools import lru_cache
 from math import ceil, degrees, floor, log10, pi, radians
 from typing import NamedTuple
@@ -16,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkanim.errors import UnitError
+from linkanim.frozen import frozen
 from linkanim.mechanics.motion import Motion
 from linkanim.mechanics.quantities import Quantity, input_symbol, look_up
 from linkanim.picture.look import Over
@@ -125,7 +125,7 @@ _LITTLE = 0.06
 """Of the span of the values, left free at either end."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Axis:
     """The range of an axis, and its ticks as (value, label)."""
 
@@ -208,7 +208,7 @@ def _degrees(span: float, most: int) -> float:
 Floats = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
+@frozen
 class Course:
     """How a phase lies along a chart: `x = (phase - origin) / scale`, from 0 to `span` and over again.
 

@@ -7,7 +7,6 @@ bits. A `Part` is a rigid thing that moves: its outline is made once, and then o
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from math import pi, sqrt
 from typing import Any
@@ -15,6 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from linkanim.frozen import frozen
 from linkanim.mechanics.angles import PI_PARTS, tangent
 from linkanim.picture.raster import Colour, Layer, Loop, outlines_of
 
@@ -341,7 +341,7 @@ Places = Mapping[str, complex]
 """Where the joints lie in pixels, as x + yi."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Part:
     """Layers about the joint `at`, drawn for the direction from `tail` to `head` being 1.
 
@@ -377,7 +377,7 @@ class Part:
         return joined(self.layers)
 
 
-@dataclass(frozen=True, eq=False)  # outlines are arrays, which do not compare
+@frozen(eq=False)  # outlines are arrays, which do not compare
 class Stamp:
     """Layers about the origin that are put down at many places without turning."""
 

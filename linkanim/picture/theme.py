@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+from linkanim.frozen import frozen
 from linkanim.picture.raster import Colour
 
 ORANGE = (230, 159, 0)
@@ -15,7 +14,7 @@ VERMILLION = (213, 94, 0)
 PURPLE = (204, 121, 167)
 
 
-@dataclass(frozen=True)
+@frozen
 class Theme:
     """Every colour of a picture, by what it is for."""
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import NamedTuple
+
+from linkanim.frozen import frozen
 
 
 class Rect(NamedTuple):
@@ -77,7 +78,7 @@ def joined(one: Box, other: Box) -> Box:
     return Box(left, low, max(one.right, other.right), max(one.high, other.high))
 
 
-@dataclass(frozen=True)
+@frozen
 class View:
     """A scale (pixels for one unit of length) and where the scene's origin lies in the window.
 

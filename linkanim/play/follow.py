@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import lru_cache
 from math import radians
 from random import Random
@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkanim.errors import BadInput
+from linkanim.frozen import frozen
 from linkanim.mechanics.linkage import Point
 from linkanim.mechanics.measures import output_slider
 from linkanim.picture.look import Look
@@ -49,7 +50,7 @@ _RESTS = (40, 90)
 _SAMPLES = 1_440
 
 
-@dataclass(frozen=True)
+@frozen
 class RamTrack:
     """Where the ram of a scene has to be at each mm of the paper: 0 at its back dead centre, 1 forward.
 
@@ -165,7 +166,7 @@ _FIRST = "slider-crank"
 _HINT = "drag the crank pin   ← → faster, slower   Space stops   a gamepad's stick"
 
 
-@dataclass(frozen=True)
+@frozen
 class FollowRun:
     """A run along a scene's track: how much paper has gone by, on how much of it the ram kept to its lines.
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property, lru_cache
 from importlib.resources import files
 from itertools import pairwise
@@ -20,6 +20,7 @@ import numpy as np
 
 from linkanim.bounds import LONGEST_TEXT
 from linkanim.errors import BadInput, LinkanimError
+from linkanim.frozen import frozen
 from linkanim.intake import Intake, Section, control_in, refuse_controls
 from linkanim.picture.look import Look
 from linkanim.picture.overlay import Choice, GamePanel, Overlay, PathShown, ScoreBar
@@ -131,7 +132,7 @@ _BEGINNING = Linkage4(-60 - 60j, -40 - 40j, 40 + 20j, 60 - 60j, 0 + 0j)
 """Where the joints of a level that is made begin, about a curve of size 100."""
 
 
-@dataclass(frozen=True, eq=False)
+@frozen(eq=False)
 class Level:
     """A curve to follow, the joints as they begin and those that stay there, and the worth of full score.
 
@@ -292,7 +293,7 @@ _POINTS = 100
 _NAMES = ("how exactly", "how small", "transmission angle")
 
 
-@dataclass(frozen=True)
+@frozen
 class MatchGame:
     """A level with the joints as they stand: since the last drag, or as the path solver has them (`gave_up`).
 

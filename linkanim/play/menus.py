@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from linkanim.errors import BadInput
+from linkanim.frozen import frozen
 from linkanim.picture.look import Look
 from linkanim.picture.overlay import Choice, GamePanel, Overlay
 from linkanim.play.games import (
@@ -37,7 +38,7 @@ _ABOUT = {
 }
 
 
-@dataclass(frozen=True)
+@frozen
 class Menu(OverWhatRuns):
     """The choice of a round: the chapter that Enter takes, the level, and the best score of each."""
 
@@ -122,7 +123,7 @@ OFFERS = (
 )
 
 
-@dataclass(frozen=True)
+@frozen
 class Lobby(OverWhatRuns):
     """The choice of a game, and which one Enter takes."""
 
@@ -171,7 +172,7 @@ _IGNORED = frozenset({"scrub", "point", "move", "carry", "drop", "pull"})
 """What a mouse that moves asks for: it goes in by a click."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Title:
     """The title: the door that any key takes, and the place on the shelf of the mechanism that runs."""
 

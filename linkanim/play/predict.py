@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from random import Random
 from typing import NamedTuple
 
 from linkanim.errors import BadInput
+from linkanim.frozen import frozen
 from linkanim.picture.look import Look
 from linkanim.picture.overlay import Choice, GamePanel, Mood, Overlay, Spot
 from linkanim.play.games import ALL, LEVELS, GameWords, begun, members, titled
@@ -46,7 +47,7 @@ class GivenAnswer(NamedTuple):
         return f"{self.question_id}:{int(self.right)}:{self.frames}"
 
 
-@dataclass(frozen=True)
+@frozen
 class Predict:
     """A round: of a chapter's scenes, at a level; questions that were missed before come first, as `again`.
 

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from cmath import phase
 from collections.abc import Collection, Iterable, Iterator
-from dataclasses import dataclass
 from functools import cached_property
 from math import degrees, isfinite, pi
 from random import Random
@@ -16,6 +15,7 @@ from typing import NamedTuple, Self
 import numpy as np
 
 from linkanim.errors import BadInput
+from linkanim.frozen import frozen
 from linkanim.mechanics.linkage import Body, Point, holding
 from linkanim.mechanics.motion import Motion, Pose
 from linkanim.mechanics.program import Array
@@ -75,7 +75,7 @@ class QuestionId(NamedTuple):
         return f"{self.kind.replace(' ', '_')}@{self.scene}@{self.phase!r}@{self.subject}"
 
 
-@dataclass(frozen=True)
+@frozen
 class QuizQuestion:
     """A question with its answers, of which one is right, and why.
 
@@ -103,7 +103,7 @@ class QuizQuestion:
         return QuestionId(self.kind, self.scene.name, self.phase, self.subject)
 
 
-@dataclass(frozen=True)
+@frozen
 class Puzzle:
     """A scene at a phase that a question of a kind is made of, with the random choices in it."""
 

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from pathlib import Path
 from types import MappingProxyType
 
 from linkanim import atomic_files, intake
 from linkanim.errors import BadInput, OtherVersion
+from linkanim.frozen import frozen
 from linkanim.intake import Intake, Section, refuse_controls
 from linkanim.play.question import QuestionId
 
@@ -22,7 +23,7 @@ _MOST_BEST = 1_000
 _HIGHEST = 10**9
 
 
-@dataclass(frozen=True)
+@frozen
 class Scores:
     """Best scores by round, questions that were missed and not met since, the door taken last.
 

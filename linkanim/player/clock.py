@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Self
+
+from linkanim.frozen import frozen
 
 # The player's clock: phase as a closed form of the integer frame, never a running sum.
 
@@ -24,7 +26,7 @@ def factor(level: int) -> float:
     return _LADDER[rung] * 10.0**decade if decade >= 0 else _LADDER[rung] / 10.0**-decade
 
 
-@dataclass(frozen=True)
+@frozen
 class Clock:
     """Where the phase is at any frame: a straight line from the frame of the last change.
 

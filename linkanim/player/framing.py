@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from math import inf
 from typing import Literal
@@ -16,6 +16,7 @@ from typing import Literal
 import pygame
 from pygame.event import Event
 
+from linkanim.frozen import frozen
 from linkanim.picture.look import Look
 from linkanim.picture.picture import Earlier, Picture
 from linkanim.picture.view import Box, Rect, View, eased, joined, view_of
@@ -31,7 +32,7 @@ _NAMES = 2
 """So many names are placed in a frame."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Approach:
     """A view that was left at a frame for the one that fits now."""
 

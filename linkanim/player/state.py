@@ -10,7 +10,7 @@ from __future__ import annotations
 import os
 import traceback
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Protocol
 
@@ -19,6 +19,7 @@ import numpy as np
 from linkanim.build.building import Building, Undoable
 from linkanim.build.draft import Draft, Thing
 from linkanim.errors import BadInput, LinkanimError
+from linkanim.frozen import frozen
 from linkanim.mechanics.analysis import Info
 from linkanim.mechanics.linkage import Point
 from linkanim.mechanics.motion import stopped
@@ -53,7 +54,7 @@ class ListRow(NamedTuple):
     action: Action
 
 
-@dataclass(frozen=True)
+@frozen
 class Entries:
     """Rows under a title, of which a folder may give a hundred thousand, and the letters that sift them."""
 
@@ -72,7 +73,7 @@ class Entries:
         return tuple((one.words, one.key) for one in self.found)
 
 
-@dataclass(frozen=True)
+@frozen
 class Listing:
     """The open list: the row that is chosen, and the letters that sift it; of quantities, or of `others`."""
 
@@ -108,7 +109,7 @@ def listed(scene: Scene, sieve: str) -> tuple[str, ...]:
 _KEPT = 100
 
 
-@dataclass(frozen=True)
+@frozen
 class Editing(Undoable[Scene]):
     """Where the editing stands; `past` and `future` are the scenes that undo and redo go to.
 
@@ -181,7 +182,7 @@ def cleared(editing: Editing, **changes: object) -> Editing:
     return replace(editing, **{"typed": "", "refusal": None, "warned": False, **changes})  # type: ignore[arg-type]
 
 
-@dataclass(frozen=True)
+@frozen
 class Held:
     """A joint that is being dragged, "" for the chosen value: where it was taken, and whether that ran on."""
 
@@ -201,7 +202,7 @@ _TRAIL, _JUMP, _FASTEST = 6, 1.0, 20.0
 """Frames over which a hand's speed is taken, the most of it (rad/s), and a step (rad) that has none."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Grasp:
     """A joint that a hand leads, and the input with it: whether the motion `ran` and goes on so.
 
@@ -239,7 +240,7 @@ _TRIED = 90
 _FOLLOWED = ("length", "offset", "angle")
 
 
-@dataclass(frozen=True)
+@frozen
 class Glide:
     """Dimensions on their way since frame `since`: (key, from, to), and the scene shown meanwhile.
 
@@ -320,7 +321,7 @@ class Grip(NamedTuple):
         return max(abs(x - u), abs(y - v)) <= self.reach / 2
 
 
-@dataclass(frozen=True)
+@frozen
 class BuildSheet:
     """What is built over the scene `before`, which comes back, with its clock and editing, if it cannot move.
 
@@ -383,7 +384,7 @@ DIAL = "dial"
 """What of a sketch is held while its dial is dragged."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Sketch:
     """What the pencil has drawn over the scene `before`, which comes back with its clock and editing.
 
@@ -470,7 +471,7 @@ FADE_FRAMES = 14
 SHUTTER_FRAMES = 12
 
 
-@dataclass(frozen=True)
+@frozen
 class Toast:
     """A short message; gone at frame `until`."""
 
@@ -478,7 +479,7 @@ class Toast:
     until: int
 
 
-@dataclass(frozen=True)
+@frozen
 class Take:
     """A recording that runs since frame `since`."""
 
@@ -535,7 +536,7 @@ class Game(Protocol):
         """Return the overlay with what the game shows."""
 
 
-@dataclass(frozen=True)
+@frozen
 class State:
     """All that the window shows at one frame; equal states are equal pictures.
 

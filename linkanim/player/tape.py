@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 
+from linkanim.frozen import frozen
 from linkanim.player.action import Action
 from linkanim.player.actions import advance, carried, is_taped, leave
 from linkanim.player.building import stored_text
@@ -15,7 +16,7 @@ from linkanim.player.state import State
 from linkanim.scenes.scene import Scene
 
 
-@dataclass(frozen=True)
+@frozen
 class Tape:
     """Actions by frame, and the state at frame 0; `size` is the window's when it was made."""
 

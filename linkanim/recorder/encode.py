@@ -16,7 +16,6 @@ import time
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
 from threading import Event, Semaphore, Thread
@@ -26,6 +25,7 @@ from imageio_ffmpeg import get_ffmpeg_exe
 
 from linkanim import child
 from linkanim.errors import RecordingFailed
+from linkanim.frozen import frozen
 from linkanim.recorder.plan import Format
 
 if TYPE_CHECKING:
@@ -252,7 +252,7 @@ _TELLING = ("-stats_enc_post", "pipe:1", "-stats_enc_post_fmt", "{n}")
 _EXACT = ("-map_metadata", "-1", "-fflags", "+bitexact", "-flags:v", "+bitexact")
 
 
-@dataclass(frozen=True)
+@frozen
 class Stream:
     """Raw frames as they come: width and height in pixels, frames a second, whether alpha counts."""
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
 import imageio.v3 as iio
@@ -13,6 +13,7 @@ import numpy as np
 
 from linkanim.atomic_files import checked_folder
 from linkanim.errors import RecordingFailed
+from linkanim.frozen import frozen
 from linkanim.manifest import FileSet, replacing
 from linkanim.picture.figure import figure
 from linkanim.picture.gears import teeth_a_second
@@ -48,7 +49,7 @@ _EARLY = 0.09
 """Which part of its period a scene is in on the sheet: not at a limit, where much lies in line."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Gallery:
     """What was made: a GIF for each scene, and the sheet."""
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import Literal, NamedTuple
 
 from linkanim.bounds import LARGEST_SIDE, MOST_FRAMES, MOST_PIXELS
 from linkanim.errors import BadInput
+from linkanim.frozen import frozen
 from linkanim.units import rpm, short
 
 Format = Literal["gif", "mp4", "png"]
@@ -49,7 +49,7 @@ class Clip(NamedTuple):
         return self.periods * self.period / abs(self.speed) if self.seconds is None else self.seconds
 
 
-@dataclass(frozen=True)
+@frozen
 class Plan:
     """What is recorded: `frames` at `rate` frames a second share out `sweep` of phase (rad, signed).
 

@@ -7,7 +7,7 @@ import os
 import re
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import astuple, dataclass
+from dataclasses import astuple
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol, cast
@@ -17,6 +17,7 @@ import numpy as np
 from linkanim import manifest
 from linkanim.atomic_files import checked_target
 from linkanim.errors import BadInput, RecordingFailed, WorkFailed
+from linkanim.frozen import frozen
 from linkanim.picture.look import Look
 from linkanim.picture.overlay import Overlay
 from linkanim.picture.picture import Picture
@@ -59,7 +60,7 @@ class Frames(Protocol):
         """Return a frame's bytes, to be let go before the next is drawn: that may be in their place."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Recording:
     """A finished recording: where it is (for PNG: its first frame) and what it holds."""
 

@@ -19,7 +19,7 @@ import math
 import re
 from cmath import rect
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from difflib import Match, SequenceMatcher
 from fractions import Fraction
 from math import atan2, degrees, hypot
@@ -27,6 +27,7 @@ from typing import Any, NamedTuple
 
 from linkanim import units
 from linkanim.errors import AssemblyError, BadInput, LinkanimError, SceneError
+from linkanim.frozen import frozen
 from linkanim.mechanics.angles import unit
 from linkanim.mechanics.linkage import Body, DrivenSlider, Joint, Line, Pin, Point, Rigid
 from linkanim.scenes.file_form import DRIVE, SCENE_FILE, SHORTHANDS
@@ -205,7 +206,7 @@ _BARE = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?", re.I | re.A)
 _EXACT = 2**53
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Dimension:
     """One number of a scene that can be edited.
 
@@ -405,7 +406,7 @@ def _choice(scene: Scene) -> _Choice | None:
 # Joints as handles: which dimensions follow when a joint is dragged.
 
 
-@dataclass(frozen=True)
+@frozen
 class Handle:
     """A dimension that follows a joint: the distance from `start`, or a part of the place on a body.
 

@@ -13,11 +13,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Container, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any, NamedTuple, get_args
 
 from linkanim import units
 from linkanim.bounds import LONGEST_TEXT
+from linkanim.frozen import frozen
 from linkanim.intake import unnameable
 from linkanim.mechanics.angles import unit
 from linkanim.mechanics.linkage import (
@@ -337,7 +338,7 @@ def _cylinder(table: Table, values: Values, driven: str) -> Cylinder:
 # and the coupler points P (on the coupler) and P2 (on coupler2), traced unless [trace] says otherwise.
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Expansion:
     """What a shorthand stands for; `drive` is the joint that is driven unless [drive] says otherwise."""
 

@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from fractions import Fraction
 from functools import cached_property, partial
 from typing import Any, ClassVar, Literal, Self, TypeVar
@@ -20,6 +20,7 @@ from typing import Any, ClassVar, Literal, Self, TypeVar
 from linkanim import units
 from linkanim.bounds import LONGEST_TEXT, MOST_NAMES, MOST_PROBLEMS
 from linkanim.errors import BadInput, SceneError, UnitError
+from linkanim.frozen import frozen
 from linkanim.intake import Section, few, meant
 from linkanim.mechanics.linkage import Joint, RigidBody
 from linkanim.units import shown
@@ -29,7 +30,7 @@ from linkanim.units import shown
 Read = TypeVar("Read")
 
 
-@dataclass(frozen=True)
+@frozen
 class Context:
     """What is known of a file while it is read: its unit of length, its joints, and its problems so far.
 
@@ -49,7 +50,7 @@ class Context:
         return len(self.joints) == len(self.names)
 
 
-@dataclass(frozen=True)
+@frozen
 class Table(Section):
     """One table of a scene file."""
 
@@ -123,7 +124,7 @@ _HEX = re.compile(r"#[0-9a-f]{6}", re.I | re.A)
 _NUMBER = r"^\s*[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?\s*"
 
 
-@dataclass(frozen=True)
+@frozen
 class ValueType:
     """What may stand at a key, in `words` too.
 
@@ -343,7 +344,7 @@ SPREAD = ""
 """Where the values of a table go that are those of the table around it."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Field:
     """One key of a table.
 
@@ -387,7 +388,7 @@ class Field:
         return self.type.read(table, self.key)
 
 
-@dataclass(frozen=True)
+@frozen
 class Form:
     """A table: its fields, and what makes a value of what they say.
 
@@ -447,7 +448,7 @@ def form(words: str, *fields: Field, **how: Any) -> Form:
     return Form(fields, words=words, **how)
 
 
-@dataclass(frozen=True)
+@frozen
 class Named:
     """A table of tables by their names, as [joints.A], [joints.B]: each of one of the `forms`.
 

@@ -77,10 +77,10 @@ def _bars(joint: Joint) -> Iterator[float]:
 def _sizes(linkage: Linkage) -> Iterator[tuple[float, str]]:
     drive = linkage.drive
     for joint in linkage.joints:
-        yield from ((abs(length), joint.name) for length in joint.lengths)
+        yield from ((abs(length), joint.name) for length in joint.stated_lengths)
     for body in linkage.bodies:
         yield from ((abs(part), f"{body.name}'s centre of mass") for part in body.com or ())
-    yield from ((abs(length), "the input's travel") for length in drive.actuator.lengths)
+    yield from ((abs(length), "the input's travel") for length in drive.actuator.stated_lengths)
 
 
 # The joints of a file in the order in which they are solved, those with a fault left out.

@@ -10,11 +10,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from linkanim.errors import BadInput
+from linkanim.frozen import frozen
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -85,7 +86,7 @@ class BodyStyle(NamedTuple):
 FREE_STYLE = BodyStyle()
 
 
-@dataclass(frozen=True)
+@frozen
 class Scene:
     """A linkage to show; lengths in `length_unit`, angles in radians, time in seconds."""
 

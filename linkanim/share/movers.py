@@ -10,7 +10,7 @@ import base64
 import math
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import cached_property
 from itertools import pairwise
 from typing import Any
@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from linkanim.frozen import frozen
 from linkanim.mechanics.motion import Motion, Pose
 from linkanim.paper.svg import drawn, flat, hexadecimal
 from linkanim.picture.figure import DOWN
@@ -36,7 +37,7 @@ from linkanim.scenes.scene import Scene
 # Colours of a page that goes by its reader's setting: each is one of a pair, of light and of dark.
 
 
-@dataclass(frozen=True)
+@frozen
 class Pairs:
     """The colours met so far, numbered in their order; a page's styles have them as --c0, --c1 and on."""
 
@@ -146,7 +147,7 @@ def centre(body: str) -> str:
     return f"{body} (centre of mass)"
 
 
-@dataclass(frozen=True)
+@frozen
 class Track:
     """A point's nodes: places on the grid (n,), positions in pixels x + yi (n,), derivatives (2, n)."""
 
@@ -291,7 +292,7 @@ Mover = dict[str, Any]
 """What a group is moved by: its `kind`, the points it follows, its measures in pixels, its colours."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Movable:
     """A group as SVG, and what moves it; None for one that stands still."""
 
@@ -301,7 +302,7 @@ class Movable:
     """Where it lies at the start."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Mobile:
     """A picture in both themes, whose groups move on a page."""
 

@@ -10,7 +10,7 @@ import hashlib
 import json
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cache
 from html import escape
 from importlib.resources import files
@@ -23,6 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkanim.errors import BadInput
+from linkanim.frozen import frozen
 from linkanim.mechanics.linkage import Crank
 from linkanim.mechanics.quantities import Quantity
 from linkanim.paper.svg import FACES
@@ -236,7 +237,7 @@ _OF_TRACKS = ("curve", "recent", "arrows")
 _WIDTH, _HEIGHTS = 960, (480, 900)
 
 
-@dataclass(frozen=True)
+@frozen
 class Shared:
     """What a page is asked to show: a scene at a speed (rad/s; its own), a quantity's chart, names 0 to 2.
 

@@ -15,7 +15,7 @@ import math
 import re
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
@@ -23,6 +23,7 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 
 from linkanim.errors import AssemblyError, SceneError
+from linkanim.frozen import frozen
 from linkanim.manifest import FileSet, replacing
 from linkanim.mechanics.measures import as_complex, transmission_angle
 from linkanim.scenes.reading import scene_from
@@ -38,7 +39,7 @@ _ROOM_POSES = 144
 """Over a period, of which the room is taken that an answer sweeps."""
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
+@frozen(eq=False, kw_only=True)
 class CouplerLinkage(ABC):
     """A four-bar or slider-crank that was made for its coupler; lengths in its unit, angles in radians."""
 
@@ -93,7 +94,7 @@ class Figures(NamedTuple):
     angle: float
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
+@frozen(eq=False, kw_only=True)
 class Fit(CouplerLinkage):
     """A linkage beside the drawn curve; distances in the curve's unit."""
 

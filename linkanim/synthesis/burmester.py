@@ -20,7 +20,6 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from decimal import Decimal, localcontext
 from fractions import Fraction
 from functools import cached_property
@@ -30,6 +29,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from linkanim.errors import BadInput
+from linkanim.frozen import frozen
 from linkanim.mechanics.precise import context, sine_and_cosine
 from linkanim.synthesis.linkages import Complex, Indices, Real
 
@@ -68,7 +68,7 @@ class Slides(NamedTuple):
     direction: Complex
 
 
-@dataclass(frozen=True, eq=False)
+@frozen(eq=False)
 class Poses:
     """Two to five poses of a body: its origin's places as x + yi, and the angles by which it is turned (rad).
 
@@ -283,7 +283,7 @@ class CurveCircuit(NamedTuple):
     sign: float
 
 
-@dataclass(frozen=True, eq=False)
+@frozen(eq=False)
 class CentreCurve:
     """The centre points of four poses: circuits, each walked by a phase from 0 to 2π.
 

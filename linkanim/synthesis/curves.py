@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import math
 from contextlib import suppress
-from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
 
@@ -18,6 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkanim.errors import BadInput
+from linkanim.frozen import frozen
 from linkanim.synthesis.linkages import Complex, Indices, Real
 
 # A drawn curve: points in their order, closed or open, checked.
@@ -27,7 +27,7 @@ _FARTHEST = 1e150
 """Of a coordinate: squares of what lies beyond are no numbers any more."""
 
 
-@dataclass(frozen=True, eq=False)
+@frozen(eq=False)
 class DrawnCurve:
     """Points (n,) as x + yi in their order; the first of a closed curve stands once."""
 

@@ -10,13 +10,14 @@ Its parts, in reading order:
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from linkanim.frozen import frozen
 from linkanim.synthesis.atlas import Candidates
 from linkanim.synthesis.curves import DrawnCurve
 from linkanim.synthesis.linkages import Indices, LinkageKind, Real, Requirements, TracedPoints
@@ -29,7 +30,7 @@ EXACTLY = 1e10
 """What a point that is to be passed through exactly weighs beside another one."""
 
 
-@dataclass(frozen=True, eq=False)
+@frozen(eq=False)
 class PathTask:
     """A curve in its unit, with its points' weights and what its linkages have to be.
 

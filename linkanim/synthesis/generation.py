@@ -13,7 +13,7 @@ import math
 import operator
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -21,6 +21,7 @@ import numpy as np
 
 from linkanim import units
 from linkanim.errors import AssemblyError, BadInput, SceneError
+from linkanim.frozen import frozen
 from linkanim.intake import meant
 from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
@@ -74,7 +75,7 @@ _UNARY: Mapping[type[ast.unaryop], Callable[[Real], Real]] = {
 }
 
 
-@dataclass(frozen=True, eq=False)
+@frozen(eq=False)
 class GivenFunction:
     """A function in words, over x from `first` to `last`, and what gives its values (k,) at x (k,).
 
@@ -278,7 +279,7 @@ _FINE = 2001
 _NARROWEST, _WIDEST = math.radians(1), math.radians(340)
 
 
-@dataclass(frozen=True, eq=False)
+@frozen(eq=False)
 class FunctionTask:
     """A function, ranges and starts of both scales, None for one that is free, and how many precision points.
 
@@ -312,7 +313,7 @@ class FunctionTask:
         return 1.0, 1.0 if self.generator.turning else self.length
 
 
-@dataclass(frozen=True, eq=False)
+@frozen(eq=False)
 class Generated:
     """A linkage beside the function; y's unit for errors, angles in radians, of a slider lengths."""
 

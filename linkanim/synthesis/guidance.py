@@ -13,7 +13,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -21,6 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from linkanim import units
 from linkanim.errors import AssemblyError, BadInput, SceneError
+from linkanim.frozen import frozen
 from linkanim.mechanics.measures import as_complex
 from linkanim.scenes.editing import phase_along
 from linkanim.scenes.reading import scene_from
@@ -86,7 +87,7 @@ _ALIKE = 0.15
 _DIGITS = 15
 
 
-@dataclass(frozen=True, eq=False)
+@frozen(eq=False)
 class GuideTask:
     """Poses, a kind of linkage, the fixed pivots that are given, and limits."""
 
@@ -99,7 +100,7 @@ class GuideTask:
     source: str = "made by linkanim for poses"
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
+@frozen(eq=False, kw_only=True)
 class GuidedLinkage(CouplerLinkage):
     """A linkage and the poses that it was made for.
 

@@ -11,13 +11,14 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import Any, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkanim.errors import BadInput
+from linkanim.frozen import frozen
 from linkanim.units import shown
 
 # The linkages whose coupler point is to run along a path: a four-bar and a slider-crank, many at once.
@@ -334,7 +335,7 @@ SHORTEST = 1e-3
 """Of a link, in curve sizes."""
 
 
-@dataclass(frozen=True, eq=False)
+@frozen(eq=False)
 class Requirements:
     """Limits in the units of the points they go with.
 

@@ -16,13 +16,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from linkanim import units
 from linkanim.errors import BadInput
+from linkanim.frozen import frozen
 from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
 from linkanim.synthesis.linkages import Real, refuse_count
@@ -46,7 +47,7 @@ _STEEPEST = math.radians(1.0)
 _DIGITS = 12
 
 
-@dataclass(frozen=True, eq=False)
+@frozen(eq=False)
 class QuickReturn:
     """A linkage with its time ratio; lengths in the scene's unit, angles in radians."""
 

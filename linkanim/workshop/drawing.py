@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
+from linkanim.frozen import frozen
 from linkanim.paper.illustration import Illustration
 from linkanim.picture.figure import figure
 from linkanim.picture.items import Caption, Halo, Item, grouped
@@ -27,7 +27,7 @@ _SHADOW = ((2 + 2.5j, 0.16), (3.5 + 4.5j, 0.1))
 """How far a plate's shadow lies from it, in pixels, and how dark it is: twice, for its soft edge."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Drawn:
     """What is made, drawn at a phase: `size` in pixels, colours by layer.
 

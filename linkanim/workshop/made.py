@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from itertools import count
 from typing import Literal, NamedTuple
@@ -12,6 +12,7 @@ import numpy as np
 
 from linkanim import units
 from linkanim.errors import BadInput
+from linkanim.frozen import frozen
 from linkanim.mechanics.motion import Pose
 from linkanim.picture.figure import figure
 from linkanim.picture.layered import Frame, Layered, LayeredPin, LayeredPlate
@@ -57,7 +58,7 @@ class MadePin(NamedTuple):
     spacers: tuple[Spacer, ...] = ()
 
 
-@dataclass(frozen=True)
+@frozen
 class MadeLinkage:
     """A scene's parts and their layers, or in a sentence why it cannot be made flat: `refused`.
 

@@ -17,6 +17,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from linkanim.errors import BadInput
+from linkanim.frozen import frozen
 from linkanim.mechanics.linkage import Body, Damper, Line, Slide, Spring
 from linkanim.picture.layered import Frame
 from linkanim.workshop.gears import GearWheel, NotFlat, meshes
@@ -34,7 +35,7 @@ _LEAST_BETWEEN = 1.0
 """What two cuts leave between them, in mm, where bars are wide."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Sizes:
     """Widths and distances of all parts, in mm; `scale` is mm for one unit of length of the scene.
 
@@ -105,7 +106,7 @@ class Toothing(NamedTuple):
         return moved(self.wheel.outline(self.play, grown), self.middle, self.way)
 
 
-@dataclass(frozen=True)
+@frozen
 class Plate:
     """A flat part in its own frame; `bodies` are those of the scene that it is made of.
 

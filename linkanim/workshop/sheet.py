@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from linkanim.errors import WorkFailed
+from linkanim.frozen import frozen
 from linkanim.paper import html
 from linkanim.paper.figure import Figured
 from linkanim.paper.html import Beside, FigurePart, Part
@@ -41,7 +41,7 @@ _WAYS = {
 }
 
 
-@dataclass(frozen=True)
+@frozen
 class Sheet:
     """How to put together what is made, as a page to be printed."""
 

@@ -39,7 +39,7 @@ def test_a_four_bar_moves_after_its_last_bar() -> None:
     ]  # a crank alone moves
     scene = steps[-1].made.scene
     assert scene
-    lengths = {joint.name: joint.lengths for joint in scene.linkage.joints}
+    lengths = {joint.name: joint.stated_lengths for joint in scene.linkage.joints}
     assert lengths == {"O2": (0, 0), "O4": (100, 0), "A": (50,), "B": (85, 89)}
 
 

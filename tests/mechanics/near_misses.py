@@ -176,7 +176,7 @@ def is_right(case: NearMiss, solved: Mechanism) -> bool:
     with mp.workdps(50):
         if isinstance(path, Swing):
             limits = (mpf(end.high) + mpf(end.low) for end in (path.low, path.high))
-            longest = max(case.linkage.joint("J").lengths)
+            longest = max(case.linkage.joint("J").stated_lengths)
             return all(abs(lack(limit)) <= TWO_FLOATS * longest for limit in limits)
         worst = mp.findroot(lambda angle: mp.diff(lack, angle), mpf(case.angle), tol=mpf(10) ** -30)
         return bool(abs(worst - case.angle) < 1e-3 and lack(worst) <= 0)

@@ -295,7 +295,7 @@ def _travel(linkage: Linkage) -> tuple[Any, Any] | None:
 
 def _on_cylinder(linkage: Linkage, phase: Any) -> Any:
     """The crank's angle by the law of cosines, on the side of the pivot's line to the pin it starts on."""
-    ends, crank = linkage.drive.actuator.lengths, linkage.crank("J")
+    ends, crank = linkage.drive.actuator.stated_lengths, linkage.crank("J")
     pin = mp.mpc(*map(mpf, linkage.pin("G").position))
     (first, last), arm = map(mpf, ends), mpf(crank.length)
     length = (first + last) / 2 - (last - first) / 2 * mp.cos(phase)
@@ -358,7 +358,7 @@ def _highest(function: Callable[[Any], Any], near: Any, step: Any) -> Any:
 
 def _clear(linkage: Linkage, solved: Mechanism) -> bool:
     """Whether J's margin stays clear of zero but for limits and change points."""
-    if linkage.drive.actuator.lengths or _margin(linkage, mpf(0)) is None:
+    if linkage.drive.actuator.stated_lengths or _margin(linkage, mpf(0)) is None:
         return True
     path = solved.assembly.path
     if isinstance(path, Swing) and not all(path.ends):

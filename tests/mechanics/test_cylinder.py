@@ -56,7 +56,7 @@ def boom(first: float, last: float, *further: Joint, start: float = 0.0) -> Link
 
 def angle_at(linkage: Linkage, side: int, phase: Any) -> Any:
     """The crank's angle by the law of cosines, the joint on the left of pivot -> pin for side +1."""
-    (first, last), at = map(mpf, linkage.drive.actuator.lengths), mp.mpc(*map(mpf, (200, 30)))
+    (first, last), at = map(mpf, linkage.drive.actuator.stated_lengths), mp.mpc(*map(mpf, (200, 30)))
     length = (first + last) / 2 - (last - first) / 2 * mp.cos(phase)
     ground, arm = mp.mpc(80, -60), abs(at)
     psi = mp.acos((abs(ground) ** 2 + arm**2 - length**2) / (2 * abs(ground) * arm))

@@ -61,7 +61,7 @@ def piston(
 
 
 def travelled(linkage: Linkage, phase: Any) -> Any:
-    first, last = map(mpf, linkage.drive.actuator.lengths)
+    first, last = map(mpf, linkage.drive.actuator.stated_lengths)
     return (first + last) / 2 - (last - first) / 2 * mp.cos(phase)
 
 

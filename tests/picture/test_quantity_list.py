@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from itertools import pairwise
 from typing import Any, NamedTuple
 
 import pygame
 import pytest
 
+from linkanim.frozen import frozen
 from linkanim.picture.board import STEP, Board
 from linkanim.picture.layout import layout
 from linkanim.picture.overlay import Quantities
@@ -27,7 +28,7 @@ class Line(NamedTuple):
     anchor: str
 
 
-@dataclass(frozen=True)
+@frozen
 class Noted(Board):
     """A board that keeps what is written on it."""
 

@@ -307,7 +307,7 @@ def test_a_joint_is_moved_live_and_that_is_one_undo(builder: Builder) -> None:
     lengths = []
     for x in (64, 70, 80):
         builder.mouse(pygame.MOUSEMOTION, builder.at(x, 80), rel=(0, 0), buttons=(1, 0, 0))
-        lengths.append(builder.state.scene.linkage.joint("B").lengths[0])
+        lengths.append(builder.state.scene.linkage.joint("B").stated_lengths[0])
     builder.mouse(pygame.MOUSEBUTTONUP, builder.at(80, 80), button=1)
     assert lengths == sorted(set(lengths))
     assert builder.sheet.building.draft.places["B"] == pytest.approx((80, 80), abs=1.0)

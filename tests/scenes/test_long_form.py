@@ -87,7 +87,7 @@ def test_a_yoke_slides_along_its_line_and_can_be_edited() -> None:
     lasts = (("slot",), ("line", "angle"), ("line", "offset"))
     assert keys == [("joints", "Y", "slide", *last) for last in lasts]
     moved = with_dimensions(scene, {("joints", "Y", "slide", "line", "offset"): 6.0})
-    assert moved.linkage.by_name["Y"].lengths == (6.0,)
+    assert moved.linkage.by_name["Y"].stated_lengths == (6.0,)
 
 
 @given(st.permutations(sorted(JOINTS)))

@@ -70,7 +70,7 @@ def test_a_link_that_is_called_crank_turns_and_one_called_rocker_swings(name: st
             assert bool(fixed & set(member.joints)) == (noun != "coupler"), (body, words)
             assert noun == "coupler" or turns_fully(scene, body) == (noun == "crank"), (body, words)
     assert len(set(scene.info.link_names.values())) == len(scene.info.link_names)
-    if not scene.linkage.drive.actuator.lengths:
+    if not scene.linkage.drive.actuator.stated_lengths:
         assert (scene.info.input_name == "crank") == scene.info.full_turn
 
 

@@ -11,7 +11,6 @@ import sys
 from argparse import Namespace
 from collections.abc import Callable, Container, Iterable, Iterator, Mapping
 from contextlib import ExitStack
-from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
 from itertools import repeat
@@ -27,6 +26,7 @@ from linkanim.bounds import MOST_NUMBERS, MOST_NUMBERS_READ
 from linkanim.cli.options import EVERY_ANGLE, inputs_of
 from linkanim.errors import BadInput, OutOfRange
 from linkanim.export import columns, csv_head, csv_rows, json_text, lines, mapped
+from linkanim.frozen import frozen
 from linkanim.mechanics.linkage import Linkage, Pin
 from linkanim.mechanics.measures import DAMPER, POINT, SPRING, TRAVELLING, TURNING, Measure, coefficients_of
 from linkanim.mechanics.motion import Motion
@@ -107,7 +107,7 @@ class RowBlock(NamedTuple):
     found: Tree
 
 
-@dataclass(frozen=True)
+@frozen
 class Steps:
     """The inputs of a sweep, exact: row k is (first + step·k) / scale degrees, in whole numbers."""
 
@@ -305,7 +305,7 @@ _NUMBER = "\0"
 """Stands for a number in the text that the rows share: no name holds it."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Inputs:
     """Where to solve: `by` is "angle" (of the crank) or "phase"; one value in radians, or a sweep's steps."""
 

@@ -18,6 +18,7 @@ from functools import cached_property, partial
 from typing import Any, NamedTuple
 
 from linkanim.errors import AssemblyError
+from linkanim.frozen import frozen
 from linkanim.mechanics.angles import (
     Half,
     Sum,
@@ -161,7 +162,7 @@ class Near(NamedTuple):
         return Moving(root, share * part.rate, share * part.second + rate * rate * (self.least / root))
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class End:
     """A limit that the dyad sets, at the swing's upper or its lower end: z² is half the way to it.
 
@@ -186,7 +187,7 @@ class End:
         return select(way.argument.value, width, close, otherwise)
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Stationary:
     """A change point, or a dip: z is the sine of half the way from it, and the argument that tangent.
 
@@ -343,7 +344,7 @@ class Closing(NamedTuple):
         return Slope(ratio, bent / divisor)
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class ChainRoot:
     """The zeros of one dyad's root; `sign` makes the closure that is named the one just after the start.
 
@@ -441,7 +442,7 @@ def _sign(value: Value) -> Value:
 # (Uicker, Pennock and Shigley, Theory of Machines and Mechanisms, on points moving in moving frames).
 
 
-@dataclass(frozen=True)
+@frozen
 class Assembly:
     """A linkage's loops, the path of its input and the sign of every closure.
 
@@ -487,7 +488,7 @@ AT_ITS_LIMIT = (
 )
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Piece:
     """How one rigid body turns, and the arms between its joints that are known as they were closed."""
 
@@ -639,7 +640,7 @@ class Walk:
         return n
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Guide:
     """A line of travel at one instant: its base point, its direction, and how it turns."""
 

@@ -13,7 +13,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from decimal import localcontext
 from fractions import Fraction
 from typing import Any, ClassVar, Self
@@ -21,6 +21,7 @@ from typing import Any, ClassVar, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from linkanim.frozen import frozen
 from linkanim.mechanics.angles import (
     FULL_TURN,
     STATED,
@@ -51,7 +52,7 @@ NOTHING = 2.0**-100
 """What is less is left of equal sums of two floats."""
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Ends:
     """The two limits of a swing: half the way left to each, and its root, which may be `signed`.
 
@@ -80,7 +81,7 @@ class Ends:
         return share if lower else share * self.root_v.slope
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class InputState:
     """What the input does at one instant.
 
@@ -150,7 +151,7 @@ def _summed(angle: Value, low: Value, shift: Sum) -> tuple[Value, Value]:
     return total, error + low + shift.low
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class TravelState(InputState):
     """The state where a slider drives: `angle` is the phase that runs its travel, `half` is that of it."""
 
@@ -258,7 +259,7 @@ Shortened = tuple[Sum, Sum, tuple[str, str], int]
 """The angles between which a path is cut back, the dyads that limit it there, and its repeats."""
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class InputPath(ABC):
     """What every input answers: its range, its clock, its law and its limits.
 
@@ -379,7 +380,7 @@ class InputPath(ABC):
         return tuple(found)
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class ThereAndBack(InputPath):
     """A path on which the input turns back at both ends, where its phase is 0 and π."""
 
@@ -417,7 +418,7 @@ def retraced(phases: Any) -> tuple[Any, Any]:
     return np.where(np.abs(phases) > 2 * math.pi, ended, at), back
 
 
-@dataclass(frozen=True)
+@frozen
 class LimitDistances:
     """How far angles are from the limits of a swing.
 
@@ -443,7 +444,7 @@ class LimitDistances:
 # The path of an input that turns fully.
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Turn(InputPath):
     """The input turns fully from `start`; without change points down the chain all is back after `turns`."""
 
@@ -517,7 +518,7 @@ NEARLY_ZERO = 1e-8
 """Half a last digit of this is more than a limit is off by."""
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Swing(ThereAndBack):
     """The input swings between two limits; `ends` are the dyads that limit it at each.
 
@@ -528,7 +529,7 @@ class Swing(ThereAndBack):
 
     low: Sum
     high: Sum
-    ends: tuple[str, str]
+    ends: tuple[str, str] = ("", "")
     repeats: int = 1
 
     @property

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from decimal import Decimal, localcontext
 from functools import cache, partial
 from typing import NamedTuple
@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkanim.errors import AssemblyError
+from linkanim.frozen import frozen
 from linkanim.mechanics.angles import FULL_TURN, Sum
 from linkanim.mechanics.arithmetic import Graph, Slope, Value
 from linkanim.mechanics.linkage import Linkage
@@ -386,7 +387,7 @@ class Extreme(NamedTuple):
     """How far to both sides it does not close."""
 
 
-@dataclass(frozen=True)
+@frozen
 class Separations:
     """The margins of the dyads on moving points along a path, at samples among which are all that decide."""
 
@@ -470,7 +471,7 @@ def separations(assembly: Assembly) -> Separations:
 def _blur(linkage: Linkage) -> float:
     """Return the share of a margin's scale within which floats cannot tell its sign."""
     farthest = max((abs(place) for pin in linkage.pins for place in pin.position), default=0.0)
-    bars = (abs(length) for joint in linkage.joints if not joint.fixed for length in joint.lengths)
+    bars = (abs(length) for joint in linkage.joints if not joint.fixed for length in joint.stated_lengths)
     return max(TOUCHING, OFF * farthest / (max(bars, default=0.0) or 1.0))
 
 

@@ -11,13 +11,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
 from decimal import Decimal, localcontext
 from fractions import Fraction
 from functools import partial
 from typing import NamedTuple
 
 from linkanim.errors import AssemblyError
+from linkanim.frozen import frozen
 from linkanim.mechanics.angles import (
     HALF_TURN,
     Half,
@@ -237,7 +237,7 @@ class Triangle(NamedTuple):
         return self.turn.plus(self.ratio.value * share, self.ratio.rate * share)
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class PinLoop:
     """A crank pin against a fixed pin: ground vector (length, direction), crank, and the pin's ψ.
 
@@ -406,7 +406,7 @@ class Ground(NamedTuple):
         return Sum(self.length, self.rest)
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Loop:
     """A dyad closed from the crank pin `pin` (of the crank `crank`) and fixed elements.
 

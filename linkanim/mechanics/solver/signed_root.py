@@ -9,12 +9,13 @@ Its parts, in reading order:
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from decimal import Decimal, localcontext
 from enum import Enum
 from fractions import Fraction
 from typing import NamedTuple
 
+from linkanim.frozen import frozen
 from linkanim.mechanics.angles import (
     FULL_TURN,
     HALF_TURN,
@@ -90,7 +91,7 @@ class Factor(NamedTuple):
 ALWAYS = Factor(1.0, 1.0, quarter_turns(2), Sum(0.0))
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class LoopRoot:
     """U, W and K of one loop. `reference` is the angle of the crank at ψ = 0.
 
@@ -271,7 +272,7 @@ class Reduced(NamedTuple):
     q: Value
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class SignedRoot:
     """q, the ratio ρ = (L²)'/q, and the signed √U where q is a product of two roots.
 
@@ -350,7 +351,7 @@ def factor_values(root: LoopRoot, half: Half) -> tuple[Value, Value]:
     return root.u.most - squares.sine if root.wide else squares.cosine + root.u.least, w
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class _Ways:
     """Half the ways x and y to a factor's own two limits, and which of them are ends of the swing.
 

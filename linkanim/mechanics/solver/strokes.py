@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from fractions import Fraction
 from functools import partial
 from typing import ClassVar, NoReturn
@@ -25,6 +25,7 @@ from typing import ClassVar, NoReturn
 import numpy as np
 
 from linkanim.errors import AssemblyError, BadInput
+from linkanim.frozen import frozen
 from linkanim.mechanics.angles import (
     FULL_TURN,
     Half,
@@ -56,7 +57,7 @@ from linkanim.units import degrees
 NO_ANGLE = "the input is a slider, which has no angle; take the phase"
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Stroke(ThereAndBack):
     """The input's path where a length drives it, which is mid - amp·cos φ.
 
@@ -108,7 +109,7 @@ class Stroke(ThereAndBack):
         )
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class HalfState(InputState):
     """The input's state where half of its angle from `origin` is known by its sine and cosine."""
 
@@ -125,7 +126,7 @@ class HalfState(InputState):
         return half_of(turned.y, turned.x)
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class CylinderStroke(Stroke):
     """The input's path where a cylinder drives it; θ = base + side × ψ."""
 
@@ -142,7 +143,7 @@ class CylinderStroke(Stroke):
     def swing(self) -> Swing:
         """How the crank swings, by no dyad's limits."""
         low, high = sorted(self.angle_of(length) for length in (self.first, self.last))
-        return Swing(Sum(low), Sum(high), ("", ""))
+        return Swing(Sum(low), Sum(high))
 
     @property
     def input_range(self) -> tuple[float, float]:
@@ -295,7 +296,7 @@ def _with_room(path: CylinderStroke, arcs: list[Swing] | None) -> CylinderStroke
 
 def _check(cylinder: Cylinder, sides: tuple[float, float], unit: str) -> None:
     low, high = abs(sides[0] - sides[1]), sum(sides)
-    for length in cylinder.lengths:
+    for length in cylinder.stated_lengths:
         if not low < length < high:
             raise AssemblyError(
                 f"a cylinder of length {length:g} {unit} between {' and '.join(cylinder.between)}: it can be "
@@ -303,7 +304,7 @@ def _check(cylinder: Cylinder, sides: tuple[float, float], unit: str) -> None:
             )
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class SliderStroke(Stroke):
     """The input's path where a slider drives it; its coordinate is the slider's travel."""
 
@@ -366,7 +367,7 @@ class SliderStroke(Stroke):
 
 def slider_stroke(linkage: Linkage, unscale: float, arcs: list[Swing] | None) -> SliderStroke:
     """Return the path of a linkage that a slider drives; no loop on a crank limits it."""
-    return SliderStroke(*linkage.drive.actuator.lengths, unscale=unscale, unit=linkage.unit)
+    return SliderStroke(*linkage.drive.actuator.stated_lengths, unscale=unscale, unit=linkage.unit)
 
 
 STROKES: Mapping[type[Actuator], Callable[[Linkage, float, list[Swing] | None], Stroke]] = {
