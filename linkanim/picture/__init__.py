@@ -32,11 +32,13 @@ From the ground up; a module imports from those before it only:
     overlay       what lies over the picture, as data
     board         what every panel is drawn on
     game_panel    what a game shows
+    tools         the bar of tools
+    command_icons  the icons of commands
+    command_bar   the bar of commands at the foot
     panels        help, lists, chips, marks of state
     slider        a small slider on the picture, and the dial of the pencil
     marks         the bar being edited, handles, a ram's lane
     photograph    a photograph behind a sheet
-    tools         the bar of tools
     build_sheet   the sheet: its grid, a draft, the pencil's path
     picture       the one description of a picture, for every printer
     surface       the printer for surfaces

@@ -119,6 +119,34 @@ class SliderShown(NamedTuple):
     at: int
 
 
+# The bar of commands at the foot: what is on it, and how each of it is.
+
+
+class Button(NamedTuple):
+    """A command on the bar: its icon, its name and key, whether it is on, and why it cannot be done.
+
+    Where there is no room those of the highest `rank` are left out first. One that `leads` begins a group.
+    With a `share` (0 to 1) it is a slider, three times as wide.
+    """
+
+    icon: str
+    name: str
+    key: str = ""
+    rank: int = 0
+    leads: bool = False
+    on: bool = False
+    lack: str = ""
+    share: float | None = None
+
+
+class CommandBar(NamedTuple):
+    """The bar: its commands, the number of the one under the mouse, how strongly it shows in eighths."""
+
+    buttons: tuple[Button, ...]
+    pointed: int | None = None
+    eighths: int = 8
+
+
 # What lies over the picture for a while: help, the edit list, a toast, the marks of state.
 
 
@@ -389,7 +417,7 @@ class Overlay:
     The joints `handles` can be dragged. With `noted` the HUD says where a limit or a change point is near.
     `chip` answers a key, `hint` says what there is to press, `watch` what to watch for. `measured` is what
     the chosen dimension and those beside it measure, `glow` the joint under the mouse; with `grip` the
-    chart's cursor has one. `shutter` is how white the picture is, in eighths.
+    chart's cursor has one. `shutter` is how white the picture is, in eighths. The `bar` has the commands.
     """
 
     paused: bool = False
@@ -416,3 +444,4 @@ class Overlay:
     grip: bool = False
     shutter: int = 0
     noted: bool = False
+    bar: CommandBar | None = None

@@ -16,6 +16,7 @@ import pygame
 
 from linkanim.frozen import frozen
 from linkanim.picture.board import STEP, Board, Rows, around
+from linkanim.picture.command_bar import bar_place
 from linkanim.picture.game_panel import answer_rows, game_panel
 from linkanim.picture.layout import Layout
 from linkanim.picture.overlay import Fading, Help, Overlay, Panel, Quantities
@@ -426,7 +427,8 @@ class Panels:
             surface.blit(drawn, at)
         self._passing(surface, overlay)
         if overlay.toast:
-            surface.blit(*self._keep(toast, overlay.toast))
+            drawn, at = self._keep(toast, overlay.toast)
+            surface.blit(drawn, self._above_bar(overlay, drawn, at))
 
     def _list(self, surface: pygame.Surface, make: Any, shown: object) -> int:
         """Draw a list, if one is open; return how much of the window's left it takes at the top."""
@@ -475,14 +477,24 @@ class Panels:
         if overlay.watch:
             drawn, at = self._keep(sentence, overlay.watch.text)
             if at:
-                put(surface, drawn, at, overlay.watch)
+                put(surface, drawn, self._above_bar(overlay, drawn, at), overlay.watch)
         if overlay.hint:
             words = self._keep(hint_bar, overlay.hint.text)
             at = self.board.layout.hint or room
             if words:
                 leads = at.x + at.width / 2 <= room.x + room.width / 2
                 left = at.x if leads else at.right - words.get_width()
-                put(surface, words, (left, at.bottom - words.get_height()), overlay.hint)
+                free = self._above_bar(overlay, words, (left, at.bottom - words.get_height()))
+                put(surface, words, free, overlay.hint)
+
+    def _above_bar(
+        self, overlay: Overlay, drawn: pygame.Surface, at: tuple[float, float]
+    ) -> tuple[float, float]:
+        """Return the place of words that come and go: above the bar of commands, not under it."""
+        bar = bar_place(self.board.layout, overlay.bar)
+        if bar is None or not bar.meets(Rect(*at, *drawn.get_size())):
+            return at
+        return at[0], max(bar.y - self.board.margin / 2 - drawn.get_height(), 0.0)
 
     @property
     def _marks_lead(self) -> bool:

@@ -22,12 +22,14 @@ from linkanim.player import building, dial, edits, making, pencil
 from linkanim.player.action import Action
 from linkanim.player.clock import Clock
 from linkanim.player.edits import drop, edit
+from linkanim.player.keys import GROUPS
 from linkanim.player.pencil import come, keep, left
 from linkanim.player.state import (
     ATTRACT_AFTER,
     FADE_FRAMES,
     FLASH_FRAMES,
     SHUTTER_FRAMES,
+    STIR_FRAMES,
     Editing,
     Game,
     State,
@@ -307,7 +309,7 @@ def effect(name: str) -> Callable[[State, str | None], State]:
 
 BESIDE = frozenset(
     {
-        *("play", "help", "theme", "zoom", "pan", "fit", "fullscreen", "note", "sounds", "pad"),
+        *("stir", "play", "help", "theme", "zoom", "pan", "fit", "fullscreen", "note", "sounds", "pad"),
         *("record", "screenshot", "svg", "quit", "close"),
     }
 )
@@ -517,6 +519,7 @@ ACTIONS: Mapping[str, Rule] = {
     "pause": Rule(_nothing, _running(lambda clock, frame, _: clock.pause(frame, not clock.paused))),
     "step": Rule(_whole, _running(Clock.step)),  # degrees of phase, along the way the crank runs
     "speed": Rule(_whole, _running(Clock.faster), answer=_speed),  # steps of the speed ladder
+    "level": Rule(_whole, _running(Clock.at_level), answer=_speed),  # a rung of it, 0 for the scene's own
     "direction": Rule(_nothing, _running(lambda clock, frame, _: clock.turn(frame)), answer=_direction),
     "start": Rule(_nothing, edits.start, answer=edits.way_back),
     # the phase to go to, rad
@@ -606,7 +609,8 @@ ACTIONS: Mapping[str, Rule] = {
     "slide": Rule(_whole, making.lift_to),  # the step of the slider that is shown
     "back": Rule(_nothing, back),
     "list": Rule(_nothing, edits.list_, taped=False),
-    "menu": Rule(_nothing, edits.menu, taped=False),
+    "menu": Rule(_one_of(None, *GROUPS), edits.menu, taped=False),  # a group of commands, or all
+    "stir": Rule(_nothing, lambda state, _: replace(state, stirred=state.frame), taped=False),
     "shelf": Rule(_nothing, edits.open_shelf, taped=False),
     "files": Rule(_text, edits.files, taped=False),  # scene files, one a line
     "open_file": Rule(_text, effect("open"), taped=False),
@@ -664,9 +668,9 @@ Change = Callable[[State], State]
 
 _SHEETS = frozenset({"build", "sheet", "draft", "photo"})
 """What opens a sheet, out of a game too."""
-_NOT_BY_HAND = frozenset({"note", "pad"})
-"""What nobody at the window does."""
-_LIVES = {"turned": FLASH_FRAMES, "faded": FADE_FRAMES, "shot": SHUTTER_FRAMES}
+_NOT_BY_HAND = frozenset({"note", "pad", "stir"})
+"""What nobody at the window does, and what does nothing but bring the bar of commands."""
+_LIVES = {"stirred": STIR_FRAMES, "turned": FLASH_FRAMES, "faded": FADE_FRAMES, "shot": SHUTTER_FRAMES}
 """For how many frames after the one that the state holds something is to be seen."""
 
 

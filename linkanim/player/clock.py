@@ -17,7 +17,8 @@ COAST_FRAMES = 80
 """So long a motion that was let go by a hand takes to come to its own speed."""
 
 _LADDER = (1.0, 1.25, 1.6, 2.0, 2.5, 3.2, 4.0, 5.0, 6.3, 8.0)  # Renard's R10 series
-_LEVELS = (-20, 10)  # a hundredth to ten times the scene's own speed
+SLOWEST, FASTEST = -20, 10
+"""The rungs of the ladder: a hundredth to ten times the scene's own speed."""
 
 
 def factor(level: int) -> float:
@@ -80,8 +81,11 @@ class Clock:
 
     def faster(self, frame: int, levels: int) -> Self:
         """Return the clock so many rungs up the ladder (negative: down), phase continuous."""
-        low, high = _LEVELS
-        return replace(self._anchored(frame), level=min(max(self.level + levels, low), high))
+        return self.at_level(frame, self.level + levels)
+
+    def at_level(self, frame: int, level: int) -> Self:
+        """Return the clock on a rung of the ladder, or at its nearer end, phase continuous."""
+        return replace(self._anchored(frame), level=min(max(level, SLOWEST), FASTEST))
 
     def step(self, frame: int, degrees: int) -> Self:
         """Return the clock paused, the crank moved so many degrees along the way it runs."""

@@ -17,6 +17,7 @@ from pygame.event import Event
 
 from linkanim.build.tools import TOOLS
 from linkanim.player.action import Action, Mode
+from linkanim.player.commands import pressed, slid, slides
 from linkanim.player.keys import MENU_IN, Bind, Press, bind_of, button_name, hat_name, key_names, key_of
 from linkanim.player.screen import Screen
 from linkanim.player.state import State
@@ -287,7 +288,7 @@ _TENTHS = 0.1
 _PULL = 0.011
 """How far a value is dragged for a step, in the window's height."""
 _COARSE = 10
-Drag = Literal["pan", "crank", "chart", "joint", "row", "pen", "lead", "dial", "hand", "paper", "slider"]
+Drag = Literal["pan", "crank", "chart", "joint", "row", "pen", "lead", "dial", "hand", "paper", "slider", "bar", "speed"]
 _KINDS: Mapping[int, Literal["wheel", "down", "up", "move"]] = {
     pygame.MOUSEWHEEL: "wheel",
     pygame.MOUSEBUTTONDOWN: "down",
@@ -323,6 +324,7 @@ class Mouse:
         self._at = self._begun = (0.0, 0.0)
         self._far, self._steps = 0.0, 0
         self._turned: int | None = None
+        self._slider = 0
         self._seen = False
 
     def actions(self, event: Event, screen: Screen) -> tuple[Action, ...]:
@@ -339,6 +341,12 @@ class Mouse:
         self._far = max(self._far, math.dist(self._begun, self._at))
         height = screen.size[1]
         gesture = Gesture(kind, notches, ((self._at[0] - x) / height, (self._at[1] - y) / height))
+        found = self._on_the_bar(gesture, screen)
+        stirred = (Action("stir"),) * (kind in ("move", "down") and self._drag in (None, "bar", "speed"))
+        return (*stirred, *(self._elsewhere(gesture, screen) if found is None else found))
+
+    def _elsewhere(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...]:
+        """Return what is asked of all that lies below the bar."""
         if screen.state.browsing:
             return self._on_the_shelf(gesture, screen)
         if self._drag == "slider" or (kind == "down" and screen.slider_at(*self._at)):
@@ -353,6 +361,31 @@ class Mouse:
         found = mode(gesture, screen) if mode else None
         found = self._on_a_list(gesture, screen) if found is None else found
         return self._on_the_picture(gesture, screen) if found is None else found
+
+    def _on_the_bar(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
+        """Return what is asked of the bar of commands: a button, or a slider that is dragged; None off it."""
+        if self._drag in ("bar", "speed"):
+            drag, self._drag = self._drag, None if gesture.kind == "up" else self._drag
+            return self._slid(screen) if drag == "speed" and gesture.kind == "move" else ()
+        number = screen.button_at(*self._at) if self._drag is None else None
+        if number is None or gesture.kind == "up":
+            return None
+        is_slider = number >= 0 and slides(screen.state, number)
+        if gesture.kind == "wheel":
+            return (Action("speed", gesture.notches),) if is_slider else ()
+        if gesture.kind == "move":
+            return ()
+        self._drag, self._slider = "speed" if is_slider else "bar", number
+        return self._slid(screen) if is_slider else pressed(screen.state, number) if number >= 0 else ()
+
+    def _slid(self, screen: Screen) -> tuple[Action, ...]:
+        return slid(screen.state, self._slider, screen.share_at(self._slider, self._at[0]))
+
+    def on_bar(self, screen: Screen) -> int | None:
+        """Return the number of the command on the bar that the mouse is over; None before it was seen."""
+        if not self._seen or self._drag not in (None, "bar", "speed"):
+            return None
+        return self._slider if self._drag == "speed" else screen.button_at(*self._at)
 
     def _on_the_picture(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...]:
         """Zoom, pan, or drag what is under the mouse."""

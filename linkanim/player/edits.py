@@ -12,7 +12,7 @@ from linkanim.errors import LinkanimError
 from linkanim.mechanics.analysis import Info
 from linkanim.picture.overlay import Browsing
 from linkanim.player.action import Action
-from linkanim.player.keys import MENU_IN, commands
+from linkanim.player.keys import GROUPS, MENU_IN, commands
 from linkanim.player.state import (
     Edited,
     Editing,
@@ -210,12 +210,19 @@ def files(state: State, names: str) -> State:
     return replace(state, listing=Listing(0, others=Entries("Scene files here", entries)), browsing=None)
 
 
-def menu(state: State, _: None) -> State:
-    """Open the list of all commands that there are in the mode that is on; close it where it is open."""
-    if state.listing or state.mode not in MENU_IN:
-        return replace(state, listing=None)
-    entries = tuple(ListRow(*one) for one in commands(state.mode))
-    return replace(state, listing=Listing(0, others=Entries("Commands", entries)), help=False)
+def menu(state: State, group: str | None) -> State:
+    """Open the list of all commands that there are in the mode that is on, or of a group of them; close it.
+
+    Another list than the one that is open takes its place.
+    """
+    title = GROUPS[group].title if group else "Commands"
+    before = state.listing.others if state.listing else None
+    state = replace(state, listing=None)
+    if (before and before.title == title) or state.mode not in MENU_IN:
+        return state
+    found = (ListRow(*one) for one in commands(state.mode) if one[-1].name != "menu")
+    entries = tuple(one for one in found if group is None or one.action in GROUPS[group].actions)
+    return replace(state, listing=Listing(0, others=Entries(title, entries)), browsing=None, help=False)
 
 
 def plot(state: State, token: str) -> State:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from functools import lru_cache
 from typing import NamedTuple
 
 from linkanim.build.tools import TOOLS
@@ -301,7 +302,8 @@ _IN_A_MODE: Table = {
         KeyRow("Del", "remove it and what depends on it", _on("delete", "remove")),
         KeyRow("Ctrl+Z, Ctrl+Y", "undo, redo", _undo("unbuild", "rebuild")),
         KeyRow("Ctrl+N", "an empty sheet", _on("ctrl+n", "sheet")),
-        KeyRow("Esc, F2", "let go; leave the sheet and keep the linkage; F2 returns to it"),
+        KeyRow("F2", "done: leave the sheet and keep the linkage; F2 returns to it", _on("f2", "build")),
+        KeyRow("Esc", "let go; leave the sheet", _on("escape", "back")),
     ),
 }
 """What the keys do in a mode, before what they do else, by its subject."""
@@ -358,8 +360,12 @@ def _is_typed(press: Press, mode: Mode, typing: bool) -> bool:
     return typing or press.key not in _TYPED[mode][1]
 
 
+def _rows(table: Table) -> Iterator[KeyRow]:
+    return (row for rows in table.values() for row in rows)
+
+
 def _binds(table: Table) -> Iterator[Bind]:
-    return (bind for rows in table.values() for row in rows for bind in row.binds)
+    return (bind for row in _rows(table) for bind in row.binds)
 
 
 def _names(press: Press) -> tuple[str, ...]:
@@ -389,6 +395,11 @@ _APART: Mapping[Action, str] = {
     Action("zoom", (1.0, 0.0, 0.0)): "nearer",
     Action("zoom", (-1.0, 0.0, 0.0)): "farther",
     Action("fit"): "fit",
+    Action("edit"): "edit dimensions",
+    Action("shelf"): "the shelf",
+    Action("help"): "help",
+    Action("menu"): "all commands",
+    Action("play", "title door=play"): "the title",
     Action("back"): "close what is open, leave full screen",
     Action("quit"): "quit",
     Action("chart", -1): "chart: the quantity before",
@@ -416,20 +427,62 @@ _APART: Mapping[Action, str] = {
     Action("rebuild"): "redo",
 }
 """What each command is called where a row of the table has several."""
+
+
+class CommandGroup(NamedTuple):
+    """Commands that stand together in a list of their own: its title, and what they ask for."""
+
+    title: str
+    actions: tuple[Action, ...]
+
+
+GROUPS: Mapping[str, CommandGroup] = {
+    "arrows": CommandGroup("Arrows", (Action("vectors", "v"), Action("vectors", "a"))),
+    "construction": CommandGroup(
+        "Construction", (Action("polygons"), Action("centres"), Action("chain"), Action("ghost"))
+    ),
+    "record": CommandGroup(
+        "Record and save",
+        (
+            *(Action("record", "gif"), Action("record", "mp4"), Action("screenshot"), Action("svg")),
+            *(Action("share"), Action("save"), Action("save_as")),
+        ),
+    ),
+}
+"""What one button of the bar has, by its name."""
+
+
+def group_key(name: str) -> str:
+    """Return the keys of a group's commands, as they are written."""
+    keys = {action: key for _, key, action in commands("play")}
+    return ", ".join(keys[action] for action in GROUPS[name].actions if len(keys[action]) == 1)
+
+
 _WRITTEN = {"left": "←", "right": "→", "up": "↑", "down": "↓", "return": "Enter", "escape": "Esc"}
 
 
+@lru_cache(maxsize=16)
 def commands(mode: Mode) -> tuple[tuple[str, str, Action], ...]:
-    """Return all that keys ask for in a mode, each but once: in words, by its first key, as an action."""
-    tables = (MODES.get(mode, {}), KEYS)
-    every = [(row, bind) for table in tables for rows in table.values() for row in rows for bind in row.binds]
+    """Return all that keys ask for in a mode, each but once: in words, by its first key, as an action.
+
+    One whose keys all mean something else in the mode has none.
+    """
+    first, usual = MODES.get(mode, {}), {} if mode == "name" else KEYS
+    own = {bind.key for bind in _binds(first)}
     found: dict[Action, tuple[str, str, Action]] = {}
-    for row, bind in every:
-        if bind.action.name not in _NEEDS_KEYS | {"menu"}:
-            found.setdefault(
-                bind.action, (_APART.get(bind.action, row.words), _as_written(bind.key), bind.action)
-            )
+    tables = (first, usual)
+    every = [(row, bind, table is usual) for table in tables for row in _rows(table) for bind in row.binds]
+    for row, bind, below in every:
+        if bind.action.name not in _NEEDS_KEYS:
+            key = "" if below and (bind.key in own or _types(bind.key, mode)) else _as_written(bind.key)
+            words, known, _ = found.get(bind.action, (_APART.get(bind.action, row.words), "", bind.action))
+            found[bind.action] = (words, known or key, bind.action)
     return tuple(found.values())
+
+
+def _types(key: str, mode: Mode) -> bool:
+    """Tell whether a key is typed in an open list, and so asks for nothing else."""
+    return mode in _TYPED and mode not in ("build", "paused") and len(key) == 1 and key not in _TYPED[mode][1]
 
 
 def _as_written(key: str) -> str:

@@ -22,7 +22,8 @@ from linkanim.build.draft import Draft, Thing
 from linkanim.build.gestures import under
 from linkanim.errors import NoDisplay
 from linkanim.picture.build_sheet import grid_step, pencil
-from linkanim.picture.layout import layout
+from linkanim.picture.command_bar import BarPrinter, button_at, share_at
+from linkanim.picture.layout import Layout, layout
 from linkanim.picture.overlay import Browsing, Overlay
 from linkanim.picture.picture import Picture
 from linkanim.picture.shelf import Grid, RowPrinter, ShelfPrinter, grid, row_cells
@@ -257,7 +258,7 @@ class Screen:
         self._fade = Fade()
         self._printer = SurfacePrinter()
         self.over = Overlay()
-        self._row, self._tools = RowPrinter(), ToolPrinter()
+        self._row, self._tools, self._bar = RowPrinter(), ToolPrinter(), BarPrinter()
         self._pointer: object = None
 
     def show(self, state: State, over: Overlay, *, late: bool = False) -> None:
@@ -288,6 +289,11 @@ class Screen:
             self._printer.print(surface, picture, state.phase, state.clock.speed, over)
             self._row.draw(surface, picture.layout, over.row)
             self._tools.draw(surface, picture.layout, picture.theme, over.build.tools if over.build else None)
+        self._bar.draw(surface, self._bar_layout(over), theme_of(state.look.theme), over.bar)
+
+    def _bar_layout(self, over: Overlay) -> Layout:
+        """Return the layout in which the bar of commands stands; the shelf fills the window."""
+        return layout(self.size) if over.shelf else self._framing.last.layout
 
     def _point(self, state: State) -> None:
         """Let the mouse point with a pencil while that is taken."""
@@ -410,6 +416,16 @@ class Screen:
         """Return the step of the slider that is nearest to a pixel's column."""
         shown = self.over.slider
         return slider_step(self._framing.last.layout, shown, x) if shown else 0
+
+    def button_at(self, x: float, y: float) -> int | None:
+        """Return the number of the command of the bar under a pixel, -1 between them; None off the bar."""
+        bar = self.over.bar
+        return button_at(self._bar_layout(self.over), bar.buttons, x, y) if bar else None
+
+    def share_at(self, number: int, x: float) -> float:
+        """Return how far along a slider of the bar a pixel is, 0 to 1."""
+        bar = self.over.bar
+        return share_at(self._bar_layout(self.over), bar.buttons, number, x) if bar else 0.0
 
     def tool_at(self, x: float, y: float) -> int | None:
         """Return the number of the tool of the sheet under a pixel; None beside them."""

@@ -42,6 +42,7 @@ from linkanim.picture.quantities import quantity
 from linkanim.picture.text import subscripted
 from linkanim.player.clock import FRAMES_PER_SECOND
 from linkanim.player.dial import place_of
+from linkanim.player.commands import bar
 from linkanim.player.keys import help_groups
 from linkanim.player.state import (
     DIAL,
@@ -212,11 +213,16 @@ _STEPS = 12
 
 
 def overlay(
-    state: State, hover: str | None = None, row: int | None = None, over: Hover | None = None
+    state: State,
+    hover: str | None = None,
+    row: int | None = None,
+    over: Hover | None = None,
+    button: int | None = None,
 ) -> Overlay:
     """Return all that the window shows beside the scene.
 
-    What is under the mouse: `hover` the joint, `row` the row of a list, `over` the place of a sheet.
+    What is under the mouse: `hover` the joint, `row` the row of a list, `over` the place of a sheet,
+    `button` the number of a command on the bar.
     """
     items = _items(state)
     lists = _kept(state, items, over)
@@ -233,6 +239,7 @@ def overlay(
         grip=state.look.chart is not None and not state.game,
         shutter=0 if state.shot is None else 8 - 8 * (state.frame - state.shot) // SHUTTER_FRAMES,
         game=lists.game and replace(lists.game, pointed=row),
+        bar=bar(state, button),
     )
 
 

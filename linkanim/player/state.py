@@ -469,6 +469,8 @@ ATTRACT_AFTER = 60 * FRAMES_PER_SECOND
 FLASH_FRAMES = FRAMES_PER_SECOND
 FADE_FRAMES = 14
 SHUTTER_FRAMES = 12
+STIR_FRAMES = 3 * FRAMES_PER_SECOND
+"""For so long the bar of commands shows after the mouse has moved."""
 
 
 @frozen
@@ -556,6 +558,7 @@ class State:
     `sounds` says whether the motion is heard, None where nobody has.
     With `from_title` Esc leads from a mechanism back to the title. In a `kiosk` a mechanism that runs and is
     left alone gives way to the title, `by_itself`; the first action then only brings back what was there.
+    `stirred` is the frame at which the mouse or a finger moved last, while the bar of commands shows.
     `touched` is the frame of the last action, `arrived` that at
     which the mechanism came on, `turned` that at which an edit made another class of the linkage, while the
     list shows it. `effects` is what the last
@@ -602,6 +605,7 @@ class State:
     pad: bool = False
     sounds: bool | None = None
     home: Box | None = None
+    stirred: int | None = None
     touched: int = 0
     effects: tuple[Action, ...] = ()
 

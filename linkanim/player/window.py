@@ -71,7 +71,7 @@ _USUALLY_MADE = ("--fit", "A4")
 """Options of `linkanim make` for what is made from the window."""
 _TAKEN_UP = "this is the unsaved work that was kept; Ctrl+N begins an empty sheet"
 _NO_FILES = "there is no scene file in the current folder; Ctrl+S writes one"
-_BESIDE_A_TAPE = frozenset({"screenshot", "svg", "share", "fullscreen", "quit", "close", "back"})
+_BESIDE_A_TAPE = frozenset({"stir", "screenshot", "svg", "share", "fullscreen", "quit", "close", "back"})
 
 
 class Window:
@@ -340,8 +340,8 @@ class Window:
             hover = None  # a joint of the scene that was there until now
         try:
             row, over = self._mouse.pointed(self.screen), self._over_sheet()
-            late = self._halving.late(stepped=self._has_stepped)
-            self.screen.show(self.state, overlay(self.state, hover, row, over), late=late)
+            late, button = self._halving.late(stepped=self._has_stepped), self._mouse.on_bar(self.screen)
+            self.screen.show(self.state, overlay(self.state, hover, row, over, button), late=late)
         except Exception as error:
             if self._good is None:
                 raise

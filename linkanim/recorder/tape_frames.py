@@ -76,9 +76,8 @@ class TapeFrames:
 def _lasting(over: Overlay, *, photo: bool = False) -> Overlay:
     """Return what of an overlay is about the linkage: lists, help, notes; no marks and no short words."""
     build = over.build and replace(over.build, tools=None, photo=over.build.photo if photo else None)
-    return replace(
-        over, build=build, toast=None, chip=None, hint=None, watch=None, paused=False, grip=False, shutter=0
-    )
+    bare = replace(over, build=build, toast=None, chip=None, hint=None, watch=None, bar=None)
+    return replace(bare, paused=False, grip=False, shutter=0)
 
 
 def _shape(window: tuple[int, int]) -> tuple[int, int]:

@@ -559,7 +559,7 @@ def test_a_drag_pans(player: Player) -> None:
     player.drag((10, 170), (40, 120), (30, 140))
     assert player.window.screen.world(SIZE[0] / 2 + 20, SIZE[1] / 2 - 30) == pytest.approx(before)
     player.drag((30, 140), (10, 170))
-    assert player.pixels == pixels
+    assert player.settle() == pixels
 
 
 def test_the_crank_is_dragged_by_its_pin(player: Player) -> None:

@@ -1,0 +1,208 @@
+"""The bar of commands at the scene's foot: where its buttons are, how they are drawn, what each is called."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+import pygame
+
+from linkanim.picture.board import Board
+from linkanim.picture.command_icons import COMMAND_ICONS
+from linkanim.picture.layout import Gauge, Layout
+from linkanim.picture.overlay import Button, CommandBar
+from linkanim.picture.raster import Layer, Loop, paint
+from linkanim.picture.shapes import box, disc
+from linkanim.picture.text import Type
+from linkanim.picture.theme import Theme, mixed
+from linkanim.picture.view import Rect
+
+_SIDE, _LEAST = 40.0, 28.0
+"""The side of a button in units, and the least in pixels: a finger has to find it."""
+_TALLEST = 0.3
+"""The most of the stage's height that a button takes."""
+_GAP, _BETWEEN = 0.06, 0.3
+"""Between buttons and between their groups, in sides, as what follows."""
+_FRAME = 0.14
+_SLIDER = 3.0
+_WITHIN = 0.35
+"""From a slider's end to where its knob can go."""
+_GREY = 0.68
+"""How much of the panel's colour is in what cannot be done."""
+_POINTED = 0.5
+
+
+def bar_cells(layout: Layout, buttons: Sequence[Button]) -> tuple[Rect | None, ...]:
+    """Return where each button stands, in the middle of the scene's foot; None where there is no room."""
+    side = _side(layout)
+    room = layout.stage.width - 2 * _FRAME * side - 2 * _edge(layout)
+    kept = list(range(len(buttons)))
+    while len(kept) > 1 and _wide(buttons, kept) * side > room:
+        kept.remove(max(kept, key=lambda n: buttons[n].rank))
+    cells: list[Rect | None] = [None] * len(buttons)
+    left = layout.stage.x + (layout.stage.width - _wide(buttons, kept) * side) / 2
+    top = layout.stage.bottom - _edge(layout) - (1 + _FRAME) * side
+    for place, n in enumerate(kept):
+        left += _before(buttons, kept, place) * side
+        cells[n] = Rect(left, top, _width(buttons[n]) * side, side)
+        left += _width(buttons[n]) * side
+    return tuple(cells)
+
+
+def button_at(layout: Layout, buttons: Sequence[Button], x: float, y: float) -> int | None:
+    """Return the number of the button under a pixel, -1 between them on the bar; None beside it."""
+    cells = bar_cells(layout, buttons)
+    if not buttons or not _frame(layout, cells).holds(x, y):
+        return None
+    return next((n for n, cell in enumerate(cells) if cell and cell.holds(x, y)), -1)
+
+
+def bar_place(layout: Layout, bar: CommandBar | None) -> Rect | None:
+    """Return what of the window the bar takes; None where there is none."""
+    return _frame(layout, bar_cells(layout, bar.buttons)) if bar and bar.buttons else None
+
+
+def share_at(layout: Layout, buttons: Sequence[Button], number: int, x: float) -> float:
+    """Return how far along a slider a pixel is, 0 to 1; 0 of one for which there is no room."""
+    cell = bar_cells(layout, buttons)[number]
+    begin, end = _rail(cell) if cell else (0.0, 1.0)
+    return min(max((x - begin) / max(end - begin, 1.0), 0.0), 1.0)
+
+
+def _side(layout: Layout) -> float:
+    return max(min(max(_SIDE * layout.unit, _LEAST), _TALLEST * layout.stage.height), 2.0)
+
+
+def _edge(layout: Layout) -> float:
+    """Return how far the bar stays off the stage's edges."""
+    return 6.0 * layout.unit
+
+
+def _width(button: Button) -> float:
+    return 1.0 if button.share is None else _SLIDER
+
+
+def _before(buttons: Sequence[Button], kept: list[int], place: int) -> float:
+    """Return the gap before a button, wider where a group has begun since the one before."""
+    if place == 0:
+        return 0.0
+    since = buttons[kept[place - 1] + 1 : kept[place] + 1]
+    return _BETWEEN if any(one.leads for one in since) else _GAP
+
+
+def _wide(buttons: Sequence[Button], kept: list[int]) -> float:
+    return sum(_before(buttons, kept, place) + _width(buttons[n]) for place, n in enumerate(kept))
+
+
+def _frame(layout: Layout, cells: Iterable[Rect | None]) -> Rect:
+    """Return the bar's own sheet about its buttons."""
+    seen = [cell for cell in cells if cell]
+    by = _FRAME * _side(layout)
+    left, top = seen[0].x - by, seen[0].y - by
+    return Rect(left, top, seen[-1].right + by - left, seen[0].height + 2 * by)
+
+
+def _rail(cell: Rect) -> tuple[float, float]:
+    """Return from where to where a slider's knob goes."""
+    return cell.x + _WITHIN * cell.height, cell.right - _WITHIN * cell.height
+
+
+class BarPrinter:
+    """Paints the bar; it is kept as it was last, and so is each button in each of its states."""
+
+    def __init__(self) -> None:
+        self._type = Type()
+        self._board: Board | None = None
+        self._kept: tuple[object, pygame.Surface] | None = None
+        self._faces: dict[object, pygame.Surface] = {}
+
+    def draw(self, surface: pygame.Surface, layout: Layout, theme: Theme, bar: CommandBar | None) -> None:
+        """Draw the bar over the picture, and above it what the command under the mouse is called."""
+        if bar is None or not bar.buttons:
+            return
+        if self._board is None or (self._board.layout, self._board.theme) != (layout, theme):
+            self._board, self._kept = Board(layout, self._type, theme), None
+            self._faces.clear()
+        cells = bar_cells(layout, bar.buttons)
+        frame = _frame(layout, cells)
+        if self._kept is None or self._kept[0] != bar[:2]:
+            self._kept = bar[:2], self._drawn(self._board, frame, cells, bar)
+        sheet = self._kept[1]
+        sheet.set_alpha(round(255 * bar.eighths / 8))
+        surface.blit(sheet, (round(frame.x), round(frame.y)))
+        cell = cells[bar.pointed] if bar.pointed is not None and bar.pointed >= 0 else None
+        if cell and bar.eighths == 8:
+            _tooltip(surface, self._board, cell, bar.buttons[bar.pointed or 0])
+
+    def _drawn(
+        self, board: Board, frame: Rect, cells: Sequence[Rect | None], bar: CommandBar
+    ) -> pygame.Surface:
+        sheet = board.sheet(frame.width, frame.height)
+        for n, (cell, button) in enumerate(zip(cells, bar.buttons, strict=True)):
+            if cell:
+                at = round(cell.x - frame.x), round(cell.y - frame.y)
+                sheet.blit(self._face(board, cell, button, pointed=n == bar.pointed), at)
+        return sheet
+
+    def _face(self, board: Board, cell: Rect, button: Button, *, pointed: bool) -> pygame.Surface:
+        key = button.icon, button.on, bool(button.lack), button.share, pointed
+        if key not in self._faces:
+            self._faces[key] = _face(board.theme, cell, button, pointed=pointed)
+        return self._faces[key]
+
+
+def _face(theme: Theme, cell: Rect, button: Button, *, pointed: bool) -> pygame.Surface:
+    """Return a button: its icon, in a frame where it is on, on a light ground under the mouse, or greyed."""
+    face = pygame.Surface((round(cell.width), round(cell.height)), pygame.SRCALPHA, 32)
+    wide, high = face.get_size()
+    middle, line, corner = complex(wide / 2, high / 2), max(0.04 * high, 1.0), 0.18 * high
+    lit = theme.chosen if button.on else mixed(theme.panel, theme.chosen, _POINTED)
+    if button.on:
+        paint(face, [Layer(theme.velocity, [middle + box(wide, high, corner)])])
+    if button.on or (pointed and not button.lack):
+        by = 2 * line * button.on
+        paint(face, [Layer(lit, [middle + box(wide - by, high - by, corner - by / 2)])])
+    thin = high / 27
+    gauge = Gauge(bar=2.1 * thin, outline=0.8 * thin, pin=1.1 * thin, line=thin)
+    if button.share is None:
+        layers = [one.placed(middle) for one in COMMAND_ICONS[button.icon](gauge, theme)]
+    else:
+        layers = _slider(theme, Rect(0, 0, wide, high), button.share)
+    greyed = _GREY if button.lack else 0.0
+    paint(face, [one._replace(colour=mixed(one.colour, theme.panel, greyed)) for one in layers])
+    return face
+
+
+def _slider(theme: Theme, cell: Rect, share: float) -> list[Layer]:
+    """Return a rail with ticks from slow to fast, filled up to its knob."""
+    (begin, end), y, side = _rail(cell), cell.height / 2, cell.height
+    at, thick = begin + share * (end - begin), 0.1 * side
+
+    def part(left: float, right: float) -> list[Loop]:
+        return [complex((left + right) / 2, y) + box(right - left + thick, thick, thick / 2)]
+
+    knob = complex(at, y)
+    return [
+        Layer(theme.rule, part(begin, end)),
+        Layer(theme.velocity, part(begin, at)),
+        Layer(theme.outline, [knob + disc(0.25 * side)]),
+        Layer(theme.panel, [knob + disc(0.2 * side)]),
+    ]
+
+
+def _tooltip(surface: pygame.Surface, board: Board, cell: Rect, button: Button) -> None:
+    """Write a command's name and key above it, and why it cannot be done."""
+    size, room = board.layout.small_size, surface.get_width() - 3 * board.layout.small_size
+    first, key = board.fitting((button.name,), size, room), button.key
+    gap = 0.9 * size + board.type.width(first, size)
+    lines = board.type.wrapped(button.lack, size, room) if button.lack else []
+    wide = max(board.widest(lines, size), gap + board.type.width(key, size) if key else gap - 0.9 * size)
+    sheet = board.sheet(wide + 1.4 * size, (1.3 * len(lines) + 1.6) * size)
+    board.write(sheet, first, (0.7 * size, 0.25 * size), size=size)
+    board.write(sheet, key, (0.7 * size + gap, 0.25 * size), size=size, colour=board.theme.dim)
+    for n, line in enumerate(lines, start=1):
+        at = (0.7 * size, (0.25 + 1.3 * n) * size)
+        board.write(sheet, line, at, size=size, colour=board.theme.warning)
+    free = surface.get_width() - sheet.get_width() - 2
+    x = min(max(cell.middle.real - sheet.get_width() / 2, 2), max(free, 2))
+    y = cell.y - (_FRAME + 0.15) * cell.height - sheet.get_height()
+    surface.blit(sheet, (round(x), round(max(y, 2))))
