@@ -16,10 +16,6 @@ from linkanim.picture.text import Type
 from linkanim.picture.theme import Theme, mixed
 from linkanim.picture.view import Rect
 
-_SIDE, _LEAST = 40.0, 28.0
-"""The side of a button in units, and the least in pixels: a finger has to find it."""
-_TALLEST = 0.3
-"""The most of the stage's height that a button takes."""
 _GAP, _BETWEEN = 0.06, 0.3
 """Between buttons and between their groups, in sides, as what follows."""
 _FRAME = 0.14
@@ -33,14 +29,14 @@ _POINTED = 0.5
 
 def bar_cells(layout: Layout, buttons: Sequence[Button]) -> tuple[Rect | None, ...]:
     """Return where each button stands, in the middle of the scene's foot; None where there is no room."""
-    side = _side(layout)
-    room = layout.stage.width - 2 * _FRAME * side - 2 * _edge(layout)
+    side, foot = layout.button, layout.bar or layout.stage
+    room = foot.width - 2 * _FRAME * side - 2 * _edge(layout)
     kept = list(range(len(buttons)))
     while len(kept) > 1 and _wide(buttons, kept) * side > room:
         kept.remove(max(kept, key=lambda n: buttons[n].rank))
     cells: list[Rect | None] = [None] * len(buttons)
-    left = layout.stage.x + (layout.stage.width - _wide(buttons, kept) * side) / 2
-    top = layout.stage.bottom - _edge(layout) - (1 + _FRAME) * side
+    left = foot.x + (foot.width - _wide(buttons, kept) * side) / 2
+    top = foot.bottom - _edge(layout) - (1 + _FRAME) * side
     for place, n in enumerate(kept):
         left += _before(buttons, kept, place) * side
         cells[n] = Rect(left, top, _width(buttons[n]) * side, side)
@@ -68,10 +64,6 @@ def share_at(layout: Layout, buttons: Sequence[Button], number: int, x: float) -
     return min(max((x - begin) / max(end - begin, 1.0), 0.0), 1.0)
 
 
-def _side(layout: Layout) -> float:
-    return max(min(max(_SIDE * layout.unit, _LEAST), _TALLEST * layout.stage.height), 2.0)
-
-
 def _edge(layout: Layout) -> float:
     """Return how far the bar stays off the stage's edges."""
     return 6.0 * layout.unit
@@ -96,7 +88,7 @@ def _wide(buttons: Sequence[Button], kept: list[int]) -> float:
 def _frame(layout: Layout, cells: Iterable[Rect | None]) -> Rect:
     """Return the bar's own sheet about its buttons."""
     seen = [cell for cell in cells if cell]
-    by = _FRAME * _side(layout)
+    by = _FRAME * layout.button
     left, top = seen[0].x - by, seen[0].y - by
     return Rect(left, top, seen[-1].right + by - left, seen[0].height + 2 * by)
 

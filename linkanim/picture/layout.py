@@ -18,6 +18,12 @@ _ROW_OF_ANSWERS = 0.17
 """The height of a row of small pictures, in heights of the window."""
 _SLIDER = 1.9
 """The height of a slider's room, in heights of small text."""
+_BUTTON, _LEAST_BUTTON = 40.0, 28.0
+"""The side of a button in units, and the least in pixels: a finger has to find it."""
+_BAR = 1.6
+"""The height of a bar of buttons with the air about it, in their sides."""
+_SHARE_OF_BAR = 0.3
+"""The most of the height that it takes."""
 _NARROW = 30
 """A window narrower than so many heights of its text has a list at its foot, not at its left."""
 _SHARE_LISTED = 0.42
@@ -60,6 +66,8 @@ class Layout:
     """Where a row of small pictures stands, if there is one."""
     dial: Rect | None = None
     """Where a slider stands above that row."""
+    bar: Rect | None = None
+    """Where the bar of commands stands, if it has room of its own; else it lies over the stage's foot."""
     table: Rect | None = None
     """Where a table of dimensions stands, if it is given room."""
     caption: Rect | None = None
@@ -91,6 +99,12 @@ class Layout:
         return max(round(17 * self.unit), 11)
 
     @property
+    def button(self) -> float:
+        """The side of a button of the bar of commands."""
+        room = self.bar.height if self.bar else _SHARE_OF_BAR * self.stage.height
+        return max(min(max(_BUTTON * self.unit, _LEAST_BUTTON), room / _BAR), 2.0)
+
+    @property
     def margin(self) -> float:
         """How far words stay off the stage's edges."""
         return max(20 * self.unit, 6.0)
@@ -108,8 +122,8 @@ def layout(
     """Divide a window: a chart along the bottom, or `beside` the scene; the stage is what is left.
 
     `listed` leaves room for a list, on the left or in a narrow window at the foot, `polygons` for those,
-    on the right or below, and a `row` for small pictures at the foot. The HUD has no place yet: that depends
-    on the scene.
+    on the right or below, and a `row` for small pictures at the foot, with the bar of commands below it. The
+    HUD has no place yet: that depends on the scene.
     """
     parts = _charted(size, chart=chart, beside=beside, listed=listed, row=row)
     if not polygons:
@@ -159,10 +173,12 @@ def _charted(size: tuple[int, int], *, chart: bool, beside: bool, listed: bool, 
     empty = replace(empty, lists=_lists(empty))
     room = _beside(empty.lists, whole) if listed else whole
     if row:
+        deep = min(_BAR * max(_BUTTON * unit, _LEAST_BUTTON), _SHARE_OF_BAR * room.height)
+        bar = Rect(room.x, room.bottom - deep, room.width, deep)
         high, slider = _ROW_OF_ANSWERS * room.height, _SLIDER * empty.small_size
-        place = Rect(room.x, room.bottom - high, room.width, high).inset(4 * unit)
+        place = Rect(room.x, bar.y - high, room.width, high).inset(4 * unit)
         dial = Rect(room.x, place.y - slider, room.width, slider)
-        empty = replace(empty, row=place, dial=dial)
+        empty = replace(empty, row=place, dial=dial, bar=bar)
         room = room._replace(height=dial.y - room.y)
     if not chart:
         return replace(empty, stage=room)

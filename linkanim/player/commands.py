@@ -185,7 +185,7 @@ _LACKS: Mapping[Action, Callable[[State], str]] = {
         "" if state.games else "there are no games here; `linkanim` alone has them"
     ),
     Action("trace"): lambda state: "" if state.scene.trace else "no joint of this mechanism is traced",
-    Action("keep"): lambda state: "" if state.sketch and state.sketch.answers else "draw a path first",
+    Action("keep"): lambda state: "" if state.sketch and not state.sketch.is_blank else "draw a path first",
     Action("take_back"): lambda state: "" if state.sketch and state.sketch.earlier else "nothing is drawn",
     Action("unbuild"): lambda state: (
         "" if state.building and state.building.building.past else "there is nothing to undo"

@@ -1,0 +1,262 @@
+"""The bar of commands: when it shows, what its buttons ask for, how they stand, where there is room."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from itertools import pairwise
+from typing import Any
+
+import pygame
+import pytest
+from playing import SIZE, Player
+
+from linkanim.picture.command_bar import bar_cells, bar_place, button_at
+from linkanim.picture.command_icons import COMMAND_ICONS
+from linkanim.picture.layout import layout
+from linkanim.play.games import game_of
+from linkanim.player.action import Action, Mode
+from linkanim.player.actions import advance, is_taped
+from linkanim.player.commands import bar, pressed, slid, slides
+from linkanim.player.keys import GROUPS, MODES, commands
+from linkanim.player.shown import kept, overlay
+from linkanim.player.state import STIR_FRAMES, State, begin
+from linkanim.scenes import load
+
+
+def after(state: State, *actions: Action | str) -> State:
+    for one in actions:
+        state = advance(state, [Action(one) if isinstance(one, str) else one])
+    return state
+
+
+@pytest.fixture
+def rocker() -> State:
+    return after(begin(load("crank-rocker")), "stir")
+
+
+# How each mode of the window is entered.
+ENTERED: dict[Mode, tuple[Action | str, ...]] = {
+    "play": (),
+    "paused": ("pause",),
+    "edit": ("edit",),
+    "list": ("list",),
+    "shelf": ("shelf",),
+    "pencil": ("pencil",),
+    "build": ("build",),
+    "game": (Action("play", "title"),),
+}
+in_every_mode = pytest.mark.parametrize("mode", ENTERED)
+
+
+def entered(mode: Mode) -> State:
+    games = replace(begin(load("crank-rocker")), games=game_of)
+    state = after(games, *ENTERED[mode], "stir")
+    assert state.mode == mode
+    return state
+
+
+def test_the_bar_shows_for_three_seconds_after_the_mouse_has_moved(rocker: State) -> None:
+    assert overlay(begin(load("crank-rocker"))).bar is None
+    shown = []
+    for _ in range(STIR_FRAMES + 5):
+        found = overlay(rocker).bar
+        shown.append(found.eighths if found else 0)
+        rocker = advance(rocker)
+    assert STIR_FRAMES == 180
+    assert shown == sorted(shown, reverse=True)
+    assert (shown[0], shown[150], shown[178], shown[180], shown[-1]) == (8, 8, 0, 0, 0)
+
+
+def test_the_bar_is_on_no_screenshot_and_no_tape(rocker: State) -> None:
+    assert kept(rocker).bar is None
+    assert not is_taped(Action("stir"))
+
+
+def test_the_mouse_that_moves_is_no_key(rocker: State) -> None:
+    """What is told to whoever does nothing goes on being told."""
+    assert rocker.touched == 0
+
+
+@in_every_mode
+def test_every_button_is_a_command_of_the_table_of_its_mode(mode: Mode) -> None:
+    state = entered(mode)
+    found = bar(state)
+    assert found
+    known = {action for _, _, action in commands(mode)}
+    for number, button in enumerate(found.buttons):
+        assert button.icon in COMMAND_ICONS or button.share is not None
+        assert button.name
+        (asked,) = pressed(state, number)
+        assert asked in known or asked.value in GROUPS or asked == Action("note", button.lack), button
+    names = [button.name for button in found.buttons]
+    assert len({*names}) == len(names)
+    assert "all commands" in names
+
+
+def test_a_bar_is_told_for_every_mode_of_the_table() -> None:
+    assert {*ENTERED, "name"} == {*MODES, "play"}
+
+
+def rows(state: State) -> list[str]:
+    """Return the words of the open list of commands."""
+    assert state.listing
+    assert state.listing.others
+    return [one.words for one in state.listing.others.entries]
+
+
+# What a button does to the state, by its name in the table.
+DONE: dict[str, Callable[[State], object]] = {
+    "play / pause": lambda state: state.clock.paused,
+    "a step on": lambda state: state.clock.steps == 1,
+    "coupler trace": lambda state: not state.look.trace,
+    "the shelf": lambda state: state.browsing is not None,
+    "the list of quantities": lambda state: state.listing is not None and not state.listing.others,
+    "edit dimensions": lambda state: state.editing.open,
+    "build a linkage": lambda state: state.building is not None,
+    "draw a path to follow": lambda state: state.sketch is not None,
+    "arrows": lambda state: rows(state) == ["velocities", "accelerations"],
+    "all commands": lambda state: len(rows(state)) > 40,
+    "help": lambda state: state.help,
+}
+
+
+@pytest.mark.parametrize("name", DONE)
+def test_a_button_does_what_its_key_does(player: Player, name: str) -> None:
+    with_room = (900, 500)
+    pygame.display.set_mode(with_room, pygame.RESIZABLE)
+    player.press(pygame.K_SPACE)
+    click(player, name)
+    assert DONE[name](player.state)
+
+
+def test_a_button_of_the_bar_shows_whether_it_is_on(rocker: State) -> None:
+    def lit(state: State) -> set[str]:
+        found = bar(after(state, "stir"))
+        assert found
+        return {button.icon for button in found.buttons if button.on}
+
+    assert lit(rocker) == {"trace"}
+    assert lit(after(rocker, "trace", "names", Action("vectors", "v"))) == {"names", "arrows"}
+    assert lit(after(rocker, "edit")) == {"trace", "edit"}
+    assert "pause" in {button.icon for button in getattr(bar(rocker), "buttons", ())}
+    paused = bar(after(rocker, "pause"))
+    assert "play" in {button.icon for button in getattr(paused, "buttons", ())}
+
+
+def test_what_cannot_be_done_is_greyed_and_says_why(player: Player) -> None:
+    player.press(pygame.K_F2)
+    pygame.display.set_mode((900, 500), pygame.RESIZABLE)
+    click(player, "undo")
+    assert player.state.toast
+    assert player.state.toast.text == "there is nothing to undo"
+
+
+def test_the_speed_is_dragged_on_its_slider_and_the_wheel_turns_it(player: Player) -> None:
+    pygame.display.set_mode((900, 500), pygame.RESIZABLE)
+    x, y, wide = button(player, "speed")
+    left, right = (x - wide / 2 + 1, y), (x + wide / 2 - 1, y)
+    player.mouse(pygame.MOUSEBUTTONDOWN, left, button=1)
+    assert player.state.clock.level == -20
+    player.mouse(pygame.MOUSEMOTION, right, rel=(0, 0), buttons=(1, 0, 0))
+    assert player.state.clock.level == 10
+    player.mouse(pygame.MOUSEMOTION, (x, 20), rel=(0, 0), buttons=(1, 0, 0))
+    assert -20 < player.state.clock.level < 10
+    player.mouse(pygame.MOUSEBUTTONUP, (x, 20), button=1)
+    before = player.state.clock.level
+    player.mouse(pygame.MOUSEMOTION, (x, y), rel=(0, 0), buttons=(0, 0, 0))
+    pygame.event.post(pygame.event.Event(pygame.MOUSEWHEEL, x=0, y=-2, flipped=False))
+    player.tick()
+    assert player.state.clock.level == before - 2
+    assert player.state.look.zoom == 1.0
+
+
+def test_a_slider_says_its_end_by_the_state_alone(rocker: State) -> None:
+    number = next(n for n, one in enumerate(getattr(bar(rocker), "buttons", ())) if one.share is not None)
+    assert slides(rocker, number)
+    assert slid(rocker, number, 1.0) == (Action("level", 10),)
+    assert after(rocker, *slid(rocker, number, 0.0)).clock.level == -20
+
+
+def test_a_click_where_the_bar_has_faded_only_brings_it_back(player: Player) -> None:
+    pygame.display.set_mode((900, 500), pygame.RESIZABLE)
+    x, y, _ = button(player, "names")
+    player.settle()
+    player.mouse(pygame.MOUSEBUTTONDOWN, (x, y), button=1)
+    player.mouse(pygame.MOUSEBUTTONUP, (x, y), button=1)
+    assert (player.state.look.names, player.state.stirred is not None) == (0, True)
+    click(player, "names: off, joints and links, with dimensions")
+    assert player.state.look.names == 1
+
+
+def test_a_finger_taps_the_bar_once_it_is_there(player: Player) -> None:
+    pygame.display.set_mode((900, 500), pygame.RESIZABLE)
+    x, y, _ = button(player, "names")
+    player.settle()
+    for names in (0, 1):
+        for kind in (pygame.FINGERDOWN, pygame.FINGERUP):
+            place: dict[str, Any] = {
+                "x": x / 900,
+                "y": y / 500,
+                "finger_id": 3,
+                "touch_id": 1,
+                "dx": 0.0,
+                "dy": 0.0,
+            }
+            pygame.event.post(pygame.event.Event(kind, **place))
+            player.tick()
+        assert player.state.look.names == names
+
+
+SIZES = [(320, 180), (640, 360), (1280, 720), (1920, 1080), (3840, 2160), (400, 900), (90, 60), (2, 700)]
+
+
+@in_every_mode
+@pytest.mark.parametrize("size", SIZES, ids=str)
+def test_buttons_are_large_enough_for_a_finger_and_where_there_is_no_room_the_rest_is_left_out(
+    mode: Mode, size: tuple[int, int]
+) -> None:
+    found = bar(entered(mode))
+    assert found
+    place, cells = layout(size), bar_cells(layout(size), found.buttons)
+    frame = bar_place(place, found)
+    assert frame
+    seen = [(cell, button) for cell, button in zip(cells, found.buttons, strict=True) if cell]
+    assert any(button.icon == "more" for _, button in seen)
+    if min(size) >= 180:
+        assert all(cell.height >= max(28, 40 * place.unit) - 1e-9 for cell, _ in seen)
+        assert frame.x >= 0
+        assert frame.right <= size[0]
+        assert frame.bottom <= size[1]
+    if size[0] >= 1280:
+        assert len(seen) == len(found.buttons)
+    for cell, button in seen:
+        number = button_at(place, found.buttons, cell.middle.real, cell.middle.imag)
+        assert number is not None
+        assert found.buttons[number] == button
+    for (one, _), (other, _) in pairwise(seen):
+        assert one.right < other.x
+
+
+def test_a_still_window_without_a_mouse_has_no_bar(player: Player) -> None:
+    assert SIZE == (320, 180)
+    assert player.window.screen.over.bar is None
+
+
+def button(player: Player, name: str) -> tuple[float, float, float]:
+    """Move the mouse to a command on the bar; return its middle and its width."""
+    player.mouse(pygame.MOUSEMOTION, (5, 5), rel=(0, 0), buttons=(0, 0, 0))
+    screen = player.window.screen
+    assert screen.over.bar
+    buttons = screen.over.bar.buttons
+    number = next(n for n, one in enumerate(buttons) if one.name.startswith(name))
+    cell = bar_cells(screen._bar_layout(screen.over), buttons)[number]
+    assert cell
+    return cell.middle.real, cell.middle.imag, cell.width
+
+
+def click(player: Player, name: str) -> None:
+    x, y, _ = button(player, name)
+    player.mouse(pygame.MOUSEMOTION, (x, y), rel=(0, 0), buttons=(0, 0, 0))
+    player.mouse(pygame.MOUSEBUTTONDOWN, (x, y), button=1)
+    player.mouse(pygame.MOUSEBUTTONUP, (x, y), button=1)
