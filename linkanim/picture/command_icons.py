@@ -152,6 +152,16 @@ def _help(gauge: Gauge, theme: Theme) -> list[Layer]:
     return [_line(gauge, theme.ink, [*hook, 0.4 + 1.2j, 3.4j]), dot]
 
 
+def _lifted(gauge: Gauge, theme: Theme, apart: float) -> list[Layer]:
+    """Return three sheets above each other, so far apart."""
+    sheet = [-8.5 + 0j, -3.5j, 8.5 + 0j, 3.5j]
+    layers = []
+    for n, colour in enumerate((theme.bodies[2], theme.bodies[1], theme.bodies[0])):
+        at = [corner + 1j * apart * (1 - n) for corner in sheet]
+        layers += [_filled(gauge, colour, at), _line(gauge, theme.outline, at, closed=True)]
+    return layers
+
+
 def _save(gauge: Gauge, theme: Theme) -> list[Layer]:
     tray = [-8 + 1.5j, -8 + 7.5j, 8 + 7.5j, 8 + 1.5j]
     return [_line(gauge, theme.ink, tray, [-8j, 3.5j], [-4.2 - 0.7j, 3.5j, 4.2 - 0.7j])]
@@ -197,6 +207,8 @@ COMMAND_ICONS: Mapping[str, Icon] = {
     "stop": _stop,
     "more": _more,
     "help": _help,
+    "nearer": partial(_lifted, apart=1.6),
+    "farther": partial(_lifted, apart=5.0),
     "save": _save,
     "new": _new,
     "done": _done,

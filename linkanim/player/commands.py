@@ -79,6 +79,10 @@ _HANDLES: Mapping[Mode, tuple[BarEntry, ...]] = {
     "shelf": (_BACK, _HOME, *_LAST),
     "pencil": _PENCIL,
     "build": _SHEET,
+    "layers": (
+        *(_BACK, _HOME, BarEntry("nearer", Action("lift", -1), 4, leads=True)),
+        *(BarEntry("farther", Action("lift", 1), 4), BarEntry("save", Action("make"), 3, leads=True), *_LAST),
+    ),
     "game": (_BACK, _HOME, *_LAST),
     "name": (_BACK, BarEntry("done", Action("take_name"), 1)),
 }

@@ -288,7 +288,9 @@ _TENTHS = 0.1
 _PULL = 0.011
 """How far a value is dragged for a step, in the window's height."""
 _COARSE = 10
-Drag = Literal["pan", "crank", "chart", "joint", "row", "pen", "lead", "dial", "hand", "paper", "slider", "bar", "speed"]
+Drag = Literal[
+    "pan", "crank", "chart", "joint", "row", "pen", "lead", "dial", "hand", "paper", "slider", "bar", "speed"
+]
 _KINDS: Mapping[int, Literal["wheel", "down", "up", "move"]] = {
     pygame.MOUSEWHEEL: "wheel",
     pygame.MOUSEBUTTONDOWN: "down",
@@ -349,7 +351,7 @@ class Mouse:
         """Return what is asked of all that lies below the bar."""
         if screen.state.browsing:
             return self._on_the_shelf(gesture, screen)
-        if self._drag == "slider" or (kind == "down" and screen.slider_at(*self._at)):
+        if self._drag == "slider" or (gesture.kind == "down" and screen.slider_at(*self._at)):
             return self._on_the_slider(gesture, screen)
         modes = {
             "layers": self._of_the_layers,

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from functools import lru_cache
 from typing import NamedTuple
 
 from linkanim.build.tools import TOOLS
@@ -461,7 +460,6 @@ def group_key(name: str) -> str:
 _WRITTEN = {"left": "←", "right": "→", "up": "↑", "down": "↓", "return": "Enter", "escape": "Esc"}
 
 
-@lru_cache(maxsize=16)
 def commands(mode: Mode) -> tuple[tuple[str, str, Action], ...]:
     """Return all that keys ask for in a mode, each but once: in words, by its first key, as an action.
 

@@ -44,6 +44,7 @@ ENTERED: dict[Mode, tuple[Action | str, ...]] = {
     "shelf": ("shelf",),
     "pencil": ("pencil",),
     "build": ("build",),
+    "layers": ("layers",),
     "game": (Action("play", "title"),),
 }
 in_every_mode = pytest.mark.parametrize("mode", ENTERED)
