@@ -41,8 +41,8 @@ from linkanim.picture.overlay import (
 from linkanim.picture.quantities import quantity
 from linkanim.picture.text import subscripted
 from linkanim.player.clock import FRAMES_PER_SECOND
-from linkanim.player.dial import place_of
 from linkanim.player.commands import bar
+from linkanim.player.dial import place_of
 from linkanim.player.keys import help_groups
 from linkanim.player.state import (
     DIAL,
