@@ -596,6 +596,13 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         ),
         _value("--count N", count, "the number of answers (default: 5)", 5),
         *_limits("sizes of the curve"),
+        _takes(
+            "--prefer",
+            choices=("exact", "compact", "angle"),
+            default="exact",
+            help="which answers come first: the most exact (default), compact, or easily driven ones",
+        ),
+        _value("--front FILE.csv", Path, "write the front of deviation, size and transmission angle"),
         _value("--round LENGTH", step, 'round all lengths to multiples of this, such as "0.1 mm"'),
         _flag("--open", "the curve does not close"),
         _flag("--cognates", "add the two Roberts cognates of each four-bar"),

@@ -84,14 +84,14 @@ def knee(front: Sequence[Figures]) -> int:
     None is taken that doubles the size for less than a third of the deviation. One of at most 2.5 curve
     sizes is chosen where its deviation is within 1.5 times the best one.
     """
-    near = _NEAR * min(one.deviation for one in front)
-    small = [n for n, one in enumerate(front) if one.size <= _COMPACT and one.deviation <= near]
+    off = [max(one.deviation, _SEEN) for one in front]
+    small = [n for n, one in enumerate(front) if one.size <= _COMPACT and off[n] <= _NEAR * min(off)]
 
-    def is_worth_it(one: Figures) -> bool:
-        halves = (other for other in front if other.size <= one.size / 2)
-        return all(one.deviation <= other.deviation / _NEAR for other in halves)
+    def is_worth_it(n: int) -> bool:
+        halves = (m for m, other in enumerate(front) if other.size <= front[n].size / 2)
+        return all(off[n] <= off[m] / _NEAR for m in halves)
 
-    worth = [n for n, one in enumerate(front) if is_worth_it(one)]
+    worth = [*filter(is_worth_it, range(len(front)))]
     return min([n for n in small if n in worth] or small or worth, key=lambda n: (cost(front[n]), n))
 
 
@@ -105,10 +105,10 @@ def preferred(fits: Iterable[Fit], prefer: Preference) -> list[Fit]:
     return sorted(fits, key=lambda fit: (keys[prefer](fit.figures), cost(fit.figures)))
 
 
-def differing(first: Sequence[Fit], rest: Iterable[Fit], count: int) -> list[Fit]:
-    """Return at most so many answers that differ to the eye: the first ones come before the rest."""
+def differing(fits: Iterable[Fit], count: int) -> list[Fit]:
+    """Return the first few of answers that differ to the eye."""
     kept: list[Fit] = []
-    for fit in [*first, *rest]:
+    for fit in fits:
         if len(kept) < count and not any(fit.apart(one) <= ALIKE for one in kept):
             kept.append(fit)
     return kept
@@ -121,7 +121,7 @@ def cards(front: Sequence[Fit], shown: Fit, count: int) -> tuple[Fit, ...]:
     the others in their figures.
     """
     ends = [preferred(front, prefer)[0] for prefer in PREFERENCES] if front else []
-    kept = differing([shown, *ends], (), count)
+    kept = differing([shown, *ends], count)
     rest = [fit for fit in front if all(fit.apart(one) > ALIKE for one in kept)]
     while rest and len(kept) < count:
         far = max(rest, key=lambda fit: min(_away(fit.figures, one.figures) for one in kept))

@@ -14,6 +14,7 @@ from linkanim.intake import meant
 from linkanim.synthesis.answers import Fit, cognates_of
 from linkanim.synthesis.curves import DrawnCurve, drawn
 from linkanim.synthesis.fitting import EXACTLY, PathTask
+from linkanim.synthesis.front import PREFERENCES, Preference, differing, preferred, searched_front
 from linkanim.synthesis.linkages import KINDS, LinkageKind, Real, Requirements, refuse_count
 from linkanim.synthesis.search import Progress, found, rounded_to, with_round_lengths
 from linkanim.units import shown
@@ -30,6 +31,7 @@ def path(
     closed: bool = True,
     *,
     count: int = COUNT,
+    prefer: Preference = "exact",
     cognates: bool = False,
     rounding: float | None = None,
     progress: Progress | None = None,
@@ -38,20 +40,30 @@ def path(
     """Return different linkages whose coupler point follows points (n, 2), the best first.
 
     A closed curve is followed in one turn of the crank, its points in their order; an open one within the
-    input's range. `cognates` adds the two Roberts cognates of each four-bar, as far as they keep to the same
-    options. `rounding` rounds the lengths to that step one by one, each time fitting the rest again. Other
-    options are described below. BadInput for points or limits that make no sense, and if no linkage was found
-    that keeps to the limits.
+    input's range. `prefer` orders them by deviation ("exact"), or takes them from the front of deviation,
+    size and least transmission angle: the smallest first ("compact"), or those with the best transmission
+    angle ("angle"), all within 3 % of the curve's size, or thrice the best deviation.
+
+    `cognates` adds the two Roberts cognates of each four-bar, as far as they keep to the same options.
+    `rounding` rounds the lengths to that step one by one, each time fitting the rest again. Other options are
+    described below. BadInput for points or limits that make no sense, and if no linkage was found that keeps
+    to the limits.
     """
     refuse_count(count)
     if cognates and options.get("kind", "four-bar") != "four-bar":
         raise BadInput(f"a {options['kind']} has no cognates; leave them out, or take a four-bar")
+    if prefer not in PREFERENCES:
+        raise BadInput(f"prefer={shown(prefer)}: take {', '.join(PREFERENCES[:-1])} or {PREFERENCES[-1]}")
     task = task_of(points, closed, **options)  # type: ignore[arg-type]
     if rounding is not None and not (math.isfinite(rounding) and rounding > 0):
         raise BadInput(f"rounding to {rounding!r}: give a length above zero, such as 0.1")
     fits = found(task, count, progress)
+    if prefer != "exact":
+        front = preferred(searched_front(task, fits), prefer)
+        fits = tuple(differing(front, count))
     if rounding is not None:
         fits = with_round_lengths(fits, rounding)
+        fits = fits if prefer == "exact" else tuple(preferred(fits, prefer))
     return tuple(one for fit in fits for one in (fit, *_cognates(fit, rounding))) if cognates else fits
 
 

@@ -55,6 +55,7 @@ def test_each_answer_is_a_scene_that_runs_along_the_curve(
     assert [row["file"] for row in found] == ["oval.toml", "oval-2.toml"]
     assert [row["rms"] for row in found] == sorted(row["rms"] for row in found)
     points = np.array([[float(cell) for cell in line.split(",")] for line in OVAL.splitlines()])
+    assert any(row["front"] for row in found)
     for row in found:
         scene = linkanim.load(here / row["file"])
         way = scene.cycle(7200).position[scene.trace[0]]
@@ -62,6 +63,8 @@ def test_each_answer_is_a_scene_that_runs_along_the_curve(
         assert row["rms"] == pytest.approx(np.sqrt((off**2).mean()), rel=0.05, abs=0.01)
         assert row["rms_percent"] == pytest.approx(100 * row["rms"] / np.hypot(*np.ptp(points, axis=0)))
         assert row["class"] == scene.info.class_name
+        assert row["size"] == pytest.approx(row["largest_link"] / np.hypot(*np.ptp(points, axis=0)))
+        assert row["room"] > row["size"]
         assert row["transmission_angle"] == min(scene.info.transmission_angle or ())
         assert scene.source == "linkanim path for oval.csv"
 
@@ -85,6 +88,21 @@ def test_the_table_has_a_line_for_each_answer_and_a_shorter_one_leaves_no_old_fi
 
 
 @pytest.mark.slow
+def test_a_front_is_written_as_a_table(
+    here: Path, capsys: pytest.CaptureFixture[str], found_once: None
+) -> None:
+    (first, *_) = printed_json(capsys, "oval.csv", "--count", "2", "--front", "front.csv")
+    titles, *rows = (here / "front.csv").read_text().splitlines()
+    names = titles.split(",")
+    assert names[:5] == ["rms_percent", "largest_percent", "size", "room", "transmission_angle_deg"]
+    table = np.array([[float(cell) for cell in row.split(",")] for row in rows])
+    assert table.shape == (len(rows), len(names))
+    assert len(rows) > 2
+    assert table[:, 0].min() <= 1.01 * first["rms_percent"]
+    assert table[:, 2].min() < first["size"]
+
+
+@pytest.mark.slow
 def test_what_rounding_costs_is_printed(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["path", "oval.csv", "--round", "1 mm", "--count", "1", "--json"]) == 0
     printed = capsys.readouterr()
@@ -103,6 +121,9 @@ def test_what_rounding_costs_is_printed(here: Path, capsys: pytest.CaptureFixtur
         (["oval.csv", "--box", "1,2,3"], '"1,2,3" is not X,Y,W,H'),
         (["oval.csv", "--box", "0,0,0,9"], "nothing fits in it"),
         (["oval.csv", "--round", "-1 mm"], "no length to round to"),
+        (["oval.csv", "--prefer", "small"], "--prefer"),
+        (["oval.csv", "--front", "front.toml"], "use one of .csv"),
+        (["oval.csv", "--front", "oval.csv"], "oval.csv"),
         (["oval.csv", "-o", "oval.gif"], "use one of .toml"),
         (["oval.csv", "-o", "nowhere/oval.toml"], "there is no folder nowhere"),
         (["oval.csv", "--kind", "slider-crank", "--cognates"], "has no cognates"),

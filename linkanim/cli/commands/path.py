@@ -7,12 +7,17 @@ import sys
 from argparse import Namespace
 from collections.abc import Sequence
 
+from numpy.typing import ArrayLike
+
+from linkanim.atomic_files import checked_target, write_text
 from linkanim.cli.answers import deliver, target_of
 from linkanim.cli.commands.record import bar
 from linkanim.errors import BadInput
+from linkanim.export import csv_head, csv_rows
 from linkanim.intake import named
 from linkanim.synthesis.answers import Fit
 from linkanim.synthesis.curve_files import CurveFile, read_curve
+from linkanim.synthesis.front import front_of, searched_front
 from linkanim.synthesis.linkages import Real
 from linkanim.synthesis.path import path
 from linkanim.units import significant
@@ -21,7 +26,7 @@ _UNIT = "mm"
 _POOR = 5.0
 """Percent of the curve's size, beyond which an answer hardly follows it."""
 _SAME_ANGLE = 1e-6
-_HANDED_ON = ("kind", "count", "box", "largest", "least_angle", "cognates")
+_HANDED_ON = ("kind", "count", "box", "largest", "least_angle", "prefer", "cognates")
 """Options that are called alike here and there."""
 _TITLES = (f"rms {_UNIT}", "%", f"largest {_UNIT}", "%", "transmission", "longest link", "class")
 
@@ -30,6 +35,7 @@ def run(options: Namespace) -> None:
     """Find the linkages, write their files, and print the table or JSON; what is worth a remark on stderr."""
     curve = read_curve(options.curve)
     target = target_of(options.output, f"{options.curve.stem}.toml")
+    front = None if options.front is None else checked_target(options.front, (".csv",), [options.curve])
     with bar(unit=" steps") as progress:
         fits = path(
             curve.points,
@@ -41,7 +47,10 @@ def run(options: Namespace) -> None:
             source=f"linkanim path for {named(options.curve.name)}",
             progress=progress,
         )
-    deliver(fits, target, options, _TITLES, _cells, _object)
+    if front is not None:
+        write_text(front, _table(searched_front(fits[0].task, fits)))
+    on_front = front_of(fits)
+    deliver(fits, target, options, _TITLES, _cells, lambda fit: _object(fit) | {"front": fit in on_front})
     _remark(fits, cognates=options.cognates)
 
 
@@ -76,6 +85,8 @@ def _object(fit: Fit) -> dict[str, object]:
         "stray": fit.stray,
         "transmission_angle": fit.transmission_angle,
         "largest_link": fit.size,
+        "size": fit.figures.size,
+        "room": fit.figures.room,
         "class": fit.class_name,
         "full_turn": fit.scene.info.full_turn,
         "cognate": fit.cognate,
@@ -84,6 +95,20 @@ def _object(fit: Fit) -> dict[str, object]:
     if fit.exact is not None:
         found["rms_before_rounding"] = fit.exact.rms
     return found
+
+
+_SHARES = ("rms_percent", "largest_percent", "size", "room")
+
+
+def _table(front: Sequence[Fit]) -> str:
+    """Return a front as a table: figures as `--json` has them, the angle in degrees, then parameters."""
+    rows = [_object(fit) for fit in front]
+    shares = {name: [row[name] for row in rows] for name in _SHARES}
+    angles = [math.degrees(fit.transmission_angle) for fit in front]
+    own = {name: [fit.parameters[name] for fit in front] for name in front[0].kind.parameters}
+    named: dict[str, ArrayLike] = {**shares, "transmission_angle_deg": angles, **own}  # type: ignore[dict-item]
+    closures = [fit.closure_sign for fit in front]
+    return csv_head([*named, "closure"]) + csv_rows([*named.values(), closures])
 
 
 def _remark(fits: Sequence[Fit], *, cognates: bool) -> None:

@@ -1,0 +1,135 @@
+"""Answers judged by deviation, size and transmission angle together: the front, its knee, its cards."""
+
+from __future__ import annotations
+
+import math
+from itertools import combinations, pairwise, permutations, product
+
+import numpy as np
+import pytest
+from random_curves import curves
+
+from linkanim.errors import BadInput
+from linkanim.synthesis.answers import Figures, Fit
+from linkanim.synthesis.curves import stroke_of
+from linkanim.synthesis.follower import COUNT
+from linkanim.synthesis.front import cards, front_of, knee, names_of, preferred, searched_front, way_along
+from linkanim.synthesis.linkages import Complex
+from linkanim.synthesis.path import path, task_of
+from linkanim.synthesis.search import ALIKE, found
+
+TURN = np.linspace(0, 2 * math.pi, 160)
+SHAPES: dict[str, Complex] = {
+    "eight": 100 * np.sin(TURN) + 50j * np.sin(2 * TURN),
+    "D": np.append(60 * np.exp(1j * np.linspace(-math.pi / 2, math.pi / 2, 80)), [20j, -20j, -60j]),
+    "ellipse": 100 * np.cos(TURN) + 40j * np.sin(TURN),
+}
+RUNS_WELL = math.radians(40)
+
+
+@pytest.fixture(scope="module", params=SHAPES)
+def front(request: pytest.FixtureRequest) -> tuple[Fit, ...]:
+    """A shape's front, with the most exact answers known."""
+    curve = stroke_of(SHAPES[request.param])
+    task = task_of(curve.points, curve.closed)
+    return searched_front(task, found(task, 6, widely=False))
+
+
+def figures(*values: tuple[float, float] | tuple[float, float, float]) -> list[Figures]:
+    """Return figures from deviation and size, and maybe an angle in degrees."""
+    filled = [(*one, 40.0)[:3] for one in values]
+    return [Figures(off, size, size, math.radians(angle)) for off, size, angle in filled]
+
+
+@pytest.mark.parametrize(
+    ("front", "chosen", "why"),
+    [
+        (figures((0.031, 6.0), (0.043, 1.2)), 1, "five times the size saves no third of the deviation"),
+        (figures((0.010, 2.0), (0.043, 1.2)), 0, "a quarter of the deviation is worth more size"),
+        (figures((0.010, 8.0), (0.014, 2.4)), 1, "within 1.5 times the best, and at most 2.5 sizes"),
+        (figures((0.0001, 2.0), (0.0008, 1.0)), 1, "a deviation that nobody sees is worth nothing"),
+        (figures((0.020, 1.0, 6.0), (0.022, 1.0, 35.0)), 1, "the one all but jams"),
+        (figures((0.020, 1.0, 40.0), (0.022, 1.0, 50.0)), 0, "both run well"),
+    ],
+)
+def test_the_answer_that_is_chosen_is_worth_its_size(front: list[Figures], chosen: int, why: str) -> None:
+    assert knee(front) == chosen, why
+
+
+def test_a_chosen_answer_never_doubles_the_size_for_less_than_a_third_of_the_deviation() -> None:
+    steps = list(product((0.004, 0.01, 0.014, 0.03), (0.5, 1.1, 2.4, 5.0)))
+    for some in combinations(steps, 3):
+        for order in permutations(some):
+            front = figures(*order)
+            one, best = front[knee(front)], min(each.deviation for each in front)
+            near = [each for each in front if each.size <= 2.5 and each.deviation <= 1.5 * best]
+            assert one.size <= 2.5 or not near
+            halves = [each for each in front if each.size <= one.size / 2]
+            assert one in near or not any(each.deviation < 1.5 * one.deviation for each in halves)
+
+
+@pytest.mark.slow
+def test_no_answer_of_a_front_is_beaten_by_another_one(front: tuple[Fit, ...]) -> None:
+    assert len(front) > 3
+    for one, other in permutations(front, 2):
+        better = [mine < its for mine, its in zip(one.figures[:3], other.figures[:3], strict=True)]
+        assert not (all(better) and one.figures.angle > other.figures.angle + math.radians(0.5))
+
+
+@pytest.mark.slow
+def test_a_front_reaches_from_the_best_deviation_to_bars_as_long_as_the_curve(
+    front: tuple[Fit, ...],
+) -> None:
+    task = front[0].task
+    best = found(task, 1, widely=False)[0].figures.deviation
+    assert front[0].figures.deviation <= 1.5 * best
+    assert min(fit.figures.size for fit in front) < 1.2
+    assert max(fit.figures.angle for fit in front) > math.radians(25)
+
+
+@pytest.mark.slow
+def test_the_default_of_a_shape_is_compact(front: tuple[Fit, ...]) -> None:
+    assert front[knee([fit.figures for fit in front])].figures.size <= 2.5
+
+
+@pytest.mark.slow
+def test_cards_differ_to_the_eye_and_hold_the_ends_of_the_front(front: tuple[Fit, ...]) -> None:
+    shown = front[knee([fit.figures for fit in front])]
+    row = cards(front, shown, COUNT)
+    assert shown in row
+    assert 1 < len(row) <= COUNT
+    assert all(one.apart(other) > ALIKE for one, other in combinations(row, 2))
+    for prefer in ("exact", "compact", "angle"):
+        end = preferred(front, prefer)[0]
+        assert min(end.apart(one) for one in row) <= ALIKE
+    assert len({name for name in names_of([fit.figures for fit in row]) if name}) >= 2
+
+
+@pytest.mark.slow
+def test_the_way_along_a_front_has_small_steps(front: tuple[Fit, ...]) -> None:
+    way = way_along(front[0].task, front)
+    assert way[0].figures.deviation == min(fit.figures.deviation for fit in way)
+    sizes = [fit.figures.size for fit in way[1:]]
+    assert sizes == sorted(sizes, reverse=True)
+    steps = [one.apart(other) / max(one.figures.size, 1.0) for one, other in pairwise(way)]
+    assert np.median(steps) < 0.25
+
+
+@pytest.mark.slow
+def test_a_preferred_answer_is_the_first_of_its_kind() -> None:
+    points = curves("four-bar", 1, seed=61)[0]
+    exact, compact, angle = (path(points, prefer=prefer) for prefer in ("exact", "compact", "angle"))
+    assert [fit.row.tolist() for fit in exact] == [fit.row.tolist() for fit in path(points)]
+    assert compact[0].size <= min(fit.size for fit in exact) * 1.01
+    angles = [fit.transmission_angle for fit in angle]
+    assert angles == sorted(angles, reverse=True)
+    assert {len(exact) > 0, len(compact) <= 5, len(angle) <= 5} == {True}
+
+
+def test_a_preference_that_is_none_is_refused() -> None:
+    with pytest.raises(BadInput, match='prefer="small": take exact, compact or angle'):
+        path([(0, 0), (10, 5), (20, 0)], prefer="small")  # type: ignore[arg-type]
+
+
+def test_what_does_not_follow_is_not_on_the_front() -> None:
+    assert front_of([]) == ()
