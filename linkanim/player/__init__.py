@@ -17,6 +17,7 @@ From the ground up; a module imports from those before it only:
     tape_file  a tape as a file
     sound      cues, their waves, the loudspeaker
     shown      the state in the words of the overlay
+    stroke_view  the view of a stroke and its linkage
     framing    the picture that fits a state, and the way to the next one
     screen     the display, and what is on it
     devices    keyboard, touch, gamepads, mouse

@@ -19,9 +19,10 @@ from pygame.event import Event
 from linkanim.frozen import frozen
 from linkanim.picture.look import Look
 from linkanim.picture.picture import Earlier, Picture
-from linkanim.picture.view import Box, Rect, View, eased, joined, view_of
+from linkanim.picture.view import Box, View, eased
 from linkanim.player.clock import FRAMES_PER_SECOND
 from linkanim.player.state import FADE_FRAMES, Sketch, State
+from linkanim.player.stroke_view import view_for
 
 # The pictures of states: each fits what is shown, and another view of it is approached, eased.
 #
@@ -79,6 +80,7 @@ class Framing:
         self._coming: Picture | None = None
         self._passing: Picture | None = None
         self._approach: Approach | None = None
+        self._drawn: tuple[int, View] | None = None
         self._frame = 0
 
     @property
@@ -124,8 +126,9 @@ class Framing:
             make = partial(make, hurried=hurried and not (sketch and stays), earlier=earlier)
             made = make(kept=before.fitted if before and sketch and stays else None)
         self._coming = None
-        if sketch and stays and not held and not _is_in_sight(made, sketch):
-            made = make(kept=_seen_whole(made, sketch))
+        if before and sketch and stays and not held and not made.look.framed:
+            goal = self._of_the_stroke(before, made, sketch)
+            made = made if goal == made.fitted else make(kept=goal)
         if before and before.sheet != made.sheet:
             self._approach = None
         elif before and (_has_moved(before, made) or (sketch and stays and before.fitted != made.fitted)):
@@ -134,6 +137,18 @@ class Framing:
             self._approach = None
         self._fitting = made
         return made
+
+    def _of_the_stroke(self, before: Picture, made: Picture, sketch: Sketch) -> View:
+        """Return the view of a stroke and the linkage that follows it; as it is where there is none yet."""
+        if sketch.curve is None or sketch.is_blank:
+            self._drawn = sketch.strokes, before.fitted
+            return before.fitted
+        if self._drawn is None or self._drawn[0] != sketch.strokes:
+            self._drawn = sketch.strokes, before.fitted
+        x, y = sketch.curve.points.real, sketch.curve.points.imag
+        stroke = Box(float(x.min()), float(y.min()), float(x.max()), float(y.max()))
+        room = made.layout.stage.inset(2 * made.layout.margin)
+        return view_for(self._drawn[1], stroke, made.fit.subject.figure.box, room, made.layout.hud)
 
     def _look(self, state: State) -> Look:
         """Return the look of a state; where it is captioned, names come with what to watch for."""
@@ -169,30 +184,6 @@ class Framing:
             hurried=goal.hurried,
         )
         return self._passing
-
-
-def _is_in_sight(picture: Picture, sketch: Sketch) -> bool:
-    """Return whether linkage and stroke lie in their room; where it is zoomed they need not."""
-    return picture.look.framed or _holds(picture.layout.stage, picture.view, _box(picture, sketch))
-
-
-def _seen_whole(picture: Picture, sketch: Sketch) -> View:
-    """Return the view that fits a linkage, further away where its stroke would not be seen whole."""
-    view, box, stage = picture.fit.arrangement.view, _box(picture, sketch), picture.layout.stage
-    return view if _holds(stage, view, box) else view_of(box, stage.inset(2 * picture.layout.margin))
-
-
-def _holds(stage: Rect, view: View, box: Box) -> bool:
-    return stage.holds(*view.to_pixel(box.left, box.high)) and stage.holds(*view.to_pixel(box.right, box.low))
-
-
-def _box(picture: Picture, sketch: Sketch) -> Box:
-    """Return the rectangle of the plane that holds a linkage as it will be, and the stroke."""
-    swept = picture.fit.subject.figure.box
-    if sketch.curve is None:
-        return swept
-    x, y = sketch.curve.points.real, sketch.curve.points.imag
-    return joined(swept, Box(float(x.min()), float(y.min()), float(x.max()), float(y.max())))
 
 
 def _has_moved(one: Picture, other: Picture) -> bool:

@@ -351,11 +351,9 @@ def _off(sketch: Sketch) -> str | None:
     answer = sketch.answer
     if answer is None or sketch.off is None:
         return None
-    off = f"{_percent(sketch.off)} off"
     if isinstance(answer, Scene) or not answer.size:
-        return off
-    size, angle = significant(answer.size, 2), round(degrees(answer.angle))
-    return f"{off} · longest bar ×{size} · transmission angle {angle}°"
+        return f"{_percent(sketch.off)} off"
+    return _figures(answer).replace("%", "% off", 1)
 
 
 def _answer_row(state: State, sketch: Sketch) -> AnswerRow:

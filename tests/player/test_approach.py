@@ -8,8 +8,9 @@ import pytest
 from playing import Player
 
 from linkanim.picture.look import Look
-from linkanim.picture.view import View, moved
+from linkanim.picture.view import Box, Rect, View, moved
 from linkanim.player.framing import APPROACH_FRAMES, Approach, between
+from linkanim.player.stroke_view import view_for
 
 A, B = View(2.0, 100.0, 300.0), View(1.0, 260.0, 200.0)
 
@@ -110,3 +111,47 @@ def test_the_look_on_the_way_shows_the_view_between() -> None:
     expected = between(A, goal, 4 / (APPROACH_FRAMES + 1))
     assert (shown.scale, shown.x, shown.y) == pytest.approx((expected.scale, expected.x, expected.y))
     assert way.over(10 + APPROACH_FRAMES)
+
+
+STAGE = Rect(0, 0, 1000, 600)
+DRAWN = View(2.0, 500.0, 300.0)
+STROKE = Box(-60, -40, 60, 40)
+
+
+def seen(view: View, box: Box) -> tuple[float, float, float, float]:
+    """Return how far a box reaches into a stage from its four edges, in pixels."""
+    (left, top), (right, low) = view.to_pixel(box.left, box.high), view.to_pixel(box.right, box.low)
+    return left - STAGE.x, top - STAGE.y, STAGE.right - right, STAGE.bottom - low
+
+
+@pytest.mark.parametrize(
+    ("swept", "scale", "why"),
+    [
+        (Box(-100, -80, 100, 60), 2.0, "what is in sight moves nothing"),
+        (Box(-100, -200, 100, 40), 2.0, "what can be shifted into sight is not made smaller"),
+        (Box(-280, -100, 280, 100), 1000 / 560, "as much smaller as it needs"),
+        (Box(-900, -700, 900, 700), 1.5, "a third more is the most"),
+    ],
+)
+def test_the_view_of_a_stroke_grows_by_a_third_at_the_most(swept: Box, scale: float, why: str) -> None:
+    view = view_for(DRAWN, STROKE, swept, STAGE)
+    assert view.scale == pytest.approx(scale), why
+    assert min(seen(view, STROKE)) >= -1e-9, why
+    assert scale == 1.5 or min(seen(view, swept)) >= -1e-9, why
+
+
+def test_the_view_of_a_stroke_stays_where_all_is_in_sight() -> None:
+    assert view_for(DRAWN, STROKE, Box(-100, -80, 100, 60), STAGE) == DRAWN
+
+
+def test_a_stroke_and_its_linkage_stand_beside_words_where_there_is_room() -> None:
+    words, box = Rect(0, 0, 250, 320), Box(-180, -80, 100, 60)
+    assert view_for(DRAWN, STROKE, box, STAGE, words).to_pixel(box.left, 0)[0] == pytest.approx(250)
+    assert view_for(DRAWN, STROKE, box, STAGE, words._replace(width=600)) == DRAWN
+
+
+def test_a_tiny_stroke_is_enlarged_and_stays_in_sight() -> None:
+    tiny = Box(200, 100, 212, 109)
+    view = view_for(DRAWN, tiny, Box(195, 95, 215, 112), STAGE)
+    assert view.scale > 5 * DRAWN.scale
+    assert min(seen(view, tiny)) >= 0
