@@ -82,6 +82,17 @@ def three_digits(value: float) -> str:
     return f"{value:.{max(2 - floor(log10(value)), 0)}f}"
 
 
+def four_digits(value: float) -> str:
+    """Return a number to four significant digits, set, without an exponent where it is a common one.
+
+    What is below 1e-9 counts as 0.
+    """
+    if not isfinite(value):
+        return stepped(value, 1.0)
+    value = float(f"{value:.4g}") if abs(value) >= 1e-9 else 0.0
+    return typeset(f"{value:.10g}")
+
+
 def typeset(text: str) -> str:
     """Return the text with true minus signs, as it is set on a picture."""
     return text.replace("-", "−")

@@ -30,6 +30,7 @@ From the ground up; a module imports from those before it only:
     hud           the words about a scene
     arrangement   where scene and words stand
     overlay       what lies over the picture, as data
+    told          what is under the mouse, in its own words
     board         what every panel is drawn on
     game_panel    what a game shows
     tools         the bar of tools

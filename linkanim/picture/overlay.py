@@ -405,6 +405,14 @@ class Lane(NamedTuple):
     well: bool
 
 
+class Told(NamedTuple):
+    """What a thing under the mouse says of itself, `at` a place of the scene; a `joint` has its arrows."""
+
+    lines: tuple[str, ...]
+    at: Point
+    joint: str = ""
+
+
 Help = tuple[tuple[str, tuple[tuple[str, str], ...]], ...]
 """Subjects, each with its lines of (key, what it does)."""
 
@@ -415,9 +423,10 @@ class Overlay:
 
     Answers that are places have `spots` on the picture, in their order, a ram that is followed its `lane`.
     The joints `handles` can be dragged. With `noted` the HUD says where a limit or a change point is near.
-    `chip` answers a key, `hint` says what there is to press, `watch` what to watch for. `measured` is what
-    the chosen dimension and those beside it measure, `glow` the joint under the mouse; with `grip` the
-    chart's cursor has one. `shutter` is how white the picture is, in eighths. The `bar` has the commands.
+    `chip` answers a key, `hint` says what there is to press, `watch` what to watch for. `measured` is
+    what the chosen dimension and those beside it measure, `glow` the joint under the mouse, `told` what
+    is there, `instant` the phase that the mouse points at on a curve; with `grip` the chart's cursor has
+    one. `shutter` is how white the picture is, in eighths. The `bar` has the commands.
     """
 
     paused: bool = False
@@ -441,6 +450,8 @@ class Overlay:
     watch: Fading | None = None
     measured: tuple[DimensionLine, ...] = ()
     glow: str | None = None
+    told: Told | None = None
+    instant: float | None = None
     grip: bool = False
     shutter: int = 0
     noted: bool = False

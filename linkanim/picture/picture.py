@@ -135,6 +135,7 @@ class Picture:
             yield
             yield from self._placed(None, held=False)
         self._papered: tuple[Photo | None, Group] | None = None
+        self._fastest: tuple[str, tuple[float, float]] | None = None
         if (
             before
             and self.sheet
@@ -416,6 +417,32 @@ class Picture:
         if overlay.glow:  # the joint and what it changes are apart: they are drawn at once
             light = list(glow(self.drawing.setting, pose, overlay.glow))
             yield Group("glow", light, over=not overlay.measured)
+        yield from self._pointed(pose, overlay)
+
+    def _pointed(self, pose: Pose, overlay: Overlay) -> Iterator[Group]:
+        """Yield what the mouse points at: an instant on curves and chart, a thing in its own words."""
+        if overlay.instant is None and overlay.told is None:
+            return
+        from linkanim.picture import told
+
+        if overlay.instant is not None:
+            there = self.scene.pose(overlay.instant, self._order, speed=pose.input_speed)
+            curves = self.scene.trace if self.look.trace or self.look.ink else ()
+            places = [self.view.place(there.position[joint]) for joint in curves]
+            lights = told.instant(self.drawing.setting, places)
+            yield from self._within([Group("instant", list(lights), over=True)])
+            if self._chart:
+                yield grouped("instant-read", self._chart.cursor(there))
+        if overlay.told:
+            yield from told.card(self.drawing.setting, pose, overlay.told, self._greatest(overlay.told.joint))
+
+    def _greatest(self, joint: str) -> tuple[float, float] | None:
+        """Return the greatest speed and acceleration of a joint; those of the last one are kept."""
+        from linkanim.picture.told import greatest
+
+        if joint and (self._fastest is None or self._fastest[0] != joint):
+            self._fastest = joint, greatest(self.figure.cycle, joint)
+        return self._fastest[1] if joint and self._fastest else None
 
     def crank_pin_px(self, pose: Pose) -> tuple[float, float]:
         """Return where the pin that the phase drives lies, in pixels."""

@@ -16,6 +16,7 @@ From the ground up; a module imports from those before it only:
     tape       what was done, frame by frame
     tape_file  a tape as a file
     sound      cues, their waves, the loudspeaker
+    pointing   what is under the mouse tells itself
     shown      the state in the words of the overlay
     stroke_view  the view of a stroke and its linkage
     framing    the picture that fits a state, and the way to the next one

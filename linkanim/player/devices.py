@@ -19,6 +19,7 @@ from linkanim.build.tools import TOOLS
 from linkanim.player.action import Action, Mode
 from linkanim.player.commands import pressed, slid, slides
 from linkanim.player.keys import MENU_IN, Bind, Press, bind_of, button_name, hat_name, key_names, key_of
+from linkanim.player.pointing import Pointed
 from linkanim.player.screen import Screen
 from linkanim.player.state import State
 from linkanim.scenes.editing import phase_along, phase_towards
@@ -282,6 +283,10 @@ def _bound(name: str, mode: Mode) -> Bind | None:
 # The mouse: the wheel zooms, a drag pans, or moves the crank, the chart's cursor, a joint or a value.
 
 _REACH = 0.035  # of the window's height
+_NEAR = 0.02
+"""How near is on a joint or a curve that tells itself, in the window's height."""
+_TOLD = 180
+"""So many frames after the mouse has moved last, what passes below it tells itself no more."""
 _RIGHT = 3
 """The number of the right button, which opens the list of commands."""
 _TENTHS = 0.1
@@ -327,12 +332,13 @@ class Mouse:
         self._far, self._steps = 0.0, 0
         self._turned: int | None = None
         self._slider = 0
-        self._seen = False
+        self._seen, self._moved_in = False, 0
 
     def actions(self, event: Event, screen: Screen) -> tuple[Action, ...]:
         """Return what a mouse event asks for."""
         kind, notches, (x, y) = _KINDS[event.type], getattr(event, "y", 0), self._at
-        self._seen = self._seen or kind in ("move", "down")
+        if kind in ("move", "down"):
+            self._seen, self._moved_in = True, screen.state.frame
         if kind == "down" and event.button == _RIGHT:
             return (Action("menu"),) * (screen.state.mode in MENU_IN)
         if getattr(event, "button", 1) != 1 or (kind == "wheel" and not notches):
@@ -396,9 +402,12 @@ class Mouse:
                 return self._zoomed(gesture.notches, screen)
             case "down":
                 handle = screen.handle_at(*self._at, _REACH * screen.size[1])
-                self._drag = "joint" if handle else self._grabbed(screen)
+                curve = None if handle else screen.on_trace(*self._at, _NEAR * screen.size[1])
+                self._drag = "joint" if handle or curve else self._grabbed(screen)
                 if handle:
                     return (Action("grab", handle),)
+                if curve:  # its joint comes to the hand
+                    return (Action("grab", curve[0]), *self._moved(screen))
                 return self._moved(screen) if self._drag == "chart" else ()
             case "up":
                 held, self._drag = self._drag, None
@@ -468,6 +477,14 @@ class Mouse:
             return None
         at_pin = screen.state.scene.linkage.drive.joint if self._is_at_pin(screen) else None
         return screen.handle_at(*self._at, _REACH * screen.size[1]) or at_pin
+
+    def over_scene(self, screen: Screen, frame: int) -> Pointed | None:
+        """Return what of the scene is under the mouse; None where the mouse rests while the scene runs."""
+        shown = self._seen and self._drag is None and screen.state.mode in ("play", "paused")
+        rests = frame - self._moved_in > _TOLD and not screen.state.clock.paused
+        if not shown or rests or screen.button_at(*self._at) is not None:
+            return None
+        return screen.pointed(*self._at, _NEAR * screen.size[1])
 
     def _is_at_pin(self, screen: Screen) -> bool:
         pin = screen.crank_pin()

@@ -16,6 +16,7 @@ from dataclasses import replace
 from math import ceil, hypot, log10
 from typing import Any, Literal, NamedTuple
 
+import numpy as np
 import pygame
 
 from linkanim.build.draft import Draft, Thing
@@ -34,6 +35,7 @@ from linkanim.picture.tools import ToolPrinter, tool_at
 from linkanim.picture.view import Rect
 from linkanim.player.action import Action
 from linkanim.player.framing import Fade, Framing
+from linkanim.player.pointing import Pointed, thing_at
 from linkanim.player.shown import Hover
 from linkanim.player.state import PIVOTS, BuildSheet, State, driven_bar
 from linkanim.scenes.editing import handles
@@ -505,6 +507,32 @@ class Screen:
             return near
         row = self.row_at(x, y)
         return None if row is None or row < 0 else row
+
+    def on_trace(self, x: float, y: float, reach: float) -> tuple[str, float] | None:
+        """Return the joint whose curve passes a pixel within a reach, and its phase there; None elsewhere."""
+        picture, at = self._framing.last, complex(*self.world(x, y))
+        if self.state.mode not in _LEADING or not (picture.look.trace or picture.look.ink):
+            return None
+        scene, found = self.state.displayed, []
+        for joint in scene.trace:
+            path = scene.point_path(joint)
+            away = np.abs(path.places - at)
+            n = int(away.argmin())
+            if path.moves and away[n] * picture.view.scale <= reach:
+                found.append((float(away[n]), joint, float(path.phases[n])))
+        return min(found)[1:] if found else None
+
+    def pointed(self, x: float, y: float, reach: float) -> Pointed | None:
+        """Return what of the scene is at a pixel, or the instant on its chart or a curve; None elsewhere."""
+        phase, place, picture = self.charted(x, y), self.world(x, y), self._framing.last
+        if phase is not None:
+            return Pointed(place, instant=phase)
+        scale, half = picture.view.scale, picture.gauge.bar
+        scene = self.state.displayed
+        thing = thing_at(picture.figure, scene.pose(self.state.phase, 0), place, reach / scale, half / scale)
+        curve = self.on_trace(x, y, reach) if thing is None or thing.kind != "joint" else None
+        found = Pointed(place, None if curve else thing, curve[1] if curve else None)
+        return found if thing or curve else None
 
     def charted(self, x: float, y: float) -> float | None:
         """Return the phase under a pixel of the chart; None beside it."""

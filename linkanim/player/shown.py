@@ -44,6 +44,7 @@ from linkanim.player.clock import FRAMES_PER_SECOND
 from linkanim.player.commands import bar
 from linkanim.player.dial import place_of
 from linkanim.player.keys import help_groups
+from linkanim.player.pointing import Pointed, told
 from linkanim.player.state import (
     DIAL,
     FLASH_FRAMES,
@@ -218,11 +219,12 @@ def overlay(
     row: int | None = None,
     over: Hover | None = None,
     button: int | None = None,
+    pointed: Pointed | None = None,
 ) -> Overlay:
     """Return all that the window shows beside the scene.
 
     What is under the mouse: `hover` the joint, `row` the row of a list, `over` the place of a sheet,
-    `button` the number of a command on the bar.
+    `button` the number of a command on the bar, `pointed` what of the scene tells itself.
     """
     items = _items(state)
     lists = _kept(state, items, over)
@@ -236,6 +238,8 @@ def overlay(
         watch=None if state.game else _watch(state),
         measured=tuple(_measured(state, items)),
         glow=_glow(state, hover),
+        told=told(state, pointed) if pointed else None,
+        instant=pointed.instant if pointed else None,
         grip=state.look.chart is not None and not state.game,
         shutter=0 if state.shot is None else 8 - 8 * (state.frame - state.shot) // SHUTTER_FRAMES,
         game=lists.game and replace(lists.game, pointed=row),

@@ -32,6 +32,7 @@ from linkanim.player.edits import renewed
 from linkanim.player.files import DraftFile, SavedScenes, SceneFile, beside, scene_files
 from linkanim.player.framing import Halving
 from linkanim.player.keys import bind_of
+from linkanim.player.pointing import Pointed, PointedThing
 from linkanim.player.screen import Screen
 from linkanim.player.shown import Hover, kept, overlay
 from linkanim.player.sound import Speaker, cues
@@ -341,7 +342,9 @@ class Window:
         try:
             row, over = self._mouse.pointed(self.screen), self._over_sheet()
             late, button = self._halving.late(stepped=self._has_stepped), self._mouse.on_bar(self.screen)
-            self.screen.show(self.state, overlay(self.state, hover, row, over, button), late=late)
+            pointed = self._mouse.over_scene(self.screen, self.state.frame) if free else self._led_joint()
+            over_ = overlay(self.state, hover, row, over, button, pointed)
+            self.screen.show(self.state, over_, late=late)
         except Exception as error:
             if self._good is None:
                 raise
@@ -351,6 +354,12 @@ class Window:
             self.state = recovered(self.state, self._good, error)
             self.screen.show(self.state, overlay(self.state))
         self._good = self.state
+
+    def _led_joint(self) -> Pointed | None:
+        """Return the joint in the hand, which tells itself."""
+        grasp, places = self.state.grasp, self.state.displayed.pose(self.state.phase, 0).position
+        led = grasp and self._good and grasp.joint in places
+        return Pointed(places[grasp.joint], PointedThing("joint", grasp.joint)) if grasp and led else None
 
     @property
     def _has_stepped(self) -> bool:

@@ -486,7 +486,9 @@
         if (link) {
           const way = sub(pose(head).p, pose(tail).p), moved = sub(pose(head).v, pose(tail).v);
           const turning = -(way[0] * moved[1] - way[1] * moved[0]) / (size(way) ** 2) * speed();
-          text = `${link}: ω = ${short(turning)} rad/s\n${text}`;
+          const angle = mod(Math.atan2(-way[1], way[0]) * 180 / Math.PI, 360);
+          text = `${link}: ω = ${short(turning)} rad/s\n` +
+            `${short(size(way) / view[0])} ${page.unit} at ${short(angle)}°`;
         }
       }
     }

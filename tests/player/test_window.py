@@ -536,13 +536,15 @@ def middle_of(size: tuple[int, int]) -> tuple[float, float]:
 
 
 def test_the_wheel_zooms_about_the_mouse(player: Player) -> None:
-    pixels = player.pixels
     player.mouse(pygame.MOUSEMOTION, (200, 60), rel=(0, 0), buttons=(0, 0, 0))
+    player.tick(400)
+    pixels = player.settle()
     before = player.window.screen.world(200, 60)
     player.mouse(pygame.MOUSEWHEEL, (200, 60), x=0, y=2)
     assert player.state.look.zoom == 1.25**2
     assert player.window.screen.world(200, 60) == pytest.approx(before)
     player.mouse(pygame.MOUSEWHEEL, (200, 60), x=0, y=-2)
+    player.tick(400)
     assert player.settle() == pixels
 
 

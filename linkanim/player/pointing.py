@@ -1,0 +1,135 @@
+"""What is under the mouse tells itself: a joint, a link, a spring, or the instant at which a point is there.
+
+The words and numbers are those of the shared page.
+"""
+
+from __future__ import annotations
+
+from math import degrees, hypot
+from typing import Literal, NamedTuple
+
+import numpy as np
+
+from linkanim.mechanics.linkage import Damper, Point, Spring
+from linkanim.mechanics.motion import Pose, Strut
+from linkanim.picture.figure import Figure
+from linkanim.picture.hud import rows
+from linkanim.picture.overlay import Told
+from linkanim.picture.quantities import quantity
+from linkanim.picture.shapes import hull
+from linkanim.player.state import State
+from linkanim.scenes.scene import Scene
+from linkanim.units import four_digits
+
+
+class PointedThing(NamedTuple):
+    """A joint, a link (a body), or a spring or damper, by its name."""
+
+    kind: Literal["joint", "link", "strut"]
+    name: str
+
+
+class Pointed(NamedTuple):
+    """What the mouse is over at a place of the scene: a thing, or an instant (phase) on a curve."""
+
+    place: Point
+    thing: PointedThing | None = None
+    instant: float | None = None
+
+
+def thing_at(
+    figure: Figure, pose: Pose, place: Point, reach: float, half_width: float
+) -> PointedThing | None:
+    """Return what lies at a place of a pose: the nearest joint, else a spring or damper, else a link.
+
+    A joint is met within `reach`, a link within the `half_width` of its bar (the scene's unit).
+    """
+    at = complex(*place)
+    places = {name: complex(*found) for name, found in pose.position.items()}
+    far, joint = min((abs(there - at), name) for name, there in places.items())
+    if far <= reach:
+        return PointedThing("joint", joint)
+    struts: tuple[Spring | Damper, ...] = (*figure.linkage.springs, *figure.linkage.dampers)
+    for strut in struts:
+        if _apart(at, [places[name] for name in strut.between]) <= 1.5 * half_width:
+            return PointedThing("strut", strut.name)
+    for body in reversed(figure.bodies):
+        if body.name and _apart(at, [places[name] for name in body.joints]) <= half_width:
+            return PointedThing("link", body.name)
+    return None
+
+
+def _apart(at: complex, corners: list[complex]) -> float:
+    """Return how far a place is from the convex hull of corners; 0 inside."""
+    around = hull(corners)
+    if len(around) < 2:
+        return abs(at - around[0])
+    sides = list(zip(around, [*around[1:], around[0]], strict=True))
+    turns = [((end - begin).conjugate() * (at - begin)).imag for begin, end in sides]
+    if len(around) > 2 and (min(turns) >= 0.0 or max(turns) <= 0.0):
+        return 0.0
+    return min(_from_side(at, begin, end) for begin, end in sides)
+
+
+def _from_side(at: complex, begin: complex, end: complex) -> float:
+    way = end - begin
+    share = ((at - begin) * way.conjugate()).real / (abs(way) ** 2 or 1.0)
+    return abs(at - begin - min(max(share, 0.0), 1.0) * way)
+
+
+def told(state: State, pointed: Pointed) -> Told | None:
+    """Return what the thing says of itself at this instant; None where nothing is under the mouse."""
+    scene, thing = state.displayed, pointed.thing
+    if pointed.instant is not None:
+        return Told(_of_instant(state, scene, pointed.instant), pointed.place)
+    if thing is None:
+        return None
+    pose = scene.pose(state.phase, speed=state.clock.speed)
+    if thing.kind == "joint" and thing.name in pose.position:
+        return Told(_of_joint(scene, pose, thing.name), pointed.place, thing.name)
+    if thing.kind == "link" and thing.name in pose.angle:
+        return Told(_of_link(scene, pose, thing.name), pointed.place)
+    struts = {**pose.spring, **pose.damper}
+    if thing.kind == "strut" and thing.name in struts:
+        return Told(_of_strut(scene, struts[thing.name], thing.name), pointed.place)
+    return None
+
+
+def _of_instant(state: State, scene: Scene, phase: float) -> tuple[str, ...]:
+    """Return where the input is at an instant, and the charted quantity or the traced joint's speed there."""
+    pose = scene.pose(phase, speed=state.clock.speed)
+    where = rows(scene, pose)[0]
+    chart = state.look.chart
+    tokens = [chart] if chart else [f"{joint}.velocity" for joint in scene.trace[:1]]
+    known = (quantity(scene, token) for token in tokens)
+    unit = scene.length_unit
+    words = (
+        f"{one.symbol} = {', '.join(map(four_digits, np.atleast_1d(one.shown(pose)).tolist()))} "
+        f"{one.shown_unit(unit)}"
+        for one in known
+    )
+    return (f"{where.label} {where.value}", *words)
+
+
+def _of_joint(scene: Scene, pose: Pose, name: str) -> tuple[str, ...]:
+    unit = scene.length_unit
+    x, y = pose.position[name]
+    speed, acceleration = (hypot(*rates[name]) for rates in (pose.velocity, pose.acceleration))
+    return (
+        f"{name} ({four_digits(x)}, {four_digits(y)}) {unit}",
+        f"v = {four_digits(speed)} {unit}/s   a = {four_digits(acceleration)} {unit}/s²",
+    )
+
+
+def _of_link(scene: Scene, pose: Pose, name: str) -> tuple[str, ...]:
+    begin, end = (pose.position[joint] for joint in scene.linkage.body(name).joints[:2])
+    long = hypot(end[0] - begin[0], end[1] - begin[1])
+    return (
+        f"{scene.info.link_names[name]}: ω = {four_digits(pose.angular_velocity[name])} rad/s",
+        f"{four_digits(long)} {scene.length_unit} at {four_digits(degrees(pose.angle[name]) % 360.0)}°",
+    )
+
+
+def _of_strut(scene: Scene, strut: Strut, name: str) -> tuple[str, ...]:
+    force = "" if strut.force is None else f"   {four_digits(strut.force)} N"
+    return (f"{name}: {four_digits(strut.length)} {scene.length_unit}{force}",)

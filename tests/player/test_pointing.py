@@ -1,0 +1,173 @@
+"""What is under the mouse tells itself, in numbers of the solver; an instant on chart and trace."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import pygame
+import pytest
+from playing import Player
+
+from linkanim.picture.figure import figure
+from linkanim.picture.look import Look
+from linkanim.picture.picture import Picture
+from linkanim.player import screen
+from linkanim.player.action import Action
+from linkanim.player.actions import advance
+from linkanim.player.pointing import Pointed, PointedThing, thing_at, told
+from linkanim.player.shown import kept, overlay
+from linkanim.player.state import State, begin
+from linkanim.scenes import load
+from linkanim.scenes.scene import Scene
+
+
+def number(text: str) -> float:
+    return float(text.replace("−", "-"))
+
+
+def standing(name: str, phase: float = 1.0, look: Look | None = None) -> State:
+    return advance(begin(load(name), look=look), [Action("scrub", phase)])
+
+
+def lines_of(state: State, thing: PointedThing) -> tuple[str, ...]:
+    found = told(state, Pointed((0.0, 0.0), thing))
+    assert found
+    return found.lines
+
+
+def test_a_joint_tells_its_place_speed_and_acceleration() -> None:
+    state = standing("crank-rocker")
+    pose = state.scene.pose(1.0, speed=state.clock.speed)
+    place, rates = lines_of(state, PointedThing("joint", "P"))
+    x, y = place.removeprefix("P (").removesuffix(") mm").split(", ")
+    assert (number(x), number(y)) == pytest.approx(pose.position["P"], rel=1e-3)
+    words = rates.split()
+    assert number(words[2]) == pytest.approx(math.hypot(*pose.velocity["P"]), rel=1e-3)
+    assert number(words[6]) == pytest.approx(math.hypot(*pose.acceleration["P"]), rel=1e-3)
+    assert (words[3], words[7]) == ("mm/s", "mm/s²")
+
+
+def test_a_link_tells_its_length_angle_and_angular_speed() -> None:
+    state = standing("crank-rocker")
+    pose = state.scene.pose(1.0, speed=state.clock.speed)
+    rate, span = lines_of(state, PointedThing("link", "rocker"))
+    assert rate.startswith("rocker: ω = ")
+    assert number(rate.split()[3]) == pytest.approx(pose.angular_velocity["rocker"], rel=1e-3)
+    assert number(span.split()[0]) == pytest.approx(
+        math.dist(pose.position["B"], pose.position["O4"]), rel=1e-3
+    )
+    assert number(span.split()[3].rstrip("°")) == pytest.approx(
+        math.degrees(pose.angle["rocker"]) % 360, rel=1e-3
+    )
+
+
+def test_a_spring_tells_its_length_and_force() -> None:
+    state = standing("press")
+    spring = state.scene.pose(1.0, speed=state.clock.speed).spring["return"]
+    (line,) = lines_of(state, PointedThing("strut", "return"))
+    assert number(line.split()[1]) == pytest.approx(spring.length, rel=1e-3)
+    assert number(line.split()[3]) == pytest.approx(spring.force, rel=1e-3)
+
+
+def middle_of(scene: Scene, phase: float, *joints: str) -> tuple[float, float]:
+    places = [scene.pose(phase, 0).position[joint] for joint in joints]
+    return sum(x for x, _ in places) / len(places), sum(y for _, y in places) / len(places)
+
+
+# What lies where: the scene, the joints in whose middle the mouse is, and what that is.
+WHERE = {
+    "a joint before its links": ("crank-rocker", ("B",), PointedThing("joint", "B")),
+    "a fixed pin": ("crank-rocker", ("O4",), PointedThing("joint", "O4")),
+    "a bar": ("crank-rocker", ("B", "O4"), PointedThing("link", "rocker")),
+    "a plate": ("crank-rocker", ("A", "B", "P"), PointedThing("link", "coupler")),
+    "a spring": ("press", ("C", "G"), PointedThing("strut", "return")),
+}
+
+
+@pytest.mark.parametrize(("name", "joints", "thing"), WHERE.values(), ids=WHERE)
+def test_the_thing_under_the_mouse_is_found(name: str, joints: tuple[str, ...], thing: PointedThing) -> None:
+    scene = load(name)
+    at = middle_of(scene, 1.0, *joints)
+    assert thing_at(figure(scene), scene.pose(1.0, 0), at, 3.0, 3.0) == thing
+
+
+def test_beside_the_linkage_there_is_nothing() -> None:
+    scene = load("crank-rocker")
+    assert thing_at(figure(scene), scene.pose(1.0, 0), (-200.0, -200.0), 3.0, 3.0) is None
+
+
+def test_it_is_in_no_screenshot() -> None:
+    state = standing("crank-rocker")
+    assert overlay(state, pointed=Pointed((0.0, 0.0), PointedThing("joint", "P"))).told
+    assert kept(state).told is None
+
+
+@pytest.mark.parametrize("size", [(320, 180), (640, 360), (1280, 720)])
+@pytest.mark.parametrize("joint", ["O2", "A", "B", "P"])
+def test_the_card_is_within_the_picture_and_beside_the_joint(size: tuple[int, int], joint: str) -> None:
+    state = standing("crank-rocker")
+    picture = Picture(state.scene, size, Look())
+    pose, _ = picture.poses(1.0)
+    place = pose.position[joint]
+    over = replace(kept(state), told=told(state, Pointed(place, PointedThing("joint", joint))))
+    (card,) = (group for group in picture.groups(pose, over) if group.name == "told")
+    corners = card.layers[0].loops[0]
+    assert corners.real.min() >= -1.0
+    assert corners.real.max() <= size[0] + 1.0
+    assert corners.imag.min() >= -1.0
+    assert corners.imag.max() <= size[1] + 1.0
+    at = picture.view.place(place)
+    inside = (
+        corners.real.min() < at.real < corners.real.max()
+        and corners.imag.min() < at.imag < corners.imag.max()
+    )
+    assert not inside
+
+
+@pytest.fixture
+def player(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Player]:
+    monkeypatch.chdir(tmp_path)
+    with screen.opened((640, 360)):
+        player = Player(standing("crank-rocker", look=Look(chart="P.velocity")))
+        player.tick(5)
+        yield player
+        player.window.close()
+
+
+def move(player: Player, at: tuple[float, float]) -> None:
+    player.mouse(pygame.MOUSEMOTION, at, rel=(0, 0), buttons=(0, 0, 0))
+
+
+def test_the_trace_and_the_chart_point_at_one_instant(player: Player) -> None:
+    shown = player.window.screen
+    place = player.state.scene.pose(2.5, 0).position["P"]
+    move(player, shown.pixel(*place))
+    assert shown.over.instant == pytest.approx(2.5, abs=0.05)
+    assert shown.over.told
+    assert shown.over.told.lines[0].startswith("crank angle 14")
+    area = shown._framing.last._chart.plot.area  # type: ignore[union-attr]
+    move(player, (area.x + area.width / 4, area.y + area.height / 2))
+    assert shown.over.instant == pytest.approx(math.pi / 2, abs=0.05)
+
+
+def test_pressed_on_the_trace_its_joint_comes_there(player: Player) -> None:
+    shown = player.window.screen
+    at = shown.pixel(*player.state.scene.pose(2.5, 0).position["P"])
+    player.mouse(pygame.MOUSEBUTTONDOWN, at, button=1)
+    assert player.state.phase == pytest.approx(2.5, abs=0.05)
+    player.mouse(pygame.MOUSEBUTTONUP, at, button=1)
+    assert player.state.clock.paused
+
+
+def test_a_mouse_that_rests_over_what_runs_reads_nothing_more(player: Player) -> None:
+    shown = player.window.screen
+    move(player, shown.pixel(*player.state.scene.pose(1.0, 0).position["O4"]))
+    assert shown.over.told
+    player.tick(400)
+    assert shown.over.told  # it stands
+    player.press(pygame.K_SPACE)
+    player.tick(2)
+    assert shown.over.told is None
