@@ -552,6 +552,16 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _SPEED,
         _ACCELERATION,
         _flag("--exercise", "leave the numbers open, and put the key on a page of its own"),
+        _takes(
+            "--level",
+            choices=("formulas", "drawing"),
+            help="what an exercise gives: the formulas, or nothing but the drawing (default: formulas)",
+        ),
+        _value(
+            "--versions N",
+            whole,
+            "so many sheets A, B, ... of other lengths, with their keys in one file",
+        ),
         _value(
             "--seed N",
             whole,

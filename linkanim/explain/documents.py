@@ -10,12 +10,14 @@ Its parts, in reading order:
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from base64 import b64encode
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
-from functools import reduce
+from functools import cache, reduce
 from html import escape
-from itertools import groupby, pairwise
-from typing import NamedTuple
+from importlib.resources import files
+from itertools import chain, groupby, pairwise
+from typing import Literal, NamedTuple
 
 import numpy as np
 
@@ -27,6 +29,7 @@ from linkanim.explain.steps import (
     Given,
     Item,
     Outcome,
+    Step,
     System,
     Unknown,
     ValueLine,
@@ -136,13 +139,19 @@ _STYLE = f"""{body_style("16px/1.5", 56)}\
 h1 {{ font-size: 1.8rem; margin: 0; }} p {{ margin: .3rem 0; }}
 h2 {{ font-size: 1.35rem; margin: 2rem 0 .5rem; border-bottom: 2px solid #d0d7de; }}
 h3 {{ font-size: 1.05rem; margin: 1.2rem 0 .2rem; }} h2, h3 {{ break-after: avoid; }}
-.key {{ break-before: page; }} @page {{ size: A4; margin: 14mm; }}
-@media print {{ body {{ margin: 0; padding: 0; max-width: none; font-size: 9pt; line-height: 1.25; }}
-  h1 {{ font-size: 15pt; }} h2 {{ font-size: 12pt; margin: .7rem 0 .2rem; }}
-  h3 {{ font-size: 10pt; margin: .4rem 0 .1rem; }}
-  math[display=block] {{ font-size: 8.5pt; overflow: visible; margin: .1rem 0 .1rem 1rem; }} }}
+.key {{ break-before: page; }} @page {{ size: A4; margin: 11mm 13mm; }}
+@media print {{ body {{ margin: 0; padding: 0; max-width: none; font-size: 8.5pt; line-height: 1.2; }}
+  h1 {{ font-size: 15pt; }} h2 {{ font-size: 11.5pt; margin: .4rem 0 .1rem; border-width: 1px; }}
+  h3 {{ font-size: 9pt; margin: .2rem 0 0; }}
+  math[display=block] {{ font-size: 8pt; overflow: visible; margin: .1rem 0 .1rem .6rem !important; }}
+  math .rows > mtr > mtd {{ padding: .09em 0 !important; }} p, li {{ font-size: 8.5pt; margin: 0; }}
+  .steps {{ display: grid; grid-template-columns: 1fr 1fr; gap: 0 1rem; align-items: start; }}
+  .steps > .wide {{ grid-column: 1 / -1; }} .steps > .short {{ break-inside: avoid; }}
+  ul.given {{ columns: 3 !important; }} ul.results {{ columns: 5 !important; }}
+  figure.vectors svg {{ max-height: 70mm; width: auto; }} }}
 """
-MATH_STYLE = """
+_MATH = """
+math { font-family: "Linkanim Math", "Latin Modern Math", "STIX Two Math", math; }
 math[display=block] { width: fit-content; max-width: 100%; margin: .35rem 0 .35rem 1rem;
                       overflow: auto hidden; }
 math .rows > mtr > mtd { padding: .22em 0; text-align: left; } math .rows > mtr { break-inside: avoid; }
@@ -153,6 +162,16 @@ ul.given { columns: 2; list-style: none; padding: 0 0 0 1rem; margin: .35rem 0; 
 ul.given li { break-inside: avoid; }
 figure.vectors { margin: .6rem 0; break-inside: avoid; } figure.vectors svg { max-width: 100%; height: auto; }
 """
+
+
+@cache
+def math_style() -> str:
+    """Return how formulas are set, with the font that they are set in, whose brackets stretch."""
+    face = (files("linkanim.explain") / "faces/LinkanimMath.woff2").read_bytes()
+    source = f"url(data:font/woff2;base64,{b64encode(face).decode()}) format('woff2')"
+    return f"\n@font-face {{ font-family: 'Linkanim Math'; src: {source}; }}{_MATH}"
+
+
 _INDEXED = re.compile(r"(?<=[^\W\d_])_?(\d+)$")
 _KEY_DIGITS = 5
 
@@ -162,7 +181,8 @@ class DocumentForm:
     """How one kind of document is written; names of joints are marked in headings and in text.
 
     `listed` sets what is given: formulas, and what each is. `figure` draws the loops, `construction` how
-    the linkage was made; on a page that is left to who prints pictures. `new_page` begins one.
+    the linkage was made; on a page that is left to who prints pictures. `steps` puts those of a chapter
+    together. `new_page` begins one.
     """
 
     how: Notation
@@ -175,28 +195,73 @@ class DocumentForm:
     listed: Callable[[list[tuple[str, str]]], str]
     figure: Callable[[Solution], str] = lambda _: ""
     construction: Callable[[Solution], str] = lambda _: ""
+    steps: Callable[[list[str]], str] = "\n\n".join
     new_page: str = ""
 
 
-def document(found: Solution, form: DocumentForm, *, exercise: bool = False) -> str:
-    """Return the whole document; of an exercise with its numbers left open, and then the key."""
-    parts = [form.heading(1, found.title), _where(found, form), *chapters(found, form, blank=exercise)]
-    parts += [] if exercise else _results(found, form)
-    if exercise:
-        parts += [form.new_page, form.heading(1, f"Key: {found.title}"), _where(found, form)]
-        parts += _key(found, form)
+Level = Literal["formulas", "drawing"]
+"""What an exercise gives beside its numbers: the formulas, or nothing but the drawing."""
+
+
+def document(found: Solution, form: DocumentForm) -> str:
+    """Return the whole document."""
+    parts = [
+        form.heading(1, found.title),
+        _where(found, form),
+        *chapters(found, form),
+        *_results(found, form),
+    ]
     return form.page(found.title, "\n\n".join(part for part in parts if part))
 
 
-def _results(found: Solution, form: DocumentForm) -> Iterator[str]:
-    """Yield all that was found, link by link and joint by joint."""
-    lines = [result for result in found.results if result.value.symbol is not None]
-    yield form.heading(2, "All results")
+def exercise(versions: Sequence[Solution], form: DocumentForm, level: Level = "formulas") -> str:
+    """Return sheets with their numbers left open, each on pages of its own, and then the key of each.
+
+    Of several versions each has a letter.
+    """
+    titles = [f"{one.title}, {chr(65 + n)}" for n, one in enumerate(versions)]
+    titles = titles if len(versions) > 1 else [versions[0].title]
+    parts: list[str] = []
+    for title, found in zip(titles, versions, strict=True):
+        parts += [form.new_page] if parts else []
+        parts += [form.heading(1, title), _where(found, form)]
+        parts += chapters(found, form, blank=True) if level == "formulas" else _drawn_alone(found, form)
+    for title, found in zip(titles, versions, strict=True):
+        parts += [form.new_page, form.heading(1, f"Key: {title}"), _where(found, form), *_key(found, form)]
+    return form.page(titles[0], "\n\n".join(part for part in parts if part))
+
+
+def _drawn_alone(found: Solution, form: DocumentForm) -> Iterator[str]:
+    """Yield what is given, the drawing, and what is asked for, each with room for its number."""
+    given, *_ = found.chapters
+    yield form.heading(2, given.title)
+    for step in given.steps:
+        yield from _set([item for item in step.items if isinstance(item, Given)], form, blank=True)
+    yield form.figure(found)
+    yield form.heading(2, "Find")
+    asked = (result for result in _by_owner(found) if result.value.operation == "leaf")
+    yield form.listed([(_open(result, form), "") for result in asked])
+
+
+def _open(result: Outcome, form: DocumentForm) -> str:
+    """Return a result with its number left open."""
+    blank = form.how.blank + form.how.unit(result.unit)
+    return form.inline(form.how.infix("=", typeset(result.value, form.how), blank))
+
+
+def _by_owner(found: Solution) -> Iterator[Outcome]:
+    """Yield what was found, link by link and joint by joint."""
     owners: dict[str, list[Outcome]] = {}
-    for line in lines:
-        owners.setdefault(line.token.partition(".")[0], []).append(line)
-    for some in owners.values():
-        yield form.listed([_listed(_short(line.value), line.unit, "", form) for line in some])
+    for result in found.results:
+        if result.value.symbol is not None:
+            owners.setdefault(result.token.partition(".")[0], []).append(result)
+    return chain.from_iterable(owners.values())
+
+
+def _results(found: Solution, form: DocumentForm) -> Iterator[str]:
+    """Yield all that was found."""
+    yield form.heading(2, "All results")
+    yield form.listed([_listed(_short(one.value), one.unit, "", form) for one in _by_owner(found)])
 
 
 def _where(found: Solution, form: DocumentForm) -> str:
@@ -207,15 +272,19 @@ def chapters(found: Solution, form: DocumentForm, *, blank: bool = False) -> Ite
     """Yield the parts of a solution; where `blank` its numbers are left open."""
     for chapter in found.chapters:
         yield form.heading(2, chapter.title)
-        if chapter is found.loop_chapter:
-            yield form.figure(found)
+        drawn = form.figure(found) if chapter is found.loop_chapter else ""
         if chapter is found.synthesis_chapter:
             yield form.construction(found)
-        for step in chapter.steps:
-            if step.title:
-                yield form.heading(3, step.title)
-            for _, items in groupby(step.items, _sort):
-                yield from _set([*items], form, blank)
+        written = ["\n\n".join(_step(step, form, blank)) for step in chapter.steps]
+        yield form.steps([part for part in (drawn, *written) if part])
+
+
+def _step(step: Step, form: DocumentForm, blank: bool) -> Iterator[str]:
+    """Yield the parts of one step."""
+    if step.title:
+        yield form.heading(3, step.title)
+    for _, items in groupby(step.items, _sort):
+        yield from _set([*items], form, blank)
 
 
 def _sort(item: Item) -> type[Item]:
@@ -257,7 +326,7 @@ def _short(value: Formula) -> Formula:
 
 
 def _html_page(title: str, body: str) -> str:
-    head = f"<meta charset='utf-8'><title>{escape(title)}</title><style>{_STYLE}{MATH_STYLE}</style>"
+    head = f"<meta charset='utf-8'><title>{escape(title)}</title><style>{_STYLE}{math_style()}</style>"
     return f"<!doctype html>\n<html lang='en'><head>{head}</head><body>\n{body}\n</body></html>\n"
 
 
@@ -272,7 +341,26 @@ def _html_aligned(found: list[EquationRow]) -> str:
 
 def _html_listed(found: list[tuple[str, str]]) -> str:
     items = "".join(f"<li>{formula} {_html_words(words)}</li>" for formula, words in found)
-    return f"<ul class='given'>{items}</ul>"
+    kind = "given" if any(words for _, words in found) else "given results"
+    return f"<ul class='{kind}'>{items}</ul>"
+
+
+_ROW, _TAG = re.compile(r"<mtr>(.*?)</mtr>", re.S), re.compile(r"<[^>]*>|&[^;]*;")
+_HALF = 62
+"""Letters of a formula that half a page holds."""
+
+
+def _html_steps(steps: list[str]) -> str:
+    """Return a chapter's steps, on paper two side by side where their formulas are short."""
+    cells = []
+    for step in steps:
+        # a step of words alone is wide
+        longest = max((len(_TAG.sub("", row)) for row in _ROW.findall(step)), default=_HALF + 1)
+        drawn = step.startswith("<figure")
+        kind = "drawn" if drawn else "wide" if longest > _HALF else "short"
+        rows = f" style='grid-row: span {max(len(steps) - 1, 1)}'" if drawn else ""
+        cells.append(f"<div class='step {kind}'{rows}>\n{step}\n</div>")
+    return "<div class='steps'>\n" + "\n".join(cells) + "\n</div>"
 
 
 HTML = DocumentForm(
@@ -284,6 +372,7 @@ HTML = DocumentForm(
     inline=lambda formula: f"<math>{formula}</math>",
     aligned=_html_aligned,
     listed=_html_listed,
+    steps=_html_steps,
     new_page="<div class='key'></div>",
 )
 

@@ -254,11 +254,12 @@ def half_angle(joint: RRR, work: Work) -> None:
         del work.items[before:]
         return
     found = work.let(Symbol("θ", "half"), TWO * atan2(above, below), ANGLE)
-    miss = abs(math.remainder(found.value - angle.value, 360))
+    miss, places = abs(math.remainder(found.value - angle.value, 360)), work.scale.decimals(ANGLE)
     sign = "plus" if _left(joint, work) else "minus"
+    apart = "the same" if miss < 3 * 10.0**-places else f"the same to {significant(miss, 1)}°"
     work.say(
-        f"The root takes {sign} on this closure. The angle of {marked(q)}–{marked(name)} above is the same, "
-        f"to {significant(max(miss, 10.0 ** (1 - work.scale.digits)), 1)}°."
+        f"The root takes {sign} on this closure. But for whole turns the angle of {marked(q)}–{marked(name)} "
+        f"above is {apart}."
     )
 
 

@@ -245,7 +245,11 @@ def _force(item: Spring | Damper, rates: Rates, length: Formula, rate: Formula) 
 
 
 def _metre(rates: Rates) -> Formula:
-    """Return one unit of length in metres."""
+    """Return one unit of length in metres, and say so where it first stands."""
+    work = rates.work
+    unit, metre = work.scale.unit, work.linkage.metre
+    if metre != 1:
+        work.say_once(f"Forces are in newtons, so lengths are taken in metres: 1 {unit} is {metre:.12g} m.")
     return number(f"{rates.work.linkage.metre:.12g}")
 
 

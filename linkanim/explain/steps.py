@@ -304,10 +304,17 @@ class Work:
     slides: dict[str, Formula] = field(default_factory=dict)
     given: dict[Symbol, Given] = field(default_factory=dict)
     items: list[Item] = field(default_factory=list)
+    told: set[str] = field(default_factory=set)
 
     def say(self, text: str) -> None:
         """Add a sentence."""
         self.items.append(Words(text))
+
+    def say_once(self, text: str) -> None:
+        """Add a sentence where it has not been said before."""
+        if text not in self.told:
+            self.told.add(text)
+            self.say(text)
 
     def let(self, symbol: Symbol, formula: Formula, measure: Powers, scale: Scale | None = None) -> Formula:
         """Add the line that gives a symbol its value, and return it; a number alone needs no line."""

@@ -12,7 +12,7 @@ from html import escape
 from itertools import count
 from typing import Literal
 
-from linkanim.explain.documents import MATH_STYLE, body_style
+from linkanim.explain.documents import body_style, math_style
 from linkanim.frozen import frozen
 from linkanim.paper.findings import Column, Finding, ValueTable
 
@@ -124,7 +124,7 @@ def page(
 
     `head` is markup. Chapters whose titles are in `apart` begin a page of their own.
     """
-    style = _STYLE.replace("FOOT", _FOOT % _css_text(title)) + MATH_STYLE
+    style = _STYLE.replace("FOOT", _FOOT % _css_text(title)) + math_style()
     meta = "<meta charset='utf-8'><meta name='viewport' content='width=device-width'>"
     start = f"{meta}<title>{escape(title)}</title><style>{style}</style>"
     figures, tables = count(1), count(1)

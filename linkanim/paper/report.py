@@ -209,7 +209,7 @@ class Report:
         given, loops, *_ = self._worked.chapters
         alone = replace(self._worked, chapters=(replace(given, steps=()), loops))
         # behind the headings of both and the figure
-        _, _, _, *equations = chapters(alone, HTML)
+        _, _, _, *equations = chapters(alone, replace(HTML, steps="\n".join))
         yield Beside((FigurePart(vectors_svg(alone), caption, 90), tuple(equations)))
 
     def _beside(self) -> Iterator[Part]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import math
 import re
 import shutil
@@ -14,8 +15,9 @@ import numpy as np
 import pytest
 from printed import checks_of, of_html, of_latex, of_markdown
 
+import linkanim.explain.documents
 from linkanim.cli import main
-from linkanim.explain.documents import HTML, MARKDOWN, TEX, DocumentForm, document
+from linkanim.explain.documents import HTML, MARKDOWN, TEX, DocumentForm, document, exercise
 from linkanim.explain.solution import PoseRequest, Solution, solution
 from linkanim.explain.steps import System, ValueLine
 from linkanim.explain.variant import variant
@@ -140,7 +142,7 @@ def test_at_a_limit_it_says_that_no_rates_follow() -> None:
 @pytest.mark.parametrize("form", [MARKDOWN, TEX, HTML], ids=["Markdown", "LaTeX", "HTML"])
 def test_an_exercise_leaves_its_numbers_open_and_has_a_key_on_a_page_of_its_own(form: DocumentForm) -> None:
     found = solution(_request("slider-crank", 50.0))
-    sheet, _, key = document(found, form, exercise=True).partition(f"Key: {found.title}")
+    sheet, _, key = exercise([found], form).partition(f"Key: {found.title}")
     lines = [item for chapter in found.chapters for item in chapter.items if isinstance(item, ValueLine)]
     assert sheet.count(form.how.blank) == len(lines)
     assert form.new_page in sheet
@@ -441,7 +443,7 @@ def test_an_accelerated_input_adds_its_share() -> None:
 def test_all_results_stand_at_the_end_but_not_of_an_exercise() -> None:
     found = solution(PoseRequest(load("crank-rocker"), "angle", 1.0, 10.0))
     assert document(found, MARKDOWN).partition("## All results")[2].count("- $") > 20
-    assert "All results" not in document(found, MARKDOWN, exercise=True)
+    assert "All results" not in exercise([found], MARKDOWN)
 
 
 def test_an_input_that_swings_has_an_acceleration_by_its_angle_alone(
@@ -521,3 +523,48 @@ def test_the_half_angle_form_gives_the_angle_found(name: str, degrees: float) ->
         x, y = places[joint.name] - places[joint.ends[1]]
         (angle,) = [item.value.value for item in step.items if isinstance(item, ValueLine)][-1:]
         assert abs(math.remainder(angle - math.degrees(math.atan2(y, x)), 360)) < 1e-2
+
+
+def test_an_exercise_of_the_drawing_alone_has_no_formula_and_the_same_key() -> None:
+    found = solution(_request("crank-rocker", 60.0))
+    sheet, _, key = exercise([found], MARKDOWN, "drawing").partition("# Key:")
+    assert r"\cos" not in sheet
+    assert sheet.count(MARKDOWN.how.blank) == sum(result.value.symbol is not None for result in found.results)
+    assert key == exercise([found], MARKDOWN).partition("# Key:")[2]
+
+
+def test_versions_have_letters_other_lengths_and_their_keys(capsys: pytest.CaptureFixture[str]) -> None:
+    asked = ["explain", "crank-rocker", "--angle", "60 deg", "--exercise", "--versions", "4", "--seed", "3"]
+    assert main(asked) == 0
+    text = capsys.readouterr().out
+    heads = [line for line in text.splitlines() if line.startswith("# ")]
+    letters = [line[-1] for line in heads]
+    assert letters == [*"ABCD"] * 2
+    assert [line.startswith("# Key: ") for line in heads] == [False] * 4 + [True] * 4
+    sheets = text.partition("# Key:")[0].split("\n# ")
+    assert len({re.search(r"r_\{3\} = ([\d.]+)", sheet)[1] for sheet in sheets if "r_{3} =" in sheet}) == 4  # type: ignore[index]
+    assert r"\omega_{2} = 2.094\," in text
+    assert main([*asked[:5], "--seed", "4"]) == 0
+    alone = capsys.readouterr().out
+    assert alone.partition("# Key:")[0].partition("\n")[2].strip() in text
+
+
+def test_levels_and_versions_are_of_an_exercise(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["explain", "crank-rocker", "--level", "drawing"]) == 2
+    assert "add --exercise" in capsys.readouterr().err
+    assert main(["explain", "crank-rocker", "--exercise", "--versions", "30"]) == 2
+    assert "from 1 to 26" in capsys.readouterr().err
+
+
+def test_factors_of_a_thousandth_are_explained_once() -> None:
+    text = document(solution(_request("press", 87.0)), MARKDOWN)
+    assert text.count("1 mm is 0.001 m") == 1
+
+
+def test_pages_bring_the_font_of_their_formulas() -> None:
+    text = document(solution(_request("crank-rocker", 60.0)), HTML)
+    (face,) = re.findall(r"url\(data:font/woff2;base64,([\w+/=]+)\)", text)
+    assert len(face) < 40_000
+    path = Path(linkanim.explain.documents.__file__).parent / "faces"
+    assert base64.b64decode(face) == (path / "LinkanimMath.woff2").read_bytes()
+    assert {"GUST-FONT-LICENSE.txt", "MANIFEST-LinkanimMath.txt"} <= {one.name for one in path.iterdir()}

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from argparse import Namespace
+from collections.abc import Iterator
 from dataclasses import replace
-from math import isnan
+from math import degrees, isnan, radians
 
 from linkanim.atomic_files import checked_target, write_text
 from linkanim.cli.commands.solve import phase_at
 from linkanim.cli.options import inputs_of
 from linkanim.errors import BadInput
-from linkanim.explain.documents import HTML, MARKDOWN, TEX, document
+from linkanim.explain.documents import HTML, MARKDOWN, TEX, document, exercise
 from linkanim.explain.solution import PoseRequest, Solution, solution
 from linkanim.explain.variant import variant
 from linkanim.paper.construction import ConstructionPage
@@ -23,6 +24,7 @@ from linkanim.scenes.scene import Scene
 
 _CONSTRUCTION = (960, 640)
 """The size of the figure of a construction."""
+_MOST_VERSIONS = 26
 FORMS = {".html": HTML, ".htm": HTML, ".tex": TEX, ".md": MARKDOWN}
 
 
@@ -35,10 +37,16 @@ def run(options: Namespace) -> None:
     target = (
         None if options.output is None else checked_target(options.output, tuple(FORMS), inputs_of(options))
     )
-    found = solution(_request(load(options.scene), options))
+    if not options.exercise and (options.level or options.versions):
+        raise BadInput("--level and --versions are of an exercise; add --exercise")
+    versions = [solution(request) for request in _requests(load(options.scene), options)]
     form = MARKDOWN if target is None else FORMS[target.suffix.lower()]
     form = replace(form, figure=_figure, construction=_construction) if form is HTML else form
-    text = document(found, form, exercise=options.exercise)
+    text = (
+        exercise(versions, form, options.level or "formulas")
+        if options.exercise
+        else document(versions[0], form)
+    )
     if target is None:
         print(text, end="")
         return
@@ -56,19 +64,30 @@ def _construction(found: Solution) -> str:
     return f"<figure class='vectors'>{drawn[drawn.index('<svg') :]}</figure>"
 
 
-def _request(scene: Scene, options: Namespace) -> PoseRequest:
-    """Return the pose that is asked for, of other lengths with a seed.
+def _requests(scene: Scene, options: Namespace) -> Iterator[PoseRequest]:
+    """Yield the pose that is asked for, or of an exercise so many versions, of other lengths with a seed.
 
-    Without a pose it is that at which the scene's own joints are farthest apart.
+    Without a pose it is that at which the scene's own joints are farthest apart. What an exercise gives is
+    round.
     """
-    request = _pose(scene, options)
-    if options.seed is None:
-        return replace(request, scene=in_unit(scene, options.unit))
+    request = _rounded(_pose(scene, options)) if options.exercise else _pose(scene, options)
+    count = 1 if options.versions is None else options.versions
+    if not 1 <= count <= _MOST_VERSIONS:
+        raise BadInput(f"--versions {count}: give a number from 1 to {_MOST_VERSIONS}")
 
     def reached(changed: Scene) -> bool:
         return not isnan(replace(request, scene=changed).motion().phase)
 
-    return replace(request, scene=in_unit(variant(scene, options.seed, reached), options.unit))
+    first = options.seed if options.seed is not None or count == 1 else 0
+    for seed in [None] if first is None else range(first, first + count):
+        changed = scene if seed is None else variant(scene, seed, reached)
+        yield replace(request, scene=in_unit(changed, options.unit))
+
+
+def _rounded(request: PoseRequest) -> PoseRequest:
+    """Return a pose whose speed has four digits, and its angle or phase tenths of a degree."""
+    value = request.value if request.by == "angle" else radians(round(degrees(request.value), 1))
+    return replace(request, value=value, speed=float(f"{request.speed:.4g}"))
 
 
 def _pose(scene: Scene, options: Namespace) -> PoseRequest:
