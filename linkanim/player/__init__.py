@@ -6,7 +6,7 @@ From the ground up; a module imports from those before it only:
     action     what can be asked of the player, as plain data
     keys       the one table of keys and gamepad buttons
     state      all that one frame of the window shows
-    commands   the bar of commands, and how each of it stands
+    commands   the bar of commands, and menus
     edits      another scene is put on; dimensions are edited
     dial       along the front, from the exact answer to the compact one
     pencil     a stroke is drawn, answers come, one is kept

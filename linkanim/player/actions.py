@@ -22,7 +22,7 @@ from linkanim.player import building, dial, edits, making, pencil
 from linkanim.player.action import Action
 from linkanim.player.clock import Clock
 from linkanim.player.edits import drop, edit
-from linkanim.player.keys import GROUPS
+from linkanim.player.keys import BESIDE_GAMES
 from linkanim.player.pencil import come, keep, left
 from linkanim.player.state import (
     ATTRACT_AFTER,
@@ -307,13 +307,10 @@ def effect(name: str) -> Callable[[State, str | None], State]:
 
 # Games come over the state and go again; what was there before stands beneath, and comes back.
 
-BESIDE = frozenset(
-    {
-        *("stir", "play", "help", "theme", "zoom", "pan", "fit", "fullscreen", "note", "sounds", "pad"),
-        *("record", "screenshot", "svg", "quit", "close"),
-    }
-)
+BESIDE = BESIDE_GAMES | {"stir", "menu", "note", "pad", "close"}
 """Actions that are the window's own while a game is on; all others are handed to the game."""
+_ON_A_LIST = frozenset({"move", "sift", "unsift", "back"})
+"""What is the list's own while one is open over a game."""
 
 
 def play(state: State, words: str) -> State:
@@ -393,6 +390,10 @@ def _share(value: object) -> bool:
 
 def _text(value: object) -> bool:
     return isinstance(value, str) and not control_in(value)
+
+
+def _words_or_none(value: object) -> bool:
+    return value is None or _text(value)
 
 
 def _one_of(*words: str | None) -> Callable[[object], bool]:
@@ -540,6 +541,9 @@ ACTIONS: Mapping[str, Rule] = {
     "pan": Rule(_numbers(2), pan),  # window heights, right and down
     "fit": Rule(_nothing, fit, answer=_zoom),
     "edit": Rule(_nothing, edits.edit),
+    "edit_at": Rule(_text, edits.edit_at),  # a joint
+    "trace_joint": Rule(_text, edits.trace_joint),
+    "drive_joint": Rule(_text, edits.drive_joint),
     "choose": Rule(_whole, edits.choose),
     "pass_on": Rule(_whole, edits.pass_on),
     "nudge": Rule(_whole, edits.nudge),
@@ -609,7 +613,7 @@ ACTIONS: Mapping[str, Rule] = {
     "slide": Rule(_whole, making.lift_to),  # the step of the slider that is shown
     "back": Rule(_nothing, back),
     "list": Rule(_nothing, edits.list_, taped=False),
-    "menu": Rule(_one_of(None, *GROUPS), edits.menu, taped=False),  # a group of commands, or all
+    "menu": Rule(_words_or_none, edits.menu, taped=False),  # some commands, as `commands.menu_of` has them
     "stir": Rule(_nothing, lambda state, _: replace(state, stirred=state.frame), taped=False),
     "shelf": Rule(_nothing, edits.open_shelf, taped=False),
     "files": Rule(_text, edits.files, taped=False),  # scene files, one a line
@@ -657,7 +661,7 @@ def is_taped(action: Action) -> bool:
 
 _WITHOUT_PENCIL = frozenset({"unit", "undo", "redo"})
 """What is not done while a path is drawn: its points are in the unit of then, and edits are the scene's."""
-_KEEPS = frozenset({"edit", "layers"})
+_KEEPS = frozenset({"edit", "edit_at", "trace_joint", "drive_joint", "layers"})
 _LEAVES = frozenset({"mechanism", "select", "put", "closure", "reset", "returns"})
 """What keeps the answer that the pencil has, and what goes back to the scene before."""
 _OFF_THE_SHEET = _KEEPS | _LEAVES | {"pencil", "own_trace"}
@@ -710,7 +714,8 @@ def carried(state: State, action: Action) -> State:
         state = replace(state, touched=state.frame)
         if state.by_itself:
             return leave(state)
-    if state.game and action.name not in BESIDE | _SHEETS:
+    listed = action.name in _ON_A_LIST and state.listing is not None
+    if state.game and not listed and action.name not in BESIDE | _SHEETS:
         return _in_a_game(state, state.game, action)
     if (state.sketch or state.building) and action.name in _WITHOUT_PENCIL:
         return state

@@ -1,19 +1,21 @@
-"""Bring the commands of the key table to the hand: which are on the bar in each mode, and how they stand.
+"""Bring the commands of the key table to the hand: the bar at the foot in each mode, and menus.
 
 What a command is called, its key and what it does are the table's.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from functools import lru_cache
 from typing import NamedTuple
 
 from linkanim.picture.overlay import Button, CommandBar
 from linkanim.player.action import Action, Mode
 from linkanim.player.clock import FASTEST, SLOWEST
-from linkanim.player.keys import GROUPS, commands, group_key
-from linkanim.player.state import STIR_FRAMES, State
+from linkanim.player.keys import BESIDE_GAMES, GROUPS, binds_of, commands, group_key
+from linkanim.player.state import STIR_FRAMES, Entries, ListRow, State
+from linkanim.scenes.editing import drives, handles
+from linkanim.scenes.scene import Scene
 
 _FADING = 24
 """Over so many frames the bar fades, in eighths."""
@@ -154,6 +156,90 @@ def _meant(state: State, action: Action) -> Action:
 def lack(state: State, action: Action) -> str:
     """Say why a command cannot be done in the state as it is; empty where it can."""
     return _LACKS[action](state) if action in _LACKS else ""
+
+
+# Menus: the commands that there are, or those of what is under the hand.
+
+
+def menu_of(state: State, what: str | None) -> Entries | None:
+    """Return a list of commands; None for what is not there, or has none.
+
+    It has all of the mode that is on, or those of a group by its name, of the "chart", of the "chosen" thing
+    of a sheet, of a "joint", "link" or "strut" with its name, or all "things" that have some.
+    """
+    usual = {action: ListRow(words, key, action) for words, key, action in commands(state.mode)}
+    if what is None or what in GROUPS:
+        return _of_mode(state, usual, what)
+    if what == "things":
+        rows = tuple(ListRow(one, "", Action("menu", one)) for one in _things(state.scene))
+        return Entries("Joints and links", rows)
+    if what in _CHOSEN:
+        return Entries(what.capitalize(), tuple(usual[one] for one in _CHOSEN[what] if one in usual))
+    kind, _, name = what.partition(" ")
+    rows = tuple(_of_thing(state.scene, kind, name)) if what in _things(state.scene) else ()
+    return Entries(what.capitalize(), (*rows, usual[Action("names")])) if rows else None
+
+
+def _of_mode(state: State, usual: Mapping[Action, ListRow], group: str | None) -> Entries:
+    found = [row for action, row in usual.items() if action.name != "menu"]
+    if state.game:
+        own = {bind.action for bind in binds_of("game")}
+        found = [row for row in found if row.action in own or row.action.name in BESIDE_GAMES]
+    if group is None:
+        return Entries("Commands", tuple(found))
+    title, members = GROUPS[group]
+    return Entries(title, tuple(row for row in found if row.action in members))
+
+
+_CHOSEN: Mapping[str, tuple[Action, ...]] = {
+    "chart": (
+        *(Action("over"), Action("unit"), Action("chart", 1), Action("list"), Action("plot", "")),
+        Action("screenshot"),
+    ),
+    "chosen": (
+        *(Action("trace_on"), Action("drive_by"), Action("remove"), Action("number", 1)),
+        *(Action("unbuild"), Action("rebuild")),
+    ),
+}
+"""The commands of what is under the hand, where they are those of the table."""
+
+
+def _things(scene: Scene) -> tuple[str, ...]:
+    """Return what has commands of its own: joints, links, springs and dampers, by kind and name."""
+    linkage = scene.linkage
+    joints = (f"joint {joint.name}" for joint in linkage.joints)
+    links = (f"link {body.name}" for body in linkage.bodies if body.name)
+    springs = (f"strut {spring.name}" for spring in linkage.springs)
+    return (*joints, *links, *springs, *(f"strut {damper.name}" for damper in linkage.dampers))
+
+
+_CHARTED: Mapping[str, tuple[tuple[str, str], ...]] = {
+    "joint": (("velocity", "chart its speed"), ("acceleration", "chart its acceleration")),
+    "link": (
+        *(("angle", "chart its angle"), ("angular_velocity", "chart its angular velocity")),
+        *(("travel", "chart its travel"), ("travel_velocity", "chart its velocity")),
+    ),
+    "strut": (("length", "chart its length"), ("force", "chart its force")),
+}
+"""What can be charted of a thing: the end of the quantity's token, and the words."""
+
+
+def _of_thing(scene: Scene, kind: str, name: str) -> Iterator[ListRow]:
+    """Yield what can be done with a joint, a link, or a spring or damper."""
+    for end, words in _CHARTED[kind]:
+        if f"{name}.{end}" in scene.quantities:
+            yield ListRow(words, "", Action("plot", f"{name}.{end}"))
+    bodies = {body.name: body.joints for body in scene.linkage.bodies}
+    joints = (name,) if kind == "joint" else bodies.get(name, ()) if kind == "link" else ()
+    if kind == "joint":
+        words = "trace it no more" if name in scene.trace else "trace it"
+        yield ListRow(words, "", Action("trace_joint", name))
+        if name in drives(scene):
+            yield ListRow("make it the drive", "", Action("drive_joint", name))
+    sized = next((joint for joint in reversed(joints) if handles(scene, joint)), None)
+    if sized:
+        words = "edit its place" if scene.linkage.joint(sized).bars == () else "edit its length"
+        yield ListRow(words, "", Action("edit_at", sized))
 
 
 def _shows(title: str) -> Callable[[State], bool]:

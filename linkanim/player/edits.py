@@ -12,7 +12,8 @@ from linkanim.errors import LinkanimError
 from linkanim.mechanics.analysis import Info
 from linkanim.picture.overlay import Browsing
 from linkanim.player.action import Action
-from linkanim.player.keys import GROUPS, MENU_IN, commands
+from linkanim.player.commands import menu_of
+from linkanim.player.keys import MENU_IN
 from linkanim.player.state import (
     Edited,
     Editing,
@@ -39,10 +40,13 @@ from linkanim.scenes.editing import (
     Dimension,
     dimensions,
     dragged,
+    driven_at,
+    drives,
     handles,
     in_unit,
     other_closure,
     other_return,
+    traced,
     with_dimensions,
     with_document,
     with_unit,
@@ -211,22 +215,22 @@ def files(state: State, names: str) -> State:
 
 
 def menu(state: State, group: str | None) -> State:
-    """Open the list of all commands that there are in the mode that is on, or of a group of them; close it.
+    """Open the list of all commands that there are in the mode that is on, or of some of them; close it.
 
     Another list than the one that is open takes its place.
     """
-    title = GROUPS[group].title if group else "Commands"
     before = state.listing.others if state.listing else None
-    state = replace(state, listing=None)
-    if (before and before.title == title) or state.mode not in MENU_IN:
+    state = replace(state, listing=None, browsing=None)
+    opened = menu_of(state, group) if state.mode in MENU_IN else None
+    if opened is None or (before and before.title == opened.title):
         return state
-    found = (ListRow(*one) for one in commands(state.mode) if one[-1].name != "menu")
-    entries = tuple(one for one in found if group is None or one.action in GROUPS[group].actions)
-    return replace(state, listing=Listing(0, others=Entries(title, entries)), browsing=None, help=False)
+    return replace(state, listing=Listing(0, others=opened), help=False)
 
 
 def plot(state: State, token: str) -> State:
-    """Chart a quantity, and close the list."""
+    """Chart a quantity, none for "", and close the list."""
+    if not token:
+        return replace(state, look=replace(state.look, chart=None), listing=None)
     if token not in state.scene.quantities:
         return with_toast(state, f"{state.scene.name} has no quantity {token}")
     return replace(state, look=replace(state.look, chart=token), listing=None)
@@ -335,6 +339,31 @@ def reset(state: State, _: None) -> State:
     if editing.original is None or editing.original == state.scene:
         return replace(state, editing=cleared(editing))
     return _remade(state, with_undo(editing, state.scene), editing.original)
+
+
+def edit_at(state: State, joint: str) -> State:
+    """Open the list at the first dimension that follows a joint; say so where none does."""
+    found = handles(state.scene, joint) if joint in state.scene.linkage.by_name else ()
+    if not found:
+        return with_toast(state, f"no dimension of its own places joint {joint}")
+    state = state if state.editing.open else edit(state, None)
+    keys = [item.key for item in dimensions(state.scene)]
+    return choose(replace(state, editing=replace(state.editing, chosen=keys.index(found[0].key))), 0)
+
+
+def trace_joint(state: State, joint: str) -> State:
+    """Draw a joint's curve, or draw it no more; undo goes back."""
+    if joint not in state.scene.linkage.by_name:
+        return state
+    state = replace(state, look=replace(state.look, trace=True))
+    return _remade(state, with_undo(state.editing, state.scene), traced(state.scene, joint))
+
+
+def drive_joint(state: State, joint: str) -> State:
+    """Let another crank be driven; undo goes back."""
+    if joint not in drives(state.scene):
+        return state
+    return _remade(state, with_undo(state.editing, state.scene), driven_at(state.scene, joint))
 
 
 def returns(state: State, _: None) -> State:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import NamedTuple
+from typing import NamedTuple, get_args
 
 from linkanim.build.tools import TOOLS
 from linkanim.picture.look import TOGGLES
@@ -180,7 +180,11 @@ KEYS: Table = {
         KeyRow("L", "light / dark", _of_look("theme")),
         KeyRow("U", "sounds: dead centres and limits", _on("u", "sounds")),
         KeyRow("F11", "full screen", _on("f11", "fullscreen")),
-        KeyRow("F10, right click", "the list of all commands", _on("f10", "menu")),
+        KeyRow(
+            "F10, right click",
+            "all commands (Shift: a joint's)",
+            _on("f10", "menu") + _on("shift+f10", "menu", "things"),
+        ),
         KeyRow("H, F1, ?", "help", _on("h f1 ? shift+/", "help")),
         KeyRow(
             "Esc, Q",
@@ -190,7 +194,9 @@ KEYS: Table = {
     ),
     "measure": (
         *_looks("measure"),
-        KeyRow("C (Shift: back)", "chart: next quantity, off", _both("shift+c", "c", "chart", held=False)),
+        KeyRow(
+            "C (Shift: off)", "chart: next quantity, off", _on("c", "chart", 1) + _on("shift+c", "plot", "")
+        ),
         KeyRow("X", "the chart's axis: angle, time, phase", _of_look("over")),
         KeyRow("K", "the list of quantities", _on("k", "list")),
         KeyRow("Shift+U", "unit of lengths: mm, cm, m, in", _of_look("unit")),
@@ -359,6 +365,11 @@ def _is_typed(press: Press, mode: Mode, typing: bool) -> bool:
     return typing or press.key not in _TYPED[mode][1]
 
 
+def binds_of(mode: Mode) -> Iterator[Bind]:
+    """Yield what keys ask for in a mode alone, not what they ask for else."""
+    return _binds(MODES.get(mode, {}))
+
+
 def _rows(table: Table) -> Iterator[KeyRow]:
     return (row for rows in table.values() for row in rows)
 
@@ -375,8 +386,15 @@ def _names(press: Press) -> tuple[str, ...]:
     return ("shift+" + press.key, *symbol, press.key) if press.shift else (press.key, *symbol)
 
 
-MENU_IN: frozenset[Mode] = frozenset({"play", "paused", "pencil", "build", "layers", "list"})
+MENU_IN: frozenset[Mode] = frozenset(get_args(Mode)) - {"name"}
 """The modes in which the list of commands can be opened, or is."""
+BESIDE_GAMES = frozenset(
+    {
+        *("play", "help", "theme", "zoom", "fit", "fullscreen", "sounds"),
+        *("pan", "record", "screenshot", "svg", "quit"),
+    }
+)
+"""The commands that are the window's own while a game is on; all others are handed to the game."""
 _NEEDS_KEYS = frozenset({"aim", "enter", "type_place"})
 """What makes no sense in a list: it moves what only keys move."""
 _APART: Mapping[Action, str] = {
@@ -398,10 +416,11 @@ _APART: Mapping[Action, str] = {
     Action("shelf"): "the shelf",
     Action("help"): "help",
     Action("menu"): "all commands",
+    Action("menu", "things"): "commands of a joint or link",
     Action("play", "title door=play"): "the title",
     Action("back"): "close what is open, leave full screen",
     Action("quit"): "quit",
-    Action("chart", -1): "chart: the quantity before",
+    Action("plot", ""): "chart: off",
     Action("chart", 1): "chart: the next quantity",
     Action("build"): "build a linkage",
     Action("build_on"): "build on with this linkage",

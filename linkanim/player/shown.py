@@ -269,7 +269,7 @@ def _kept(state: State, items: tuple[Dimension, ...], over: Hover | None = None)
         noted=True,
         recording=_recording(state),
         help=help_groups(state.mode, pad=state.pad) if state.help else None,
-        panel=_panel(state, items) if state.editing.open else None,
+        panel=_panel(state, items) if state.editing.open and not state.listing else None,
         quantities=_quantities(state, state.listing) if state.listing else None,
         shelf=_shelf(state, state.browsing) if state.browsing else None,
         path=_path(state.sketch) if state.sketch else None,
@@ -278,7 +278,8 @@ def _kept(state: State, items: tuple[Dimension, ...], over: Hover | None = None)
         layers=_layers(state.layers) if state.layers else None,
         slider=_slider(state),
     )
-    return state.game.shown(state, found) if state.game else found
+    shown = state.game.shown(state, found) if state.game else found
+    return replace(shown, game=None, spots=(), handles=()) if state.listing else shown
 
 
 def _stands(state: State) -> bool:

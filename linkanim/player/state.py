@@ -624,12 +624,14 @@ class State:
         """What the keys are for."""
         if self.naming:
             return "name"
+        if self.listing:
+            return "list"
         if self.game:
             return "game"
         if self.editing.open:
             return "edit"
-        if self.listing or self.browsing:
-            return "list" if self.listing else "shelf"
+        if self.browsing:
+            return "shelf"
         if self.sketch:
             return "pencil"
         if self.building:
@@ -670,7 +672,7 @@ class State:
     @property
     def is_covered(self) -> bool:
         """Whether something is open that Esc closes."""
-        if self.game and not self.help:
+        if self.game and not (self.help or self.listing):
             return self.game.covers
         return self.help or self.mode not in ("play", "paused")
 
@@ -684,11 +686,13 @@ class State:
         """Whether something has been begun in the open list."""
         if self.naming:
             return True
+        if self.listing:
+            return bool(self.listing.sieve)
         if self.editing.open:
             return self.editing.typed != ""
         begun = self.building.building.typed if self.building else self.place_typed
         browsed = self.browsing.sieve if self.browsing else begun
-        return bool(self.listing.sieve if self.listing else browsed)
+        return bool(browsed)
 
     @property
     def phase(self) -> float:

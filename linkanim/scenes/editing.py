@@ -403,6 +403,36 @@ def _choice(scene: Scene) -> _Choice | None:
     return None
 
 
+# What of a scene is no number: the joints whose curves are drawn, and the crank that is driven.
+
+
+def traced(scene: Scene, joint: str) -> Scene:
+    """Return the scene with a joint's curve drawn, or not drawn any more; `scene` itself stays as it is."""
+    joints = [name for name in scene.trace if name != joint]
+    table = {"joints": joints if joint in scene.trace else [*joints, joint]}
+    return with_document(scene, {**scene.document, "trace": table})
+
+
+def drives(scene: Scene) -> tuple[str, ...]:
+    """Return the joints by which the scene can be driven instead: pins of cranks that no gear turns."""
+    linkage, shorthand = scene.linkage, scene.document.get("four-bar")
+    pins = ["A", "B"] if shorthand is not None else []
+    if shorthand is None and linkage.drive.coordinate.is_angle:
+        pins = [crank.name for crank in linkage.cranks if crank.gear is None]
+    return tuple(name for name in pins if name in linkage.by_name and name != linkage.drive.joint)
+
+
+def driven_at(scene: Scene, joint: str) -> Scene:
+    """Return the scene driven at one of its `drives`; errors as reading a file raises them."""
+    document, shorthand = dict(scene.document), scene.document.get("four-bar")
+    if shorthand is not None:
+        document["four-bar"] = {**shorthand, "driver": "rocker" if joint == "B" else "crank"}
+    else:
+        drive = {key: value for key, value in document.get("drive", {}).items() if key != "start"}
+        document["drive"] = {**drive, "joint": joint}
+    return with_document(scene, document)
+
+
 # Joints as handles: which dimensions follow when a joint is dragged.
 
 

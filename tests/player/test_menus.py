@@ -1,0 +1,199 @@
+"""Lists of commands: all of a mode, groups, those of a joint, a link, the chart; by keys and by mouse."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+
+import pygame
+import pytest
+from playing import Player
+
+from linkanim.play.games import game_of
+from linkanim.player import screen
+from linkanim.player.action import Action, Mode
+from linkanim.player.actions import advance, carried, is_known
+from linkanim.player.commands import menu_of
+from linkanim.player.keys import BESIDE_GAMES, GROUPS, binds_of, commands
+from linkanim.player.state import ListRow, State, begin
+from linkanim.player.window import MEANINGS
+from linkanim.scenes import load, names
+
+
+def after(state: State, *actions: Action | str) -> State:
+    for one in actions:
+        state = advance(state, [Action(one) if isinstance(one, str) else one])
+    return state
+
+
+# How each mode is entered, with the picture standing still but in the first.
+ENTERED: dict[Mode, Action | None] = {
+    "play": Action("pause"),
+    "paused": None,
+    "edit": Action("edit"),
+    "list": Action("list"),
+    "pencil": Action("pencil"),
+    "build": Action("build"),
+    "layers": Action("layers"),
+    "game": Action("play", "title"),
+}
+
+
+@pytest.fixture
+def player(here: object) -> Iterator[Player]:
+    del here
+    with screen.opened((640, 360)):
+        player = Player(replace(begin(load("crank-rocker")), games=game_of))
+        player.tick(20)
+        player.press(pygame.K_SPACE)
+        yield player
+        player.window.close()
+
+
+def enter(player: Player, mode: Mode) -> None:
+    """Enter a mode without what is started outside for it."""
+    action = ENTERED[mode]
+    player.window.state = carried(player.state, action) if action else player.state
+    player.tick()
+    assert player.state.mode == mode
+
+
+def expected(mode: Mode) -> list[tuple[str, str, Action]]:
+    """Return the commands that the list of a mode has."""
+    found = [one for one in commands(mode) if one[-1].name != "menu"]
+    if mode == "game":
+        own = {bind.action for bind in binds_of("game")}
+        found = [one for one in found if one[-1] in own or one[-1].name in BESIDE_GAMES]
+    return found
+
+
+def open_rows(state: State) -> list[ListRow]:
+    assert state.listing
+    assert state.listing.others
+    return [*state.listing.others.found]
+
+
+@pytest.mark.parametrize("mode", ENTERED)
+def test_every_command_of_every_mode_is_listed_by_f10_and_by_a_right_click(
+    player: Player, mode: Mode
+) -> None:
+    enter(player, mode)
+    listed = commands("paused") if mode == "list" else []
+    wanted = [one for one in listed if one[-1].name != "menu"] or expected(mode)
+    for opening in ("key", "mouse"):
+        if opening == "key":
+            player.press(pygame.K_F10)
+        else:
+            player.mouse(pygame.MOUSEBUTTONDOWN, (630, 10), button=3)
+            player.mouse(pygame.MOUSEBUTTONUP, (630, 10), button=3)
+        assert [(one.words, one.key, one.action) for one in open_rows(player.state)] == wanted
+        player.press(pygame.K_ESCAPE)
+        assert player.state.mode == ("paused" if mode == "list" else mode)
+
+
+@pytest.mark.parametrize("mode", [*ENTERED, "shelf", "name"])
+def test_every_command_of_a_list_is_one_that_the_window_knows(mode: Mode) -> None:
+    for words, _, action in commands(mode):
+        assert words
+        assert is_known(action) or action.name in MEANINGS, action
+
+
+def test_a_command_of_the_list_is_done_in_the_mode_that_was_on(player: Player) -> None:
+    player.type("e")
+    player.press(pygame.K_F10)
+    player.type("light / dark")
+    player.press(pygame.K_RETURN)
+    assert (player.state.mode, player.state.look.theme) == ("edit", "dark")
+
+
+def test_over_a_game_the_list_is_the_windows_and_what_is_chosen_the_games(player: Player) -> None:
+    player.press(pygame.K_F3)
+    player.press(pygame.K_F10)
+    player.press(pygame.K_DOWN)
+    player.press(pygame.K_UP)
+    assert player.state.mode == "list"
+    player.type("light / dark")
+    player.press(pygame.K_RETURN)
+    assert (player.state.mode, player.state.look.theme) == ("game", "dark")
+    assert player.state.game is not None
+
+
+@pytest.mark.parametrize("group", GROUPS)
+def test_a_group_has_its_commands(group: str) -> None:
+    found = menu_of(begin(load("press")), group)
+    assert found
+    assert {row.action for row in found.entries} == {*GROUPS[group].actions}
+
+
+# What a joint, a link, a spring or a damper of a scene has, by its words.
+THINGS: dict[str, tuple[str, str, str, Callable[[State], bool]]] = {
+    "a joint": ("crank-rocker", "joint A", "chart its speed", lambda state: state.look.chart == "A.velocity"),
+    "a trace": ("crank-rocker", "joint B", "trace it", lambda state: state.scene.trace == ("P", "B")),
+    "a trace less": ("crank-rocker", "joint P", "trace it no more", lambda state: state.scene.trace == ()),
+    "the drive": (
+        *("crank-rocker", "joint B", "make it the drive"),
+        lambda state: state.scene.linkage.drive.joint == "B",
+    ),
+    "its length": ("crank-rocker", "joint A", "edit its length", lambda state: state.editing.open),
+    "a link": (
+        *("crank-rocker", "link coupler", "chart its angular velocity"),
+        lambda state: state.look.chart == "coupler.angular_velocity",
+    ),
+    "a spring": (
+        "press",
+        "strut return",
+        "chart its force",
+        lambda state: state.look.chart == "return.force",
+    ),
+}
+
+
+@pytest.mark.parametrize("case", THINGS)
+def test_a_joint_a_link_and_a_spring_have_commands_of_their_own(case: str) -> None:
+    name, thing, words, done = THINGS[case]
+    state = after(begin(load(name)), Action("menu", thing))
+    row = next(row for row in open_rows(state) if row.words == words)
+    found = after(state, "back", row.action)
+    assert done(found)
+    assert found.toast is None
+
+
+def test_what_a_joint_is_made_is_undone(here: object) -> None:
+    del here
+    begun = begin(load("crank-rocker"))
+    for action in (Action("trace_joint", "B"), Action("drive_joint", "B")):
+        changed = after(begun, action)
+        assert changed.scene != begun.scene
+        assert after(changed, "undo").scene == begun.scene
+
+
+def test_all_joints_and_links_are_listed_for_the_keys(player: Player) -> None:
+    player.press(pygame.K_F10, pygame.KMOD_LSHIFT)
+    words = [row.words for row in open_rows(player.state)]
+    scene = player.state.scene
+    assert words == [f"joint {one.name}" for one in scene.linkage.joints] + [
+        f"link {one.name}" for one in scene.linkage.bodies
+    ]
+    player.type("joint a")
+    player.press(pygame.K_RETURN)
+    assert "chart its speed" in [row.words for row in open_rows(player.state)]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", names())
+def test_no_menu_of_a_scene_offers_what_cannot_be_done(name: str) -> None:
+    begun = begin(load(name))
+    things = menu_of(begun, "things")
+    assert things
+    for thing in things.entries:
+        menu = menu_of(begun, thing.words)
+        assert menu
+        for row in menu.entries:
+            assert after(begun, row.action).toast is None, (thing.words, row.words)
+
+
+def test_shift_c_puts_the_chart_away(player: Player) -> None:
+    player.type("c")
+    assert player.state.look.chart
+    player.press(pygame.K_c, pygame.KMOD_LSHIFT, "C")
+    assert player.state.look.chart is None
