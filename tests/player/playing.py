@@ -82,15 +82,19 @@ class NoSearch:
         self.is_over = True
 
 
-def fake_start(started: list[list[str]]) -> Callable[[list[str], int], object]:
-    """Return what starts no process, notes its command, and says that it is done."""
+def fake_start(started: list[list[str]]) -> Callable[..., object]:
+    """Return what starts no process, notes its command, and says that it is done; it fails to answer."""
 
     class Done:
-        def poll(self) -> int:
-            return 0
+        def __init__(self, code: int) -> None:
+            self._code = code
 
-    def start(command: list[str], message: int) -> object:
+        def poll(self) -> int:
+            return self._code
+
+    def start(command: list[str], message: int, out: int | None = None) -> object:
+        del message
         started.append(command)
-        return Done()
+        return Done(0 if out is None else 1)
 
     return start
