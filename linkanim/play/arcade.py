@@ -65,8 +65,11 @@ class Arcade:
                 found = found if "level" in found.fields else found.having(level=first_unsolved(scores.best))
                 return str(found.having(best=scores.best.get(level_of(found).kept_as, 0)))
             case "predict":
+                from linkanim.play.predict import read as round_of
+
                 again = ",".join(map(str, self._again(found, scores)))
-                return str(found.having(seed=self._random.randrange(_SEEDS), again=again))
+                best = scores.best.get(round_of(found).kept_as, 0)
+                return str(found.having(seed=self._random.randrange(_SEEDS), again=again, best=best or ""))
         return words
 
     def _again(self, words: GameWords, scores: Scores) -> list[QuestionId]:

@@ -147,12 +147,14 @@ def _turning(cycle: NDArray[np.float64], scene: Scene, phase: float, halves: int
 
 # Follow: turn the crank so that the ram stays between two lines on paper that scrolls by.
 
-Stage = Literal["ready", "runs", "over"]
+Stage = Literal["ready", "counts", "runs", "over"]
 
 _PAPER = (1_000, 1_200, 1_400)
 """How far the paper scrolls in a frame as it begins, in thousandths of a mm, by level."""
 _FASTER_EACH, _MOST = 6, 700
 """After so many frames it scrolls by a thousandth more, up to so many more."""
+_COUNTED = 3 * FRAMES_PER_SECOND
+"""Before the paper scrolls it is counted 3, 2, 1: a second each."""
 _SLACK = 3 * FRAMES_PER_SECOND
 """For how many frames in all the ram may be outside."""
 _NOTCH = radians(0.4)
@@ -170,8 +172,8 @@ _HINT = "drag the crank pin   ← → faster, slower   Space stops   a gamepad's
 class FollowRun:
     """A run along a scene's track: how much paper has gone by, on how much of it the ram kept to its lines.
 
-    `paper` and `passed` count thousandths of a mm, `frames` and `outside` frames; `notch` is how fast the
-    arrow keys turn the crank.
+    `paper` and `passed` count thousandths of a mm, `frames` and `outside` frames, `counted` those of
+    the count before it; `notch` is how fast the arrow keys turn the crank.
     """
 
     scene: str
@@ -181,6 +183,7 @@ class FollowRun:
     paper: int = 0
     passed: int = 0
     outside: int = 0
+    counted: int = 0
     notch: int = 0
     phase: float = 0.0
     best: int = 0
@@ -222,20 +225,21 @@ class FollowRun:
                 return self._turned(state, state.phase, min(max(notch, -_NOTCHES), _NOTCHES))
             case Action("next"):
                 return self._begun(state) if self.stage == "over" else self._turned(state, state.phase, 0)
-            case Action("raise", int() as further) if self.stage != "runs":
+            case Action("raise", int() as further) if self.stage in ("ready", "over"):
                 known = tracks()
                 place = known.index(self.scene) if self.scene in known else 0
                 way = 1 if further > 0 else -1
                 return replace(self, scene=known[(place - way) % len(known)])._begun(state)
-            case Action("option", int() as level) if self.stage != "runs" and 0 <= level < LEVELS:
+            case Action("option", int() as level) if self.stage in ("ready", "over") and 0 <= level < LEVELS:
                 return replace(self, level=level + 1)._begun(state)
         return state
 
     def _turned(self, state: State, phase: float, notch: int) -> State:
-        """Return the state with the crank at a phase; the first turn starts the paper."""
+        """Return the state with the crank at a phase; the first turn starts the count."""
         if self.stage == "over":
             return state
-        game = replace(self, stage="runs", notch=notch, phase=phase)
+        stage: Stage = "counts" if self.stage == "ready" else self.stage
+        game = replace(self, stage=stage, notch=notch, phase=phase)
         return replace(state, game=game, clock=state.clock.go(state.frame, phase, paused=True))
 
     def _begun(self, state: State) -> State:
@@ -243,11 +247,16 @@ class FollowRun:
 
     def aged(self, state: State) -> State:
         """Let the paper scroll, and see whether the ram is between its lines; none of it below the help."""
-        if self.stage != "runs" or state.help:
+        if self.stage not in ("counts", "runs") or state.help:
             return state
-        paper = self.paper + _PAPER[self.level - 1] + min(self.frames // _FASTER_EACH, _MOST)
         way = 1 if state.scene.linkage.drive.speed > 0 else -1
         phase = state.phase + way * self.notch * _NOTCH
+        clock = state.clock.go(state.frame, phase, paused=True)
+        if self.stage == "counts":
+            game = replace(self, counted=self.counted + 1, phase=phase)
+            starts = game.counted >= _COUNTED
+            return replace(state, clock=clock, game=replace(game, stage="runs") if starts else game)
+        paper = self.paper + _PAPER[self.level - 1] + min(self.frames // _FASTER_EACH, _MOST)
         track = self.track
         off = track.share(state.scene, phase) - track.at(paper / 1e3)
         within = abs(off) <= track.half_width
@@ -260,7 +269,7 @@ class FollowRun:
             phase=phase,
             is_within=within,
         )
-        state = replace(state, clock=state.clock.go(state.frame, phase, paused=True))
+        state = replace(state, clock=clock)
         if game.outside >= _SLACK or paper >= 1_000 * LENGTH:
             return game._ended(state)
         crossed = self.is_within and not within
@@ -290,17 +299,20 @@ class FollowRun:
             ScoreBar("slack", f"{max(_SLACK - self.outside, 0) / FRAMES_PER_SECOND:.1f} s", left),
         )
         choices = tuple(Choice(f"{n}", words) for n, words in enumerate(_WIDTHS, 1))
+        runs, counts = self.stage in ("counts", "runs"), self.stage == "counts"
+        left_to_count = -((self.counted - _COUNTED) // FRAMES_PER_SECOND)
         panel = GamePanel(
-            "Follow",
+            f"{left_to_count}" if counts else "Follow",
             scores=(state.scene.title, *([f"best {self.best / 1e3:.2f} m"] * (self.best > 0))),
-            lines=() if self.stage == "runs" else ("Keep the ram between the two lines.",),
-            choices=() if self.stage == "runs" else choices,
+            lines=() if runs and not counts else ("Keep the ram between the two lines.",),
+            choices=() if runs else choices,
             bars=bars,
             verdict=self._verdict if self.stage == "over" else "",
             well=self.is_best,
-            lines_after=(state.scene.look_at,) if self.stage != "runs" and state.scene.look_at else (),
-            hint=_HINT if self.stage == "runs" else f"{_AGAIN[self.stage]}   ↑ ↓ another track   Esc out",
-            chosen=None if self.stage == "runs" else self.level - 1,
+            lines_after=(state.scene.look_at,) if not runs and state.scene.look_at else (),
+            hint=_HINT if runs else f"{_AGAIN[self.stage]}   ↑ ↓ another track   Esc out",
+            large=counts,
+            chosen=None if runs else self.level - 1,
         )
         return replace(over, game=panel, lane=self._lane(state))
 
@@ -330,14 +342,14 @@ def read(words: GameWords) -> FollowRun:
     scene = words.text("scene", _FIRST)
     if scene not in tracks():
         raise BadInput(f"follow: scene={shown(scene)} is no track; there are {', '.join(tracks())}")
-    known: tuple[Stage, ...] = ("runs", "over")
+    known: tuple[Stage, ...] = ("counts", "runs", "over")
     return FollowRun(
         scene,
         words.whole("level", 1, 1, LEVELS),
         next((stage for stage in known if stage == words.text("stage")), "ready"),
         notch=words.whole("notch", 0, -_NOTCHES, _NOTCHES),
         phase=_number(words.text("phase", "0.0")),
-        **{name: words.whole(name) for name in ("frames", "paper", "passed", "outside", "best")},  # type: ignore[arg-type]
+        **{name: words.whole(name) for name in ("frames", "paper", "passed", "outside", "counted", "best")},  # type: ignore[arg-type]
     )
 
 

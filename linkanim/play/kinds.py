@@ -556,7 +556,12 @@ def _why_heading(puzzle: Puzzle, name: str) -> str:
         if 0 < abs(arm) < inf:
             turns = TURNS[(arm.conjugate() * velocity).imag < 0]
             return f"It turns {turns} about {about} and lies {SIDES[quarter(arm)]} it: so it moves {moves}."
-    return f"It moves {moves}: its velocity is ({number(velocity.real)}, {number(velocity.imag)})."
+    carried = next((puzzle.name(body) for body in puzzle.bodies_of(name)), "")
+    if carried:
+        return f"At this instant {carried} does not turn: all its points move alike, {name} {moves}."
+    bars = " and ".join(f"{end}–{name}" for end, _ in joint.bars)
+    keeps = f"Only so do the bars {bars} keep their lengths: " if bars else "What carries it takes it along: "
+    return f"{keeps}{name} moves {moves}."
 
 
 def instant_centre(puzzle: Puzzle) -> QuizQuestion | None:

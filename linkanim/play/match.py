@@ -153,6 +153,21 @@ class Level:
         """What the answer is worth; nothing where there is none."""
         return worth(self.answer, self.curve) if self.answer else Worth(math.inf, math.inf, 0.0)
 
+    @cached_property
+    def _given(self) -> float:
+        """How far the linkage follows as the level begins."""
+        return min(shares(worth(self.start, self.curve), self.full)[0], 0.99)
+
+    def earned(self, found: Worth) -> tuple[float, float, float]:
+        """Return what a linkage earns of each full score, 0 to 1.
+
+        What follows no better than the linkage that the level begins with earns nothing, and size and angle
+        count as far as it does.
+        """
+        off, links, angle = shares(found, self.full)
+        gained = max(off - self._given, 0.0) / (1.0 - self._given)
+        return gained, gained * links, gained * angle
+
 
 @lru_cache(maxsize=1)
 def level_names() -> tuple[str, ...]:
@@ -290,6 +305,7 @@ _KEPT = 60
 """So many drags can be taken back."""
 _POINTS = 100
 """For each of the three."""
+_GOAL = "Drag joints until the coupler point runs along the dots; size and angle count as far as it does."
 _NAMES = ("how exactly", "how small", "transmission angle")
 
 
@@ -325,7 +341,7 @@ class MatchGame:
     @property
     def points(self) -> tuple[int, ...]:
         """The three scores, 0 to 100."""
-        return _earned(shares(self.found, self.of_level.full))
+        return _earned(self.of_level.earned(self.found))
 
     def entered(self, state: State) -> State:
         """Return the state with the four-bar standing beside the curve."""
@@ -433,8 +449,8 @@ class MatchGame:
     def shown(self, state: State, over: Overlay) -> Overlay:
         """Return the overlay with the curve, the three bars, and what they come to."""
         level = self.of_level
-        answer = shares(level.worth_of_answer, level.full)
-        own = shares(self.found, level.full)
+        answer = level.earned(level.worth_of_answer)
+        own = level.earned(self.found)
         points = _earned(own)
         known = zip(_NAMES, _worded(self.found), points, own, answer, strict=True)
         bars = tuple(
@@ -449,7 +465,7 @@ class MatchGame:
         panel = GamePanel(
             level.title,
             scores=(self._place, f"{sum(points)} of {3 * _POINTS}", f"best {self.best}"),
-            lines=tuple(filter(None, (level.about, self._fixed))),
+            lines=tuple(filter(None, (_GOAL, level.about, self._fixed))),
             bars=bars,
             verdict=self._verdict(own, answer),
             well=not self.gave_up,

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Iterator
 from dataclasses import replace
+from math import pi, radians, sin
 from random import Random
 from typing import NamedTuple
 
@@ -29,10 +32,12 @@ POINTS, BONUS, STREAK, SECOND = 100, 50, 10, 40
 QUICK = 20 * FRAMES_PER_SECOND
 """Within this time an answer earns a part of the bonus."""
 _LONGEST_STREAK = 5
-_HOLD = 75
-"""So many frames the answer stands at the question's pose before the input runs on."""
+_HOLD = 2 * FRAMES_PER_SECOND
+"""So many frames the answer stands at the question's pose before the input moves."""
+_SWEEP, _WIDE = 4 * FRAMES_PER_SECOND, radians(15.0)
+"""For so many frames it then goes to and fro about that pose, so far to either side, and stands again."""
 _SLOW = -4
-"""How slowly it runs then, in rungs of the clock's ladder."""
+"""How slowly it runs where the answer is at another pose, in rungs of the clock's ladder."""
 _BARE = Look(hud=False, trace=False, dead_centres=False)
 
 
@@ -52,7 +57,7 @@ class Predict:
     """A round: of a chapter's scenes, at a level; questions that were missed before come first, as `again`.
 
     `question` is the one that is asked since frame `since`, None at the end; `chosen` the answer taken, and
-    `coming` the next one with its scene, once it is made.
+    `coming` the next one with its scene, once it is made. `best` is the best score before this round.
     """
 
     chapter: str
@@ -64,6 +69,7 @@ class Predict:
     since: int = 0
     chosen: int | None = None
     coming: tuple[QuizQuestion, Scene] | None = None
+    best: int = 0
     covers = True
 
     @property
@@ -71,7 +77,13 @@ class Predict:
         """What begins it again as it is; a question that is asked begins anew."""
         done = self.done if self.chosen is None else self.done[:-1]
         words = GameWords("predict", {}).having(chapter=self.chapter, level=self.level, seed=self.seed)
-        return str(words.having(again=",".join(map(str, self.again)), done=",".join(map(str, done))))
+        words = words.having(again=",".join(map(str, self.again)), done=",".join(map(str, done)))
+        return str(words.having(best=self.best or ""))
+
+    @property
+    def kept_as(self) -> str:
+        """What the best score of such a round is kept under."""
+        return f"{self.chapter.replace(' ', '_')}.{self.level}"
 
     @property
     def missed(self) -> tuple[QuestionId, ...]:
@@ -151,26 +163,44 @@ class Predict:
         state = with_effect(state, "score", f"{'met' if right else 'missed'}={question.question_id}")
         over = replace(self, done=done)
         if over.is_over:
-            best = f"best={self.chapter.replace(' ', '_')}.{self.level}:{over.score}"
-            state = with_effect(state, "score", best)
+            state = with_effect(state, "score", f"best={self.kept_as}:{over.score}")
         return state
 
     def aged(self, state: State) -> State:
-        """Let the input run on when the answer has stood for a while, up to where it is to stop."""
+        """Move the input when the answer has stood for a while, so that it ends where it is to stop."""
         if self.question is None or self.chosen is None:
             return state
-        stops, clock = self.question.stops, state.clock
-        if state.frame == self.since + _HOLD and stops != self.question.phase:
-            whole = self.question.shows.chart or self.question.shows.ghost
-            slow = clock if whole else clock.faster(state.frame, _SLOW)
-            return replace(state, clock=slow.pause(state.frame, False))
-        if state.frame == self.since + _HOLD // 2 and not self.is_over:
+        gone = state.frame - self.since
+        if gone == _HOLD // 2 and not self.is_over:
             return replace(state, game=replace(self, coming=self._next()))  # while all stands still
-        if stops is None or clock.paused or stops == self.question.phase:
+        if gone < _HOLD:
             return state
-        ahead = (stops - state.phase) * (1 if clock.speed > 0 else -1) % state.scene.period
+        if self._runs:
+            return self._run_on(state, self.question, begins=gone == _HOLD)
+        part = min((gone - _HOLD) / _SWEEP, 1.0)
+        phase = self.question.phase + (_WIDE * sin(2 * pi * part) if part < 1.0 else 0.0)
+        return replace(state, clock=state.clock.go(state.frame, phase, paused=True))
+
+    @property
+    def _runs(self) -> bool:
+        """Whether the answer is seen at another pose, or over a whole period; else about the pose asked."""
+        question = self.question
+        if question is None or question.stops == question.phase:
+            return False
+        return question.stops is not None or bool(question.shows.chart or question.shows.ghost)
+
+    def _run_on(self, state: State, question: QuizQuestion, *, begins: bool) -> State:
+        """Let the input run up to where the answer is seen; else once round, to the pose that was asked."""
+        clock, period = state.clock, state.scene.period
+        if begins:
+            slow = clock if question.shows.chart or question.shows.ghost else clock.faster(state.frame, _SLOW)
+            return replace(state, clock=slow.pause(state.frame, False))
+        if clock.paused:
+            return state
+        goal, way = question.phase if question.stops is None else question.stops, 1 if clock.speed > 0 else -1
+        ahead = (goal - state.phase) * way % period
         if ahead <= abs(clock.speed) / FRAMES_PER_SECOND:
-            return replace(state, clock=clock.go(state.frame, stops, paused=True))
+            return replace(state, clock=clock.go(state.frame, goal, paused=True))
         return state
 
     def shown(self, state: State, over: Overlay) -> Overlay:
@@ -197,7 +227,7 @@ class Predict:
         )
         if not waits:
             panel = self._verdict(panel, question)
-        still = waits or state.frame < self.since + _HOLD or state.clock.paused
+        still = waits or state.phase == question.phase
         spots = tuple(Spot(f"{n}", one.place, mood) for n, (one, mood) in answers if one.place and still)
         return replace(over, game=panel, spots=spots)
 
@@ -230,6 +260,8 @@ class Predict:
             lines=(
                 f"{right} of {len(first)} right at first, {longest} in a row at best.",
                 f"{sum(one.frames for one in self.done) / FRAMES_PER_SECOND:.0f} s for all answers.",
+                self._best_words(),
+                *self._missed_words(),
             ),
             choices=(
                 Choice("1", "Another round", below="what was missed comes first"),
@@ -239,6 +271,24 @@ class Predict:
             large=True,
             chosen=0,
         )
+
+    def _best_words(self) -> str:
+        """Say what the best score of such a round is."""
+        if self.score <= self.best:
+            return f"The best is {self.best} points."
+        return (
+            f"The best so far; before, it was {self.best}." if self.best else "The first score of its kind."
+        )
+
+    def _missed_words(self) -> Iterator[str]:
+        """Yield what was missed, by kinds, and where; nothing where all was right."""
+        wrong = [one.question_id for one in self.done[:COUNT] if not one.right]
+        if wrong:
+            kinds = Counter(one.kind for one in wrong)
+            told = ", ".join(f"{kind}{f' ({count} times)' * (count > 1)}" for kind, count in kinds.items())
+            titles = ", ".join(dict.fromkeys(load(one.scene).title for one in wrong))
+            yield f"Missed at first: {told}."
+            yield f"In: {titles}."
 
 
 def _streak(done: tuple[GivenAnswer, ...]) -> int:
@@ -270,6 +320,7 @@ def read(words: GameWords) -> Predict:
         words.whole("seed"),
         again,
         done,
+        best=words.whole("best", 0),
     )
 
 

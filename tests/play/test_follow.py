@@ -49,6 +49,14 @@ def towards(track: RamTrack, scene: Scene, place: float, phase: float) -> float:
     return float(phases[good[np.abs(phases[good] - phase).argmin()]])
 
 
+def counted(state: State) -> State:
+    """Return the state at the end of the count that the first turn of the crank begins."""
+    state = advance(state, [Action("next")])
+    while game(state).stage == "counts":
+        state = advance(state)
+    return state
+
+
 def followed(state: State, frames: int) -> Iterator[tuple[State, Action]]:
     """Yield states in which the crank is turned after the lane, each with what was done."""
     for _ in range(frames):
@@ -81,7 +89,7 @@ def test_scenes_without_a_ram_are_none() -> None:
 
 @pytest.mark.parametrize("name", ["press", "crank-shaper", "toggle-press"])
 def test_a_steady_hand_stays_between_the_lines(name: str) -> None:
-    *_, (state, _) = followed(on(f"follow scene={name}"), 400)
+    *_, (state, _) = followed(counted(on(f"follow scene={name}")), 400)
     run = game(state)
     assert run.stage == "runs"
     assert run.outside == 0
@@ -91,7 +99,7 @@ def test_a_steady_hand_stays_between_the_lines(name: str) -> None:
 def test_a_crank_that_stands_still_uses_up_the_slack() -> None:
     state = advance(on("follow scene=press"), [Action("next")])
     effects = list[Action]()
-    for _ in range(1_000):
+    for _ in range(1_200):
         state = advance(state)
         effects += state.effects
         if game(state).stage == "over":
@@ -110,11 +118,23 @@ def test_the_arrow_keys_set_how_fast_the_crank_turns() -> None:
     state, phases = on("follow scene=crank-shaper"), []
     for steps in (1, 1, -10, 0):
         state = advance(state, [Action("turn", steps)] if steps else [Action("next")])
-        phases.append(state.phase)
-        state = advance(state)
-        phases[-1] = state.phase - phases[-1]
+        before, state = state.phase, advance(state)
+        phases.append(state.phase - before)
     way = math.copysign(math.radians(0.4), state.scene.linkage.drive.speed)
     assert phases == pytest.approx([way, 2 * way, -way, 0.0])
+
+
+def test_it_counts_three_two_one_before_the_paper_scrolls() -> None:
+    state, seen = advance(on("follow scene=press"), [Action("next")]), []
+    while game(state).stage == "counts":
+        panel = game(state).shown(state, Overlay()).game
+        assert panel
+        seen.append(panel.heading)
+        assert game(state).paper == 0
+        state = advance(state)
+    assert list(dict.fromkeys(seen)) == ["3", "2", "1"]
+    assert len(seen) == 180
+    assert game(advance(state)).paper > 0
 
 
 def test_a_run_replays_to_the_same_score_from_its_start_and_from_its_midst() -> None:
@@ -185,8 +205,9 @@ def test_it_is_played_by_mouse_keys_and_stick(player: Player) -> None:
     pin = player.window.screen.crank_pin()
     player.drag(pin, (pin[0] + 30, pin[1] + 30))
     run = game(player.state)
-    assert run.stage == "runs"
+    assert run.stage == "counts"
     assert run.phase != 0.0
+    player.tick(180)
     player.press(pygame.K_RIGHT)
     assert game(player.state).notch == 1
     player.press(pygame.K_SPACE, 0, " ")

@@ -385,3 +385,12 @@ def test_the_least_angle_is_the_solver_s() -> None:
     assert state.scene.info.full_turn
     assert least
     assert game(state).found.angle == pytest.approx(least[0], abs=1e-9)
+
+
+@pytest.mark.parametrize("level", level_names())
+def test_doing_nothing_earns_nothing(level: str) -> None:
+    state = on(f"match level={level}")
+    assert game(state).points == (0, 0, 0)
+    panel = game(state).shown(state, Overlay()).game
+    assert panel
+    assert "until the coupler point runs along the dots" in panel.lines[0]

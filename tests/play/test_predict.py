@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 from random import Random
 
@@ -89,6 +91,8 @@ def test_from_the_title_enter_alone_begins_a_round_and_a_key_answers(player: Pla
     assert player.pixels != question_id
     before = player.state.phase
     player.tick(100)
+    assert player.state.phase == before
+    player.tick(60)
     assert player.state.phase != before
     player.press(pygame.K_RETURN)
     assert round_of(player.state).chosen is None
@@ -163,6 +167,39 @@ def test_a_click_on_a_spot_in_the_picture_answers(player: Player, token: str) ->
     assert len(spots) == len(question.answers)
     player.mouse(pygame.MOUSEBUTTONDOWN, place, button=1)
     assert round_of(player.state).done[-1].right
+
+
+def test_the_pose_that_was_asked_stands_then_is_swept_and_stands_again() -> None:
+    state = playing(f"predict chapter=all level=1 again={FASTEST}")
+    question = round_of(state).question
+    assert question
+    state = advance(state, [Action("option", question.right)])
+    phases = []
+    for _ in range(500):
+        state = advance(state)
+        phases.append(state.phase - question.phase)
+    assert set(phases[:119]) == {0.0}
+    assert max(phases) == pytest.approx(math.radians(15.0), rel=1e-3)
+    assert min(phases) == pytest.approx(-math.radians(15.0), rel=1e-3)
+    assert max(abs(b - a) for a, b in pairwise(phases)) < math.radians(0.5)
+    assert set(phases[380:]) == {0.0}
+    assert state.clock.paused
+
+
+def test_a_round_ends_with_the_best_score_and_what_was_missed() -> None:
+    state = playing(f"{BEGUN} best=5000")
+    asked = []
+    while not round_of(state).is_over:
+        question = round_of(state).question
+        assert question
+        asked.append(question)
+        state = answered(state, well=len(asked) != 3)
+    panel = round_of(state).shown(state, Overlay()).game
+    assert panel
+    text = " ".join(panel.lines)
+    assert "The best is 5000 points." in text
+    assert f"Missed at first: {asked[2].kind}." in text
+    assert asked[2].scene.title in text
 
 
 def test_the_input_runs_to_the_dead_centre_and_stands_there() -> None:
