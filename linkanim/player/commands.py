@@ -177,7 +177,7 @@ def menu_of(state: State, what: str | None) -> Entries | None:
         return Entries(what.capitalize(), tuple(usual[one] for one in _CHOSEN[what] if one in usual))
     kind, _, name = what.partition(" ")
     rows = tuple(_of_thing(state.scene, kind, name)) if what in _things(state.scene) else ()
-    return Entries(what.capitalize(), (*rows, usual[Action("names")])) if rows else None
+    return Entries(what[:1].upper() + what[1:], (*rows, usual[Action("names")])) if rows else None
 
 
 def _of_mode(state: State, usual: Mapping[Action, ListRow], group: str | None) -> Entries:

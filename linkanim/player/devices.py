@@ -289,6 +289,10 @@ _TOLD = 180
 """So many frames after the mouse has moved last, what passes below it tells itself no more."""
 _RIGHT = 3
 """The number of the right button, which opens the list of commands."""
+_LONG, _LONG_STILL = 36, 0.012
+"""A button held for so many frames, as still as this in heights of the window, is a long press."""
+_THINGS_IN = frozenset[Mode]({"play", "paused", "edit"})
+"""Where joints and links have commands of their own."""
 _TENTHS = 0.1
 _PULL = 0.011
 """How far a value is dragged for a step, in the window's height."""
@@ -307,6 +311,11 @@ _STILL = 0.006
 """How far the hand may move in a click on paper, in the window's height."""
 _PENCIL: Mapping[str, Drag] = {"pen_down": "pen", "take_point": "lead", "take_pivot": "lead", "dial": "dial"}
 """What the mouse does on while its button is down, by what the pencil has begun."""
+_LET_GO: Mapping[Drag | None, str] = {
+    **{"pan": "", "crank": "", "chart": "", "paper": "", "joint": "drop"},
+    **{"pen": "pen_off", "lead": "let_go", "hand": "back"},
+}
+"""What ends a drag without more, where a long press comes of it."""
 
 
 def latest(events: list[Event]) -> list[Event]:
@@ -333,6 +342,7 @@ class Mouse:
         self._turned: int | None = None
         self._slider = 0
         self._seen, self._moved_in = False, 0
+        self._down_in = 0
 
     def actions(self, event: Event, screen: Screen) -> tuple[Action, ...]:
         """Return what a mouse event asks for."""
@@ -340,12 +350,13 @@ class Mouse:
         if kind in ("move", "down"):
             self._seen, self._moved_in = True, screen.state.frame
         if kind == "down" and event.button == _RIGHT:
-            return (Action("menu"),) * (screen.state.mode in MENU_IN)
+            self._at = event.pos
+            return self._menu(screen)
         if getattr(event, "button", 1) != 1 or (kind == "wheel" and not notches):
             return ()
         self._at = getattr(event, "pos", self._at)
         if kind == "down":
-            self._begun, self._far = self._at, 0.0
+            self._begun, self._far, self._down_in = self._at, 0.0, screen.state.frame
         self._far = max(self._far, math.dist(self._begun, self._at))
         height = screen.size[1]
         gesture = Gesture(kind, notches, ((self._at[0] - x) / height, (self._at[1] - y) / height))
@@ -369,6 +380,31 @@ class Mouse:
         found = mode(gesture, screen) if mode else None
         found = self._on_a_list(gesture, screen) if found is None else found
         return self._on_the_picture(gesture, screen) if found is None else found
+
+    def _menu(self, screen: Screen) -> tuple[Action, ...]:
+        """Return what opens the list of what is under the mouse, else of all commands, or closes the list."""
+        if screen.state.mode not in MENU_IN:
+            return ()
+        if screen.state.listing:
+            return (Action("back"),)
+        if screen.button_at(*self._at) is not None:
+            return (Action("menu"),)
+        if screen.state.mode == "build":
+            chosen = screen.on_sheet(*self._at)
+            click = (self._handed("hand_down", screen), Action("hand_up"), Action("menu", "chosen"))
+            return click if chosen else (Action("menu"),)
+        if screen.state.mode in _THINGS_IN and (found := screen.pointed(*self._at, _NEAR * screen.size[1])):
+            words = f"{found.thing.kind} {found.thing.name}" if found.thing else ""
+            return (Action("menu", words or ("chart" if screen.charted(*self._at) is not None else None)),)
+        return (Action("menu", "chart" if screen.charted(*self._at) is not None else None),)
+
+    def held(self, screen: Screen) -> tuple[Action, ...]:
+        """Return what a button or a finger asks for that is held still for long: what a right click does."""
+        still = self._far <= _LONG_STILL * screen.size[1]
+        if self._drag not in _LET_GO or not still or screen.state.frame - self._down_in < _LONG:
+            return ()
+        ended, self._drag = _LET_GO[self._drag], "bar"
+        return (*((Action(ended),) if ended else ()), *self._menu(screen))
 
     def _on_the_bar(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
         """Return what is asked of the bar of commands: a button, or a slider that is dragged; None off it."""

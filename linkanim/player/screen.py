@@ -405,6 +405,11 @@ class Screen:
         seen = sheet.seen(self.state.scene, self.state.phase)
         return under(seen, *self.world(x, y), self._near), seen
 
+    def on_sheet(self, x: float, y: float) -> bool:
+        """Return whether a click at a pixel of the sheet chooses something, and draws nothing."""
+        sheet = self.state.building
+        return bool(sheet and sheet.tool in ("bar", "move") and self._under(x, y)[0])
+
     @property
     def _near(self) -> float:
         """How near counts as on a thing, in the sheet's unit."""

@@ -181,6 +181,9 @@ class Window:
         for action in self._pads.turned(self.state):
             yield from self._off_the_tape(action)
             yield action
+        for action in self._mouse.held(self.screen) if self._good else ():
+            yield from self._off_the_tape(action)
+            yield from self._resolved(action)
         for action in (*self._keyboard.repeated(self.state.frame), *self._pads.repeated(self.state.frame)):
             yield from self._resolved(action)
         yield from self._news()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from typing import Any
 
 import pygame
 import pytest
@@ -197,3 +198,85 @@ def test_shift_c_puts_the_chart_away(player: Player) -> None:
     assert player.state.look.chart
     player.press(pygame.K_c, pygame.KMOD_LSHIFT, "C")
     assert player.state.look.chart is None
+
+
+def place(player: Player, joint: str) -> tuple[float, float]:
+    pose = player.state.displayed.pose(player.state.phase, 0)
+    return player.window.screen.pixel(*pose.position[joint])
+
+
+def opened(player: Player) -> str:
+    assert player.state.listing
+    assert player.state.listing.others
+    return player.state.listing.others.title
+
+
+def test_a_right_click_on_a_joint_a_link_and_the_chart_lists_what_these_have(player: Player) -> None:
+    player.window.state = carried(player.state, Action("plot", "rocker.angle"))
+    player.settle()
+    a, b = place(player, "A"), place(player, "O2")
+    chart = player.window.screen._framing.last.layout.chart
+    assert chart
+    spots = {
+        "Joint A": a,
+        "Link crank": ((a[0] + b[0]) / 2, (a[1] + b[1]) / 2),
+        "Chart": (chart.middle.real, chart.middle.imag),
+    }
+    for title, at in spots.items():
+        player.mouse(pygame.MOUSEBUTTONDOWN, at, button=3)
+        assert opened(player) == title
+        player.mouse(pygame.MOUSEBUTTONDOWN, at, button=3)
+        assert player.state.listing is None
+
+
+@pytest.mark.parametrize("by", ["mouse", "finger"])
+def test_a_long_press_does_what_a_right_click_does(player: Player, by: str) -> None:
+    at = place(player, "A")
+    share: dict[str, Any] = {
+        "x": at[0] / 640,
+        "y": at[1] / 360,
+        "finger_id": 3,
+        "touch_id": 1,
+        "dx": 0,
+        "dy": 0,
+    }
+    if by == "mouse":
+        player.mouse(pygame.MOUSEBUTTONDOWN, at, button=1)
+    else:
+        pygame.event.post(pygame.event.Event(pygame.FINGERDOWN, **share))
+        player.tick()
+    for _ in range(34):
+        player.tick()
+    assert player.state.listing is None
+    for _ in range(4):
+        player.tick()
+    assert opened(player) == "Joint A"
+    assert player.state.held is None
+    if by == "mouse":
+        player.mouse(pygame.MOUSEBUTTONUP, at, button=1)
+    else:
+        pygame.event.post(pygame.event.Event(pygame.FINGERUP, **share))
+        player.tick()
+    assert opened(player) == "Joint A"
+
+
+def test_a_hand_that_moves_is_no_long_press(player: Player) -> None:
+    x, y = place(player, "A")
+    player.mouse(pygame.MOUSEBUTTONDOWN, (x, y), button=1)
+    player.mouse(pygame.MOUSEMOTION, (x + 20, y), rel=(0, 0), buttons=(1, 0, 0))
+    for _ in range(60):
+        player.tick()
+    assert player.state.listing is None
+
+
+def test_a_right_click_on_the_sheet_chooses_what_is_there_and_lists_what_is_done_with_it(
+    player: Player,
+) -> None:
+    player.window.state = carried(player.state, Action("build_on"))
+    player.settle()
+    at = place(player, "A")
+    player.mouse(pygame.MOUSEBUTTONDOWN, at, button=3)
+    assert opened(player) == "Chosen"
+    assert [row.words for row in open_rows(player.state)][2] == "remove it and what depends on it"
+    assert player.state.building
+    assert player.state.building.building.chosen == ("joints", "A")
