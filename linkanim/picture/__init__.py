@@ -41,6 +41,7 @@ From the ground up; a module imports from those before it only:
     marks         the bar being edited, handles, a ram's lane
     photograph    a photograph behind a sheet
     build_sheet   the sheet: its grid, a draft, the pencil's path
+    poses         poses of a body, pins, Burmester's curves
     picture       the one description of a picture, for every printer
     surface       the printer for surfaces
     shelf         linkages as small live pictures

@@ -23,6 +23,7 @@ from linkanim.scenes.scene import Scene
 if TYPE_CHECKING:
     from linkanim.synthesis.answers import PathAnswer
     from linkanim.synthesis.curves import DrawnCurve
+    from linkanim.synthesis.guidance import PoseAnswer
 
 Key = TypeVar("Key")
 
@@ -89,6 +90,36 @@ class BuildShown:
     hand: Point | None = None
     photo: Photo | None = None
     anchor: Point | None = None
+    is_warning: bool = False
+
+
+# Poses that were set down.
+
+NEAR = 0.022
+"""How near to a thing counts as on it, in the window's height."""
+AXIS = 3.4
+"""How long the x axis of a frame is, in those."""
+
+
+@frozen
+class PosesShown:
+    """Poses that were set down: `frames` of x, y and angle (rad), fixed `pins` that are asked for.
+
+    `handles` are what of the linkage can be dragged, `bodies` its coupler in each pose. The thing that was
+    `taken` last is lit: "pose" or "pin" with its number. With `curves` what the theory has of the poses is
+    drawn. While it is `blank` no linkage is shown. The `cursor` is that of the keys.
+    """
+
+    frames: tuple[tuple[float, float, float], ...] = ()
+    pins: tuple[Point, ...] = ()
+    handles: tuple[Point, ...] = ()
+    bodies: tuple[tuple[Point, ...], ...] = ()
+    taken: tuple[str, int] | None = None
+    cursor: Point | None = None
+    curves: bool = False
+    blank: bool = True
+    sentence: str = ""
+    facts: tuple[str, ...] = ()
     is_warning: bool = False
 
 
@@ -290,12 +321,13 @@ class DialShown(NamedTuple):
 
 @frozen
 class AnswerRow:
-    """Linkages that follow a path, as answers or scenes, what is said of each, and which one is shown.
+    """Linkages for a path or poses, as answers or scenes, what is said of each, and which one is shown.
 
-    Lengths are in `unit`; pictures are those of a `frame`, and `still` while paused. A `dial` stands above.
+    Those for poses have `poses`. Lengths are in `unit`; pictures are those of a `frame`, and `still` while
+    paused. A `dial` stands above.
     """
 
-    entries: tuple[PathAnswer | Scene, ...]
+    entries: tuple[PathAnswer | PoseAnswer | Scene, ...]
     names: tuple[str, ...]
     words: tuple[str, ...]
     chosen: int
@@ -304,6 +336,7 @@ class AnswerRow:
     theme: ThemeName
     still: bool = False
     dial: DialShown | None = None
+    poses: tuple[tuple[float, float, float], ...] = ()
 
 
 @frozen
@@ -439,6 +472,7 @@ class Overlay:
     path: PathShown | None = None
     row: AnswerRow | None = None
     build: BuildShown | None = None
+    poses: PosesShown | None = None
     layers: LayersShown | None = None
     slider: SliderShown | None = None
     game: GamePanel | None = None

@@ -221,6 +221,10 @@ class Picture:
         if path and path.blank:
             yield from (self._sheet, drawn_line(self.drawing.setting, path))
             return
+        if overlay.poses and overlay.poses.blank:
+            yield self._sheet
+            yield from self._posed(overlay)
+            return
         if overlay.layers and overlay.layers.parts:
             yield from self._layers(pose, overlay.layers, overlay.layers.parts)
             yield from slider(self.drawing.setting, overlay.slider) if overlay.slider else ()
@@ -246,6 +250,14 @@ class Picture:
         yield from self._within(self._named_groups(pose))
         yield from self._words(pose, noted=overlay.noted)
         yield from self._handled(pose, overlay)
+
+    def _posed(self, overlay: Overlay) -> Iterator[Group]:
+        """Yield poses that were set down, and the dial."""
+        from linkanim.picture.poses import posed
+
+        assert overlay.poses
+        yield from posed(self.drawing.setting, overlay.poses)
+        yield from slider(self.drawing.setting, overlay.slider) if overlay.slider else ()
 
     def _layers(self, pose: Pose, shown: LayersShown, parts: Layered) -> Iterator[Group]:
         """Yield the parts in their layers, in the room that is left below the words on them."""
@@ -412,6 +424,8 @@ class Picture:
         if overlay.path and overlay.path.curve and overlay.path.marked:
             marks = list(handles(self.drawing.setting, overlay.path))
             yield from self._within([Group("handles", marks, over=True)])
+        if overlay.poses:
+            yield from self._posed(overlay)
         for layers, words in spots(self.drawing.setting, overlay.spots):
             yield Group("spot", layers, [words], over=True)
         if overlay.glow:  # the joint and what it changes are apart: they are drawn at once

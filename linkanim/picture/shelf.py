@@ -28,6 +28,7 @@ from linkanim.scenes.scene import Scene
 
 if TYPE_CHECKING:
     from linkanim.synthesis.answers import PathAnswer
+    from linkanim.synthesis.guidance import PoseAnswer
 
 # The shelf: all mechanisms as small live pictures with their titles, chapter by chapter, over the window.
 
@@ -388,7 +389,7 @@ class RowPrinter:
             missing = n not in self._live or self._live[n][0] != made_for
             if missing and making and min(size) >= _SMALLEST:
                 look = Look(theme=row.theme, hud=False, background=False)
-                self._live[n] = made_for, Live(Picture(_scene(entry, row.unit), size, look))
+                self._live[n] = made_for, Live(Picture(_scene(entry, row), size, look))
                 making, missing = self._at_once, False
             if not missing:
                 live = self._live[n][1]
@@ -426,5 +427,7 @@ def _lines(row: AnswerRow) -> float:
     return 2.45 if any(row.names) else 1.3
 
 
-def _scene(entry: PathAnswer | Scene, unit: str) -> Scene:
-    return entry if isinstance(entry, Scene) else entry.scene(unit)
+def _scene(entry: PathAnswer | PoseAnswer | Scene, row: AnswerRow) -> Scene:
+    if isinstance(entry, Scene):
+        return entry
+    return entry.scene(row.unit, row.poses) if row.poses else entry.scene(row.unit)  # type: ignore[call-arg, arg-type]

@@ -8,8 +8,10 @@ From the ground up; a module imports from those before it only:
     state      all that one frame of the window shows
     commands   the bar of commands, and menus
     edits      another scene is put on; dimensions are edited
+    sketching  what a stroke and poses share: answers come, one is kept
     dial       along the front, from the exact answer to the compact one
-    pencil     a stroke is drawn, answers come, one is kept
+    pencil     a stroke is drawn
+    posing     poses are set down
     building   a linkage is built on the sheet
     making     a linkage is shown in the layers in which it can be made
     actions    the table of actions, and `advance(state, actions)`

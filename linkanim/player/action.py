@@ -9,7 +9,9 @@ from typing import Literal, NamedTuple
 
 # What can be asked of the player, as plain data: keys, mouse, tapes and `advance` share it.
 
-Mode = Literal["play", "paused", "edit", "list", "shelf", "pencil", "game", "build", "layers", "name"]
+Mode = Literal[
+    "play", "paused", "edit", "list", "shelf", "pencil", "poses", "game", "build", "layers", "name"
+]
 """What the keys are for: the picture, or the overlay that is open."""
 Value = None | int | float | str | tuple[float, ...]
 

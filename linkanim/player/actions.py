@@ -18,12 +18,12 @@ from linkanim.intake import control_in
 from linkanim.mechanics.quantities import input_symbol
 from linkanim.picture.look import TOGGLES, Look, answer, toggled
 from linkanim.picture.quantities import axes_of, axis_of, driven_words, quantity, speed_words
-from linkanim.player import building, dial, edits, making, pencil
+from linkanim.player import building, dial, edits, making, pencil, posing, sketching
 from linkanim.player.action import Action
 from linkanim.player.clock import Clock
 from linkanim.player.edits import drop, edit
 from linkanim.player.keys import BESIDE_GAMES
-from linkanim.player.pencil import come, keep, left
+from linkanim.player.sketching import come, keep, left
 from linkanim.player.state import (
     ATTRACT_AFTER,
     FADE_FRAMES,
@@ -219,7 +219,7 @@ def back(state: State, _: None) -> State:
     if state.listing or state.browsing:
         return replace(state, listing=None, browsing=None)
     if state.sketch and not state.editing.open:
-        return left(state)
+        return posing.let_go(state) or left(state)
     if state.building:
         return building.let_go(state) or building.left(state)
     if state.editing.open and state.editing.begun:
@@ -428,23 +428,36 @@ def _hand(value: object) -> bool:
     return near and (snap == 0.0 or 1.0 / _FARTHEST <= snap <= _FARTHEST)
 
 
-def _answer(value: object) -> bool:
+def _triples(value: object) -> bool:
+    return _grouped(value, 3)
+
+
+def _sizes_of_answers() -> tuple[int, int, int]:
     # of the search nothing is imported before the pencil is taken
     from linkanim.synthesis.answers import EARLIER, NUMBERS
+    from linkanim.synthesis.guidance import POSE_NUMBERS
 
-    return _numbers(NUMBERS)(value) or _numbers(EARLIER)(value)
+    return EARLIER, NUMBERS, POSE_NUMBERS
+
+
+def _answer(value: object) -> bool:
+    return any(_numbers(size)(value) for size in _sizes_of_answers())
 
 
 def _answers(value: object) -> bool:
-    from linkanim.synthesis.answers import EARLIER
-
-    return _grouped(value, EARLIER)
+    return _grouped(value, _sizes_of_answers()[0])
 
 
 def _cards(value: object) -> bool:
-    from linkanim.synthesis.answers import NUMBERS
+    _, *sizes = _sizes_of_answers()
+    return any(_grouped(value, size) for size in sizes)
 
-    return _grouped(value, NUMBERS)
+
+def _either(
+    of_sheet: Callable[[State, Any], State], of_poses: Callable[[State, Any], State]
+) -> Callable[[State, Any], State]:
+    """Return the handler of what poses have in common with a sheet, or with layers."""
+    return lambda state, value: (of_poses if state.posing else of_sheet)(state, value)
 
 
 def _speed(_: State, after: State) -> str:
@@ -567,19 +580,26 @@ ACTIONS: Mapping[str, Rule] = {
     "pen_up": Rule(_nothing, pencil.up),
     "pen_off": Rule(_nothing, pencil.off),
     "stroke": Rule(_pairs, pencil.stroke),  # 1 closed, 0 open; x, y of each point
-    "follow": Rule(_answer, pencil.follow),  # an answer's numbers
+    "follow": Rule(_answer, sketching.follow),  # an answer's numbers
     "answers": Rule(_answers, pencil.answers),  # on older tapes: as "cards", without sizes and angles
-    "cards": Rule(_cards, pencil.cards),  # which one is shown; the numbers of each
+    "cards": Rule(_cards, _either(pencil.cards, posing.cards)),  # which one is shown; the numbers of each
     "way": Rule(_cards, pencil.way),  # 0; the numbers of each answer along the front
-    "dial": Rule(_share, dial.dial),  # from 0, the most exact, to 1, the most compact
-    "dial_on": Rule(_whole, dial.dial_on),  # so many answers further
-    "answer": Rule(_whole, pencil.choose),  # its place in the row
+    "dial": Rule(_share, _either(dial.dial, posing.dial)),  # from 0 to 1, the most compact; of poses steepest
+    "dial_on": Rule(_whole, _either(dial.dial_on, posing.dial_on)),  # so many steps further
+    "answer": Rule(_whole, sketching.choose),  # its place in the row
     "take_point": Rule(_whole, pencil.take_point),  # its place on the stroke
     "take_pivot": Rule(_text, pencil.take_pivot),
     "lead": Rule(_numbers(2), pencil.lead),  # to (x, y) in the scene's unit
     "let_go": Rule(_nothing, pencil.let_go),
-    "keep": Rule(_nothing, pencil.keep),
-    "take_back": Rule(_nothing, pencil.take_back),
+    "keep": Rule(_nothing, sketching.keep),
+    "take_back": Rule(_nothing, sketching.take_back),
+    "poses": Rule(_nothing, posing.poses),
+    "set_poses": Rule(_triples, posing.put),  # 1 with a slider, else 0; x, y, angle (rad) of each
+    "set_pin": Rule(_place_of_sheet, posing.pin),  # (x, y) in the scene's unit
+    "pinning": Rule(_nothing, posing.pinning),
+    "sliding": Rule(_nothing, posing.sliding),
+    "theory": Rule(_nothing, posing.curves),
+    "unmet": Rule(_text, posing.unmet),  # why there is no linkage
     "play": Rule(_text, play),  # a game's words
     # what games have in common; each says what they do in it
     "option": Rule(_whole, _unused),  # the place of an answer, from 0
@@ -593,16 +613,16 @@ ACTIONS: Mapping[str, Rule] = {
     "tool": Rule(_text, building.tool),
     "photo": Rule(_text, building.photo),  # a picture's file, "" for none
     # (x, y) of the sheet, how near counts as on it, the step of what is drawn
-    "hand_down": Rule(_hand, building.down),
-    "hand_to": Rule(_hand, building.along),
-    "hand_up": Rule(_nothing, building.up),
-    "cursor": Rule(_place_of_sheet, building.cursor),  # (x, y) of the sheet
-    "further": Rule(_whole, building.further),
+    "hand_down": Rule(_hand, _either(building.down, posing.down)),
+    "hand_to": Rule(_hand, _either(building.along, posing.along)),
+    "hand_up": Rule(_nothing, _either(building.up, posing.up)),
+    "cursor": Rule(_place_of_sheet, _either(building.cursor, posing.cursor)),  # (x, y) of the sheet
+    "further": Rule(_whole, _either(building.further, posing.further)),
     "number": Rule(_whole, building.number),
     "digits": Rule(_text, building.write),
     "undigit": Rule(_nothing, building.erase),
     "take_number": Rule(_nothing, building.take),
-    "remove": Rule(_nothing, building.remove),
+    "remove": Rule(_nothing, _either(building.remove, posing.remove)),
     "trace_on": Rule(_nothing, building.trace),
     "drive_by": Rule(_nothing, building.drive),
     "unbuild": Rule(_nothing, building.undo, answer=_stuck("nothing to undo")),
@@ -664,9 +684,11 @@ _WITHOUT_PENCIL = frozenset({"unit", "undo", "redo"})
 _KEEPS = frozenset({"edit", "edit_at", "trace_joint", "drive_joint", "layers"})
 _LEAVES = frozenset({"mechanism", "select", "put", "closure", "reset", "returns"})
 """What keeps the answer that the pencil has, and what goes back to the scene before."""
-_OFF_THE_SHEET = _KEEPS | _LEAVES | {"pencil", "own_trace"}
+_OFF_THE_SHEET = _KEEPS | _LEAVES | {"pencil", "own_trace", "poses"}
 """What is not done on a sheet, which is left for it."""
-_OFF_THE_LAYERS = frozenset({"edit", "pencil", "own_trace", "build", "build_on", "sheet", "draft", "photo"})
+_OFF_THE_LAYERS = frozenset(
+    {"edit", "pencil", "own_trace", "poses", "build", "build_on", "sheet", "draft", "photo"}
+)
 """What is done with the linkage itself, which is shown for it."""
 Change = Callable[[State], State]
 

@@ -22,17 +22,21 @@ from linkanim.errors import WorkFailed
 from linkanim.player import tape_file
 from linkanim.player.action import Action
 from linkanim.player.files import FOLDER, free_stem, where
-from linkanim.player.state import PIVOTS, Sketch
+from linkanim.player.state import PIVOTS, PathSketch, PoseSketch, Sketch
 from linkanim.player.tape import Tape
 from linkanim.scenes.scene import Scene
 from linkanim.scenes.toml import content
-from linkanim.synthesis.follower import Follow, Reply, lines_of
+from linkanim.synthesis.follower import Follow, FollowPoses, Reply, Request, lines_of
+from linkanim.synthesis.guidance import USUAL_WEIGHT
 
 # The search for linkages along a stroke: a process beside the window, and what it replies as actions.
 
 
-def request_of(sketch: Sketch, *, search: bool) -> Follow | None:
-    """Return what is asked for a sketch; None where there is no stroke."""
+def request_of(sketch: Sketch, *, search: bool, anew: bool = False) -> Request | None:
+    """Return what is asked for a sketch, `anew` without regard to the answer shown; None where nothing is."""
+    if isinstance(sketch, PoseSketch):
+        return _request_of_poses(sketch, search=search or anew, anew=anew) if sketch.is_asked else None
+    assert isinstance(sketch, PathSketch)
     curve, answer, held = sketch.curve, sketch.answer, dict(sketch.pivots)
     if curve is None:
         return None
@@ -42,12 +46,21 @@ def request_of(sketch: Sketch, *, search: bool) -> Follow | None:
     return Follow(sketch.strokes, points, curve.closed, pivots, near, search)
 
 
+def _request_of_poses(sketch: PoseSketch, *, search: bool, anew: bool) -> FollowPoses:
+    grip, answer = sketch.held, None if anew else sketch.answer
+    near = answer.numbers if answer and bool(answer.sliding) == sketch.sliding else None
+    moved = (grip.number, *grip.at) if grip and grip.what == "joint" and grip.at else None
+    weight = USUAL_WEIGHT * 2 ** (sketch.dial / 2) if sketch.dial else None
+    rows = [tuple(pose) for pose in sketch.poses]
+    return FollowPoses(sketch.strokes, rows, sketch.sliding, sketch.pins, near, moved, weight, search)
+
+
 def actions_of(reply: Reply, sketch: Sketch | None) -> Iterator[Action]:
-    """Yield what a reply does; nothing where it is to another stroke."""
+    """Yield what a reply does; nothing where it is to another request."""
     if sketch is None or reply.stroke != sketch.strokes:
         return
     if reply.error:
-        yield Action("note", reply.error)
+        yield Action("unmet" if isinstance(sketch, PoseSketch) else "note", reply.error)
     elif not reply.whole:
         yield Action("follow", tuple(reply.numbers))
     else:
@@ -57,11 +70,14 @@ def actions_of(reply: Reply, sketch: Sketch | None) -> Iterator[Action]:
 
 
 class Following:
-    """The process, from the first time that the pencil is taken; it ends with the window."""
+    """The process, from the first time that something is drawn; it ends with the window.
 
-    def __init__(self) -> None:
+    With the word `paths` it is made ready for strokes.
+    """
+
+    def __init__(self, *words: str) -> None:
         self._process = subprocess.Popen(
-            child.module("linkanim.synthesis.follower"),
+            child.module("linkanim.synthesis.follower", *words),
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
@@ -73,7 +89,7 @@ class Following:
         assert self._process.stdout
         self._lines = lines_of(cast(TextIO, self._process.stdout))
 
-    def ask(self, request: Follow) -> None:
+    def ask(self, request: Request) -> None:
         """Send a request; where the process is gone, that is seen by its replies."""
         assert self._process.stdin
         with suppress(OSError):

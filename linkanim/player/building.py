@@ -18,10 +18,10 @@ from linkanim.intake import Intake, Section, unnameable
 from linkanim.picture.figure import figure
 from linkanim.picture.overlay import NEW
 from linkanim.picture.view import Box
-from linkanim.player import pencil
 from linkanim.player.clock import FRAMES_PER_SECOND
 from linkanim.player.edits import drop, exchanged
 from linkanim.player.edits import put as put_on
+from linkanim.player.sketching import left as abandoned
 from linkanim.player.state import HOME, LIVE, BuildSheet, Grip, State, nothing_begun, with_toast, with_undo
 from linkanim.units import shown
 
@@ -71,7 +71,7 @@ def _anew(state: State, make: Callable[[], Building]) -> State:
 
 def _opened(state: State, building: Building, *, known: bool = False) -> State:
     """Return the state with a sheet open over its scene; `known` tells that a file has what is on it."""
-    state, last = pencil.left(drop(state, None)), state.sheet
+    state, last = abandoned(drop(state, None)), state.sheet
     editing = nothing_begun(replace(state.editing, open=False))
     sheet = BuildSheet(state.scene, state.clock, editing, building, HOME, written=building.draft)
     if last and not known:

@@ -31,6 +31,7 @@ class BarEntry(NamedTuple):
 
 
 _SPEED = Action("speed", 1)
+_NONE_YET = "there is no linkage to keep yet"
 _BACK = BarEntry("back", Action("back"), 0)
 _HOME = BarEntry("home", Action("play", "title door=play"), 2)
 _RUNNING = (
@@ -73,6 +74,15 @@ _PENCIL = (
     BarEntry("done", Action("keep"), 1),
     *_LAST,
 )
+_POSES = (
+    _BACK,
+    _HOME,
+    *_RUNNING,
+    BarEntry("again", Action("take_back"), 3, leads=True),
+    BarEntry("construction", Action("theory"), 4),
+    BarEntry("done", Action("keep"), 1),
+    *_LAST,
+)
 _HANDLES: Mapping[Mode, tuple[BarEntry, ...]] = {
     "play": _SCENE,
     "paused": _SCENE,
@@ -80,6 +90,7 @@ _HANDLES: Mapping[Mode, tuple[BarEntry, ...]] = {
     "list": (_BACK, _HOME, *_SCENE),
     "shelf": (_BACK, _HOME, *_LAST),
     "pencil": _PENCIL,
+    "poses": _POSES,
     "build": _SHEET,
     "layers": (
         *(_BACK, _HOME, BarEntry("nearer", Action("lift", -1), 4, leads=True)),
@@ -261,6 +272,7 @@ _ON: Mapping[Action, Callable[[State], bool]] = {
     Action("menu"): _shows("Commands"),
     Action("edit"): lambda state: state.editing.open,
     Action("help"): lambda state: state.help,
+    Action("theory"): lambda state: state.posing is not None and state.posing.curves,
 }
 """Whether a command is on, where that is to be seen."""
 
@@ -275,8 +287,10 @@ _LACKS: Mapping[Action, Callable[[State], str]] = {
         "" if state.games else "there are no games here; `linkanim` alone has them"
     ),
     Action("trace"): lambda state: "" if state.scene.trace else "no joint of this mechanism is traced",
-    Action("keep"): lambda state: "" if state.sketch and not state.sketch.is_blank else "draw a path first",
-    Action("take_back"): lambda state: "" if state.sketch and state.sketch.earlier else "nothing is drawn",
+    Action("keep"): lambda state: "" if state.sketch and not state.sketch.is_blank else _NONE_YET,
+    Action("take_back"): lambda state: (
+        "" if state.sketch and state.sketch.earlier else "there is nothing to undo"
+    ),
     Action("unbuild"): lambda state: (
         "" if state.building and state.building.building.past else "there is nothing to undo"
     ),

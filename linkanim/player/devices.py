@@ -371,6 +371,7 @@ class Mouse:
         if self._drag == "slider" or (gesture.kind == "down" and screen.slider_at(*self._at)):
             return self._on_the_slider(gesture, screen)
         modes = {
+            "poses": self._of_the_poses,
             "layers": self._of_the_layers,
             "build": self._of_the_sheet,
             "pencil": self._of_the_pencil,
@@ -509,7 +510,7 @@ class Mouse:
         if not self._seen or screen.state.browsing or self._drag in ("pan", "chart", "row"):
             return None
         on_a_list = self._drag is None and screen.row_at(*self._at) is not None
-        if on_a_list or screen.state.mode in ("pencil", "build", "layers"):
+        if on_a_list or screen.state.mode in ("pencil", "poses", "build", "layers"):
             return None
         at_pin = screen.state.scene.linkage.drive.joint if self._is_at_pin(screen) else None
         return screen.handle_at(*self._at, _REACH * screen.size[1]) or at_pin
@@ -552,6 +553,27 @@ class Mouse:
         drag, self._drag = self._drag, None
         drawn = "pen_up" if self._far > reach else "pen_off"
         return (Action(drawn if drag == "pen" else "let_go"),)
+
+    def _of_the_poses(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
+        """Take an answer, or set down and drag frames and pins; None for what the mouse does else."""
+        if gesture.kind == "down" and screen.charted(*self._at) is None:
+            place = screen.answer_at(*self._at)
+            if place is not None:
+                self._drag = None
+                return (Action("answer", place),)
+            if screen.on_dial(*self._at):
+                self._drag = "dial"
+                return (Action("dial", screen.dialled(self._at[0])),)
+            self._drag = "hand" if screen.posed_at(*self._at) else "pan"
+            return (self._handed("hand_down", screen),) if self._drag == "hand" else ()
+        if self._drag not in ("hand", "dial") or gesture.kind not in ("move", "up"):
+            return None
+        drag = self._drag
+        if gesture.kind == "move":
+            moved = self._handed("hand_to", screen) if drag == "hand" else None
+            return (moved or Action("dial", screen.dialled(self._at[0])),)
+        self._drag = None
+        return (Action("hand_up"),) if drag == "hand" else ()
 
     def _of_the_sheet(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
         """Draw on the sheet, take a tool, turn the crank, or shift the paper; None for what else there is."""

@@ -12,7 +12,8 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from linkanim.player.edits import exchanged
-from linkanim.player.state import DIAL, Sketch, State
+from linkanim.player.sketching import ready
+from linkanim.player.state import DIAL, PathSketch, State
 from linkanim.scenes.scene import Scene
 
 if TYPE_CHECKING:
@@ -46,7 +47,7 @@ def _of_one_family(one: PathAnswer, other: PathAnswer) -> bool:
     return near and turned < math.pi / 2 and (one.closure, one.sense) == (other.closure, other.sense)
 
 
-def place_of(sketch: Sketch) -> float:
+def place_of(sketch: PathSketch) -> float:
     """Return where the knob stands: where it was put, else at the answer of the way that is most like it."""
     if sketch.dial is not None:
         return sketch.dial
@@ -59,7 +60,7 @@ def place_of(sketch: Sketch) -> float:
 
 def dial(state: State, share: float) -> State:
     """Put the knob at a share of its way, 0 to 1, and show the answer that is there."""
-    sketch = state.sketch
+    sketch = state.drawing
     if sketch is None or not sketch.way or sketch.held not in (None, DIAL):
         return state
     base, earlier = (sketch.base, sketch.earlier) if sketch.held else (state.scene, sketch)
@@ -75,7 +76,7 @@ def dial(state: State, share: float) -> State:
 
 def dial_on(state: State, steps: int) -> State:
     """Put the knob so many answers further, towards the compact end."""
-    sketch = state.sketch
+    sketch = state.drawing
     if sketch is None or len(sketch.way) < 2 or sketch.held is not None:
         return state
     last = len(sketch.way) - 1
@@ -84,7 +85,7 @@ def dial_on(state: State, steps: int) -> State:
 
 def dialled(state: State) -> State:
     """Let go of the knob: it goes to the answer that is nearest, whose figures are those of the solver."""
-    sketch = state.sketch
+    sketch = state.drawing
     if sketch is None or sketch.held != DIAL or sketch.dial is None:
         return state
     last = max(len(sketch.way) - 1, 1)
@@ -92,10 +93,3 @@ def dialled(state: State) -> State:
     answer = answer_at(sketch.way, share)
     bare = replace(sketch, held=None, base=None, coming=None, dial=share, dialled=answer)
     return exchanged(replace(state, sketch=bare), answer.scene(sketch.unit))
-
-
-def ready(scene: Scene, phase: float) -> Scene:
-    """Return a scene with what the next frame asks first worked out: that frame has its picture to make."""
-    _ = scene.cycle(1, derivatives=0).position
-    scene.pose(phase, 0)
-    return scene

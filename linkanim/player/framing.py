@@ -139,13 +139,13 @@ class Framing:
         return made
 
     def _of_the_stroke(self, before: Picture, made: Picture, sketch: Sketch) -> View:
-        """Return the view of a stroke and the linkage that follows it; as it is where there is none yet."""
-        if sketch.curve is None or sketch.is_blank:
+        """Return the view of what is drawn and the linkage for it; as it is where there is none yet."""
+        if not sketch.is_asked or sketch.is_blank:
             self._drawn = sketch.strokes, before.fitted
             return before.fitted
         if self._drawn is None or self._drawn[0] != sketch.strokes:
             self._drawn = sketch.strokes, before.fitted
-        x, y = sketch.curve.points.real, sketch.curve.points.imag
+        x, y = sketch.points.real, sketch.points.imag
         stroke = Box(float(x.min()), float(y.min()), float(x.max()), float(y.max()))
         room = made.layout.stage.inset(2 * made.layout.margin)
         return view_for(self._drawn[1], stroke, made.fit.subject.figure.box, room, made.layout.hud)
@@ -154,7 +154,7 @@ class Framing:
         """Return the look of a state; where it is captioned, names come with what to watch for."""
         if state.layers:
             return replace(Look(theme=state.look.theme, hud=False), zoom=state.look.zoom, pan=state.look.pan)
-        look = replace(state.look, hud=False) if state.building else state.look
+        look = replace(state.look, hud=False) if state.building or state.posing else state.look
         return replace(look, caption=True) if self._captioned and look.names else look
 
     def at(self, state: State, size: tuple[int, int], *, late: bool = False) -> Picture:

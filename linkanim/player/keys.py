@@ -151,6 +151,9 @@ def _aims() -> tuple[Bind, ...]:
 
 _RECORD = _on("g", "record", "gif") + _on("m", "record", "mp4")
 _BUILD = _on("f2", "build") + _on("shift+f2", "build_on")
+_DIAL = _both(",", ".", "dial_on")
+_POSED = _on("return kp_enter", "enter")
+_KEPT = _on("ctrl+return ctrl+kp_enter", "keep")
 _MAKE = _on("f6", "layers") + _on("shift+f6", "make")
 _PATH = _on("w", "pencil") + _on("shift+w", "own_trace")
 
@@ -204,6 +207,7 @@ KEYS: Table = {
     "edit": (
         KeyRow("E", "edit dimensions (H there: how)", _on("e", "edit")),
         KeyRow("F2, W (Shift: this one)", "build it, or draw its path", _BUILD + _PATH),
+        KeyRow("F4", "set down poses of a body", _on("f4", "poses")),
         KeyRow("B (Shift: ghost)", "assembly: the other closure", _on("b", "closure") + _of_look("ghost")),
         KeyRow("Ctrl+Z, Ctrl+Y", "undo, redo", _undo("undo", "redo")),
     ),
@@ -274,6 +278,19 @@ _IN_A_MODE: Table = {
         KeyRow("Ctrl+Z", "undo the last stroke or drag", _on("ctrl+z", "take_back", held=True)),
         KeyRow("Enter", "keep the linkage as the scene; Esc goes back", _enter("keep")),
     ),
+    "in F4": (
+        KeyRow("press, drag", "set down a frame; drag it, or turn it by its axis"),
+        KeyRow("drag a pivot", "hold it there; of four poses it slides along its curve"),
+        KeyRow("P", "set pins, or frames again", _on("p", "pinning")),
+        KeyRow("S", "linkages with a slider, or four-bars", _on("s", "sliding")),
+        KeyRow("B", "poles, Burmester's curves and points", _on("b", "theory")),
+        KeyRow(", .", "the dial: smaller links, a larger transmission angle", _DIAL),
+        KeyRow("1–9, click", "take another answer", _digits("answer")),
+        KeyRow("arrows (Shift: fine), Enter", "move a cursor; press and release there", _aims() + _POSED),
+        KeyRow("Tab, Del", "choose a frame or pin; remove it", _tabs("further") + _on("delete", "remove")),
+        KeyRow("Ctrl+Z", "undo the last change", _on("ctrl+z", "take_back", held=True)),
+        KeyRow("Enter, Ctrl+Enter", "keep the linkage as the scene; Esc goes back", _KEPT),
+    ),
     "in a game": (
         KeyRow("1–9, click", "choose an answer or a door", _digits("option")),
         KeyRow("Enter, Space", "go on", _on("return kp_enter space", "next")),
@@ -314,7 +331,14 @@ _IN_A_MODE: Table = {
 """What the keys do in a mode, before what they do else, by its subject."""
 _SUBJECTS: Mapping[Mode, str] = {
     **{"edit": "in E", "list": "in K", "shelf": "in O", "paused": "paused"},
-    **{"pencil": "in W", "game": "in a game", "build": "in F2", "layers": "in F6", "name": "saving"},
+    **{
+        "pencil": "in W",
+        "poses": "in F4",
+        "game": "in a game",
+        "build": "in F2",
+        "layers": "in F6",
+        "name": "saving",
+    },
 }
 MODES: Mapping[Mode, Table] = {mode: {subject: _IN_A_MODE[subject]} for mode, subject in _SUBJECTS.items()}
 """The same by mode."""
@@ -436,6 +460,11 @@ _APART: Mapping[Action, str] = {
     Action("record", "mp4"): "record an MP4: start, stop",
     Action("lift", 1): "lift the layers farther off each other",
     Action("lift", -1): "lay the layers nearer together",
+    Action("further", 1): "the next one",
+    Action("further", -1): "the one before",
+    Action("remove"): "remove what is chosen",
+    Action("keep"): "keep the linkage as the scene",
+    **{Action("answer", n): f"answer {n + 1}" for n in range(9)},
     Action("layers"): "the layers in which it can be made",
     Action("make"): "write its parts, to be cut and pinned together",
     Action("save"): "save the scene",

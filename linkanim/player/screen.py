@@ -22,10 +22,11 @@ import pygame
 from linkanim.build.draft import Draft, Thing
 from linkanim.build.gestures import under
 from linkanim.errors import NoDisplay
+from linkanim.mechanics.linkage import Point
 from linkanim.picture.build_sheet import grid_step, pencil
 from linkanim.picture.command_bar import BarPrinter, button_at, share_at
 from linkanim.picture.layout import Layout, layout
-from linkanim.picture.overlay import Browsing, Overlay
+from linkanim.picture.overlay import NEAR, Browsing, Overlay
 from linkanim.picture.picture import Picture
 from linkanim.picture.shelf import Grid, RowPrinter, ShelfPrinter, grid, row_cells
 from linkanim.picture.slider import dial_value, is_on_dial, slider_rect, slider_step
@@ -36,8 +37,10 @@ from linkanim.picture.view import Rect
 from linkanim.player.action import Action
 from linkanim.player.framing import Fade, Framing
 from linkanim.player.pointing import Pointed, thing_at
+from linkanim.player.posing import has_room
+from linkanim.player.posing import under as posed_under
 from linkanim.player.shown import Hover
-from linkanim.player.state import PIVOTS, BuildSheet, State, driven_bar
+from linkanim.player.state import PIVOTS, State, driven_bar
 from linkanim.scenes.editing import handles
 
 # The display: a window on a screen that is really there.
@@ -235,8 +238,6 @@ def _pointer(capsule: Any) -> int:
 
 # The window's picture: the one that fits the scene, size and look of the moment, and what was shown last.
 
-_NEAR = 0.022
-"""How near to a thing counts as on it, in the window's height."""
 _PULLED = 6.0
 """How near to a line of the grid counts as on it, in units."""
 _LEADING = ("play", "paused", "list")
@@ -360,16 +361,26 @@ class Screen:
         count = len(self.state.sketch.answers) if self.state.sketch else 0
         return row_cells(self._framing.last.layout, count)
 
+    def answer_at(self, x: float, y: float) -> int | None:
+        """Return the number of the answer whose picture is under a pixel; None beside them."""
+        return next((n for n, cell in enumerate(self.answer_cells()) if cell.holds(x, y)), None)
+
+    def posed_at(self, x: float, y: float) -> bool:
+        """Return whether the hand holds or sets down something at a pixel, among poses."""
+        sketch = self.state.posing
+        return sketch is not None and (
+            has_room(sketch) or posed_under(sketch, self.world(x, y), self._near) is not None
+        )
+
     def pencil_at(self, x: float, y: float, reach: float) -> Action:
         """Return what the pencil begins at a pixel: it takes an answer, a pin or a point, or it draws."""
-        sketch = self.state.sketch
+        sketch = self.state.drawing
         assert sketch
-        place = next((n for n, cell in enumerate(self.answer_cells()) if cell.holds(x, y)), None)
+        place = self.answer_at(x, y)
         if place is not None:
             return Action("answer", place)
-        room = self._framing.last.layout.dial
-        if room and len(sketch.way) > 1 and is_on_dial(room, x, y):
-            return Action("dial", dial_value(room, x))
+        if self.on_dial(x, y):
+            return Action("dial", self.dialled(x))
         pose = self.state.displayed.pose(self.state.phase, 0)
         pivots = [name for name in PIVOTS if name in pose.position] if sketch.follows else []
         for pivot in pivots:
@@ -380,6 +391,11 @@ class Screen:
         if away and min(away) <= reach:
             return Action("take_point", away.index(min(away)))
         return Action("pen_down", self.world(x, y))
+
+    def on_dial(self, x: float, y: float) -> bool:
+        """Return whether a pixel is on the dial above the answers."""
+        room, row = self._framing.last.layout.dial, self.over.row
+        return bool(room and row and row.dial) and is_on_dial(room, x, y)  # type: ignore[arg-type]
 
     def dialled(self, x: float) -> float:
         """Return the share of the dial at a pixel's x."""
@@ -413,7 +429,7 @@ class Screen:
     @property
     def _near(self) -> float:
         """How near counts as on a thing, in the sheet's unit."""
-        return _NEAR * self.size[1] / self._framing.last.view.scale
+        return NEAR * self.size[1] / self._framing.last.view.scale
 
     def slider_at(self, x: float, y: float) -> bool:
         """Return whether a pixel lies on the slider that is shown."""
@@ -444,7 +460,7 @@ class Screen:
         On paper a place near a line of the grid is on it, but for parts of the step.
         """
         place = self.world(x, y)
-        if part == 1.0 and self._under(x, y)[0] is None:
+        if part == 1.0 and self.state.building and self._under(x, y)[0] is None:
             place = self._gridded(*place)
         return (*place, self._near, part * self.sheet_step)
 
@@ -452,15 +468,15 @@ class Screen:
         """Return what of the sheet is under a pixel."""
         return Hover(self.world(x, y), self._near, self.tool_at(x, y))
 
-    def aimed(self, sheet: BuildSheet, way: tuple[float, ...]) -> tuple[float, float]:
+    def aimed(self, cursor: Point | None, way: tuple[float, ...]) -> tuple[float, float]:
         """Return where the keys' cursor goes, one line of the grid on; a fine way is one step.
 
         Without one it begins in the middle of what is seen.
         """
         step = self.sheet_step if len(way) > 2 else self.grid_step
         middle = self.world(self.size[0] / 2, self.size[1] / 2)
-        begin = sheet.cursor or middle
-        by = way[:2] if sheet.cursor else (0.0, 0.0)
+        begin = cursor or middle
+        by = way[:2] if cursor else (0.0, 0.0)
         x, y = (round(at / step + part) * step for at, part in zip(begin, by, strict=True))
         return x, y
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import re
 from collections.abc import Iterator
 from dataclasses import replace
@@ -31,6 +32,7 @@ from linkanim.picture.overlay import (
     Overlay,
     Panel,
     PathShown,
+    PosesShown,
     Quantities,
     Rubber,
     Shelf,
@@ -48,13 +50,17 @@ from linkanim.player.pointing import Pointed, told
 from linkanim.player.state import (
     DIAL,
     FLASH_FRAMES,
+    LARGEST_DIAL,
     LIFTED,
+    PIVOTS,
     SHUTTER_FRAMES,
     BuildSheet,
     Grip,
     Layering,
     Listing,
     Naming,
+    PathSketch,
+    PoseSketch,
     Sketch,
     State,
     driven_bar,
@@ -65,6 +71,7 @@ from linkanim.units import significant, stepped, typeset
 
 if TYPE_CHECKING:
     from linkanim.synthesis.answers import PathAnswer
+    from linkanim.synthesis.guidance import PoseAnswer
 
 # What a sheet shows: its draft or the linkage it makes, words, tools, what is under the hand.
 
@@ -201,6 +208,14 @@ _HINT = (
 _OTHERS_HINT = "↑ ↓ choose   type to filter   Enter takes   Esc closes"
 _LIST_HINT = "↑ ↓ choose   type to filter   Enter charts   Esc closes"
 _BAR = "Space pause · Tab next · drag any joint · right click: all commands · H keys"
+_MOST_OF_FREE_JOINTS, MOST_POSES = 4, 5
+_FREE = {
+    2: "pivots and joints are free: drag them",
+    3: "a pivot or its joint is free: drag them",
+    4: "a pivot slides along the curve of centre points (B)",
+    5: "nothing is free: Burmester's points (B)",
+}
+"""What can be chosen, by how many poses there are."""
 _MAKE_HINT = "Enter writes the parts"
 _BAR_FRAMES = 6 * FRAMES_PER_SECOND
 _WATCH_FRAMES = 6 * FRAMES_PER_SECOND
@@ -272,7 +287,8 @@ def _kept(state: State, items: tuple[Dimension, ...], over: Hover | None = None)
         panel=_panel(state, items) if state.editing.open and not state.listing else None,
         quantities=_quantities(state, state.listing) if state.listing else None,
         shelf=_shelf(state, state.browsing) if state.browsing else None,
-        path=_path(state.sketch) if state.sketch else None,
+        path=_path(state.drawing) if state.drawing else None,
+        poses=_poses(state, state.posing) if state.posing else None,
         row=_answer_row(state, state.sketch) if state.sketch and not state.sketch.is_blank else None,
         build=built(state, state.building, over) if state.building else None,
         layers=_layers(state.layers) if state.layers else None,
@@ -343,7 +359,58 @@ def _four_digits(value: float) -> str:
     return typeset(significant(value, 4)) if isfinite(value) else stepped(value, 1.0)
 
 
-def _path(sketch: Sketch) -> PathShown:
+def _poses(state: State, sketch: PoseSketch) -> PosesShown:
+    """Return poses with the coupler of the answer that is shown in each, and what there is to say."""
+    answer = sketch.answer
+    handles: tuple[Point, ...] = ()
+    bodies: list[tuple[Point, ...]] = []
+    if answer:
+        joints, first = answer.joints, sketch.poses[0]
+        few, most = len(sketch.poses) < _MOST_OF_FREE_JOINTS, len(sketch.poses) < MOST_POSES
+        names = [*(PIVOTS if most else ()), *("AB" if few else "")]
+        handles = tuple(as_point(joints[name]) for name in names if name in joints)
+        origin = complex(first.x, first.y)
+        for pose in sketch.poses:
+            turn = cmath.rect(1.0, pose.angle - first.angle)
+            at = complex(pose.x, pose.y)
+            bodies.append(tuple(as_point(at + turn * (joints[name] - origin)) for name in "ABP"))
+    sentence, facts = _said_of_poses(state, sketch)
+    return PosesShown(
+        sketch.poses,
+        sketch.pins,
+        handles,
+        tuple(bodies),
+        sketch.taken,
+        sketch.cursor,
+        sketch.curves,
+        sketch.is_blank,
+        sentence,
+        facts,
+        bool(sketch.refusal),
+    )
+
+
+def _said_of_poses(state: State, sketch: PoseSketch) -> tuple[str, tuple[str, ...]]:
+    """Return what is waited for, why there is no linkage, or what the one that is shown is."""
+    kind, count = "slider-crank" if sketch.sliding else "four-bar", len(sketch.poses)
+    sets = ("pins",) if sketch.pinning else ()
+    if sketch.refusal:
+        return sketch.refusal, sets
+    if not sketch.is_asked:
+        begun = "one pose; set down another" if count else "set down two to five poses: press and drag"
+        return begun, (f"a {kind} is to pass them", *sets)
+    answer = sketch.answer
+    if answer is None:
+        return f"{count} poses: looking for a {kind}", sets
+    angle = f"{degrees(answer.transmission):.0f}°"
+    lacks = ", ".join(answer.named_defects)
+    facts = f"longest link {significant(answer.size, 4)} {sketch.unit}, transmission angle {angle}"
+    lacking = f"defects: {lacks}" if lacks else "passes them in order on one branch"
+    found = f"{state.scene.info.class_name} through {count} poses"
+    return found[:1].upper() + found[1:], (facts, lacking, _FREE[count], *sets)
+
+
+def _path(sketch: PathSketch) -> PathShown:
     curve, off = sketch.curve, _off(sketch)
     held = sketch.held if isinstance(sketch.held, int) else None
     searched = "searching" if curve and not sketch.pen else None
@@ -351,7 +418,7 @@ def _path(sketch: Sketch) -> PathShown:
     return PathShown(curve, sketch.pen, sketch.is_blank, searched if sketch.is_blank else off, held, pins)
 
 
-def _off(sketch: Sketch) -> str | None:
+def _off(sketch: PathSketch) -> str | None:
     """Say by how much the answer shown is off, and what else it is judged by."""
     answer = sketch.answer
     if answer is None or sketch.off is None:
@@ -366,14 +433,29 @@ def _answer_row(state: State, sketch: Sketch) -> AnswerRow:
     entries = tuple(
         sketch.base if sketch.base and n == sketch.chosen else one for n, one in enumerate(sketch.answers)
     )
+    names = tuple("" for _ in entries)
+    still = state.clock.paused or sketch.held is not None
+    row = AnswerRow(
+        entries, names, names, sketch.chosen, sketch.unit, state.frame, state.look.theme, still=still
+    )
+    if isinstance(sketch, PoseSketch):
+        words = tuple(_sized(one, sketch) for one in sketch.answers)
+        poses = (sketch.earlier or sketch).poses if sketch.held else sketch.poses
+        return replace(row, words=words, dial=_weight(sketch), poses=poses)
+    assert isinstance(sketch, PathSketch)
     words = tuple("its own" if isinstance(one, Scene) else _figures(one) for one in sketch.answers)
-    names = sketch.names if len(sketch.names) == len(words) else tuple("" for _ in words)
-    unit, still = sketch.unit, state.clock.paused or sketch.held is not None
+    names = sketch.names if len(sketch.names) == len(words) else names
     chosen = sketch.chosen if sketch.dialled is None else -1
     marks = tuple(n / (len(sketch.way) - 1) for n, one in enumerate(sketch.way) if one in sketch.answers)
     held = sketch.held == DIAL
     dial = DialShown(place_of(sketch), "exact", "compact", marks, held) if len(sketch.way) > 1 else None
-    return AnswerRow(entries, names, words, chosen, unit, state.frame, state.look.theme, still, dial)
+    return replace(row, names=names, words=words, chosen=chosen, dial=dial)
+
+
+def _weight(sketch: PoseSketch) -> DialShown:
+    """Return the dial of poses, its middle marked."""
+    share = (sketch.dial + LARGEST_DIAL) / (2 * LARGEST_DIAL)
+    return DialShown(share, "compact", "steep angle", (0.5,))
 
 
 def _figures(answer: PathAnswer) -> str:
@@ -381,6 +463,13 @@ def _figures(answer: PathAnswer) -> str:
     if not answer.size:
         return _percent(answer.off)
     return f"{_percent(answer.off)} · ×{significant(answer.size, 2)} · {round(degrees(answer.angle))}°"
+
+
+def _sized(answer: PoseAnswer, sketch: PoseSketch) -> str:
+    """Return an answer's longest link and transmission angle, or its first defect."""
+    lacks = answer.named_defects
+    words = lacks[0] if lacks else f"{degrees(answer.transmission):.0f}°"
+    return f"{significant(answer.size, 3)} {sketch.unit} · {words}"
 
 
 def _percent(share: float) -> str:

@@ -9,12 +9,14 @@ from __future__ import annotations
 
 import os
 import traceback
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Protocol, Self
 
 import numpy as np
+from numpy.typing import NDArray
 
 from linkanim.build.building import Building, Undoable
 from linkanim.build.draft import Draft, Thing
@@ -39,6 +41,7 @@ from linkanim.units import degrees, typeset
 if TYPE_CHECKING:
     from linkanim.synthesis.answers import PathAnswer
     from linkanim.synthesis.curves import DrawnCurve
+    from linkanim.synthesis.guidance import PoseAnswer
 
 # What is looked through in an open overlay: the list of quantities, and the shelf of mechanisms.
 #
@@ -376,7 +379,7 @@ def driven_bar(draft: Draft) -> Thing | None:
     return next((("bars", name) for name, end, _ in bars if end in draft.of("pins")), None)
 
 
-# The pencil: a stroke that is drawn or dragged, and the linkages that follow it.
+# What is drawn for linkages to be found for: the pencil's stroke, or poses of a body.
 
 PIVOTS = ("O2", "O4")
 """Of every answer."""
@@ -385,38 +388,88 @@ DIAL = "dial"
 
 
 @frozen
-class Sketch:
-    """What the pencil has drawn over the scene `before`, which comes back with its clock and editing.
+class Sketch(ABC):
+    """What is drawn over the scene `before`, which comes back with its clock and editing, and its answers.
 
-    All is in the `unit` of length in which scenes were shown then. `pen` holds the points of the stroke under
-    way, `curve` what the last stroke meant; `strokes` counts them. Of the `answers` the `chosen` one is the
-    state's scene; the first may be the scene whose own trace was taken. `names` says what each is among
-    them. `way` goes from the exact end of the front to the compact one; where the `dial` along it was moved
-    to a share, the scene is the answer that was `dialled` there. One that was `picked` by hand stays when
-    more answers come. `pivots` are held where they were put.
-    `held` is the number of the curve's point, the pivot, or the `DIAL` that is dragged, `base` the scene when
-    that was taken, `coming` the one for the next frame. `earlier` was there before the last stroke or drag.
+    All is in the `unit` of length in which scenes were shown then; `strokes` counts what answers were asked
+    for. Of the `answers` the `chosen` one is the state's scene. While something is `held` by the hand, `base`
+    is the scene when that was taken, and `coming` the one for the next frame. `earlier` was there before the
+    last change.
     """
 
     before: Scene
     clock: Clock
     editing: Editing
     unit: str
-    pen: tuple[complex, ...] = ()
     strokes: int = 0
-    curve: DrawnCurve | None = None
-    answers: tuple[PathAnswer | Scene, ...] = ()
+    answers: tuple[Any, ...] = ()
     chosen: int = 0
+    held: object = None
+    base: Scene | None = None
+    coming: Scene | None = None
+    earlier: Any = None
+
+    @property
+    def answer(self) -> Any:
+        """The answer that is shown; None before the first has come."""
+        return self.answers[self.chosen] if self.answers else None
+
+    @property
+    def is_blank(self) -> bool:
+        """Whether no linkage is shown yet for what is drawn."""
+        return not self.answers
+
+    @property
+    @abstractmethod
+    def is_asked(self) -> bool:
+        """Whether there is something that linkages can be found for."""
+
+    @property
+    @abstractmethod
+    def points(self) -> NDArray[np.complex128]:
+        """What is to be kept in sight, as x + yi."""
+
+    @property
+    @abstractmethod
+    def at_rest(self) -> Self:
+        """The same with nothing begun."""
+
+    def picking(self, place: int) -> Self:
+        """Return it with another of the answers shown, as was asked for by hand."""
+        return replace(self, chosen=place)
+
+    @abstractmethod
+    def answer_from(self, numbers: tuple[float, ...]) -> Any:
+        """Return the answer that is all of these numbers."""
+
+    @abstractmethod
+    def scene_of(self, answer: Any, towards: Scene | None = None) -> Scene:
+        """Return an answer as a scene, maybe on the way `towards` another."""
+
+
+@frozen
+class PathSketch(Sketch):
+    """What the pencil has drawn.
+
+    `pen` holds the points of the stroke under way, `curve` what the last stroke meant. The first answer may
+    be the scene whose own trace was taken; `names` says what each is among them. `way` goes from the exact
+    end of the front to the compact one; where the `dial` along it was moved to a share, the scene is the
+    answer that was `dialled` there. One that was `picked` by hand stays when more answers come. `pivots` are
+    held where they were put. `held` is the number of the curve's point, the pivot, or the `DIAL` that is
+    dragged.
+    """
+
+    answers: tuple[PathAnswer | Scene, ...] = ()
+    held: int | str | None = None
+    earlier: PathSketch | None = None
+    pen: tuple[complex, ...] = ()
+    curve: DrawnCurve | None = None
     names: tuple[str, ...] = ()
     way: tuple[PathAnswer, ...] = ()
     dial: float | None = None
     dialled: PathAnswer | None = None
     picked: bool = False
     pivots: tuple[tuple[str, Point], ...] = ()
-    held: int | str | None = None
-    base: Scene | None = None
-    coming: Scene | None = None
-    earlier: Sketch | None = None
 
     @property
     def answer(self) -> PathAnswer | Scene | None:
@@ -437,6 +490,115 @@ class Sketch:
     def is_blank(self) -> bool:
         """Whether no linkage follows yet what is drawn."""
         return bool(self.pen) or not self.answers
+
+    @property
+    def is_asked(self) -> bool:
+        """Whether there is a stroke."""
+        return self.curve is not None
+
+    @property
+    def points(self) -> NDArray[np.complex128]:
+        """The stroke's points."""
+        return np.zeros(0, np.complex128) if self.curve is None else self.curve.points
+
+    @property
+    def at_rest(self) -> PathSketch:
+        """The same without a stroke under way."""
+        return replace(self, pen=())
+
+    @property
+    def undialled(self) -> PathSketch:
+        """The same with nothing dragged, the dial where the answer that was chosen is."""
+        return replace(self, dial=None, dialled=None, held=None, picked=False)
+
+    def picking(self, place: int) -> PathSketch:
+        """Return it with another of the answers shown, as was asked for by hand."""
+        return replace(self.undialled, chosen=place, picked=True)
+
+    def answer_from(self, numbers: tuple[float, ...]) -> PathAnswer:
+        """Return the answer that is all of these numbers."""
+        from linkanim.synthesis.answers import answer_from
+
+        return answer_from(numbers)
+
+    def scene_of(self, answer: PathAnswer | Scene, towards: Scene | None = None) -> Scene:
+        """Return an answer as a scene, maybe on the way `towards` another."""
+        return answer if isinstance(answer, Scene) else answer.scene(self.unit, towards)
+
+
+class SetPose(NamedTuple):
+    """A pose that was set down: the body's origin, and its angle (rad)."""
+
+    x: float
+    y: float
+    angle: float
+
+
+class PoseGrip(NamedTuple):
+    """What is dragged of poses, and its number: a frame, its axis, a pin, a joint of the linkage in pose 1.
+
+    `off` is how far it was from the hand when that took it, `at` where a joint is led to.
+    """
+
+    what: Literal["pose", "axis", "pin", "joint"]
+    number: int
+    off: Point = (0.0, 0.0)
+    at: Point | None = None
+
+
+POSED = 16
+"""How many numbers a linkage through poses is."""
+LARGEST_DIAL = 4
+"""The dial's farthest step, to either side of the middle."""
+
+
+@frozen
+class PoseSketch(Sketch):
+    """Poses of a body that were set down, and linkages whose coupler passes them.
+
+    `pins` are where fixed pins are to be; linkages end on a slider where they are `sliding`. The `dial` says
+    which counts more, a small linkage (below 0) or a large transmission angle. With `curves` what the theory
+    has of the poses is drawn. The hand sets pins, not poses, while it is `pinning`. `taken` is what was
+    touched last, `cursor` the place of the keys' own hand, `refusal` why there is no linkage.
+    """
+
+    answers: tuple[PoseAnswer, ...] = ()
+    held: PoseGrip | None = None
+    earlier: PoseSketch | None = None
+    poses: tuple[SetPose, ...] = ()
+    pins: tuple[Point, ...] = ()
+    sliding: bool = False
+    dial: int = 0
+    curves: bool = False
+    pinning: bool = False
+    taken: tuple[str, int] | None = None
+    cursor: Point | None = None
+    refusal: str = ""
+
+    @property
+    def is_asked(self) -> bool:
+        """Whether there are poses enough."""
+        return len(self.poses) > 1
+
+    @property
+    def points(self) -> NDArray[np.complex128]:
+        """The poses' origins."""
+        return np.array([complex(pose.x, pose.y) for pose in self.poses], np.complex128)
+
+    @property
+    def at_rest(self) -> PoseSketch:
+        """The same with nothing held."""
+        return replace(self, held=None)
+
+    def answer_from(self, numbers: tuple[float, ...]) -> PoseAnswer:
+        """Return the answer that is all of these numbers."""
+        from linkanim.synthesis.guidance import pose_answer_from
+
+        return pose_answer_from(numbers)
+
+    def scene_of(self, answer: PoseAnswer, towards: Scene | None = None) -> Scene:
+        """Return an answer as a scene, maybe on the way `towards` another."""
+        return answer.scene(self.unit, self.poses, towards)
 
 
 # The layers in which the scene that is on can be made.
@@ -544,7 +706,7 @@ class State:
 
     `shelf` holds the mechanisms that Tab walks through, by their catalogue names or as scenes, and
     `place` the one that is on; `listing` and `browsing` are the open list of quantities and the open shelf,
-    `sketch` what the pencil has drawn, `sheet` what is built, or was while it is not open.
+    `sketch` the pencil's stroke or poses, `sheet` what is built, or was while it is not open.
     `layers` are those in which the scene can be made, while they are shown.
     `kept` are the other places whose scenes were edited. `chip` is the
     answer to the last key; `faded` is the frame
@@ -564,9 +726,9 @@ class State:
     list shows it. `effects` is what the last
     advance asks of the outside: "record" and "render" (with a format), "screenshot", "svg", "share",
     "fullscreen", "name" (a name is to be proposed), "save" (the file), "save_new"
-    (a name), "reload", "quit", "pencil" (it was taken), "search" and "follow" (answers to the
-    sketch, or the one that is shown again), "layers" (of the scene), "make" (its parts),
-    "begin" (a game, with its words), "score" (with what is to be
+    (a name), "reload", "quit", "pencil" and "poses" (they are on), "search", "anew" and "follow" (answers
+    to the sketch, the one that is shown among them, or not, or that alone), "layers" (of the scene),
+    "make" (its parts), "begin" (a game, with its words), "score" (with what is to be
     kept of one), "sound" (a cue), and "report" (with the text of a fault's report).
     """
 
@@ -633,12 +795,22 @@ class State:
         if self.browsing:
             return "shelf"
         if self.sketch:
-            return "pencil"
+            return "poses" if self.posing else "pencil"
         if self.building:
             return "build"
         if self.layers:
             return "layers"
         return "paused" if self.clock.paused else "play"
+
+    @property
+    def drawing(self) -> PathSketch | None:
+        """What the pencil has drawn."""
+        return self.sketch if isinstance(self.sketch, PathSketch) else None
+
+    @property
+    def posing(self) -> PoseSketch | None:
+        """The poses that were set down, while that is on."""
+        return self.sketch if isinstance(self.sketch, PoseSketch) else None
 
     @property
     def building(self) -> BuildSheet | None:

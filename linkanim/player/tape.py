@@ -12,7 +12,7 @@ from linkanim.player.action import Action
 from linkanim.player.actions import advance, carried, is_taped, leave
 from linkanim.player.building import stored_text
 from linkanim.player.clock import FRAMES_PER_SECOND
-from linkanim.player.state import State
+from linkanim.player.state import LARGEST_DIAL, PoseSketch, State
 from linkanim.scenes.scene import Scene
 
 
@@ -92,13 +92,16 @@ def resumed(state: State) -> Iterator[Action]:
     if state.game:
         yield Action("play", state.game.words)
         return
-    sketch, layers = state.sketch, state.layers
+    layers = state.layers
     if layers:
         yield Action("layers")
         yield from (Action("layered", text) for text in [layers.text] if text)
         yield Action("slide", layers.lifted)
     if state.building:
         yield Action("draft", stored_text(state.building))
+    if state.posing:
+        yield from _resumed_poses(state.posing)
+    sketch = state.drawing
     if sketch is None:
         return
     yield Action("pencil")
@@ -118,6 +121,19 @@ def resumed(state: State) -> Iterator[Action]:
     for pivot, to in sketch.pivots:
         yield from (Action("take_pivot", pivot), Action("lead", to), Action("let_go"))
     yield from (Action("pen_to" if n else "pen_down", (at.real, at.imag)) for n, at in enumerate(sketch.pen))
+
+
+def _resumed_poses(sketch: PoseSketch) -> Iterator[Action]:
+    yield Action("poses")
+    rows = (value for pose in sketch.poses for value in pose)
+    if sketch.poses:
+        yield Action("set_poses", (float(sketch.sliding), *rows))
+    yield from (Action("set_pin", at) for at in sketch.pins)
+    yield from (Action("theory") for _ in range(sketch.curves))
+    yield Action("dial", (sketch.dial + LARGEST_DIAL) / (2 * LARGEST_DIAL))
+    if sketch.answers:
+        numbers = (number for one in sketch.answers for number in one.numbers)
+        yield Action("cards", (float(sketch.chosen), *numbers))
 
 
 def taped(actions: tuple[Action, ...]) -> tuple[Action, ...]:

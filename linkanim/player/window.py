@@ -36,7 +36,7 @@ from linkanim.player.pointing import Pointed, PointedThing
 from linkanim.player.screen import Screen
 from linkanim.player.shown import Hover, kept, overlay
 from linkanim.player.sound import Speaker, cues
-from linkanim.player.state import BuildSheet, Game, Naming, State, Take, begin, recovered, report
+from linkanim.player.state import BuildSheet, Game, Naming, PoseSketch, State, Take, begin, recovered, report
 from linkanim.player.tape import Tape, Taping
 from linkanim.scenes import load
 from linkanim.scenes.files import path_of
@@ -173,7 +173,7 @@ class Window:
         if self._begun:
             words, self._begun = self._begun, ""
             yield Action("play", words)
-        drawing = self.state.sketch is not None and self.state.sketch.pen
+        drawing = self.state.drawing is not None and self.state.drawing.pen
         for event in events if drawing else latest(events):
             for action in self._meant(event):
                 yield from self._off_the_tape(action)
@@ -267,8 +267,10 @@ class Window:
         if self._following and self._following.is_over:
             self._following.close()
             self._following = None
-        self._following = self._following or Following()
-        request = request_of(self.state.sketch, search=name == "search") if self.state.sketch else None
+        self._following = self._following or Following(*(["paths"] if self.state.drawing else []))
+        asked = {"search": name == "search", "anew": name == "anew"}
+        known = self.state.sketch if name not in ("pencil", "poses") else None
+        request = request_of(known, **asked) if known else None
         if request:
             self._following.ask(request)
 
@@ -299,13 +301,16 @@ class Window:
         yield Action("files", "\n".join(names)) if names else Action("note", _NO_FILES)
 
     def _aim(self, way: Value) -> Iterator[Action]:
-        """Yield what an arrow means on a sheet: its cursor goes on."""
-        if self._sheet and isinstance(way, tuple):
-            yield Action("cursor", self.screen.aimed(self._sheet, way))
+        """Yield what an arrow means on a sheet or among poses: the cursor goes on."""
+        on = self._sheet or self.state.posing
+        if on and isinstance(way, tuple):
+            yield Action("cursor", self.screen.aimed(on.cursor, way))
 
     def _enter(self, twice: Value) -> Iterator[Action]:
         """Yield what Enter means on a sheet: a number is taken, or the hand goes down or up at its cursor."""
         sheet = self._sheet
+        if self.state.posing:
+            yield self._posed(self.state.posing)
         if sheet is None:
             return
         if sheet.building.typed:
@@ -317,6 +322,14 @@ class Window:
             click = Action("hand_down", self.screen.handed(*at, 1.0)), Action("hand_up")
             on_paper = self.screen.sheet_at(*at) == "paper"
             yield from 2 * click if twice else click if on_paper else click[:1]
+
+    def _posed(self, sketch: PoseSketch) -> Action:
+        """Return what Enter means among poses: the hand goes down or up, or the linkage is kept."""
+        if sketch.held:
+            return Action("hand_up")
+        if sketch.cursor is None:
+            return Action("keep")
+        return Action("hand_down", self.screen.handed(*self.screen.pixel(*sketch.cursor), 1.0))
 
     @property
     def _sheet(self) -> BuildSheet | None:
@@ -435,7 +448,7 @@ class Window:
                 self._reload()
             case "layers" | "make":
                 self._make(whole=effect.name == "make")
-            case "pencil" | "search" | "follow":
+            case "pencil" | "poses" | "search" | "follow" | "anew":
                 self._ask_for(effect.name)
             case "begin" if self._keeper:
                 self._begun = self._keeper.completed(str(effect.value))

@@ -11,10 +11,10 @@ From the ground up; a module imports from those before it only:
     search         from a curve to linkages that follow it, the best first
     front          deviation, size and transmission angle judged together
     path           `linkanim.path`: a drawn path
-    follower       the same beside the window, while a stroke is drawn
     burmester      points of a body that stay on a circle through its poses
     guidance       `linkanim.guide`: poses of the coupler
     generation     `linkanim.function`: a function of the input
+    follower       paths and poses beside the window, while they are drawn
     quick_returns  `linkanim.quick_return`: a time ratio
     constructions  how each was made, drawn step by step
 """

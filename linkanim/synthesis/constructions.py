@@ -196,11 +196,20 @@ def _pole(poses: Poses, pair: tuple[int, int], pole: complex) -> Mark:
     return Mark("cross", _at(pole), _numbered("P", pair[0] + 1, pair[1] + 1), "third", spreads=near)
 
 
-def _curves(poses: Poses) -> Iterator[ConstructionStep]:
+def pose_marks(poses: Poses, count: int = _CURVE) -> tuple[Mark, ...]:
+    """Return what the theory has of poses: their poles, the curves of four, Burmester's points of five.
+
+    A curve is drawn by so many points of each of its circuits.
+    """
+    steps = _pole_triangle(poses) if poses.count <= 3 else _curves(poses, count) if poses.poles else ()
+    return tuple(mark for step in steps for mark in step.marks)
+
+
+def _curves(poses: Poses, count: int = _CURVE) -> Iterator[ConstructionStep]:
     """Yield Burmester's curves of four poses with the poles they run through, or the points of five."""
     four = poses if poses.count == 4 else Poses(poses.origins[:4], poses.angles[:4])
     curve = CentreCurve(four)
-    phases = np.linspace(0, math.tau, _CURVE)
+    phases = np.linspace(0, math.tau, count)
     walks = [curve.at(circuit, phases) for circuit in range(len(curve.circuits))]
     centres = [Mark("line", walk, tone="third") for walk in walks]
     circles = [Mark("line", circle_points(four, walk), tone="fourth") for walk in walks]

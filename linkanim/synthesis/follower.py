@@ -1,4 +1,4 @@
-"""Linkages for a stroke while it is drawn and dragged: a process beside the window, whose frames keep coming.
+"""Linkages for a stroke or for poses while they are dragged: a process beside the window.
 
 It reads requests from its standard input, a line of JSON each, and writes replies to its standard output. A
 request that comes while another one is worked on ends that.
@@ -11,14 +11,17 @@ import math
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
+from itertools import chain
 from queue import SimpleQueue
 from threading import Thread
 from typing import NamedTuple, TextIO
 
 from linkanim.errors import LinkanimError
+from linkanim.synthesis import guidance
 from linkanim.synthesis.answers import NAME, Fit, answer_of
 from linkanim.synthesis.atlas import atlas
 from linkanim.synthesis.front import cards, cost, front_of, knee, searched_front, way_along
+from linkanim.synthesis.guidance import GuidedLinkage, pose_answer_of
 from linkanim.synthesis.linkages import FOUR_BAR
 from linkanim.synthesis.path import task_of
 from linkanim.synthesis.search import ALIKE, found, glimpsed, refitted
@@ -45,8 +48,34 @@ class Follow(NamedTuple):
     search: bool = True
 
 
+class FollowPoses(NamedTuple):
+    """What is asked: linkages through poses (x, y, angle in rad), sliding or not, with fixed pins given.
+
+    `near` and `search` as of a stroke. `moved` is the number of a joint of `near` and the x and y that it is
+    to have in the first pose, if any. The transmission angle weighs so much more than the size.
+    """
+
+    stroke: int
+    poses: Sequence[Sequence[float]]
+    sliding: bool = False
+    pivots: Sequence[Sequence[float]] = ()
+    near: Sequence[float] | None = None
+    moved: Sequence[float] | None = None
+    weight: float | None = None
+    search: bool = True
+
+
+Request = Follow | FollowPoses
+
+
+def request_from(line: str) -> Request:
+    """Return what a line of JSON asks."""
+    known = json.loads(line)
+    return FollowPoses(**known) if "poses" in known else Follow(**known)
+
+
 class Reply(NamedTuple):
-    """Answers to a stroke, the numbers of all of them in a row, which one is shown; or why there is none.
+    """Answers to a request, the numbers of all of them in a row, which one is shown; or why there is none.
 
     One that is not `whole` is a single answer, to go in the place of the one that is shown. `way` holds the
     numbers of further answers, from the exact end of the front to the compact one.
@@ -64,23 +93,24 @@ class Follower:
     """Answers one request after the other; it knows the last fits, to go on from them."""
 
     def __init__(self) -> None:
-        self._known: dict[tuple[float, ...], Fit] = {}
+        self._known: dict[tuple[float, ...], Fit | GuidedLinkage] = {}
 
-    def replies(self, request: Follow, pulse: Callable[[], None] = lambda: None) -> Iterator[Reply]:
+    def replies(self, request: Request, pulse: Callable[[], None] = lambda: None) -> Iterator[Reply]:
         """Yield the answer near by or the atlas's best, then all; `pulse` is called meanwhile."""
         try:
-            for fits, chosen, way in self._fits(request, pulse):
+            found = self._fits(request, pulse) if isinstance(request, Follow) else self._guided(request)
+            for fits, chosen, way in found:
                 numbers, along = self._told(fits), self._told(way)
                 yield Reply(request.stroke, chosen is not None, numbers, chosen or 0, way=along)
         except LinkanimError as error:
             yield Reply(request.stroke, whole=True, error=str(error))
 
-    def _told(self, fits: Sequence[Fit]) -> tuple[float, ...]:
-        """Return the numbers of fits, which are known from now on."""
-        answers = [answer_of(fit) for fit in fits]
-        self._known |= {answer.numbers: fit for answer, fit in zip(answers, fits, strict=True)}
+    def _told(self, fits: Sequence[Fit | GuidedLinkage]) -> tuple[float, ...]:
+        """Return the numbers of answers, which are known from now on."""
+        rows = [(answer_of(one) if isinstance(one, Fit) else pose_answer_of(one)).numbers for one in fits]
+        self._known |= dict(zip(rows, fits, strict=True))
         self._known = dict(list(self._known.items())[-_KEPT:])
-        return tuple(number for one in answers for number in one.numbers)
+        return tuple(chain(*rows))
 
     def _fits(
         self, request: Follow, pulse: Callable[[], None]
@@ -92,7 +122,7 @@ class Follower:
         """
         task = task_of(request.points, request.closed, pivots=request.pivots, name=NAME)
         before = self._known.get(tuple(request.near)) if request.near else None
-        near = refitted(task, before) if before else glimpsed(task)
+        near = refitted(task, before) if isinstance(before, Fit) else glimpsed(task)
         if near:
             yield (near,), None, ()
         if not request.search:
@@ -108,6 +138,28 @@ class Follower:
         shown = _shown(front, shown)
         row = cards(front, shown, COUNT)
         yield row, row.index(shown), way_along(task, front, pulse)
+
+    def _guided(
+        self, request: FollowPoses
+    ) -> Iterator[tuple[tuple[GuidedLinkage, ...], int | None, tuple[GuidedLinkage, ...]]]:
+        """Yield linkages through poses and which of them is shown, likewise, without a way."""
+        kind = "slider-crank" if request.sliding else "four-bar"
+        task = guidance.task_of(request.poses, kind=kind, pivots=request.pivots, name=guidance.POSES_NAME)
+        before = self._known.get(tuple(request.near)) if request.near else None
+        moved = (int(request.moved[0]), complex(*request.moved[1:])) if request.moved else None
+        near = guidance.followed(task, before, moved) if isinstance(before, GuidedLinkage) else None
+        if near:
+            yield (near,), None, ()
+        if not request.search:
+            return
+        guided = guidance.answers(task, COUNT, request.weight)
+        if near is None:
+            yield guided, 0, ()
+            return
+        like = next((n for n, one in enumerate(guided) if guidance.apart(one, near) <= ALIKE), None)
+        if like is None:
+            guided, like = (near, *guided[: COUNT - 1]), 0
+        yield (*guided[:like], near, *guided[like + 1 :]), like, ()
 
 
 def _shown(front: Sequence[Fit], before: Fit | None) -> Fit:
@@ -133,19 +185,20 @@ def lines_of(stream: TextIO) -> SimpleQueue[str | None]:
 
 
 def main() -> None:
-    """Answer requests until there are no more."""
+    """Answer requests until there are no more; with the word `paths` be ready for strokes at once."""
     requests = lines_of(sys.stdin)
-    atlas(FOUR_BAR)
+    if "paths" in sys.argv:
+        atlas(FOUR_BAR)
     follower, line = Follower(), requests.get()
     while line is not None:
-        line = _served(follower, Follow(**json.loads(line)), requests)
+        line = _served(follower, request_from(line), requests)
 
 
 class _Newer(Exception):
     """Another request has come, or there are no more."""
 
 
-def _served(follower: Follower, request: Follow, requests: SimpleQueue[str | None]) -> str | None:
+def _served(follower: Follower, request: Request, requests: SimpleQueue[str | None]) -> str | None:
     """Write the replies to a request, until another one comes; return the last that has, None at the end."""
 
     def pulse() -> None:

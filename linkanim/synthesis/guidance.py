@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import field, replace
 from typing import Any, NamedTuple
 
@@ -35,6 +35,7 @@ from linkanim.synthesis.burmester import (
     Slides,
     ball_point,
     burmester_points,
+    centre_points,
     circle_points,
     polished,
     slide_points,
@@ -56,7 +57,9 @@ LARGEST = 8.0
 """Of a link, in the poses' sizes."""
 COUNT = 6
 DEFECTS = ("circuit", "branch", "order")
-PREFERENCES = ("compact", "angle")
+PREFERENCES: Mapping[str, float] = {"compact": 0.5, "angle": 6.0}
+"""What may be preferred: by how much more a transmission angle weighs than a size."""
+USUAL_WEIGHT = 2.0
 
 _SAMPLES = {2: 160, 3: 160, 4: 72}
 """Bars that are tried, of each circuit where they lie on a curve."""
@@ -137,7 +140,7 @@ def guide(poses: ArrayLike, *, count: int = COUNT, **options: Any) -> tuple[Guid
     prefer = options.pop("prefer", None)
     if prefer is not None and prefer not in PREFERENCES:
         raise BadInput(f"prefer={shown(prefer)}: take {' or '.join(PREFERENCES)}, or leave it out")
-    return answers(task_of(poses, **options), count, prefer)
+    return answers(task_of(poses, **options), count, PREFERENCES[prefer] if prefer else None)
 
 
 def task_of(
@@ -474,9 +477,8 @@ def _passed(angle: Real, turning: NDArray[np.bool_]) -> Real:
     return np.asarray(np.where(turning[:, None], turned, angle))
 
 
-def _merit(task: GuideTask, judged: _Judged, prefer: str | None) -> Real:
-    """Return what is to be small: defects first, then size against the transmission angle."""
-    weight = {"compact": 0.5, "angle": 6.0, None: 2.0}[prefer]
+def _merit(task: GuideTask, judged: _Judged, weight: float) -> Real:
+    """Return what is to be small: defects first, then size against the transmission angle, by its weight."""
     with np.errstate(all="ignore"):
         sine = np.log(np.sin(judged.transmission))
         found = np.log(judged.size / task.poses.size) - weight * sine
@@ -489,12 +491,16 @@ def _merit(task: GuideTask, judged: _Judged, prefer: str | None) -> Real:
     return np.asarray(np.where(kept & np.isfinite(found), found, np.inf))
 
 
-def answers(task: GuideTask, count: int = COUNT, prefer: str | None = None) -> tuple[GuidedLinkage, ...]:
-    """Return the best few linkages that differ, each as the solver runs it; BadInput where there is none."""
+def answers(task: GuideTask, count: int = COUNT, weight: float | None = None) -> tuple[GuidedLinkage, ...]:
+    """Return the best few linkages that differ, each as the solver runs it; BadInput where there is none.
+
+    With a `weight` the transmission angle counts so much more than the size; without one as usual, the
+    smallest and that of the best angle among them.
+    """
     ends = _ends(task)
     alike = _ALIKE if any(choice.free for pair in ends for choice in pair) else SAME
     found: list[GuidedLinkage] = []
-    for pairs in _candidates(task, ends, count, prefer):
+    for pairs in _candidates(task, ends, count, weight):
         one = checked(task, pairs)
         if one is not None and not any(apart(one, other) <= alike for other in found):
             found.append(one)
@@ -542,35 +548,33 @@ class _Seed(NamedTuple):
 
 
 def _candidates(
-    task: GuideTask, ends: list[tuple[_EndChoice, _EndChoice]], count: int, prefer: str | None
+    task: GuideTask, ends: list[tuple[_EndChoice, _EndChoice]], count: int, weight: float | None
 ) -> Iterator[_Pairs]:
     """Yield linkages one by one, the best first: what is free of them is followed to where they are best.
 
-    The first are, where nothing is preferred, the best, the smallest and that of the best angle.
+    The first are, where no weight is given, the best, the smallest and that of the best angle.
     """
-    many = max(count, COUNT) + _MORE
-    seeds = [seed for pair in ends for seed in _seeds(task, pair, many, prefer)]
+    many, usual = max(count, COUNT) + _MORE, USUAL_WEIGHT if weight is None else weight
+    seeds = [seed for pair in ends for seed in _seeds(task, pair, many, usual)]
     seeds = sorted(seeds, key=lambda seed: seed.merit)[:many]
     if any(choice.free for pair in ends for choice in pair):
-        kinds = [prefer] if prefer else [None, *PREFERENCES]
-        seeds = [_followed(task, seed, prefer) for seed in seeds] + [
+        kinds = [usual] if weight is not None else [usual, *PREFERENCES.values()]
+        seeds = [_followed(task, seed, usual) for seed in seeds] + [
             _followed(task, seed, kind) for kind in kinds[1:] for seed in seeds[:_PREFERRED]
         ]
         judged = [_judged(task, _made(task, seed)) for seed in seeds]
         merits = {kind: [float(_merit(task, one, kind)[0]) for one in judged] for kind in kinds}
         first = [min(range(len(seeds)), key=merits[kind].__getitem__) for kind in kinds if seeds]
-        rest = sorted(range(len(seeds)), key=merits[prefer].__getitem__)
+        rest = sorted(range(len(seeds)), key=merits[usual].__getitem__)
         seeds = [seeds[n] for n in dict.fromkeys([*first, *rest])]
     yield from (_made(task, seed) for seed in seeds)
 
 
-def _seeds(
-    task: GuideTask, ends: tuple[_EndChoice, _EndChoice], count: int, prefer: str | None
-) -> list[_Seed]:
+def _seeds(task: GuideTask, ends: tuple[_EndChoice, _EndChoice], count: int, weight: float) -> list[_Seed]:
     """Return the best of all combinations of sampled ends whose joints lie apart."""
     first, second = ends
     pairs = _all_pairs(ends)
-    merit = _merit(task, _judged(task, pairs), prefer)
+    merit = _merit(task, _judged(task, pairs), weight)
     order = np.argsort(merit, kind="stable")[: int(np.isfinite(merit).sum())]
     places = np.stack([pairs.pin, pairs.pivot, pairs.end, pairs.held], axis=1)
     least = _APART * task.poses.size if first.free or second.free else 0.0
@@ -593,15 +597,15 @@ def _apart_ones(places: Complex, order: Indices, least: float, count: int) -> li
     return found
 
 
-def _followed(task: GuideTask, seed: _Seed, prefer: str | None) -> _Seed:
+def _followed(task: GuideTask, seed: _Seed, weight: float) -> _Seed:
     """Return a linkage whose free choices were moved, step by shorter step, while it became better."""
     first, second = seed.ends
     rows, scale = seed.rows, 1.0
-    merit = float(_merit(task, _judged(task, _made(task, seed)), prefer)[0])
+    merit = float(_merit(task, _judged(task, _made(task, seed)), weight)[0])
     for _ in range(_ROUNDS):
         tried = tuple(choice.around(row, scale) for choice, row in zip(seed.ends, rows, strict=True))
         pairs = _paired(first.make(tried[0]), second.make(tried[1]))
-        merits = _merit(task, _judged(task, pairs), prefer)
+        merits = _merit(task, _judged(task, pairs), weight)
         best = int(merits.argmin())
         if merits[best] < merit:
             one, other = divmod(best, len(tried[1]))
@@ -618,20 +622,58 @@ def _made(task: GuideTask, seed: _Seed) -> _Pairs:
     return _paired(polished(task.poses, first), exact)
 
 
-def followed(task: GuideTask, before: GuidedLinkage) -> GuidedLinkage | None:
+def followed(
+    task: GuideTask, before: GuidedLinkage, moved: tuple[int, complex] | None = None
+) -> GuidedLinkage | None:
     """Return the linkage of poses that have moved a little that is nearest to one of before; None for none.
 
     What was free keeps its pivot, or its place on the curve of pivots; of five poses each bar goes to the
-    nearest of Burmester's.
+    nearest of Burmester's. Pivots that are given take the place of those that were nearest to them. Of the
+    joint `moved`, 0 or 1, the place in the first pose is given instead: its pivot follows.
     """
     poses, sliding = task.poses, task.kind is SLIDER_CRANK
-    known = before.bars[:1] if sliding else before.bars
+    known = [(complex(joint), complex(pivot)) for joint, pivot in before.bars]
+    known = _held_by(task.pivots, known[:1] if sliding else known)
     choices = _choices(poses)
-    bars = [_nearest_bar(choices, poses, complex(joint), complex(pivot)) for joint, pivot in known]
-    ends = [_nearest_slide(poses, complex(before.bars[1][0]))] if sliding else bars[1:]
+    bars = [_nearest_bar(choices, poses, joint, pivot) for joint, pivot in known]
+    slides = complex(before.bars[1][0])
+    if moved is not None and moved[0] < len(bars):
+        bars[moved[0]] = _bar_of(poses, moved[1], known[moved[0]][1])
+    elif moved is not None:
+        slides = moved[1]
+    ends = [_nearest_slide(poses, slides)] if sliding else bars[1:]
     if bars[0] is None or ends[0] is None:
         return None
     return checked(task, _paired(bars[0], ends[0]))
+
+
+def _held_by(pivots: Sequence[complex], bars: list[tuple[complex, complex]]) -> list[tuple[complex, complex]]:
+    """Return bars, those that are nearest to given pivots at these."""
+    found, free = list(bars), list(range(len(bars)))
+    for pivot in pivots[: len(bars)]:
+        nearest = min(free, key=lambda n: abs(bars[n][1] - pivot))
+        found[nearest] = bars[nearest][0], pivot
+        free.remove(nearest)
+    return found
+
+
+def _bar_of(poses: Poses, joint: complex, pivot: complex) -> Bars | None:
+    """Return the bar of a joint of the body in the first pose, its pivot near one of before; None for none.
+
+    Two poses leave the pivot on the midperpendicular, three put it where two of those meet; four and five
+    leave no joint free.
+    """
+    if poses.count == 2:
+        first, second = poses.places(joint)
+        way = second - first
+        along = 1j * way / abs(way) if abs(way) > SAME * poses.size else 1.0
+        middle = (first + second) / 2
+        foot = middle + along * ((pivot - middle) * np.conj(along)).real
+        return Bars(np.array([joint]), np.array([foot]))
+    if poses.count > 3:
+        return None
+    found = Bars(np.array([joint]), centre_points(poses, np.array([joint])))
+    return polished(poses, found) if np.isfinite(found.centre[0]) else None
 
 
 def _choices(poses: Poses) -> Bars | CentreCurve | None:
@@ -722,22 +764,18 @@ def _scene(task: GuideTask, row: Real, closure: float, angles: Real) -> Scene:
     title = f"{task.kind.name.capitalize()} through {task.poses.count} poses"
     stated = {"title": title, "source": task.source, "length_unit": task.unit}
     start = float(angles[0]), float(angles[-1] - angles[0])
-    document = document_of(task.kind, row, float(closure), start, **stated) | {"guide": _stated(task)}
+    document = document_of(task.kind, row, float(closure), start, **stated)
+    rows = zip(task.poses.origins.tolist(), task.poses.angles.tolist(), strict=True)
+    document["guide"] = _stated(((place.real, place.imag, angle) for place, angle in rows), task.unit)
     return scene_from(document, name=task.name, where=task.name)
 
 
-def _stated(task: GuideTask) -> dict[str, object]:
-    """Return the poses as the scene's file keeps them."""
-    poses = task.poses
-    rows = zip(poses.origins.tolist(), poses.angles.tolist(), strict=True)
+def _stated(poses: Iterable[Sequence[float]], unit: str) -> dict[str, object]:
+    """Return poses, rows of x, y and angle, as the scene's file keeps them."""
     return {
         "poses": [
-            [
-                f"{place.real!r} {task.unit}",
-                f"{place.imag!r} {task.unit}",
-                f"{round(math.degrees(angle), 12)!r} deg",
-            ]
-            for place, angle in rows
+            [f"{x!r} {unit}", f"{y!r} {unit}", f"{round(math.degrees(angle), 12)!r} deg"]
+            for x, y, angle in poses
         ]
     }
 
@@ -806,3 +844,86 @@ def apart(one: GuidedLinkage, other: GuidedLinkage) -> float:
     straight = max(abs(first - third).max(), abs(second - fourth).max())
     crossed = max(abs(first - fourth).max(), abs(second - third).max())
     return float(min(straight, crossed) / one.task.poses.size)
+
+
+# An answer as plain numbers, as it goes from one process to another and onto a tape; and back to a scene.
+
+POSE_NUMBERS = 16
+"""Of an answer."""
+_MOST_PARAMETERS = 9
+
+
+class PoseAnswer(NamedTuple):
+    """A linkage through poses: whether it slides, its closure (±1), its crank's first angle and sense (±1).
+
+    `defects` has a bit for each of `DEFECTS`; `transmission` is the least transmission angle (rad), `size`
+    the longest link; `row` are the parameters, filled up with zeros.
+    """
+
+    sliding: float
+    closure: float
+    start: float
+    sense: float
+    defects: float
+    transmission: float
+    size: float
+    row: tuple[float, ...]
+
+    @property
+    def numbers(self) -> tuple[float, ...]:
+        """All of it in a row."""
+        return (*self[:7], *self.row)
+
+    @property
+    def kind(self) -> LinkageKind:
+        """What its parameters are."""
+        return KINDS["slider-crank" if self.sliding else "four-bar"]
+
+    @property
+    def named_defects(self) -> tuple[str, ...]:
+        """Its defects."""
+        return tuple(name for n, name in enumerate(DEFECTS) if int(self.defects) >> n & 1)
+
+    @property
+    def joints(self) -> dict[str, complex]:
+        """Its joints in the first pose."""
+        names = ("O2", "A", "B", "P") if self.sliding else ("O2", "O4", "A", "B", "P")
+        row = np.array([self.row[: len(self.kind.parameters)]])
+        places = self.kind.joints(row, np.array([self.closure]), np.array([[self.start]]))[0]
+        return dict(zip(names, places.tolist(), strict=True))
+
+    def scene(self, unit: str, poses: Iterable[Sequence[float]], towards: Scene | None = None) -> Scene:
+        """Return the linkage as a scene, maybe on the way `towards` another; errors as reading a file."""
+        stated = {"source": "made by linkanim for poses set in the window", "length_unit": unit}
+        rows = list(poses)
+        stated["title"] = f"{self.kind.name.capitalize()} through {len(rows)} poses"
+        row, start = self.row[: len(self.kind.parameters)], (self.start, self.sense)
+        document = document_of(self.kind, row, self.closure, start, **stated)
+        document["guide"] = _stated(rows, unit)
+        return scene_from(document, name=POSES_NAME, where=POSES_NAME, towards=towards)
+
+
+POSES_NAME = "poses"
+"""Of a scene that was made in the window for poses."""
+
+
+def pose_answer_of(one: GuidedLinkage) -> PoseAnswer:
+    """Return an answer as plain numbers."""
+    row = [float(value) for value in one.row]
+    bits = sum(1 << n for n, name in enumerate(DEFECTS) if name in one.defects)
+    return PoseAnswer(
+        float(one.kind is SLIDER_CRANK),
+        one.closure_sign,
+        float(one.angles[0]),
+        one.sense,
+        float(bits),
+        one.transmission_angle,
+        one.size,
+        tuple(row + [0.0] * (_MOST_PARAMETERS - len(row))),
+    )
+
+
+def pose_answer_from(numbers: tuple[float, ...]) -> PoseAnswer:
+    """Return the answer that is all of these `POSE_NUMBERS` numbers."""
+    sliding, closure, start, sense, defects, transmission, size, *row = numbers
+    return PoseAnswer(sliding, closure, start, sense, defects, transmission, size, tuple(row))

@@ -11,7 +11,7 @@ from linkanim.player import screen
 from linkanim.player.files import SceneFile
 from linkanim.player.state import CHIP_FRAMES, STIR_FRAMES, State
 from linkanim.player.window import GameKeeper, Window
-from linkanim.synthesis.follower import Follow, Reply
+from linkanim.synthesis.follower import Reply, Request
 
 SIZE = (320, 180)
 SHIFT, CTRL = pygame.KMOD_LSHIFT, pygame.KMOD_LCTRL
@@ -69,10 +69,10 @@ class NoSearch:
 
     is_over = False
 
-    def __init__(self) -> None:
-        self.asked: list[Follow] = []
+    def __init__(self, *words: str) -> None:
+        self.asked: list[Request] = []
 
-    def ask(self, request: Follow) -> None:
+    def ask(self, request: Request) -> None:
         self.asked.append(request)
 
     def replies(self) -> Iterator[Reply]:

@@ -27,7 +27,8 @@ from linkanim.player.window import Window
 from linkanim.scenes import load, names
 from linkanim.scenes.toml import text
 from linkanim.synthesis.answers import PathAnswer
-from linkanim.synthesis.follower import Follow, Reply
+from linkanim.synthesis.follower import FollowPoses, Reply, Request
+from linkanim.synthesis.guidance import PoseAnswer
 
 SIZES = ((320, 180), (640, 200), (180, 320), (64, 36), (2, 700), (700, 2), (1, 1), (500, 400))
 _KEYS = [code(name) for name in key_names()]
@@ -53,6 +54,8 @@ class Search(NoSearch):
             row = (0.1, 1.0, *(length + random.uniform(-2, 2) for length in _LINKS))
             size, angle = random.uniform(0.3, 3.0), random.uniform(0.0, 1.2)
             numbers = PathAnswer(random.random(), 1.0, 0.3, 1.0, row, size, angle).numbers
+            if isinstance(request, FollowPoses):
+                numbers = PoseAnswer(0.0, 1.0, 0.3, 1.0, random.randrange(8), 0.7, 90.0, row).numbers
             whole = random.random() < 0.5
             way = numbers * random.randint(0, 4) if whole else ()
             error = "no linkage follows that" if random.random() < 0.1 else ""
@@ -60,7 +63,7 @@ class Search(NoSearch):
                 request.stroke, whole, numbers * random.randint(1, 3) if whole else numbers, 0, error, way
             )
         if random.random() < 0.3:
-            self.asked: list[Follow] = []
+            self.asked: list[Request] = []
 
 
 class Pad:
@@ -98,7 +101,7 @@ class Storm:
         self._there()
         self._is_full = False
         patch.setattr(beside, "_start", fake_start([]))
-        patch.setattr(beside, "Following", lambda: Search(self._random))
+        patch.setattr(beside, "Following", lambda *_: Search(self._random))
         patch.setattr(pygame.joystick, "Joystick", Pad)
         synced = os.fsync
 

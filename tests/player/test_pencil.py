@@ -16,7 +16,7 @@ from linkanim.player import beside as following
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
 from linkanim.player.beside import actions_of, request_of
-from linkanim.player.state import FADE_FRAMES, FRAMES, TOAST_FRAMES, Sketch, State, begin
+from linkanim.player.state import FADE_FRAMES, FRAMES, TOAST_FRAMES, PathSketch, State, begin
 from linkanim.player.tape import Tape, Taping
 from linkanim.player.tape_file import read, write
 from linkanim.scenes import load
@@ -45,9 +45,9 @@ def drawn(state: State, *, start: tuple[str, ...] = ("pencil",)) -> State:
     return after(state, *start, Action("pen_down", first), *moves, "pen_up")
 
 
-def sketch_of(state: State) -> Sketch:
-    assert state.sketch
-    return state.sketch
+def sketch_of(state: State) -> PathSketch:
+    assert state.drawing
+    return state.drawing
 
 
 @pytest.fixture

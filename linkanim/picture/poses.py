@@ -1,0 +1,103 @@
+"""Poses of a body as they are set down: frames, pins, the coupler in each, what the theory has of them."""
+
+from __future__ import annotations
+
+import cmath
+from collections.abc import Iterator
+from functools import lru_cache
+
+import numpy as np
+
+from linkanim.errors import BadInput
+from linkanim.picture.build_sheet import worded
+from linkanim.picture.chart import pen_for
+from linkanim.picture.construction import construction_items
+from linkanim.picture.figure import DrawSetting
+from linkanim.picture.items import Caption, Group, Halo, grouped
+from linkanim.picture.overlay import AXIS, NEAR, PosesShown
+from linkanim.picture.raster import Layer
+from linkanim.picture.shapes import arrows, disc, segments, stroke
+from linkanim.picture.theme import ORANGE, mixed
+from linkanim.synthesis.burmester import Poses
+from linkanim.synthesis.constructions import Mark, pose_marks
+
+_ACROSS = 0.55
+"""The y axis, in x axes."""
+_CURVE = 320
+"""Points of a circuit of Burmester's curves."""
+_WORDS = 0.5
+"""The share of the stage's width that words beside the dial take."""
+
+
+def posed(setting: DrawSetting, shown: PosesShown) -> Iterator[Group]:
+    """Yield poses, and what belongs to them, over the linkage; then the words."""
+    view, theme, layout = setting.view, setting.theme, setting.layout
+    line = max(1.8 * layout.unit, 1.2)
+    if shown.curves and len(shown.frames) > 1:
+        marks = _marks(tuple(frame[:3] for frame in shown.frames))
+        pen = pen_for(layout, setting.type, theme)
+        yield grouped("theory", construction_items(marks, view, layout.stage, pen))
+    ghosts = [np.array([view.place(place) for place in body]) for body in shown.bodies]
+    faint = mixed(theme.ground, theme.background, 0.25)
+    yield Group(
+        "couplers", [Layer(faint, [loop for one in ghosts for loop in stroke(one, 0.6 * line, closed=True)])]
+    )
+    yield Group("handles", [*_handles(setting, shown, line)], over=True)
+    yield Group("poses", [*_frames(setting, shown, line)], [*_numbers(setting, shown)], over=True)
+    yield worded(setting, shown.sentence, shown.facts, is_warning=shown.is_warning, room=_WORDS)
+
+
+def _reach(setting: DrawSetting) -> float:
+    return AXIS * NEAR * setting.layout.size[1]
+
+
+def _frames(setting: DrawSetting, shown: PosesShown, line: float) -> Iterator[Layer]:
+    view, theme, reach = setting.view, setting.theme, _reach(setting)
+    for n, (x, y, angle) in enumerate(shown.frames):
+        at, way = view.place((x, y)), reach * cmath.exp(-1j * angle)
+        ways = np.array([way, -1j * _ACROSS * way])
+        if ("pose", n) == shown.taken:
+            yield Layer(ORANGE, [at + disc(7 * line)], 0.45)
+        yield Layer(theme.background, segments(np.array([at, at]), at + ways, 4 * line))
+        yield Layer(theme.ink, arrows(np.array([at, at]), ways, 1.5 * line))
+        yield Layer(theme.velocity, [at + way + disc(2.6 * line)])
+        yield Layer(theme.background, [at + disc(3.4 * line)])
+        yield Layer(theme.ink, stroke(at + disc(3.4 * line), 1.3 * line, closed=True))
+    if shown.cursor:
+        at = view.place(shown.cursor)
+        arms = 5 * line * np.array([1, 1j])
+        yield Layer(theme.velocity, segments(at - arms, at + arms, 1.3 * line))
+
+
+def _numbers(setting: DrawSetting, shown: PosesShown) -> Iterator[Caption]:
+    size, reach = setting.layout.small_size, _reach(setting)
+    halo = Halo(setting.theme.background, 0.14 * size)
+    for n, (x, y, angle) in enumerate(shown.frames, start=1):
+        at = setting.view.place((x, y)) - 0.45 * reach * cmath.exp(-1j * (angle + 0.6))
+        top = at.real, at.imag - 0.5 * size
+        yield Caption(str(n), top, size, setting.theme.ink, "centre", strong=True, halo=halo)
+
+
+def _handles(setting: DrawSetting, shown: PosesShown, line: float) -> Iterator[Layer]:
+    """Yield pins that are asked for, and rings about what of the linkage can be dragged."""
+    view, theme = setting.view, setting.theme
+    for place in shown.handles:
+        ring = view.place(place) + disc(5.5 * line)
+        yield Layer(theme.velocity, stroke(ring, 1.1 * line, closed=True))
+    for n, place in enumerate(shown.pins):
+        at = view.place(place)
+        if ("pin", n) == shown.taken:
+            yield Layer(ORANGE, [at + disc(8 * line)], 0.45)
+        yield Layer(theme.velocity, [at + disc(5.5 * line)])
+        yield Layer(theme.background, [at + disc(3.6 * line)])
+        yield Layer(theme.velocity, [at + disc(1.6 * line)])
+
+
+@lru_cache(maxsize=4)
+def _marks(frames: tuple[tuple[float, float, float], ...]) -> tuple[Mark, ...]:
+    """Return what the theory has of poses; nothing of those that it has nothing of."""
+    rows = np.array(frames)
+    try:
+        return pose_marks(Poses(rows[:, 0] + 1j * rows[:, 1], rows[:, 2].copy()), _CURVE)
+    except BadInput:
+        return ()

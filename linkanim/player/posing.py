@@ -1,0 +1,357 @@
+"""Actions on poses: frames and pins are set down, dragged and turned; linkages that pass the poses follow."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from math import atan2, cos, dist, hypot, pi, radians, remainder, sin, tau
+
+import numpy as np
+
+from linkanim.errors import BadInput
+from linkanim.mechanics.linkage import Point
+from linkanim.picture.overlay import AXIS
+from linkanim.player.edits import drop
+from linkanim.player.sketching import left, released, sketching, taken
+from linkanim.player.state import (
+    LARGEST_DIAL,
+    PIVOTS,
+    PoseGrip,
+    PoseSketch,
+    SetPose,
+    State,
+    nothing_begun,
+    with_effect,
+    with_toast,
+)
+from linkanim.scenes.scene import PosesPurpose
+
+# The theory is imported when a pose is set: the first frame does not wait for it.
+
+MOST = 5
+"""Poses."""
+_WHOLE = radians(1)
+"""Angles are led in steps of so much."""
+_NO_CHOICE = "five poses leave no choice of pivots: Burmester's points are where they are"
+
+
+def poses(state: State, _: None) -> State:
+    """Take up poses: those that the scene was made for, or none yet; or go back to the scene that was on."""
+    if state.posing:
+        return left(state)
+    state = drop(left(state), None)
+    editing, shown = replace(state.editing, open=False), state.displayed
+    sketch = PoseSketch(state.scene, state.clock, nothing_begun(editing), shown.length_unit)
+    if isinstance(shown.purpose, PosesPurpose):
+        sketch = replace(sketch, poses=tuple(SetPose(*row) for row in shown.purpose.poses))
+    state = replace(state, sketch=sketch, editing=editing, listing=None, browsing=None, glide=None)
+    state = with_effect(replace(state, toast=None, faded=state.frame), "poses")
+    return with_effect(state, "search") if sketch.is_asked else state
+
+
+def put(state: State, numbers: tuple[float, ...]) -> State:
+    """Take poses as they are: 1 for linkages that end on a slider, else 0; x, y and angle (rad) of each."""
+    sketch = state.posing
+    if sketch is None:
+        return state
+    rows = zip(numbers[1::3], numbers[2::3], numbers[3::3], strict=True)
+    kept = tuple(SetPose(*row) for row in rows)[:MOST]
+    return _changed(state, replace(sketch, poses=kept, sliding=numbers[0] > 0, earlier=sketch), "anew")
+
+
+def pin(state: State, at: Point) -> State:
+    """Set a pin down where a linkage is to be fixed."""
+    sketch = state.posing
+    return _with_pin(state, sketch, at) if sketch else state
+
+
+def _with_pin(state: State, sketch: PoseSketch, at: Point) -> State:
+    room = 1 if sketch.sliding else len(PIVOTS)
+    if len(sketch.poses) >= MOST:
+        return with_toast(state, _NO_CHOICE)
+    taken = "pin", min(len(sketch.pins), room - 1)
+    bare = replace(sketch, pins=(*sketch.pins[: room - 1], at), taken=taken, earlier=sketch)
+    return _changed(state, bare, "search")
+
+
+def under(sketch: PoseSketch, at: Point, reach: float) -> PoseGrip | None:
+    """Return what of poses, pins and linkage a hand at a point takes hold of; None for nothing."""
+    near = [(dist(place, at), grip) for grip, place in _handles(sketch, reach)]
+    far, found = min(near, key=lambda one: one[0], default=(0.0, None))
+    return found if far <= reach else None
+
+
+def _handles(sketch: PoseSketch, reach: float) -> Iterator[tuple[PoseGrip, Point]]:
+    """Yield what can be taken hold of, and where it is; a pin before the pivot that stands there."""
+    for n, pose in enumerate(sketch.poses):
+        yield PoseGrip("pose", n), (pose.x, pose.y)
+        yield PoseGrip("axis", n), _tip(pose, reach)
+    yield from ((PoseGrip("pin", n), place) for n, place in enumerate(sketch.pins))
+    if sketch.answer is None or len(sketch.poses) >= MOST:
+        return
+    joints = sketch.answer.joints
+    pivots = [joints[name] for name in PIVOTS if name in joints]
+    yield from ((PoseGrip("pin", -1 - n), (place.real, place.imag)) for n, place in enumerate(pivots))
+    if len(sketch.poses) < 4:
+        for n, name in enumerate("AB"):
+            yield PoseGrip("joint", n), (joints[name].real, joints[name].imag)
+
+
+def _tip(pose: SetPose, reach: float) -> Point:
+    """Return where the x axis of a frame ends, as it is drawn."""
+    long = AXIS * reach
+    return pose.x + long * cos(pose.angle), pose.y + long * sin(pose.angle)
+
+
+def has_room(sketch: PoseSketch) -> bool:
+    """Return whether the hand sets something down on paper."""
+    return sketch.pinning or len(sketch.poses) < MOST
+
+
+def down(state: State, hand: tuple[float, float, float, float]) -> State:
+    """Put the hand down at a point: it takes hold of what is there, or sets down a frame or a pin."""
+    sketch = state.posing
+    if sketch is None or sketch.held:
+        return state
+    x, y, reach, snap = hand
+    grip = under(sketch, (x, y), reach)
+    if grip is None:
+        at = _stepped(x, snap), _stepped(y, snap)
+        return _set_down(state, sketch, at, (at[0] - x, at[1] - y))
+    state = replace(state, glide=None)
+    if grip.what == "pin" and grip.number < 0:
+        return _pivot_taken(state, sketch, grip)
+    place = next(at for one, at in _handles(sketch, reach) if one == grip)
+    grip = grip._replace(off=(place[0] - x, place[1] - y))
+    taken = ("pin" if grip.what == "pin" else "pose", grip.number) if grip.what != "joint" else None
+    return sketching(state, held=grip, base=state.scene, taken=taken, earlier=sketch)
+
+
+def _set_down(state: State, sketch: PoseSketch, at: Point, off: Point) -> State:
+    """Return the state with a pin or a frame in hand at a place, so far off the hand."""
+    if sketch.pinning:
+        state = _with_pin(state, sketch, at)
+        after = state.posing
+        held = after is not None and after.pins != sketch.pins
+        return sketching(state, held=PoseGrip("pin", len(after.pins) - 1)) if after and held else state
+    if len(sketch.poses) >= MOST:
+        return state
+    angle = sketch.poses[-1].angle if sketch.poses else 0.0
+    number = len(sketch.poses)
+    set_down = replace(
+        sketch,
+        poses=(*sketch.poses, SetPose(*at, angle)),
+        held=PoseGrip("axis", number, off),
+        taken=("pose", number),
+        base=state.scene,
+        earlier=sketch,
+    )
+    return replace(state, glide=None, sketch=_settled(set_down))
+
+
+def _pivot_taken(state: State, sketch: PoseSketch, grip: PoseGrip) -> State:
+    """Return the state with a fixed pin of the linkage in hand: it becomes one that is asked for."""
+    joints = sketch.answer.joints
+    place = joints[PIVOTS[-1 - grip.number]]
+    known = [n for n, at in enumerate(sketch.pins) if abs(complex(*at) - place) < 1e-9 * (1 + abs(place))]
+    room = 1 if sketch.sliding else len(PIVOTS)
+    kept = sketch.pins if known else (*sketch.pins[: room - 1], (place.real, place.imag))
+    number = known[0] if known else len(kept) - 1
+    held, taken = PoseGrip("pin", number), ("pin", number)
+    return sketching(state, held=held, base=state.scene, pins=kept, taken=taken, earlier=sketch)
+
+
+def along(state: State, hand: tuple[float, float, float, float]) -> State:
+    """Move the hand to a point; what it holds comes along, and linkages follow."""
+    sketch = state.posing
+    if sketch is None or sketch.held is None:
+        return state
+    x, y, reach, snap = hand
+    grip, at = sketch.held, (x + sketch.held.off[0], y + sketch.held.off[1])
+    to = _stepped(at[0], snap), _stepped(at[1], snap)
+    match grip.what:
+        case "pose":
+            pose = sketch.poses[grip.number]._replace(x=to[0], y=to[1])
+        case "axis":
+            pose = sketch.poses[grip.number]
+            way = at[0] - pose.x, at[1] - pose.y
+            if hypot(*way) <= reach:
+                return state
+            angle = atan2(way[1], way[0])
+            pose = pose._replace(angle=_whole(angle) if snap else angle)
+        case "pin":
+            pins = tuple(to if n == grip.number else place for n, place in enumerate(sketch.pins))
+            return _led(state, replace(sketch, pins=pins))
+        case "joint":
+            return _led(state, replace(sketch, held=grip._replace(at=to)))
+    kept = tuple(pose if n == grip.number else one for n, one in enumerate(sketch.poses))
+    return _led(state, replace(sketch, poses=kept))
+
+
+def _led(state: State, sketch: PoseSketch) -> State:
+    """Return the state with what the hand has led, answers to which follow."""
+    sketch = _settled(sketch)
+    if not sketch.is_asked:
+        return replace(state, sketch=sketch)
+    return with_effect(replace(state, sketch=sketch), "follow" if sketch.answers else "search")
+
+
+def up(state: State, _: None) -> State:
+    """Lift the hand; all linkages for what is there now are asked for, if that is another."""
+    sketch = state.posing
+    if sketch is None or sketch.held is None:
+        return state
+    before = sketch.earlier
+    same = before and (sketch.poses, sketch.pins) == (before.poses, before.pins)
+    if before and same and (sketch.held.what != "joint" or sketch.held.at is None):
+        kept = replace(before, taken=sketch.taken, cursor=sketch.cursor)
+        return replace(state, sketch=replace(kept, strokes=sketch.strokes))
+    state = released(sketching(state, strokes=sketch.strokes + 1, refusal=""))
+    if not sketch.is_asked:
+        return replace(state, effects=())
+    other = before is not None and len(sketch.poses) != len(before.poses)
+    return with_effect(replace(state, effects=state.effects[:-1]), "anew") if other else state
+
+
+def off(state: State) -> State:
+    """Lift the hand, and leave all as it was before."""
+    sketch = state.posing
+    if sketch is None or sketch.held is None or sketch.earlier is None:
+        return state
+    back = replace(sketch.earlier, strokes=sketch.strokes + 1, cursor=sketch.cursor)
+    scene = sketch.base or state.scene
+    return replace(state, sketch=back, scene=scene if sketch.answers else state.scene)
+
+
+def cursor(state: State, at: Point) -> State:
+    """Move the keys' cursor to a point; what the hand holds by keys goes along."""
+    state = along(state, (*at, 0.0, 1e-9)) if state.posing and state.posing.held else state
+    return sketching(state, cursor=at) if state.posing else state
+
+
+def further(state: State, by: int) -> State:
+    """Choose the next frame or pin, or the one before; the keys' cursor goes there."""
+    sketch = state.posing
+    if sketch is None or sketch.held:
+        return state
+    things = [("pose", n) for n in range(len(sketch.poses))] + [("pin", n) for n in range(len(sketch.pins))]
+    if not things:
+        return state
+    at = things.index(sketch.taken) + by if sketch.taken in things else min(by - 1, 0)
+    taken = things[at % len(things)]
+    place = sketch.pins[taken[1]] if taken[0] == "pin" else sketch.poses[taken[1]][:2]
+    return sketching(state, taken=taken, cursor=place)
+
+
+def remove(state: State, _: None) -> State:
+    """Take away the frame or pin that was touched last."""
+    sketch = state.posing
+    if sketch is None or sketch.held or sketch.taken is None:
+        return state
+    what, number = sketch.taken
+    bare = replace(sketch, taken=None, earlier=sketch)
+    if what == "pin":
+        bare = replace(bare, pins=tuple(at for n, at in enumerate(sketch.pins) if n != number))
+    else:
+        bare = replace(bare, poses=tuple(one for n, one in enumerate(sketch.poses) if n != number))
+    return _changed(state, bare, "search")
+
+
+def pinning(state: State, _: None) -> State:
+    """Let the hand set pins, or poses again."""
+    return sketching(state, pinning=not state.posing.pinning) if state.posing else state
+
+
+def sliding(state: State, _: None) -> State:
+    """Ask for linkages that end on a slider, or for four-bars again."""
+    sketch = state.posing
+    if sketch is None or sketch.held:
+        return state
+    kept = sketch.pins if sketch.sliding else sketch.pins[:1]
+    return _changed(state, replace(sketch, sliding=not sketch.sliding, pins=kept, earlier=sketch), "anew")
+
+
+def curves(state: State, _: None) -> State:
+    """Show or hide what the theory has of the poses: poles, Burmester's curves, his points."""
+    return sketching(state, curves=not state.posing.curves) if state.posing else state
+
+
+def dial(state: State, share: float) -> State:
+    """Turn the dial to a share of its way, 0 for small linkages to 1 for a large transmission angle."""
+    sketch = state.posing
+    if sketch is None or sketch.held:
+        return state
+    at = min(max(round((2 * share - 1) * LARGEST_DIAL), -LARGEST_DIAL), LARGEST_DIAL)
+    return _changed(state, replace(sketch, dial=at), "anew") if at != sketch.dial else state
+
+
+def dial_on(state: State, by: int) -> State:
+    """Turn the dial so many steps towards a large transmission angle."""
+    sketch = state.posing
+    return dial(state, (sketch.dial + by + LARGEST_DIAL) / (2 * LARGEST_DIAL)) if sketch else state
+
+
+def cards(state: State, numbers: tuple[float, ...]) -> State:
+    """Take all linkages in place of those that are there: which is to be shown, and the numbers of each."""
+    from linkanim.synthesis.guidance import POSE_NUMBERS, pose_answer_from
+
+    if len(numbers) % POSE_NUMBERS != 1 or state.posing is None:
+        return state
+    rows = (numbers[n : n + POSE_NUMBERS] for n in range(1, len(numbers), POSE_NUMBERS))
+    return taken(state, round(numbers[0]), tuple(map(pose_answer_from, rows)))
+
+
+def unmet(state: State, reason: str) -> State:
+    """Say why there is no linkage for the poses."""
+    sketch = state.posing
+    if sketch is None or sketch.held:
+        return state
+    faded = state.frame if sketch.answers else state.faded
+    return replace(sketching(state, refusal=reason, answers=(), chosen=0), faded=faded, glide=None)
+
+
+def let_go(state: State) -> State | None:
+    """Return the state without what is held, else the cursor, what is lit, pins to be set; None without."""
+    sketch = state.posing
+    if sketch is None:
+        return None
+    if sketch.held:
+        return off(state)
+    for name, none in (("cursor", None), ("taken", None), ("pinning", False)):
+        if getattr(sketch, name):
+            return sketching(state, **{name: none})
+    return None
+
+
+def _changed(state: State, sketch: PoseSketch, effect: str) -> State:
+    """Return the state with another sketch, linkages for which are asked for; too few poses have none."""
+    sketch = _settled(replace(sketch, strokes=sketch.strokes + 1, refusal=""))
+    if not sketch.is_asked:
+        return replace(state, sketch=replace(sketch, answers=(), chosen=0), glide=None)
+    return with_effect(replace(state, sketch=sketch, toast=None), effect)
+
+
+def _settled(sketch: PoseSketch) -> PoseSketch:
+    """Return poses with their pins where there can be some: of four on the curve of centre points."""
+    if not sketch.pins or len(sketch.poses) < 4:
+        return sketch
+    if len(sketch.poses) >= MOST:
+        return replace(sketch, pins=())
+    from linkanim.synthesis.burmester import CentreCurve, Poses
+
+    try:
+        angles = np.array([pose.angle for pose in sketch.poses])
+        curve = CentreCurve(Poses(sketch.points, angles))
+        feet = [curve.nearest(complex(*at)) for at in sketch.pins]
+    except BadInput:
+        return sketch
+    return replace(sketch, pins=tuple((foot.real, foot.imag) for foot in feet))
+
+
+def _stepped(value: float, step: float) -> float:
+    return round(value / step) * step if step else value
+
+
+def _whole(angle: float) -> float:
+    """Return an angle in whole degrees, from -pi to pi."""
+    return remainder(round(angle / _WHOLE) * _WHOLE, tau) if abs(angle) < pi else angle

@@ -1,0 +1,136 @@
+"""What a stroke and poses share: answers come, one is chosen, followed and kept, a change is undone."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+from linkanim.player.edits import exchanged, followed
+from linkanim.player.state import POSED, PathSketch, PoseSketch, State, with_effect, with_undo
+from linkanim.scenes.editing import in_unit
+from linkanim.scenes.scene import Scene
+
+_SAME = 0.02
+"""Of the stroke's size: pins nearer to each other are one."""
+
+
+def sketching(state: State, **changes: object) -> State:
+    """Return the state with these changes of its sketch, if there is one."""
+    return replace(state, sketch=state.sketch and replace(state.sketch, **changes))  # type: ignore[arg-type]
+
+
+def left(state: State) -> State:
+    """Leave the sketch; the scene that was on comes back as if it had gone on."""
+    sketch = state.sketch
+    if sketch is None:
+        return state
+    faded = state.faded if state.scene is sketch.before else state.frame
+    back = replace(state, sketch=None, glide=None, faded=faded)
+    return replace(back, scene=sketch.before, clock=sketch.clock, editing=sketch.editing)
+
+
+def keep(state: State, _: None) -> State:
+    """Leave the sketch and keep the answer in the scene's place; undo brings that back."""
+    sketch = state.sketch
+    if sketch is None or sketch.is_blank or state.scene is sketch.before:
+        return left(state)
+    return replace(state, sketch=None, editing=with_undo(sketch.editing, sketch.before))
+
+
+def follow(state: State, numbers: tuple[float, ...]) -> State:
+    """Show an answer that has come, in the place of the one that is shown."""
+    sketch = state.sketch
+    if sketch is None or not sketch.is_asked or (len(numbers) == POSED) != isinstance(sketch, PoseSketch):
+        return state
+    answer = sketch.answer_from(numbers)
+    if not sketch.answers:
+        state = exchanged(state, sketch.scene_of(answer))
+        return sketching(replace(state, glide=None, faded=state.frame), answers=(answer,))
+    if isinstance(sketch.answer, Scene):
+        return state
+    answers = tuple(answer if n == sketch.chosen else one for n, one in enumerate(sketch.answers))
+    if sketch.held is None:
+        return followed(sketching(state, answers=answers), sketch.scene_of(answer))
+    return sketching(state, answers=answers, coming=ready(sketch.scene_of(answer, sketch.base), state.phase))
+
+
+def ready(scene: Scene, phase: float) -> Scene:
+    """Return a scene with what the next frame asks first worked out: that frame has its picture to make."""
+    _ = scene.cycle(1, derivatives=0).position
+    scene.pose(phase, 0)
+    return scene
+
+
+def come(state: State) -> State:
+    """Return the state with the linkage on that was worked out for this frame."""
+    coming = state.sketch and state.sketch.coming
+    return replace(sketching(state, coming=None), scene=coming) if coming else state
+
+
+def taken(state: State, first: int, found: tuple[Any, ...]) -> State:
+    """Return the state with answers in place of those that are there, and one of them shown.
+
+    A scene whose own trace was taken stays the first.
+    """
+    sketch = state.sketch
+    if sketch is None or not sketch.is_asked or sketch.held is not None:
+        return state
+    if not 0 <= first < len(found):
+        return state
+    if isinstance(sketch, PathSketch) and sketch.answers and isinstance(sketch.answers[0], Scene):
+        assert sketch.curve
+        own = in_unit(sketch.answers[0], sketch.unit)
+        others = tuple(one for one in found if not _stands_on(own, one.row, sketch.curve.size))
+        return sketching(state, answers=(sketch.answers[0], *others))
+    was_none, before = not sketch.answers, sketch.answer
+    state = sketching(state, answers=found, chosen=first)
+    if before == found[first]:
+        return state
+    scene = sketch.scene_of(found[first])
+    if was_none:
+        return replace(exchanged(state, scene), glide=None, faded=state.frame)
+    return followed(state, scene)
+
+
+def _stands_on(scene: Scene, row: tuple[float, ...], size: float) -> bool:
+    """Return whether an answer has the fixed pins of the scene whose trace it follows: it is that scene."""
+    pins = [complex(*pin.position) for pin in scene.linkage.pins]
+    x, y, *_, x4, y4, _ = row
+    own = complex(x, y), complex(x4, y4)
+    return all(min((abs(pin - at) for at in pins), default=size) < _SAME * size for pin in own)
+
+
+def choose(state: State, place: int) -> State:
+    """Show another of the answers."""
+    sketch = state.sketch
+    if sketch is None or sketch.held is not None or not 0 <= place < len(sketch.answers):
+        return state
+    if sketch.answer is sketch.answers[place]:
+        return state
+    scene = sketch.scene_of(sketch.answers[place])
+    state = replace(exchanged(state, scene), glide=None, faded=state.frame)
+    return replace(state, sketch=sketch.picking(place))
+
+
+def take_back(state: State, _: None) -> State:
+    """Go back to what was drawn, and its answers, before the last change."""
+    sketch = state.sketch
+    if sketch is None or sketch.earlier is None or sketch.held is not None:
+        return state
+    back = replace(sketch.earlier.at_rest, strokes=sketch.strokes + 1)
+    state = replace(state, sketch=back)
+    if back.answer is None:
+        return with_effect(state, "search") if back.is_asked else state
+    return followed(state, back.scene_of(back.answer))
+
+
+def released(state: State) -> State:
+    """Return the state with nothing held, its answer shown as it is; all answers are asked for."""
+    sketch = state.sketch
+    if sketch is None:
+        return state
+    answer = sketch.answer
+    state = sketching(state, held=None, base=None, coming=None)
+    if answer and not isinstance(answer, Scene) and state.scene is not sketch.base:
+        state = exchanged(state, sketch.scene_of(answer))
+    return with_effect(state, "search")
