@@ -31,7 +31,7 @@ class BarEntry(NamedTuple):
 
 
 _SPEED = Action("speed", 1)
-_NONE_YET = "there is no linkage to keep yet"
+_NONE_YET, _NO_CHANGE = "there is no linkage to keep yet", "there is nothing to undo"
 _BACK = BarEntry("back", Action("back"), 0)
 _HOME = BarEntry("home", Action("play", "title door=play"), 2)
 _RUNNING = (
@@ -288,12 +288,8 @@ _LACKS: Mapping[Action, Callable[[State], str]] = {
     ),
     Action("trace"): lambda state: "" if state.scene.trace else "no joint of this mechanism is traced",
     Action("keep"): lambda state: "" if state.sketch and not state.sketch.is_blank else _NONE_YET,
-    Action("take_back"): lambda state: (
-        "" if state.sketch and state.sketch.earlier else "there is nothing to undo"
-    ),
-    Action("unbuild"): lambda state: (
-        "" if state.building and state.building.building.past else "there is nothing to undo"
-    ),
+    Action("take_back"): lambda state: "" if state.sketch and state.sketch.earlier else _NO_CHANGE,
+    Action("unbuild"): lambda state: "" if state.building and state.building.building.past else _NO_CHANGE,
     Action("rebuild"): lambda state: (
         "" if state.building and state.building.building.future else "there is nothing to redo"
     ),

@@ -43,6 +43,7 @@ ENTERED: dict[Mode, tuple[Action | str, ...]] = {
     "list": ("list",),
     "shelf": ("shelf",),
     "pencil": ("pencil",),
+    "poses": ("poses",),
     "build": ("build",),
     "layers": ("layers",),
     "game": (Action("play", "title"),),
