@@ -327,7 +327,8 @@ def _short(value: Formula) -> Formula:
 
 def _html_page(title: str, body: str) -> str:
     head = f"<meta charset='utf-8'><title>{escape(title)}</title><style>{_STYLE}{math_style()}</style>"
-    return f"<!doctype html>\n<html lang='en'><head>{head}</head><body>\n{body}\n</body></html>\n"
+    inside = f"<body>\n<main>\n{body}\n</main>\n</body>"
+    return f"<!doctype html>\n<html lang='en'><head>{head}</head>{inside}</html>\n"
 
 
 def _html_words(text: str) -> str:

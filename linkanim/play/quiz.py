@@ -200,7 +200,8 @@ def as_html(
     pages = (f"<div class='page'>{''.join(some)}</div>" for some in _pages(sections))
     head_lines = (f"<h1>{escape(title)}</h1>", _SIGNED)
     body = "\n".join([*head_lines, *pages, *_key_page(round_, title)])
-    return f"<!doctype html>\n<html lang='en'><head>{head}</head><body>\n{body}\n</body></html>\n"
+    inside = f"<body>\n<main>\n{body}\n</main>\n</body>"
+    return f"<!doctype html>\n<html lang='en'><head>{head}</head>{inside}</html>\n"
 
 
 def _pages(sections: Sequence[str]) -> Iterator[Sequence[str]]:

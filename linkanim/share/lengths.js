@@ -47,7 +47,7 @@ const lengthsOf = (model, { kinds, part, put, say, unit, add, by, xy, line, view
   function flipsOf() {
     const dyads = model.joints.filter(({ kind }) => kind === "bars" || kind === "slider").map(({ name }) => name);
     const stops = range ? range.map((angle) => solver.stopAt(angle)) : [];
-    const turning = dyads.length === 1 && stops.length ? dyads[0] : null;
+    const turning = dyads.length === 1 && stops.length && stops.every((name) => name === dyads[0]) ? dyads[0] : null;
     return (phase) => {
       const found = Object.create(null);
       if (state.side) found[dyads[0]] = -1;

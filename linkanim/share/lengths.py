@@ -6,7 +6,7 @@ from math import cos, pi, sin
 from typing import Any
 
 from linkanim.mechanics.analysis import GRASHOF, TRIPLE_ROCKERS, four_bar_of
-from linkanim.mechanics.linkage import RRP, RRR, Crank, Joint, Pin, Rigid
+from linkanim.mechanics.linkage import RPP, RPR, RRP, RRR, Crank, Joint, Pin, Rigid
 from linkanim.scenes.scene import Scene
 
 LINKS = ("ground", "input", "coupler", "output")
@@ -21,8 +21,8 @@ _ASIDE = 0.5
 def model(scene: Scene) -> dict[str, Any] | None:
     """Return the linkage with its lengths; None where it has what the solver does not know.
 
-    That is an input which is no crank, a dyad with a slot, a line that a body carries, a crank on a joint
-    that moves, and a smooth path through a change point, on which no closure has a name.
+    That is an input which is no crank, a line that a body carries, a true period of several turns, and
+    a smooth path through a change point, on which no closure has a name.
     """
     linkage = scene.linkage
     if linkage.drive.actuator.along is not None or scene.info.change_points or scene.info.true_period != 1:
@@ -79,14 +79,15 @@ class _Model:
         match joint:
             case Pin():
                 return {"name": joint.name, **self._pin(joint)}
-            case Crank() if self.linkage.joint(joint.pivot).fixed and not joint.gear:
-                turning = {"ratio": 1.0, "offset": 0.0}
+            case Crank():
+                ratio, offset = self._gearing(joint)
                 return {
                     "name": joint.name,
                     "kind": "crank",
                     "pivot": joint.pivot,
                     "r": self._bar(joint.pivot, joint),
-                    **turning,
+                    "ratio": ratio,
+                    "offset": offset,
                 }
             case RRR():
                 numbers = [self._bar(end, joint, n) for n, end in enumerate(joint.ends)]
@@ -108,6 +109,30 @@ class _Model:
                     "through": joint.line.through,
                     "offset": offset,
                     "side": joint.side,
+                }
+            case RPR():
+                offset = self._aside(f"{joint.name}: offset of its slot", joint.offset)
+                return {
+                    "name": joint.name,
+                    "kind": "slot",
+                    "pivot": joint.pivot,
+                    "through": joint.through,
+                    "r": self._bar(joint.pivot, joint),
+                    "offset": offset,
+                }
+            case RPP() if joint.line.on is None:
+                offset, angle = (
+                    self._aside(f"{joint.name}: offset of its line", joint.line.offset),
+                    joint.line.angle,
+                )
+                return {
+                    "name": joint.name,
+                    "kind": "yoke",
+                    "pin": joint.pin,
+                    "way": (cos(angle), sin(angle)),
+                    "slot": (cos(angle + joint.slot), sin(angle + joint.slot)),
+                    "through": joint.line.through,
+                    "offset": offset,
                 }
             case Rigid():
                 first = f"{joint.name}: along {'–'.join(joint.on)}"
@@ -131,6 +156,14 @@ class _Model:
         self._numbers[self._first.name, pin.name] = number
         unit = way / abs(way)
         return {"kind": "pin", "base": self._first.name, "way": (unit.real, unit.imag), "r": number}
+
+    def _gearing(self, crank: Crank) -> tuple[float, float]:
+        """Return how a crank turns with the input: its angle is ratio·θ + offset."""
+        if crank.gear is None:
+            return 1.0, 0.0
+        ratio, offset = self._gearing(self.linkage.crank(crank.gear.mate))
+        own = float(crank.gear.ratio)
+        return own * ratio, own * offset + crank.gear.offset
 
     def _bar(self, end: str, joint: Joint, which: int = 0) -> int:
         length = joint.bars[which][1]

@@ -113,9 +113,12 @@
   const grown = (value, { poles }, phase) => poles ? value / weight(poles, phase) : value;
 
   const motionIsFine = !matchMedia("(prefers-reduced-motion: reduce)").matches;
+  // a low page, as in a slide's frame, leaves its room to the mechanism: numbers and chart come when asked for
+  const isLow = matchMedia("(max-height: 30rem) and (min-width: 34rem)").matches;
   const state = {
     phase: 0, playing: motionIsFine, pace: 1, way: 1, side: 0, last: 1,
     trace: true, velocity: false, acceleration: false, names: true, pointer: null, held: null,
+    values: !isLow, curves: !isLow,
   };
   const speed = () => page.speed * state.way;
 
@@ -346,7 +349,7 @@
     for (const move of own?.on ? own.moves : side.moves) move(place, pose);
     put(byId("grip"), "transform", `translate(${xy(place(side.data.drive))})`);
     drawRows(side);
-    chart.classList.toggle("off", own?.on || !side.charts.length);
+    chart.classList.toggle("off", own?.on || !side.charts.length || !state.curves);
     if (side.charts.length && !own?.on) drawCursor(side.charts[state.way > 0 ? 0 : 1]);
     drawInput(side);
     if (byId("numbers").open) drawNumbers(side, pose);
@@ -501,7 +504,7 @@
       texts.forEach((text, n) => {
         const one = made.appendChild(document.createElement(n ? cell : "th"));
         one.textContent = text;
-        one.scope = n ? (cell === "th" ? "col" : "") : (cell === "th" ? "col" : "row");
+        if (cell === "th" || !n) one.scope = cell === "th" ? "col" : "row";
       });
       return made;
     };
@@ -596,9 +599,10 @@
   chart.addEventListener("pointerdown", (event) => { chart.setPointerCapture(event.pointerId); scrub(event); });
   chart.addEventListener("pointermove", (event) => { if (event.buttons) scrub(event); });
 
-  function toggle(name) {
-    state[name] = !state[name];
-    byId(name).setAttribute("aria-pressed", state[name]);
+  function toggle(name, on = !state[name]) {
+    state[name] = on;
+    byId(name).setAttribute("aria-pressed", on);
+    byId("rows").classList.toggle("off", !state.values);
     wake();
   }
   function showSide(number) {
@@ -632,7 +636,7 @@
     play: () => play(!state.playing), back: () => step(-1), forth: () => step(1), reverse,
     closure: () => showSide(state.side + 1), theme,
   };
-  for (const name of ["trace", "velocity", "acceleration", "names"]) ACTIONS[name] = () => toggle(name);
+  for (const name of ["trace", "velocity", "acceleration", "names", "values", "curves"]) ACTIONS[name] = () => toggle(name);
   for (const name in ACTIONS) byId(name).addEventListener("click", ACTIONS[name]);
   byId("pace").addEventListener("change", () => pace(0));
   byId("input").addEventListener("input", (event) => { pause(); moveTo(Number(event.target.value)); });
@@ -659,6 +663,8 @@
   for (const [name, order] of [["velocity", 1], ["acceleration", 2]])
     hide(name, !sides[0].data.movers.some((mover) => mover.kind === "arrows" && mover.order === order && mover.at.length));
   hide("theme", Boolean(page.theme));
+  hide("curves", !sides.some(({ charts }) => charts.length));
+  for (const name of ["values", "curves"]) toggle(name, state[name]);
   hide("lengths", !own);
   if (own) globalThis.lengths = own;
   const slider = byId("input");

@@ -1,5 +1,5 @@
-// Solves a linkage of cranks, dyads (two bars, or a bar and a slider on a fixed line) and points of bodies for
-// any lengths. A point is [x, y] in the scene's unit, y up; a joint is {p, v, a}: its place and its first and
+// Solves a linkage of cranks, dyads (two bars; a bar and a slider on a fixed line; a slotted bar; a yoke on a
+// fixed line) and points of bodies for any lengths. A point is [x, y] in the scene's unit, y up; a joint is {p, v, a}: its place and its first and
 // second derivative by the input's angle. A dyad that does not close gives null.
 "use strict";
 const solverOf = (model) => {
@@ -50,6 +50,26 @@ const solverOf = (model) => {
       const p = add(foot, by(way, dot(way, off) + side * flip * Math.sqrt(room))), bar = sub(p, P.p);
       const v = by(way, dot(bar, P.v) / dot(bar, way));
       return { p, v, a: by(way, (dot(bar, P.a) - square(sub(v, P.v))) / dot(bar, way)) };
+    },
+    // through = pivot + s·u + offset·n with s > 0, the joint pivot + r·u
+    slot({ pivot, through, r, offset }, joints) {
+      const O = joints[pivot], A = joints[through], way = sub(A.p, O.p), e = at(offset), far = square(way);
+      const room = far - e * e;
+      gap = Math.min(gap, room / (far + e * e));
+      if (!(room > 0)) return null;
+      const s = Math.sqrt(room), u = by(add(by(way, s), by(left(way), -e)), 1 / far), n = left(u);
+      const v = sub(A.v, O.v), a = sub(A.a, O.a), turn = dot(v, n) / s, slid = dot(v, u) + turn * e;
+      const second = (dot(a, n) - turn * (dot(v, u) + slid)) / s, long = at(r);
+      return {
+        p: add(O.p, by(u, long)), v: add(O.v, by(n, long * turn)),
+        a: add(O.a, sub(by(n, long * second), by(u, long * turn * turn))),
+      };
+    },
+    // where a slot of a fixed direction through a pin crosses a fixed line
+    yoke({ pin, way, slot, through, offset }, joints) {
+      const P = joints[pin], foot = add(joints[through].p, by(left(way), at(offset))), det = cross(way, slot);
+      const along = (of) => by(way, cross(of, slot) / det);
+      return { p: add(foot, along(sub(P.p, foot))), v: along(P.v), a: along(P.a) };
     },
     point({ on, r }, joints) {
       const [P, Q] = on.map((name) => joints[name]), way = sub(Q.p, P.p), long = square(way);

@@ -20,7 +20,10 @@ from linkanim.scenes.scene import Scene
 from linkanim.share.lengths import model
 from linkanim.share.page import Shared
 
-SCENES = ("crank-rocker", "slider-crank", "watt-1", "double-rocker", "jansen")
+SCENES = (
+    "crank-rocker", "slider-crank", "watt-1", "double-rocker", "jansen", "press", "whitworth", "scotch-yoke",
+    "scissor-lift", "cardan-gears", "geared-five-bar-2-1",
+)  # fmt: skip
 EACH = 40
 CLOSE = 1e-9
 """Of a linkage's longest link."""
@@ -43,6 +46,19 @@ def document(found: dict[str, Any], values: list[float], *, other: bool = False)
                 pins[name] = list(one["place"])
             case "crank":
                 joints[name] = {"crank": one["pivot"], "length": values[numbers]}
+                if (one["ratio"], one["offset"]) != (1.0, 0.0):
+                    driver = next(name for name, of in joints.items() if "crank" in of and "gear" not in of)
+                    shift = f"{degrees(one['offset'])!r} deg"
+                    joints[name]["gear"] = {"with": driver, "ratio": one["ratio"], "offset": shift}
+            case "slot":
+                slot = {"pivot": one["pivot"], "through": one["through"], "offset": values[one["offset"]]}
+                joints[name] = {"slot": slot, "length": values[numbers]}
+            case "yoke":
+                angle, across = (float(np.arctan2(*one[key][::-1])) for key in ("way", "slot"))
+                guide: dict[str, Any] = {"through": one["through"], "angle": f"{degrees(angle)!r} deg"}
+                guide["offset"] = values[one["offset"]]
+                slide = {"pin": one["pin"], "line": guide, "slot": f"{degrees(across - angle)!r} deg"}
+                joints[name] = {"slide": slide}
             case "bars":
                 side = one["side"] * (-1 if turned else 1)
                 joints[name] = {"from": list(one["ends"]), "length": [values[n] for n in numbers]}
@@ -50,8 +66,8 @@ def document(found: dict[str, Any], values: list[float], *, other: bool = False)
                 turned = False
             case "slider":
                 side = one["side"] * (-1 if turned else 1)
-                angle = f"{degrees(np.arctan2(*one['way'][::-1]))!r} deg"
-                line = {"through": one["through"], "angle": angle, "offset": values[one["offset"]]}
+                bearing = f"{degrees(np.arctan2(*one['way'][::-1]))!r} deg"
+                line = {"through": one["through"], "angle": bearing, "offset": values[one["offset"]]}
                 joints[name] = {"from": one["end"], "length": values[numbers], "line": line}
                 joints[name]["side"] = "forward" if side > 0 else "backward"
                 turned = False
@@ -180,4 +196,5 @@ def test_the_other_closure_and_the_way_back(page: Page, tmp_path: Path) -> None:
 def test_only_what_the_solver_knows_has_sliders() -> None:
     known = {name for name in names() if model(load(name))}
     assert {"crank-rocker", "slider-crank", "jansen", "stephenson-3"} <= known
-    assert not known & {"press", "scotch-yoke", "excavator", "inverted-slider-crank", "parallelogram"}
+    assert not known & {"excavator", "driven-piston", "geared-five-bar-3-2", "parallelogram"}
+    assert len(known) == 45

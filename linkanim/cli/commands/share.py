@@ -51,4 +51,6 @@ def _site(options: Namespace) -> Path:
 
 def _shared(options: Namespace, scene: str) -> Shared:
     shown = in_unit(load(scene), options.unit)
-    return Shared(shown, options.speed, options.theme, options.chart, options.names)
+    # whoever opens a page of a whole site asks for nothing: it names its joints and links
+    names = max(options.names, 1) if options.all else options.names
+    return Shared(shown, options.speed, options.theme, options.chart, names)
