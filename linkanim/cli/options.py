@@ -392,7 +392,7 @@ _TEXT = _takes(
 )
 _ANGLE = _value("--angle ANGLE", units.angle, 'the crank angle, such as "87 deg"')
 _PHASE = _value(
-    "--phase PHASE", units.angle, "a phase instead of an angle (default: where the joints are farthest apart)"
+    "--phase PHASE", units.angle, "a phase instead of an angle (default: the pose that reads best)"
 )
 _ACCELERATION = _value(
     "--acceleration ACC",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import cached_property
+from math import tau
 
 import pygame
 
@@ -11,13 +12,13 @@ from linkanim.frozen import frozen
 from linkanim.mechanics.motion import Pose
 from linkanim.mechanics.quantities import input_symbol
 from linkanim.paper.svg import svg
-from linkanim.picture.figure import figure
 from linkanim.picture.items import Group
 from linkanim.picture.look import Look
 from linkanim.picture.overlay import Overlay
 from linkanim.picture.picture import Picture
 from linkanim.picture.quantities import driven_words
 from linkanim.picture.raster import Colour, offscreen
+from linkanim.picture.stills import still_phase
 from linkanim.picture.surface import SurfacePrinter
 from linkanim.scenes.scene import Scene
 
@@ -26,7 +27,7 @@ from linkanim.scenes.scene import Scene
 class Figured:
     """What a figure shows of a scene: a phase, and over it `poses` faint ones spread over the period.
 
-    Without a phase it is that at which the joints are farthest apart.
+    Without a phase it is that of the pose that reads best.
     Its words are for `speed`, the scene's own where none is given, and the input's `acceleration`. Names
     stand as is best for its pose alone, or `as_seen` in a window. The `overlay` lies over it.
     """
@@ -44,12 +45,14 @@ class Figured:
     @cached_property
     def shown_phase(self) -> float:
         """The phase that it shows."""
-        return figure(self.scene).clearest if self.phase is None else self.phase
+        return still_phase(self.scene, self.size) if self.phase is None else self.phase
 
     @property
     def caption(self) -> str:
-        """Where the input is, in words: θ₂ = 87.0°."""
+        """Where the input is, within one turn: θ₂ = 87.0°."""
         symbol, value = input_symbol(self.scene.linkage), self.scene.pose(self.shown_phase, 0).coordinate
+        if self.scene.info.full_turn:
+            value %= tau
         return f"{symbol} = {driven_words(self.scene, value)}"
 
     @cached_property

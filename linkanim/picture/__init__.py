@@ -43,6 +43,7 @@ From the ground up; a module imports from those before it only:
     build_sheet   the sheet: its grid, a draft, the pencil's path
     poses         poses of a body, pins, Burmester's curves
     picture       the one description of a picture, for every printer
+    stills        the pose of a still
     surface       the printer for surfaces
     shelf         linkages as small live pictures
 """

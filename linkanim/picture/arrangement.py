@@ -238,7 +238,7 @@ _EDGE = 9.0
 """From the stage's edge to what is drawn, in units."""
 _EDGE_OF_STILL = 22.0
 """Likewise in a still, which nothing leaves."""
-_ROOM_FOR_LINES = 2.8
+_ROOM_FOR_LINES = 3.6
 """What dimension lines need on each side of a still, in heights of their text."""
 
 

@@ -10,7 +10,7 @@ from collections.abc import Generator, Iterable, Iterator, Mapping, Sequence, Se
 from dataclasses import replace
 from functools import cached_property
 from itertools import chain, pairwise, product
-from math import ceil, inf, pi
+from math import ceil, pi
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -59,11 +59,11 @@ _BLOCK = 2.7
 """How far a slider's block reaches, in half widths of a bar."""
 _MIDDLE = (0.5, 0.42, 0.58)
 """Where along its own bar a length may stand."""
-_LEVELS = 5
+_LEVELS = 8
 """So many dimension lines may lie beside each other, on either side."""
 _TIER = 1.4
 """From one to the next, in heights of their text."""
-_ON_LINE = (0.5, 0.3, 0.7)
+_ON_LINE = (0.5, 0.3, 0.7, 0.15, 0.85)
 """Where along a dimension line its text may stand."""
 _TEXT_OFF, _GAP = 0.2, 0.55
 """How far a dimension's text is from its line, and other lines from that line, in heights of its text."""
@@ -71,8 +71,12 @@ _RINGS = (3, 6)
 """In so many rings a name may stand round a joint, and round a slider's block."""
 _EVERY_CORNER = 4
 """Of the corners round a body that reaches beyond its joints so many count as one."""
-_ROOMY = (1.0, 1.7, 2.6)
+_ARC_RINGS = 4
+"""In so many rings the input's angle may stand outside its arc."""
+_ROOMY = (1.0, 1.7, 2.6, 3.6)
 """The radii of an angle's arc, in those of the smallest."""
+_ON_ARC = (0.5, 0.25, 0.75)
+"""Where along the arc its angle may stand."""
 
 
 class Spots(NamedTuple):
@@ -223,15 +227,15 @@ class Surroundings:
 
     def _by_angle(self, about: Measurement, size: Size) -> LabelSpots:
         """Return places outside arcs about where two lines of a body meet."""
-        middle = directions(np.angle(about.begin) + np.angle(about.end / about.begin) / 2)
         radii = [share * (2.4 * self.setting.gauge.bar + 0.6 * size[1]) for share in _ROOMY]
         arcs = tuple(AngleArc(about.frame, about.begin, about.end, radius) for radius in radii)
-        further = np.array(radii) + 0.2 * size[1] - _CLEAR * self.setting.gauge.bar
-        # a line across the middle way, whose side that is
-        where: dict[str, Any] = {"end": -1j * middle, "aside": 1, "further": further}
-        own = self._numbers(about.own)
-        found = self._spots(about.frame, size, 0.3 * np.arange(len(radii)), own=own, **where)
-        return self._lined(found, arcs, np.arange(len(radii)))
+        drawn, share = np.array([*product(range(len(arcs)), _ON_ARC)]).T
+        ways = directions(np.angle(about.begin) + np.angle(about.end / about.begin) * share)
+        further = np.array(radii)[drawn.astype(int)] + 0.2 * size[1] - _CLEAR * self.setting.gauge.bar
+        # lines across the ways, whose sides those are
+        where: dict[str, Any] = {"end": -1j * ways, "aside": 1, "further": further}
+        price, own = 0.3 * drawn + 0.6 * abs(share - 0.5), self._numbers(about.own)
+        return self._lined(self._spots(about.frame, size, price, own=own, **where), arcs, drawn)
 
     def _lined(
         self, found: LabelSpots, lines: Sequence[MeasureLine | AngleArc], drawn: NDArray[Any]
@@ -247,9 +251,11 @@ class Surroundings:
         angles = turning.turned(bars)
         turns = self.setting.figure.scene.info.full_turn and self.phase is None
         middle = pi / 6 if turns else angles.mean() / 2
-        ways = np.linspace(-1, 1, 9)
-        off = _off(np.exp(-1j * (middle + 0.8 * ways)), size, turning.arc + 0.1 * size[1])
-        return self._spots((turning.pivot, turning.pivot), size, 0.3 * np.abs(ways), off=off)
+        ring, way = np.array([*product(range(_ARC_RINGS), np.linspace(-1, 1, 9))]).T
+        radius = turning.arc + (0.1 + 0.7 * ring) * size[1]
+        off = _off(np.exp(-1j * (middle + 0.8 * way)), size, radius)
+        price = 0.3 * np.abs(way) + 0.5 * ring
+        return self._spots((turning.pivot, turning.pivot), size, price, off=off)
 
     def still(self, places: Loop, size: Size) -> LabelSpots:
         """Return places in pixels that stand still on the ground, the best first."""
@@ -365,7 +371,7 @@ class Surroundings:
         return [starts[corner] for corner in hull(list(starts))]
 
 
-def _off(turns: Loop, size: tuple[float, float], radius: float) -> Loop:
+def _off(turns: Loop, size: tuple[float, float], radius: float | NDArray[np.float64]) -> Loop:
     """Return where the middle of a label lies that stays off a disc about 0, in these directions."""
     off: Loop = turns.real * (radius + size[0] / 2) + 1j * turns.imag * (radius + size[1] / 2)
     return off
@@ -388,7 +394,7 @@ _LEAST_MEASURED = 0.4
 """A dimension likewise: it then stands in the table."""
 _ROW = 1.3
 """From row to row of the table, in heights of its text."""
-_TRIES = 3
+TRIES = 3
 """So many orders more are tried for what has no place yet, after the best."""
 _GRID = (9, 9)
 """So many places are tried for the table, across and down."""
@@ -451,8 +457,8 @@ class Names:
     unlisted: tuple[Label, ...] = ()
     """Rows for which there is no room."""
     scale: float = 1.0
-    missing: int = 0
-    """How many labels do not stand on the picture at all times at what they name."""
+    lacking: tuple[int, int] = (0, 0)
+    """How many dimensions, and how many labels in all, do not stand at all times at what they name."""
 
     def captions(self, pose: Pose, places: Places) -> list[Caption]:
         """Return every label that shows, as a line of text, and the table."""
@@ -561,12 +567,12 @@ Forms = Iterator[tuple[Form, ...]]
 
 
 def names_of(
-    ground: Surroundings, known: Symbols | None, dead_centres: DeadCentres | None
+    ground: Surroundings, known: Symbols | None, dead_centres: DeadCentres | None, tries: int = TRIES
 ) -> Generator[None, None, Names]:
     """Place the names of joints and links; where the symbols are known, dimensions and input's angle, too.
 
     Lengths that do not stand on the picture at all times go into a table. Each place that is looked for is a
-    step.
+    step. Of a single moment `tries` other orders are tried for what has no place yet.
     """
     setting = ground.setting
     fixed, shown = setting.figure.fixed, setting.figure.shown
@@ -575,36 +581,55 @@ def names_of(
     planned += [_dimensions(ground, known), _angle(ground, known)] if known else []
     planned += [_dead_centres(ground, dead_centres)] if dead_centres else []
     every, clutter = chain(*planned, _joints(ground, moving)), ground.clutter()
-    placer, placed, left = yield from _attempts([*every] if ground.phase is not None else every, clutter)
+    placer, placed, left = yield from _attempts(every, clutter, tries if ground.phase is not None else 0)
     rows = tuple(label for label in left if label.about)
     found = (setting.figure.scene.period, setting.gauge.bar, _halo(setting))
     table = (yield from _tabled(ground, placer, rows)) if rows else None
-    return Names(placed, *found, table, () if table else rows, setting.view.scale, len(left))
+    return Names(placed, *found, table, () if table else rows, setting.view.scale, _lacking(left))
+
+
+def placed_at_once(steps: Generator[None, None, Names]) -> Names:
+    """Return the names, all of their steps taken."""
+    while True:
+        try:
+            next(steps)
+        except StopIteration as done:
+            found: Names = done.value
+            return found
 
 
 Attempt = tuple[Placer, tuple[Label, ...], tuple[Label, ...]]
 """What has been placed, where, and what is left over for some of the time or for all of it."""
 
 
-def _attempts(every: Iterable[tuple[Form, ...]], clutter: Clutter) -> Generator[None, None, Attempt]:
-    """Return the best of some attempts to place labels; those in a sequence are tried in other orders, too.
+def _attempts(
+    every: Iterable[tuple[Form, ...]], clutter: Clutter, tries: int
+) -> Generator[None, None, Attempt]:
+    """Return the best of some attempts to place labels, in so many orders after the best one before.
 
     What was left over has the first choice the next time.
     """
-    best, fewest, order = None, inf, [*every] if isinstance(every, Sequence) else every
+    best, seen, order = None, list[tuple[Form, ...]](), every
+    more = tries
     while True:
         placer, kept, left = Placer(clutter), list[Label](), list[tuple[Form, ...]]()
+        seen = []
         for forms in order:
+            seen.append(forms)
             placed = yield from _placed(placer, forms)
             kept += placed
             left += [] if any(one.shown is not None and one.shown.all() for one in placed) else [forms]
-        if best is None or len(left) < fewest:
-            best, fewest = (placer, tuple(kept), tuple(forms[0][0] for forms in left)), len(left)
-            tries = 0
-        tries += 1
-        if not left or not isinstance(every, Sequence) or tries > _TRIES:
+        names = tuple(forms[0][0] for forms in left)
+        if best is None or _lacking(names) < _lacking(best[2]):
+            best, more = (placer, tuple(kept), names), tries
+        if not left or not more:
             return best
-        order = [*left, *(forms for forms in order if forms not in left)]
+        order, more = [*left, *(forms for forms in seen if forms not in left)], more - 1
+
+
+def _lacking(left: Sequence[Label]) -> tuple[int, int]:
+    """Return how many dimensions, and how many labels in all, are left over."""
+    return sum(bool(label.about) for label in left), len(left)
 
 
 def _placed(placer: Placer, forms: tuple[Form, ...]) -> Generator[None, None, list[Label]]:

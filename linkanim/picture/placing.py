@@ -220,19 +220,24 @@ class Placer:
         for numbers, touched in _touched(places, size, clutter, but=label.own):
             cost += _BESIDE * touched[..., minor[numbers]].sum(axis=2)
             forbidden |= touched[..., ~minor[numbers]].any(axis=2)
-        lined = np.flatnonzero(label.drawn >= 0) if label.drawn is not None else ()
+        free = ~forbidden.all(axis=0)
+        lined = np.flatnonzero((label.drawn >= 0) & free) if label.drawn is not None else ()
         if label.drawn is not None and len(lined):
             used, which = np.unique(label.drawn[lined], return_inverse=True)
             groups = [label.lines[n] for n in used]
             firsts = np.stack([lines[:, 0] for lines in groups], axis=1)
-            crossed, links = _crossings(firsts, clutter)
             barred = self._barred(groups, taken, clutter)
             if label.gap:
-                barred |= links > _MOST_CROSSED
                 barred |= _hits(taken, self._sizes, firsts, label.gap).any(axis=1)
                 barred |= _too_near(firsts, measures, label.gap)
+            open_ = np.flatnonzero(~barred.all(axis=0))
+            crossed, links = _crossings(firsts[:, open_], clutter)
+            if label.gap:
+                barred[:, open_] |= links > _MOST_CROSSED
             forbidden[:, lined] |= barred[:, which]
-            cost[:, lined] += _CROSSING * crossed[:, which]
+            price = np.zeros(barred.shape)
+            price[:, open_] = _CROSSING * crossed
+            cost[:, lined] += price[:, which]
         return cost + _FORBIDDEN * forbidden
 
     def _barred(self, groups: Sequence[Loop], taken: Loop, clutter: Clutter) -> _Bools:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from argparse import Namespace
 from math import prod
 
@@ -32,7 +33,8 @@ def run(options: Namespace) -> None:
     shown = Figured(scene, size, look, phase, options.poses or 0, options.speed)
     _write(shown, target, latex=bool(options.text))
     if shown.phase is None:
-        print(f"{shown.caption}: the joints farthest apart; --angle or --phase for another pose")
+        where = re.sub(r"_\{([^{}]*)\}", r" of \1", shown.caption)  # a terminal has no subscripts of words
+        print(f"{where}: the pose that reads best; --angle or --phase for another")
 
 
 def _write(shown: Written, target: Output, *, latex: bool) -> None:

@@ -1,0 +1,77 @@
+"""Choose the pose of a still: the one that reads best, near 60° of the input."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from math import tau
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkanim.mechanics.linkage import DrivenSlider
+from linkanim.picture.figure import Figure, figure
+from linkanim.picture.labels import TRIES, Surroundings, names_of, placed_at_once
+from linkanim.picture.look import Look
+from linkanim.picture.motion_marks import motion_of
+from linkanim.picture.picture import Picture
+from linkanim.scenes.scene import Scene
+
+_USUAL = 60.0
+"""The input's angle that textbooks draw, in degrees."""
+_POSES = 24
+"""So many poses of one turn are looked at."""
+_LOOKED_AT_AGAIN = 9
+"""In so many of them, the best, names are tried in more than one order."""
+_HIDDEN = 0.02
+"""Joints nearer to each other than this part of the figure's extent hide each other."""
+
+
+@lru_cache(maxsize=16)
+def still_phase(scene: Scene, size: tuple[int, int]) -> float:
+    """Return the phase, within one turn, of the pose that reads best in a picture of so many pixels.
+
+    That is the one in which most names and dimensions stand at what they name; of several such poses the one
+    whose input is nearest to 60°, or to the middle of a range without that angle. A pose in which joints hide
+    each other is taken where there is no other. The same pose is chosen whatever else the figure shows.
+    """
+    shown, tried = figure(scene), _tried(figure(scene))
+    picture = Picture(scene, size, Look(names=2), gradual=True, moment=tried[0])
+    left = dict[float, tuple[int, int]]()
+    for more, poses in ((False, _POSES + 1), (True, _LOOKED_AT_AGAIN)):
+        for phase in sorted(tried, key=lambda phase: left.get(phase, (0, 0)))[:poses]:
+            hidden = shown.apart[np.abs(shown.cycle.phase - phase).argmin()] < _HIDDEN * shown.extent
+            lengths, names = _left_over(picture, phase, more=more)
+            left[phase] = lengths + hidden * len(picture.figure.shown), names
+            if not any(left[phase]):
+                return phase
+    return min(tried, key=lambda phase: left[phase])
+
+
+def _left_over(picture: Picture, phase: float, *, more: bool) -> tuple[int, int]:
+    """Return how many dimensions of a pose, and how many labels in all, have no place at what they name."""
+    setting = picture.drawing.setting
+    centres = picture.drawing.dead_centres_in(setting.view)
+    ground = Surroundings(setting, motion_of(setting), phase, centres.ticks if centres else (), angled=True)
+    steps = names_of(ground, picture.drawing.symbols, centres, TRIES if more else 0)
+    return placed_at_once(steps).lacking
+
+
+def _tried(shown: Figure) -> list[float]:
+    """Return phases of one turn, those near the usual input first."""
+    phase, value = shown.cycle.phase, np.broadcast_to(shown.cycle.coordinate, shown.cycle.phase.shape)
+    turn = np.flatnonzero(phase < tau - 1e-9)
+    off = _off(shown, value)[turn]
+    taken = {int(off.argmin()), *np.linspace(0, len(turn), _POSES, endpoint=False).astype(int).tolist()}
+    order = sorted(taken, key=lambda n: (round(float(off[n]), 6), n))
+    return [float(phase[turn[n]]) for n in order]
+
+
+def _off(shown: Figure, value: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return how far the input is from its usual place: in degrees, or of a slider in its unit."""
+    if isinstance(shown.linkage.driven.joint, DrivenSlider):
+        return np.asarray(np.abs(value - (value.min() + value.max()) / 2))
+    angle = np.degrees(value)
+    low, high = angle.min(), angle.max()
+    if shown.scene.info.full_turn:
+        return np.asarray(np.abs((angle - _USUAL + 180) % 360 - 180))
+    return np.asarray(np.abs(angle - (_USUAL if low <= _USUAL <= high else (low + high) / 2)))
