@@ -20,8 +20,8 @@ _USUAL = 60.0
 """The input's angle that textbooks draw, in degrees."""
 _POSES = 24
 """So many poses of one turn are looked at."""
-_LOOKED_AT_AGAIN = 9
-"""In so many of them, the best, names are tried in more than one order."""
+_USUAL_POSES, _LOOKED_AT_AGAIN = 3, 9
+"""In so many of them, those nearest to the usual input and the best, names are tried in several orders."""
 _HIDDEN = 0.02
 """Joints nearer to each other than this part of the figure's extent hide each other."""
 
@@ -37,8 +37,9 @@ def still_phase(scene: Scene, size: tuple[int, int]) -> float:
     shown, tried = figure(scene), _tried(figure(scene))
     picture = Picture(scene, size, Look(names=2), gradual=True, moment=tried[0])
     left = dict[float, tuple[int, int]]()
-    for more, poses in ((False, _POSES + 1), (True, _LOOKED_AT_AGAIN)):
-        for phase in sorted(tried, key=lambda phase: left.get(phase, (0, 0)))[:poses]:
+    # the poses at the usual input are looked at closely, then all, then the best of these closely
+    for more, poses in ((True, tried[:_USUAL_POSES]), (False, tried[_USUAL_POSES:]), (True, None)):
+        for phase in poses or sorted(tried, key=lambda phase: left[phase])[:_LOOKED_AT_AGAIN]:
             hidden = shown.apart[np.abs(shown.cycle.phase - phase).argmin()] < _HIDDEN * shown.extent
             lengths, names = _left_over(picture, phase, more=more)
             left[phase] = lengths + hidden * len(picture.figure.shown), names
