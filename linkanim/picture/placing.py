@@ -33,8 +33,8 @@ _FORBIDDEN = 20.0
 """What a place costs that is forbidden for the whole cycle, where one on what it belongs to costs 1."""
 _BESIDE = 2.0
 """What it costs to lie on a solid that a label belongs to."""
-_CROSSING = 0.4
-"""What it costs a line to cross a solid."""
+_CROSSING, _THROUGH_LINK = 0.4, 0.8
+"""What it costs a line to cross a solid, and so much more a link."""
 _THICK = 1.0
 """Half as thick as lines that go with labels are taken to be, in pixels."""
 _MOST_CROSSED = 1
@@ -236,7 +236,7 @@ class Placer:
                 barred[:, open_] |= links > _MOST_CROSSED
             forbidden[:, lined] |= barred[:, which]
             price = np.zeros(barred.shape)
-            price[:, open_] = _CROSSING * crossed
+            price[:, open_] = _CROSSING * crossed + _THROUGH_LINK * links
             cost[:, lined] += price[:, which]
         return cost + _FORBIDDEN * forbidden
 
