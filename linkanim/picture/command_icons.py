@@ -7,12 +7,13 @@ from functools import partial
 from typing import Literal
 
 import numpy as np
+import pygame
 from numpy.typing import NDArray
 
 from linkanim.picture.layout import Gauge
-from linkanim.picture.raster import Colour, Layer
+from linkanim.picture.raster import Colour, Layer, paint
 from linkanim.picture.shapes import arrows, box, directions, disc, segments, stroke
-from linkanim.picture.theme import Theme
+from linkanim.picture.theme import DARK, GREEN, ORANGE, SKY, Theme
 from linkanim.picture.tools import ICONS, Icon
 
 _THIN = 1.7
@@ -185,6 +186,27 @@ def _again(gauge: Gauge, theme: Theme) -> list[Layer]:
 
 def _close(gauge: Gauge, theme: Theme) -> list[Layer]:
     return [_line(gauge, theme.ink, [-6 - 6j, 6 + 6j], [-6 + 6j, 6 - 6j])]
+
+
+def window_icon(side: int) -> pygame.Surface:
+    """Return the window's own icon, so many pixels square: a four-bar on a dark tile, its pins light."""
+    tile = pygame.Surface((side, side), pygame.SRCALPHA, 32)
+    part, theme = side / 64, DARK
+    place = {"O2": 15 + 47j, "A": 22 + 27j, "B": 45 + 17j, "O4": 49 + 47j}
+    middle = (1 + 1j) * side / 2
+    paint(tile, [Layer(theme.background, [middle + box(side, side, 13 * part)])])
+    for ends, colour in (
+        (("O2", "O4"), theme.ground),
+        (("O4", "B"), GREEN),
+        (("A", "B"), SKY),
+        (("O2", "A"), ORANGE),
+    ):
+        bar = part * np.array([place[end] for end in ends])
+        paint(
+            tile, [Layer(theme.background, stroke(bar, 10.5 * part)), Layer(colour, stroke(bar, 7.5 * part))]
+        )
+    paint(tile, [Layer(theme.ink, [part * at + disc(2.2 * part) for at in place.values()])])
+    return tile
 
 
 COMMAND_ICONS: Mapping[str, Icon] = {

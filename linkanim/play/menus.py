@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from dataclasses import replace
+from typing import Any
 
 from linkanim.errors import BadInput
 from linkanim.frozen import frozen
@@ -22,9 +24,10 @@ from linkanim.play.games import (
 )
 from linkanim.player.action import Action
 from linkanim.player.actions import leave, with_scene
-from linkanim.player.building import build
+from linkanim.player.building import build, left
 from linkanim.player.clock import FRAMES_PER_SECOND
-from linkanim.player.edits import open_shelf
+from linkanim.player.edits import carry, drop, grab, open_shelf
+from linkanim.player.pencil import pencil
 from linkanim.player.state import State, with_effect, with_toast
 from linkanim.scenes import chapters, load, names
 from linkanim.units import shown
@@ -155,7 +158,7 @@ def read_lobby(words: GameWords) -> Lobby:
     return Lobby(words.whole("row", 0, 0, len(OFFERS) - 1))
 
 
-# The title: mechanisms running one after the other, each with its sentence, and three doors.
+# The title: mechanisms running one after the other, each with its sentence, and four doors.
 
 EACH = 9 * FRAMES_PER_SECOND
 _NAME = "linkanim"
@@ -165,11 +168,16 @@ _HINT = "press any key   ↑ ↓ choose   Q quits"
 
 DOORS = (
     Door("explore", "Explore", "the shelf of all mechanisms"),
-    Door("build", "Build", "draw a linkage, or with W a path to follow"),
+    Door("build", "Build", "draw a linkage on a sheet"),
+    Door("path", "Draw a path", "and get linkages that follow it"),
     Door("play", "Play", "predict, match, follow"),
 )
-_IGNORED = frozenset({"scrub", "point", "move", "carry", "drop", "pull"})
+_IGNORED = frozenset({"scrub", "point", "move", "pull"})
 """What a mouse that moves asks for: it goes in by a click."""
+_HELD: Mapping[str, Callable[[State, Any], State]] = {"grab": grab, "carry": carry, "drop": drop}
+"""What a hand does with the mechanism that runs."""
+_BY_KEY = {"shelf": "explore", "pencil": "path"}
+"""The door that a command leads to by itself."""
 
 
 @frozen
@@ -196,6 +204,10 @@ class Title:
         """Go in by a door, or choose one."""
         if action.name == "back":
             return with_toast(state, "Q quits")
+        if action.name in _HELD:
+            return _HELD[action.name](state, action.value)
+        if action.name in _BY_KEY:
+            return _through(state, [door.name for door in DOORS].index(_BY_KEY[action.name]))
         if action.name in _IGNORED or (action.name == "option" and action.value not in range(len(DOORS))):
             return state
         door, taken = chosen_by(action, self.door, len(DOORS)) or (self.door, True)
@@ -203,7 +215,7 @@ class Title:
 
     def aged(self, state: State) -> State:
         """Go on to the next mechanism when one has run for a while."""
-        if state.arrived is None or state.frame - state.arrived < EACH:
+        if state.arrived is None or state.frame - state.arrived < EACH or state.grasp:
             return state
         further = replace(self, place=(self.place + 1) % len(state.shelf))
         return further.entered(replace(state, game=further))
@@ -230,6 +242,8 @@ def _through(state: State, door: int) -> State:
     if name == "play":
         return begun(state, "lobby")
     state = leave(state)
+    if name == "path":
+        return pencil(left(state), None)
     if name == "explore":
         return open_shelf(state, None)
     return state if state.sheet and state.sheet.open else build(state, None)

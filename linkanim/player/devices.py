@@ -479,7 +479,8 @@ class Mouse:
         if gesture.kind != "down" or self._drag is not None:
             return None
         option = screen.option_at(*self._at)
-        if option is None and (screen.over.handles or self._is_at_pin(screen)):
+        at_joint = screen.handle_at(*self._at, _REACH * screen.size[1]) is not None
+        if option is None and (screen.over.handles or at_joint or self._is_at_pin(screen)):
             return None
         return (Action("next") if option is None else Action("option", option),)
 

@@ -25,6 +25,7 @@ from linkanim.errors import NoDisplay
 from linkanim.mechanics.linkage import Point
 from linkanim.picture.build_sheet import grid_step, pencil
 from linkanim.picture.command_bar import BarPrinter, button_at, share_at
+from linkanim.picture.command_icons import window_icon
 from linkanim.picture.layout import Layout, layout
 from linkanim.picture.overlay import NEAR, Browsing, Overlay
 from linkanim.picture.picture import Picture
@@ -48,6 +49,8 @@ from linkanim.scenes.editing import handles
 _INVISIBLE = ("dummy", "offscreen")
 _NO_SCREEN = "there is no display to open a window on; `linkanim record SCENE` works without one"
 _USUAL = (1280, 720)
+_ICON = 64
+"""The side of the window's icon, in pixels."""
 _IO_ERROR = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p)
 _EXIT = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p)
 
@@ -66,6 +69,7 @@ def opened(size: tuple[int, int] | None = None) -> Iterator[Connection]:
         if driver is None and pygame.display.get_driver() in _INVISIBLE:
             raise NoDisplay(_NO_SCREEN)
         _hasten(pygame.display.get_driver())
+        pygame.display.set_icon(window_icon(_ICON))
         pygame.display.set_mode(size or _suiting(), pygame.RESIZABLE)
         connection.check()
         yield connection
@@ -240,8 +244,6 @@ def _pointer(capsule: Any) -> int:
 
 _PULLED = 6.0
 """How near to a line of the grid counts as on it, in units."""
-_LEADING = ("play", "paused", "list")
-"""The modes in which a joint leads the input."""
 _VISIBLE = 1.0
 """The least of a step of what is drawn, in pixels."""
 
@@ -338,7 +340,7 @@ class Screen:
         """
         state, free = self.state, self.over.handles
         scene = state.displayed
-        leads = state.mode in _LEADING
+        leads = state.leads
         if not (state.editing.open or free or leads):
             return None
         places = scene.pose(self.state.phase, 0).position.items()
@@ -532,7 +534,7 @@ class Screen:
     def on_trace(self, x: float, y: float, reach: float) -> tuple[str, float] | None:
         """Return the joint whose curve passes a pixel within a reach, and its phase there; None elsewhere."""
         picture, at = self._framing.last, complex(*self.world(x, y))
-        if self.state.mode not in _LEADING or not (picture.look.trace or picture.look.ink):
+        if not self.state.leads or not (picture.look.trace or picture.look.ink):
             return None
         scene, found = self.state.displayed, []
         for joint in scene.trace:

@@ -829,6 +829,12 @@ class State:
         return self.mode == "play" and not (self.help or self.recording or self.held or self.grasp)
 
     @property
+    def leads(self) -> bool:
+        """Whether a hand on a joint leads the input: while a mechanism is on, and on the title."""
+        on_title = self.mode == "game" and self.game is not None and not self.game.covers
+        return on_title or self.mode in ("play", "paused", "list")
+
+    @property
     def saved_as(self) -> str | None:
         """The file under which what is on was saved; None where it was not."""
         if self.building:

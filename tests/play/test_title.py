@@ -189,3 +189,34 @@ def test_the_door_to_building_leads_to_a_sheet_that_was_open_before() -> None:
     assert state.game is None
     assert state.sheet
     assert state.sheet.open
+
+
+def test_the_door_draw_a_path_takes_the_pencil_by_click_and_by_w() -> None:
+    for action in (Action("option", 2), Action("pencil")):
+        state = carried(titled(), action)
+        assert (state.mode, state.game) == ("pencil", None)
+        assert "pencil" in [effect.name for effect in state.effects]
+
+
+def test_o_on_the_title_leads_to_the_shelf_whichever_door_is_chosen() -> None:
+    state = carried(carried(titled(), Action("raise", -1)), Action("shelf"))
+    assert state.mode == "shelf"
+
+
+def test_the_mechanism_on_the_title_is_grabbed_and_stays_while_it_is_held() -> None:
+    with screen.opened((640, 360)):
+        player = Player(titled())
+        player.tick(5)
+        scene, joint = player.state.scene, player.state.scene.linkage.drive.joint
+        x, y = player.window.screen.pixel(*player.state.displayed.pose(player.state.phase, 0).position[joint])
+        before = player.state.phase
+        player.mouse(pygame.MOUSEBUTTONDOWN, (x, y), button=1)
+        player.mouse(pygame.MOUSEMOTION, (x + 30, y + 30), rel=(0, 0), buttons=(1, 0, 0))
+        assert player.state.grasp
+        assert player.state.phase != before
+        player.tick(700)
+        assert player.state.scene is scene
+        player.mouse(pygame.MOUSEBUTTONUP, (x + 30, y + 30), button=1)
+        assert isinstance(player.state.game, Title)
+        assert player.state.grasp is None
+        assert not player.state.clock.paused
