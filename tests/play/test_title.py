@@ -217,6 +217,6 @@ def test_the_mechanism_on_the_title_is_grabbed_and_stays_while_it_is_held() -> N
         player.tick(700)
         assert player.state.scene is scene
         player.mouse(pygame.MOUSEBUTTONUP, (x + 30, y + 30), button=1)
-        assert isinstance(player.state.game, Title)
-        assert player.state.grasp is None
-        assert not player.state.clock.paused
+        after = player.state
+        assert isinstance(after.game, Title)
+        assert (after.grasp, after.clock.paused) == (None, False)
