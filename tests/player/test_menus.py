@@ -277,6 +277,6 @@ def test_a_right_click_on_the_sheet_chooses_what_is_there_and_lists_what_is_done
     at = place(player, "A")
     player.mouse(pygame.MOUSEBUTTONDOWN, at, button=3)
     assert opened(player) == "Chosen"
-    assert [row.words for row in open_rows(player.state)][2] == "remove it and what depends on it"
+    assert [row.words for row in open_rows(player.state)][2] == "remove what is chosen"
     assert player.state.building
     assert player.state.building.building.chosen == ("joints", "A")
