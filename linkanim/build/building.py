@@ -51,7 +51,8 @@ class Undoable(Generic[Kept]):
 class Building(Undoable[Draft]):
     """A draft with what was `chosen` of it, the digits begun for its number `row`, and what undo goes to.
 
-    `sentence` says what the last gesture did besides, or why it did nothing; "" where that is plain.
+    `sentence` says what the last gesture did besides, or as a refusal why it did nothing; "" where that is
+    plain.
     """
 
     draft: Draft = field(default_factory=Draft)
@@ -59,6 +60,7 @@ class Building(Undoable[Draft]):
     row: int = 0
     typed: str = ""
     sentence: str = ""
+    is_refusal: bool = False
 
     @cached_property
     def made(self) -> Made:
@@ -69,14 +71,18 @@ class Building(Undoable[Draft]):
 def changed(building: Building, draft: Draft, chosen: Thing | None, sentence: str = "") -> Building:
     """Return the building with another draft, which undo takes back."""
     settled = draft.having_all("sides", sides(draft))
-    past = building.remembering(building.draft, _KEPT)
-    after = Building(settled, chosen, past=past, sentence=sentence)
+    after = Building(settled, chosen, past=grown(building), sentence=sentence)
     scene, before = after.made.scene, building.made.scene
     swung = bool(before and not before.info.full_turn)
     goes_on = before and not swung and _input(draft) == _input(building.draft)
     if scene is None or (goes_on and scene.info.full_turn):
         return after
     return replace(after, draft=replace(settled, phase=phase_of(scene, settled.places, swung=swung)))
+
+
+def grown(building: Building) -> tuple[Draft, ...]:
+    """Return what undo goes back to after a change of a building."""
+    return building.remembering(building.draft, _KEPT)
 
 
 def _input(draft: Draft) -> tuple[str | None, object, object]:
@@ -86,7 +92,7 @@ def _input(draft: Draft) -> tuple[str | None, object, object]:
 
 def refused(building: Building, sentence: str) -> Building:
     """Return the building as it is, and why nothing was done."""
-    return replace(building, typed="", sentence=sentence)
+    return replace(building, typed="", sentence=sentence, is_refusal=True)
 
 
 def posed(building: Building, phase: float) -> Building:

@@ -149,7 +149,7 @@ def gear(building: Building, joint: str, mate: str, *, snap: float) -> Building:
     draft = building.draft
     others = [end for _, end, _ in draft.bars_at(joint)]
     if joint == mate or not others or joint in draft.of("pins") or not crank_of(draft, mate):
-        return refused(building, "A gear pair joins two cranks: drag from one's pin to the other's")
+        return refused(building, "A gear pair joins two cranks: drag from one to the other")
     if joint == draft.driven:
         return refused(building, f"{joint} is driven: let the other crank follow it")
     table = {"with": mate, "ratio": -1, "offset": "0 deg"}
@@ -471,7 +471,6 @@ def _loose(draft: Draft, gone: set[Thing]) -> Iterator[Thing]:
 
 TOOLS: Final = ("bar", "guide", "slider", "slot", "gear", "spring", "damper", "cylinder", "move")
 """The tools, in the order of their icons."""
-_TARGETS = {"slider": "on a guide", "slot": "on a bar, or on a slider"}
 
 
 def under(draft: Draft, x: float, y: float, reach: float) -> Thing | None:
@@ -509,46 +508,6 @@ def double_click(building: Building, x: float, y: float, *, reach: float, snap: 
     if thing is None or thing[0] != "bars":
         return refused(building, "A point lies on a body: double-click on a bar")
     return point(building, thing[1], snapped(complex(x, y), snap), snap=snap)
-
-
-def drag(
-    building: Building, tool: str, x: float, y: float, to_x: float, to_y: float, *, reach: float, snap: float
-) -> Building:
-    """Return the building after a drag with a tool, from what lies at its start to what lies at its end."""
-    draft, to = building.draft, complex(to_x, to_y)
-    start, end = under(draft, x, y, reach), under(draft, to_x, to_y, reach)
-    if tool == "move":
-        chosen = choose_thing(building, *start) if start else building
-        return move(chosen, to_x, to_y, snap=snap)
-    if tool == "guide":
-        begin = place_of(draft, start[1]) if start and start[0] == JOINT else complex(x, y)
-        return guide(building, start, begin, snapped(to, snap), snap=snap)
-    if tool == "bar" and start and start[0] == "bars":
-        return point(building, start[1], snapped(to, snap), snap=snap)
-    if start is None or start[0] != JOINT:
-        return refused(building, f"Begin a {tool} at a pin or a joint; a click sets a ground pin")
-    return _from_joint(building, tool, start[1], end, to, snap)
-
-
-def _from_joint(
-    building: Building, tool: str, start: str, end: Thing | None, at: complex, snap: float
-) -> Building:
-    """Return the building after a drag from a joint."""
-    kind, name = end or ("", "")
-    other = name if kind == JOINT else None
-    if tool == "bar":
-        return bar(building, start, end, at, snap=snap)
-    if tool in ("spring", "damper"):
-        return strut(building, tool, start, other, at, snap=snap)
-    if tool == "slider" and kind == "guides":
-        return slider(building, start, name, at, snap=snap)
-    if tool == "slot" and end:
-        return slot(building, start, end)
-    if tool == "gear" and other:
-        return gear(building, start, other, snap=snap)
-    if tool == "cylinder" and other:
-        return cylinder(building, start, other, snap=snap)
-    return refused(building, f"Let the {tool} go {_TARGETS.get(tool, 'on a joint')}")
 
 
 def _spans(draft: Draft) -> Iterator[tuple[Thing, tuple[str, str]]]:

@@ -8,7 +8,7 @@ from math import ceil, dist, radians, tau
 from typing import Any
 
 from linkanim.build import building as built
-from linkanim.build import dimensions, gestures
+from linkanim.build import dimensions, gestures, readings
 from linkanim.build.building import Building, building_of
 from linkanim.build.draft import JOINT
 from linkanim.build.storing import restored, stored
@@ -303,7 +303,7 @@ def _drawn(sheet: BuildSheet, grip: Grip) -> Building:
     if sheet.tool == "photo":
         held = sheet.anchor and (*sheet.anchor, *sheet.anchor)
         return gestures.fit_photo(grip.base, *held, *ends) if held else gestures.move_photo(grip.base, *ends)
-    return gestures.drag(grip.base, sheet.tool, *ends, reach=grip.reach, snap=grip.snap)
+    return readings.drag(grip.base, sheet.tool, *ends, reach=grip.reach, snap=grip.snap)
 
 
 def cursor(state: State, at: tuple[float, float]) -> State:

@@ -107,7 +107,7 @@ def built(state: State, sheet: BuildSheet, hover: Hover | None = None) -> BuildS
         photo=building.draft.photo,
         anchor=sheet.anchor,
         tools=ToolBar(tool, hover.tool if hover else None),
-        is_warning=bool(building.sentence),
+        is_warning=building.is_refusal and bool(building.sentence),
     )
 
 

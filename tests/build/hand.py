@@ -14,11 +14,11 @@ from linkanim.build.gestures import (
     click,
     delete,
     double_click,
-    drag,
     drive,
     move,
     trace,
 )
+from linkanim.build.readings import drag
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
 from linkanim.player.state import begin

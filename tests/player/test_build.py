@@ -270,7 +270,7 @@ def test_del_says_what_went_with_it(builder: Builder) -> None:
     shown = builder.window.screen.over.build
     assert shown
     assert shown.sentence.startswith("Removed joint O2, with ")
-    assert shown.is_warning
+    assert not shown.is_warning
     builder.press(pygame.K_z, CTRL)
     assert builder.sheet.building.made.scene is builder.state.scene
 

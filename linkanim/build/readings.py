@@ -1,0 +1,281 @@
+"""What a drag can mean: by the tool, by what lies at its start and at its end, either way round.
+
+Where it can mean one thing only, that is done. Where it can mean several, each is a reading: the first is
+done, and the others are offered.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import NamedTuple
+
+from linkanim.build.building import Building, grown, refused
+from linkanim.build.draft import JOINT, Draft, Thing
+from linkanim.build.gestures import (
+    bar,
+    choose_thing,
+    cylinder,
+    gear,
+    guide,
+    move,
+    pin,
+    point,
+    slider,
+    slot,
+    strut,
+    under,
+)
+from linkanim.build.places import crank_of, from_span, place_of, snapped
+
+_TARGETS = {"slider": "on a guide", "slot": "on a bar, or on a slider"}
+_STUB = 0.5
+"""A bar from a crank's pin onto a lever that is shorter than that share of the crank is a slot instead."""
+_BEYOND = 1.1
+"""How much longer than the crank's pin can be away a lever is made that was drawn to that pin."""
+
+
+class Reading(NamedTuple):
+    """One thing that a drag can mean, in words, and the building with that done."""
+
+    words: str
+    building: Building
+
+
+class Drag(NamedTuple):
+    """A drag with a tool from a place to another one, and what lies at both."""
+
+    tool: str
+    start: Thing | None
+    end: Thing | None
+    begin: complex
+    to: complex
+    reach: float
+    snap: float
+
+
+def drag(
+    building: Building, tool: str, x: float, y: float, to_x: float, to_y: float, *, reach: float, snap: float
+) -> Building:
+    """Return the building after a drag with a tool, from what lies at its start to what lies at its end."""
+    return readings(building, tool, x, y, to_x, to_y, reach=reach, snap=snap)[0].building
+
+
+def readings(
+    building: Building, tool: str, x: float, y: float, to_x: float, to_y: float, *, reach: float, snap: float
+) -> tuple[Reading, ...]:
+    """Return what a drag with a tool can mean, the likeliest first; why nothing, where it is nothing."""
+    start = under(building.draft, x, y, reach)
+    end = _let_go_on(building.draft, start, to_x, to_y, reach)
+    made = Drag(tool, start, end, complex(x, y), complex(to_x, to_y), reach, snap)
+    found = list(_READ.get(tool, _one)(building, made))
+    several: list[Reading] = []
+    for one in found:
+        known = [building.draft, *(other.building.draft for other in several)]
+        several += [one] if one.building.draft not in known else []
+    return tuple(several or found[:1])
+
+
+def _let_go_on(draft: Draft, start: Thing | None, x: float, y: float, reach: float) -> Thing | None:
+    """Return what lies where a drag ends; a bar of its own joint only where there is nothing else."""
+    end = under(draft, x, y, reach)
+    if start and start[0] == JOINT and end and end[0] == "bars" and start[1] in draft.ends(end[1]):
+        beside = under(draft.having("bars", end[1], None), x, y, reach)
+        return beside if beside and beside[0] == "bars" else end
+    return end
+
+
+def _one(building: Building, drag: Drag) -> Iterator[Reading]:
+    """Yield the one thing that a drag with most of the tools means."""
+    start, end, snap = drag.start, drag.end, drag.snap
+    to = snapped(drag.to, snap)
+    if drag.tool == "move":
+        chosen = choose_thing(building, *start) if start else building
+        yield Reading("move", move(chosen, drag.to.real, drag.to.imag, snap=snap))
+    elif drag.tool == "guide":
+        begin = place_of(building.draft, start[1]) if start and start[0] == JOINT else drag.begin
+        yield Reading("line", guide(building, start, begin, to, snap=snap))
+    elif start is None or start[0] != JOINT:
+        yield Reading(
+            "", refused(building, f"Begin a {drag.tool} at a pin or a joint; a click sets a ground pin")
+        )
+    elif drag.tool == "slider" and end and end[0] == "guides":
+        yield Reading("slider", slider(building, start[1], end[1], drag.to, snap=snap))
+    else:
+        yield Reading(
+            "", refused(building, f"Let the {drag.tool} go {_TARGETS.get(drag.tool, 'on a joint')}")
+        )
+
+
+def _bars(building: Building, drag: Drag) -> Iterator[Reading]:
+    """Yield what a drag with the bar can mean; from a crank's pin onto a lever it may be a slot."""
+    draft, start, end, snap = building.draft, drag.start, drag.end, drag.snap
+    if start and start[0] == "bars":
+        yield Reading("point", point(building, start[1], snapped(drag.to, snap), snap=snap))
+        return
+    if start is None or start[0] != JOINT:
+        yield from _one(building, drag)
+        return
+    rod = Reading("bar with a pin in the slot", bar(building, start[1], end, drag.to, snap=snap))
+    if end is None or end[0] != "bars":
+        yield rod
+        return
+    joint, lever = start[1], end[1]
+    crank = crank_of(draft, joint)
+    slides = crank is not None and joint not in draft.ends(lever) and _is_lever(draft, lever)
+    slotted = Reading(f"{joint} slides in the bar", slot(building, joint, end)) if slides else None
+    away = abs(place_of(draft, joint) - drag.to)
+    is_stub = crank is not None and away < _STUB * abs(place_of(draft, joint) - place_of(draft, crank))
+    if slotted and is_stub:
+        yield slotted
+    yield rod
+    if joint not in draft.ends(lever):
+        pinned, name = _with_point(building, lever, drag.to, snap)
+        if name:
+            on_point = bar(pinned, joint, (JOINT, name), drag.to, snap=snap)
+            yield Reading("bar pinned to the bar", _as_one(building, on_point))
+    if slotted and not is_stub:
+        yield slotted
+
+
+def _slots(building: Building, drag: Drag) -> Iterator[Reading]:
+    """Yield what a drag with the slot can mean: a joint and a bar, either first, or a lever over a joint."""
+    draft, start, end = building.draft, drag.start, drag.end
+    if start and end and start[0] == "bars" and end[0] == JOINT:
+        start, end = end, start
+    if start is None or start[0] != JOINT:
+        yield from _one(building, drag)
+        return
+    pivot, over = start[1], _passed(draft, drag) if end is None else end[1] if end[0] == JOINT else None
+    if end and end[0] == JOINT and start[1] not in draft.of("pins") and end[1] in draft.of("pins"):
+        pivot, over = end[1], start[1]
+    if over and pivot in draft.of("pins") and over not in (*draft.of("pins"), *draft.of("sliders")):
+        yield from _levers(building, drag, pivot, over)
+        return
+    if end is None:
+        yield from _one(building, drag)
+        return
+    yield Reading("slot", slot(building, start[1], end))
+
+
+def _levers(building: Building, drag: Drag, pivot: str, over: str) -> Iterator[Reading]:
+    """Yield a joint in the slot of a lever about a pivot: of each that is there, else of a new one."""
+    draft = building.draft
+    known = [name for name, end, _ in draft.bars_at(pivot) if end != over and _is_lever(draft, name)]
+    for name in known:
+        yield Reading(f"{over} slides in {name}", slot(building, over, ("bars", name)))
+    if known:
+        return
+    if draft.bar(pivot, over):
+        yield Reading("", refused(building, f"{over} is an end of that bar, and cannot slide in it"))
+        return
+    at, on = place_of(draft, pivot), place_of(draft, over)
+    way = on - at
+    if abs(drag.to - on) <= drag.reach or abs(drag.to - at) <= drag.reach:
+        crank = crank_of(draft, over)
+        centre = place_of(draft, crank) if crank else at
+        farthest = abs(centre - at) + abs(on - centre)
+        end = at + way / (abs(way) or 1.0) * _BEYOND * farthest
+    else:
+        end = drag.to
+    lever = bar(building, pivot, None, snapped(end, drag.snap), snap=drag.snap)
+    if lever.draft is draft or lever.chosen is None:
+        yield Reading("", lever)
+        return
+    yield Reading(f"{over} slides in a new lever", _as_one(building, slot(lever, over, lever.chosen)))
+
+
+def _gears(building: Building, drag: Drag) -> Iterator[Reading]:
+    """Yield the gear pairs between what lies at both ends: bars, ground pins or crank pins.
+
+    The driven crank leads; of two that are not driven, the one at the start follows the other.
+    """
+    draft = building.draft
+    ones, others = ([*_cranks(draft, thing)] for thing in (drag.start, drag.end))
+    if drag.start is None or not (ones and others):
+        yield Reading("", refused(building, "A gear pair joins two cranks: drag from one to the other"))
+    for one in ones:
+        for mate in others:
+            leads = one == draft.driven or (mate in draft.of("gears") and one not in draft.of("gears"))
+            first, second = (mate, one) if leads and mate != draft.driven else (one, mate)
+            yield Reading(f"{first} follows {second}", gear(building, first, second, snap=drag.snap))
+
+
+def _cranks(draft: Draft, thing: Thing | None) -> Iterator[str]:
+    """Yield the pins of the cranks that a thing is or carries."""
+    kind, name = thing or ("", "")
+    ends = draft.ends(name) if kind == "bars" else [name] if kind == JOINT else []
+    for end in ends:
+        if end not in draft.of("pins") and (kind == JOINT or crank_of(draft, end) in ends):
+            yield end
+    if kind == JOINT and name in draft.of("pins"):
+        yield from (end for _, end, _ in draft.bars_at(name) if end not in draft.of("pins"))
+
+
+def _struts(building: Building, drag: Drag) -> Iterator[Reading]:
+    """Yield a spring, a damper or a cylinder between both ends; on a bar a point is made, on paper a pin."""
+    now, joints = building, list[str]()
+    for thing, at in ((drag.start, drag.begin), (drag.end, drag.to)):
+        after, name = now, thing[1] if thing and thing[0] == JOINT else ""
+        if thing and thing[0] == "bars":
+            after, name = _with_point(now, thing[1], at, drag.snap)
+        elif thing is None or thing[0] != JOINT:
+            after = pin(now, at, snap=drag.snap)
+            name = after.chosen[1] if after.chosen else ""
+        if not name:
+            wrong = f"Let the {drag.tool} go on a pin, a joint or a bar"
+            yield Reading(
+                "",
+                refused(building, after.sentence if after.draft is now.draft and after.sentence else wrong),
+            )
+            return
+        now, joints = after, [*joints, name]
+    one, other = joints
+    if drag.tool == "cylinder":
+        made = cylinder(now, one, other, snap=drag.snap)
+    else:
+        made = strut(now, drag.tool, one, other, drag.to, snap=drag.snap)
+    yield Reading(
+        drag.tool,
+        _as_one(building, made) if made.draft is not now.draft else refused(building, made.sentence),
+    )
+
+
+_READ = {
+    "bar": _bars,
+    "slot": _slots,
+    "gear": _gears,
+    "spring": _struts,
+    "damper": _struts,
+    "cylinder": _struts,
+}
+
+
+def _with_point(building: Building, lever: str, at: complex, snap: float) -> tuple[Building, str]:
+    """Return the building with a point on the line of a bar, and its name; "" where it is no new point."""
+    one, other = (place_of(building.draft, end) for end in building.draft.ends(lever))
+    after = point(building, lever, at - from_span(one, other, at), snap=snap)
+    return after, after.chosen[1] if after.draft is not building.draft and after.chosen else ""
+
+
+def _as_one(building: Building, after: Building) -> Building:
+    """Return a building after several changes as after one, which undo takes back at once."""
+    if after.draft is building.draft:
+        return after
+    return replace(after, past=grown(building), future=())
+
+
+def _is_lever(draft: Draft, name: str) -> bool:
+    """Return whether a bar turns about a ground pin, or may."""
+    return any(end in draft.of("pins") for end in draft.ends(name))
+
+
+def _passed(draft: Draft, drag: Drag) -> str | None:
+    """Return the joint that a drag goes over, nearest to its line; None where there is none."""
+    away = {
+        name: abs(from_span(drag.begin, drag.to, place_of(draft, name)))
+        for name in draft.places
+        if name not in draft.of("pins") and drag.start != (JOINT, name)
+    }
+    near = min(away, key=lambda name: away[name], default=None)
+    return near if near is not None and away[near] <= drag.reach else None
