@@ -8,7 +8,7 @@ From the ground up; a module imports from those before it only:
     scene_form  a draft as the document of a scene file, and why there is none yet
     building    a drawing at work: what is chosen and typed, the scene made, undo; a scene taken apart
     gestures    what a hand draws, what is done to the chosen thing, what lies under the pointer
-    readings    what a drag can mean, by what lies at its start and at its end
+    meanings    what a drag can mean, by what lies at its start and at its end
     dimensions  the numbers of the chosen thing, and digits typed for one of them
     storing     a draft as plain data, and back
     tools       the tools of a sheet, as data
@@ -25,7 +25,7 @@ By pointer: `reach` is how near counts as on it, `snap` the step of places, leng
     click(building, tool, x, y, reach=, snap=)    a ground pin on paper; else chooses what is there
     double_click(building, x, y, reach=, snap=)    a point of the body there
     drag(building, tool, x, y, to_x, to_y, reach=, snap=)    a bar, a guide, a spring, ... as the tool says
-    readings(building, tool, x, y, to_x, to_y, reach=, snap=)    all that it can mean, the likeliest first
+    meanings(building, tool, x, y, to_x, to_y, reach=, snap=)    all that it can mean, the likeliest first
     under(draft, x, y, reach)                                what is there: a thing, or None
 
 On the chosen thing:

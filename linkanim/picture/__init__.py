@@ -40,6 +40,7 @@ From the ground up; a module imports from those before it only:
     slider        a small slider on the picture, and the dial of the pencil
     marks         the bar being edited, handles, a ram's lane
     photograph    a photograph behind a sheet
+    sheet_rows    rows of words on the sheet
     build_sheet   the sheet: its grid, a draft, the pencil's path
     poses         poses of a body, pins, Burmester's curves
     picture       the one description of a picture, for every printer

@@ -28,6 +28,7 @@ from linkanim.picture.photograph import Photograph
 from linkanim.picture.quantities import round_step
 from linkanim.picture.raster import Layer, Loop, paint
 from linkanim.picture.shapes import box, dashes, disc, glazed, hull, lined, segments, stroke, unit
+from linkanim.picture.sheet_rows import rows
 from linkanim.picture.text import subscripted
 from linkanim.picture.theme import ORANGE, Theme, mixed
 from linkanim.picture.tools import tool_cells
@@ -297,6 +298,9 @@ def loose(draft: DraftShown, setting: DrawSetting) -> Iterator[Group]:
 def hand(shown: BuildShown, setting: DrawSetting) -> Iterator[Group]:
     """Yield what is chosen, what the hand draws, what that would be joined to, and the words on it all."""
     yield from _chosen(shown, setting)
+    for one in (shown.panel, shown.offers):
+        if one:
+            yield from rows(one, setting)
     if shown.rubber:
         yield from _rubber(shown.rubber, setting)
     if shown.snap:

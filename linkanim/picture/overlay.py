@@ -67,13 +67,26 @@ class DraftShown:
     traced: tuple[Point, ...] = ()
 
 
+class RowsShown(NamedTuple):
+    """A list on the sheet: a title, rows of a label and a value, which is lit, and the place it stands at.
+
+    Without a place it stands at the upper right.
+    """
+
+    title: str
+    rows: tuple[tuple[str, str], ...]
+    chosen: int
+    at: Point | None = None
+
+
 @frozen
 class BuildShown:
     """A sheet with what is built on it: the `draft`, or the linkage itself and what is `loose` beside it.
 
     `sentence` says what it is or what is missing, as a warning or not, `facts` what it can do. What is
     `chosen` is lit, with its number in words or as it is typed. The `cursor` is that of the keys. Where
-    there are no tools, as in a recording, the place of the `hand` is shown. A `photo` lies
+    there are no tools, as in a recording, the place of the `hand` is shown. The `panel` has all numbers of
+    what is chosen, `offers` what the last gesture can mean. A `photo` lies
     behind, and its `anchor` stays where it is.
     """
 
@@ -91,6 +104,8 @@ class BuildShown:
     photo: Photo | None = None
     anchor: Point | None = None
     is_warning: bool = False
+    panel: RowsShown | None = None
+    offers: RowsShown | None = None
 
 
 # Poses that were set down.

@@ -618,6 +618,7 @@ ACTIONS: Mapping[str, Rule] = {
     "hand_up": Rule(_nothing, _either(building.up, posing.up)),
     "cursor": Rule(_place_of_sheet, _either(building.cursor, posing.cursor)),  # (x, y) of the sheet
     "further": Rule(_whole, _either(building.further, posing.further)),
+    "offer": Rule(_whole, building.offer),  # the place of what the last drag can mean
     "number": Rule(_whole, building.number),
     "digits": Rule(_text, building.write),
     "undigit": Rule(_nothing, building.erase),

@@ -8,9 +8,10 @@ from math import ceil, dist, radians, tau
 from typing import Any
 
 from linkanim.build import building as built
-from linkanim.build import dimensions, gestures, readings
+from linkanim.build import dimensions, gestures
 from linkanim.build.building import Building, building_of
 from linkanim.build.draft import JOINT
+from linkanim.build.meanings import Meaning, drag, meanings
 from linkanim.build.storing import restored, stored
 from linkanim.build.tools import TOOLS
 from linkanim.errors import BadInput
@@ -29,6 +30,8 @@ Handler = Callable[[State, Any], State]
 
 _DOUBLE = 24
 """Frames within which a second click at a place makes a double one."""
+_OFFERED = 4
+"""Of what a drag can mean, at the most."""
 _LONGEST = 10 * FRAMES_PER_SECOND
 """A linkage that can move runs for a period, if that is no longer."""
 VERSION = 1
@@ -210,7 +213,10 @@ def rested(state: State) -> State:
 
 
 def tool(state: State, name: str) -> State:
-    """Take a tool."""
+    """Take a tool; a linkage that runs goes back to where it is drawn, and stands there."""
+    sheet = state.sheet
+    if sheet and sheet.open and sheet.building.made.scene and not state.clock.paused:
+        state = replace(state, clock=state.clock.go(state.frame, sheet.building.draft.phase, paused=True))
     return _with(state, tool=name, grip=None, anchor=None)
 
 
@@ -229,18 +235,31 @@ def photo(state: State, file: str) -> State:
 
 
 def down(state: State, at: tuple[float, float, float, float]) -> State:
-    """Put the hand down at a point; a linkage that runs stands still, at the nearest whole degree."""
+    """Put the hand down at a point; a linkage that runs goes back to where it is drawn.
+
+    Where nothing is there then, but something was as it was seen, it stands at the nearest whole degree.
+    """
     sheet = state.sheet
     if sheet is None or not sheet.open:
         return state
     x, y, reach, snap = at
     base, ran = sheet.building, not state.clock.paused
     if base.made.scene:
-        phase = radians(round(state.phase / tau * 360))
+        phase = picked(state, sheet, x, y, reach)
         base = built.posed(base, phase)
         state = replace(state, clock=state.clock.go(state.frame, phase, paused=True))
     cursor = sheet.cursor if sheet.cursor and dist(sheet.cursor, (x, y)) <= reach else None
     return _with(state, grip=Grip((x, y), (x, y), reach, snap, base, ran), cursor=cursor)
+
+
+def picked(state: State, sheet: BuildSheet, x: float, y: float, reach: float) -> float:
+    """Return the phase at which a linkage stands for a hand that goes down at a point."""
+    now, drawn_at = radians(round(state.phase / tau * 360)), sheet.building.draft.phase
+    if state.clock.paused:
+        return now
+    if gestures.under(sheet.building.draft, x, y, reach):
+        return drawn_at
+    return now if gestures.under(sheet.seen(state.scene, state.phase), x, y, reach) else drawn_at
 
 
 def along(state: State, at: tuple[float, float, float, float]) -> State:
@@ -261,7 +280,15 @@ def up(state: State, _: None) -> State:
         return state
     grip = sheet.grip
     state = _with(state, grip=None, clicked=(state.frame, grip.begin) if grip.is_click else None)
-    building = _clicked(state, sheet, grip) if grip.is_click else _drawn(sheet, grip)
+    offers: tuple[Meaning, ...] = ()
+    if grip.is_click:
+        building = _clicked(state, sheet, grip)
+    elif sheet.tool in LIVE:
+        building = _drawn(sheet, grip)
+    else:
+        offers = meanings(grip.base, sheet.tool, *grip.begin, *grip.at, reach=grip.reach, snap=grip.snap)
+        building = offers[0].building
+    state = _with(state, offers=offers[:_OFFERED] if len(offers) > 1 else (), offered=grip.at)
     if building.draft is grip.base.draft:
         kept = replace(building, draft=sheet.building.draft) if sheet.tool not in LIVE else building
         return _running(_shown(state, kept), ran=grip.ran)
@@ -303,7 +330,15 @@ def _drawn(sheet: BuildSheet, grip: Grip) -> Building:
     if sheet.tool == "photo":
         held = sheet.anchor and (*sheet.anchor, *sheet.anchor)
         return gestures.fit_photo(grip.base, *held, *ends) if held else gestures.move_photo(grip.base, *ends)
-    return readings.drag(grip.base, sheet.tool, *ends, reach=grip.reach, snap=grip.snap)
+    return drag(grip.base, sheet.tool, *ends, reach=grip.reach, snap=grip.snap)
+
+
+def offer(state: State, place: int) -> State:
+    """Do another one of what the last drag can mean."""
+    sheet = state.sheet
+    if sheet is None or not sheet.open or sheet.grip or sheet.meant is None:
+        return state
+    return _shown(state, sheet.offers[place % len(sheet.offers)].building)
 
 
 def cursor(state: State, at: tuple[float, float]) -> State:
@@ -317,7 +352,12 @@ def cursor(state: State, at: tuple[float, float]) -> State:
 
 
 def further(state: State, by: int) -> State:
-    """Choose the next thing, or the one before; the keys' cursor goes to a joint."""
+    """Choose the next thing, or the one before; the keys' cursor goes to a joint.
+
+    Where the last drag can mean several things, the next of them is done.
+    """
+    if state.sheet and state.sheet.meant is not None:
+        return offer(state, state.sheet.meant + by)
     state = _changed(gestures.choose)(state, by)
     sheet = state.sheet
     thing = sheet.building.chosen if sheet else None

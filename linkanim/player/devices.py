@@ -579,7 +579,10 @@ class Mouse:
     def _of_the_sheet(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
         """Draw on the sheet, take a tool, turn the crank, or shift the paper; None for what else there is."""
         if gesture.kind == "down" and screen.charted(*self._at) is None:
-            tool = screen.tool_at(*self._at)
+            tool, row = screen.tool_at(*self._at), screen.sheet_row_at(*self._at)
+            if row is not None:
+                self._drag = None
+                return (row,)
             self._drag = screen.sheet_at(*self._at) if tool is None else None
             if tool is not None:
                 return (Action(TOOLS[tool].action, TOOLS[tool].value),)

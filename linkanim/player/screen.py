@@ -29,6 +29,7 @@ from linkanim.picture.command_icons import window_icon
 from linkanim.picture.layout import Layout, layout
 from linkanim.picture.overlay import NEAR, Browsing, Overlay
 from linkanim.picture.picture import Picture
+from linkanim.picture.sheet_rows import row_at
 from linkanim.picture.shelf import Grid, RowPrinter, ShelfPrinter, grid, row_cells
 from linkanim.picture.slider import dial_value, is_on_dial, slider_rect, slider_step
 from linkanim.picture.surface import SurfacePrinter
@@ -420,8 +421,10 @@ class Screen:
         """Return what of a draft is under a pixel, and the draft as it is seen."""
         sheet = self.state.building
         assert sheet
-        seen = sheet.seen(self.state.scene, self.state.phase)
-        return under(seen, *self.world(x, y), self._near), seen
+        seen, place = sheet.seen(self.state.scene, self.state.phase), self.world(x, y)
+        if not self.state.clock.paused and (thing := under(sheet.building.draft, *place, self._near)):
+            return thing, sheet.building.draft
+        return under(seen, *place, self._near), seen
 
     def on_sheet(self, x: float, y: float) -> bool:
         """Return whether a click at a pixel of the sheet chooses something, and draws nothing."""
@@ -451,6 +454,16 @@ class Screen:
         """Return how far along a slider of the bar a pixel is, 0 to 1."""
         bar = self.over.bar
         return share_at(self._bar_layout(self.over), bar.buttons, number, x) if bar else 0.0
+
+    def sheet_row_at(self, x: float, y: float) -> Action | None:
+        """Return what a click on a list of the sheet does: another meaning, another number; None beside."""
+        shown, last = self.over.build, self._framing.last
+        for rows, name in ((shown.offers, "offer"), (shown.panel, "number")) if shown else ():
+            row = row_at(last.layout, last.view, rows, x, y) if rows else None
+            if rows and row is not None:
+                by = max(row, 0) - (rows.chosen if name == "number" else 0)
+                return Action(name, by if row >= 0 else 0 if name == "number" else rows.chosen)
+        return None
 
     def tool_at(self, x: float, y: float) -> int | None:
         """Return the number of the tool of the sheet under a pixel; None beside them."""

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from linkanim.build.building import Building
 from linkanim.build.dimensions import numbers_of
 from linkanim.build.draft import JOINT, Draft, Thing
 from linkanim.build.gestures import under
@@ -34,6 +35,7 @@ from linkanim.picture.overlay import (
     PathShown,
     PosesShown,
     Quantities,
+    RowsShown,
     Rubber,
     Shelf,
     SliderShown,
@@ -75,6 +77,8 @@ if TYPE_CHECKING:
 
 # What a sheet shows: its draft or the linkage it makes, words, tools, what is under the hand.
 
+_WORDS = ("pin", "point", "slider", "yoke", "gear")
+"""What a joint is called where it is more than that."""
 _STRETCHED = ("bar", "spring", "damper", "cylinder", "slot", "gear")
 """The tools that draw from a joint."""
 
@@ -108,7 +112,39 @@ def built(state: State, sheet: BuildSheet, hover: Hover | None = None) -> BuildS
         anchor=sheet.anchor,
         tools=ToolBar(tool, hover.tool if hover else None),
         is_warning=building.is_refusal and bool(building.sentence),
+        panel=None if sheet.grip else _numbers(building),
+        offers=_offers(sheet),
     )
+
+
+def _numbers(building: Building) -> RowsShown | None:
+    """Return what is chosen with all its numbers, the one that is typed among them."""
+    thing, draft = building.chosen, building.draft
+    numbers = numbers_of(draft, thing)
+    if thing is None or not numbers:
+        return None
+    kind, name = thing[0].removesuffix("s"), thing[1]
+    if thing[0] == JOINT:
+        kind = next((word for word in _WORDS if name in draft.of(f"{word}s")), kind)
+    row = building.row % len(numbers)
+    rows = [(one.label, _stated(one, building.typed if n == row else "")) for n, one in enumerate(numbers)]
+    title = "input" if thing[0] == "drive" else name if name.startswith(kind) else f"{kind} {name}"
+    return RowsShown(title, tuple(rows), row)
+
+
+def _stated(one: Dimension, typed: str) -> str:
+    """Return a number as it stands, or as it is typed."""
+    if typed:
+        return f"{typed}_"
+    return "–" if isnan(one.value) else typeset(f"{significant(one.value, 6)} {one.unit}".rstrip())
+
+
+def _offers(sheet: BuildSheet) -> RowsShown | None:
+    """Return what the last drag can mean, the one that is done lit; None where it is one thing only."""
+    if sheet.meant is None or sheet.grip:
+        return None
+    rows = tuple((one.words, "") for one in sheet.offers)
+    return RowsShown("Tab, or a click: it may be", rows, sheet.meant, sheet.offered)
 
 
 def _number(sheet: BuildSheet, *, moves: bool) -> str:

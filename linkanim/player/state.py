@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from linkanim.build.building import Building, Undoable
 from linkanim.build.draft import Draft, Thing
+from linkanim.build.meanings import Meaning
 from linkanim.errors import BadInput, LinkanimError
 from linkanim.frozen import frozen
 from linkanim.mechanics.analysis import Info
@@ -330,7 +331,8 @@ class BuildSheet:
 
     `home` is the part of the plane that is seen unless it is zoomed. `tool` is what is in hand, `grip` what
     the hand does, `clicked` the frame and place of its last click; `cursor` is the place of the keys' own,
-    `anchor` the point of a photograph that is put where it belongs. `rests` is the frame at which a linkage
+    `anchor` the point of a photograph that is put where it belongs. `offers` are what the last drag can
+    mean, which ended at `offered`. `rests` is the frame at which a linkage
     that runs by itself has shown one period. `written` is the draft as the scene file `saved` has it;
     `warned` tells that the next asking lets go of what is in none, `closes` that the next one closes the
     window all the same. While it is not `open` the sheet is kept, to be gone on with.
@@ -347,6 +349,8 @@ class BuildSheet:
     clicked: tuple[int, Point] | None = None
     cursor: Point | None = None
     anchor: Point | None = None
+    offers: tuple[Meaning, ...] = ()
+    offered: Point = (0.0, 0.0)
     rests: int | None = None
     written: Draft = field(default_factory=Draft)
     saved: str = ""
@@ -361,6 +365,12 @@ class BuildSheet:
         found = scene.pose(phase, 0).position
         places = {name: (float(found[name][0]), float(found[name][1])) for name in drawn.places}
         return replace(drawn, places=places)
+
+    @property
+    def meant(self) -> int | None:
+        """Which of the offers is done; None where nothing is offered, or something else was done since."""
+        draft = self.building.draft
+        return next((n for n, one in enumerate(self.offers) if one.building.draft is draft), None)
 
     @property
     def lasting(self) -> Building:

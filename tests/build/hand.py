@@ -18,7 +18,7 @@ from linkanim.build.gestures import (
     move,
     trace,
 )
-from linkanim.build.readings import drag
+from linkanim.build.meanings import drag
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
 from linkanim.player.state import begin

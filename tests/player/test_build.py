@@ -12,12 +12,15 @@ import pygame
 import pytest
 from playing import CTRL, SHIFT, NoSearch, Player
 
+from linkanim.build.dimensions import numbers_of
 from linkanim.build.draft import Photo
 from linkanim.build.tools import TOOLS
 from linkanim.errors import BadInput
-from linkanim.picture.overlay import NEW
+from linkanim.picture.overlay import NEW, RowsShown
 from linkanim.picture.photograph import lack
+from linkanim.picture.sheet_rows import row_rects
 from linkanim.picture.tools import ICONS, tool_cells
+from linkanim.picture.view import Rect
 from linkanim.play.arcade import Arcade
 from linkanim.player import beside, screen
 from linkanim.player.action import Action
@@ -672,3 +675,89 @@ def test_a_draft_that_was_saved_is_in_a_file_however_it_is_left_and_taken_up(
     builder.press(pygame.K_n, CTRL)
     assert not builder.sheet.building.draft.places
     assert [path.name for path in here.glob("*.toml")] == ["grashof-crank-rocker.toml"]
+
+
+def levered(builder: Builder) -> None:
+    """Draw a crank and a lever beside it, and a bar from the crank's pin onto the lever."""
+    builder.click(0, 40)
+    builder.tick(30)
+    builder.click(0, 0)
+    builder.draw((0, 40), (20, 40))
+    builder.draw((0, 0), (22, 60))
+    builder.draw((20, 40), (7, 20))
+
+
+def listed(builder: Builder, name: str) -> tuple[RowsShown, list[Rect]]:
+    """Return a list of the sheet and where its rows are in the window."""
+    shown = builder.window.screen.over.build
+    assert shown
+    rows: RowsShown | None = getattr(shown, name)
+    assert rows
+    picture = builder.window.screen._framing.last
+    return rows, [*row_rects(picture.layout, picture.view, rows)][1:]
+
+
+def test_a_press_puts_what_runs_back_where_it_was_drawn_and_picks_the_joint_there(builder: Builder) -> None:
+    builder.four_bar()
+    builder.tick(20)
+    assert not builder.state.clock.paused
+    builder.draw((60, 80), (20, 90))
+    assert builder.sheet.building.draft.of("bars")["B–C"]["joints"] == ["B", "C"]
+    assert builder.sheet.building.draft.places["B"] == pytest.approx((60, 80), abs=0.5)
+
+
+def test_what_moved_away_is_picked_where_it_is_seen(builder: Builder) -> None:
+    builder.four_bar()
+    builder.tick(60)
+    (x, y), _ = (builder.state.scene.pose(builder.state.phase, 0).position[name] for name in "AB")
+    assert abs(complex(x, y) - 30) > 10
+    builder.draw((x, y), (x + 20, y + 30))
+    assert any(
+        "A" in one["joints"] and "C" in one["joints"]
+        for one in builder.sheet.building.draft.of("bars").values()
+    )
+
+
+def test_a_tool_that_is_taken_puts_what_runs_back_where_it_was_drawn(builder: Builder) -> None:
+    builder.four_bar()
+    builder.tick(20)
+    builder.press(pygame.K_a)
+    assert (builder.state.clock.paused, builder.state.phase) == (True, builder.sheet.building.draft.phase)
+    builder.draw((60, 80), (90, 90))
+    assert builder.sheet.building.draft.of("dampers")["damper"]["between"][0] == "B"
+
+
+def test_what_a_drag_can_mean_is_offered_and_tab_does_the_next(builder: Builder) -> None:
+    levered(builder)
+    rows, _ = listed(builder, "offers")
+    assert (len(rows.rows), rows.chosen) == (3, 0)
+    first = builder.sheet.building.draft
+    builder.press(pygame.K_TAB)
+    assert "P" in builder.sheet.building.draft.of("points")
+    builder.press(pygame.K_TAB)
+    builder.press(pygame.K_TAB)
+    assert builder.sheet.building.draft is first
+    builder.press(pygame.K_z, CTRL)
+    assert len(builder.sheet.building.draft.of("bars")) == 2
+    assert builder.sheet.meant is None
+
+
+def test_a_click_takes_another_meaning(builder: Builder) -> None:
+    levered(builder)
+    _, places = listed(builder, "offers")
+    builder.drag((places[2].middle.real, places[2].middle.imag))
+    assert "A in O4–B" in builder.sheet.building.draft.of("slots")
+
+
+def test_all_numbers_of_what_is_chosen_are_listed_and_a_click_chooses_one(builder: Builder) -> None:
+    builder.four_bar()
+    builder.tick(200)
+    builder.click(0, 0)
+    rows, places = listed(builder, "panel")
+    assert rows.title == "pin O2"
+    numbers = numbers_of(builder.sheet.building.draft, ("joints", "O2"))
+    assert [label for label, _ in rows.rows] == [one.label for one in numbers]
+    builder.drag((places[1].middle.real, places[1].middle.imag))
+    assert (builder.sheet.building.row, builder.sheet.building.chosen) == (1, ("joints", "O2"))
+    builder.type("7")
+    assert listed(builder, "panel")[0].rows[1] == ("y", "7_")

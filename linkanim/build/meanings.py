@@ -1,7 +1,7 @@
 """What a drag can mean: by the tool, by what lies at its start and at its end, either way round.
 
-Where it can mean one thing only, that is done. Where it can mean several, each is a reading: the first is
-done, and the others are offered.
+Where it can mean one thing only, that is done. Where it can mean several, the first is done, and the others
+are offered.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ _BEYOND = 1.1
 """How much longer than the crank's pin can be away a lever is made that was drawn to that pin."""
 
 
-class Reading(NamedTuple):
+class Meaning(NamedTuple):
     """One thing that a drag can mean, in words, and the building with that done."""
 
     words: str
@@ -58,18 +58,18 @@ def drag(
     building: Building, tool: str, x: float, y: float, to_x: float, to_y: float, *, reach: float, snap: float
 ) -> Building:
     """Return the building after a drag with a tool, from what lies at its start to what lies at its end."""
-    return readings(building, tool, x, y, to_x, to_y, reach=reach, snap=snap)[0].building
+    return meanings(building, tool, x, y, to_x, to_y, reach=reach, snap=snap)[0].building
 
 
-def readings(
+def meanings(
     building: Building, tool: str, x: float, y: float, to_x: float, to_y: float, *, reach: float, snap: float
-) -> tuple[Reading, ...]:
+) -> tuple[Meaning, ...]:
     """Return what a drag with a tool can mean, the likeliest first; why nothing, where it is nothing."""
     start = under(building.draft, x, y, reach)
     end = _let_go_on(building.draft, start, to_x, to_y, reach)
     made = Drag(tool, start, end, complex(x, y), complex(to_x, to_y), reach, snap)
     found = list(_READ.get(tool, _one)(building, made))
-    several: list[Reading] = []
+    several: list[Meaning] = []
     for one in found:
         known = [building.draft, *(other.building.draft for other in several)]
         several += [one] if one.building.draft not in known else []
@@ -85,45 +85,45 @@ def _let_go_on(draft: Draft, start: Thing | None, x: float, y: float, reach: flo
     return end
 
 
-def _one(building: Building, drag: Drag) -> Iterator[Reading]:
+def _one(building: Building, drag: Drag) -> Iterator[Meaning]:
     """Yield the one thing that a drag with most of the tools means."""
     start, end, snap = drag.start, drag.end, drag.snap
     to = snapped(drag.to, snap)
     if drag.tool == "move":
         chosen = choose_thing(building, *start) if start else building
-        yield Reading("move", move(chosen, drag.to.real, drag.to.imag, snap=snap))
+        yield Meaning("move", move(chosen, drag.to.real, drag.to.imag, snap=snap))
     elif drag.tool == "guide":
         begin = place_of(building.draft, start[1]) if start and start[0] == JOINT else drag.begin
-        yield Reading("line", guide(building, start, begin, to, snap=snap))
+        yield Meaning("line", guide(building, start, begin, to, snap=snap))
     elif start is None or start[0] != JOINT:
-        yield Reading(
+        yield Meaning(
             "", refused(building, f"Begin a {drag.tool} at a pin or a joint; a click sets a ground pin")
         )
     elif drag.tool == "slider" and end and end[0] == "guides":
-        yield Reading("slider", slider(building, start[1], end[1], drag.to, snap=snap))
+        yield Meaning("slider", slider(building, start[1], end[1], drag.to, snap=snap))
     else:
-        yield Reading(
+        yield Meaning(
             "", refused(building, f"Let the {drag.tool} go {_TARGETS.get(drag.tool, 'on a joint')}")
         )
 
 
-def _bars(building: Building, drag: Drag) -> Iterator[Reading]:
+def _bars(building: Building, drag: Drag) -> Iterator[Meaning]:
     """Yield what a drag with the bar can mean; from a crank's pin onto a lever it may be a slot."""
     draft, start, end, snap = building.draft, drag.start, drag.end, drag.snap
     if start and start[0] == "bars":
-        yield Reading("point", point(building, start[1], snapped(drag.to, snap), snap=snap))
+        yield Meaning("point", point(building, start[1], snapped(drag.to, snap), snap=snap))
         return
     if start is None or start[0] != JOINT:
         yield from _one(building, drag)
         return
-    rod = Reading("bar with a pin in the slot", bar(building, start[1], end, drag.to, snap=snap))
+    rod = Meaning("bar with a pin in the slot", bar(building, start[1], end, drag.to, snap=snap))
     if end is None or end[0] != "bars":
         yield rod
         return
     joint, lever = start[1], end[1]
     crank = crank_of(draft, joint)
     slides = crank is not None and joint not in draft.ends(lever) and _is_lever(draft, lever)
-    slotted = Reading(f"{joint} slides in the bar", slot(building, joint, end)) if slides else None
+    slotted = Meaning(f"{joint} slides in the bar", slot(building, joint, end)) if slides else None
     away = abs(place_of(draft, joint) - drag.to)
     is_stub = crank is not None and away < _STUB * abs(place_of(draft, joint) - place_of(draft, crank))
     if slotted and is_stub:
@@ -133,12 +133,12 @@ def _bars(building: Building, drag: Drag) -> Iterator[Reading]:
         pinned, name = _with_point(building, lever, drag.to, snap)
         if name:
             on_point = bar(pinned, joint, (JOINT, name), drag.to, snap=snap)
-            yield Reading("bar pinned to the bar", _as_one(building, on_point))
+            yield Meaning("bar pinned to the bar", _as_one(building, on_point))
     if slotted and not is_stub:
         yield slotted
 
 
-def _slots(building: Building, drag: Drag) -> Iterator[Reading]:
+def _slots(building: Building, drag: Drag) -> Iterator[Meaning]:
     """Yield what a drag with the slot can mean: a joint and a bar, either first, or a lever over a joint."""
     draft, start, end = building.draft, drag.start, drag.end
     if start and end and start[0] == "bars" and end[0] == JOINT:
@@ -155,19 +155,19 @@ def _slots(building: Building, drag: Drag) -> Iterator[Reading]:
     if end is None:
         yield from _one(building, drag)
         return
-    yield Reading("slot", slot(building, start[1], end))
+    yield Meaning("slot", slot(building, start[1], end))
 
 
-def _levers(building: Building, drag: Drag, pivot: str, over: str) -> Iterator[Reading]:
+def _levers(building: Building, drag: Drag, pivot: str, over: str) -> Iterator[Meaning]:
     """Yield a joint in the slot of a lever about a pivot: of each that is there, else of a new one."""
     draft = building.draft
     known = [name for name, end, _ in draft.bars_at(pivot) if end != over and _is_lever(draft, name)]
     for name in known:
-        yield Reading(f"{over} slides in {name}", slot(building, over, ("bars", name)))
+        yield Meaning(f"{over} slides in {name}", slot(building, over, ("bars", name)))
     if known:
         return
     if draft.bar(pivot, over):
-        yield Reading("", refused(building, f"{over} is an end of that bar, and cannot slide in it"))
+        yield Meaning("", refused(building, f"{over} is an end of that bar, and cannot slide in it"))
         return
     at, on = place_of(draft, pivot), place_of(draft, over)
     way = on - at
@@ -180,12 +180,12 @@ def _levers(building: Building, drag: Drag, pivot: str, over: str) -> Iterator[R
         end = drag.to
     lever = bar(building, pivot, None, snapped(end, drag.snap), snap=drag.snap)
     if lever.draft is draft or lever.chosen is None:
-        yield Reading("", lever)
+        yield Meaning("", lever)
         return
-    yield Reading(f"{over} slides in a new lever", _as_one(building, slot(lever, over, lever.chosen)))
+    yield Meaning(f"{over} slides in a new lever", _as_one(building, slot(lever, over, lever.chosen)))
 
 
-def _gears(building: Building, drag: Drag) -> Iterator[Reading]:
+def _gears(building: Building, drag: Drag) -> Iterator[Meaning]:
     """Yield the gear pairs between what lies at both ends: bars, ground pins or crank pins.
 
     The driven crank leads; of two that are not driven, the one at the start follows the other.
@@ -193,12 +193,12 @@ def _gears(building: Building, drag: Drag) -> Iterator[Reading]:
     draft = building.draft
     ones, others = ([*_cranks(draft, thing)] for thing in (drag.start, drag.end))
     if drag.start is None or not (ones and others):
-        yield Reading("", refused(building, "A gear pair joins two cranks: drag from one to the other"))
+        yield Meaning("", refused(building, "A gear pair joins two cranks: drag from one to the other"))
     for one in ones:
         for mate in others:
             leads = one == draft.driven or (mate in draft.of("gears") and one not in draft.of("gears"))
             first, second = (mate, one) if leads and mate != draft.driven else (one, mate)
-            yield Reading(f"{first} follows {second}", gear(building, first, second, snap=drag.snap))
+            yield Meaning(f"{first} follows {second}", gear(building, first, second, snap=drag.snap))
 
 
 def _cranks(draft: Draft, thing: Thing | None) -> Iterator[str]:
@@ -212,7 +212,7 @@ def _cranks(draft: Draft, thing: Thing | None) -> Iterator[str]:
         yield from (end for _, end, _ in draft.bars_at(name) if end not in draft.of("pins"))
 
 
-def _struts(building: Building, drag: Drag) -> Iterator[Reading]:
+def _struts(building: Building, drag: Drag) -> Iterator[Meaning]:
     """Yield a spring, a damper or a cylinder between both ends; on a bar a point is made, on paper a pin."""
     now, joints = building, list[str]()
     for thing, at in ((drag.start, drag.begin), (drag.end, drag.to)):
@@ -224,7 +224,7 @@ def _struts(building: Building, drag: Drag) -> Iterator[Reading]:
             name = after.chosen[1] if after.chosen else ""
         if not name:
             wrong = f"Let the {drag.tool} go on a pin, a joint or a bar"
-            yield Reading(
+            yield Meaning(
                 "",
                 refused(building, after.sentence if after.draft is now.draft and after.sentence else wrong),
             )
@@ -235,7 +235,7 @@ def _struts(building: Building, drag: Drag) -> Iterator[Reading]:
         made = cylinder(now, one, other, snap=drag.snap)
     else:
         made = strut(now, drag.tool, one, other, drag.to, snap=drag.snap)
-    yield Reading(
+    yield Meaning(
         drag.tool,
         _as_one(building, made) if made.draft is not now.draft else refused(building, made.sentence),
     )

@@ -9,7 +9,7 @@ import pytest
 from hand import Hand, drawn, gesture
 
 from linkanim.build.building import Building, redo, undo
-from linkanim.build.readings import readings
+from linkanim.build.meanings import meanings
 from linkanim.player.tape import Tape
 
 CRANKS = "click 0 0; click 100 0; drag 0 0 30 0; drag 100 0 130 20"
@@ -120,10 +120,10 @@ def test_one_undo_takes_a_gesture_back_and_redo_does_it_again(one: Gesture) -> N
 @pytest.mark.parametrize("one", GESTURES, ids=[one.name for one in GESTURES])
 def test_what_a_gesture_can_mean_is_offered_each_once(one: Gesture) -> None:
     _, tool, *places = one.line.split()
-    found = readings(drawn(lines(one.begin)), tool, *map(float, places), reach=3.0, snap=1.0)
+    found = meanings(drawn(lines(one.begin)), tool, *map(float, places), reach=3.0, snap=1.0)
     assert len(found) == 1 + one.others
-    assert len({reading.words for reading in found}) == len(found)
-    assert all(reading.words and reading.building.past for reading in found)
+    assert len({meaning.words for meaning in found}) == len(found)
+    assert all(meaning.words and meaning.building.past for meaning in found)
 
 
 @pytest.mark.parametrize("one", GESTURES, ids=[one.name for one in GESTURES])
