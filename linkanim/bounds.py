@@ -18,12 +18,12 @@ MOST_FRAMES = 100_000
 """Frames of a recording."""
 MOST_POSES = 360
 """Poses of one figure behind its own."""
-MOST_DRAWN = 6_000
+MOST_DRAWN = 5_100
 """Joints in all of them: so many are drawn in some ten seconds."""
 MOST_DRAWN_PIXELS = 1920 * 1080
 """Pixels of a picture up to which they are; of a larger one fewer in proportion."""
-MOST_ASKED = 3_000
-"""Joints in all figures of a round of questions."""
+MOST_ASKED = 60_000
+"""Questions of a round times the square of a scene's joints, whose names keep off each other in a figure."""
 MOST_CHARTED = 1_000
 """Quantities of a report with all of them, at each of its speeds."""
 MOST_LISTED = 36

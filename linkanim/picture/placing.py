@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from functools import cached_property, reduce
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -45,6 +45,12 @@ _GONE = 3
 """How many moments before it would lie on something a label is gone."""
 _SOFT = 3
 """In so many moments either way it comes and goes."""
+_MANY = 500
+"""Pairs of a label's place and a solid that are many."""
+_EDGES = 4
+"""Every so many-th of a shape's edges is tried first to part it from a label."""
+_FIRST = 6
+"""So many solids are looked at first: where many lie about one place, they leave few places to the others."""
 
 
 class Solid(NamedTuple):
@@ -217,9 +223,12 @@ class Placer:
         forbidden |= _cut(places, size, measures, max(label.gap, _THICK))
         minor = clutter.little.copy()
         minor[[*label.beside]] = True
-        for numbers, touched in _touched(places, size, clutter, but=label.own):
-            cost += _BESIDE * touched[..., minor[numbers]].sum(axis=2)
-            forbidden |= touched[..., ~minor[numbers]].any(axis=2)
+        near = _near(places, size, clutter)
+        near[[*label.own]] = False
+        for touched in _touched(places, size, clutter, near & minor):
+            cost += _BESIDE * touched.sum(axis=2)
+        for touched in _touched(places, size, clutter, near & ~minor, but=forbidden):
+            forbidden |= touched.any(axis=2)
         free = ~forbidden.all(axis=0)
         lined = np.flatnonzero((label.drawn >= 0) & free) if label.drawn is not None else ()
         if label.drawn is not None and len(lined):
@@ -255,10 +264,11 @@ def place(labels: Sequence[LabelPlaces], clutter: Clutter) -> list[Placed]:
     return [placer.first([label])[1] for label in labels]
 
 
-def touching(places: Loop, size: tuple[float, float], solids: Solids) -> _Bools:
+def touching(places: Loop, size: tuple[float, float], solids: Solids, but: _Bools | None = None) -> _Bools:
     """Return whether boxes of a size about places (n, k) touch each of the solids (n, k, m).
 
-    Two convex shapes are apart where one of their edges parts them; a bar's ends count as square.
+    Two convex shapes are apart where one of their edges parts them; a bar's ends count as square. It need not
+    be told of the places `but` (n, k).
     """
     (wide, high), (corners, half) = size, solids
     if corners.shape[2] == 1:
@@ -269,30 +279,46 @@ def touching(places: Loop, size: tuple[float, float], solids: Solids) -> _Bools:
         return _hits(places, size, corners, half)
     hit = _straddles(corners.real, places.real[..., None], wide / 2 + half)
     hit &= _straddles(corners.imag, places.imag[..., None], high / 2 + half)
+    if but is not None:
+        hit &= ~but[..., None]
     moment, place_, solid = hit.nonzero()
     near = corners[moment if len(corners) > 1 else 0, solid] - places[moment, place_, None]
-    half = half[solid]
-    parted = np.zeros(len(near), bool)
-    for end in range(near.shape[1]):
-        along = near[:, end] - near[:, end - 1]
-        reach = np.abs(along.imag) * wide / 2 + np.abs(along.real) * high / 2 + np.abs(along) * half
-        across = [along.real * near[:, n].imag - along.imag * near[:, n].real for n in range(near.shape[1])]
-        lowest, highest = reduce(np.minimum, across), reduce(np.maximum, across)
-        parted |= (along != 0) & ((lowest >= reach) | (-highest >= reach))
-    hit[moment, place_, solid] = ~parted
+    ends, together = np.arange(near.shape[1]), np.arange(len(near))
+    # of many, a few of the edges part most of those that are apart: what is left is held to all of them
+    few = (ends[::_EDGES], np.delete(ends, slice(None, None, _EDGES)))
+    for some in few if len(near) > _MANY else (ends,):
+        parted = _parted(near[together], (wide, high), half[solid[together]], some)
+        together = together[~parted]
+    hit[...] = False
+    hit[moment[together], place_[together], solid[together]] = True
     return hit
 
 
+def _parted(near: Loop, size: tuple[float, float], half: _Floats, edges: NDArray[np.intp]) -> _Bools:
+    """Return whether one of some edges of shapes (p, c) parts them from a box about the origin (p,)."""
+    parted, corners = np.zeros(len(near), bool), np.ascontiguousarray(near.T)
+    for end in edges.tolist():
+        along = corners[end] - corners[end - 1]
+        reach = np.abs(along.imag) * size[0] / 2 + np.abs(along.real) * size[1] / 2 + np.abs(along) * half
+        across = along.real * corners.imag - along.imag * corners.real
+        lowest, highest = across.min(axis=0), across.max(axis=0)
+        parted |= (along != 0) & ((lowest >= reach) | (-highest >= reach))
+    return parted
+
+
 def _touched(
-    places: Loop, size: tuple[float, float], clutter: Clutter, *, but: frozenset[int] = frozenset()
-) -> Iterator[tuple[NDArray[np.intp], _Bools]]:
-    """Yield the numbers of solids that come near, and whether boxes touch each of them (n, k, m)."""
-    wanted = _near(places, size, clutter)
-    wanted[[*but]] = False
+    places: Loop, size: tuple[float, float], clutter: Clutter, wanted: _Bools, *, but: _Bools | None = None
+) -> Iterator[_Bools]:
+    """Yield whether boxes touch the solids that are wanted, some after some (n, k, m).
+
+    It need not be told of the places `but` (n, k), which may have become more from some to the next.
+    """
     for numbers, solids in clutter.alike:
         which = np.flatnonzero(wanted[numbers])
-        if which.size:
-            yield numbers[which], touching(places, size, solids.picked(which))
+        first = _FIRST if which.size * places.size > _MANY else which.size
+        for some in (which[:first], which[first:]):
+            if some.size:
+                yield touching(places, size, solids.picked(some), but)
 
 
 def _cut(places: ArrayLike, size: tuple[float, float] | _Floats, lines: Loop, half: float) -> _Bools:

@@ -237,6 +237,24 @@ def test_boxes_touch_what_reaches_into_them(corners: int, turn: complex) -> None
         assert not touched or near < 4.0 * np.sqrt(2) + 3.0
 
 
+def test_many_boxes_touch_what_each_alone_touches() -> None:
+    """What is known of many at once, and left out where it need not be told, changes nothing."""
+    rng = np.random.default_rng(4)
+    turns = 2 * np.pi * np.arange(9) / 9
+    solids = [
+        Solid((complex(*rng.uniform(-60, 60, 2)) + 9 * np.cos(turns) + 40j * np.sin(turns))[None], 3.0)
+        for _ in range(20)
+    ]
+    boxes = (rng.uniform(-90, 90, 60) + 1j * rng.uniform(-90, 90, 60))[None]
+    every = touching(boxes, (20.0, 10.0), Solids.of(solids))
+    alone = [touching(boxes[:, n : n + 1], (20.0, 10.0), Solids.of(solids))[0, 0] for n in range(60)]
+    assert every[0].tolist() == [one.tolist() for one in alone]
+    assert 100 < every.sum() < every.size - 100
+    but = rng.random(boxes.shape) < 0.5
+    told = touching(boxes, (20.0, 10.0), Solids.of(solids), but)
+    assert (told == every)[~but].all()
+
+
 def test_a_label_takes_the_place_where_nothing_comes_and_is_gone_where_it_must_be() -> None:
     """A disc sweeps over the only place of one label, and past one of two places of another."""
     way = np.full((MOMENTS, 1), 500 + 500j)

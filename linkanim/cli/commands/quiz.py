@@ -85,8 +85,8 @@ def _by_chapter(asked: Sequence[QuizQuestion], title: str) -> Rounds:
 def _refuse_many(scenes: Sequence[Scene], count: int) -> None:
     """Refuse more questions than can be made, and drawn, of scenes of so many joints."""
     joints = sum(len(scene.linkage.joints) for scene in scenes) / len(scenes)
-    if count * joints > MOST_ASKED:
-        most = max(int(MOST_ASKED / joints), 1)
+    if count * joints**2 > MOST_ASKED:
+        most = max(int(MOST_ASKED / joints**2), 1)
         raise BadInput(
             f"-n {count}: of scenes of {joints:.0f} joints a round has {most} questions at the most; "
             f"take {most} or fewer"
