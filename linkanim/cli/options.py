@@ -400,6 +400,9 @@ _ACCELERATION = _value(
     'the input\'s acceleration, such as "2 rad/s^2" (default: 0)',
     0.0,
 )
+_ALT = _value(
+    "--alt OUT.txt", Path, "write what it shows in a paragraph, for the alternative text of a page or a slide"
+)
 _SPEED = _value(
     "--speed SPEED", units.angular_speed, "the input's speed, such as \"30 rpm\" (default: the scene's)"
 )
@@ -448,6 +451,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
             _value("--seconds S", positive, "how long the clip is in seconds; it need not close"),
         ),
         _flag("--reverse", "run the motion backwards"),
+        _ALT,
         _look("record"),
         _flag("--noted", "note nearby limits and change points"),
         _flag("--photo", "show the photograph of a tape on which something is built"),
@@ -482,6 +486,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
             required=True,
         ),
         _output("write OUT.png, OUT.svg, OUT.pdf or OUT.csv (default: SCENE.png in this folder)"),
+        _ALT,
         _TEXT,
         _speeds("draw a curve for each speed"),
         _value(
@@ -530,6 +535,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
     "draw": (
         _SCENE,
         _output("write OUT.svg, OUT.png or OUT.pdf (default: SCENE.svg in this folder)"),
+        _ALT,
         _TEXT,
         _either(_ANGLE, _PHASE),
         _SPEED,

@@ -18,6 +18,7 @@ import pygame
 from linkanim.export import csv_head, csv_rows
 from linkanim.frozen import frozen
 from linkanim.paper.curves import Curve, Curves, MeasuredCurve, Peak, extremes, table
+from linkanim.paper.sentences import about, plain
 from linkanim.picture.chart import (
     Pen,
     Plot,
@@ -277,6 +278,11 @@ class Page:
         """What it shows, in words."""
         words = dict.fromkeys(curve.quantity.words for curve in self.curves.curves)
         return f"{self.curves.scene.title}: {', '.join(words)}"
+
+    @property
+    def words(self) -> str:
+        """Where its curves are greatest, least and zero."""
+        return plain(about(self.curves))
 
     def csv(self) -> str:
         """Return the curves as a table."""

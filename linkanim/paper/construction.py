@@ -65,6 +65,11 @@ class ConstructionPage:
         """What it shows, in words."""
         return f"{self.scene.title}: its construction"
 
+    @property
+    def words(self) -> str:
+        """Nothing: its steps are in the worked solution."""
+        return ""
+
     def surface(self) -> pygame.Surface:
         """Return the figure drawn."""
         surface = offscreen(self.size)
@@ -144,6 +149,11 @@ class ErrorChart:
     def title(self) -> str:
         """What it shows, in words."""
         return f"Structural error of {self.shown.task.function.words}, {self.shown.task.generator.name}"
+
+    @property
+    def words(self) -> str:
+        """Nothing more than its title says."""
+        return ""
 
     @cached_property
     def curve(self) -> tuple[Real, Real]:

@@ -11,6 +11,7 @@ import pygame
 from linkanim.frozen import frozen
 from linkanim.mechanics.motion import Pose
 from linkanim.mechanics.quantities import input_symbol
+from linkanim.paper.sentences import of_pose
 from linkanim.paper.svg import svg
 from linkanim.picture.items import Group
 from linkanim.picture.look import Look
@@ -87,6 +88,11 @@ class Figured:
     def title(self) -> str:
         """What it shows."""
         return self.scene.title
+
+    @property
+    def words(self) -> str:
+        """How the links stand."""
+        return of_pose(self.scene, self.shown_phase)
 
     @property
     def background(self) -> Colour | None:

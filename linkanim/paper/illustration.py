@@ -20,6 +20,11 @@ class Illustration(NamedTuple):
     background: Colour
     drawn: tuple[Group, ...]
 
+    @property
+    def words(self) -> str:
+        """Nothing more than its title says."""
+        return ""
+
     def groups(self) -> tuple[Group, ...]:
         """Return all that is drawn."""
         return self.drawn

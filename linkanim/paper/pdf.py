@@ -37,10 +37,18 @@ def require_pdf(found: Callable[[str], object] = find_spec) -> None:
 
 
 def pdf(
-    size: tuple[int, int], background: Colour | None, items: Iterable[Item | Group], *, title: str
+    size: tuple[int, int],
+    background: Colour | None,
+    items: Iterable[Item | Group],
+    *,
+    title: str,
+    words: str = "",
 ) -> bytes:
-    """Return a picture of so many pixels as a PDF document; None leaves the background open."""
-    return pages(size, background, [items], title=title)
+    """Return a picture of so many pixels as a PDF document; None leaves the background open.
+
+    It has a language, a title and, as its subject, the words that say what is seen in it.
+    """
+    return pages(size, background, [items], title=title, words=words)
 
 
 def pages(
@@ -49,9 +57,10 @@ def pages(
     pictures: Iterable[Iterable[Item | Group]],
     *,
     title: str,
+    words: str = "",
 ) -> bytes:
     """Return pictures of one size, each a page of a PDF document, as `pdf` does one."""
-    document = _document(size, title)
+    document = _document(size, title, words)
     for items in pictures:
         document.add_page()
         if background is not None:
@@ -65,13 +74,19 @@ def pages(
     return bytes(document.output())
 
 
-def _document(size: tuple[float, float], title: str) -> FPDF:
+def _document(size: tuple[float, float], title: str, words: str) -> FPDF:
     from fpdf import FPDF
+    from fpdf.prefs import ViewerPreferences
 
     page = FPDF(unit=_POINTS, format=size)
     page.set_auto_page_break(False)
     page.set_creation_date(_THEN)
     page.set_title(title)
+    page.set_lang("en")
+    # a reader names the window by the title, not by the file
+    page.viewer_preferences = ViewerPreferences(display_doc_title=True)
+    if words:
+        page.set_subject(words)
     for style, face in _STYLES.items():
         page.add_font(_FACE, style, file_of(face))
     return page

@@ -5,13 +5,14 @@ Every number is worked out again at its place, not read off the picture.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from math import radians, tau
 
 import numpy as np
 
 from linkanim.mechanics.measures import output_body, output_slider
-from linkanim.mechanics.quantities import input_symbol
+from linkanim.mechanics.quantities import called, input_symbol
 from linkanim.mechanics.search import sign_changes
 from linkanim.paper.curves import Curve, Curves, Pace, curves_of, extremes
 from linkanim.picture.quantities import Floats, driven_words
@@ -28,6 +29,9 @@ _DIGITS = 4
 _EVEN = 0.005
 """Two ways whose times differ by less of the period are equally quick."""
 _NOTHING = 1e-9
+_MOST_TOLD = 8
+"""So many links of a pose are told of."""
+_LOWERED = re.compile(r"_\{([^}]*)\}")
 
 
 def about(curves: Curves) -> str:
@@ -49,6 +53,44 @@ def closing(scene: Scene, pace: Pace) -> Iterator[str]:
     for token in tokens:
         if said := about(curves_of(scene, (token,), (pace,))):
             yield f"{scene.quantities[token].words}. {said}"
+
+
+def of_motion(scene: Scene, pace: Pace) -> str:
+    """Return what moves, between which values, in a paragraph: for those who do not see it."""
+    info = scene.info
+    names = [joint.name for joint in scene.linkage.joints if joint.name in scene.trace]
+    _, *told = closing(scene, pace)
+    traced = f"Traced: {' and '.join(names)}." if names else ""
+    parts = [
+        _sentence(scene.title),
+        _sentence(f"{info.class_name}: the {info.input_name} {info.input_words}, at {pace.words}"),
+        *told[:1],
+        traced,
+        f"One true period lasts {scene.period / abs(pace.speed):.4g} s, and then it begins again.",
+    ]
+    return plain(" ".join(part for part in parts if part))
+
+
+def of_pose(scene: Scene, phase: float) -> str:
+    """Return how the links of a scene stand at a phase, in a paragraph."""
+    pose = scene.pose(phase, 0)
+    place = f"{input_symbol(scene.linkage)} = {driven_words(scene, float(pose.coordinate))}"
+    stand = []
+    for body in scene.linkage.bodies:
+        name = called(body, scene.info.link_names)
+        name = name[:1].lower() + name[1:]
+        if body.slider:
+            travel = rounded(float(pose.travel[body.name]), _DIGITS)
+            stand.append(f"{name} {travel} {scene.length_unit} along its guide")
+        else:
+            stand.append(f"{name} at {np.degrees(pose.angle[body.name]) % 360:.1f}°")
+    more = f", and {len(stand) - _MOST_TOLD} more" if len(stand) > _MOST_TOLD else ""
+    return plain(f"{_sentence(scene.title)} At {place}: {', '.join(stand[:_MOST_TOLD])}{more}.")
+
+
+def plain(text: str) -> str:
+    """Return text in which subscripts are letters like others."""
+    return _LOWERED.sub(r"\1", text)
 
 
 def _sentence(text: str) -> str:

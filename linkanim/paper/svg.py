@@ -22,14 +22,20 @@ Paint = Callable[[Colour], str]
 
 
 def svg(
-    size: tuple[int, int], background: Colour | None, items: Iterable[Item | Group], *, title: str
+    size: tuple[int, int],
+    background: Colour | None,
+    items: Iterable[Item | Group],
+    *,
+    title: str,
+    words: str = "",
 ) -> str:
     """Return a picture of so many pixels as an SVG document; None leaves the background open.
 
-    A group is a `<g>` whose id is its name, numbered where a group before has it.
+    Its title, and the words that say what is seen in it, are read aloud. A group is a `<g>` whose id is its
+    name, numbered where a group before has it.
     """
     width, height = size
-    body = [f"<title>{escape(title)}</title>"]
+    body = [f"<title>{escape(title)}</title>", *([f"<desc>{escape(words)}</desc>"] if words else [])]
     if background is not None:
         body.append(f'<rect width="{width}" height="{height}" fill="{hexadecimal(background)}"/>')
     ids: set[str] = set()

@@ -33,6 +33,10 @@ class Written(Protocol):
     def title(self) -> str:
         """What it shows, in words."""
 
+    @property
+    def words(self) -> str:
+        """What is seen in it, in a paragraph; empty where that is not told."""
+
     def groups(self) -> Iterable[Group]:
         """Return everything on it, back to front."""
 
@@ -74,5 +78,6 @@ def data(shown: Written, suffix: str) -> bytes:
         case ".png":
             return png_bytes(shown.surface())
         case ".pdf":
-            return pdf(shown.size, shown.background, shown.groups(), title=shown.title)
-    return svg(shown.size, shown.background, shown.groups(), title=shown.title).encode()
+            return pdf(shown.size, shown.background, shown.groups(), title=shown.title, words=shown.words)
+    drawn = svg(shown.size, shown.background, shown.groups(), title=shown.title, words=shown.words)
+    return drawn.encode()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from argparse import Namespace
 
+from linkanim.cli.alternative import alternative
 from linkanim.cli.picture_options import scene_size_target
 from linkanim.errors import BadInput
 from linkanim.paper.chart import Page
@@ -21,12 +22,14 @@ def run(options: Namespace) -> None:
     tokens = tuple(part.strip() for part in options.quantity.split(",") if part.strip())
     curves = curves_of(scene, tokens, paces(scene, options), options.over)
     measured = _measured(curves, options)
-    write(Page(curves, size, options.theme, measured), target, latex=bool(options.text))
+    page, told = Page(curves, size, options.theme, measured), alternative(options)
+    write(page, target, latex=bool(options.text))
     if measured:
         print(_difference(curves, measured), file=sys.stderr)
     print(target.path)
     if options.text:
         print(labels_of(target).path)
+    told(f"{page.title}. {page.words}".strip())
 
 
 def paces(scene: Scene, options: Namespace) -> tuple[Pace, ...]:

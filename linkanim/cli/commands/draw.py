@@ -7,6 +7,7 @@ from argparse import Namespace
 from math import prod
 
 from linkanim.bounds import MOST_DRAWN, MOST_DRAWN_PIXELS
+from linkanim.cli.alternative import alternative
 from linkanim.cli.commands.solve import phase_at
 from linkanim.cli.picture_options import look_of, scene_size_target
 from linkanim.errors import BadInput
@@ -19,7 +20,7 @@ from linkanim.scenes.scene import Scene
 def run(options: Namespace) -> None:
     """Write the figure that was asked for, and print its path; of a pose of our choice where the input is."""
     scene, size, target = scene_size_target(options, OF_A_FIGURE, ".svg")
-    look = look_of(scene, options)
+    look, told = look_of(scene, options), alternative(options)
     is_raster = target.path.suffix.lower() == ".png"
     _refuse_many(scene, options.poses or 0, size if is_raster else (0, 0))
     if options.construction is not None:
@@ -27,11 +28,13 @@ def run(options: Namespace) -> None:
 
         page = ConstructionPage(scene, size, look.theme, options.construction or None)
         _write(page, target, latex=bool(options.text))
+        told(page.title)
         return
     phase = options.phase if options.angle is None else phase_at(scene, options.angle)
     phase = None if phase is None else float(phase)
     shown = Figured(scene, size, look, phase, options.poses or 0, options.speed)
     _write(shown, target, latex=bool(options.text))
+    told(shown.words)
     if shown.phase is None:
         where = re.sub(r"_\{([^{}]*)\}", r" of \1", shown.caption)  # a terminal has no subscripts of words
         print(f"{where}: the pose that reads best; --angle or --phase for another")

@@ -13,6 +13,7 @@ from typing import NoReturn
 from tqdm import tqdm
 
 from linkanim.cli import main
+from linkanim.cli.alternative import alternative
 from linkanim.cli.command_table import parse
 from linkanim.cli.exits import DONE, FAILED
 from linkanim.cli.options import DEFAULT, PRESETS, inputs_of
@@ -20,6 +21,7 @@ from linkanim.cli.picture_options import look_of, refuse_photograph
 from linkanim.errors import BadInput
 from linkanim.manifest import checked_output
 from linkanim.picture.look import TOGGLES
+from linkanim.picture.quantities import speed_words
 from linkanim.recorder.recording import SUFFIXES, Progress, Recording, record
 from linkanim.scenes import load
 
@@ -33,6 +35,9 @@ def run(options: Namespace) -> None:
     is_tape = options.scene.lower().endswith(".json")
     usual = f"{_stem(options.scene)}{preset.suffix}"
     target = checked_output(options.output, usual, SUFFIXES, inputs_of(options))
+    if is_tape and options.alt:
+        raise BadInput("--alt is for a scene; what a tape shows is what was done in it")
+    told = alternative(options)
     size = None if is_tape and not options.preset else preset.size
     frame = {"size": options.size or size, "fps": options.fps or preset.fps}
     with bar(shown=options.progress) as progress:
@@ -40,6 +45,19 @@ def run(options: Namespace) -> None:
         recording = work(target, **frame, progress=progress)
     print(recording.summary, file=sys.stderr)
     print(recording.path)
+    if options.alt:
+        told(_words(options))
+
+
+def _words(options: Namespace) -> str:
+    """Return what a recording of a scene shows, in a paragraph."""
+    from linkanim.paper.curves import Pace
+    from linkanim.paper.sentences import of_motion
+
+    scene = load(options.scene)
+    speed = scene.linkage.drive.speed if options.speed is None else options.speed
+    speed = -speed if options.reverse else speed
+    return of_motion(scene, Pace(speed, speed_words(scene, speed)))
 
 
 def _stem(source: str) -> str:

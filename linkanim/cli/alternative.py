@@ -1,0 +1,26 @@
+"""`--alt`: what a picture shows, in a paragraph, in a file beside it."""
+
+from __future__ import annotations
+
+from argparse import Namespace
+from collections.abc import Callable
+from pathlib import Path
+
+from linkanim.atomic_files import checked_target, write_text
+from linkanim.cli.options import inputs_of
+
+
+def alternative(options: Namespace) -> Callable[[str], None]:
+    """Return what writes a text to the file of `--alt` and prints its path; nothing where none is asked for.
+
+    `BadInput` for a file that cannot be, before any work.
+    """
+    if options.alt is None:
+        return lambda _: None
+    target: Path = checked_target(options.alt, (".txt",), inputs_of(options))
+
+    def written(words: str) -> None:
+        write_text(target, f"{words}\n")
+        print(target)
+
+    return written
