@@ -426,6 +426,11 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
             "--scores FILE.json", Path, "keep best scores in this file (default: in the user's data folder)"
         ),
         _value(
+            "--counts OUT.csv",
+            Path,
+            "write how often each misconception gave an answer, without names, and open no window",
+        ),
+        _value(
             "--game WORDS",
             str,
             'begin with a game, such as "match level=mine.toml", "follow scene=press", "predict level=2"',

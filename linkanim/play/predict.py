@@ -31,6 +31,10 @@ POINTS, BONUS, STREAK, SECOND = 100, 50, 10, 40
 """For a right answer, at most for its speed, for each right one before it, for one that came again."""
 QUICK = 20 * FRAMES_PER_SECOND
 """Within this time an answer earns a part of the bonus."""
+TRIES = 3
+"""What was missed counts as understood with the next right answer of its kind: so many come at the most."""
+_SCENES = 4
+"""So many scenes are looked at for another question of a kind."""
 _LONGEST_STREAK = 5
 _HOLD = 2 * FRAMES_PER_SECOND
 """So many frames the answer stands at the question's pose before the input moves."""
@@ -98,7 +102,28 @@ class Predict:
     @property
     def is_over(self) -> bool:
         """Whether all was asked."""
-        return len(self.done) >= COUNT + len(self.missed)
+        return len(self.done) >= COUNT and self._comes_again is None
+
+    @property
+    def _comes_again(self) -> tuple[int, int] | None:
+        """Which of what was missed is asked about again, and for which time; None where all is done.
+
+        The first time it is the same question, then others of its kind, until one is answered right.
+        """
+        answers = iter(self.done[COUNT:])
+        for place in range(len(self.missed)):
+            for time in range(TRIES):
+                answer = next(answers, None)
+                if answer is None:
+                    return place, time
+                if answer.right:
+                    break
+        return None
+
+    @property
+    def _asked(self) -> Predict:
+        """The round as it was when the question was asked that shows."""
+        return self if self.chosen is None else replace(self, done=self.done[:-1])
 
     def entered(self, state: State) -> State:
         """Ask the next question, or say at the end how it went."""
@@ -125,13 +150,24 @@ class Predict:
         number = len(self.done)
         if number < len(self.again[:COUNT]):
             return question_of(self.again[number])
-        if number >= COUNT:
-            return question_of(self.missed[number - COUNT])
+        if number >= COUNT and self._comes_again is not None:
+            place, time = self._comes_again
+            return self._alike(self.missed[place]) if time else question_of(self.missed[place])
         scenes = members(self.chapter)
         order = Random(self.seed).sample(scenes, len(scenes))
         scene = load(order[number % len(order)])
         before = [*self.again, *(one.question_id for one in self.done)]
         return next_question(scene, f"{self.seed} {number}", before, of_level(self.level))
+
+    def _alike(self, missed: QuestionId) -> QuizQuestion:
+        """Return another question of the kind that was missed; the same one where there is none."""
+        scenes, seed = members(self.chapter), f"{self.seed} {len(self.done)}"
+        before = [*self.again, *(one.question_id for one in self.done)]
+        for name in Random(seed).sample(scenes, min(len(scenes), _SCENES)):
+            found = next_question(load(name), seed, before, (missed.kind,))
+            if found.kind == missed.kind:
+                return found
+        return question_of(missed)
 
     def carried(self, state: State, action: Action) -> State:
         """Take an answer, go on to the next question, or out."""
@@ -160,7 +196,11 @@ class Predict:
         look = replace(look, zoom=state.look.zoom, pan=state.look.pan)
         state = replace(state, look=look, game=replace(self, done=done, chosen=chosen, since=state.frame))
         state = with_effect(state, "sound", "right" if right else "wrong")
-        state = with_effect(state, "score", f"{'met' if right else 'missed'}={question.question_id}")
+        again = self._comes_again if len(self.done) >= COUNT else None
+        about = question.question_id if again is None else self.missed[again[0]]
+        state = with_effect(state, "score", f"{'met' if right else 'missed'}={about}")
+        if slip := question.answers[chosen].slip:
+            state = with_effect(state, "score", f"slip={slip}")
         over = replace(self, done=done)
         if over.is_over:
             state = with_effect(state, "score", f"best={self.kept_as}:{over.score}")
@@ -239,7 +279,8 @@ class Predict:
 
     def _scores(self) -> tuple[str, ...]:
         number = len(self.done) + (self.chosen is None)
-        place = f"{number} / {COUNT}" if number <= COUNT else f"again {number - COUNT} / {len(self.missed)}"
+        again = self._asked._comes_again if number > COUNT else None
+        place = f"{number} / {COUNT}" if again is None else f"again {again[0] + 1} / {len(self.missed)}"
         return place, f"{_streak(self.done)} in a row", f"{self.score} points"
 
     def _verdict(self, panel: GamePanel, question: QuizQuestion) -> GamePanel:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import csv
 import json
 from collections.abc import Iterable, Mapping
 from dataclasses import field, replace
+from io import StringIO
 from pathlib import Path
 from types import MappingProxyType
 
@@ -20,6 +22,7 @@ _FILE = Intake("a file of scores", most_bytes=5_000_000, most_values=20_000)
 _NONE = "holds no scores of linkanim"
 _MOST_MISSED = 200
 _MOST_BEST = 1_000
+_MOST_SLIPS = 500
 _HIGHEST = 10**9
 
 
@@ -27,12 +30,24 @@ _HIGHEST = 10**9
 class Scores:
     """Best scores by round, questions that were missed and not met since, the door taken last.
 
+    `slips` are how often each misconception gave an answer: of nobody's name, and of no question.
+
     What was bettered longest ago is forgotten first, where that is more than is ever kept.
     """
 
     door: str = ""
     best: Mapping[str, int] = field(default_factory=lambda: MappingProxyType({}))
     missed: tuple[QuestionId, ...] = ()
+    slips: Mapping[str, int] = field(default_factory=lambda: MappingProxyType({}))
+
+    @property
+    def counts(self) -> str:
+        """How often each misconception gave an answer, as CSV, the most frequent first."""
+        rows = sorted(self.slips.items(), key=lambda one: (-one[1], one[0]))
+        text = StringIO()
+        table = csv.writer(text, lineterminator="\n")
+        table.writerows([("misconception", "answers"), *rows])
+        return text.getvalue()
 
     def having(self, name: str, value: str) -> Scores:
         """Return them with what a game leaves: a door, a question missed or met, best as ROUND:SCORE."""
@@ -45,10 +60,14 @@ class Scores:
                     return self
                 rounds = [*(one for one in self.best.items() if one[0] != kind), (kind, int(score))]
                 return replace(self, best=MappingProxyType(dict(rounds[-_MOST_BEST:])))
+            case "slip":
+                others = [one for one in self.slips.items() if one[0] != value]
+                count = min(self.slips.get(value, 0) + 1, _HIGHEST)
+                return replace(self, slips=MappingProxyType(dict([*others, (value, count)][-_MOST_SLIPS:])))
             case "missed" | "met":
                 question_id = QuestionId.of(value)
-                others = tuple(one for one in self.missed if one != question_id)
-                kept = (*others, question_id) if name == "missed" else others
+                rest = tuple(one for one in self.missed if one != question_id)
+                kept = (*rest, question_id) if name == "missed" else rest
                 return replace(self, missed=kept[-_MOST_MISSED:])
         return self
 
@@ -67,11 +86,12 @@ def load(path: Path) -> Scores:
 
 def _read(top: Section) -> Scores:
     refuse_controls(top)
-    best, missed = top.table("best"), top.listed("missed")
+    best, missed, slips = top.table("best"), top.listed("missed"), top.table("slips")
     return Scores(
         top.text("door"),
         MappingProxyType({name: best.whole(name, 0, _HIGHEST) for name in best.values}),
         tuple(_question(missed, key) for key in missed.values),
+        MappingProxyType({name: slips.whole(name, 0, _HIGHEST) for name in slips.values}),
     )
 
 
@@ -90,6 +110,7 @@ def save(scores: Scores, path: Path) -> None:
         "best": dict(scores.best),
         "missed": [str(question_id) for question_id in scores.missed],
     }
+    document |= {"slips": dict(scores.slips)} if scores.slips else {}
     text = json.dumps(document, indent=1, ensure_ascii=False)
     atomic_files.write_text(path, f"{text}\n", folders=True)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import math
 from collections.abc import Iterator
 from dataclasses import replace
@@ -13,14 +14,16 @@ import pygame
 import pytest
 from playing import SIZE, Player
 
+from linkanim.cli import main
 from linkanim.errors import BadInput
 from linkanim.picture.overlay import GamePanel, Overlay
 from linkanim.play.arcade import Arcade
 from linkanim.play.games import game_of
 from linkanim.play.kinds import KINDS
 from linkanim.play.menus import Menu
-from linkanim.play.predict import COUNT, QUICK, GivenAnswer, Predict, points
+from linkanim.play.predict import COUNT, QUICK, TRIES, GivenAnswer, Predict, points
 from linkanim.play.question import QuestionId
+from linkanim.play.scores import keep
 from linkanim.play.scores import load as load_scores
 from linkanim.player import screen
 from linkanim.player.action import Action
@@ -253,13 +256,25 @@ def test_a_round_asks_ten_and_then_what_was_missed() -> None:
     assert game.question
     assert game.question.question_id == game.done[2].question_id == game.missed[0]
     state = answered(state, well=True)
-    state = advance(state, [Action("option", (right_of(state) + 1) % 2)])
+    missed = round_of(state).missed[1]
+    for time in range(TRIES - 1):
+        question = round_of(state).question
+        assert question
+        assert question.kind == missed.kind
+        assert (question.question_id == missed) is (time == 0)
+        assert panel_of(state).scores[0] == "again 2 / 2"
+        state = advance(state, [Action("option", (right_of(state) + 1) % len(question.answers))])
+        assert Action("score", f"missed={missed}") in state.effects
+        state = advance(state, [Action("next")])
+    question = round_of(state).question
+    assert question
+    state = advance(state, [Action("option", (right_of(state) + 1) % len(question.answers))])
     best = Action("score", f"best=four-bars.1:{round_of(state).score}")
     assert best in state.effects  # once, with the last answer
     state = advance(state, [Action("next")])
     assert round_of(state).is_over
     assert round_of(state).question is None
-    assert len({one.question_id for one in round_of(state).done}) == COUNT
+    assert len({one.question_id for one in round_of(state).done}) >= COUNT
     assert {one.question_id.scene for one in round_of(state).done} <= {*chapters()["four-bars"]}
     doors = ((Action("next"), "predict"), (Action("option", 0), "predict"), (Action("option", 1), "menu"))
     for action, what in doors:
@@ -365,3 +380,31 @@ def test_a_tape_of_a_round_has_its_score_and_one_begun_in_its_midst_goes_on(tmp_
 def test_words_that_make_no_round_are_refused(words: str) -> None:
     with pytest.raises(BadInput):
         game_of(words)
+
+
+def test_a_right_answer_of_its_kind_ends_what_was_missed() -> None:
+    state = playing(BEGUN)
+    for n in range(COUNT):
+        right = right_of(state)
+        state = advance(state, [Action("option", (right + 1) % 2 if n == 4 else right)])
+        state = advance(state, [Action("next")])
+    missed = round_of(state).missed[0]
+    state = answered(state, well=False)
+    state = advance(state, [Action("option", right_of(state))])
+    assert Action("score", f"met={missed}") in state.effects
+    assert advance(state, [Action("next")]).game != state.game
+    assert round_of(advance(state, [Action("next")])).is_over
+
+
+def test_misconceptions_are_counted_without_names_or_questions(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path, counts = tmp_path / "scores.json", tmp_path / "counts.csv"
+    slips = ["the way of the other end", 'the "larger" angle, doubled', "the way of the other end"]
+    assert keep([*(f"slip={slip}" for slip in slips), "best=all.1:50"], path, own=False) is None
+    assert load_scores(path).slips == {slips[0]: 2, slips[1]: 1}
+    assert main(["play", "--scores", str(path), "--counts", str(counts)]) == 0
+    assert capsys.readouterr().out.strip() == str(counts)
+    with counts.open(encoding="utf-8", newline="") as file:
+        assert [*csv.reader(file)] == [["misconception", "answers"], [slips[0], "2"], [slips[1], "1"]]
+    assert "@" not in counts.read_text(encoding="utf-8")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from argparse import Namespace
 from pathlib import Path
 
-from linkanim.atomic_files import checked_target, kept_as
+from linkanim.atomic_files import checked_target, kept_as, write_text
 from linkanim.errors import BadInput
 from linkanim.picture.look import Look
 from linkanim.play.arcade import Arcade
@@ -16,6 +16,9 @@ def run(options: Namespace) -> None:
     """Open the window on the title, a scene, a scene file or a tape, and return when it is closed."""
     if options.scores:
         _refuse_foreign(checked_target(options.scores, (".json",)))
+    if options.counts:
+        _count(options)
+        return
     play(
         options.scene,
         look=Look(theme=options.theme, unit=options.unit),
@@ -25,6 +28,15 @@ def run(options: Namespace) -> None:
         game=options.game,
         drafts=kept_as("draft.json"),
     )
+
+
+def _count(options: Namespace) -> None:
+    """Write how often each misconception gave an answer, and print the file's path."""
+    from linkanim.play.scores import load
+
+    target = checked_target(options.counts, (".csv",))
+    write_text(target, load(options.scores or kept_as("scores.json")).counts)
+    print(target)
 
 
 def _refuse_foreign(path: Path) -> None:
