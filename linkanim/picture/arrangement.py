@@ -212,24 +212,27 @@ def _box(points: Points) -> Box:
 
 # The arrangement: the scene as large as its stage lets it be, and the words where its motion leaves room.
 #
-# Words go into a corner. Of all ways to put them there the one is taken that costs least: a smaller scene, a
-# title in more lines and a corner that is looked at later cost something. The scene keeps to its least size,
+# Words stand in the upper left corner, whatever else is shown: nothing that is switched on moves them. Of all
+# ways to put them there the one is taken that costs least: a smaller scene and a title in more lines cost
+# something. The scene keeps to its least size,
 # `HIGH` of the stage's height or `WIDE` of its width; before it gets smaller, words get smaller, and before
 # they get too small to read, the least important ones are left out.
 
 HIGH, WIDE = 0.86, 0.7
 """The least share of the stage that a scene takes, of its height or of its width."""
+_TIGHT = 0.8
+"""So much of that where it otherwise leaves no room for a single row of words, or for the key."""
 _STEPS = 10
-_CORNERS = (((0, 0), 0.0), ((1, 0), 0.05), ((0, 1), 0.06), ((1, 1), 0.08))
-"""Left or right, top or bottom, and what it costs."""
 _LINE = 0.03
 """What each further line of the title costs."""
 _AWAY = (0.0, 0.25, 0.5)
 """How far the scene gives way to the words, in shares of the room that it leaves."""
-_WAYS = tuple(sorted(product(_AWAY, _AWAY), key=sum))
-"""Across and down, the middle of the stage first."""
+_PLACES = tuple((0.5 + across, 0.5 + down) for across, down in sorted(product(_AWAY, _AWAY), key=sum))
+"""How far to the right and down a scene stands that gives way to the words, the middle first."""
 _MARKS = (7.2, 2.5)
 """How wide and high the marks are, in sizes of the text."""
+_SIGN = 1.2
+"""How wide and high the sign of a pause is, at their right end, on which nothing else lies."""
 _HINTS = (27.0, 19.0, 13.0, 5.4)
 """How wide the hint bar may be, in sizes of its text: with all its words, and with ever fewer."""
 _THINNEST = 0.68
@@ -242,7 +245,6 @@ _ROOM_FOR_LINES = 3.6
 """What dimension lines need on each side of a still, in heights of their text."""
 
 
-Corner = tuple[int, int]
 Views = tuple[Numbers, Numbers, Numbers]
 """Scales of views, and x and y of their origins, all of one shape."""
 
@@ -272,12 +274,21 @@ def arranged(
     pixels from the stage's edge, the usual distance without it.
     """
     ways_ = _WaysToArrange(parts, sweep, shortest, _EDGE * parts.unit if edge is None else edge)
-    found = (one for group in blocks for one in ways_.placed(group))
-    bare = Arrangement(parts, ways_.view(ways_.largest, (0.5, 0.5)), ways_.gauge, None)
-    arrangement = next(found, bare)
+    groups = tuple(blocks)
+    found = next((one for group in groups for one in ways_.placed(group)), None)
+    keyed = bool(groups) and groups[0][0].parts_at((0.0, 0.0))[1] is not None
+    if groups and (found is None or _lacks(found, keyed)):
+        tight = (one for group in groups for one in ways_.placed(group, _TIGHT))
+        found = next((one for one in tight if not _lacks(one, keyed)), found)
+    arrangement = found or Arrangement(parts, ways_.view(ways_.largest, (0.5, 0.5)), ways_.gauge, None)
     marked = replace(arrangement, layout=replace(arrangement.layout, marks=ways_.marks(arrangement)))
     hinted = replace(marked, layout=replace(marked.layout, hint=ways_.hint(marked)))
     return replace(hinted, layout=replace(hinted.layout, passing=ways_.free(hinted, shapes)))
+
+
+def _lacks(found: Arrangement, keyed: bool) -> bool:
+    """Return whether words have no row, or not the key to the arrows that there should be."""
+    return found.block is None or not found.block.rows or (keyed and found.layout.legend is None)
 
 
 class _WaysToArrange:
@@ -296,58 +307,44 @@ class _WaysToArrange:
         self.largest = self._largest(bare)
         high, wide = (side - 2 * edge + 2 * _EDGE * parts.unit for side in parts.stage[:1:-1])
         self.least = min(HIGH * high / self._high, WIDE * wide / self._wide)
-        share = min(self.least / self.largest, 1.0)
-        self._shares = [1.0 - (1.0 - share) * step / _STEPS for step in range(_STEPS + 1)]
-        self._scales = [share * self.largest for share in self._shares]
 
-    def placed(self, group: Sequence[WordBlock]) -> Iterator[Arrangement]:
-        """Yield arrangements with one of the group's words in a corner, off the scene, the cheapest first."""
-        clear: dict[tuple[int, Corner], NDArray[np.bool_]] = {}
-        for _, step, turn, corner in self._ways(group):
-            place, block = self._corner(group[turn], corner), group[turn]
+    def placed(self, group: Sequence[WordBlock], tight: float = 1.0) -> Iterator[Arrangement]:
+        """Yield arrangements with a group's words in the corner, off the scene, the cheapest first.
+
+        The scene keeps so much of its least size.
+        """
+        clear: dict[int, NDArray[np.bool_]] = {}
+        share = min(tight * self.least / self.largest, 1.0)
+        shares = [1.0 - (1.0 - share) * step / _STEPS for step in range(_STEPS + 1)]
+        scales = [share * self.largest for share in shares]
+        for _, step, turn in _ways_through(shares, group):
+            place, block = self._corner(group[turn]), group[turn]
             if place is None:
                 continue
-            if (turn, corner) not in clear:
-                drawn = self._drawn_in([*block.rects_at(place)], self._views(corner), block.size)
-                clear[turn, corner] = np.logical_not(drawn.any(axis=-1))
-            views = clear[turn, corner][step]
+            if turn not in clear:
+                drawn = self._drawn_in([*block.rects_at(place), self.sign], self._views(scales), block.size)
+                clear[turn] = np.logical_not(drawn.any(axis=-1))
+            views = clear[turn][step]
             if views.any():
                 hud, legend = block.parts_at(place)
                 words = tuple(block.rects_at(place))
                 parts = replace(self.parts, hud=hud, legend=legend, words=words)
-                view = self.view(self._scales[step], _places(corner)[int(views.argmax())])
+                view = self.view(scales[step], _PLACES[int(views.argmax())])
                 yield Arrangement(parts, view, self.gauge, block)
 
-    def _ways(self, group: Sequence[WordBlock]) -> list[tuple[float, int, int, Corner]]:
-        """Return cost, number of the scale and of the words, and corner, the cheapest first."""
-        ways = [
-            (1.0 - share + price + _LINE * block.turns, step, turn, corner)
-            for (step, share), (turn, block), (corner, price) in product(
-                enumerate(self._shares), enumerate(group), _CORNERS
-            )
-        ]
-        return sorted(ways, key=lambda way: way[0])
+    @property
+    def sign(self) -> Rect:
+        """Where the sign of a pause stands: in the window's upper right corner, whatever else is shown."""
+        (right, _), edge, side = self.parts.size, self.parts.margin, _SIGN * self.parts.text_size
+        return Rect(right - edge - side, edge, side, side)
 
     def marks(self, arrangement: Arrangement) -> Rect:
-        """Return where the marks stand: in the first corner without words, off the scene if there is one."""
-        parts, high = arrangement.layout, arrangement.layout.text_size
-        stage = parts.stage.inset(parts.margin)
-        wide = min(_MARKS[0] * high, stage.width)
-        corners = [
-            Rect(
-                stage.x + right * (stage.width - wide),
-                stage.y + low * (stage.height - _MARKS[1] * high),
-                wide,
-                _MARKS[1] * high,
-            )
-            for right, low in ((1, 0), (0, 0), (1, 1), (0, 1))
-        ]
-        free = [
-            rect
-            for rect in corners
-            if not any(rect.meets(words) for words in (parts.hud, parts.legend) if words)
-        ]
-        return self._clear(free, arrangement.view, high) or (free or corners)[0]
+        """Return where the marks stand: from the sign of a pause to the left, as far as no words are."""
+        sign, high = self.sign, self.parts.text_size
+        line = Rect(0.0, sign.y, sign.x, _MARKS[1] * high)
+        begin = max((one.right for one in arrangement.layout.words if one.meets(line)), default=0.0)
+        left = min(max(sign.right - _MARKS[0] * high, begin), sign.x)
+        return Rect(left, sign.y, sign.right - left, _MARKS[1] * high)
 
     def hint(self, arrangement: Arrangement) -> Rect:
         """Return where the hint bar stands: at the stage's foot or head, on nothing, as wide as it can be.
@@ -390,20 +387,22 @@ class _WaysToArrange:
         x = self.room.x - left + at[0] * (self.room.width - (right - left))
         return View(scale, x, self.room.y - top + at[1] * (self.room.height - (bottom - top)))
 
-    def _views(self, corner: Corner) -> Views:
-        """Return the views (scales, places) that give way to what is in a corner."""
-        extents = np.array([self._extent(scale) for scale in self._scales])
+    def _views(self, scales: Sequence[float]) -> Views:
+        """Return the views (scales, places) that give way to the words."""
+        extents = np.array([self._extent(scale) for scale in scales])
         left, top, right, bottom = extents.T[:, :, None]
-        across, down = np.array(_places(corner)).T
+        across, down = np.array(_PLACES).T
         x = self.room.x - left + across * (self.room.width - (right - left))
         y = self.room.y - top + down * (self.room.height - (bottom - top))
-        return np.array(self._scales)[:, None], x, y
+        return np.array(scales)[:, None], x, y
 
-    def _corner(self, block: WordBlock, corner: Corner) -> tuple[float, float] | None:
-        stage, wide, high = self.parts.stage.inset(self.parts.margin), block.width, block.height
-        if wide > stage.width or high > stage.height:
+    def _corner(self, block: WordBlock) -> tuple[float, float] | None:
+        """Return where words stand; None where they have no room beside the sign of a pause."""
+        stage = self.parts.stage.inset(self.parts.margin)
+        place = stage.x, stage.y
+        if block.width > stage.width or block.height > stage.height:
             return None
-        return stage.x + corner[0] * (stage.width - wide), stage.y + corner[1] * (stage.height - high)
+        return None if any(one.meets(self.sign) for one in block.rects_at(place)) else place
 
     def _drawn_in(self, rects: Sequence[Rect], views: Views, size: int) -> NDArray[np.bool_]:
         """Return whether anything is drawn in rectangles, in each view (..., rectangles)."""
@@ -437,9 +436,13 @@ class _WaysToArrange:
         return scale
 
 
-def _places(corner: Corner) -> list[tuple[float, float]]:
-    """Return how far to the right and down a scene stands that gives way to a corner, the middle first."""
-    return [(0.5 + across * (1 - 2 * corner[0]), 0.5 + down * (1 - 2 * corner[1])) for across, down in _WAYS]
+def _ways_through(shares: Sequence[float], group: Sequence[WordBlock]) -> list[tuple[float, int, int]]:
+    """Return cost, and the numbers of the scale and of the words, the cheapest first."""
+    ways = [
+        (1.0 - share + _LINE * block.turns, step, turn)
+        for (step, share), (turn, block) in product(enumerate(shares), enumerate(group))
+    ]
+    return sorted(ways, key=lambda way: way[0])
 
 
 # A scene fitted into a window: what of it is measured once, and outlasts pans, zooms and themes.
@@ -592,7 +595,8 @@ def _with_chart(subject: Subject, request: FitRequest, type_: Type, *, beside: b
         polygons=request.polygons,
         row=request.row,
     )
-    parts = with_table(parts, *request.table) if request.table[0] else parts
+    head = 1.4 * parts.text_size if request.hud else 0.0
+    parts = with_table(parts, *request.table, head) if request.table[0] else parts
     sentence = subject.figure.scene.look_at
     if request.caption:
         parts = with_caption(parts, len(caption_lines(parts, sentence, type_)))

@@ -56,7 +56,7 @@ class Layout:
     """The key to the vectors, at the foot of the HUD."""
     chart: Rect | None
     marks: Rect
-    """Where the marks of recording and pause stand; at the left of the stage they begin at their left."""
+    """Where the marks of recording and pause stand: in the window's upper right corner."""
     lists: Rect
     """Where the edit list or that of quantities stands, if one is open."""
     polygons: Rect | None = None
@@ -138,18 +138,22 @@ def layout(
     return replace(parts, polygons=place, stage=stage._replace(height=stage.height - high - 0.6 * edge))
 
 
-def with_table(parts: Layout, rows: int, wide: float) -> Layout:
-    """Return a layout with room for a table, beside the stage or below it, where it takes less."""
+def with_table(parts: Layout, rows: int, wide: float, head: float = 0.0) -> Layout:
+    """Return a layout with room for a table, beside the stage or below it, where it takes less.
+
+    Beside the stage it begins so far below the `head` of the window, where the marks stand.
+    """
     stage, edge = parts.stage, parts.margin
     for size in range(parts.small_size, _SMALLEST_ROW - 1, -1):
         step, broad_row = _ROW * size, wide * size / parts.small_size
-        columns = ceil(rows * step / max(stage.height - 2 * edge, 1))
+        columns = ceil(rows * step / max(stage.height - 2 * edge - head, 1))
         across = max(int((stage.width - 2 * edge) / broad_row), 1)
         broad, deep = columns * broad_row + edge, ceil(rows / across) * step + edge
         if min(broad / stage.width, deep / stage.height) < _SHARE_OF_TABLE:
             break
     if broad / stage.width < deep / stage.height:
-        place = Rect(stage.right - broad, stage.y + edge, broad - edge, stage.height - 2 * edge)
+        high = stage.height - 2 * edge - head
+        place = Rect(stage.right - broad, stage.y + edge + head, broad - edge, high)
         return replace(parts, table=place, stage=stage._replace(width=stage.width - broad))
     place = Rect(stage.x + edge, stage.bottom - deep, stage.width - 2 * edge, deep - edge)
     return replace(parts, table=place, stage=stage._replace(height=stage.height - deep))

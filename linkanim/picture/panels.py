@@ -469,9 +469,8 @@ class Panels:
         room, place = self.board.layout.stage, self.board.layout.marks
         if overlay.chip:
             drawn = self._keep(chip, overlay.chip.text)
-            marks = 1.5 * self.board.layout.text_size * (bool(overlay.recording) + overlay.paused)
-            left = place.x if self._marks_lead else place.right - drawn.get_width()
-            beside = left, place.y + marks
+            marks = 1.5 * self.board.layout.text_size
+            beside = place.right - drawn.get_width(), place.y + marks
             free = off_words(self.board.layout, drawn, [beside, *edges(self.board, drawn)])
             put(surface, drawn, free or beside, overlay.chip)
         if overlay.watch:
@@ -496,12 +495,6 @@ class Panels:
             return at
         return at[0], max(bar.y - self.board.margin / 2 - drawn.get_height(), 0.0)
 
-    @property
-    def _marks_lead(self) -> bool:
-        """Whether the marks stand at the left of the scene's room."""
-        place, stage = self.board.layout.marks, self.board.layout.stage
-        return place.x - stage.x < stage.right - place.right
-
     def _keep(self, make: Any, value: Any, slot: object = None) -> Any:
         """Return what is made of a value on the board, kept until another is asked for in the same slot."""
         kept = self._kept.get((make, slot))
@@ -510,18 +503,19 @@ class Panels:
         return kept[1]
 
     def _marks(self, surface: pygame.Surface, overlay: Overlay) -> None:
-        """Draw the marks of recording and pause, words and signs."""
-        size, place = self.board.layout.text_size, self.board.layout.marks
-        leads, top = self._marks_lead, place.y
+        """Draw the sign of a pause in its corner, those of recording and a stroke beside it, with words."""
+        size, place, theme = self.board.layout.text_size, self.board.layout.marks, self.board.theme
+        if overlay.paused:
+            sheet = self._keep(_sign, theme.ink)
+            surface.blit(sheet, (round(place.right - sheet.get_width()), round(place.y)))
+        right, top = place.right - 1.4 * size, place.y
         for sign, words, colour in (
-            (_dot, overlay.recording, self.board.theme.warning),
-            (_bars, "paused" if overlay.paused else None, self.board.theme.ink),
-            (_wave, overlay.path.off if overlay.path else None, self.board.theme.ink),
+            (_dot, overlay.recording, theme.warning),
+            (_wave, overlay.path.off if overlay.path else None, theme.ink),
         ):
             if words:
                 sheet = self._keep(_mark, (sign, words, colour), sign)
-                left = place.x - 0.2 * size if leads else place.right - sheet.get_width() + 0.2 * size
-                surface.blit(sheet, (round(left), round(top)))
+                surface.blit(sheet, (round(right - sheet.get_width()), round(top)))
                 top += 1.5 * size
 
 
@@ -541,6 +535,17 @@ def _mark(board: Board, shown: tuple[Callable[[float], list[Loop]], str, Colour]
     signs = [complex(0.6 * size, 0.5 * size) + loop for loop in sign(size)]
     paint(sheet, [Layer(board.theme.background, [back], _BACKING), Layer(colour, signs)])
     board.write(sheet, words, (1.4 * size, 0), size=size, colour=colour)
+    return sheet
+
+
+def _sign(board: Board, colour: Colour) -> pygame.Surface:
+    """Return the sign of a pause on its backing."""
+    side = 1.2 * board.layout.text_size
+    sheet = pygame.Surface((ceil(side), ceil(side)), pygame.SRCALPHA, 32)
+    middle = complex(side, side) / 2
+    signs = [middle + loop for loop in _bars(board.layout.text_size)]
+    back = middle + box(side, side, 0.3 * side)
+    paint(sheet, [Layer(board.theme.background, [back], _BACKING), Layer(colour, signs)])
     return sheet
 
 
