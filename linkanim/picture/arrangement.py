@@ -471,7 +471,7 @@ class FitRequest(NamedTuple):
     still: bool = False
     """Whether it is of one pose, which keeps farther from the edge than what moves."""
     lined: bool = False
-    """Whether that pose has dimension lines."""
+    """Whether that pose has dimension lines or arrows."""
 
 
 def request_of(
@@ -481,7 +481,7 @@ def request_of(
     chart, keys = look.chart is not None, key_lines(look)
     captioned = look.caption and not listed
     request = FitRequest(size, chart, keys, look.hud, listed, look.polygons, row, caption=captioned)
-    return request._replace(still=still, lined=still and look.names > 1)
+    return request._replace(still=still, lined=still and (look.names > 1 or bool(look.vectors)))
 
 
 @frozen

@@ -24,6 +24,7 @@ from linkanim.picture.motion_marks import (
     Trace,
     Turning,
     arrow_layers,
+    arrow_names,
     arrows_of,
     motion_of,
     traces,
@@ -161,9 +162,15 @@ class Drawing:
         yield Group("input", list(self._turning(pose, places)), made_of=parts.turning)
         masses = [self.setting.view.place(at) for at in pose.com_position.values()]
         yield Group("centres-of-mass", parts.mass.at(masses), made_of=parts.mass)
-        arrows = arrow_layers(parts.arrows, pose, self.setting.view, self.setting.figure.scene.trace)
-        for kind, layers in zip(parts.arrows, arrows, strict=True):
-            yield Group(kind.words, layers, made_of=kind)
+        known = parts.arrows, pose, self.setting.view, self.setting.figure.moving
+        arrows = arrow_layers(*known)
+        letters, inside = (
+            (self.setting.type, self.setting.layout.small_size),
+            self.setting.layout.reach.inset(2),
+        )
+        names = arrow_names(*known, letters, inside) if parts.arrows else ()
+        for kind, layers, symbols_ in zip(parts.arrows, arrows, names, strict=True):
+            yield Group(kind.words, layers, symbols_, made_of=kind)
         if parts.centres:
             yield parts.centres.marks(pose, places)
 

@@ -151,6 +151,17 @@ class Figure:
         return tuple(joint.name for joint in joints if joint.name in names)
 
     @cached_property
+    def moving(self) -> tuple[str, ...]:
+        """The joints that move, one of those that lie on each other all the time."""
+        found: dict[str, NDArray[np.float64]] = {}
+        for name in self.shown:
+            path = np.atleast_2d(self.cycle.position[name])
+            still, grain = np.ptp(path, axis=0).max() <= _STILL * self.extent, _STILL * self.extent
+            if not still and not any(np.abs(path - other).max() <= grain for other in found.values()):
+                found[name] = path
+        return tuple(found)
+
+    @cached_property
     def box(self) -> Box:
         """The rectangle of the scene that the linkage sweeps; the unit square for an empty one."""
         points = [np.atleast_2d(self.cycle.position[name]) for name in self.shown]

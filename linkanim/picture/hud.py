@@ -21,7 +21,7 @@ from linkanim.picture.items import Caption, Group, Item, grouped
 from linkanim.picture.layout import Layout
 from linkanim.picture.look import Look
 from linkanim.picture.motion_marks import Arrows
-from linkanim.picture.quantities import driven_words, sign_of, speed_in, speed_unit, speed_words
+from linkanim.picture.quantities import driven_words, round_below, sign_of, speed_in, speed_unit, speed_words
 from linkanim.picture.raster import Colour, Layer
 from linkanim.picture.shapes import arrows, box, disc
 from linkanim.picture.text import Type
@@ -376,7 +376,7 @@ class Legend:
         for n, kind in enumerate(self.kinds):
             top = self._top(n)
             foot = complex(self.column.x, top + 0.5 * size)
-            yield Layer(kind.colour, arrows([foot], [self._reach], 1.6 * kind.gauge.line))
+            yield Layer(kind.colour, arrows([foot], [self._sample(kind, speed)[0]], 1.6 * kind.gauge.line))
             yield Caption(kind.words, (self.column.x + self._reach + 0.6 * size, top), size, dim)
             yield Caption(self.meaning(kind, speed), (self.column.right, top), size, dim, "right")
 
@@ -395,8 +395,17 @@ class Legend:
 
     def meaning(self, kind: Arrows, speed: float) -> str:
         """Return in words how much the arrow of the key stands for; a dash where nothing moves."""
+        _, value = self._sample(kind, speed)
+        number = f"{value:g}" if 1e-3 <= value < 1e6 else three_digits(value)
+        return f"{number} {kind.unit}" if value > 0 else "–"
+
+    def _sample(self, kind: Arrows, speed: float) -> tuple[float, float]:
+        """Return the length of the key's arrow, and the round number it stands for: 0 where nothing moves."""
         scale = kind.scale(speed)
-        return f"{three_digits(self._reach / scale)} {kind.unit}" if scale > 0 else "–"
+        if not scale > 0:
+            return self._reach, 0.0
+        value = round_below(self._reach / scale)
+        return value * scale, value
 
     @property
     def fits(self) -> bool:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property, lru_cache
-from itertools import accumulate, pairwise
+from itertools import accumulate, pairwise, product
 from math import ceil, floor, pi, tau
 from typing import Any, Literal, NamedTuple, TypeVar
 
@@ -18,7 +18,9 @@ from numpy.typing import NDArray
 from linkanim.frozen import frozen
 from linkanim.mechanics.linkage import DrivenSlider
 from linkanim.mechanics.motion import Motion, Pose
+from linkanim.mechanics.quantities import indexed
 from linkanim.picture.figure import DrawContext, Figure
+from linkanim.picture.items import Caption, Halo
 from linkanim.picture.layout import Gauge
 from linkanim.picture.raster import Colour, Layer, Loop
 from linkanim.picture.shapes import (
@@ -33,8 +35,9 @@ from linkanim.picture.shapes import (
     strokes,
     unit,
 )
+from linkanim.picture.text import Type
 from linkanim.picture.theme import Theme, mixed
-from linkanim.picture.view import View
+from linkanim.picture.view import Rect, View
 
 # Curves of the traced joints: the whole curve stands still, its recent part follows the phase.
 
@@ -330,12 +333,22 @@ def turning_arrow(pivot: complex, pin: complex, gauge: Gauge, theme: Theme) -> l
     return [layer.placed(pivot, unit(pin - pivot)) for layer in bent]
 
 
-# Velocity and acceleration arrows at traced joints and centres of mass.
+# Velocity and acceleration arrows at all moving joints and centres of mass, with their names.
 
 Kind = Literal["v", "a"]
 LONGEST = 0.22
 """The longest arrow of a cycle, as a share of the window's height."""
 ORDER = {"v": 1, "a": 2}
+_ASIDE = complex(directions(1.1))
+"""The way to a name beside an arrow's head, where there is none beyond it."""
+
+
+class SeenArrow(NamedTuple):
+    """An arrow in pixels, and what it is called: v_{A}."""
+
+    symbol: str
+    foot: complex
+    reach: complex
 
 
 @frozen
@@ -364,14 +377,14 @@ class Arrows:
         faster = abs(speed / self.drive) ** ORDER[self.kind]
         return self.longest / (self.most * faster) if self.most > 0 and faster > 0 else 0.0
 
-    def seen(self, pose: Pose, view: View, joints: tuple[str, ...]) -> list[tuple[complex, complex]]:
-        """Return foot and reach of each arrow of a pose that is long enough to be seen, in pixels."""
+    def seen(self, pose: Pose, view: View, joints: tuple[str, ...]) -> list[SeenArrow]:
+        """Return the arrows of a pose that are long enough to be seen, in pixels."""
         scale = self.scale(pose.input_speed)
         found = [
-            (view.place(place), complex(scale * x, -scale * y))
-            for place, (x, y) in _values(pose, self.kind, joints)
+            SeenArrow(indexed(self.kind, name), view.place(place), complex(scale * x, -scale * y))
+            for name, place, (x, y) in _values(pose, self.kind, joints)
         ]
-        return [arrow for arrow in found if 0.01 < abs(arrow[1]) / self.longest < 100]
+        return [arrow for arrow in found if 0.01 < abs(arrow.reach) / self.longest < 100]
 
 
 def arrow_layers(
@@ -386,7 +399,7 @@ def arrow_layers(
     if not every:
         return [[] for _ in kinds]
     line, count = kinds[0].gauge.line, len(every)
-    feet, reaches = np.array(every + every).T
+    feet, reaches = np.array([(arrow.foot, arrow.reach) for arrow in every + every]).T
     drawn = arrows(feet, reaches, 1.6 * line, np.repeat([0.75 * line, 0.0], count))
     rims, bare = drawn[:count], drawn[count:]
     ends = pairwise((0, *accumulate(map(len, seen))))
@@ -396,16 +409,48 @@ def arrow_layers(
     ]
 
 
-def _values(pose: Pose, kind: Kind, joints: tuple[str, ...]) -> list[tuple[Any, Any]]:
+def arrow_names(
+    kinds: Sequence[Arrows],
+    pose: Pose,
+    view: View,
+    joints: tuple[str, ...],
+    letters: tuple[Type, int],
+    inside: Rect,
+) -> list[list[Caption]]:
+    """Return the names of the arrows of a pose, kind by kind: each beyond its head, off those before it.
+
+    An arrow shorter than its name is high has none. Names stay in the picture where their arrows leave it.
+    """
+    (type_, size), taken, found = letters, list[Rect](), list[list[Caption]]()
+    for kind in kinds:
+        halo, names = Halo(kind.halo, max(1.2 * kind.gauge.line, 1.5)), list[Caption]()
+        for arrow in kind.seen(pose, view, joints):
+            wide, way = type_.width(arrow.symbol, size, strong=True), unit(arrow.reach)
+            for turn, further in product((1, _ASIDE, _ASIDE.conjugate()), (0.0, 1.0, 2.0)):
+                off = way * turn
+                away = abs(off.real) * wide / 2 + abs(off.imag) * size / 2 + (0.4 + further) * size
+                middle = inside.nearest(arrow.foot + arrow.reach + away * off, complex(wide, size) / 2)
+                place = Rect(middle.real - wide / 2, middle.imag - size / 2, wide, size)
+                if not any(place.meets(other) for other in taken):
+                    break
+            if abs(arrow.reach) >= size:
+                taken.append(place)
+                at = (middle.real, middle.imag - size / 2)
+                names.append(Caption(arrow.symbol, at, size, kind.colour, "centre", strong=True, halo=halo))
+        found.append(names)
+    return found
+
+
+def _values(pose: Pose, kind: Kind, joints: tuple[str, ...]) -> list[tuple[str, Any, Any]]:
     values, of_mass = _rates(pose, kind)
-    at_joints = [(pose.position[joint], values[joint]) for joint in joints]
-    return at_joints + [(pose.com_position[body], value) for body, value in of_mass.items()]
+    at_joints = [(joint, pose.position[joint], values[joint]) for joint in joints]
+    return at_joints + [(f"G {body}", pose.com_position[body], value) for body, value in of_mass.items()]
 
 
 def arrows_of(figure: Figure, kind: Kind, height: int, gauge: Gauge, theme: Theme) -> Arrows:
     """Return the arrows of one kind, scaled to the largest finite value of the cycle."""
     colour = theme.velocity if kind == "v" else theme.acceleration
-    most = _most(figure.cycle, kind, figure.scene.trace)
+    most = _most(figure.cycle, kind, figure.moving)
     drive = figure.linkage.drive.speed
     words, per = ("velocity", "/s") if kind == "v" else ("acceleration", "/s²")
     unit = figure.scene.length_unit + per

@@ -196,6 +196,12 @@ def round_step(span: float, most: int) -> float:
     return next(power * factor for factor in (1, 2, 5, 10) if power * factor >= rough * (1 - 1e-9))
 
 
+def round_below(most: float) -> float:
+    """Return the greatest of 1, 2 and 5 times a power of ten that is no more than a positive number."""
+    power = 10.0 ** floor(log10(most))
+    return next(power * factor for factor in (5, 2, 1, 0.5) if power * factor <= most * (1 + 1e-9))
+
+
 def _degrees(span: float, most: int) -> float:
     parts = (15.0, 30.0, 45.0, 90.0, 180.0, 360.0)
     if span / most <= parts[0] / 2:

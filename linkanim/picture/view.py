@@ -45,6 +45,13 @@ class Rect(NamedTuple):
         """Return whether a position lies in it."""
         return self.x <= x <= self.right and self.y <= y <= self.bottom
 
+    def nearest(self, place: complex, half: complex = 0j) -> complex:
+        """Return the place nearest to one at which a rectangle of half this width and height lies inside."""
+        x = min(max(place.real, self.x + half.real), max(self.right - half.real, self.x + half.real))
+        return complex(
+            x, min(max(place.imag, self.y + half.imag), max(self.bottom - half.imag, self.y + half.imag))
+        )
+
     def ahead(self, at: complex, way: complex) -> float:
         """Return how far its edge is from a place along a way, in lengths of that; 0 without a way."""
         gaps = [

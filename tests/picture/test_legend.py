@@ -30,9 +30,11 @@ def test_the_key_says_what_its_arrow_stands_for_at_any_speed() -> None:
     legend = Legend((kind,), Rect(0, 0, 300, 600), 17, Type(), LIGHT)
     drive = scene.linkage.drive.speed
     slow, fast = (float(legend.meaning(kind, speed).split()[0]) for speed in (drive, -3 * drive))
-    arrow = 2.6 * legend.size
-    assert slow == pytest.approx(arrow / kind.scale(drive), rel=5e-3)
-    assert fast == pytest.approx(3 * slow, rel=1e-2)
+    for value, speed in ((slow, drive), (fast, -3 * drive)):
+        (arrow,) = legend.group(speed).layers
+        assert np.ptp(arrow.loops[0].real) == pytest.approx(value * kind.scale(speed), rel=1e-6)
+        assert float(f"{value:.0e}") == value
+        assert 1.04 * legend.size - 1e-6 <= np.ptp(arrow.loops[0].real) <= 2.6 * legend.size + 1e-6
     assert legend.meaning(kind, drive).endswith(" mm/s")
     assert legend.meaning(kind, 0.0) == "–"
     assert math.isfinite(slow)

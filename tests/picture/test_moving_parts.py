@@ -13,6 +13,7 @@ import pytest
 from pictures import contrast, pixels
 
 from linkanim.mechanics.linkage import Crank, Damper, Drive, Gear, Linkage, Pin
+from linkanim.mechanics.quantities import indexed
 from linkanim.picture.arrangement import sweep_of
 from linkanim.picture.figure import DrawContext, Figure, figure
 from linkanim.picture.fittings import Coil, Damping, coils, dampings, fittings
@@ -26,7 +27,7 @@ from linkanim.picture.shapes import directions, folded
 from linkanim.picture.surface import SurfacePrinter
 from linkanim.picture.theme import DARK, LIGHT, Theme
 from linkanim.picture.view import View
-from linkanim.scenes import load
+from linkanim.scenes import load, names
 from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
 
@@ -354,7 +355,7 @@ def test_vectors_keep_one_scale_over_the_cycle(press: Figure, kind: str) -> None
         assert arrows.scale(pose.input_speed) == pytest.approx(arrows.longest / arrows.most)
         values = pose.velocity if kind == "v" else pose.acceleration
         masses = pose.com_velocity if kind == "v" else pose.com_acceleration
-        sizes = [math.hypot(*values[joint]) for joint in scene.trace]
+        sizes = [math.hypot(*values[joint]) for joint in press.moving]
         longest = max(longest, *sizes, *(math.hypot(*value) for value in masses.values()))
     assert longest * arrows.scale(scene.linkage.drive.speed) == pytest.approx(LONGEST * 720)
 
@@ -373,6 +374,21 @@ def test_another_speed_keeps_the_arrows_length_and_only_velocity_turns_with_it(
     foot = VIEW.place(scene.pose(1.0).position["B"])
     reaches = [loop[3] - foot for loop in loops]
     assert reaches[1] == pytest.approx(-reaches[0] if flips else reaches[0])
+
+
+@pytest.mark.parametrize("name", names())
+def test_every_moving_joint_has_its_arrow_and_its_name(name: str) -> None:
+    """The slider, too; joints that lie on each other have one arrow."""
+    picture = Picture(load(name), (1280, 720), Look(vectors=frozenset("v")))
+    pose = picture.scene.pose(1.0)
+    group = next(group for group in picture.drawing.moving(pose) if group.name == "velocity")
+    named = {words.text for words in group.captions}
+    scale = picture.drawing.parts.arrows[0].scale(pose.input_speed)
+    for joint in picture.figure.shown:
+        alike = [one for one in picture.figure.shown if pose.position[one] == pose.position[joint]]
+        if scale * math.hypot(*pose.velocity[joint]) > picture.layout.small_size:
+            assert named & {indexed("v", one) for one in alike}, joint
+    assert not any(indexed("v", joint) in named for joint in picture.figure.fixed)
 
 
 def test_no_motion_has_no_arrows(press: Figure) -> None:
