@@ -13,7 +13,7 @@ from linkanim.picture.look import Look
 from linkanim.picture.picture import Picture
 from linkanim.picture.raster import Layer, offscreen, paint, pixel_view
 from linkanim.picture.shapes import rounded
-from linkanim.picture.surface import SurfacePrinter
+from linkanim.picture.surface import printed
 from linkanim.scenes.scene import Scene
 
 Pixels = NDArray[np.float64]
@@ -61,7 +61,8 @@ def centre(cover: Pixels) -> complex:
 
 def _painted(painter: Picture, pose: Pose) -> Pixels:
     surface = offscreen(painter.size)
-    SurfacePrinter().paint(surface, painter, pose)
+    surface.fill(painter.theme.background)
+    printed(surface, (group._replace(captions=()) for group in painter.groups(pose)), painter.type)
     return _levels(bytes(pixel_view(surface)), painter.size)
 
 
