@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 from itertools import chain, product
-from math import ceil
+from math import ceil, floor
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -264,16 +264,40 @@ def help_sheet(board: Board, shown: tuple[Help, int]) -> pygame.Surface:
 
     Where not all of it can be read there, the last subjects are left out.
     """
+    laid = _help_laid(board, shown)
+    sheet = board.sheet(laid.wide, laid.high)
+    for column, x in _help_columns(laid):
+        _draw(board, sheet, column, x, laid.size)
+    return sheet
+
+
+def help_line_at(board: Board, shown: tuple[Help, int], x: float, y: float) -> str | None:
+    """Return the keys of the line at a place of the help's sheet; None where there is none."""
+    laid = _help_laid(board, shown)
+    number = floor((y / laid.size - 0.9) / _STEP + 0.12)
+    for column, left in _help_columns(laid):
+        inside = left <= x <= left + column.keys + column.does + _HELP_GAP * laid.size
+        if inside and 0 <= number < len(column.lines) and not column.lines[number].heading:
+            # what its keys do may be broken into lines, of which the first has the keys
+            whole = (line.keys for line in reversed(column.lines[: number + 1]) if line.keys)
+            return next(whole, None) if column.lines[number].does else None
+    return None
+
+
+def _help_laid(board: Board, shown: tuple[Help, int]) -> _Laid:
     groups, room = shown
     for laid in _ways(board, groups, _WIDEST * room):
         if laid.wide <= _WIDEST * room + 1 and laid.high <= _WIDEST * board.layout.size[1]:
             break
-    size, sheet = laid.size, board.sheet(laid.wide, laid.high)
-    x = 1.4 * size
+    return laid
+
+
+def _help_columns(laid: _Laid) -> Iterator[tuple[_Column, float]]:
+    """Yield the columns, each with its left edge."""
+    x = 1.4 * laid.size
     for column in laid.columns:
-        _draw(board, sheet, column, x, size)
-        x += column.keys + column.does + 3 * _HELP_GAP * size
-    return sheet
+        yield column, x
+        x += column.keys + column.does + 3 * _HELP_GAP * laid.size
 
 
 def _ways(board: Board, groups: Help, room: float) -> Iterator[_Laid]:
@@ -418,26 +442,55 @@ class Panels:
         left = self._list(surface, edit_list, overlay.panel)
         self._list(surface, quantity_list, overlay.quantities)
         if overlay.help:
-            room = self.board.layout.size[0] - left
-            drawn = self._keep(help_sheet, (overlay.help, room))
-            at = (
-                left + (room - drawn.get_width()) // 2,
-                (self.board.layout.size[1] - drawn.get_height()) // 2,
-            )
-            surface.blit(drawn, at)
+            drawn, place = self._helped(overlay.help, left)
+            surface.blit(drawn, (place.x, place.y))
         self._passing(surface, overlay)
         if overlay.toast:
-            drawn, at = self._keep(toast, overlay.toast)
-            surface.blit(drawn, self._above_bar(overlay, drawn, at))
+            surface.blit(*self._toasted(overlay, overlay.toast))
+
+    def _helped(self, shown: Help, left: int) -> tuple[pygame.Surface, Rect]:
+        """Return the help and its place, right of a list that takes so much of the window's left."""
+        wide, high = self.board.layout.size
+        drawn = self._keep(help_sheet, (shown, wide - left))
+        at = left + (wide - left - drawn.get_width()) // 2, (high - drawn.get_height()) // 2
+        return drawn, Rect(*at, *drawn.get_size())
+
+    def _toasted(self, overlay: Overlay, text: str) -> tuple[pygame.Surface, tuple[float, float]]:
+        drawn, at = self._keep(toast, text)
+        return drawn, self._above_bar(overlay, drawn, at)
+
+    def on_toast(self, overlay: Overlay, x: float, y: float) -> bool:
+        """Return whether a pixel is on the toast."""
+        if not overlay.toast:
+            return False
+        drawn, at = self._toasted(overlay, overlay.toast)
+        return Rect(*at, *drawn.get_size()).holds(x, y)
+
+    def help_at(self, overlay: Overlay, x: float, y: float) -> str | None:
+        """Return the keys of the line of the open help under a pixel, "" elsewhere on it; None off it."""
+        if not overlay.help:
+            return None
+        left = 0
+        if overlay.panel:
+            drawn = self._keep(edit_list, overlay.panel)
+            left = self._beside(drawn)
+        _, place = self._helped(overlay.help, left)
+        if not place.holds(x, y):
+            return None
+        room = self.board.layout.size[0] - left
+        return help_line_at(self.board, (overlay.help, room), x - place.x, y - place.y) or ""
 
     def _list(self, surface: pygame.Surface, make: Any, shown: object) -> int:
         """Draw a list, if one is open; return how much of the window's left it takes at the top."""
         if shown is None:
             return 0
         drawn = self._keep(make, shown)
-        at = self._listed(drawn)
-        surface.blit(drawn, at)
-        return self.board.margin + drawn.get_width() if at[1] <= self.board.margin else 0
+        surface.blit(drawn, self._listed(drawn))
+        return self._beside(drawn)
+
+    def _beside(self, drawn: pygame.Surface) -> int:
+        """Return how much of the window's left a list takes at the top."""
+        return self.board.margin + drawn.get_width() if self._listed(drawn)[1] <= self.board.margin else 0
 
     def row_at(self, overlay: Overlay, x: float, y: float) -> int | None:
         """Return the row of the open list under a pixel, -1 on the list beside them; None off it.

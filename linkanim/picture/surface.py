@@ -85,6 +85,14 @@ class SurfacePrinter:
         """Return the row of the open list under a pixel, -1 on the list beside them; None off it."""
         return self._panels_of(picture).row_at(overlay, x, y)
 
+    def on_toast(self, picture: Picture, overlay: Overlay, x: float, y: float) -> bool:
+        """Return whether a pixel is on the toast."""
+        return self._panels_of(picture).on_toast(overlay, x, y)
+
+    def help_at(self, picture: Picture, overlay: Overlay, x: float, y: float) -> str | None:
+        """Return the keys of the line of the open help under a pixel, "" elsewhere on it; None off it."""
+        return self._panels_of(picture).help_at(overlay, x, y)
+
     def _on_still(
         self, surface: pygame.Surface, picture: Picture, still: tuple[Group, ...]
     ) -> pygame.Surface:

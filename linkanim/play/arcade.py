@@ -21,6 +21,9 @@ if TYPE_CHECKING:
 _AGAIN = 3
 """So many questions of earlier rounds come again in one."""
 _SEEDS = 10**6
+GREETING = "move the mouse for tools, H for keys"
+_SILENT = 45
+"""So many times it is asked for news before it greets: the first pictures do not wait for the file."""
 _MOST_WAITING = 1_000
 """So many changes wait to be kept."""
 
@@ -30,11 +33,14 @@ class Arcade:
 
     Without a path it is the user's own; it is read when first needed, and written after each answer. Another
     window may write it, too: each change is made to what is there at the moment. What cannot be kept then is
-    kept with the next change.
+    kept with the next change. One that `greets` says in its first window how to begin.
     """
 
-    def __init__(self, path: Path | None = None, random: Random | None = None) -> None:
+    def __init__(
+        self, path: Path | None = None, random: Random | None = None, *, greets: bool = False
+    ) -> None:
         self._path, self._random = path, random or Random()
+        self._silent: int | None = _SILENT if greets else None
         self._news: list[str] = []
         self._said = ""
         self._waiting: tuple[str, ...] = ()
@@ -101,7 +107,12 @@ class Arcade:
         self._said = sentence or ""
 
     def news(self) -> list[str]:
-        """Return what there is to say about the file, once."""
+        """Return what there is to say about the file, once; asked a while, how to begin, once for ever."""
+        if self._silent is not None:
+            self._silent = self._silent - 1 or None
+            if self._silent is None and not self._scores().greeted:
+                self._news.append(GREETING)
+                self.keep("greeted=yes")
         news, self._news = self._news, []
         return news
 

@@ -32,13 +32,15 @@ class Scores:
 
     `slips` are how often each misconception gave an answer: of nobody's name, and of no question.
 
-    What was bettered longest ago is forgotten first, where that is more than is ever kept.
+    What was bettered longest ago is forgotten first, where that is more than is ever kept. Who was `greeted`
+    once by a window is not told again how to begin.
     """
 
     door: str = ""
     best: Mapping[str, int] = field(default_factory=lambda: MappingProxyType({}))
     missed: tuple[QuestionId, ...] = ()
     slips: Mapping[str, int] = field(default_factory=lambda: MappingProxyType({}))
+    greeted: bool = False
 
     @property
     def counts(self) -> str:
@@ -54,6 +56,8 @@ class Scores:
         match name:
             case "door":
                 return replace(self, door=value)
+            case "greeted":
+                return replace(self, greeted=True)
             case "best":
                 kind, _, score = value.rpartition(":")
                 if int(score) <= self.best.get(kind, -1):
@@ -92,6 +96,7 @@ def _read(top: Section) -> Scores:
         MappingProxyType({name: best.whole(name, 0, _HIGHEST) for name in best.values}),
         tuple(_question(missed, key) for key in missed.values),
         MappingProxyType({name: slips.whole(name, 0, _HIGHEST) for name in slips.values}),
+        "greeted" in top,
     )
 
 
@@ -109,6 +114,7 @@ def save(scores: Scores, path: Path) -> None:
         "door": scores.door,
         "best": dict(scores.best),
         "missed": [str(question_id) for question_id in scores.missed],
+        **({"greeted": True} if scores.greeted else {}),
     }
     document |= {"slips": dict(scores.slips)} if scores.slips else {}
     text = json.dumps(document, indent=1, ensure_ascii=False)

@@ -288,6 +288,12 @@ def take_name(state: State, _: None) -> State:
     return with_effect(replace(state, naming=None), "save_new", state.naming.name) if state.naming else state
 
 
+def take_toast(state: State, _: None) -> State:
+    """Put the toast away, and open the folder of the file that it says is saved."""
+    told = state.toast.text if state.toast and not state.naming else ""
+    return with_effect(replace(state, toast=None), "folder", told) if told else state
+
+
 def record(state: State, form: Literal["gif", "mp4"]) -> State:
     """Start a recording, or stop the one that runs, whichever its format is."""
     if state.recording is None:
@@ -307,7 +313,7 @@ def effect(name: str) -> Callable[[State, str | None], State]:
 
 # Games come over the state and go again; what was there before stands beneath, and comes back.
 
-BESIDE = BESIDE_GAMES | {"stir", "menu", "note", "pad", "close"}
+BESIDE = BESIDE_GAMES | {"take_toast", "stir", "menu", "note", "pad", "close"}
 """Actions that are the window's own while a game is on; all others are handed to the game."""
 _ON_A_LIST = frozenset({"move", "sift", "unsift", "back"})
 """What is the list's own while one is open over a game."""
@@ -635,6 +641,7 @@ ACTIONS: Mapping[str, Rule] = {
     "back": Rule(_nothing, back),
     "list": Rule(_nothing, edits.list_, taped=False),
     "menu": Rule(_words_or_none, edits.menu, taped=False),  # some commands, as `commands.menu_of` has them
+    "take_toast": Rule(_nothing, take_toast, taped=False),  # a click on it: the folder that it tells of
     "stir": Rule(_nothing, lambda state, _: replace(state, stirred=state.frame), taped=False),
     "shelf": Rule(_nothing, edits.open_shelf, taped=False),
     "files": Rule(_text, edits.files, taped=False),  # scene files, one a line

@@ -12,7 +12,7 @@ from typing import NamedTuple
 from linkanim.picture.overlay import Button, CommandBar
 from linkanim.player.action import Action, Mode
 from linkanim.player.clock import FASTEST, SLOWEST
-from linkanim.player.keys import BESIDE_GAMES, GROUPS, binds_of, commands, group_key
+from linkanim.player.keys import BESIDE_GAMES, GROUPS, binds_of, commands, group_key, row_actions
 from linkanim.player.state import STIR_FRAMES, Entries, ListRow, State
 from linkanim.scenes.editing import drives, handles
 from linkanim.scenes.scene import Scene
@@ -176,7 +176,8 @@ def menu_of(state: State, what: str | None) -> Entries | None:
     """Return a list of commands; None for what is not there, or has none.
 
     It has all of the mode that is on, or those of a group by its name, of the "chart", of the "chosen" thing
-    of a sheet, of a "joint", "link" or "strut" with its name, or all "things" that have some.
+    of a sheet, of a "joint", "link" or "strut" with its name, all "things" that have some, or those of a line
+    of the help by its "keys".
     """
     usual = {action: ListRow(words, key, action) for words, key, action in commands(state.mode)}
     if what is None or what in GROUPS:
@@ -184,11 +185,23 @@ def menu_of(state: State, what: str | None) -> Entries | None:
     if what == "things":
         rows = tuple(ListRow(one, "", Action("menu", one)) for one in _things(state.scene))
         return Entries("Joints and links", rows)
+    if what.startswith("keys "):
+        keys = what.removeprefix("keys ")
+        return Entries(keys, tuple(usual[one] for one in row_actions(state.mode, keys) if one in usual))
     if what in _CHOSEN:
         return Entries(what.capitalize(), tuple(usual[one] for one in _CHOSEN[what] if one in usual))
     kind, _, name = what.partition(" ")
     rows = tuple(_of_thing(state.scene, kind, name)) if what in _things(state.scene) else ()
     return Entries(what[:1].upper() + what[1:], (*rows, usual[Action("names")])) if rows else None
+
+
+def line_asks(mode: Mode, keys: str) -> Action | None:
+    """Return what a line of the help asks for, a list of them where it has several; None without any.
+
+    It is known by its keys as they are written.
+    """
+    actions = row_actions(mode, keys)
+    return Action("menu", f"keys {keys}") if len(actions) > 1 else next(iter(actions), None)
 
 
 def _of_mode(state: State, usual: Mapping[Action, ListRow], group: str | None) -> Entries:

@@ -17,7 +17,7 @@ from pygame.event import Event
 
 from linkanim.build.tools import TOOLS
 from linkanim.player.action import Action, Mode
-from linkanim.player.commands import pressed, slid, slides
+from linkanim.player.commands import line_asks, pressed, slid, slides
 from linkanim.player.keys import MENU_IN, Bind, Press, bind_of, button_name, hat_name, key_names, key_of
 from linkanim.player.pointing import Pointed
 from linkanim.player.screen import Screen
@@ -366,6 +366,11 @@ class Mouse:
 
     def _elsewhere(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...]:
         """Return what is asked of all that lies below the bar."""
+        if gesture.kind == "down" and screen.on_toast(*self._at):
+            self._drag = "bar"
+            return (Action("take_toast"),)
+        if screen.state.help and self._drag is None and not screen.state.browsing:
+            return self._on_the_help(screen) if gesture.kind == "down" else ()
         if screen.state.browsing:
             return self._on_the_shelf(gesture, screen)
         if self._drag == "slider" or (gesture.kind == "down" and screen.slider_at(*self._at)):
@@ -406,6 +411,14 @@ class Mouse:
             return ()
         ended, self._drag = _LET_GO[self._drag], "bar"
         return (*((Action(ended),) if ended else ()), *self._menu(screen))
+
+    def _on_the_help(self, screen: Screen) -> tuple[Action, ...]:
+        """Return what a click on the help asks for: what its line says; one beside it closes it."""
+        self._drag, keys = "bar", screen.help_at(*self._at)
+        if keys is None:
+            return (Action("help"),)
+        asked = line_asks(screen.state.mode, keys) if keys else None
+        return (Action("help"), asked) if asked else ()
 
     def _on_the_bar(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
         """Return what is asked of the bar of commands: a button, or a slider that is dragged; None off it."""

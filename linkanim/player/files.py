@@ -168,6 +168,16 @@ def where(path: Path) -> str:
     return f"{intake.named(from_anywhere(str(path)))} saved"
 
 
+def open_folder(text: str) -> None:
+    """Show the folder of the file that a text says is saved; nothing for any other text."""
+    path = Path(text.partition(" saved")[0])
+    if path.is_absolute() and path.exists():
+        import webbrowser  # opens our own folder; asks no network
+
+        with suppress(webbrowser.Error):
+            webbrowser.open(path.parent.as_uri())
+
+
 def scene_files() -> list[str]:
     """Return the names of the scene files in the current folder, none where it is there no more."""
     with suppress(OSError), os.scandir() as entries:

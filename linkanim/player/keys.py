@@ -394,6 +394,12 @@ def binds_of(mode: Mode) -> Iterator[Bind]:
     return _binds(MODES.get(mode, {}))
 
 
+def row_actions(mode: Mode, keys: str) -> tuple[Action, ...]:
+    """Return what a line of the help, known by its keys as they are written, asks for, each but once."""
+    rows = (row for table in (MODES.get(mode, {}), KEYS) for row in _rows(table) if row.keys == keys)
+    return tuple(dict.fromkeys(bind.action for bind in next(rows, KeyRow("", "")).binds))
+
+
 def _rows(table: Table) -> Iterator[KeyRow]:
     return (row for rows in table.values() for row in rows)
 

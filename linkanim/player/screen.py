@@ -445,6 +445,14 @@ class Screen:
         shown = self.over.slider
         return slider_step(self._framing.last.layout, shown, x) if shown else 0
 
+    def on_toast(self, x: float, y: float) -> bool:
+        """Return whether a pixel is on the toast."""
+        return self._printer.on_toast(self._framing.last, self.over, x, y)
+
+    def help_at(self, x: float, y: float) -> str | None:
+        """Return the keys of the line of the open help under a pixel, "" elsewhere on it; None off it."""
+        return self._printer.help_at(self._framing.last, self.over, x, y)
+
     def button_at(self, x: float, y: float) -> int | None:
         """Return the number of the command of the bar under a pixel, -1 between them; None off the bar."""
         bar = self.over.bar

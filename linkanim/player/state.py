@@ -735,10 +735,10 @@ class State:
     which the mechanism came on, `turned` that at which an edit made another class of the linkage, while the
     list shows it. `effects` is what the last
     advance asks of the outside: "record" and "render" (with a format), "screenshot", "svg", "share",
-    "fullscreen", "name" (a name is to be proposed), "save" (the file), "save_new"
-    (a name), "reload", "quit", "pencil" and "poses" (they are on), "search", "anew" and "follow" (answers
-    to the sketch, the one that is shown among them, or not, or that alone), "layers" (of the scene),
-    "make" (its parts), "begin" (a game, with its words), "score" (with what is to be
+    "fullscreen", "folder" (of the file that a toast told of), "name" (a name is to be proposed), "save"
+    (the file), "save_new" (a name), "reload", "quit", "pencil" and "poses" (they are on), "search", "anew"
+    and "follow" (answers to the sketch, the one that is shown among them, or not, or that alone),
+    "layers" (of the scene), "make" (its parts), "begin" (a game, with its words), "score" (with what is to be
     kept of one), "sound" (a cue), and "report" (with the text of a fault's report).
     """
 

@@ -72,7 +72,9 @@ _USUALLY_MADE = ("--fit", "A4")
 """Options of `linkanim make` for what is made from the window."""
 _TAKEN_UP = "this is the unsaved work that was kept; Ctrl+N begins an empty sheet"
 _NO_FILES = "there is no scene file in the current folder; Ctrl+S writes one"
-_BESIDE_A_TAPE = frozenset({"stir", "screenshot", "svg", "share", "fullscreen", "quit", "close", "back"})
+_BESIDE_A_TAPE = frozenset(
+    {"stir", "take_toast", "screenshot", "svg", "share", "fullscreen", "quit", "close", "back"}
+)
 
 
 class Window:
@@ -454,6 +456,8 @@ class Window:
                 self._begun = self._keeper.completed(str(effect.value))
             case "score" if self._keeper:
                 self._keeper.keep(str(effect.value))
+            case "folder":
+                files.open_folder(str(effect.value))
             case "fullscreen":
                 self.fill()
             case "quit":

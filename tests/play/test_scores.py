@@ -15,7 +15,7 @@ import pytest
 from linkanim.atomic_files import Claim, kept_as
 from linkanim.cli import main
 from linkanim.errors import BadInput
-from linkanim.play.arcade import Arcade
+from linkanim.play.arcade import GREETING, Arcade
 from linkanim.play.games import GameWords
 from linkanim.play.match import FOLDER, MatchGame
 from linkanim.play.menus import Menu
@@ -307,3 +307,15 @@ def test_it_survives_being_killed_at_any_moment(tmp_path: Path) -> None:
             os.utime(old, (0, 0))
     Arcade(path).keep("door=play")
     assert [one.name for one in tmp_path.iterdir()] == ["scores.json"]
+
+
+def test_the_first_window_says_once_for_ever_how_to_begin(tmp_path: Path) -> None:
+    file = tmp_path / "scores.json"
+    for greeted in (1, 0):
+        arcade = Arcade(file, greets=True)
+        news = [line for _ in range(200) for line in arcade.news()]
+        assert news == [GREETING] * greeted
+    arcade = Arcade(file)
+    arcade.keep("best=all.1:50")
+    assert load(file).greeted
+    assert [line for _ in range(200) for line in Arcade(tmp_path / "other.json").news()] == []

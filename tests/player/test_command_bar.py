@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from itertools import pairwise
+from pathlib import Path
 from typing import Any
 
 import pygame
@@ -15,6 +16,7 @@ from linkanim.picture.command_bar import bar_cells, bar_place, button_at
 from linkanim.picture.command_icons import COMMAND_ICONS
 from linkanim.picture.layout import layout
 from linkanim.play.games import game_of
+from linkanim.player import screen
 from linkanim.player.action import Action, Mode
 from linkanim.player.actions import advance, is_taped
 from linkanim.player.commands import bar, pressed, slid, slides
@@ -262,3 +264,80 @@ def click(player: Player, name: str) -> None:
     player.mouse(pygame.MOUSEMOTION, (x, y), rel=(0, 0), buttons=(0, 0, 0))
     player.mouse(pygame.MOUSEBUTTONDOWN, (x, y), button=1)
     player.mouse(pygame.MOUSEBUTTONUP, (x, y), button=1)
+
+
+@pytest.fixture
+def large(here: object) -> Iterator[Player]:
+    del here
+    with screen.opened((1280, 720)):
+        player = Player(replace(begin(load("crank-rocker")), games=game_of))
+        player.tick(20)
+        player.press(pygame.K_SPACE)
+        player.press(pygame.K_h, 0, "h")
+        yield player
+        player.window.close()
+
+
+def on_help(player: Player, keys: str) -> tuple[float, float]:
+    """Return a place on a line of the help that is open."""
+    places = ((x, y) for y in range(4, 716, 6) for x in range(30, 1270, 40))
+    return next(at for at in places if player.window.screen.help_at(*at) == keys)
+
+
+def test_a_line_of_the_help_does_what_it_says_when_it_is_clicked(large: Player) -> None:
+    at = on_help(large, "Space")
+    large.mouse(pygame.MOUSEBUTTONDOWN, at, button=1)
+    large.mouse(pygame.MOUSEBUTTONUP, at, button=1)
+    assert (large.state.help, large.state.clock.paused) == (False, False)
+
+
+def test_a_line_of_several_commands_lists_them(large: Player) -> None:
+    at = on_help(large, "↑ ↓")
+    large.mouse(pygame.MOUSEBUTTONDOWN, at, button=1)
+    large.mouse(pygame.MOUSEBUTTONUP, at, button=1)
+    assert not large.state.help
+    assert rows(large.state) == ["slower", "faster"]
+
+
+def test_every_line_of_the_help_is_under_the_mouse(large: Player) -> None:
+    shown = large.window.screen.over.help
+    assert shown
+    wanted = {keys for _, lines in shown for keys, _ in lines}
+    found = {large.window.screen.help_at(x, y) for y in range(2, 718, 4) for x in range(20, 1270, 60)}
+    assert wanted <= found
+
+
+def test_a_click_beside_the_help_closes_it_and_one_between_its_lines_does_nothing(large: Player) -> None:
+    before = large.state.look
+    large.mouse(pygame.MOUSEBUTTONDOWN, (640, 8), button=1)
+    large.mouse(pygame.MOUSEBUTTONUP, (640, 8), button=1)
+    if large.window.screen.help_at(640, 8) is not None:
+        assert large.state.help
+    large.mouse(pygame.MOUSEBUTTONDOWN, (2, 360), button=1)
+    assert (large.state.help, large.state.look) == (False, before)
+
+
+def test_a_click_on_a_toast_opens_the_folder_of_what_was_saved(
+    player: Player, here: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    opened: list[str] = []
+    monkeypatch.setattr("webbrowser.open", opened.append)
+    pygame.display.set_mode((1280, 720), pygame.RESIZABLE)
+    player.tick()
+    for done in ("s", "c"):
+        if done == "s":
+            player.type("s")
+        else:
+            player.window.state = advance(player.state, [Action("note", "the tape has been left")])
+        player.tick(2)
+        assert player.state.toast
+        on = [
+            (x, y)
+            for y in range(4, 720, 8)
+            for x in range(8, 1280, 40)
+            if player.window.screen.on_toast(x, y)
+        ]
+        player.mouse(pygame.MOUSEBUTTONDOWN, on[0], button=1)
+        player.mouse(pygame.MOUSEBUTTONUP, on[0], button=1)
+        assert player.state.toast is None
+    assert opened == [(here / "recordings").as_uri()]

@@ -24,7 +24,7 @@ def run(options: Namespace) -> None:
         look=Look(theme=options.theme, unit=options.unit),
         attract=options.attract,
         size=options.size,
-        keeper=Arcade(options.scores),
+        keeper=Arcade(options.scores, greets=True),
         game=options.game,
         drafts=kept_as("draft.json"),
     )
