@@ -425,8 +425,13 @@ BESIDE_GAMES = frozenset(
     }
 )
 """The commands that are the window's own while a game is on; all others are handed to the game."""
-_NEEDS_KEYS = frozenset({"aim", "enter", "type_place"})
-"""What makes no sense in a list: it moves what only keys move."""
+_NEEDS_KEYS = frozenset(
+    {
+        *("aim", "enter", "type_place", "erase_place", "go"),
+        *("erase", "undigit", "unsift", "erase_name"),
+    }
+)
+"""What makes no sense in a list: it moves what only keys move, or takes back what is typed."""
 _APART: Mapping[Action, str] = {
     Action("step", -1): "a step back",
     Action("step", 1): "a step on",
