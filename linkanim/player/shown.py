@@ -482,9 +482,10 @@ def _answer_row(state: State, sketch: Sketch) -> AnswerRow:
     words = tuple("its own" if isinstance(one, Scene) else _figures(one) for one in sketch.answers)
     names = sketch.names if len(sketch.names) == len(words) else names
     chosen = sketch.chosen if sketch.dialled is None else -1
-    marks = tuple(n / (len(sketch.way) - 1) for n, one in enumerate(sketch.way) if one in sketch.answers)
-    held = sketch.held == DIAL
-    dial = DialShown(place_of(sketch), "exact", "compact", marks, held) if len(sketch.way) > 1 else None
+    dial = None
+    if len(sketch.way) > 1:
+        marks = tuple(n / (len(sketch.way) - 1) for n, one in enumerate(sketch.way) if one in sketch.answers)
+        dial = DialShown(place_of(sketch), "exact", "compact", marks, sketch.held == DIAL)
     return replace(row, names=names, words=words, chosen=chosen, dial=dial)
 
 

@@ -16,6 +16,7 @@ from linkanim.player import beside as following
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
 from linkanim.player.beside import actions_of, request_of
+from linkanim.player.shown import overlay
 from linkanim.player.state import FADE_FRAMES, FRAMES, TOAST_FRAMES, PathSketch, State, begin
 from linkanim.player.tape import Tape, Taping
 from linkanim.player.tape_file import read, write
@@ -429,6 +430,16 @@ def test_the_dial_rests_at_an_answer_and_undo_takes_it_back(fronted: State) -> N
     assert rest.scene.document["joints"]["A"]["length"] == NARROW[2]
     back = after(rest, "take_back")
     assert (sketch_of(back).dialled, sketch_of(back).off) == (None, 0.12)
+
+
+def test_a_way_of_one_answer_has_no_dial(answered: State) -> None:
+    one = after(answered, Action("way", (0.0, *FIRST)))
+    assert len(sketch_of(one).way) == 1
+    row = overlay(one).row
+    assert row is not None
+    assert row.dial is None
+    for moved in (("dial_on", 1), ("dial", 1.0)):
+        assert sketch_of(after(one, Action(*moved), "let_go")).answers == sketch_of(one).answers
 
 
 def test_keys_step_the_dial_from_the_answer_that_is_shown(fronted: State) -> None:
