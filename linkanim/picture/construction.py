@@ -109,16 +109,34 @@ def _drawn(mark: Mark, at: Loop, area: Rect, pen: Pen) -> Iterator[Layer]:
 def _clipped(at: Loop, area: Rect) -> Iterator[Loop]:
     """Yield the pieces of a way that lie in the picture, cut at its edges; it may run through infinity."""
     run: list[complex] = []
-    for one, other in pairwise(at.tolist()):
-        part = _inside(one, other, area)
-        if part is None or (run and abs(run[-1] - part[0]) > _CUT):
-            if len(run) > 1:
-                yield np.array(run)
+    for piece in _pieces(at, area):
+        if run and abs(run[-1] - piece[0]) > _CUT:
+            yield np.array(run)
             run = []
-        if part is not None:
-            run += [*([] if run else [part[0]]), part[1]]
+        run += piece.tolist() if not run else piece[1:].tolist()
     if len(run) > 1:
         yield np.array(run)
+
+
+def _pieces(at: Loop, area: Rect) -> Iterator[Loop]:
+    """Yield what of a way lies in the picture: stretches that do as they are, segments at its edges cut."""
+    x, y = at.real, at.imag
+    within = (x >= area.x) & (x <= area.right) & (y >= area.y) & (y <= area.bottom)
+    beyond = ((x < area.x), (x > area.right), (y < area.y), (y > area.bottom), ~np.isfinite(at))
+    whole = within[:-1] & within[1:]
+    gone = np.any([side[:-1] & side[1:] for side in beyond], axis=0)
+    kinds = np.where(whole, 1, np.where(gone, 2, 0))
+    starts = [0, *(np.flatnonzero(np.diff(kinds)) + 1).tolist(), len(kinds)]
+    for first, last in pairwise(starts):
+        if first == last or kinds[first] == 2:
+            continue
+        if kinds[first] == 1:
+            yield at[first : last + 1]
+            continue
+        for n in range(first, last):
+            part = _inside(complex(at[n]), complex(at[n + 1]), area)
+            if part is not None:
+                yield np.array(part)
 
 
 def _inside(one: complex, other: complex, area: Rect) -> tuple[complex, complex] | None:

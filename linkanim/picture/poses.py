@@ -23,7 +23,7 @@ from linkanim.synthesis.constructions import Mark, pose_marks
 
 _ACROSS = 0.55
 """The y axis, in x axes."""
-_CURVE = 320
+_CURVE = 200
 """Points of a circuit of Burmester's curves."""
 _WORDS = 0.5
 """The share of the stage's width that words beside the dial take."""

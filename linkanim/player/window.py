@@ -234,6 +234,8 @@ class Window:
         """Yield what the search for linkages has replied."""
         if self._following is None or (self.state.sketch and self.state.sketch.coming):
             return
+        if self.state.posing and self.state.scene is not self.screen.state.scene:
+            return  # this frame has the new linkage to draw; the next one is worked out in the next frame
         from linkanim.player.beside import actions_of
 
         for reply in self._following.replies():
