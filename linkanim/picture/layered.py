@@ -29,6 +29,7 @@ _THICK, _EDGE = 5.0, 24.0
 """How thick a plate is drawn, and what is left free around all, in pixels of a page."""
 _SHADOW = ((2 + 2.5j, 0.16), (3.5 + 4.5j, 0.1))
 """How far a plate's shadow lies from it, in such pixels, and how dark it is: twice, for its soft edge."""
+_SHADE = (0, 0, 0)
 _LIFTED = 0.62
 """The share of the height for layers to be lifted in."""
 _PHASES = 48
@@ -187,7 +188,7 @@ def lifted(
         for n in lying if layer else ():
             for far, alpha in _SHADOW:
                 edge = view.seen(flat[n][0], layer - 1) + pixel * far
-                yield Layer(theme.outline, [edge], alpha)
+                yield Layer(_SHADE, [edge], alpha)
         for n in lying:
             yield from _plate(
                 parts.plates[n], [view.seen(loop, layer) for loop in flat[n]], theme, thick, pixel
