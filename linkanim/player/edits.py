@@ -72,7 +72,7 @@ def select(state: State, place: int) -> State:
     members = all_[chapter] if chapter else next(iter(all_.values()))
     if place >= len(members) or members[place] not in state.shelf:
         return state
-    return put_on(state, state.shelf.index(members[place]))
+    return replace(put_on(state, state.shelf.index(members[place])), browsing=None)
 
 
 def closure(state: State, _: None) -> State:

@@ -162,12 +162,13 @@ KEYS: Table = {
         KeyRow("Space", "play / pause", _on("space", "pause")),
         KeyRow("← → (Shift: ×10)", "pause, and step the crank", _steps("step")),
         KeyRow("↑ ↓", "speed", _both("down", "up", "speed")),
+        KeyRow("digits, Enter", "pause, and go to that input angle", _enter("go", "erase_place")),
         KeyRow("D", "direction", _on("d", "direction")),
         KeyRow("R (twice: reset)", "back to the start", _on("r", "start")),
         KeyRow(
-            "Tab, Shift+Tab, 1–9",
-            "next mechanism; 1–9 within the chapter",
-            _tabs("mechanism") + _digits("select"),
+            "Tab, Shift+Tab",
+            "next mechanism",
+            _tabs("mechanism"),
         ),
         KeyRow("O", "the shelf: all mechanisms", _on("o", "shelf")),
         KeyRow("F3", "the title, and what can be played", _on("f3", "play", "title door=play")),
@@ -262,6 +263,7 @@ _IN_A_MODE: Table = {
             _both("left", "right", "move") + _both("up", "down", "row"),
         ),
         KeyRow("type", "filter by title or chapter"),
+        KeyRow("1–9", "another of the chapter that is on", _digits("select")),
         KeyRow("PgUp, PgDn, wheel", "scroll", _both("pageup", "pagedown", "scroll", 2)),
         KeyRow("Enter, click", "put it on", _enter("put_chosen", "unsift")),
     ),
@@ -269,8 +271,6 @@ _IN_A_MODE: Table = {
         KeyRow("type", "the name of the scene file"),
         KeyRow("Enter", "write it; Esc does not", _enter("take_name", "erase_name") + _on("escape", "back")),
     ),
-    # beside all others, while the picture stands still
-    "paused": (KeyRow("digits, Enter", "go to that input angle", _enter("go", "erase_place")),),
     "in W": (
         KeyRow("mouse", "draw a path in one stroke; drag its points and the fixed pins"),
         KeyRow("1–9, click", "take another answer", _digits("answer")),
@@ -330,7 +330,7 @@ _IN_A_MODE: Table = {
 }
 """What the keys do in a mode, before what they do else, by its subject."""
 _SUBJECTS: Mapping[Mode, str] = {
-    **{"edit": "in E", "list": "in K", "shelf": "in O", "paused": "paused"},
+    **{"edit": "in E", "list": "in K", "shelf": "in O"},
     **{
         "pencil": "in W",
         "poses": "in F4",
@@ -347,12 +347,17 @@ PAD_KEYS: Table = {"gamepad": tuple(KeyRow(row.written, row.words) for row in PA
 _TYPED: Mapping[Mode, tuple[str, frozenset[str]]] = {
     "edit": ("type", frozenset({"space", "h", "e"})),
     "list": ("sift", frozenset({"space", "h", "k"})),
-    "shelf": ("sift", frozenset({"space", "h", "o"})),
+    "shelf": ("sift", frozenset({"space", "h", "o", *"123456789"})),
+    "play": ("type_place", frozenset()),
     "paused": ("type_place", frozenset()),
     "name": ("write_name", frozenset()),
     "build": ("digits", frozenset()),
 }
 """Where what can be printed is typed: the action, and the keys that keep their meaning until it is begun."""
+
+
+_RUNS = ("play", "paused")
+"""The modes in which digits are an input angle."""
 
 
 class Press(NamedTuple):
@@ -384,7 +389,7 @@ def _is_typed(press: Press, mode: Mode, typing: bool) -> bool:
         return False
     if mode == "build":
         return typing or press.text in "123456789.-"
-    if mode == "paused":
+    if mode in _RUNS:
         return press.text in "123456789" or (typing and press.text in "0.")
     return typing or press.key not in _TYPED[mode][1]
 
@@ -539,7 +544,8 @@ def commands(mode: Mode) -> tuple[tuple[str, str, Action], ...]:
 
 def _types(key: str, mode: Mode) -> bool:
     """Tell whether a key is typed in an open list, and so asks for nothing else."""
-    return mode in _TYPED and mode not in ("build", "paused") and len(key) == 1 and key not in _TYPED[mode][1]
+    letters = mode in _TYPED and mode not in ("build", *_RUNS)
+    return letters and len(key) == 1 and key not in _TYPED[mode][1]
 
 
 def _as_written(key: str) -> str:
@@ -561,7 +567,7 @@ def help_groups(
 
     With a `pad` plugged in its buttons, too.
     """
-    table = {**(KEYS if mode == "paused" else MODES.get(mode, KEYS)), **(PAD_KEYS if pad else {})}
+    table = {**MODES.get(mode, KEYS), **(PAD_KEYS if pad else {})}
     return tuple((subject, tuple((row.keys, row.words) for row in rows)) for subject, rows in table.items())
 
 

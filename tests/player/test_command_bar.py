@@ -99,7 +99,7 @@ def test_every_button_is_a_command_of_the_table_of_its_mode(mode: Mode) -> None:
 
 
 def test_a_bar_is_told_for_every_mode_of_the_table() -> None:
-    assert {*ENTERED, "name"} == {*MODES, "play"}
+    assert {*ENTERED, "name"} == {*MODES, "play", "paused"}
 
 
 def rows(state: State) -> list[str]:

@@ -51,10 +51,10 @@ PLAYING = {
     "d": (Press("d", "d"), Action("direction")),
     "tab": (Press("tab", "\t"), Action("mechanism", 1)),
     "shift+tab": (Press("tab", "\t", shift=True), Action("mechanism", -1)),
-    "1": (Press("1", "1"), Action("select", 0)),
-    "9": (Press("9", "9"), Action("select", 8)),
+    "1": (Press("1", "1"), Action("type_place", "1")),
+    "9": (Press("9", "9"), Action("type_place", "9")),
     # where digits are typed with Shift, as on French keyboards
-    "shift+&, a 1": (Press("", "1", shift=True), Action("select", 0)),
+    "shift+&, a 1": (Press("", "1", shift=True), Action("type_place", "1")),
     "b": (Press("b", "b"), Action("closure")),
     "shift+b": (Press("b", "B", shift=True), Action("ghost")),
     "t": (Press("t", "t"), Action("trace")),
