@@ -308,7 +308,11 @@ def _held(task: GuideTask, pivot: complex) -> _EndChoice:
                 f"{where}: is no centre point of these four poses; the nearest one is "
                 f"{nearest.real:.6g}, {nearest.imag:.6g}"
             )
-        return _all_of(Bars(circle_points(poses, np.array([nearest])), np.array([nearest])))
+        # where the curve all but crosses itself its foot is worth less than the pivot that was given
+        tried = np.array([pivot, nearest])
+        circles = circle_points(poses, tried)
+        chosen = np.array([0 if np.isfinite(circles[0]) else 1])
+        return _all_of(Bars(circles, tried).take(chosen))
     bars = _of_five(poses)
     nearby = np.abs(bars.centre - pivot) <= _ON_CURVE * poses.size
     if not nearby.any():
