@@ -469,6 +469,7 @@ Help = tuple[tuple[str, tuple[tuple[str, str], ...]], ...]
 class Overlay:
     """What one frame shows beside the scene; the empty one shows nothing.
 
+    So many steps of the scene's `construction` are drawn.
     Answers that are places have `spots` on the picture, in their order, a ram that is followed its `lane`.
     The joints `handles` can be dragged. With `noted` the HUD says where a limit or a change point is near.
     `chip` answers a key, `hint` says what there is to press, `watch` what to watch for. `measured` is
@@ -489,6 +490,7 @@ class Overlay:
     build: BuildShown | None = None
     poses: PosesShown | None = None
     layers: LayersShown | None = None
+    construction: int = 0
     slider: SliderShown | None = None
     game: GamePanel | None = None
     spots: tuple[Spot, ...] = ()

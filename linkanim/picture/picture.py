@@ -45,6 +45,7 @@ if TYPE_CHECKING:
     from linkanim.build.draft import Photo
     from linkanim.picture.labels import Names
     from linkanim.picture.polygons import Polygon
+    from linkanim.synthesis.constructions import ConstructionStep
     from linkanim.synthesis.curves import DrawnCurve
 
 _NOTHING_STILL = Group("nothing", (), still=True)
@@ -259,6 +260,23 @@ class Picture:
         yield from posed(self.drawing.setting, overlay.poses)
         yield from slider(self.drawing.setting, overlay.slider) if overlay.slider else ()
 
+    def _constructed(self, steps: int) -> Iterator[Group]:
+        """Yield the first steps of how the scene was found, and what is done in the last of them."""
+        from linkanim.picture.construction import construction_items
+
+        known = self._steps_of_construction
+        pen = pen_for(self.layout, self.type, self.theme)
+        marks = [mark for step in known[:steps] for mark in step.marks]
+        yield grouped("construction", construction_items(marks, self.view, self.layout.stage, pen))
+        last = known[min(steps, len(known)) - 1]
+        yield worded(self.drawing.setting, last.words, [f"step {steps} of {len(known)}   F7 goes on"])
+
+    @cached_property
+    def _steps_of_construction(self) -> tuple[ConstructionStep, ...]:
+        from linkanim.synthesis.constructions import construction
+
+        return construction(self._goal)
+
     def _layers(self, pose: Pose, shown: LayersShown, parts: Layered) -> Iterator[Group]:
         """Yield the parts in their layers, in the room that is left below the words on them."""
         layout, stage = self.layout, self.layout.stage
@@ -413,6 +431,8 @@ class Picture:
             if overlay.build.loose:
                 yield from loose(overlay.build.loose, self.drawing.setting)
             yield from hand(overlay.build, self.drawing.setting)
+        if overlay.construction:
+            yield from self._constructed(overlay.construction)
         if overlay.layers:
             sentence, warns = overlay.layers.sentence, overlay.layers.is_warning
             yield worded(self.drawing.setting, sentence, is_warning=warns)

@@ -13,7 +13,7 @@ From the ground up; a module imports from those before it only:
     pencil     a stroke is drawn
     posing     poses are set down
     building   a linkage is built on the sheet
-    making     a linkage is shown in the layers in which it can be made
+    making     how a linkage was found, step by step, and the layers in which it can be made
     actions    the table of actions, and `advance(state, actions)`
     tape       what was done, frame by frame
     tape_file  a tape as a file

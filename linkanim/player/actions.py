@@ -634,6 +634,7 @@ ACTIONS: Mapping[str, Rule] = {
     "drive_by": Rule(_nothing, building.drive),
     "unbuild": Rule(_nothing, building.undo, answer=_stuck("nothing to undo")),
     "rebuild": Rule(_nothing, building.redo, answer=_stuck("nothing to redo")),
+    "construct": Rule(_whole, making.construct),  # steps further
     "layers": Rule(_nothing, making.layers),
     "layered": Rule(_text, making.found),  # the layers as `linkanim make --json` prints them
     "lift": Rule(_whole, making.lift),  # steps

@@ -154,7 +154,8 @@ class Framing:
         """Return the look of a state; where it is captioned, names come with what to watch for."""
         if state.layers:
             return replace(Look(theme=state.look.theme, hud=False), zoom=state.look.zoom, pan=state.look.pan)
-        look = replace(state.look, hud=False) if state.building or state.posing else state.look
+        drawn = state.building or state.posing or state.constructed
+        look = replace(state.look, hud=False) if drawn else state.look
         return replace(look, caption=True) if self._captioned and look.names else look
 
     def at(self, state: State, size: tuple[int, int], *, late: bool = False) -> Picture:

@@ -154,6 +154,7 @@ _BUILD = _on("f2", "build") + _on("shift+f2", "build_on")
 _DIAL = _both(",", ".", "dial_on")
 _POSED = _on("return kp_enter", "enter")
 _KEPT = _on("ctrl+return ctrl+kp_enter", "keep")
+_STEPS = _both("shift+f7", "f7", "construct", held=False)
 _MAKE = _on("f6", "layers") + _on("shift+f6", "make")
 _PATH = _on("w", "pencil") + _on("shift+w", "own_trace")
 
@@ -209,6 +210,7 @@ KEYS: Table = {
         KeyRow("E", "edit dimensions (H there: how)", _on("e", "edit")),
         KeyRow("F2, W (Shift: this one)", "build it, or draw its path", _BUILD + _PATH),
         KeyRow("F4", "set down poses of a body", _on("f4", "poses")),
+        KeyRow("F7 (Shift: back)", "how it was found, step by step", _STEPS),
         KeyRow("B (Shift: ghost)", "assembly: the other closure", _on("b", "closure") + _of_look("ghost")),
         KeyRow("Ctrl+Z, Ctrl+Y", "undo, redo", _undo("undo", "redo")),
     ),
@@ -481,6 +483,8 @@ _APART: Mapping[Action, str] = {
     Action("remove"): "remove what is chosen",
     Action("keep"): "keep the linkage as the scene",
     **{Action("answer", n): f"answer {n + 1}" for n in range(9)},
+    Action("construct", 1): "the next step of the construction",
+    Action("construct", -1): "the step of the construction before",
     Action("layers"): "the layers in which it can be made",
     Action("make"): "write its parts, to be cut and pinned together",
     Action("save"): "save the scene",

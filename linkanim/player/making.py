@@ -1,4 +1,4 @@
-"""Actions on the layers in which a scene can be made: they are shown, lifted, written as parts."""
+"""Actions on how a scene was found and is made: the steps of its construction, its layers, its parts."""
 
 from __future__ import annotations
 
@@ -63,6 +63,17 @@ def lift_to(state: State, step: int) -> State:
     """Lift the layers off each other by so many steps."""
     lifted = min(max(step, 0), LIFTED)
     return replace(state, layers=state.layers and state.layers._replace(lifted=lifted))
+
+
+def construct(state: State, further: int) -> State:
+    """Draw so many steps more of how the scene was found; none follows the last.
+
+    BadInput for a scene of which that is not known.
+    """
+    from linkanim.synthesis.constructions import construction
+
+    at = (state.constructed + further) % (len(construction(state.scene)) + 1)
+    return replace(state, construction=(state.scene, at) if at else None)
 
 
 def make(state: State, _: None) -> State:

@@ -328,6 +328,7 @@ def _kept(state: State, items: tuple[Dimension, ...], over: Hover | None = None)
         row=_answer_row(state, state.sketch) if state.sketch and not state.sketch.is_blank else None,
         build=built(state, state.building, over) if state.building else None,
         layers=_layers(state.layers) if state.layers else None,
+        construction=state.constructed,
         slider=_slider(state),
     )
     shown = state.game.shown(state, found) if state.game else found

@@ -717,7 +717,8 @@ class State:
     `shelf` holds the mechanisms that Tab walks through, by their catalogue names or as scenes, and
     `place` the one that is on; `listing` and `browsing` are the open list of quantities and the open shelf,
     `sketch` the pencil's stroke or poses, `sheet` what is built, or was while it is not open.
-    `layers` are those in which the scene can be made, while they are shown.
+    `layers` are those in which the scene can be made, while they are shown; `construction` has the scene
+    whose synthesis is drawn, and how many of its steps.
     `kept` are the other places whose scenes were edited. `chip` is the
     answer to the last key; `faded` is the frame
     at which another mechanism or theme came on, `shot` that of a screenshot, while there is something to see.
@@ -758,6 +759,7 @@ class State:
     sketch: Sketch | None = None
     sheet: BuildSheet | None = None
     layers: Layering | None = None
+    construction: tuple[Scene, int] | None = None
     game: Game | None = None
     games: Callable[[str], Game] | None = None
     beneath: State | None = None
@@ -811,6 +813,12 @@ class State:
         if self.layers:
             return "layers"
         return "paused" if self.clock.paused else "play"
+
+    @property
+    def constructed(self) -> int:
+        """How many steps of the construction of the scene that is on are drawn."""
+        scene, steps = self.construction or (None, 0)
+        return steps if scene is self.scene and not (self.sketch or self.building or self.game) else 0
 
     @property
     def drawing(self) -> PathSketch | None:

@@ -93,6 +93,8 @@ def resumed(state: State) -> Iterator[Action]:
         yield Action("play", state.game.words)
         return
     layers = state.layers
+    if state.constructed:
+        yield Action("construct", state.constructed)
     if layers:
         yield Action("layers")
         yield from (Action("layered", text) for text in [layers.text] if text)

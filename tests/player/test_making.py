@@ -16,6 +16,9 @@ from playing import SHIFT, Player
 
 from linkanim.export import json_text
 from linkanim.picture.layered import LayerView
+from linkanim.picture.look import Look
+from linkanim.picture.overlay import Overlay
+from linkanim.picture.picture import Picture
 from linkanim.picture.slider import slider_rect
 from linkanim.picture.view import Rect
 from linkanim.player import beside, screen
@@ -27,6 +30,7 @@ from linkanim.player.shown import overlay
 from linkanim.player.state import LIFTED, State, begin
 from linkanim.player.tape import Taping
 from linkanim.scenes import load
+from linkanim.synthesis.guidance import guide
 from linkanim.workshop.request import make
 
 
@@ -271,3 +275,41 @@ def test_parts_of_what_is_on_are_found_and_written_by_a_process_beside(here: Pat
     assert "saved" not in refused.words()
     for making in (found, written, refused):
         making.close()
+
+
+@pytest.fixture
+def guided() -> State:
+    rows = [(0, 0, 0), (40, 10, 0.6), (70, -5, 1.4)]
+    return begin(guide(rows, count=1)[0].scene)
+
+
+def test_the_construction_is_drawn_step_by_step_and_goes_after_the_last(guided: State) -> None:
+    seen, state = [], guided
+    for _ in range(7):
+        state = after(state, Action("construct", 1))
+        seen.append(overlay(state).construction)
+    assert seen == [1, 2, 3, 4, 5, 6, 0]
+    assert overlay(after(guided, Action("construct", -1))).construction == 6
+
+
+def test_the_construction_of_another_scene_is_not_drawn(guided: State) -> None:
+    state = after(guided, Action("construct", 2), Action("mechanism", 1))
+    assert overlay(state).construction == 0
+    told = after(begin(load("crank-rocker")), Action("construct", 1))
+    assert told.toast is not None
+    assert "has no construction" in told.toast.text
+
+
+def test_a_tape_has_the_steps_of_a_construction(guided: State) -> None:
+    state = after(guided, Action("construct", 3))
+    begun = Taping(state, (640, 360)).tape(state.frame).begun
+    assert overlay(begun).construction == 3
+
+
+def test_the_picture_says_what_is_done_in_a_step(guided: State) -> None:
+    scene = guided.scene
+    picture = Picture(scene, (640, 360), Look(hud=False))
+    groups = picture.groups(scene.pose(0.0), Overlay(construction=3))
+    said = [line.text for group in groups for line in group.captions]
+    assert any("midperpendiculars" in line for line in said)
+    assert any(line.startswith("step 3 of 6") for line in said)
