@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from itertools import accumulate
 from typing import NamedTuple
 
@@ -21,6 +21,8 @@ from linkanim.picture.view import Rect
 _GAP, _BETWEEN = 0.06, 0.3
 """Between buttons and between their groups, in sides, as what follows."""
 _FRAME = 0.14
+_ABOVE = 0.3
+"""How far the buttons of a chart stand out of it."""
 _SLIDER = 3.0
 _WITHIN = 0.35
 """From a slider's end to where its knob can go."""
@@ -30,33 +32,49 @@ _POINTED = 0.5
 
 
 def bar_cells(layout: Layout, buttons: Sequence[Button]) -> tuple[Rect | None, ...]:
-    """Return where each button stands, in the middle of the scene's foot; None where there is no room."""
-    side, foot = layout.button, _foot(layout)
-    room = foot.width - 2 * _FRAME * side - 2 * _edge(layout)
-    kept = list(range(len(buttons)))
-    while len(kept) > 1 and _wide(buttons, kept) * side > room:
-        kept.remove(max(kept, key=lambda n: buttons[n].rank))
-    cells: list[Rect | None] = [None] * len(buttons)
-    left = foot.x + (foot.width - _wide(buttons, kept) * side) / 2
+    """Return where each button stands: in the middle of the scene's foot, or of the chart's head.
+
+    None where there is no room.
+    """
+    side, foot, chart = layout.button, _foot(layout), layout.chart
     top = foot.bottom - _edge(layout) - (1 + _FRAME) * side
+    cells = _row(buttons, _numbers(buttons, on_chart=False), foot, top, layout)
+    if chart:
+        cells |= _row(buttons, _numbers(buttons, on_chart=True), chart, chart.y - _ABOVE * side, layout)
+    return tuple(cells.get(n) for n in range(len(buttons)))
+
+
+def _numbers(buttons: Sequence[Button], *, on_chart: bool) -> list[int]:
+    return [n for n, button in enumerate(buttons) if button.on_chart == on_chart]
+
+
+def _row(
+    buttons: Sequence[Button], kept: list[int], room: Rect, top: float, layout: Layout
+) -> dict[int, Rect]:
+    """Return where buttons stand in a row, in the middle of a room, those without room left out."""
+    side = layout.button
+    while len(kept) > 1 and _wide(buttons, kept) * side > room.width - 2 * _FRAME * side - 2 * _edge(layout):
+        kept.remove(max(kept, key=lambda n: buttons[n].rank))
+    cells: dict[int, Rect] = {}
+    left = room.x + (room.width - _wide(buttons, kept) * side) / 2
     for place, n in enumerate(kept):
         left += _before(buttons, kept, place) * side
         cells[n] = Rect(left, top, _width(buttons[n]) * side, side)
         left += _width(buttons[n]) * side
-    return tuple(cells)
+    return cells
 
 
 def button_at(layout: Layout, buttons: Sequence[Button], x: float, y: float) -> int | None:
     """Return the number of the button under a pixel, -1 between them on the bar; None beside it."""
     cells = bar_cells(layout, buttons)
-    if not buttons or not _frame(layout, cells).holds(x, y):
+    if not any(frame.holds(x, y) for frame in _frames(layout, buttons, cells)):
         return None
     return next((n for n, cell in enumerate(cells) if cell and cell.holds(x, y)), -1)
 
 
 def bar_place(layout: Layout, bar: CommandBar | None) -> Rect | None:
-    """Return what of the window the bar takes; None where there is none."""
-    return _frame(layout, bar_cells(layout, bar.buttons)) if bar and bar.buttons else None
+    """Return what of the window the bar at the foot takes; None where there is none."""
+    return next(iter(_frames(layout, bar.buttons, bar_cells(layout, bar.buttons))), None) if bar else None
 
 
 def share_at(layout: Layout, buttons: Sequence[Button], number: int, x: float) -> float:
@@ -95,12 +113,14 @@ def _wide(buttons: Sequence[Button], kept: list[int]) -> float:
     return sum(_before(buttons, kept, place) + _width(buttons[n]) for place, n in enumerate(kept))
 
 
-def _frame(layout: Layout, cells: Iterable[Rect | None]) -> Rect:
-    """Return the bar's own sheet about its buttons."""
-    seen = [cell for cell in cells if cell]
+def _frames(layout: Layout, buttons: Sequence[Button], cells: Sequence[Rect | None]) -> Iterator[Rect]:
+    """Yield the sheets about the buttons at the foot, and about those on the chart."""
     by = _FRAME * layout.button
-    left, top = seen[0].x - by, seen[0].y - by
-    return Rect(left, top, seen[-1].right + by - left, seen[0].height + 2 * by)
+    for on_chart in (False, True):
+        seen = [cell for cell in (cells[n] for n in _numbers(buttons, on_chart=on_chart)) if cell]
+        if seen:
+            left, top = seen[0].x - by, seen[0].y - by
+            yield Rect(left, top, seen[-1].right + by - left, seen[0].height + 2 * by)
 
 
 def _rail(cell: Rect) -> tuple[float, float]:
@@ -114,7 +134,7 @@ class BarPrinter:
     def __init__(self) -> None:
         self._type = Type()
         self._board: Board | None = None
-        self._kept: tuple[object, pygame.Surface] | None = None
+        self._kept: tuple[object, list[tuple[Rect, pygame.Surface]]] | None = None
         self._faces: dict[object, pygame.Surface] = {}
         self._tooltips: dict[object, pygame.Surface] = {}
 
@@ -127,12 +147,12 @@ class BarPrinter:
             self._faces.clear()
             self._tooltips.clear()
         cells = bar_cells(layout, bar.buttons)
-        frame = _frame(layout, cells)
         if self._kept is None or self._kept[0] != bar[:2]:
-            self._kept = bar[:2], self._drawn(self._board, frame, cells, bar)
-        sheet = self._kept[1]
-        sheet.set_alpha(round(255 * bar.eighths / 8))
-        surface.blit(sheet, (round(frame.x), round(frame.y)))
+            frames = _frames(layout, bar.buttons, cells)
+            self._kept = bar[:2], [(frame, self._drawn(self._board, frame, cells, bar)) for frame in frames]
+        for frame, sheet in self._kept[1]:
+            sheet.set_alpha(round(255 * bar.eighths / 8))
+            surface.blit(sheet, (round(frame.x), round(frame.y)))
         cell = cells[bar.pointed] if bar.pointed is not None and bar.pointed >= 0 else None
         if cell and bar.eighths == 8:
             self._tell(surface, self._board, cell, bar.buttons[bar.pointed or 0])
@@ -144,7 +164,7 @@ class BarPrinter:
         seen = [
             (cell, _Face(button.icon, button.on, bool(button.lack), button.share, n == bar.pointed))
             for n, (cell, button) in enumerate(zip(cells, bar.buttons, strict=True))
-            if cell
+            if cell and frame.meets(cell)
         ]
         fresh = [(cell, face) for cell, face in seen if face not in self._faces]
         self._faces |= _faces(board.theme, fresh)
@@ -153,14 +173,15 @@ class BarPrinter:
         return sheet
 
     def _tell(self, surface: pygame.Surface, board: Board, cell: Rect, button: Button) -> None:
-        """Write what a command is called above it."""
+        """Write what a command is called above it, on a chart below it."""
         words = button.name, button.key, button.lack
         if words not in self._tooltips:
             self._tooltips[words] = _tooltip(board, button)
         drawn = self._tooltips[words]
         free = surface.get_width() - drawn.get_width() - 2
         x = min(max(cell.middle.real - drawn.get_width() / 2, 2), max(free, 2))
-        y = cell.y - (_FRAME + 0.15) * cell.height - drawn.get_height()
+        gap = (_FRAME + 0.15) * cell.height
+        y = cell.bottom + gap if button.on_chart else cell.y - gap - drawn.get_height()
         surface.blit(drawn, (round(x), round(max(y, 2))))
 
 

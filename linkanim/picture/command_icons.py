@@ -96,6 +96,16 @@ def _chart(gauge: Gauge, theme: Theme) -> list[Layer]:
     ]
 
 
+def _axis(gauge: Gauge, theme: Theme) -> list[Layer]:
+    ticks = [[at - 1.6j + 3j, at + 1.6j + 3j] for at in (-5 + 0j, -1 + 0j, 3 + 0j)]
+    way = arrows([gauge.line * (-9 + 3j)], [18 * gauge.line], 1.6 * gauge.line)
+    return [
+        Layer(theme.ink, way),
+        _line(gauge, theme.ink, *ticks),
+        _line(gauge, theme.dim, [-9 - 7j, -9 + 3j]),
+    ]
+
+
 def _construction(gauge: Gauge, theme: Theme) -> list[Layer]:
     centre = 2.2 + 1.2j
     return [
@@ -221,6 +231,7 @@ COMMAND_ICONS: Mapping[str, Icon] = {
     "names": _names,
     "arrows": _arrows,
     "chart": _chart,
+    "axis": _axis,
     "construction": _construction,
     "edit": _edit,
     "build": _build,

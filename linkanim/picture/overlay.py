@@ -172,7 +172,7 @@ class Button(NamedTuple):
     """A command on the bar: its icon, its name and key, whether it is on, and why it cannot be done.
 
     Where there is no room those of the highest `rank` are left out first. One that `leads` begins a group.
-    With a `share` (0 to 1) it is a slider, three times as wide.
+    With a `share` (0 to 1) it is a slider, three times as wide. One `on_chart` stands at the chart's head.
     """
 
     icon: str
@@ -183,6 +183,7 @@ class Button(NamedTuple):
     on: bool = False
     lack: str = ""
     share: float | None = None
+    on_chart: bool = False
 
 
 class CommandBar(NamedTuple):

@@ -22,12 +22,13 @@ _FADING = 24
 
 
 class BarEntry(NamedTuple):
-    """A command on the bar: its icon, the action of the table, its rank, whether it begins a group."""
+    """A command on the bar: its icon, the action of the table, its rank, whether it leads, where it is."""
 
     icon: str
     action: Action
     rank: int
     leads: bool = False
+    on_chart: bool = False
 
 
 _SPEED = Action("speed", 1)
@@ -54,6 +55,9 @@ _SCENE = (
     BarEntry("pencil", Action("pencil"), 13),
     BarEntry("record", Action("menu", "record"), 6, leads=True),
     *_LAST,
+    BarEntry("chart", Action("chart", 1), 2, on_chart=True),
+    BarEntry("axis", Action("over"), 3, on_chart=True),
+    BarEntry("close", Action("plot", ""), 1, on_chart=True),
 )
 _SHEET = (
     _BACK,
@@ -144,14 +148,16 @@ def _button(state: State, handle: BarEntry) -> Button:
     share = (state.clock.level - SLOWEST) / (FASTEST - SLOWEST) if action == _SPEED else None
     icon = _ICONS[handle.icon](state) if handle.icon in _ICONS else handle.icon
     on = action in _ON and _ON[action](state)
-    return Button(icon, name, key, handle.rank, handle.leads, on, lack(state, action), share)
+    reason = lack(state, action)
+    return Button(icon, name, key, handle.rank, handle.leads, on, reason, share, handle.on_chart)
 
 
 @lru_cache(maxsize=256)
 def _called(mode: Mode, action: Action) -> tuple[str, str]:
     """Return what a command is called, and its key; of a group of them the group's name, and their keys."""
     if action == _SPEED:
-        return "speed", "↑ ↓"
+        key = next(key for _, key, one in commands(mode) if one == action)
+        return "speed", "↑ ↓" if key else ""
     if action.name == "menu" and action.value is not None:
         return GROUPS[str(action.value)].title.lower(), group_key(str(action.value))
     return next((words, key) for words, key, one in commands(mode) if one == action)

@@ -233,13 +233,30 @@ def test_buttons_are_large_enough_for_a_finger_and_where_there_is_no_room_the_re
         assert frame.right <= size[0]
         assert frame.bottom <= size[1]
     if size[0] >= 1280:
-        assert len(seen) == len(found.buttons)
+        assert [button for _, button in seen] == [one for one in found.buttons if not one.on_chart]
     for cell, button in seen:
         number = button_at(place, found.buttons, cell.middle.real, cell.middle.imag)
         assert number is not None
         assert found.buttons[number] == button
     for (one, _), (other, _) in pairwise(seen):
         assert one.right < other.x
+
+
+def test_the_chart_has_buttons_of_its_own_at_its_head(player: Player) -> None:
+    pygame.display.set_mode((900, 500), pygame.RESIZABLE)
+    player.press(pygame.K_c, 0, "c")
+    player.settle()
+    first = player.state.look.chart
+    x, y, _ = button(player, "chart: the next quantity")
+    chart = player.window.screen._framing.last.layout.chart
+    assert chart
+    assert chart.inset(-20).holds(x, y)
+    click(player, "chart: the next quantity")
+    assert player.state.look.chart not in (None, first)
+    click(player, "the chart's axis")
+    assert player.state.look.over == "time"
+    click(player, "chart: off")
+    assert player.state.look.chart is None
 
 
 def test_a_still_window_without_a_mouse_has_no_bar(player: Player) -> None:
