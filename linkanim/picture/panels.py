@@ -385,7 +385,30 @@ def quantity_list(board: Board, shown: Quantities) -> pygame.Surface:
     for n, line in enumerate(hint, start=max(len(rows), 1) + 1):
         at = (1.2 * size, (1.1 + STEP * n) * size)
         board.write(sheet, line, at, size=size, colour=board.theme.dim)
+    if track := scroll_track(board, shown):
+        _scroll_bar(board, sheet, track, rows, len(shown.rows))
     return sheet
+
+
+def scroll_track(board: Board, shown: Quantities) -> Rect | None:
+    """Return where on its sheet a list is scrolled; None where all of it is in sight."""
+    size, (rows, _) = board.layout.small_size, _rows_and_hint(board, shown)
+    if len(rows) == len(shown.rows):
+        return None
+    wide = 1.4 * size
+    top = (0.9 + 0.5 * (STEP + 1)) * size
+    return Rect(round(board.layout.lists.width) - wide, top, wide, STEP * size * len(rows))
+
+
+def _scroll_bar(board: Board, sheet: pygame.Surface, track: Rect, rows: range, count: int) -> None:
+    """Draw which part of a list's rows is in sight."""
+    wide, x = 0.32 * board.layout.small_size, track.x + 0.6 * track.width
+    begin, end = (track.y + track.height * row / count for row in (rows.start, rows.stop))
+    whole, part = (
+        complex(x, (top + foot) / 2) + box(wide, foot - top, wide / 2)
+        for top, foot in ((track.y, track.bottom), (begin, max(end, begin + 2 * wide)))
+    )
+    paint(sheet, [Layer(board.theme.rule, [whole]), Layer(board.theme.dim, [part])])
 
 
 def quantity_rows(board: Board, shown: Quantities) -> Rows:
@@ -510,6 +533,22 @@ class Panels:
                 found: int | None = self._keep(rows_of, shown).at(y - top)
                 return -1 if found is None and shown is not overlay.game else found
         return None
+
+    def scrolled_at(self, overlay: Overlay, x: float, y: float, *, held: bool) -> int | None:
+        """Return the row to which the scroll bar of the open list leads at a pixel; None beside the bar.
+
+        One that is `held` is led by places beside it, too.
+        """
+        shown = overlay.quantities
+        track = scroll_track(self.board, shown) if shown else None
+        if shown is None or track is None:
+            return None
+        left, top = self._listed(self._keep(quantity_list, shown))
+        place = track._replace(x=left + track.x, y=top + track.y)
+        if not (held or place.holds(x, y)):
+            return None
+        share = min(max((y - place.y) / place.height, 0.0), 1.0)
+        return round(share * (len(shown.rows) - 1))
 
     def _listed(self, drawn: pygame.Surface) -> tuple[int, int]:
         """Return where a list stands: at the top of its place, or at the window's foot."""

@@ -85,6 +85,12 @@ class SurfacePrinter:
         """Return the row of the open list under a pixel, -1 on the list beside them; None off it."""
         return self._panels_of(picture).row_at(overlay, x, y)
 
+    def scrolled_at(
+        self, picture: Picture, overlay: Overlay, x: float, y: float, *, held: bool
+    ) -> int | None:
+        """Return the row to which the scroll bar of the open list leads at a pixel; None beside the bar."""
+        return self._panels_of(picture).scrolled_at(overlay, x, y, held=held)
+
     def on_toast(self, picture: Picture, overlay: Overlay, x: float, y: float) -> bool:
         """Return whether a pixel is on the toast."""
         return self._panels_of(picture).on_toast(overlay, x, y)

@@ -298,7 +298,8 @@ _PULL = 0.011
 """How far a value is dragged for a step, in the window's height."""
 _COARSE = 10
 Drag = Literal[
-    "pan", "crank", "chart", "joint", "row", "pen", "lead", "dial", "hand", "paper", "slider", "bar", "speed"
+    "pan", "crank", "chart", "joint", "row", "pen", "lead", "dial", "hand", "paper", "slider", "bar", "speed",
+    "scroll",
 ]
 _KINDS: Mapping[int, Literal["wheel", "down", "up", "move"]] = {
     pygame.MOUSEWHEEL: "wheel",
@@ -468,6 +469,8 @@ class Mouse:
         """Return what is asked of the open list: a click, the wheel, a value dragged; None beside it."""
         if self._drag == "row" and gesture.kind in ("move", "up"):
             return self._pulled(gesture, screen)
+        if (further := self._scrolled(gesture, screen)) is not None:
+            return further
         row = screen.row_at(*self._at) if self._drag in (None, "row") else None
         if row is None:
             return None
@@ -483,6 +486,20 @@ class Mouse:
             return (Action("pick", row),)
         self._drag, self._steps = "row", 0
         return (Action("grab_row", row),)
+
+    def _scrolled(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
+        """Return what is asked of the scroll bar of the open list; None beside it."""
+        held = self._drag == "scroll"
+        if held and gesture.kind == "up":
+            self._drag = None
+            return ()
+        if gesture.kind not in (("move",) if held else ("down",)) or self._drag not in (None, "scroll"):
+            return None
+        further = screen.scrolled_by(*self._at, held=held)
+        if further is None:
+            return () if held else None
+        self._drag = "scroll"
+        return (Action("move", further),) if further else ()
 
     def _in_a_game(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
         """Return what a click asks of a game: the answer that is there, else to go on.

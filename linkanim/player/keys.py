@@ -506,7 +506,8 @@ class CommandGroup(NamedTuple):
 GROUPS: Mapping[str, CommandGroup] = {
     "arrows": CommandGroup("Arrows", (Action("vectors", "v"), Action("vectors", "a"))),
     "construction": CommandGroup(
-        "Construction", (Action("polygons"), Action("centres"), Action("chain"), Action("ghost"))
+        "Construction",
+        (Action("closure"), Action("polygons"), Action("centres"), Action("chain"), Action("ghost")),
     ),
     "record": CommandGroup(
         "Record and save",

@@ -542,6 +542,14 @@ class Screen:
         """Return the row of the open list under a pixel, -1 on the list beside them; None off it."""
         return self._printer.row_at(self._framing.last, self.over, x, y) if self.state.listed else None
 
+    def scrolled_by(self, x: float, y: float, *, held: bool) -> int | None:
+        """Return by how many rows the list's scroll bar is moved at a pixel; None beside the bar."""
+        listing, shown = self.state.listing, self.over.quantities
+        if listing is None or shown is None:
+            return None
+        row = self._printer.scrolled_at(self._framing.last, self.over, x, y, held=held)
+        return None if row is None else row - shown.chosen
+
     def option_at(self, x: float, y: float) -> int | None:
         """Return the answer of a game under a pixel, in its panel or on the picture; None off them."""
         reach = 1.6 * self._framing.last.layout.text_size

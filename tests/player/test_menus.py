@@ -280,3 +280,30 @@ def test_a_right_click_on_the_sheet_chooses_what_is_there_and_lists_what_is_done
     assert [row.words for row in open_rows(player.state)][2] == "remove what is chosen"
     assert player.state.building
     assert player.state.building.building.chosen == ("joints", "A")
+
+
+def test_a_long_list_has_a_scroll_bar_that_is_dragged(player: Player) -> None:
+    player.press(pygame.K_F10)
+    count, window = len(open_rows(player.state)), player.window.screen
+    strip = [(x, y) for x in range(639) for y in (180,) if window.scrolled_by(x, y, held=False) is not None]
+    x, y = strip[len(strip) // 2]
+    player.mouse(pygame.MOUSEBUTTONDOWN, (x, y), button=1)
+    assert player.state.listing
+    assert 0.3 * count < player.state.listing.chosen < 0.7 * count
+    for to, row in ((359, count - 1), (0, 0)):
+        player.mouse(pygame.MOUSEMOTION, (x - 60, to), rel=(0, 0), buttons=(1, 0, 0))
+        assert player.state.listing
+        assert player.state.listing.chosen == row
+    player.mouse(pygame.MOUSEBUTTONUP, (x, 5), button=1)
+    player.mouse(pygame.MOUSEMOTION, (x, 300), rel=(0, 0), buttons=(0, 0, 0))
+    assert player.state.listing
+    assert player.state.listing.chosen == 0
+
+
+def test_a_short_list_has_none(player: Player) -> None:
+    player.window.state = carried(player.state, Action("menu", "arrows"))
+    player.tick()
+    window = player.window.screen
+    assert all(
+        window.scrolled_by(x, y, held=False) is None for x in range(0, 640, 4) for y in range(0, 360, 20)
+    )
