@@ -189,7 +189,7 @@ def test_a_click_where_the_bar_has_faded_only_brings_it_back(player: Player) -> 
     player.mouse(pygame.MOUSEBUTTONDOWN, (x, y), button=1)
     player.mouse(pygame.MOUSEBUTTONUP, (x, y), button=1)
     assert (player.state.look.names, player.state.stirred is not None) == (0, True)
-    click(player, "names: off, joints and links, with dimensions")
+    click(player, "names, then dimensions")
     assert player.state.look.names == 1
 
 
@@ -257,6 +257,52 @@ def test_the_chart_has_buttons_of_its_own_at_its_head(player: Player) -> None:
     assert player.state.look.over == "time"
     click(player, "chart: off")
     assert player.state.look.chart is None
+
+
+# What a lecture needs, by mouse alone: the buttons and rows that are clicked, three at the most.
+GESTURES: dict[str, tuple[tuple[str, ...], Callable[[State], object]]] = {
+    "run and pause": (("play / pause",), lambda state: not state.clock.paused),
+    "slow down": (("speed",), lambda state: state.clock.level < 0),
+    "trace": (("coupler trace",), lambda state: not state.look.trace),
+    "velocities": (("arrows", "velocities"), lambda state: "v" in state.look.vectors),
+    "chart": (("the list of quantities", "row 3"), lambda state: state.look.chart is not None),
+    "edit a length": (("edit dimensions",), lambda state: state.editing.open),
+    "the other closure": (("construction", "the other closure"), lambda state: state.place in state.edited),
+    "polygons": (("construction", "velocity and acceleration"), lambda state: state.look.polygons),
+    "build": (("build a linkage",), lambda state: state.building is not None),
+    "save under a name": (("record and save", "save the scene"), lambda state: state.naming is not None),
+    "record": (("record and save", "record a GIF"), lambda state: state.recording is not None),
+    "the title": (("all commands", "the title"), lambda state: state.game is not None),
+}
+
+
+@pytest.mark.parametrize("task", GESTURES)
+def test_what_a_lecture_needs_is_three_gestures_of_the_mouse_away(here: Path, task: str) -> None:
+    del here
+    names, done = GESTURES[task]
+    with screen.opened((1280, 720)):
+        player = Player(replace(begin(load("crank-rocker")), games=game_of))
+        player.tick(20)
+        player.press(pygame.K_SPACE)
+        for name in names:
+            if player.state.listing:
+                listing = player.state.listing
+                words = [*listing.found(player.state.scene)]
+                found = (n for n, one in enumerate(words) if one.startswith(name))
+                row = int(name[4:]) if name.startswith("row ") else next(found)
+                y = next(y for y in range(2, 718) if player.window.screen.row_at(60, y) == row)
+                player.mouse(pygame.MOUSEBUTTONDOWN, (60, y), button=1)
+                player.mouse(pygame.MOUSEBUTTONUP, (60, y), button=1)
+            elif name == "speed":
+                x, y_, wide = button(player, name)
+                player.drag((x, y_), (x - 0.3 * wide, y_))
+            else:
+                click(player, name)
+        player.tick(2)
+        assert len(names) <= 3
+        assert done(player.state)
+        player.window.state = replace(player.state, recording=None)
+        player.window.close()
 
 
 def test_a_still_window_without_a_mouse_has_no_bar(player: Player) -> None:
