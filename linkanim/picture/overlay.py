@@ -122,7 +122,8 @@ class PosesShown:
 
     `handles` are what of the linkage can be dragged, `bodies` its coupler in each pose. The thing that was
     `taken` last is lit: "pose" or "pin" with its number. With `curves` what the theory has of the poses is
-    drawn. While it is `blank` no linkage is shown. The `cursor` is that of the keys.
+    drawn, in short while something is `held`. While it is `blank` no linkage is shown. The
+    `cursor` is that of the keys.
     """
 
     frames: tuple[tuple[float, float, float], ...] = ()
@@ -132,6 +133,7 @@ class PosesShown:
     taken: tuple[str, int] | None = None
     cursor: Point | None = None
     curves: bool = False
+    held: bool = False
     blank: bool = True
     sentence: str = ""
     facts: tuple[str, ...] = ()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import cmath
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import lru_cache
 
 import numpy as np
@@ -23,8 +23,8 @@ from linkanim.synthesis.constructions import Mark, pose_marks
 
 _ACROSS = 0.55
 """The y axis, in x axes."""
-_CURVE = 200
-"""Points of a circuit of Burmester's curves."""
+_CURVE, _HELD = 200, 90
+"""Points of a circuit of Burmester's curves, and while they change under the hand."""
 _WORDS = 0.5
 """The share of the stage's width that words beside the dial take."""
 
@@ -34,7 +34,7 @@ def posed(setting: DrawSetting, shown: PosesShown) -> Iterator[Group]:
     view, theme, layout = setting.view, setting.theme, setting.layout
     line = max(1.8 * layout.unit, 1.2)
     if shown.curves and len(shown.frames) > 1:
-        marks = _marks(tuple(frame[:3] for frame in shown.frames))
+        marks = _marks(shown.frames, _HELD if shown.held else _CURVE)
         pen = pen_for(layout, setting.type, theme)
         yield grouped("theory", construction_items(marks, view, layout.stage, pen))
     ghosts = [np.array([view.place(place) for place in body]) for body in shown.bodies]
@@ -94,10 +94,23 @@ def _handles(setting: DrawSetting, shown: PosesShown, line: float) -> Iterator[L
 
 
 @lru_cache(maxsize=4)
-def _marks(frames: tuple[tuple[float, float, float], ...]) -> tuple[Mark, ...]:
-    """Return what the theory has of poses; nothing of those that it has nothing of."""
+def _marks(frames: tuple[tuple[float, float, float], ...], count: int) -> tuple[Mark, ...]:
+    """Return what the theory has of poses, curves by so many points; nothing where it has nothing.
+
+    Of few points they have no names, and no lines from pole to pole.
+    """
     rows = np.array(frames)
     try:
-        return pose_marks(Poses(rows[:, 0] + 1j * rows[:, 1], rows[:, 2].copy()), _CURVE)
+        marks = pose_marks(Poses(rows[:, 0] + 1j * rows[:, 1], rows[:, 2].copy()), count)
+        plain = (mark._replace(label="") for mark in marks if mark.shape != "dashed")
+        bare = marks if count == _CURVE else tuple(plain)
+        return (*_joined(bare), *(mark for mark in bare if mark.shape != "line"))
     except BadInput:
         return ()
+
+
+def _joined(marks: Sequence[Mark]) -> Iterator[Mark]:
+    """Yield the lines of each tone as one, which is filled at once: from one to the next it is nowhere."""
+    for tone in dict.fromkeys(mark.tone for mark in marks if mark.shape == "line"):
+        parts = [(*mark.points, np.nan) for mark in marks if mark.shape == "line" and mark.tone == tone]
+        yield Mark("line", np.concatenate([np.array(part) for part in parts]), tone=tone)

@@ -420,6 +420,7 @@ def _poses(state: State, sketch: PoseSketch) -> PosesShown:
         sketch.taken,
         sketch.cursor,
         sketch.curves,
+        sketch.held is not None,
         sketch.is_blank,
         sentence,
         facts,
