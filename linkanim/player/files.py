@@ -224,6 +224,12 @@ class DraftFile:
         self._kept = state.sheet.building.draft if state.sheet else None
         return state, _OFFER
 
+    def waits(self) -> bool:
+        """Tell whether another window left a draft, which stays where it is."""
+        found = self._taken(there=True) is not None
+        self.close()
+        return found
+
     def keep(self, sheet: BuildSheet | None) -> None:
         """Write the draft on a sheet if it is another one; remove the file where none would be lost.
 

@@ -70,6 +70,7 @@ _UNCOVERED = (pygame.WINDOWEXPOSED, pygame.WINDOWSIZECHANGED)
 _NEWS_EVERY = 15
 _USUALLY_MADE = ("--fit", "A4")
 """Options of `linkanim make` for what is made from the window."""
+_WAITS = "unsaved work of another sheet is kept as well; `linkanim new` without a photograph takes it up"
 _TAKEN_UP = "this is the unsaved work that was kept; Ctrl+N begins an empty sheet"
 _NO_FILES = "there is no scene file in the current folder; Ctrl+S writes one"
 _BESIDE_A_TAPE = frozenset(
@@ -81,7 +82,7 @@ class Window:
     """One open window: `state` is what it shows, and `screen` how.
 
     A tape plays in it until a key is pressed. A scene file that it was opened on is watched. A draft that was
-    kept of another window is on `offer`.
+    kept of another window is on `offer`, or else said to be kept.
     """
 
     def __init__(
@@ -118,6 +119,8 @@ class Window:
         self._warned: str | None = None
         if offer:
             self._offer()
+        elif drafts and drafts.waits():
+            self._notes.append(_WAITS)
 
     def tick(self, frames: int = 1) -> bool:
         """Go so many frames on, paint and flip; False when the window is to be closed.

@@ -331,3 +331,29 @@ def test_a_folder_that_takes_no_drafts_is_a_sentence(here: Path) -> None:
         assert player.state.toast
         assert "cannot be" in player.state.toast.text
         player.window.close()
+
+
+def test_a_window_that_begins_with_a_photograph_says_that_a_draft_is_kept_and_leaves_it(here: Path) -> None:
+    kept = here / "draft.json"
+    state = begin(load("press"))
+    for name, value in (("sheet", None), ("hand_down", (0.0, 0.0, 3.0, 1.0)), ("hand_up", None)):
+        state = carried(state, Action(name, value))
+    drafts = DraftFile(kept)
+    drafts.keep(state.sheet)
+    drafts.close()
+    before = kept.read_bytes()
+    with screen.opened(SIZE):
+        window = Window(begin(load("press")), drafts=DraftFile(kept), offer=False)
+        window.open_sheet()
+        window.tick()
+        assert window.state.building
+        assert not window.state.building.building.draft.places
+        assert window.state.toast
+        assert "`linkanim new` without a photograph takes it up" in window.state.toast.text
+        window.tick(2 * SECOND)
+        window.close()
+        assert kept.read_bytes() == before
+        without = Window(begin(load("press")), drafts=DraftFile(here / "none.json"), offer=False)
+        without.tick()
+        assert without.state.toast is None
+        without.close()
