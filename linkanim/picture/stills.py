@@ -22,6 +22,8 @@ _POSES = 24
 """So many poses of one turn are looked at."""
 _USUAL_POSES, _LOOKED_AT_AGAIN = 3, 9
 """In so many of them, those nearest to the usual input and the best, names are tried in several orders."""
+_MOST_NAMED = 30
+"""Of more joints and pins no pose has room for all names: the usual one is as good as any."""
 _HIDDEN = 0.02
 """Joints nearer to each other than this part of the figure's extent hide each other."""
 
@@ -35,6 +37,8 @@ def still_phase(scene: Scene, size: tuple[int, int]) -> float:
     each other is taken where there is no other. The same pose is chosen whatever else the figure shows.
     """
     shown, tried = figure(scene), _tried(figure(scene))
+    if len(scene.linkage.joints) > _MOST_NAMED:
+        return tried[0]
     picture = Picture(scene, size, Look(names=2), gradual=True, moment=tried[0])
     left = dict[float, tuple[int, int]]()
     # the poses at the usual input are looked at closely, then all, then the best of these closely

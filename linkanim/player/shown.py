@@ -299,9 +299,10 @@ def overlay(
 
 
 def _glow(state: State, hover: str | None) -> str | None:
-    """Return the joint that is lit: the one in the hand, else the one under the mouse."""
+    """Return the joint of the scene that is lit: the one in the hand, else the one under the mouse."""
     held = state.held or state.grasp
-    return (held.joint or None) if held else hover
+    joint = held.joint if held else hover
+    return joint if joint in state.shown.linkage.by_name else None
 
 
 def kept(state: State) -> Overlay:

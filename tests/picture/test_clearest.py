@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from random_scenes import chain
 
 from linkanim.paper.figure import Figured
+from linkanim.picture import stills
 from linkanim.picture.figure import figure
 from linkanim.picture.look import Look
 from linkanim.picture.stills import still_phase
 from linkanim.scenes import load, names
+from linkanim.scenes.reading import scene_from
 
 # at their starts bars lie in line, or a joint behind another
 HIDDEN = ["chebyshev-line", "driven-piston", "inverted-slider-crank", "oscillating-cylinder", "scissor-lift"]
@@ -76,3 +79,12 @@ def test_it_is_near_sixty_degrees_within_one_turn_with_every_dimension_at_what_i
 def test_few_stills_have_a_table_of_what_has_no_place() -> None:
     figures = (Figured(load(name), (1280, 720), Look(names=2)) for name in names())
     assert sum(not (one.picture.names and one.picture.names.table is None) for one in figures) <= 5
+
+
+def test_of_many_joints_the_usual_pose_is_taken_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Names of all of them in two dozen poses take minutes, and find no room in any."""
+    scene = scene_from(chain(20), name="chain", where="chain.toml")
+    monkeypatch.setattr(stills, "_left_over", lambda *given, **more: pytest.fail("names are placed"))
+    assert np.degrees(scene.pose(still_phase(scene, (320, 180)), 0).coordinate) == pytest.approx(
+        60.0, abs=1.0
+    )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 
@@ -15,7 +16,8 @@ from linkanim.player import screen
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
 from linkanim.player.clock import COAST_FRAMES, FRAMES_PER_SECOND
-from linkanim.player.state import State, begin
+from linkanim.player.shown import overlay
+from linkanim.player.state import Grasp, State, begin
 from linkanim.scenes import load
 
 
@@ -131,6 +133,12 @@ def player(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Player]:
         player.tick(5)
         yield player
         player.window.close()
+
+
+def test_a_joint_that_is_led_while_another_scene_comes_glows_no_more(player: Player) -> None:
+    led = replace(player.state, grasp=Grasp("P", ran=True, trail=(), forward=True))
+    assert overlay(led).glow == "P"
+    assert overlay(replace(led, scene=load("pumpjack"))).glow is None
 
 
 def test_in_the_window_a_coupler_point_is_dragged_by_the_mouse(player: Player) -> None:
