@@ -310,7 +310,7 @@ def test_a_gallery_recording_that_is_too_large_at_any_rate_is_smaller(
         assert image.size == (128, 72)
     monkeypatch.setattr(gallery, "MOST", 0)
     (smallest,) = make_gallery(tmp_path, ["kite"]).recordings
-    assert smallest.size == (96, 54)
+    assert smallest.size == (80, 45)  # half as wide: the last share
 
 
 def test_the_gallery_shows_no_wheel_turning_backwards() -> None:
