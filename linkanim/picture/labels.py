@@ -301,7 +301,11 @@ class Surroundings:
         """Return what is in the labels' way."""
         solids = tuple(thing.solid for thing in self.things)
         links = frozenset(n for n, thing in enumerate(self.things) if thing.linked)
-        return Clutter(self.setting.layout.stage.inset(2), self.setting.layout.words, solids, links)
+        discs = {(name,) for name in self.setting.figure.pins}
+        pins = frozenset(
+            n for n, one in enumerate(self.things) if not one.linked and tuple(one.joints) in discs
+        )
+        return Clutter(self.setting.layout.stage.inset(2), self.setting.layout.words, solids, links, pins)
 
     @cached_property
     def things(self) -> tuple[Thing, ...]:
@@ -389,6 +393,10 @@ _ENOUGH = 0.5
 _LEAST_SHOWN = 0.2
 """A name that would show for less of the cycle is left out."""
 _LEAST_AGAIN = 0.08
+_SEEN = 0.5
+"""How far a label shows at the least that shows all the time."""
+_PLACES_ON_LINKS, _PLACES_ON_ALL = 3, 3
+"""So many places more has what shows all the time: on links, then on all that is not a pin."""
 """Likewise a name in one more place."""
 _LEAST_MEASURED = 0.4
 """A dimension likewise: it then stands in the table."""
@@ -419,6 +427,8 @@ class Label:
     shown: NDArray[np.float64] | None = None
     """How far it shows over the cycle, at equal steps of phase."""
     drawn: MeasureLine | AngleArc | None = None
+    always: bool = False
+    """Whether it shows at every moment: where nothing else is free it lies on a link."""
 
     @property
     def row(self) -> str:
@@ -577,7 +587,7 @@ def names_of(
     setting = ground.setting
     fixed, shown = setting.figure.fixed, setting.figure.shown
     moving = [name for name in shown if name not in fixed]
-    planned = [_joints(ground, fixed), _links(ground)]
+    planned = [_joints(ground, fixed, always=True), _links(ground)]
     planned += [_dimensions(ground, known), _angle(ground, known)] if known else []
     planned += [_dead_centres(ground, dead_centres)] if dead_centres else []
     every, clutter = chain(*planned, _joints(ground, moving)), ground.clutter()
@@ -610,21 +620,27 @@ def _attempts(
     What was left over has the first choice the next time.
     """
     best, seen, order = None, list[tuple[Form, ...]](), every
+    lasting: list[tuple[Form, list[Label]]] = []
     more = tries
     while True:
         placer, kept, left = Placer(clutter), list[Label](), list[tuple[Form, ...]]()
-        seen = []
+        seen, pinned = [], list[tuple[Form, list[Label]]]()
         for forms in order:
             seen.append(forms)
             placed = yield from _placed(placer, forms)
             kept += placed
+            pinned += [(forms[0], placed)] if forms[0][0].always else []
             left += [] if any(one.shown is not None and one.shown.all() for one in placed) else [forms]
         names = tuple(forms[0][0] for forms in left)
         if best is None or _lacking(names) < _lacking(best[2]):
-            best, more = (placer, tuple(kept), names), tries
+            best, lasting, more = (placer, tuple(kept), names), pinned, tries
         if not left or not more:
-            return best
+            break
         order, more = [*left, *(forms for forms in seen if forms not in left)], more - 1
+    further: list[Label] = []
+    for form, found in lasting:
+        further += yield from _all_along(best[0], form, found)
+    return best[0], (*best[1], *further), best[2]
 
 
 def _lacking(left: Sequence[Label]) -> tuple[int, int]:
@@ -653,6 +669,29 @@ def _placed(placer: Placer, forms: tuple[Form, ...]) -> Generator[None, None, li
         if nowhere or but.all():
             break
     return found
+
+
+def _all_along(placer: Placer, form: Form, found: Sequence[Label]) -> Generator[None, None, list[Label]]:
+    """Return a label in further places than where it was found, so that it shows all the time."""
+    (label, spots), clutter, further = form, placer.clutter, list[Label]()
+    all_but_pins = frozenset(range(len(clutter.solids))) - clutter.pins
+    covered = sum(
+        (one.shown for one in found if one.shown is not None), np.zeros(len(spots.candidates.places))
+    )
+    for on in (*[clutter.links] * _PLACES_ON_LINKS, *[all_but_pins] * _PLACES_ON_ALL):
+        if covered.min() >= 1.0:
+            break
+        yield
+        placed = placer.rest(spots.candidates, covered, on=on)
+        if placed.shown.any():
+            covered = covered + placed.shown
+            further.append(replace(label, spot=spots.spots.picked(placed.which), shown=placed.shown))
+    if further and covered.min() < _SEEN:  # everywhere is something else: there it lies on that
+        last = further[-1]
+        further[-1] = replace(
+            last, shown=np.asarray(last.shown) + np.where(covered < _SEEN, 1.0 - covered, 0.0)
+        )
+    return further
 
 
 def table_width(rows: Iterable[str], setting: DrawSetting) -> float:
@@ -697,11 +736,12 @@ def _tabled(
     return None
 
 
-def _joints(ground: Surroundings, names: Iterable[str]) -> Forms:
-    """Yield joints' names."""
+def _joints(ground: Surroundings, names: Iterable[str], *, always: bool = False) -> Forms:
+    """Yield joints' names, which show at every moment or as long as they find room."""
     setting = ground.setting
     for name in names:
         label = _label(setting, subscripted(name), _joint_size(setting.layout), setting.theme.ink)
+        label = replace(label, always=always)
         yield ((label, ground.around(name, label.size)),)
 
 

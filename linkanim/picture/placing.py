@@ -24,6 +24,8 @@ from linkanim.picture.view import Rect
 
 _Floats = NDArray[np.float64]
 _Bools = NDArray[np.bool_]
+Moments = slice | NDArray[np.intp]
+"""Which of the moments are looked at."""
 
 MOMENTS = 144
 """Of one drive period, at which is looked whether a label lies on something."""
@@ -63,9 +65,9 @@ class Solid(NamedTuple):
     half: float
     little: bool = False
 
-    def at(self, moments: slice) -> Solid:
+    def at(self, moments: Moments) -> Solid:
         """Return it at some of the moments."""
-        return self._replace(corners=self.corners[moments])
+        return self._replace(corners=self.corners[moments]) if len(self.corners) > 1 else self
 
 
 class Solids(NamedTuple):
@@ -94,6 +96,8 @@ class Clutter:
     solids: tuple[Solid, ...] = ()
     links: frozenset[int] = frozenset()
     """The numbers of the solids that are links."""
+    pins: frozenset[int] = frozenset()
+    """Likewise of the pins, on which nothing ever lies."""
 
     @cached_property
     def boxes(self) -> tuple[_Floats, ...]:
@@ -122,7 +126,11 @@ class Clutter:
     @cached_property
     def some(self) -> Clutter:
         """The same at the moments at which places are chosen."""
-        return replace(self, solids=tuple(solid.at(slice(None, None, _STEP)) for solid in self.solids))
+        return self.at(slice(None, None, _STEP))
+
+    def at(self, moments: Moments) -> Clutter:
+        """Return it at some of the moments."""
+        return replace(self, solids=tuple(solid.at(moments) for solid in self.solids))
 
 
 class LabelPlaces(NamedTuple):
@@ -143,7 +151,7 @@ class LabelPlaces(NamedTuple):
     drawn: NDArray[np.int64] | None = None
     gap: float = 0.0
 
-    def at(self, moments: slice, which: slice = slice(None)) -> LabelPlaces:
+    def at(self, moments: Moments, which: slice = slice(None)) -> LabelPlaces:
         """Return it with some of the moments, and of the places."""
         lines = tuple(line[moments] for line in self.lines)
         drawn = None if self.drawn is None else self.drawn[which]
@@ -190,6 +198,21 @@ class Placer:
         self._take(labels[best], found[best])
         return best, found[best]
 
+    def rest(self, label: LabelPlaces, covered: _Floats, *, on: frozenset[int]) -> Placed:
+        """Place a label once more, for what is left of the time for which it is `covered` (0 to 1) already.
+
+        It may lie `on` the solids of these numbers then.
+        """
+        label = label._replace(own=label.own | on)
+        bare = np.flatnonzero(covered < 1.0)
+        cost = self._cost(label.at(bare), bare, self.clutter.at(bare))
+        which = int((label.price + cost.mean(axis=0)).argmin())
+        cost = self._cost(label.at(slice(None), slice(which, which + 1)), slice(None), self.clutter)
+        shown = _eased(cost[:, 0] >= _FORBIDDEN, _SOFT - _GONE)
+        placed = Placed(which, np.minimum(shown, 1.0 - covered))
+        self._take(label, placed)
+        return placed
+
     def _found(self, label: LabelPlaces, but: _Bools | None) -> Placed:
         every = slice(None, None, _STEP)
         cost = self._cost(label.at(every), every, self.clutter.some)
@@ -210,7 +233,7 @@ class Placer:
             if number >= 0 and label.gap:
                 self._measures = _joined(self._measures, label.lines[number][:, :1])
 
-    def _cost(self, label: LabelPlaces, moments: slice, clutter: Clutter) -> _Floats:
+    def _cost(self, label: LabelPlaces, moments: Moments, clutter: Clutter) -> _Floats:
         """Return what each place costs at each moment: `_FORBIDDEN` for touching what it must not."""
         places, size = label.places, label.size
         forbidden: _Bools = np.logical_not(_within(places, size, clutter.inside))

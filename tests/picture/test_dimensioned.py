@@ -96,7 +96,8 @@ def touched(picture: Picture, pose: Pose) -> Iterator[str]:
     }
     for label, box in boxes:
         for what, points in still.items():
-            if _in(points, box):
+            # a fixed pin's letter shows at all times, on a link or an arc where nothing is free
+            if not label.always and _in(points, box):
                 yield f"{label.text} on {what}"
         for name, pin in pins.items():
             near = complex(min(max(pin.real, box.x), box.right), min(max(pin.imag, box.y), box.bottom))
@@ -104,7 +105,7 @@ def touched(picture: Picture, pose: Pose) -> Iterator[str]:
                 yield f"{label.text} on pin {name}"
         own = _own_joints(picture, label)
         for body, points in bodies.items():
-            if not (own and own <= set(body.joints)) and _in(points, box):
+            if not label.always and not (own and own <= set(body.joints)) and _in(points, box):
                 yield f"{label.text} on {body.name}"
         if any(box.meets(words) for words in picture.layout.words):
             yield f"{label.text} on the words"

@@ -18,7 +18,7 @@ from linkanim.picture.motion_marks import Sliding, Turning
 from linkanim.picture.picture import Picture
 from linkanim.picture.raster import offscreen
 from linkanim.picture.surface import SurfacePrinter
-from linkanim.picture.text import Lettering, Type
+from linkanim.picture.text import Lettering, Type, subscripted
 from linkanim.picture.view import Rect, View
 from linkanim.scenes import load, names
 from linkanim.scenes.editing import with_dimensions
@@ -360,3 +360,24 @@ def test_words_at_an_edge_are_drawn_as_far_as_they_are_seen() -> None:
         bare = pixels(surface).tobytes()
         lettering.draw(surface, complex(x, 20))
         assert pixels(surface).tobytes() != bare
+
+
+@pytest.mark.parametrize("size", [(640, 360), (1280, 720)])
+@pytest.mark.parametrize("level", [1, 2])
+@pytest.mark.parametrize("name", names())
+@pytest.mark.sampled
+def test_fixed_pins_bear_their_letters_all_the_time(name: str, level: int, size: tuple[int, int]) -> None:
+    scene = load(name)
+    picture = Picture(scene, size, Look(names=level, caption=True))
+    assert picture.names
+    for phase in np.linspace(0.0, scene.period, 72, endpoint=False):
+        pose = scene.pose(float(phase))
+        places = picture.drawing.places(pose)
+        captions = picture.names.captions(pose, places)
+        for pin in picture.figure.fixed:
+            own = [one for one in captions if one.text == subscripted(pin)]
+            assert sum(one.strength for one in own) > 0.5, (pin, phase)
+            for one in own:
+                middle = complex(one.at[0], one.at[1] + 0.5 * one.size)
+                away = {joint: abs(places[joint] - middle) for joint in picture.figure.fixed}
+                assert min(away, key=lambda joint: away[joint]) == pin or away[pin] < 4 * one.size
