@@ -41,13 +41,14 @@ def numbers_of(draft: Draft, thing: Thing | None) -> tuple[Dimension, ...]:
 
 
 def write(building: Building, text: str) -> Building:
-    """Return the building with text added to what is being typed."""
-    return replace(building, typed=(building.typed + text)[:_LONGEST], sentence="")
+    """Return the building with text added to what is being typed; after a refusal it is typed anew."""
+    typed = "" if building.is_refusal else building.typed
+    return replace(building, typed=(typed + text)[:_LONGEST], sentence="", is_refusal=False)
 
 
 def erase(building: Building) -> Building:
     """Return the building with the last typed character gone."""
-    return replace(building, typed=building.typed[:-1], sentence="")
+    return replace(building, typed=building.typed[:-1], sentence="", is_refusal=False)
 
 
 def choose_number(building: Building, further: int) -> Building:
@@ -70,7 +71,7 @@ def take(building: Building) -> Building:
         value = written(building.typed, _dimension(draft, key, one))
         _refuse(draft, key, one, value)
     except BadInput as error:
-        return replace(building, sentence=str(error))
+        return replace(building, sentence=str(error), is_refusal=True)
     draft = _with_polar(draft, key)
     draft = replace(with_number(draft, key, value), typed=draft.typed | {key})
     return replace(changed(building, fitted(draft), building.chosen), row=(building.row + 1) % len(fields))

@@ -33,6 +33,7 @@ from linkanim.picture.text import subscripted
 from linkanim.picture.theme import ORANGE, Theme, mixed
 from linkanim.picture.tools import tool_cells
 from linkanim.picture.view import Box, Rect, View, view_of
+from linkanim.units import significant
 
 # A path that is drawn: the sheet, the pencil's line, and then the stroke behind its trace, with handles.
 
@@ -297,6 +298,9 @@ def loose(draft: DraftShown, setting: DrawSetting) -> Iterator[Group]:
 
 def hand(shown: BuildShown, setting: DrawSetting) -> Iterator[Group]:
     """Yield what is chosen, what the hand draws, what that would be joined to, and the words on it all."""
+    if shown.dots:
+        yield Group("dots", [*_dots(shown.dots, setting)], over=True)
+    yield _grid_words(shown, setting)
     yield from _chosen(shown, setting)
     for one in (shown.panel, shown.offers):
         if one:
@@ -312,6 +316,24 @@ def hand(shown: BuildShown, setting: DrawSetting) -> Iterator[Group]:
         yield Group("hand", [*_pointer(setting.view.place(shown.hand), setting)], over=True)
     cells = tool_cells(setting.layout) if shown.tools else ()
     yield worded(setting, shown.sentence, shown.facts, is_warning=shown.is_warning, cells=cells)
+
+
+def _dots(dots: Sequence[Point], setting: DrawSetting) -> Iterator[Layer]:
+    """Yield the points of bodies as dots."""
+    places, reach = [*map(setting.view.place, dots)], 0.55 * setting.gauge.bar
+    yield Layer(setting.theme.outline, [at + disc(reach) for at in places])
+    yield Layer(setting.theme.background, [at + disc(0.6 * reach) for at in places])
+
+
+def _grid_words(shown: BuildShown, setting: DrawSetting) -> Group:
+    """Return how far the lines of the grid are apart, at the lower right."""
+    layout, size = setting.layout, setting.layout.small_size
+    words = f"grid {significant(grid_step(setting.view, layout), 3)} {shown.unit}"
+    at = layout.stage.right - layout.margin, layout.stage.bottom - 1.7 * size
+    halo = Halo(setting.theme.background, 0.15 * size)
+    return Group(
+        "grid-words", (), [Caption(words, at, size, setting.theme.dim, "right", halo=halo)], over=True
+    )
 
 
 def _chosen(shown: BuildShown, setting: DrawSetting) -> Iterator[Group]:

@@ -86,8 +86,8 @@ class BuildShown:
     `sentence` says what it is or what is missing, as a warning or not, `facts` what it can do. What is
     `chosen` is lit, with its number in words or as it is typed. The `cursor` is that of the keys. Where
     there are no tools, as in a recording, the place of the `hand` is shown. The `panel` has all numbers of
-    what is chosen, `offers` what the last gesture can mean. A `photo` lies
-    behind, and its `anchor` stays where it is.
+    what is chosen, `offers` what the last gesture can mean; `dots` are points of bodies. Lengths are in
+    `unit`. A `photo` lies behind, and its `anchor` stays where it is.
     """
 
     draft: DraftShown | None = None
@@ -106,6 +106,8 @@ class BuildShown:
     is_warning: bool = False
     panel: RowsShown | None = None
     offers: RowsShown | None = None
+    dots: tuple[Point, ...] = ()
+    unit: str = "mm"
 
 
 # Poses that were set down.

@@ -95,6 +95,8 @@ def left(state: State) -> State:
     kept = replace(kept, faded=state.frame, look=replace(state.look, zoom=1.0, pan=(0.0, 0.0)))
     if sheet.building.made.scene is None:
         return replace(kept, scene=sheet.before, clock=sheet.clock, editing=sheet.editing)
+    if not sheet.clock.paused:
+        kept = replace(kept, clock=state.clock.pause(state.frame, False))
     editing = with_undo(sheet.editing, sheet.before)
     if sheet.saved:
         editing = replace(editing, saved=(state.scene.name, sheet.saved))

@@ -19,7 +19,7 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 import pygame
 
-from linkanim.build.draft import Draft, Thing
+from linkanim.build.draft import UNTITLED, Draft, Thing
 from linkanim.build.gestures import under
 from linkanim.errors import NoDisplay
 from linkanim.mechanics.linkage import Point
@@ -277,7 +277,9 @@ class Screen:
             over = replace(over, panel=self.over.panel)
         self.state, self.over = state, over
         self._point(state)
-        self._name(f"{state.scene.title}{' • edited' * (state.place in state.edited)}")
+        on_sheet = state.building and state.building.building.made.scene is None
+        title = UNTITLED if on_sheet else state.scene.title
+        self._name(f"{title}{' • edited' * (state.place in state.edited and not on_sheet)}")
         picture = self._framing.at(state, surface.get_size(), late=late)
         veiled = self._fade.strength(state, surface)
         shown = (picture, picture.late, state.phase, state.clock.speed, over, veiled)

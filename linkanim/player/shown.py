@@ -79,8 +79,6 @@ if TYPE_CHECKING:
 
 _WORDS = ("pin", "point", "slider", "yoke", "gear")
 """What a joint is called where it is more than that."""
-_STRETCHED = ("bar", "spring", "damper", "cylinder", "slot", "gear")
-"""The tools that draw from a joint."""
 
 
 class Hover:
@@ -114,6 +112,8 @@ def built(state: State, sheet: BuildSheet, hover: Hover | None = None) -> BuildS
         is_warning=building.is_refusal and bool(building.sentence),
         panel=None if sheet.grip else _numbers(building),
         offers=_offers(sheet),
+        dots=tuple(seen.places[name] for name in seen.of("points")) if moves else (),
+        unit=building.draft.unit,
     )
 
 
@@ -177,6 +177,7 @@ def _loose(seen: Draft, shapes: tuple[Shape, ...]) -> DraftShown | None:
     held |= {
         end for kind in ("springs", "dampers") for one in seen.of(kind).values() for end in one["between"]
     }
+    held |= {*seen.drive.get("cylinder", {}).get("between", ())}
     free = [one for one in shapes if one.kind == "pins" and one.label not in held]
     free += [one for one in shapes if one.kind == "guides" and len(one.places) == 2]
     return DraftShown(tuple(free)) if free else None
@@ -194,7 +195,8 @@ def _draft(seen: Draft, shapes: tuple[Shape, ...]) -> DraftShown:
 def _rubber(seen: Draft, sheet: BuildSheet, grip: Grip) -> Rubber | None:
     """Return what the hand draws, from the joint it began at to the thing or place that it is at."""
     start = under(seen, *grip.begin, grip.reach)
-    if sheet.tool in ("move", "photo") or (sheet.tool in _STRETCHED and (start is None or start[0] != JOINT)):
+    on_joint = start is not None and start[0] == JOINT
+    if sheet.tool in ("move", "photo") or (sheet.tool in ("bar", "slider") and not on_joint):
         return None
     begin = seen.places[start[1]] if start and start[0] == JOINT else grip.begin
     hand = as_point(snapped(complex(*grip.at), grip.snap))

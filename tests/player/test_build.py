@@ -13,7 +13,7 @@ import pytest
 from playing import CTRL, SHIFT, NoSearch, Player
 
 from linkanim.build.dimensions import numbers_of
-from linkanim.build.draft import Photo
+from linkanim.build.draft import UNTITLED, Photo
 from linkanim.build.tools import TOOLS
 from linkanim.errors import BadInput
 from linkanim.picture.overlay import NEW, RowsShown
@@ -761,3 +761,56 @@ def test_all_numbers_of_what_is_chosen_are_listed_and_a_click_chooses_one(builde
     assert (builder.sheet.building.row, builder.sheet.building.chosen) == (1, ("joints", "O2"))
     builder.type("7")
     assert listed(builder, "panel")[0].rows[1] == ("y", "7_")
+
+
+def test_after_a_refusal_digits_are_typed_anew(builder: Builder) -> None:
+    builder.four_bar()
+    builder.tick(200)
+    builder.click(45, 40)
+    builder.type("-9")
+    builder.press(pygame.K_RETURN)
+    shown = builder.window.screen.over.build
+    assert shown
+    assert shown.is_warning
+    builder.type("75")
+    assert builder.sheet.building.typed == "75"
+
+
+def test_a_linkage_that_ran_before_the_sheet_runs_when_it_is_left(builder: Builder) -> None:
+    builder.four_bar()
+    builder.tick(200)
+    assert builder.state.clock.paused
+    builder.press(pygame.K_F2)
+    assert not builder.state.clock.paused
+
+
+def test_an_empty_sheet_has_no_other_scene_s_title(builder: Builder) -> None:
+    assert pygame.display.get_caption()[0].startswith(UNTITLED)
+    builder.four_bar()
+    assert pygame.display.get_caption()[0].startswith(builder.state.scene.title)
+
+
+def test_a_cylinder_s_pin_has_one_pedestal(builder: Builder) -> None:
+    builder.click(0, 0)
+    builder.tick(30)
+    builder.click(60, 0)
+    builder.draw((0, 0), (60, 60))
+    builder.press(pygame.K_y)
+    builder.draw((60, 0), (60, 60))
+    shown = builder.window.screen.over.build
+    assert builder.sheet.building.made.scene
+    assert shown
+    assert shown.loose is None
+
+
+def test_the_grid_says_its_size_and_points_of_bodies_are_dots(builder: Builder) -> None:
+    builder.four_bar()
+    builder.tick(200)
+    builder.draw((45, 40), (45, 60))
+    shown = builder.window.screen.over.build
+    assert shown
+    assert len(shown.dots) == 1
+    screen_ = builder.window.screen
+    groups = screen_._framing.last.groups(builder.state.scene.pose(builder.state.phase), screen_.over)
+    captions = [one.text for group in groups for one in group.captions]
+    assert f"grid {builder.window.screen.grid_step:g} mm" in captions
