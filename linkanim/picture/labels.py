@@ -393,11 +393,11 @@ _ENOUGH = 0.5
 _LEAST_SHOWN = 0.2
 """A name that would show for less of the cycle is left out."""
 _LEAST_AGAIN = 0.08
+"""Likewise a name in one more place."""
 _SEEN = 0.5
 """How far a label shows at the least that shows all the time."""
 _PLACES_ON_LINKS, _PLACES_ON_ALL = 3, 3
 """So many places more has what shows all the time: on links, then on all that is not a pin."""
-"""Likewise a name in one more place."""
 _LEAST_MEASURED = 0.4
 """A dimension likewise: it then stands in the table."""
 _ROW = 1.3
