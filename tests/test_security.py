@@ -98,8 +98,8 @@ def test_names_are_but_keys_in_the_formulas(text: str, sources: list[str]) -> No
     assert set(texts) == given <= {f"{text}{k}" for k in range(9)} | vars(scene.pose(0.5)).keys()
 
 
-OPENED = {"manual.py": {"webbrowser"}}
-"""`linkanim manual` opens the page that it has written, which is a file."""
+OPENED = {"manual.py": {"webbrowser"}, "files.py": {"webbrowser"}}
+"""The manual opens the page that it has written, a click on a message the folder of its file."""
 WRITTEN = ("program.py", "frozen.py")
 """What these compile they write themselves: formulas, with names as keys only, and the fields of classes."""
 NEVER = {"socket", "ssl", "http", "urllib", "ftplib", "smtplib", "requests", "webbrowser", "pickle"}
