@@ -71,7 +71,7 @@ _RINGS = (3, 6)
 """In so many rings a name may stand round a joint, and round a slider's block."""
 _EVERY_CORNER = 4
 """Of the corners round a body that reaches beyond its joints so many count as one."""
-_ARC_RINGS = 4
+_ARC_RINGS = 2
 """In so many rings the input's angle may stand outside its arc."""
 _ROOMY = (1.0, 1.7, 2.6, 3.6)
 """The radii of an angle's arc, in those of the smallest."""
