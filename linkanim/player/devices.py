@@ -298,7 +298,19 @@ _PULL = 0.011
 """How far a value is dragged for a step, in the window's height."""
 _COARSE = 10
 Drag = Literal[
-    "pan", "crank", "chart", "joint", "row", "pen", "lead", "dial", "hand", "paper", "slider", "bar", "speed",
+    "pan",
+    "crank",
+    "chart",
+    "joint",
+    "row",
+    "pen",
+    "lead",
+    "dial",
+    "hand",
+    "paper",
+    "slider",
+    "bar",
+    "speed",
     "scroll",
 ]
 _KINDS: Mapping[int, Literal["wheel", "down", "up", "move"]] = {

@@ -12,7 +12,7 @@ import pygame
 import pytest
 from playing import SIZE, Player
 
-from linkanim.picture.command_bar import bar_cells, bar_place, button_at
+from linkanim.picture.command_bar import bar_cells, bar_place, button_at, share_at
 from linkanim.picture.command_icons import COMMAND_ICONS
 from linkanim.picture.layout import layout
 from linkanim.play.games import game_of
@@ -404,3 +404,11 @@ def test_a_click_on_a_toast_opens_the_folder_of_what_was_saved(
         player.mouse(pygame.MOUSEBUTTONUP, on[0], button=1)
         assert player.state.toast is None
     assert opened == [(here / "recordings").as_uri()]
+
+
+def test_a_slider_that_goes_while_it_is_dragged_gives_a_share_all_the_same(rocker: State) -> None:
+    """Another mode's bar has fewer buttons than the one in which the drag began."""
+    shown = overlay(rocker).bar
+    assert shown
+    numbers = range(len(shown.buttons) + 2)
+    assert all(0.0 <= share_at(layout(SIZE), shown.buttons, number, 640.0) <= 1.0 for number in numbers)
