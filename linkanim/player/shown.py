@@ -69,7 +69,7 @@ from linkanim.player.state import (
 )
 from linkanim.scenes.editing import Dimension, dimensions, in_unit, stretches
 from linkanim.scenes.scene import Scene
-from linkanim.units import significant, stepped, typeset
+from linkanim.units import short, significant, stepped, three_digits, typeset
 
 if TYPE_CHECKING:
     from linkanim.synthesis.answers import PathAnswer
@@ -203,7 +203,7 @@ def _rubber(seen: Draft, sheet: BuildSheet, grip: Grip) -> Rubber | None:
     end = _met(seen, under(seen, *grip.at, grip.reach), grip.at) or hand
     across, up = end[0] - begin[0], end[1] - begin[1]
     long, angle = hypot(across, up), degrees(atan2(up, across))
-    digits = f"{significant(long, 4)} {seen.unit} · {significant(angle, 3)}°"
+    digits = f"{short(long)} {seen.unit} · {significant(angle, 3)}°"
     return Rubber(sheet.tool, begin, end, typeset(digits))
 
 
@@ -445,7 +445,7 @@ def _said_of_poses(state: State, sketch: PoseSketch) -> tuple[str, tuple[str, ..
         return f"{count} poses: looking for a {kind}", sets
     angle = f"{degrees(answer.transmission):.0f}°"
     lacks = ", ".join(answer.named_defects)
-    facts = f"longest link {significant(answer.size, 4)} {sketch.unit}, transmission angle {angle}"
+    facts = f"longest link {short(answer.size)} {sketch.unit}, transmission angle {angle}"
     lacking = f"defects: {lacks}" if lacks else "passes them in order on one branch"
     found = f"{state.scene.info.class_name} through {count} poses"
     return found[:1].upper() + found[1:], (facts, lacking, _FREE[count], *sets)
@@ -511,7 +511,7 @@ def _sized(answer: PoseAnswer, sketch: PoseSketch) -> str:
     """Return an answer's longest link and transmission angle, or its first defect."""
     lacks = answer.named_defects
     words = lacks[0] if lacks else f"{degrees(answer.transmission):.0f}°"
-    return f"{significant(answer.size, 3)} {sketch.unit} · {words}"
+    return f"{three_digits(answer.size)} {sketch.unit} · {words}"
 
 
 def _percent(share: float) -> str:
