@@ -385,6 +385,12 @@ def _reading(option: Option, toggle: Toggle, usual: object) -> dict[str, Any]:
 
 
 _SCENE = _scene()
+_KIND_SOUGHT = _takes(
+    "--kind",
+    choices=("four-bar", "slider-crank"),
+    default="four-bar",
+    help="the kind of linkage (default: four-bar)",
+)
 _SIZE = _value("--size WxH", size, "width and height in pixels (default: 1280x720)")
 _WINDOW_SIZE = _value("--size WxH", size, "the size of the window in pixels")
 _TEXT = _takes(
@@ -604,12 +610,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _output(
             "write the best to NAME.toml, the others to NAME-2.toml, ... (default: CURVE.toml in this folder)"
         ),
-        _takes(
-            "--kind",
-            choices=("four-bar", "slider-crank"),
-            default="four-bar",
-            help="the kind of linkage (default: four-bar)",
-        ),
+        _KIND_SOUGHT,
         _value(
             "--timing STEP",
             timing,
@@ -636,12 +637,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
             Path,
             "write the best to NAME.toml, the others to NAME-2.toml, ... (default: POSES.toml)",
         ),
-        _takes(
-            "--kind",
-            choices=("four-bar", "slider-crank"),
-            default="four-bar",
-            help="the kind of linkage (default: four-bar)",
-        ),
+        _KIND_SOUGHT,
         _value("--pivots X,Y", pair, "one or two fixed pins that are given", (), nargs="+"),
         *_limits("sizes of the poses"),
         _takes(
@@ -663,12 +659,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
             type=Path,
             help="write the best to NAME.toml, the others to NAME-2.toml, ... (default: function.toml)",
         ),
-        _takes(
-            "--kind",
-            choices=("four-bar", "slider-crank"),
-            default="four-bar",
-            help="the kind of linkage (default: four-bar)",
-        ),
+        _KIND_SOUGHT,
         _value(
             "--input ANGLE",
             str,
