@@ -306,7 +306,7 @@ def _whole(shared: Shared, closures: tuple[Scene, ...]) -> str:
     if lengths := sides[0].model():
         found["model"] = lengths  # in all its digits: it is solved, not drawn alone
     sheet = pairs.styles(shared.themes, shared.theme)
-    script = "\n".join(map(packaged, ("solver.js", "lengths.js", "page.js")))
+    script = "\n".join(map(_bare, map(packaged, ("solver.js", "lengths.js", "page.js"))))
     kind = scene.info.class_name
     digest = "sha256-" + base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
     return Template(packaged("page.html")).substitute(
@@ -322,6 +322,12 @@ def _whole(shared: Shared, closures: tuple[Scene, ...]) -> str:
         data=json.dumps(found, ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c"),
         script=script,
     )
+
+
+def _bare(script: str) -> str:
+    """Return a script without its comments and indents, which would take a twentieth of the largest page."""
+    lines = map(str.strip, script.splitlines())
+    return "\n".join(line for line in lines if line and not line.startswith("//"))
 
 
 def _size(scene: Scene) -> tuple[int, int]:

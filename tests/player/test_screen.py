@@ -34,6 +34,7 @@ class Screen:
     def __init__(self, folder: Path, *words: str) -> None:
         environment = {key: value for key, value in os.environ.items() if key != "SDL_VIDEODRIVER"}
         environment["PYTHONPATH"] = str(Path(linkanim.__file__).parents[1])
+        xdotool("mousemove", "10000", "10000")  # the corner of the screen: what it is over tells itself
         self.process = subprocess.Popen(
             [sys.executable, "-m", "linkanim", "play", *words],
             cwd=folder,
