@@ -15,6 +15,8 @@ import pytest
 from PIL import Image, ImageGrab
 
 import linkanim
+from linkanim.atomic_files import kept_as
+from linkanim.play.scores import Scores, save
 
 pytestmark = [
     pytest.mark.window,
@@ -112,7 +114,8 @@ class Screen:
 
 @pytest.fixture
 def screen(tmp_path: Path) -> Iterator[Screen]:
-    """The press, paused at its start."""
+    """The press, paused at its start, of somebody who was told before how to begin."""
+    save(Scores(greeted=True), kept_as("scores.json"))
     screen = Screen(tmp_path, "press")
     try:
         screen.press("space")
