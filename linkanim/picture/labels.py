@@ -10,7 +10,7 @@ from collections.abc import Generator, Iterable, Iterator, Mapping, Sequence, Se
 from dataclasses import replace
 from functools import cached_property
 from itertools import chain, pairwise, product
-from math import ceil, pi
+from math import ceil, pi, prod
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -398,6 +398,8 @@ _SEEN = 0.5
 """How far a label shows at the least that shows all the time."""
 _PLACES_ON_LINKS, _PLACES_ON_ALL = 3, 3
 """So many places more has what shows all the time: on links, then on all that is not a pin."""
+_LASTING = 0.2
+"""The part of the picture's room that labels showing all the time may take; more would hide the linkage."""
 _LEAST_MEASURED = 0.4
 """A dimension likewise: it then stands in the table."""
 _ROW = 1.3
@@ -636,9 +638,11 @@ def _attempts(
             best, lasting, more = (placer, tuple(kept), names), pinned, tries
         if not left or not more:
             break
-        order, more = [*left, *(forms for forms in seen if forms not in left)], more - 1
+        without = {id(forms) for forms in left}
+        order, more = [*left, *(forms for forms in seen if id(forms) not in without)], more - 1
     further: list[Label] = []
-    for form, found in lasting:
+    wanted, room = sum(prod(label.size) for (label, _), _ in lasting), clutter.inside
+    for form, found in lasting if wanted < _LASTING * room.width * room.height else ():
         further += yield from _all_along(best[0], form, found)
     return best[0], (*best[1], *further), best[2]
 

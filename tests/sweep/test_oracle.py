@@ -60,6 +60,10 @@ def test_twenty_thousand_good_scenes_are_made_into_everything(part: int, tmp_pat
     assert faults_apart(SEED + 1, part, PARTS, 20_000 // PARTS, tmp_path) == []
 
 
+def test_labels_that_are_alike_are_told_apart_while_a_still_is_named(tmp_path: Path) -> None:
+    assert faults(SEED, 770, tmp_path) == []
+
+
 @pytest.mark.slow
 def test_a_process_that_does_not_end_well_is_a_fault_with_its_last_scene(tmp_path: Path) -> None:
     [line] = faults_apart(SEED, 3, 1, 1, tmp_path / "missing")
