@@ -165,6 +165,7 @@ def test_an_encoder_that_stands_still_is_ended_and_said(
     encoder.chmod(0o700)
     monkeypatch.setattr(encode, "get_ffmpeg_exe", lambda: str(encoder))
     monkeypatch.setattr(processes, "_STILL", 0.2)
+    monkeypatch.setattr(processes, "_PATIENCE", 0.01)
     frames = disc("mp4")
     with pytest.raises(RecordingFailed, match=r"made no progress for 0\.2 s and was ended"):
         write(frames, frames.plan, tmp_path / "disc.mp4")
