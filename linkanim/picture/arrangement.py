@@ -472,16 +472,18 @@ class FitRequest(NamedTuple):
     """Whether it is of one pose, which keeps farther from the edge than what moves."""
     lined: bool = False
     """Whether that pose has dimension lines or arrows."""
+    bar: bool = False
+    """Whether the bar of commands has room at the foot."""
 
 
 def request_of(
-    size: tuple[int, int], look: Look, *, listed: bool, row: bool, still: bool = False
+    size: tuple[int, int], look: Look, *, listed: bool, row: bool, still: bool = False, bar: bool = False
 ) -> FitRequest:
     """Return what an arrangement for a look depends on."""
     chart, keys = look.chart is not None, key_lines(look)
     captioned = look.caption and not listed
     request = FitRequest(size, chart, keys, look.hud, listed, look.polygons, row, caption=captioned)
-    return request._replace(still=still, lined=still and (look.names > 1 or bool(look.vectors)))
+    return request._replace(bar=bar, still=still, lined=still and (look.names > 1 or bool(look.vectors)))
 
 
 @frozen
@@ -594,6 +596,7 @@ def _with_chart(subject: Subject, request: FitRequest, type_: Type, *, beside: b
         listed=request.listed,
         polygons=request.polygons,
         row=request.row,
+        bar=request.bar,
     )
     head = 1.4 * parts.text_size if request.hud else 0.0
     parts = with_table(parts, *request.table, head) if request.table[0] else parts

@@ -86,7 +86,7 @@ def share_at(layout: Layout, buttons: Sequence[Button], number: int, x: float) -
 
 
 def _foot(layout: Layout) -> Rect:
-    """Return the room at whose bottom the bar stands: over a caption that comes and goes with the names."""
+    """Return the room at whose bottom the bar stands: its own, else over a caption and the scene's foot."""
     if layout.bar:
         return layout.bar
     caption, stage = layout.caption, layout.stage
@@ -150,7 +150,8 @@ class BarPrinter:
         cells = bar_cells(layout, bar.buttons)
         if self._kept is None or self._kept[0] != bar[:2]:
             frames = _frames(layout, bar.buttons, cells)
-            self._kept = bar[:2], [(frame, self._drawn(self._board, frame, cells, bar)) for frame in frames]
+            sheets = [(frame, self._drawn(self._board, frame, cells, bar)) for frame in frames]
+            self._kept = bar[:2], [*_over_caption(layout, theme), *sheets]
         for frame, sheet in self._kept[1]:
             sheet.set_alpha(round(255 * bar.eighths / 8))
             surface.blit(sheet, (round(frame.x), round(frame.y)))
@@ -184,6 +185,16 @@ class BarPrinter:
         gap = (_FRAME + 0.15) * cell.height
         y = cell.bottom + gap if button.on_chart else cell.y - gap - drawn.get_height()
         surface.blit(drawn, (round(x), round(max(y, 2))))
+
+
+def _over_caption(layout: Layout, theme: Theme) -> Iterator[tuple[Rect, pygame.Surface]]:
+    """Yield what hides a caption that stands where the bar comes and goes."""
+    caption = layout.caption
+    if caption and layout.bar and layout.bar.meets(caption):
+        place = Rect(caption.x, layout.bar.y, caption.width, layout.bar.height)
+        cover = pygame.Surface((round(place.width), round(place.height)))
+        cover.fill(theme.background)
+        yield place, cover
 
 
 class _Face(NamedTuple):

@@ -24,6 +24,8 @@ _BAR = 1.6
 """The height of a bar of buttons with the air about it, in their sides."""
 _SHARE_OF_BAR = 0.3
 """The most of the height that it takes."""
+_LITTLE_FOR_BAR = 0.13
+"""Where it would take more of the height for good, it lies over the scene's foot while it shows."""
 _NARROW = 30
 """A window narrower than so many heights of its text has a list at its foot, not at its left."""
 _SHARE_LISTED = 0.42
@@ -78,6 +80,12 @@ class Layout:
     """What of the HUD and the key holds words: names stay off these."""
 
     @cached_property
+    def above_bar(self) -> float:
+        """How far down the window goes without the bar of commands, where that has room at the foot."""
+        low = self.size[1]
+        return self.bar.y if self.bar and self.bar.bottom >= low - 1 else low
+
+    @cached_property
     def reach(self) -> Rect:
         """How far the scene may be drawn when it is zoomed: to chart and polygons, under the edit list."""
         right, bottom = self.size
@@ -118,14 +126,16 @@ def layout(
     listed: bool = False,
     polygons: bool = False,
     row: bool = False,
+    bar: bool = False,
 ) -> Layout:
     """Divide a window: a chart along the bottom, or `beside` the scene; the stage is what is left.
 
     `listed` leaves room for a list, on the left or in a narrow window at the foot, `polygons` for those,
     on the right or below, and a `row` for small pictures at the foot, with the bar of commands below it. The
-    HUD has no place yet: that depends on the scene.
+    `bar` has room at the foot without a row, too, where that takes little of it. The HUD has no place yet:
+    that depends on the scene.
     """
-    parts = _charted(size, chart=chart, beside=beside, listed=listed, row=row)
+    parts = _charted(size, chart=chart, beside=beside, listed=listed, row=row, bar=bar)
     if not polygons:
         return parts
     stage, edge = parts.stage, 20 * parts.unit
@@ -160,30 +170,40 @@ def with_table(parts: Layout, rows: int, wide: float, head: float = 0.0) -> Layo
 
 
 def with_caption(parts: Layout, lines: int) -> Layout:
-    """Return a layout with room for so many lines at the stage's foot, where that takes little of it."""
+    """Return a layout with room for so many lines where the bar comes and goes, or at the stage's foot.
+
+    There it has room only where it takes little of it.
+    """
     stage, edge, size = parts.stage, parts.margin, parts.small_size
-    deep = lines * CAPTION_STEP * size
+    deep, bar = lines * CAPTION_STEP * size, parts.bar
+    if lines and bar and deep <= bar.height:
+        top = bar.y + (bar.height - deep) / 2
+        return replace(parts, caption=Rect(bar.x + edge, top, bar.width - 2 * edge, deep))
     if not lines or deep + edge > _SHARE_OF_CAPTION * stage.height:
         return parts
     place = Rect(stage.x + edge, stage.bottom - deep - 0.6 * edge, stage.width - 2 * edge, deep)
     return replace(parts, caption=place, stage=stage._replace(height=place.y - stage.y))
 
 
-def _charted(size: tuple[int, int], *, chart: bool, beside: bool, listed: bool, row: bool) -> Layout:
+def _charted(
+    size: tuple[int, int], *, chart: bool, beside: bool, listed: bool, row: bool, bar: bool
+) -> Layout:
     """Return the layout with its chart and without polygons."""
     unit = min(max(size) / _DRAWN_FOR[0], min(size) / _DRAWN_FOR[1])
     whole, edge = Rect(0, 0, *size), 20 * unit
     empty = Layout(size, unit, whole, None, None, None, whole, whole)
     empty = replace(empty, lists=_lists(empty))
     room = _beside(empty.lists, whole) if listed else whole
+    deep = min(_BAR * max(_BUTTON * unit, _LEAST_BUTTON), _SHARE_OF_BAR * room.height)
+    foot = Rect(room.x, room.bottom - deep, room.width, deep)
     if row:
-        deep = min(_BAR * max(_BUTTON * unit, _LEAST_BUTTON), _SHARE_OF_BAR * room.height)
-        bar = Rect(room.x, room.bottom - deep, room.width, deep)
         high, slider = _ROW_OF_ANSWERS * room.height, _SLIDER * empty.small_size
-        place = Rect(room.x, bar.y - high, room.width, high).inset(4 * unit)
+        place = Rect(room.x, foot.y - high, room.width, high).inset(4 * unit)
         dial = Rect(room.x, place.y - slider, room.width, slider)
-        empty = replace(empty, row=place, dial=dial, bar=bar)
+        empty = replace(empty, row=place, dial=dial, bar=foot)
         room = room._replace(height=dial.y - room.y)
+    elif bar and deep <= _LITTLE_FOR_BAR * room.height:
+        empty, room = replace(empty, bar=foot), room._replace(height=foot.y - room.y)
     if not chart:
         return replace(empty, stage=room)
     if beside:

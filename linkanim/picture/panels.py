@@ -260,9 +260,9 @@ class _Laid(NamedTuple):
 
 
 def help_sheet(board: Board, shown: tuple[Help, int]) -> pygame.Surface:
-    """Return the help, its text as large as lets it stand in a room so wide, and in the window's height.
+    """Return the help, its text as large as lets it stand in a room so wide, and above the bar of commands.
 
-    Where not all of it can be read there, the last subjects are left out.
+    Where not all of it can be read there, it has the window's height; what has no room there is left out.
     """
     laid = _help_laid(board, shown)
     sheet = board.sheet(laid.wide, laid.high)
@@ -286,9 +286,13 @@ def help_line_at(board: Board, shown: tuple[Help, int], x: float, y: float) -> s
 
 def _help_laid(board: Board, shown: tuple[Help, int]) -> _Laid:
     groups, room = shown
-    for laid in _ways(board, groups, _WIDEST * room):
-        if laid.wide <= _WIDEST * room + 1 and laid.high <= _WIDEST * board.layout.size[1]:
-            break
+    wide, (above, whole) = _WIDEST * room, (board.layout.above_bar, board.layout.size[1])
+    ways = [(above, _ways(board, groups, wide)), (whole, _ways(board, groups, wide))]
+    ways.append((whole, (_laid(board, groups[:n], _LEAST, wide) for n in range(len(groups) - 1, 0, -1))))
+    for high, every in ways:
+        for laid in every:
+            if laid.wide <= wide + 1 and laid.high <= _WIDEST * high:
+                return laid
     return laid
 
 
@@ -301,15 +305,13 @@ def _help_columns(laid: _Laid) -> Iterator[tuple[_Column, float]]:
 
 
 def _ways(board: Board, groups: Help, room: float) -> Iterator[_Laid]:
-    """Yield all subjects at every size, smaller ones broken into lines, then fewer and fewer at the least."""
+    """Yield all subjects at every size, smaller ones broken into lines."""
     largest, small = board.layout.text_size, board.layout.small_size
     for size in range(largest, small - 1, -1):
         yield _laid(board, groups, size)
     for size in range(small, _LEAST - 1, -1):
         yield _laid(board, groups, size)
         yield _laid(board, groups, size, room)
-    for count in range(len(groups) - 1, 0, -1):
-        yield _laid(board, groups[:count], _LEAST, room)
 
 
 def _laid(board: Board, groups: Help, size: int, room: float | None = None) -> _Laid:
@@ -473,9 +475,11 @@ class Panels:
 
     def _helped(self, shown: Help, left: int) -> tuple[pygame.Surface, Rect]:
         """Return the help and its place, right of a list that takes so much of the window's left."""
-        wide, high = self.board.layout.size
+        wide, whole = self.board.layout.size
         drawn = self._keep(help_sheet, (shown, wide - left))
-        at = left + (wide - left - drawn.get_width()) // 2, (high - drawn.get_height()) // 2
+        above = self.board.layout.above_bar
+        high = above if drawn.get_height() <= above else whole
+        at = left + (wide - left - drawn.get_width()) // 2, int(high - drawn.get_height()) // 2
         return drawn, Rect(*at, *drawn.get_size())
 
     def _toasted(self, overlay: Overlay, text: str) -> tuple[pygame.Surface, tuple[float, float]]:

@@ -75,7 +75,8 @@ class Picture:
     another, or `held` by the hand. Where they have to be placed anew, one that is `hurried` has those that
     were there, and one that is `gradual` is whole once `place_names` has placed all. With a `moment` names
     stand as is best at that phase alone. What stood still `earlier` is drawn as it was then, where it has
-    the same place. Raises BadInput where the look's chart is no quantity of the scene.
+    the same place. The `bar` of commands has room at the foot. Raises BadInput where the look's chart is no
+    quantity of the scene.
     """
 
     def __init__(
@@ -95,6 +96,7 @@ class Picture:
         sheet: Box | None = None,
         moment: float | None = None,
         earlier: Earlier | None = None,
+        bar: bool = False,
     ) -> None:
         self._made_for, self._kept, self.row = (scene, size, look, listed, held, row, sheet), kept, row
         self.sheet, self.held = sheet, held
@@ -105,7 +107,7 @@ class Picture:
         self._beside = self._other_closure(before) if look.ghost else None
         self._apart, self._moment = apart, moment
         follows = held or self.scene.towards is not None
-        request = request_of(size, look, listed=listed, row=row, still=moment is not None)
+        request = request_of(size, look, listed=listed, row=row, still=moment is not None, bar=bar)
         if before and moment is None and (size, look.names) == (before.size, before.look.names):
             same = follows or before._goal is self._goal
             request = request._replace(table=before.fit.request.table) if same else request

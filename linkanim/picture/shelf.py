@@ -104,10 +104,11 @@ class _Shape:
     """How large things are on a shelf, and which mechanisms are in a row."""
 
     def __init__(self, size: tuple[int, int], browsing: Browsing) -> None:
-        unit = layout(size).unit
+        parts = layout(size, bar=True)
+        unit = parts.unit
         self.text = max(round(15.0 * unit), 11)
         edge = max(14.0 * unit, 4.0)
-        wide, high = (max(side, 1.0) for side in (size[0] - 2 * edge, size[1] - 5.4 * self.text))
+        wide, high = (max(side, 1.0) for side in (size[0] - 2 * edge, parts.above_bar - 5.4 * self.text))
         self._room = Rect(edge, 2.4 * self.text, wide, high)
         self._gap, least = max(12.0 * unit, 4.0), max(_WIDE[0] * unit, _WIDE[1])
         columns = max(int((self._room.width + self._gap) / (least + self._gap)), 1)

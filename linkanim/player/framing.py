@@ -70,8 +70,8 @@ def between(one: View, other: View, share: float) -> View:
 class Framing:
     """The picture of each state that comes, and the last one; a list in a window takes its room.
 
-    Where it is `captioned`, as the window is, names come with the sentence on what to watch for, and a frame
-    does not wait for all of them to be placed.
+    Where it is `captioned`, as the window is, names come with the sentence on what to watch for, the bar of
+    commands has room at the foot, and a frame does not wait for all names to be placed.
     """
 
     def __init__(self, *, captioned: bool = False) -> None:
@@ -115,7 +115,16 @@ class Framing:
             return before
         stays = before is not None and before.size == size
         make = partial(
-            Picture, state.shown, size, look, before, listed=listed, held=held, row=row, sheet=home
+            Picture,
+            state.shown,
+            size,
+            look,
+            before,
+            listed=listed,
+            held=held,
+            row=row,
+            sheet=home,
+            bar=self._captioned,
         )
         if before and fits and not sketch:
             self._coming = self._coming or make(gradual=True)
@@ -183,6 +192,7 @@ class Framing:
             sheet=goal.sheet,
             earlier=earlier,
             hurried=goal.hurried,
+            bar=self._captioned,
         )
         return self._passing
 

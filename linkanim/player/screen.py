@@ -301,7 +301,7 @@ class Screen:
 
     def _bar_layout(self, over: Overlay) -> Layout:
         """Return the layout in which the bar of commands stands; the shelf fills the window."""
-        return layout(self.size) if over.shelf else self._framing.last.layout
+        return layout(self.size, bar=True) if over.shelf else self._framing.last.layout
 
     def _point(self, state: State) -> None:
         """Let the mouse point with a pencil while that is taken."""

@@ -20,6 +20,7 @@ from linkanim.player import screen
 from linkanim.player.action import Action, Mode
 from linkanim.player.actions import advance, is_taped
 from linkanim.player.commands import bar, pressed, slid, slides
+from linkanim.player.framing import Framing
 from linkanim.player.keys import GROUPS, MODES, commands
 from linkanim.player.shown import kept, overlay
 from linkanim.player.state import STIR_FRAMES, State, begin
@@ -412,3 +413,57 @@ def test_a_slider_that_goes_while_it_is_dragged_gives_a_share_all_the_same(rocke
     assert shown
     numbers = range(len(shown.buttons) + 2)
     assert all(0.0 <= share_at(layout(SIZE), shown.buttons, number, 640.0) <= 1.0 for number in numbers)
+
+
+@pytest.mark.parametrize("size", [(640, 360), (1280, 720), (3840, 2160), (720, 1280)], ids=str)
+@pytest.mark.parametrize("name", ["crank-rocker", "press", "jansen"])
+def test_nothing_that_is_shown_for_long_is_under_the_bar(size: tuple[int, int], name: str) -> None:
+    begun = begin(load(name))
+    looks: dict[str, tuple[Action | str, ...]] = {
+        "bare": (),
+        "chart": (Action("plot", begun.scene.telling[0]),),
+        "dimensions": ("names", "names"),
+        "polygons": ("polygons",),
+        "list": ("list",),
+        "help": ("help",),
+    }
+    for look, actions in looks.items():
+        state = after(begun, *actions, "stir")
+        framing = Framing(captioned=True)
+        place = framing.fitting(state, size).layout
+        frame = bar_place(place, bar(state))
+        assert frame
+        assert framing.last.fit.has_room, look
+        standing = (place.stage, place.chart, place.polygons, place.table)
+        assert not any(frame.meets(one) for one in standing if one), look
+
+
+def test_the_help_ends_above_the_bar() -> None:
+    with screen.opened((1280, 720)):
+        player = Player(after(begin(load("crank-rocker")), "help", "stir"))
+        shown = player.window.screen
+        frame = bar_place(shown._framing.last.layout, shown.over.bar)
+        assert frame
+        assert all(shown.help_at(x, frame.y) is None for x in range(0, 1280, 20))
+        player.window.close()
+
+
+def test_a_caption_gives_way_to_the_bar_and_comes_back(here: Path) -> None:
+    del here
+    with screen.opened((1280, 720)):
+        player = Player(after(begin(load("crank-rocker")), "names", "pause"))
+        player.settle()
+        caption = player.window.screen._framing.last.layout.caption
+        assert caption
+        at = pygame.Rect(caption.x, caption.y, caption.width / 7, caption.height)
+
+        def dark() -> int:
+            found = pygame.surfarray.array3d(screen.display_surface().subsurface(at))
+            return int((found.sum(axis=2) < 400).sum())
+
+        before = dark()
+        player.mouse(pygame.MOUSEMOTION, (5, 5), rel=(0, 0), buttons=(0, 0, 0))
+        assert (before > 0, dark()) == (True, 0)
+        player.settle()
+        assert dark() == before
+        player.window.close()

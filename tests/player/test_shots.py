@@ -85,7 +85,8 @@ def _predict(player: Player) -> None:
 def _title(player: Player) -> None:
     title = Action("play", "title door=explore place=0")
     player.window.state = carried(replace(player.state, games=game_of), title)
-    player.tick(120)
+    player.tick()  # from here on the view that fits is approached
+    player.tick(119)
 
 
 def _build(player: Player) -> None:
