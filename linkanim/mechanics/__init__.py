@@ -10,6 +10,7 @@ From the ground up; a module imports from those before it only:
     linkage     what a linkage is, as data
     solver      closing it; no other room imports this one
     measures    what follows from solved quantities
+    centres     instant centres, and Kennedy's theorem
     motion      a linkage made ready; its motion and its poses
     nearest     the phase at which a point is nearest to a place
     forces      what the input has to deliver

@@ -200,65 +200,6 @@ def _dot(way: Way, other: Way) -> Any:
     return way[0] * other[0] + way[1] * other[1]
 
 
-def pole(motion: Any, body: Body, other: Body | None = None) -> tuple[Any, Any]:
-    """Return a body's instant centre to another, or to the ground: x and y.
-
-    There both move alike: P = A + i·(v_A - v)/(ω - ω′) with v and ω′ of the other's plane at A, a joint of
-    the body. Those of three bodies lie in one line (Aronhold and Kennedy). Infinite where they turn alike.
-    A fixed pin is the centre of what turns about it, and at rest they are those of the motion by the input.
-    """
-    linkage, still = motion.mechanism.linkage, 0.0 * motion.phase
-    pin = linkage.pivot(body.joints) if other is None and body.slider is None else None
-    if pin is not None:
-        x, y = linkage.pin(pin).position
-        return x + still, y + still
-    found = _moving_pole(motion, body, other)
-    if np.any(stops := stands(motion)):
-        by_input = _moving_pole(motion.per_input, body, other)
-        known = stops & np.isfinite(by_input[0]) & np.isfinite(by_input[1])
-        return np.where(known, by_input[0], found[0])[()], np.where(known, by_input[1], found[1])[()]
-    return found
-
-
-def _moving_pole(motion: Any, body: Body, other: Body | None) -> tuple[Any, Any]:
-    joint, rate = body.slider or body.joints[0], _rate(motion, body)
-    (x, y), (vx, vy) = (components(kind[joint]) for kind in (motion.position, motion.velocity))
-    if other is not None:
-        there, theirs = other.slider or other.joints[0], _rate(motion, other)
-        (px, py), (wx, wy) = (components(kind[there]) for kind in (motion.position, motion.velocity))
-        rate, vx, vy = rate - theirs, vx - wx + theirs * (y - py), vy - wy - theirs * (x - px)
-    turns = abs(rate) > _STRAIGHT * abs(motion.coordinate_rate)
-    found = x - over(vy, rate), y + over(vx, rate)
-    return np.where(turns, found[0], math.inf)[()], np.where(turns, found[1], math.inf)[()]
-
-
-def _rate(motion: Any, body: Body) -> Any:
-    """Return a body's angular velocity: of what slides that of its guide."""
-    if body.slider is None:
-        return motion.angular_velocity[body.name]
-    (guide, *_) = motion.mechanism.linkage.joint(body.slider).slides
-    if guide.axis is None:
-        return 0.0 * motion.coordinate_rate
-    arm, moving = between(motion.position, guide.axis), between(motion.velocity, guide.axis)
-    return over(cross(arm, moving), _dot(arm, arm))
-
-
-def centrodes(motion: Any, body: Body) -> tuple[Any, Any]:
-    """Return the path of a body's instant centre on the ground, and on the body: x + yi (n,), breaks NaN.
-
-    The body moves as if the second curve, fixed to it along its first -> second joint, rolled on the first.
-    There is a break wherever the centre goes through infinity: where the body stops turning.
-    """
-    x, y = pole(motion, body)
-    first, second = (as_complex(motion.position[name]) for name in body.joints[:2])
-    turning = np.sign(motion.angular_velocity[body.name])
-    known = np.isfinite(x) & np.isfinite(y)
-    fixed = np.where(known, x, math.nan) + 1j * np.where(known, y, math.nan)
-    rolling = (fixed - first) * (np.conj(second - first) / abs(second - first))
-    through = np.flatnonzero(turning[1:] * turning[:-1] <= 0) + 1
-    return np.insert(fixed, through, math.nan), np.insert(rolling, through, math.nan)
-
-
 def transmission_angle(motion: Any, dyad: str) -> Any:
     """Return a dyad's transmission angle, 90° at the most, as its kind of joint defines it."""
 

@@ -18,6 +18,7 @@ import numpy as np
 
 from linkanim.errors import BadInput
 from linkanim.frozen import frozen
+from linkanim.mechanics.centres import pole
 from linkanim.mechanics.forces import effort_token, input_effort
 from linkanim.mechanics.linkage import Body, Damper, Linkage, Pin, Spring, holding
 from linkanim.mechanics.measures import (
@@ -36,7 +37,6 @@ from linkanim.mechanics.measures import (
     measures_of,
     mechanical_advantage,
     output_body,
-    pole,
     rate_of,
     rounding_of,
     said,

@@ -474,6 +474,8 @@ class FitRequest(NamedTuple):
     """Whether that pose has dimension lines or arrows."""
     bar: bool = False
     """Whether the bar of commands has room at the foot."""
+    held: tuple[complex, ...] = ()
+    """Further places, in the scene's unit, that the view has to hold."""
 
 
 def request_of(
@@ -608,4 +610,8 @@ def _with_chart(subject: Subject, request: FitRequest, type_: Type, *, beside: b
     shapes = shapes_of(sentence, parts, type_) if worded and not parts.caption else ()
     edge = _EDGE_OF_STILL * parts.unit if request.still else None
     edge = _ROOM_FOR_LINES * parts.small_size if request.lined else edge
-    return arranged(parts, subject.sweep, subject.figure.shortest, words, shapes, edge)
+    sweep = subject.sweep
+    if request.held:
+        nothing = np.zeros(0, complex)
+        sweep |= Sweep(nothing, nothing, np.array(request.held))
+    return arranged(parts, sweep, subject.figure.shortest, words, shapes, edge)

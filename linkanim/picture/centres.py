@@ -2,38 +2,106 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from functools import cached_property
-from itertools import combinations
+from itertools import combinations, pairwise
 from typing import NamedTuple
 
 import numpy as np
 
 from linkanim.frozen import frozen
-from linkanim.mechanics.linkage import Body
-from linkanim.mechanics.measures import centrodes, coupler_body, pole
+from linkanim.mechanics.centres import Centre, KennedyStep, centre, centrodes, joint_between, kennedy
+from linkanim.mechanics.measures import coupler_body
 from linkanim.mechanics.motion import Pose
 from linkanim.picture.chart import runs_of
-from linkanim.picture.figure import DrawSetting
-from linkanim.picture.items import Caption, Group, Halo
+from linkanim.picture.figure import DrawSetting, Figure
+from linkanim.picture.items import Caption, Halo
 from linkanim.picture.raster import Colour, Layer, Loop
-from linkanim.picture.shapes import Places, segments, stroke, unit
+from linkanim.picture.shapes import Places, arrows, dashes, segments, stroke, unit
+from linkanim.picture.text import subscripted
+from linkanim.picture.theme import mixed
 from linkanim.picture.view import Rect
+from linkanim.units import three_digits
 
-# Instant centres, and the curves that the coupler's runs along: the fixed and the moving centrode.
+# Instant centres with Kennedy's lines, and the curves that the coupler's runs along: both centrodes.
 
 _CLOSE = 3.0
 """Points of a curve that are nearer to each other, in pixels, are not all needed."""
-_MOST = 4
-"""Of so many moving links all centres are marked, of more those to the ground alone."""
+_MOST = 5
+"""Of so many links, the ground among them, all centres are marked, of more those to the ground alone."""
+_FAR = 3.0
+"""A centre is within the view of a still that is no farther from its middle, in sizes of the linkage."""
+_BEYOND = 4.0
+"""How far a line runs towards a centre that is infinitely far, in sizes of the picture."""
+_FAINT = 0.45
+"""How much of the background is in Kennedy's lines."""
+_ARROW = 2.2
+"""The length of an arrow at the edge, in heights of the text."""
+_AROUND = np.exp(-0.25j * np.pi * np.array([1, -1, 3, -3, 0, 4, 2, -2]))
+"""The ways from a centre to its name, the best first."""
 
 
-class BodyPair(NamedTuple):
-    """A body and another, None for the ground, and what their instant centre is called: P_{24}."""
+class NamedPair(NamedTuple):
+    """Two links by their numbers, and what their instant centre is called: P_{24}."""
 
-    body: Body
-    other: Body | None
+    links: tuple[str, str]
     label: str
+
+
+@frozen
+class CentrePairs:
+    """The pairs of a figure's links whose instant centres are shown, and where they are in a pose."""
+
+    figure: Figure
+
+    @cached_property
+    def pairs(self) -> tuple[NamedPair, ...]:
+        """All pairs of few links, of more those with the ground."""
+        links = self.figure.by_number
+        pairs = combinations(links, 2) if self.all_shown else (("1", other) for other in [*links][1:])
+        return tuple(NamedPair(pair, label_of(*pair)) for pair in pairs)
+
+    @property
+    def all_shown(self) -> bool:
+        """Whether there are so few links that all of their centres are shown."""
+        return len(self.figure.by_number) <= _MOST
+
+    @cached_property
+    def steps(self) -> tuple[KennedyStep, ...]:
+        """How Kennedy's theorem leads to the centres; of many links nothing."""
+        return kennedy(self.figure.linkage, self.figure.by_number) if self.all_shown else ()
+
+    @cached_property
+    def at_joints(self) -> dict[str, tuple[str, ...]]:
+        """The names of the centres that lie in a joint all the time, by its name."""
+        found: dict[str, tuple[str, ...]] = {}
+        for (one, other), label in self.pairs:
+            links = self.figure.by_number
+            if joint := joint_between(self.figure.linkage, links[one], links[other]):
+                found[joint] = (*found.get(joint, ()), label)
+        return found
+
+    def of(self, pose: Pose) -> dict[tuple[str, str], Centre]:
+        """Return the centres of a pose by their links, but for what does not move against each other."""
+        links = self.figure.by_number
+        known = {pair: centre(pose, *(links[number] for number in pair)) for pair, _ in self.pairs}
+        return {pair: found for pair, found in known.items() if found}
+
+    def near(self, pose: Pose) -> tuple[complex, ...]:
+        """Return the centres of a pose, in the scene's unit, that its picture is to hold."""
+        box = self.figure.box
+        size, middle = max(box.right - box.left, box.high - box.low), complex(*box.middle)
+        places = (found.place for found in self.of(pose).values())
+        return tuple(place for place in places if place is not None and abs(place - middle) <= _FAR * size)
+
+
+class Seen(NamedTuple):
+    """A centre in pixels: its name, its place and whether it is a joint's, or the way to it from `at`."""
+
+    label: str
+    at: complex
+    way: complex = 0j
+    jointed: bool = False
 
 
 @frozen
@@ -43,33 +111,111 @@ class Centres:
     setting: DrawSetting
 
     @cached_property
-    def pairs(self) -> tuple[BodyPair, ...]:
-        """The bodies to the ground, and of few to each other."""
-        links: dict[str, Body] = {}
-        for body, number in self.setting.figure.numbers.items():
-            links.setdefault(number, body)
-        pairs = [BodyPair(body, None, _label("1", number)) for number, body in links.items()]
-        if len(links) <= _MOST:
-            both = combinations(links.items(), 2)
-            pairs += [BodyPair(a, b, _label(m, n)) for (m, a), (n, b) in both]
-        return tuple(pairs)
+    def known(self) -> CentrePairs:
+        """Which centres there are."""
+        return CentrePairs(self.setting.figure)
 
-    def marks(self, pose: Pose, places: Places) -> Group:
-        """Return a cross and its name for each centre that is in sight, but for those that are pins."""
-        (figure, view, gauge, theme), layout = self.setting.known, self.setting.layout
-        layers, captions = [], []
-        reach, size = 0.8 * gauge.bar, layout.small_size
-        ink, halo = theme.warning, Halo(theme.background, max(1.4 * gauge.line, 1.5))
-        for pair in self.pairs:
-            at = view.place(pole(pose, pair.body, pair.other))
-            pinned = any(abs(at - places[name]) < reach for name in figure.pins)
-            if pinned or not layout.reach.holds(at.real, at.imag):
+    def layers(self, pose: Pose) -> Iterator[Layer]:
+        """Yield Kennedy's lines, a cross at each centre in sight that is no joint, an arrow to each other."""
+        gauge, theme = self.setting.gauge, self.setting.theme
+        found = self.known.of(pose)
+        lines = [line for step in self.known.steps for line in self._lines(step, found)]
+        if lines:
+            faint = mixed(theme.warning, theme.background, _FAINT)
+            width = 0.8 * gauge.line
+            yield Layer(faint, [loop for ends in lines for loop in dashes(*ends, 9 * width, width)])
+        reach, marks, width = 0.8 * gauge.bar, list[Loop](), 1.4 * gauge.line
+        for seen in self._seen(found):
+            if seen.way:
+                long = _ARROW * self.setting.layout.small_size
+                marks += arrows([seen.at - long * seen.way], [long * seen.way], width)
+            elif not seen.jointed:
+                ends = np.array([reach, 1j * reach])
+                marks += segments(seen.at - ends, seen.at + ends, width)
+        yield Layer(theme.warning, marks)
+
+    def captions(self, pose: Pose, places: Places, taken: Iterable[Rect]) -> Iterator[Caption]:
+        """Yield the names of the centres that are no joints, off what is `taken`, each other and bars."""
+        bars = self._bars(places)
+        theme, size = self.setting.theme, self.setting.layout.small_size
+        halo, busy = Halo(theme.background, max(1.4 * self.setting.gauge.line, 1.5)), list(taken)
+        for seen in self._seen(self.known.of(pose)):
+            if seen.jointed:
                 continue
-            ends = np.array([reach, 1j * reach])
-            layers.append(Layer(ink, segments(at - ends, at + ends, 1.4 * gauge.line)))
-            place = (at.real + reach, at.imag - reach - size)
-            captions.append(Caption(pair.label, place, size, ink, strong=True, halo=halo))
-        return Group("instant-centres", layers, captions)
+            wide = self.setting.type.width(seen.label, size, strong=True)
+            rects = [self._about(place, wide, size) for place in self._around(seen, wide)]
+            best = min(rects, key=lambda rect: (_meeting(rect, busy), _crossing(rect, bars)))
+            busy.append(best)
+            at = (best.x, best.y)
+            yield Caption(seen.label, at, size, theme.warning, strong=True, halo=halo)
+
+    def _bars(self, places: Places) -> list[tuple[complex, complex]]:
+        """Return the ends of the bars."""
+        bodies = self.setting.figure.bodies
+        return [(places[one], places[other]) for body in bodies for one, other in pairwise(body.joints)]
+
+    def _around(self, seen: Seen, wide: float) -> Iterator[complex]:
+        """Yield places for the middle of a name: round a cross, or beside and behind an arrow."""
+        size, off = self.setting.layout.small_size, 0.8 * self.setting.gauge.bar
+        if not seen.way:
+            for away in (0.0, 0.7 * size, 1.5 * size):
+                for way in _AROUND:
+                    across = way.real * (off + away + wide / 2) + 1j * way.imag * (off + away + size / 2)
+                    yield seen.at + across
+            return
+        for back in (0.5 * _ARROW, 1.6 * _ARROW, 2.6 * _ARROW):
+            foot = seen.at - back * size * seen.way
+            for side in (1j * seen.way, -1j * seen.way):
+                aside = 0.5 * (abs(side.real) * wide + abs(side.imag) * size) + 0.5 * size
+                yield foot + aside * side
+
+    def _about(self, middle: complex, wide: float, high: float) -> Rect:
+        """Return a name's rectangle about a place, in the picture."""
+        inside = self.setting.layout.reach.inset(2).nearest(middle, complex(wide, high) / 2)
+        return Rect(inside.real - wide / 2, inside.imag - high / 2, wide, high)
+
+    def _seen(self, found: dict[tuple[str, str], Centre]) -> Iterator[Seen]:
+        """Yield the centres as they show: those in the picture, then the ways to the others from a pin."""
+        view, room, (named, pin) = self.setting.view, self.setting.layout.reach, self._pin
+        inner, far = room.inset(6 * self.setting.layout.unit), list[Seen]()
+        foot, unit_ = room.inset(1).nearest(pin), self.setting.figure.scene.length_unit
+        jointed = {label for labels in self.known.at_joints.values() for label in labels}
+        for pair, label in self.known.pairs:
+            if pair not in found:
+                continue
+            place, way = found[pair]
+            if place is None:
+                way = way.conjugate()
+                way = way if (-way.imag, way.real) > (1e-9, 0.0) else -way  # upwards, or to the right
+                far.append(Seen(f"{label} at ∞", foot + inner.ahead(foot, way) * way, way))
+                continue
+            at = view.place((place.real, place.imag))
+            if room.holds(at.real, at.imag):
+                yield Seen(label, at, jointed=label in jointed)
+            elif label not in jointed:
+                way = unit(at - pin)
+                told = f"{label} {three_digits(abs(at - pin) / view.scale)} {unit_} from {named}"
+                far.append(Seen(told, foot + inner.ahead(foot, way) * way, way))
+        yield from far
+
+    @property
+    def _pin(self) -> tuple[str, complex]:
+        """What it is from which distances to centres out of sight are told, and where it lies in pixels."""
+        figure, view = self.setting.figure, self.setting.view
+        if not figure.fixed:
+            return "the origin", view.place((0.0, 0.0))
+        return subscripted(figure.fixed[0]), figure.pixel(figure.fixed[0], view)
+
+    def _lines(
+        self, step: KennedyStep, found: dict[tuple[str, str], Centre]
+    ) -> Iterator[tuple[complex, complex]]:
+        """Yield what shows of the lines on which a centre lies, each for a third link."""
+        for third in step.by:
+            far = _BEYOND * max(self.setting.layout.size) / self.setting.view.scale
+            if ends := kennedy_line(step.pair, third, found, far):
+                one, other = (self.setting.view.place((end.real, end.imag)) for end in ends)
+                if seen := self.setting.layout.reach.crossed(one, other):
+                    yield seen
 
     def fixed(self) -> Layer:
         """Return the curve on the ground."""
@@ -102,6 +248,16 @@ class Centres:
         return Layer(colour, [loop for run in runs for loop in stroke(_thinned(run), width)])
 
 
+def _meeting(rect: Rect, others: Iterable[Rect]) -> int:
+    """Return how many rectangles another one meets."""
+    return sum(rect.meets(other) for other in others)
+
+
+def _crossing(rect: Rect, bars: Iterable[tuple[complex, complex]]) -> int:
+    """Return how many bars run through a rectangle."""
+    return sum(rect.crossed(*ends) is not None for ends in bars)
+
+
 def _thinned(run: Loop) -> Loop:
     """Return a path without those of its points that lie close together."""
     steps = np.floor(np.cumsum(np.abs(np.diff(run))) / _CLOSE)
@@ -109,11 +265,36 @@ def _thinned(run: Loop) -> Loop:
     return kept
 
 
-def _label(one: str, other: str) -> str:
-    """Return what a centre is called, the lower number first."""
+def label_of(one: str, other: str) -> str:
+    """Return what the centre of two links is called, the lower number first."""
     first, second = sorted((one, other), key=lambda number: (len(number), number))
     apart = "," if len(first) + len(second) > 2 else ""
     return f"P_{{{first}{apart}{second}}}"
+
+
+def kennedy_line(
+    pair: tuple[str, str], third: str, found: dict[tuple[str, str], Centre], reach: float
+) -> tuple[complex, complex] | None:
+    """Return the ends of the line through the centres that two links have with a third, and their own.
+
+    It runs so far towards what is infinitely far; None where it has no direction.
+    """
+    one, other = pair
+    centres = [found.get(key) or found.get(key[::-1]) for key in ((one, third), (third, other), (one, other))]
+    places = [each.place for each in centres if each and each.place is not None]
+    ways = [each.way for each in centres if each and each.place is None]
+    if not places or len(places) + len(ways) < len(centres):
+        return None
+    far = max(places, key=lambda place: abs(place - places[0]))
+    way = ways[0] if ways else far - places[0]
+    if not abs(way) > 1e-9 * reach:
+        return None
+    way /= abs(way)
+    along = [((place - places[0]) * way.conjugate()).real for place in places]
+    low, high = min(along), max(along)
+    if centres[2] and centres[2].place is None:
+        low, high = low - reach, high + reach
+    return places[0] + low * way, places[0] + high * way
 
 
 def clipped(path: Loop, room: Rect) -> Iterator[Loop]:

@@ -140,23 +140,10 @@ def _pieces(at: Loop, area: Rect) -> Iterator[Loop]:
 
 
 def _inside(one: complex, other: complex, area: Rect) -> tuple[complex, complex] | None:
-    """Return what of a segment lies in a rectangle, by Liang and Barsky's shares; None where nothing does."""
+    """Return what of a segment lies in a rectangle; None where nothing does, or it runs through infinity."""
     if not (cmath.isfinite(one) and cmath.isfinite(other)) or abs(other - one) > _JUMP * area.width:
         return None
-    way, first, last = other - one, 0.0, 1.0
-    for step, gap in (
-        (-way.real, one.real - area.x),
-        (way.real, area.right - one.real),
-        (-way.imag, one.imag - area.y),
-        (way.imag, area.bottom - one.imag),
-    ):
-        if step == 0 and gap < 0:
-            return None
-        if step < 0:
-            first = max(first, gap / step)
-        elif step > 0:
-            last = min(last, gap / step)
-    return (one + first * way, one + last * way) if first < last else None
+    return area.crossed(one, other)
 
 
 def _names(marks: Sequence[Mark], pixels: Callable[[Loop], Loop], area: Rect, pen: Pen) -> Iterator[Caption]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import cached_property
 from itertools import groupby, zip_longest
@@ -32,7 +32,7 @@ from linkanim.picture.motion_marks import (
 from linkanim.picture.raster import Layer
 from linkanim.picture.shapes import Part, Places, Stamp, by_depth, placed
 from linkanim.picture.theme import mixed
-from linkanim.picture.view import View
+from linkanim.picture.view import Rect, View
 
 if TYPE_CHECKING:
     from linkanim.picture.bodies import CausalChain
@@ -147,8 +147,8 @@ class Drawing:
         """The centres, where their curves are shown."""
         return self.parts.centres if self.setting.look.centres > 1 else None
 
-    def moving(self, pose: Pose) -> Iterator[Group]:
-        """Yield all that moves before it, back to front."""
+    def moving(self, pose: Pose, taken: Iterable[Rect] = ()) -> Iterator[Group]:
+        """Yield all that moves before it, back to front; names of arrows and centres off what is `taken`."""
         places, parts = self.places(pose), self.parts
         if self._rolling:
             yield Group("moving-centrode", [self._rolling.moving(places)])
@@ -168,11 +168,14 @@ class Drawing:
             (self.setting.type, self.setting.layout.small_size),
             self.setting.layout.reach.inset(2),
         )
-        names = arrow_names(*known, letters, inside) if parts.arrows else ()
+        taken = list(taken) if parts.arrows or parts.centres else []
+        names = arrow_names(*known, letters, inside, taken) if parts.arrows else ()
         for kind, layers, symbols_ in zip(parts.arrows, arrows, names, strict=True):
             yield Group(kind.words, layers, symbols_, made_of=kind)
-        if parts.centres:
-            yield parts.centres.marks(pose, places)
+            taken += [line.around(self.setting.type) for line in symbols_]
+        if centres := parts.centres:
+            words = [*centres.captions(pose, places, taken)]
+            yield Group("instant-centres", [*centres.layers(pose)], words, made_of=centres)
 
     def _turning(self, pose: Pose, places: Places) -> Iterator[Layer]:
         """Yield the way the input turns, and its angle."""

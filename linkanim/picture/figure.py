@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkanim.frozen import frozen
+from linkanim.mechanics.centres import blocks
 from linkanim.mechanics.linkage import Body, Brace, Damper, Linkage, Spring, holding
 from linkanim.mechanics.motion import Motion
 from linkanim.picture.layout import Gauge, Layout
@@ -74,6 +75,15 @@ class Figure:
         rigid = [body.slider or holding(self.linkage.rigid_bodies, body.joints) for body in self.links]
         number = {frame: str(n) for n, frame in enumerate(dict.fromkeys(rigid), start=2)}
         return {body: number[frame] for body, frame in zip(self.links, rigid, strict=True)}
+
+    @cached_property
+    def by_number(self) -> dict[str, Body | None]:
+        """One link of each number: the ground, None, first; last the blocks without a name."""
+        links: dict[str, Body | None] = {"1": None}
+        for body, number in self.numbers.items():
+            links.setdefault(number, body)
+        highest = max(int(number) for number in links)
+        return links | {str(n): block for n, block in enumerate(blocks(self.linkage), start=highest + 1)}
 
     @cached_property
     def _parts(self) -> Parts:

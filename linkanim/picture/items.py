@@ -9,7 +9,7 @@ import pygame
 
 from linkanim.picture.raster import Colour, Layer
 from linkanim.picture.shapes import cut
-from linkanim.picture.text import Anchor
+from linkanim.picture.text import Anchor, Type
 from linkanim.picture.view import Rect
 
 
@@ -41,6 +41,12 @@ class Caption(NamedTuple):
     strong: bool = False
     halo: Halo | None = None
     strength: float = 1.0
+
+    def around(self, type_: Type) -> Rect:
+        """Return what it takes up."""
+        wide = type_.width(self.text, self.size, strong=self.strong)
+        left = self.at[0] - {"left": 0.0, "centre": 0.5, "right": 1.0}[self.anchor] * wide
+        return Rect(left, self.at[1], wide, self.size)
 
 
 Item = Layer | Caption

@@ -519,7 +519,7 @@ class Names:
 
     def in_theme(self, one: Theme, other: Theme) -> Names:
         """Return the names, which have the colours of one theme, where they are in those of another."""
-        colours = {one.ink: other.ink, one.dim: other.dim}
+        colours = {one.ink: other.ink, one.dim: other.dim, one.warning: other.warning}
         halo = self.halo._replace(colour=other.background)
 
         def coloured(labels: Iterable[Label]) -> tuple[Label, ...]:
@@ -741,20 +741,45 @@ def _tabled(
 
 
 def _joints(ground: Surroundings, names: Iterable[str], *, always: bool = False) -> Forms:
-    """Yield joints' names, which show at every moment or as long as they find room."""
+    """Yield joints' names, which show at every moment or as long as they find room.
+
+    With it, or alone where joints are not named, stand the instant centres that are in a joint.
+    """
     setting = ground.setting
+    look, theme, centred = setting.look, setting.theme, _centred(setting)
     for name in names:
-        label = _label(setting, subscripted(name), _joint_size(setting.layout), setting.theme.ink)
-        label = replace(label, always=always)
-        yield ((label, ground.around(name, label.size)),)
+        words = ([subscripted(name)] if look.names else []) + [*centred.get(name, ())]
+        if words:
+            size = _joint_size(setting.layout) if look.names else setting.layout.small_size
+            label = _label(setting, ", ".join(words), size, theme.ink if look.names else theme.warning)
+            label = replace(label, always=always)
+            yield ((label, ground.around(name, label.size)),)
+
+
+def _centred(setting: DrawSetting) -> Mapping[str, tuple[str, ...]]:
+    """Return the names of the instant centres in each joint, where they are shown."""
+    if not setting.look.centres:
+        return {}
+    from linkanim.picture.centres import CentrePairs
+
+    return CentrePairs(setting.figure).at_joints
 
 
 def _links(ground: Surroundings) -> Forms:
-    """Yield the links' names, their numbers where there is no room for those."""
+    """Yield the links' names, their numbers where there is no room for those.
+
+    Where instant centres are shown, which are called by numbers, all have their numbers, and blocks too.
+    """
     setting = ground.setting
-    links, size = setting.figure.links, setting.layout.small_size
-    for body, number in setting.figure.numbers.items():
-        words = (links[body], number) if _long_enough(ground, body) else (number,)
+    figure, size = setting.figure, setting.layout.small_size
+    numbers = dict(figure.numbers)
+    if setting.look.centres:
+        numbers |= {body: number for number, body in figure.by_number.items() if body}
+    for body, number in numbers.items():
+        words = (
+            (figure.links[body], number) if body in figure.links and _long_enough(ground, body) else (number,)
+        )
+        words = words[-1:] if setting.look.centres else words
         labels = [_label(setting, text, size, setting.theme.ink) for text in dict.fromkeys(words)]
         if body.slider:
             yield tuple((label, ground.around(body.slider, label.size, slider=True)) for label in labels)

@@ -76,7 +76,7 @@ class Look:
     guide has its `dead_centres`, unless they would give an answer away. `caption` adds the scene's
     sentence on what to watch for. `polygons` draws the velocity and acceleration polygons beside the
     linkage. `chain` colours the links in the order in which they are solved. `centres` is 0 for none, 1
-    for the instant centres, 2 for the coupler's centrodes as well.
+    for the instant centres with Kennedy's lines, 2 for the coupler's centrodes as well.
     """
 
     trace: bool = _toggle(
@@ -129,7 +129,7 @@ class Look:
         0,
         Option(
             "instant-centres",
-            "mark the instant centres of all links; of more than five links, those relative to the ground",
+            "mark all instant centres, with Kennedy's lines; of more than five links those to the ground",
             1,
         ),
         Option("centrodes", "and the centrodes, the paths of the coupler's instant centre", 2),
@@ -214,6 +214,11 @@ class Look:
     def framed(self) -> bool:
         """Whether it is zoomed or panned."""
         return self.zoom != 1 or self.pan != (0.0, 0.0)
+
+    @property
+    def named(self) -> bool:
+        """Whether something on the linkage has a name: its parts, or the centres in joints."""
+        return self.names > 0 or self.centres > 0
 
     @property
     def overrun(self) -> bool:

@@ -6,7 +6,7 @@ turns, and is straight where a slider is driven.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property, lru_cache
 from itertools import accumulate, pairwise, product
 from math import ceil, floor, pi, tau
@@ -416,12 +416,14 @@ def arrow_names(
     joints: tuple[str, ...],
     letters: tuple[Type, int],
     inside: Rect,
+    busy: Iterable[Rect] = (),
 ) -> list[list[Caption]]:
-    """Return the names of the arrows of a pose, kind by kind: each beyond its head, off those before it.
+    """Return the names of the arrows of a pose, kind by kind: each beyond its head, off `busy` places.
 
-    An arrow shorter than its name is high has none. Names stay in the picture where their arrows leave it.
+    Each is off the names before it, too; an arrow shorter than its name is high has none. Names stay in the
+    picture where their arrows leave it.
     """
-    (type_, size), taken, found = letters, list[Rect](), list[list[Caption]]()
+    (type_, size), taken, found = letters, list(busy), list[list[Caption]]()
     for kind in kinds:
         halo, names = Halo(kind.halo, max(1.2 * kind.gauge.line, 1.5)), list[Caption]()
         for arrow in kind.seen(pose, view, joints):

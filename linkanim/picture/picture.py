@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import cached_property
-from itertools import islice
+from itertools import chain, islice
 from typing import TYPE_CHECKING, NamedTuple
 
 from linkanim.mechanics.motion import Pose
@@ -108,6 +108,11 @@ class Picture:
         self._apart, self._moment = apart, moment
         follows = held or self.scene.towards is not None
         request = request_of(size, look, listed=listed, row=row, still=moment is not None, bar=bar)
+        if look.centres and moment is not None:
+            from linkanim.picture.centres import CentrePairs
+
+            held_in_view = CentrePairs(figure(self.scene)).near(self.scene.pose(moment, 2))
+            request = request._replace(held=held_in_view, lined=True)
         if before and moment is None and (size, look.names) == (before.size, before.look.names):
             same = follows or before._goal is self._goal
             request = request._replace(table=before.fit.request.table) if same else request
@@ -115,7 +120,7 @@ class Picture:
         """Whether what stands still is that of an earlier picture."""
         self._arrange(request, before, held=held)
         anew = before is not None and not self._named_as(before, held=held)
-        self.hurried: bool = hurried and look.names > 0 and anew
+        self.hurried: bool = hurried and look.named and anew
         """Whether its names are those of another picture."""
         if self.hurried and before and before.fit.request.table[0] and before._goal is self._goal:
             self._arrange(request._replace(table=self._table_size()), before, held=held)
@@ -130,7 +135,7 @@ class Picture:
 
     def _named(self, before: Picture | None, earlier: Earlier | None, *, held: bool) -> Iterator[None]:
         """Give it names, and room for the table that they need, in steps; then what stands still."""
-        if self.look.names:
+        if self.look.named:
             yield from self._placed(before, held=held)
         if self.names and self.names.unlisted:
             yield
@@ -247,10 +252,12 @@ class Picture:
             yield from self._within([Group(f"pose-{n}", self.drawing.faint(other))])
         if self._moves_behind:
             yield from self._standing
-        yield from self._within(self.drawing.moving(pose))
+        named = self.names.captions(pose, self.drawing.places(pose)) if self.names else []
+        taken = (line.around(self.type) for line in named)
+        yield from self._within(self.drawing.moving(pose, chain(self.layout.words, taken)))
         yield from (polygon.group(pose) for polygon in self._polygons)
         yield from self._on_chart(pose, grasped=overlay.grip)
-        yield from self._within(self._named_groups(pose))
+        yield from self._within(self._named_groups(pose, named))
         yield from self._words(pose, noted=overlay.noted)
         yield from self._handled(pose, overlay)
 
@@ -387,13 +394,13 @@ class Picture:
             items += grip(chart.foot(pose), self.layout.unit, self.theme)
         yield grouped("reading", [*items, *chart.readings(pose)])
 
-    def _named_groups(self, pose: Pose) -> Iterator[Group]:
+    def _named_groups(self, pose: Pose, named: Sequence[Caption]) -> Iterator[Group]:
         """Yield the words on the scene."""
         if self.names:
             places = self.drawing.places(pose)
             lines = [*self.names.lines(pose, places, self._dimension_lines)]
             yield Group("dimension-lines", lines, made_of=self._dimension_lines)
-            yield Group("names", (), self.names.captions(pose, places), made_of=self.names)
+            yield Group("names", (), named, made_of=self.names)
 
     @cached_property
     def _dimension_lines(self) -> dict[str, Part]:
@@ -402,9 +409,8 @@ class Picture:
 
     def _ends_before(self, edge: Rect, line: Caption) -> bool:
         """Return whether a line of text ends before what stands beside the scene."""
-        wide = self.type.width(line.text, line.size, strong=line.strong)
-        right = line.at[0] + {"left": 1.0, "centre": 0.5, "right": 0.0}[line.anchor] * wide
-        return right <= edge.right and line.at[1] + line.size <= edge.bottom
+        around = line.around(self.type)
+        return around.right <= edge.right and around.bottom <= edge.bottom
 
     def _words(self, pose: Pose, *, noted: bool) -> Iterator[Group]:
         """Yield the words about the scene, on a backing where something may lie under them."""
@@ -545,9 +551,10 @@ class Picture:
 
         # placed in the view as it fits; a zoom only carries them along
         known, setting = self.drawing.symbols, replace(self.drawing.setting, view=self.fitted)
-        centres = self.drawing.dead_centres_in(self.fitted)
+        centres = self.drawing.dead_centres_in(self.fitted) if self.look.names else None
         marks = centres.ticks if centres else ()
-        around = Surroundings(setting, motion_of(setting), self._moment, marks, known is not None)
+        turning = motion_of(setting) if self.look.names else None
+        around = Surroundings(setting, turning, self._moment, marks, known is not None)
         names = yield from names_of(around, known, centres)
         self.names = replace(names, scale=self.view.scale)
 
@@ -562,7 +569,7 @@ class Picture:
 
     def _named_as(self, other: Picture, *, held: bool) -> bool:
         """Return whether the names on another picture are this one's."""
-        looks = ((one.look.names, one.size) for one in (self, other))
+        looks = ((one.look.names, one.look.centres > 0, one.size) for one in (self, other))
         same = (self.scene, self.fitted, self.layout) == (other.scene, other.fitted, other.layout)
         follows = (held or self.scene.towards is not None) and self.figure.shown == other.figure.shown
         whole = other.names is not None and not other.hurried and self._moment is None

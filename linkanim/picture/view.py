@@ -64,6 +64,23 @@ class Rect(NamedTuple):
         ]
         return min(gaps, default=0.0)
 
+    def crossed(self, one: complex, other: complex) -> tuple[complex, complex] | None:
+        """Return what of a segment lies in it, by Liang and Barsky's shares; None where nothing does."""
+        way, first, last = other - one, 0.0, 1.0
+        for step, gap in (
+            (-way.real, one.real - self.x),
+            (way.real, self.right - one.real),
+            (-way.imag, one.imag - self.y),
+            (way.imag, self.bottom - one.imag),
+        ):
+            if step == 0 and gap < 0:
+                return None
+            if step < 0:
+                first = max(first, gap / step)
+            elif step > 0:
+                last = min(last, gap / step)
+        return (one + first * way, one + last * way) if first < last else None
+
 
 class Box(NamedTuple):
     """A rectangle of the scene, in its unit of length, y up."""

@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from linkanim.mechanics.centres import centrodes, pole
 from linkanim.mechanics.linkage import Body
-from linkanim.mechanics.measures import centrodes, coupler_body, pole
+from linkanim.mechanics.measures import coupler_body
 from linkanim.mechanics.motion import Motion
 from linkanim.scenes import load
 from linkanim.scenes.scene import Scene

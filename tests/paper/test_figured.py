@@ -156,9 +156,11 @@ def test_instant_centres_are_where_the_quantity_says_and_pins_are_not_marked() -
     scene = load("press")
     figured = Figured(scene, (1280, 720), Look(hud=False, centres=1), phase=1.0)
     (marked,) = [group for group in figured.groups() if group.name == "instant-centres"]
-    assert [caption.text for caption in marked.captions] == ["P_{13}", "P_{14}", "P_{16}"]
+    assert [caption.text for caption in marked.captions] == ["P_{13}", "P_{14}", "P_{16}", "P_{15} at ∞"]
     pose, view = scene.pose(1.0), figured.picture.view
-    for layer, body in zip(marked.layers, "346", strict=True):
-        cross = np.concatenate(layer.loops).mean()
+    (crosses,) = marked.layers
+    assert len(crosses.loops) == 2 * 3 + 1  # an arrow to the one at infinity
+    for n, body in enumerate("346"):
+        cross = np.concatenate(crosses.loops[2 * n : 2 * n + 2]).mean()
         wanted = view.place(quantity(scene, f"{body}.pole").read(pose))
         assert abs(cross - wanted) < 1e-6

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+from itertools import combinations
+
 import numpy as np
 import pytest
 
-from linkanim.picture.centres import Centres, clipped
+from linkanim.picture.centres import CentrePairs, Centres, clipped, kennedy_line
 from linkanim.picture.drawing import Drawing
 from linkanim.picture.figure import figure
 from linkanim.picture.look import Look
 from linkanim.picture.picture import Picture
 from linkanim.picture.view import Rect
 from linkanim.scenes import load, names
+from linkanim.units import three_digits
 
 
 def drawing(name: str, centres: int) -> Drawing:
@@ -25,24 +28,89 @@ def found(name: str, centres: int = 2) -> Centres:
     return marks
 
 
-# scene, what is marked at some pose: of few links all pairs, else those to the ground
+# scene, all that have names: of few links all pairs, those of a block without a name too, else the ground's
 MARKED = [
     ("crank-rocker", ["P_{12}", "P_{13}", "P_{14}", "P_{23}", "P_{24}", "P_{34}"]),
     ("slider-crank", ["P_{12}", "P_{13}", "P_{14}", "P_{23}", "P_{24}", "P_{34}"]),
+    ("inverted-slider-crank", ["P_{12}", "P_{13}", "P_{14}", "P_{23}", "P_{24}", "P_{34}"]),
+    ("geared-five-bar-2-1", [f"P_{{{a}{b}}}" for a, b in combinations("12345", 2)]),
     ("press", ["P_{12}", "P_{13}", "P_{14}", "P_{15}", "P_{16}", "P_{17}"]),
 ]
 
 
 @pytest.mark.parametrize(("name", "labels"), MARKED)
 def test_the_pairs_of_links(name: str, labels: list[str]) -> None:
-    assert sorted(pair.label for pair in found(name).pairs) == labels
+    assert sorted(pair.label for pair in found(name).known.pairs) == labels
 
 
-def test_what_is_a_pin_is_not_marked_and_what_is_out_of_sight_neither() -> None:
-    pose, drawn = load("crank-rocker").pose(0.9), drawing("crank-rocker", 1)
-    (marked,) = [group for group in drawn.moving(pose) if group.name == "instant-centres"]
-    assert {caption.text for caption in marked.captions} <= {"P_{13}", "P_{24}"}
-    assert len(marked.captions) == len(marked.layers)
+def words_of(picture: Picture, phase: float) -> list[str]:
+    pose = picture.scene.pose(phase, 2)
+    return [line.text for group in picture.groups(pose) for line in group.captions]
+
+
+@pytest.mark.parametrize(("name", "labels"), MARKED)
+@pytest.mark.parametrize("phase", [0.0, 0.7, 2.1, 4.0])
+@pytest.mark.parametrize("names", [0, 1])
+def test_each_centre_has_its_name_wherever_it_lies(
+    name: str, labels: list[str], phase: float, names: int
+) -> None:
+    picture = Picture(load(name), (1280, 720), Look(hud=False, centres=1, names=names), moment=phase)
+    said = ", ".join(words_of(picture, phase))
+    assert {label for label in labels if label not in said} == set()
+
+
+@pytest.mark.parametrize("name", ["crank-rocker", "slider-crank", "drag-link", "inverted-slider-crank"])
+def test_a_still_holds_centres_up_to_three_sizes_away_and_tells_of_the_others(name: str) -> None:
+    scene = load(name)
+    for phase in (0.2, 1.0, 2.2, 3.3, 5.0):
+        picture = Picture(scene, (1280, 720), Look(hud=False, centres=1), moment=phase)
+        box, said = picture.figure.box, words_of(picture, phase)
+        size = max(box.right - box.left, box.high - box.low)
+        known = CentrePairs(picture.figure)
+        for pair, label in known.pairs:
+            place = known.of(scene.pose(phase, 2))[pair].place
+            if place is None:
+                assert f"{label} at ∞" in said
+            elif abs(place - complex(*box.middle)) <= 3 * size:
+                assert Rect(0, 0, 1280, 720).holds(*picture.view.to_pixel(place.real, place.imag))
+            else:
+                assert any(f"{label} " in line and "from O" in line for line in said)
+
+
+def test_a_centre_out_of_sight_is_told_with_its_distance_and_an_arrow_along_the_way() -> None:
+    scene, phase = load("crank-rocker"), 0.0
+    picture = Picture(scene, (640, 360), Look(hud=False, centres=1, zoom=4.0), moment=None)
+    known, pose = CentrePairs(picture.figure), scene.pose(phase, 2)
+    place = known.of(pose)["1", "3"].place
+    assert place is not None
+    (told,) = [line for line in words_of(picture, phase) if line.startswith("P_{13} ")]
+    assert told == f"P_{{13}} {three_digits(abs(place))} mm from O₂"
+
+
+def test_kennedy_s_lines_run_through_their_three_centres() -> None:
+    scene = load("geared-five-bar-2-1")
+    picture = Picture(scene, (640, 360), Look(hud=False, centres=1))
+    known, pose = CentrePairs(picture.figure), scene.pose(1.0, 2)
+    centres = known.of(pose)
+    assert len(known.steps) == 4
+    for step in known.steps:
+        for third in step.by:
+            ends = kennedy_line(step.pair, third, centres, 1e3)
+            assert ends is not None
+            for pair in (step.pair, (step.pair[0], third), (third, step.pair[1])):
+                centre = centres.get(pair) or centres[pair[::-1]]
+                assert centre.place is not None
+                off = ((centre.place - ends[0]) / (ends[1] - ends[0])).imag
+                assert abs(off) < 1e-9
+
+
+def test_what_is_a_joint_has_no_cross() -> None:
+    picture = Picture(load("crank-rocker"), (640, 360), Look(hud=False, centres=1), moment=0.9)
+    pose = picture.scene.pose(0.9, 2)
+    (marked,) = [group for group in picture.drawing.moving(pose) if group.name == "instant-centres"]
+    lines, crosses = marked.layers
+    assert len(crosses.loops) == 4
+    assert lines.loops
 
 
 @pytest.mark.parametrize("phase", [0.3, 1.1, 4.0])

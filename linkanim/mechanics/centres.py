@@ -1,0 +1,235 @@
+"""Instant centres: where two links move alike, and how Kennedy's theorem leads from some to the others.
+
+Links are bodies, the blocks in slots that have no name among them; None is the ground. The instant centres
+of three links lie in one line (Aronhold and Kennedy; Uicker, Pennock and Shigley, Theory of Machines and
+Mechanisms), so that two such lines give a centre that is not known yet.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from itertools import combinations
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from linkanim.mechanics.angles import unit
+from linkanim.mechanics.linkage import Body, Crank, Linkage, Slide, holding
+from linkanim.mechanics.measures import as_complex, between, components, cross, over, stands
+
+_STRAIGHT = 1e-12
+"""Below this share of the input's rate a difference of angular velocities is rounding."""
+
+Link = Body | None
+"""A body, or None for the ground."""
+
+
+class Centre(NamedTuple):
+    """Where two links move alike: at a place (x + yi), or infinitely far along a way of length 1."""
+
+    place: complex | None
+    way: complex = 0j
+
+
+class KennedyStep(NamedTuple):
+    """Two links, and the third links by which their centre is found: it lies on a line for each of them."""
+
+    pair: tuple[str, str]
+    by: tuple[str, ...]
+
+
+def blocks(linkage: Linkage) -> tuple[Body, ...]:
+    """Return the blocks that slide on a link, or on the ground, and that no named body is."""
+    named = {body.slider for body in linkage.bodies}
+    points = dict.fromkeys(slide.point for joint in linkage.joints for slide in joint.slides)
+    return tuple(Body("", slider=point) for point in points if point not in named)
+
+
+def centre(motion: Any, one: Link, other: Link) -> Centre | None:
+    """Return the instant centre of two links of a pose; None where they do not move against each other.
+
+    Links that share a joint have it there. The centre of what slides and its guide is infinitely far across
+    the guide, also while it stands; that of two links that turn alike across the way they move.
+    """
+    linkage = motion.mechanism.linkage
+    if joint := joint_between(linkage, one, other):
+        return Centre(complex(*motion.position[joint]))
+    if slide := slide_between(linkage, one, other):
+        return Centre(None, 1j * _direction(motion, slide))
+    body, against = (one, other) if one is not None else (other, one)
+    assert body is not None
+    x, y = pole(motion, body, against)
+    if math.isfinite(x) and math.isfinite(y):
+        return Centre(complex(x, y))
+    rated = motion.per_input if stands(motion) else motion
+    way = complex(*_velocity_between(rated, body, against)[1:])
+    return Centre(None, 1j * way / abs(way)) if math.isfinite(abs(way)) and abs(way) > 0 else None
+
+
+def joint_between(linkage: Linkage, one: Link, other: Link) -> str | None:
+    """Return the joint that two links share; None where they share none."""
+    shared = _joints(linkage, one) & _joints(linkage, other)
+    return min(shared, default=None)
+
+
+def slide_between(linkage: Linkage, one: Link, other: Link) -> Slide | None:
+    """Return the slide by which one of two links slides on the other; None where neither does."""
+    slides = [slide for joint in linkage.joints for slide in joint.slides]
+    for block, guide in ((one, other), (other, one)):
+        for slide in slides:
+            if block is not None and block.slider == slide.point and _guides(linkage, guide, slide):
+                return slide
+    return None
+
+
+def kennedy(linkage: Linkage, links: Mapping[str, Link]) -> tuple[KennedyStep, ...]:
+    """Return the centres that Kennedy's theorem leads to, in the order in which they can be found.
+
+    Those of links that share a joint, slide on each other or are geared to each other on fixed pins are
+    known. Each of the others is found by two links whose centres with both are known by then; at the end
+    those stand that only one such link leads to.
+    """
+    pairs = list(combinations(links, 2))
+    known = {pair for pair in pairs if _adjacent(linkage, links, pair)}
+    steps: list[KennedyStep] = []
+    for least in (2, 1):
+        while found := next(_next(links, pairs, known, least), None):
+            steps.append(found)
+            known.add(found.pair)
+    return tuple(steps)
+
+
+def _next(
+    links: Mapping[str, Link], pairs: list[tuple[str, str]], known: set[tuple[str, str]], least: int
+) -> Iterator[KennedyStep]:
+    """Yield the centres that so many links at the least lead to."""
+    both = known | {(other, one) for one, other in known}
+    for one, other in pairs:
+        by = tuple(third for third in links if (one, third) in both and (third, other) in both)
+        if (one, other) not in known and len(by) >= least:
+            yield KennedyStep((one, other), by[:2])
+
+
+def _adjacent(linkage: Linkage, links: Mapping[str, Link], pair: tuple[str, str]) -> bool:
+    """Whether the centre of two links is known by how they touch."""
+    one, other = (links[number] for number in pair)
+    touch = joint_between(linkage, one, other) or slide_between(linkage, one, other)
+    return touch is not None or _geared(linkage, one, other)
+
+
+def _geared(linkage: Linkage, one: Link, other: Link) -> bool:
+    """Whether two links turn about fixed pins and are geared to each other: their pitch circles touch."""
+    bars = (_joints(linkage, one), _joints(linkage, other))
+    for crank in linkage.cranks:
+        if crank.gear and linkage.joint(crank.pivot).fixed:
+            mate = linkage.joint(crank.gear.mate)
+            ends = [{crank.pivot, crank.name}, {mate.pivot, mate.name} if isinstance(mate, Crank) else set()]
+            if any(first <= bars[0] and second <= bars[1] for first, second in (ends, ends[::-1])):
+                return True
+    return False
+
+
+def _joints(linkage: Linkage, link: Link) -> frozenset[str]:
+    """Return all joints of a link."""
+    if link is None:
+        return frozenset(linkage.rigid_bodies[0])
+    if link.slider is not None:
+        return frozenset([link.slider])
+    frame = holding(linkage.rigid_bodies, link.joints)
+    return frozenset(link.joints if frame is None else linkage.rigid_bodies[frame])
+
+
+def _guides(linkage: Linkage, link: Link, slide: Slide) -> bool:
+    """Whether a link is what something slides on."""
+    if link is None or slide.start is None:
+        return link is None and slide.start is None
+    if link.slider is not None:
+        return link.slider == slide.start and slide.axis is None
+    return slide.axis is not None and set(slide.axis) <= _joints(linkage, link)
+
+
+def _slide_of(linkage: Linkage, point: str) -> Slide:
+    """Return how a block slides: by what its own joint says, or that of the bar whose slot it is in."""
+    own = linkage.joint(point).slides
+    every = (*own, *(slide for joint in linkage.joints for slide in joint.slides))
+    return next(slide for slide in every if slide.point == point)
+
+
+def _direction(motion: Any, slide: Slide) -> complex:
+    """Return the direction of a guide in a pose."""
+    turn = complex(*unit(slide.angle))
+    if slide.axis is None:
+        return turn
+    arm = complex(*between(motion.position, slide.axis))
+    return turn * arm / abs(arm)
+
+
+def pole(motion: Any, body: Body, other: Link = None) -> tuple[Any, Any]:
+    """Return a body's instant centre to another link: x and y, of a pose or of a motion.
+
+    There both move alike: P = A + i·(v_A - v)/(ω - ω′) with v and ω′ of the other's plane at A, a joint of
+    the body. Infinite where they turn alike. A fixed pin is the centre of what turns about it, and at rest
+    they are those of the motion by the input.
+    """
+    linkage, still = motion.mechanism.linkage, 0.0 * motion.phase
+    pin = linkage.pivot(body.joints) if other is None and body.slider is None else None
+    if pin is not None:
+        x, y = linkage.pin(pin).position
+        return x + still, y + still
+    found = _moving_pole(motion, body, other)
+    if np.any(stops := stands(motion)):
+        by_input = _moving_pole(motion.per_input, body, other)
+        known = stops & np.isfinite(by_input[0]) & np.isfinite(by_input[1])
+        return np.where(known, by_input[0], found[0])[()], np.where(known, by_input[1], found[1])[()]
+    return found
+
+
+def _moving_pole(motion: Any, body: Body, other: Link) -> tuple[Any, Any]:
+    x, y = components(motion.position[_point(body)])
+    rate, vx, vy = _velocity_between(motion, body, other)
+    turns = abs(rate) > _STRAIGHT * abs(motion.coordinate_rate)
+    found = x - over(vy, rate), y + over(vx, rate)
+    return np.where(turns, found[0], math.inf)[()], np.where(turns, found[1], math.inf)[()]
+
+
+def _velocity_between(motion: Any, body: Body, other: Link) -> tuple[Any, Any, Any]:
+    """Return how fast a body turns against another link, and how its first joint moves against that."""
+    rate, (x, y) = _rate(motion, body), components(motion.position[_point(body)])
+    vx, vy = components(motion.velocity[_point(body)])
+    if other is None:
+        return rate, vx, vy
+    theirs, (px, py) = _rate(motion, other), components(motion.position[_point(other)])
+    wx, wy = components(motion.velocity[_point(other)])
+    return rate - theirs, vx - wx + theirs * (y - py), vy - wy - theirs * (x - px)
+
+
+def _point(body: Body) -> str:
+    return body.slider or body.joints[0]
+
+
+def _rate(motion: Any, body: Body) -> Any:
+    """Return a body's angular velocity: of what slides that of its guide."""
+    if body.slider is None:
+        return motion.angular_velocity[body.name]
+    guide = _slide_of(motion.mechanism.linkage, body.slider)
+    if guide.axis is None:
+        return 0.0 * motion.coordinate_rate
+    arm, moving = between(motion.position, guide.axis), between(motion.velocity, guide.axis)
+    return over(cross(arm, moving), arm[0] * arm[0] + arm[1] * arm[1])
+
+
+def centrodes(motion: Any, body: Body) -> tuple[Any, Any]:
+    """Return the path of a body's instant centre on the ground, and on the body: x + yi (n,), breaks NaN.
+
+    The body moves as if the second curve, fixed to it along its first -> second joint, rolled on the first.
+    There is a break wherever the centre goes through infinity: where the body stops turning.
+    """
+    x, y = pole(motion, body)
+    first, second = (as_complex(motion.position[name]) for name in body.joints[:2])
+    turning = np.sign(motion.angular_velocity[body.name])
+    known = np.isfinite(x) & np.isfinite(y)
+    fixed = np.where(known, x, math.nan) + 1j * np.where(known, y, math.nan)
+    rolling = (fixed - first) * (np.conj(second - first) / abs(second - first))
+    through = np.flatnonzero(turning[1:] * turning[:-1] <= 0) + 1
+    return np.insert(fixed, through, math.nan), np.insert(rolling, through, math.nan)
