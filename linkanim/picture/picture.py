@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import chain, islice
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -32,7 +32,7 @@ from linkanim.picture.layout import CAPTION_STEP, Gauge, Layout, gauge
 from linkanim.picture.look import Look
 from linkanim.picture.marks import glow, grip, measure, spots
 from linkanim.picture.motion_marks import motion_of
-from linkanim.picture.overlay import Lane, LayersShown, Overlay, PathShown
+from linkanim.picture.overlay import Lane, LayersShown, Overlay, PathShown, SliderShown
 from linkanim.picture.shapes import Part
 from linkanim.picture.slider import slider
 from linkanim.picture.text import Type
@@ -262,15 +262,14 @@ class Picture:
         yield from self._handled(pose, overlay)
 
     def _posed(self, overlay: Overlay) -> Iterator[Group]:
-        """Yield poses that were set down, and the dial."""
+        """Yield poses that were set down."""
         from linkanim.picture.poses import posed
 
         assert overlay.poses
         yield from posed(self.drawing.setting, overlay.poses)
-        yield from slider(self.drawing.setting, overlay.slider) if overlay.slider else ()
 
-    def _constructed(self, steps: int) -> Iterator[Group]:
-        """Yield the first steps of how the scene was found, and what is done in the last of them."""
+    def _constructed(self, steps: int, shown: SliderShown | None) -> Iterator[Group]:
+        """Yield the first steps of how the scene was found, what is done in the last, and a slider."""
         from linkanim.picture.construction import construction_items
 
         known = self._steps_of_construction
@@ -278,7 +277,10 @@ class Picture:
         marks = [mark for step in known[:steps] for mark in step.marks]
         yield grouped("construction", construction_items(marks, self.view, self.layout.stage, pen))
         last = known[min(steps, len(known)) - 1]
-        yield worded(self.drawing.setting, last.words, [f"step {steps} of {len(known)}   F7 goes on"])
+        facts = [f"step {steps} of {len(known)}   F7 goes on"]
+        said = partial(worded, room=_ROOM_BESIDE_SLIDER) if shown else worded
+        yield said(self.drawing.setting, last.words, facts)
+        yield from slider(self.drawing.setting, shown) if shown else ()
 
     @cached_property
     def _steps_of_construction(self) -> tuple[ConstructionStep, ...]:
@@ -440,7 +442,7 @@ class Picture:
                 yield from loose(overlay.build.loose, self.drawing.setting)
             yield from hand(overlay.build, self.drawing.setting)
         if overlay.construction:
-            yield from self._constructed(overlay.construction)
+            yield from self._constructed(overlay.construction, overlay.slider)
         if overlay.layers:
             sentence, warns = overlay.layers.sentence, overlay.layers.is_warning
             yield worded(self.drawing.setting, sentence, is_warning=warns)

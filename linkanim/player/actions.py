@@ -466,6 +466,12 @@ def _either(
     return lambda state, value: (of_poses if state.posing else of_sheet)(state, value)
 
 
+def _dial_on(state: State, steps: int) -> State:
+    """Turn the dial of poses, that of the pencil, or go along the family of the scene that is on."""
+    handle = posing.dial_on if state.posing else dial.dial_on if state.drawing else making.along
+    return handle(state, steps)
+
+
 def _speed(_: State, after: State) -> str:
     """Say the input's speed."""
     return speed_words(after.scene, after.clock.speed)
@@ -591,7 +597,7 @@ ACTIONS: Mapping[str, Rule] = {
     "cards": Rule(_cards, _either(pencil.cards, posing.cards)),  # which one is shown; the numbers of each
     "way": Rule(_cards, pencil.way),  # 0; the numbers of each answer along the front
     "dial": Rule(_share, _either(dial.dial, posing.dial)),  # from 0 to 1, the most compact; of poses steepest
-    "dial_on": Rule(_whole, _either(dial.dial_on, posing.dial_on)),  # so many steps further
+    "dial_on": Rule(_whole, _dial_on),  # so many steps further
     "answer": Rule(_whole, sketching.choose),  # its place in the row
     "take_point": Rule(_whole, pencil.take_point),  # its place on the stroke
     "take_pivot": Rule(_text, pencil.take_pivot),
@@ -638,7 +644,7 @@ ACTIONS: Mapping[str, Rule] = {
     "layers": Rule(_nothing, making.layers),
     "layered": Rule(_text, making.found),  # the layers as `linkanim make --json` prints them
     "lift": Rule(_whole, making.lift),  # steps
-    "slide": Rule(_whole, making.lift_to),  # the step of the slider that is shown
+    "slide": Rule(_whole, making.slide),  # the step of the slider that is shown
     "back": Rule(_nothing, back),
     "list": Rule(_nothing, edits.list_, taped=False),
     "menu": Rule(_words_or_none, edits.menu, taped=False),  # some commands, as `commands.menu_of` has them

@@ -655,6 +655,8 @@ class Mouse:
     def _on_the_slider(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...]:
         """Take the slider's knob along, from where the button went down on it."""
         self._drag = None if gesture.kind == "up" else "slider"
+        if gesture.kind == "up":
+            return (Action("drop"),)
         return (Action("slide", screen.slid(self._at[0])),) if gesture.kind in ("down", "move") else ()
 
     def _of_the_layers(self, gesture: Gesture, _: Screen) -> tuple[Action, ...] | None:

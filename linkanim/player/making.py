@@ -12,8 +12,18 @@ from linkanim.mechanics.linkage import Linkage
 from linkanim.picture.layered import Frame, Layered, LayeredPin, LayeredPlate
 from linkanim.picture.raster import Loop
 from linkanim.picture.shapes import disc, hull
-from linkanim.player.edits import drop
-from linkanim.player.state import LIFTED, Layering, State, with_effect, with_toast
+from linkanim.player.edits import drop, exchanged, followed
+from linkanim.player.state import (
+    FAMILY,
+    LIFTED,
+    Held,
+    Layering,
+    State,
+    cleared,
+    with_effect,
+    with_toast,
+    with_undo,
+)
 from linkanim.scenes.scene import Scene
 
 _MADE = Intake("the layers of a linkage", most_bytes=10_000_000, most_values=1_000_000)
@@ -74,6 +84,38 @@ def construct(state: State, further: int) -> State:
 
     at = (state.constructed + further) % (len(construction(state.scene)) + 1)
     return replace(state, construction=(state.scene, at) if at else None)
+
+
+def slide(state: State, step: int) -> State:
+    """Take the slider that is shown to a step: it lifts the layers, or goes along the family of a time ratio.
+
+    However far it goes along, undo goes back to where it was taken.
+    """
+    if state.layers or not state.constructed:
+        return lift_to(state, step)
+    held = state.held or Held("", state.scene, state.phase, not state.clock.paused)
+    scene, steps = _member(held.scene, step), state.constructed
+    kept = state.editing if state.scene is not held.scene else with_undo(state.editing, held.scene)
+    state = exchanged(replace(state, held=held, glide=None, editing=cleared(kept)), scene)
+    return replace(state, construction=(scene, steps))
+
+
+def along(state: State, by: int) -> State:
+    """Go so many steps further along the family of a time ratio, while its construction is drawn."""
+    from linkanim.synthesis.quick_returns import member_of
+
+    member = member_of(state.scene) if state.constructed else None
+    if member is None:
+        return state
+    steps, scene = state.constructed, _member(state.scene, round(member.place * FAMILY) + by)
+    state = replace(state, editing=cleared(with_undo(state.editing, state.scene)))
+    return replace(followed(state, scene), construction=(scene, steps))
+
+
+def _member(scene: Scene, step: int) -> Scene:
+    from linkanim.synthesis.quick_returns import moved_along
+
+    return moved_along(scene, min(max(step, 0), FAMILY) / FAMILY)
 
 
 def make(state: State, _: None) -> State:

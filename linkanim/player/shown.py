@@ -51,6 +51,7 @@ from linkanim.player.keys import help_groups
 from linkanim.player.pointing import Pointed, told
 from linkanim.player.state import (
     DIAL,
+    FAMILY,
     FLASH_FRAMES,
     LARGEST_DIAL,
     LIFTED,
@@ -68,7 +69,7 @@ from linkanim.player.state import (
     driven_bar,
 )
 from linkanim.scenes.editing import Dimension, dimensions, in_unit, stretches
-from linkanim.scenes.scene import Scene
+from linkanim.scenes.scene import Scene, TimeRatioPurpose
 from linkanim.units import short, significant, stepped, three_digits, typeset
 
 if TYPE_CHECKING:
@@ -359,7 +360,16 @@ def _slider(state: State) -> SliderShown | None:
     """Return the slider that is there for what is on."""
     if state.layers and state.layers.parts:
         return SliderShown("layers", "flat", "lifted", LIFTED, state.layers.lifted)
-    return None
+    if not state.constructed or not isinstance(state.scene.purpose, TimeRatioPurpose):
+        return None
+    from linkanim.synthesis.quick_returns import member_of
+
+    member = member_of(state.scene)
+    if member is None:
+        return None
+    least, best = (f"{degrees(angle):.1f}°" for angle in (member.transmission, member.best))
+    label = f"transmission {least}, best {best}"
+    return SliderShown(label, "short coupler", "long coupler", FAMILY, round(member.place * FAMILY))
 
 
 def _quantities(state: State, listing: Listing) -> Quantities:

@@ -615,6 +615,8 @@ class PoseSketch(Sketch):
 
 LIFTED = 20
 """Steps by which layers are lifted off each other, from flat to as far as there is room."""
+FAMILY = 100
+"""Steps from one end of a family of linkages to the other."""
 
 
 class Layering(NamedTuple):

@@ -16,7 +16,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import field
+from dataclasses import field, replace
+from functools import cached_property, lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -25,12 +26,14 @@ from linkanim import units
 from linkanim.errors import BadInput
 from linkanim.frozen import frozen
 from linkanim.scenes.reading import scene_from
-from linkanim.scenes.scene import Scene
+from linkanim.scenes.scene import Scene, TimeRatioPurpose
 from linkanim.synthesis.linkages import Real, refuse_count
 from linkanim.units import shown
 
 COUNT = 5
-KINDS = ("slider-crank", "crank-rocker")
+_TABLES: Mapping[str, str] = {"slider-crank": "slider-crank", "crank-rocker": "four-bar"}
+"""Each kind, and the table that a scene file keeps it in."""
+KINDS = tuple(_TABLES)
 LONGEST = 100.0
 """The longest link of a crank-rocker, of which nothing but angles is asked."""
 _EVEN = 1e-6
@@ -75,7 +78,8 @@ class QuickReturn:
         return max(abs(value) for name, value in self.parameters.items() if name != "offset")
 
 
-class DeadCentreFamily(NamedTuple):
+@frozen
+class DeadCentreFamily:
     """Linkages of one stroke or swing and one time ratio, by the angle t (rad) or a rod's length in cranks.
 
     Members lie from `low` to `high`, on one `side`: the crank's pivot on that of the chord's where the
@@ -133,7 +137,17 @@ class DeadCentreFamily(NamedTuple):
                 cosine = np.maximum(*map(np.abs, ends))
             return np.where(cosine < 1, np.arctan2(np.sqrt((1 - cosine) * (1 + cosine)), cosine), np.nan)
 
-    @property
+    def at(self, crank: float, coupler: float) -> float:
+        """Return where links of such lengths, in any unit, stand: t."""
+        if self.angle < _EVEN:
+            return coupler / crank
+        return math.atan2(coupler * math.sin(self.angle / 2), crank * math.cos(self.angle / 2))
+
+    def place_of(self, t: float) -> float:
+        """Return how far along it a member is, from 0 to 1."""
+        return min(max((t - self.low) / (self.high - self.low), 0.0), 1.0)
+
+    @cached_property
     def best(self) -> float:
         """Where the least transmission angle is greatest: between samples by the golden section."""
         if self.angle < _EVEN:
@@ -149,24 +163,25 @@ class DeadCentreFamily(NamedTuple):
         return float((low + high) / 2)
 
 
-def families(kind: str, ratio: float, swing: float = 0.0) -> list[DeadCentreFamily]:
+@lru_cache(maxsize=64)
+def families(kind: str, ratio: float, swing: float = 0.0) -> tuple[DeadCentreFamily, ...]:
     """Return the families of linkages with a time ratio, and for crank-rockers a swing (rad); maybe none."""
     angle = math.pi * (ratio - 1) / (ratio + 1)
     found = []
     for side in (1.0,) if kind == "slider-crank" or angle < _EVEN else (1.0, -1.0):
         whole = DeadCentreFamily(kind, angle, swing, side, 0.0, math.pi / 2)
         if angle < _EVEN:
-            whole = whole._replace(low=1.0, high=_LONGEST_ROD + 1)
+            whole = replace(whole, low=1.0, high=_LONGEST_ROD + 1)
         places = np.linspace(whole.low, whole.high, _TRIED + 1)[1:]
         crank, coupler, _ = whole.lengths(places)
         kept = (np.nan_to_num(whole.transmission(places)) >= _STEEPEST) & (coupler <= _LONGEST_ROD * crank)
         sound = np.flatnonzero(kept)
         found += [
-            whole._replace(low=float(places[run[0]]), high=float(places[run[-1]]))
+            replace(whole, low=float(places[run[0]]), high=float(places[run[-1]]))
             for run in np.split(sound, np.flatnonzero(np.diff(sound) > 1) + 1)
             if len(run) > 2
         ]
-    return sorted(found, key=lambda one: -float(one.transmission(np.array([one.best]))[0]))
+    return tuple(sorted(found, key=lambda one: -float(one.transmission(np.array([one.best]))[0])))
 
 
 def quick_return(
@@ -221,15 +236,80 @@ def quick_return(
     return tuple(_made(family, float(t), stroke, stated, name) for t in places[:count])
 
 
+class FamilyMember(NamedTuple):
+    """A scene as a member of the family of its time ratio: the family, and the chord in the scene's unit.
+
+    `place`, from 0 to 1, is where it stands. `transmission` is its least transmission angle (rad), `best`
+    that of the member where it is greatest.
+    """
+
+    family: DeadCentreFamily
+    chord: float
+    place: float
+    transmission: float
+    best: float
+
+
+def member_of(scene: Scene) -> FamilyMember | None:
+    """Return where a scene stands in the family of its time ratio; None where it belongs to none.
+
+    A scene whose lengths were changed since stands where the member of the same time ratio is nearest.
+    """
+    purpose = scene.purpose
+    kind = next((one for one, table in _TABLES.items() if table in scene.document), "")
+    if not isinstance(purpose, TimeRatioPurpose) or not kind:
+        return None
+    places = {name: complex(*at) for name, at in scene.pose(0.0, 0).position.items()}
+    crank, coupler = abs(places["A"] - places["O2"]), abs(places["B"] - places["A"])
+    if kind == "slider-crank":
+        swing, chord, ground = 0.0, purpose.stroke, 0.0
+    else:
+        swing, ground = purpose.swing or 0.0, abs(places["O4"] - places["O2"])
+        chord = 2 * abs(places["B"] - places["O4"]) * math.sin(swing / 2)
+    if not chord or not 1 <= purpose.ratio < 10:
+        return None
+    found = []
+    for family in families(kind, purpose.ratio, swing):
+        t = min(max(family.at(crank, coupler), family.low), family.high)
+        its = 0.0 if kind == "slider-crank" else abs(float(family.rocker(np.array([t]))[3][0])) * chord
+        found.append((abs(its - ground), family, t))
+    if not found:
+        return None
+    _, family, t = min(found, key=lambda one: one[0])
+    least, most = family.transmission(np.array([t, family.best])).tolist()
+    return FamilyMember(family, chord, family.place_of(t), least, most)
+
+
+def moved_along(scene: Scene, place: float) -> Scene:
+    """Return the member of a scene's family that stands at a place, 0 to 1; its chord stays.
+
+    BadInput for a scene that belongs to no family.
+    """
+    member = member_of(scene)
+    if member is None:
+        raise BadInput(f"{scene.name}: was made for no time ratio, so it belongs to no family")
+    family = member.family
+    _, _, tables = _sized(family, family.low + place * (family.high - family.low), member.chord)
+    merged = {key: {**scene.document[key], **table} for key, table in tables.items()}
+    return scene_from({**scene.document, **merged}, name=scene.name, where=scene.name)
+
+
+def _sized(
+    family: DeadCentreFamily, t: float, chord: float | None
+) -> tuple[float, dict[str, float], dict[str, Any]]:
+    """Return a member's chord, parameters and tables; without a chord its longest link has a usual length."""
+    sliding, at = family.kind == "slider-crank", np.array([t])
+    values = [float(part[0]) for part in (family.lengths(at) if sliding else family.rocker(at))]
+    scale = chord or LONGEST / max(map(abs, values))
+    lengths = [round(scale * value, _DIGITS - math.floor(math.log10(scale))) for value in values]
+    return scale, *(_slider_crank if sliding else _crank_rocker)(lengths)
+
+
 def _made(
     family: DeadCentreFamily, t: float, stroke: float | None, stated: Mapping[str, str], name: str
 ) -> QuickReturn:
     """Return a member of a family as a scene, its time ratio as the solver has it."""
-    parts = family.lengths(np.array([t])) if family.kind == "slider-crank" else family.rocker(np.array([t]))
-    values = [float(part[0]) for part in parts]
-    scale = stroke or LONGEST / max(map(abs, values))
-    lengths = [round(scale * value, _DIGITS - math.floor(math.log10(scale))) for value in values]
-    parameters, tables = (_slider_crank if family.kind == "slider-crank" else _crank_rocker)(lengths)
+    scale, parameters, tables = _sized(family, t, stroke)
     ratio = (math.pi + family.angle) / (math.pi - family.angle)
     document = {
         "title": f"{family.kind.capitalize()} with a time ratio of {ratio:g}",
@@ -245,7 +325,7 @@ def _made(
         scene=scene,
         kind=family.kind,
         parameters=parameters,
-        place=min(max((t - family.low) / (family.high - family.low), 0.0), 1.0),
+        place=family.place_of(t),
         ratio=info.time_ratio or 1.0,
         output=output or 0.0,
         transmission_angle=float(family.transmission(np.array([t]))[0]),

@@ -30,7 +30,9 @@ from linkanim.player.shown import overlay
 from linkanim.player.state import LIFTED, State, begin
 from linkanim.player.tape import Taping
 from linkanim.scenes import load
+from linkanim.scenes.scene import TimeRatioPurpose
 from linkanim.synthesis.guidance import guide
+from linkanim.synthesis.quick_returns import quick_return
 from linkanim.workshop.request import make
 
 
@@ -313,3 +315,53 @@ def test_the_picture_says_what_is_done_in_a_step(guided: State) -> None:
     said = [line.text for group in groups for line in group.captions]
     assert any("midperpendiculars" in line for line in said)
     assert any(line.startswith("step 3 of 6") for line in said)
+
+
+# The family of a time ratio, on a slider beside its construction.
+
+FAMILIES = {
+    "slider-crank": {"stroke": 80.0, "ratio": 1.4},
+    "centric": {"stroke": 80.0, "ratio": 1.0},
+    "crank-rocker": {"swing": np.radians(60), "ratio": 1.2},
+}
+
+
+@pytest.fixture(params=FAMILIES)
+def returning(request: pytest.FixtureRequest) -> State:
+    scene = quick_return(count=1, **FAMILIES[request.param])[0].scene
+    return after(begin(scene), Action("construct", 3))
+
+
+def test_a_slider_beside_alts_construction_goes_along_the_family(returning: State) -> None:
+    slider, purpose = overlay(returning).slider, returning.scene.purpose
+    assert slider is not None
+    assert isinstance(purpose, TimeRatioPurpose)
+    assert 0 < slider.at < slider.steps
+    for step in (slider.steps // 3, slider.steps, 0):
+        returning = after(returning, Action("slide", step))
+        shown, info = overlay(returning), returning.scene.info
+        assert shown.construction == 3
+        assert shown.slider is not None
+        assert shown.slider.at == step
+        assert (info.time_ratio or 1.0) == pytest.approx(purpose.ratio, abs=1e-9)
+        assert info.stroke == pytest.approx(purpose.stroke) if purpose.stroke else True
+
+
+def test_undo_goes_back_to_where_the_slider_was_taken(returning: State) -> None:
+    slid = after(returning, Action("slide", 30), Action("slide", 31), Action("slide", 32), "drop")
+    assert slid.held is None
+    assert slid.scene != returning.scene
+    assert after(slid, "undo").scene == returning.scene
+
+
+def test_keys_go_along_the_family_in_steps(returning: State) -> None:
+    begun = after(returning, Action("slide", 40), "drop")
+    further = overlay(after(begun, Action("dial_on", 2))).slider
+    assert further is not None
+    assert further.at == 42
+
+
+def test_a_scene_of_no_time_ratio_has_no_slider(guided: State) -> None:
+    state = after(guided, Action("construct", 2))
+    assert overlay(state).slider is None
+    assert after(state, Action("dial_on", 1)).scene is state.scene
