@@ -13,13 +13,13 @@ from argparse import Action, BooleanOptionalAction, Namespace, _ActionsContainer
 from collections.abc import Callable, Mapping, Sequence
 from decimal import Decimal, InvalidOperation
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Any, NamedTuple, NoReturn, cast, get_args
 
 from linkanim import units
 from linkanim.bounds import LARGEST_SIDE, MOST_LISTED, MOST_POSES
 from linkanim.errors import BadInput
 from linkanim.frozen import frozen
-from linkanim.picture.look import TOGGLES, Look, Option, Toggle
+from linkanim.picture.look import TOGGLES, ConstructionKind, Look, Option, Toggle
 from linkanim.units import shown
 from linkanim.workshop.media import PAGES, WAYS
 
@@ -93,6 +93,26 @@ def count(text: str) -> int:
     if not re.fullmatch(r"\d{1,6}", text) or int(text) == 0:
         raise BadInput(f"{shown(text)} is not a whole number from 1 to 999999")
     return int(text)
+
+
+class ConstructionAsked(NamedTuple):
+    """Which construction, the usual one where it is None, and how many of its steps: None for all."""
+
+    kind: ConstructionKind | None = None
+    steps: int | None = None
+
+
+def asked_construction(text: str) -> ConstructionAsked:
+    """Read a kind of construction, a number of steps, or both: `centres:3`."""
+    kind, _, steps = text.partition(":")
+    if kind in get_args(ConstructionKind):
+        return ConstructionAsked(cast(ConstructionKind, kind), count(steps) if steps else None)
+    if re.fullmatch(r"\d+", text):
+        return ConstructionAsked(steps=count(text))
+    raise BadInput(
+        f"{shown(text)} is no construction; give synthesis, centres or dead-centres, a number of steps, or "
+        "both: centres:3"
+    )
 
 
 def whole(text: str) -> int:
@@ -409,6 +429,14 @@ _ACCELERATION = _value(
 _ALT = _value(
     "--alt OUT.txt", Path, "write what it shows in a paragraph, for the alternative text of a page or a slide"
 )
+_CONSTRUCTION = _value(
+    "--construction KIND",
+    asked_construction,
+    "draw a construction in its steps: `synthesis` (of what `guide`, `function` or `quick-return` found), "
+    "`centres` or `dead-centres`; `centres:3` are its first three steps",
+    nargs="?",
+    const=ConstructionAsked(),
+)
 _SPEED = _value(
     "--speed SPEED", units.angular_speed, "the input's speed, such as \"30 rpm\" (default: the scene's)"
 )
@@ -464,6 +492,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _flag("--reverse", "run the motion backwards"),
         _ALT,
         _look("record"),
+        _CONSTRUCTION,
         _flag("--noted", "note nearby limits and change points"),
         _flag("--photo", "show the photograph of a tape on which something is built"),
         _flag("--progress", "show the progress even if stderr is not a terminal"),
@@ -553,13 +582,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _SIZE,
         _look("draw"),
         _value("--poses N", poses, "draw N faint poses of the period behind it"),
-        _value(
-            "--construction N",
-            count,
-            "draw how `guide`, `function` or `quick-return` found it, or its first N steps, not the pose",
-            nargs="?",
-            const=0,
-        ),
+        _CONSTRUCTION,
         _usually(hud=False),
     ),
     "explain": (

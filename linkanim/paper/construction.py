@@ -12,12 +12,14 @@ import pygame
 
 from linkanim.export import csv_head, csv_rows
 from linkanim.frozen import frozen
+from linkanim.mechanics.quantities import input_symbol
 from linkanim.picture.chart import Pen, Plot, axes, curve_layer, dot, line_layer, pen_for, plot_area, x_title
+from linkanim.picture.constructed import clear_phase, linkage_marks, steps_of, title_of, usual_kind
 from linkanim.picture.construction import box_of, construction_items, view_of
 from linkanim.picture.items import Caption, Group, Item, grouped
 from linkanim.picture.layout import layout
-from linkanim.picture.look import ThemeName
-from linkanim.picture.quantities import linear, range_around
+from linkanim.picture.look import ConstructionKind, ThemeName
+from linkanim.picture.quantities import driven_words, linear, range_around
 from linkanim.picture.raster import Colour, Layer, offscreen
 from linkanim.picture.shapes import segments
 from linkanim.picture.surface import printed
@@ -25,7 +27,7 @@ from linkanim.picture.text import Type
 from linkanim.picture.theme import theme_of
 from linkanim.picture.view import Rect
 from linkanim.scenes.scene import Scene
-from linkanim.synthesis.constructions import ConstructionStep, construction
+from linkanim.synthesis.constructions import ConstructionStep
 from linkanim.synthesis.generation import FEWEST_POINTS, Generated
 from linkanim.synthesis.linkages import Real
 from linkanim.units import rounded, significant
@@ -38,17 +40,36 @@ _LINE = 1.35
 
 @frozen
 class ConstructionPage:
-    """The first steps of a scene's construction, all where `steps` is None, in so many pixels."""
+    """The first steps of a scene's construction, all where `steps` is None, in so many pixels.
+
+    Without a `kind` it is the first that the scene has; the centres are those at a phase, and where there is
+    none of the pose in which they are nearest.
+    """
 
     scene: Scene
     size: tuple[int, int] = (1280, 720)
     theme: ThemeName = "light"
     steps: int | None = None
+    kind: ConstructionKind | None = None
+    phase: float | None = None
+
+    @property
+    def _kind(self) -> ConstructionKind:
+        """What is constructed; BadInput where a scene has nothing of the sort."""
+        return self.kind or usual_kind(self.scene)
 
     @cached_property
     def every(self) -> tuple[ConstructionStep, ...]:
-        """All steps; BadInput where the scene was made for nothing that is known."""
-        return construction(self.scene)
+        """All steps; BadInput where the scene has no such construction."""
+        if self._kind == "synthesis" or self._kind == "dead-centres":
+            return steps_of(self.scene, self._kind)
+        first, *others = steps_of(self.scene, self._kind, self._phase)
+        marks = (*linkage_marks(self.scene, self._phase), *first.marks)
+        return (ConstructionStep(first.words, marks), *others)
+
+    @cached_property
+    def _phase(self) -> float:
+        return clear_phase(self.scene) if self.phase is None else self.phase
 
     @cached_property
     def pen(self) -> Pen:
@@ -63,7 +84,12 @@ class ConstructionPage:
     @property
     def title(self) -> str:
         """What it shows, in words."""
-        return f"{self.scene.title}: its construction"
+        if self._kind != "centres":
+            return title_of(self.scene, self._kind)
+        coordinate = self.scene.pose(self._phase, 0).coordinate
+        value = coordinate % math.tau if self.scene.info.full_turn else coordinate
+        where = f"{input_symbol(self.scene.linkage)} = {driven_words(self.scene, value)}"
+        return f"{title_of(self.scene, self._kind)} at {where}"
 
     @property
     def words(self) -> str:
@@ -96,7 +122,7 @@ class ConstructionPage:
         marks = [mark for step in self.every for mark in step.marks]
         view = view_of(box_of(marks), area)
         yield from construction_items([mark for step in shown for mark in step.marks], view, area, pen)
-        yield Caption(self.scene.title, (whole.x, whole.y), pen.text, pen.theme.ink, strong=True)
+        yield Caption(self.title, (whole.x, whole.y), pen.text, pen.theme.ink, strong=True)
         said = [
             line
             for n, step in enumerate(shown, 1)

@@ -23,6 +23,7 @@ From the ground up; a module imports from those before it only:
     placing       one place for each label
     polygons      the velocity and the acceleration polygon
     centres       instant centres and centrodes
+    constructed  which constructions a scene has, and their steps
     dead_centres  a slider's dead centres on its guide
     layered       parts in layers, from above or lifted off each other
     labels        names and dimensions, and where there is room for them

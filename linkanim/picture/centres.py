@@ -89,10 +89,15 @@ class CentrePairs:
 
     def near(self, pose: Pose) -> tuple[complex, ...]:
         """Return the centres of a pose, in the scene's unit, that its picture is to hold."""
+        middle = complex(*self.figure.box.middle)
+        places = [found.place for found in self.of(pose).values() if found.place is not None]
+        return tuple(place for place in places if abs(place - middle) <= _FAR * self.size)
+
+    @property
+    def size(self) -> float:
+        """The size of the linkage: the longer side of what it sweeps, in the scene's unit."""
         box = self.figure.box
-        size, middle = max(box.right - box.left, box.high - box.low), complex(*box.middle)
-        places = (found.place for found in self.of(pose).values())
-        return tuple(place for place in places if place is not None and abs(place - middle) <= _FAR * size)
+        return max(box.right - box.left, box.high - box.low)
 
 
 class Seen(NamedTuple):

@@ -92,6 +92,8 @@ def _drawn(mark: Mark, at: Loop, area: Rect, pen: Pen) -> Iterator[Layer]:
             way = at[1] - at[0]
             reaches = np.array([way, -1j * way])
             yield Layer(colour, arrows(np.array([at[0], at[0]]), reaches, _WIDTHS["frame"] * line))
+        case "word":
+            return
         case "plate":
             yield Layer(mixed(colour, pen.theme.background, 0.86), [at])
             width = _WIDTHS["bar" if mark.tone == "ink" else "thin"] * line
@@ -155,7 +157,9 @@ def _names(marks: Sequence[Mark], pixels: Callable[[Loop], Loop], area: Rect, pe
         if not mark.label:
             continue
         at, wide, high = pixels(mark.points), pen.type.width(mark.label, pen.small), 1.2 * pen.small
-        if mark.shape == "thin" and len(at) == 2:
+        if mark.shape == "word":
+            tries = [_about(complex(at[0]), wide, high)]
+        elif mark.shape == "thin" and len(at) == 2:
             # a tick of a scale has its number beyond it
             way = complex(at[1] - at[0]) / max(abs(at[1] - at[0]), 1e-9)
             beyond = 0.5 * (wide * abs(way.real) + high * abs(way.imag)) + 0.25 * pen.small

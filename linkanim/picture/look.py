@@ -16,6 +16,8 @@ from linkanim.units import LENGTH_UNITS
 ThemeName = Literal["light", "dark"]
 Over = Literal["angle", "time", "phase"]
 """What a chart's values are shown over."""
+ConstructionKind = Literal["synthesis", "centres", "dead-centres"]
+"""What is drawn in steps: how a linkage was found, its instant centres, its dead centres."""
 Default = TypeVar("Default")
 
 VELOCITY: Literal["v"] = "v"

@@ -45,7 +45,6 @@ if TYPE_CHECKING:
     from linkanim.build.draft import Photo
     from linkanim.picture.labels import Names
     from linkanim.picture.polygons import Polygon
-    from linkanim.synthesis.constructions import ConstructionStep
     from linkanim.synthesis.curves import DrawnCurve
 
 _NOTHING_STILL = Group("nothing", (), still=True)
@@ -74,9 +73,9 @@ class Picture:
     measured of the same scene is taken over; names keep their places on one that is zoomed, on its way to
     another, or `held` by the hand. Where they have to be placed anew, one that is `hurried` has those that
     were there, and one that is `gradual` is whole once `place_names` has placed all. With a `moment` names
-    stand as is best at that phase alone. What stood still `earlier` is drawn as it was then, where it has
-    the same place. The `bar` of commands has room at the foot. Raises BadInput where the look's chart is no
-    quantity of the scene.
+    stand as is best at that phase alone. `also` are further places, in the scene's unit, that the view holds.
+    What stood still `earlier` is drawn as it was then, where it has the same place. The `bar` of commands
+    has room at the foot. Raises BadInput where the look's chart is no quantity of the scene.
     """
 
     def __init__(
@@ -96,6 +95,7 @@ class Picture:
         sheet: Box | None = None,
         moment: float | None = None,
         earlier: Earlier | None = None,
+        also: tuple[complex, ...] = (),
         bar: bool = False,
     ) -> None:
         self._made_for, self._kept, self.row = (scene, size, look, listed, held, row, sheet), kept, row
@@ -111,8 +111,9 @@ class Picture:
         if look.centres and moment is not None:
             from linkanim.picture.centres import CentrePairs
 
-            held_in_view = CentrePairs(figure(self.scene)).near(self.scene.pose(moment, 2))
-            request = request._replace(held=held_in_view, lined=True)
+            also = (*also, *CentrePairs(figure(self.scene)).near(self.scene.pose(moment, 2)))
+        if also:
+            request = request._replace(held=also, lined=True)
         if before and moment is None and (size, look.names) == (before.size, before.look.names):
             same = follows or before._goal is self._goal
             request = request._replace(table=before.fit.request.table) if same else request
@@ -258,7 +259,8 @@ class Picture:
         yield from (polygon.group(pose) for polygon in self._polygons)
         yield from self._on_chart(pose, grasped=overlay.grip)
         yield from self._within(self._named_groups(pose, named))
-        yield from self._words(pose, noted=overlay.noted)
+        if not overlay.construction:  # whose words stand there
+            yield from self._words(pose, noted=overlay.noted)
         yield from self._handled(pose, overlay)
 
     def _posed(self, overlay: Overlay) -> Iterator[Group]:
@@ -268,25 +270,20 @@ class Picture:
         assert overlay.poses
         yield from posed(self.drawing.setting, overlay.poses)
 
-    def _constructed(self, steps: int, shown: SliderShown | None) -> Iterator[Group]:
-        """Yield the first steps of how the scene was found, what is done in the last, and a slider."""
+    def _constructed(self, steps: int, phase: float, leading: SliderShown | None) -> Iterator[Group]:
+        """Yield the first steps of what is constructed, what is done in the last of them, and a slider."""
+        from linkanim.picture.constructed import shown_at
         from linkanim.picture.construction import construction_items
 
-        known = self._steps_of_construction
+        shown = shown_at(self._goal, steps, phase)
         pen = pen_for(self.layout, self.type, self.theme)
-        marks = [mark for step in known[:steps] for mark in step.marks]
+        marks = [mark for step in shown.steps for mark in step.marks]
         yield grouped("construction", construction_items(marks, self.view, self.layout.stage, pen))
-        last = known[min(steps, len(known)) - 1]
-        facts = [f"step {steps} of {len(known)}   F7 goes on"]
-        said = partial(worded, room=_ROOM_BESIDE_SLIDER) if shown else worded
-        yield said(self.drawing.setting, last.words, facts)
-        yield from slider(self.drawing.setting, shown) if shown else ()
-
-    @cached_property
-    def _steps_of_construction(self) -> tuple[ConstructionStep, ...]:
-        from linkanim.synthesis.constructions import construction
-
-        return construction(self._goal)
+        facts = f"step {len(shown.steps)} of {shown.total}"
+        facts = facts if self._moment is not None else f"{facts}   F7 goes on"
+        said = partial(worded, room=_ROOM_BESIDE_SLIDER) if leading else worded
+        yield said(self.drawing.setting, shown.steps[-1].words, [facts])
+        yield from slider(self.drawing.setting, leading) if leading else ()
 
     def _layers(self, pose: Pose, shown: LayersShown, parts: Layered) -> Iterator[Group]:
         """Yield the parts in their layers, in the room that is left below the words on them."""
@@ -442,7 +439,7 @@ class Picture:
                 yield from loose(overlay.build.loose, self.drawing.setting)
             yield from hand(overlay.build, self.drawing.setting)
         if overlay.construction:
-            yield from self._constructed(overlay.construction, overlay.slider)
+            yield from self._constructed(overlay.construction, pose.phase, overlay.slider)
         if overlay.layers:
             sentence, warns = overlay.layers.sentence, overlay.layers.is_warning
             yield worded(self.drawing.setting, sentence, is_warning=warns)

@@ -76,13 +76,13 @@ def lift_to(state: State, step: int) -> State:
 
 
 def construct(state: State, further: int) -> State:
-    """Draw so many steps more of how the scene was found; none follows the last.
+    """Draw so many steps more of how the scene was found, then of its centres and its dead centres.
 
-    BadInput for a scene of which that is not known.
+    None follows the last. BadInput for a scene that has no construction.
     """
-    from linkanim.synthesis.constructions import construction
+    from linkanim.picture.constructed import all_steps
 
-    at = (state.constructed + further) % (len(construction(state.scene)) + 1)
+    at = (state.constructed + further) % (all_steps(state.scene) + 1)
     return replace(state, construction=(state.scene, at) if at else None)
 
 

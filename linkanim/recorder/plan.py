@@ -20,6 +20,8 @@ SIDES = (16, LARGEST_SIDE)
 RATES = (0.01, 1000)
 """The lowest and the highest number of frames a second."""
 
+HOLD = 2
+"""So many seconds longer than the others the last step of a construction stands."""
 _CENTISECONDS = 100
 _SHORTEST_DELAY = 2
 """Browsers show a delay of 1 cs as 10 cs."""
@@ -32,7 +34,8 @@ class Clip(NamedTuple):
     """What is asked for: `speed` is dφ/dt (rad/s, signed), `period` the true period (rad of phase).
 
     `periods` true periods, or `seconds` where it is not None; `fps` frames a second; `start` is the
-    first frame's phase (rad).
+    first frame's phase (rad). With `steps` it is of so many pictures, a second each, the last one longer:
+    nothing moves.
     """
 
     speed: float
@@ -42,10 +45,13 @@ class Clip(NamedTuple):
     seconds: float | None = None
     reverse: bool = False
     start: float = 0.0
+    steps: int = 0
 
     @property
     def length(self) -> float:
         """The length in seconds."""
+        if self.steps:
+            return float(self.steps + HOLD)
         return self.periods * self.period / abs(self.speed) if self.seconds is None else self.seconds
 
 
@@ -67,6 +73,10 @@ class Plan:
         """Return the phase (rad) of a frame; closed form, so the frames are equally spaced."""
         return self.clip.start + self.sweep * (frame / self.frames)
 
+    def step(self, frame: int) -> int:
+        """Return which step a frame shows, from 1."""
+        return min(int(frame / self.rate), self.clip.steps - 1) + 1
+
     @property
     def seconds(self) -> float:
         """The clip's length as written."""
@@ -81,6 +91,8 @@ class Plan:
     def summary(self) -> str:
         """The clip in words: frames, length, periods and speed, with what rounding moved by over 1 cs."""
         clip = f"{self.frames} frames at {short(float(self.rate))} fps, {short(self.seconds)} s"
+        if self.clip.steps:
+            return f"{clip}, {self.clip.steps} steps of a second"
         text = f"{clip}, {self._extent} at {rpm(self.speed)}"
         if abs(self.seconds - float(_requested_seconds(self.clip))) <= 0.01 + 1e-9:
             return text
@@ -110,7 +122,9 @@ def make_plan(clip: Clip, form: Format) -> Plan:
     frames, rate = _cut(_requested_seconds(clip), Fraction(clip.fps).limit_denominator(_FINEST), clip, form)
     _refuse_too_few(clip, frames)
     sign = -1.0 if clip.reverse else 1.0
-    if clip.seconds is None:
+    if clip.steps:
+        sweep = 0.0
+    elif clip.seconds is None:
         sweep = math.copysign(clip.period * clip.periods, clip.speed)
     else:
         sweep = clip.speed * float(frames / rate)
@@ -182,7 +196,7 @@ def _refuse_nonsense(clip: Clip) -> None:
 
 def _refuse_too_few(clip: Clip, frames: int) -> None:
     """Raise `BadInput` where frames are so few that no motion can be seen."""
-    if clip.seconds is None and frames < FEWEST_PER_PERIOD * clip.periods:
+    if clip.seconds is None and not clip.steps and frames < FEWEST_PER_PERIOD * clip.periods:
         period = clip.period / abs(clip.speed)
         raise BadInput(
             f"one period at {rpm(clip.speed)} lasts {short(period)} s, too short for"

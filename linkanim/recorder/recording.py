@@ -16,9 +16,10 @@ import numpy as np
 
 from linkanim import manifest
 from linkanim.atomic_files import checked_target
+from linkanim.bounds import MOST_FRAMES
 from linkanim.errors import BadInput, RecordingFailed, WorkFailed
 from linkanim.frozen import frozen
-from linkanim.picture.look import Look
+from linkanim.picture.look import ConstructionKind, Look
 from linkanim.picture.overlay import Overlay
 from linkanim.picture.picture import Picture
 from linkanim.picture.raster import offscreen, pixel_view
@@ -210,6 +211,30 @@ class SceneFrames:
         return pixel_view(self._surface)
 
 
+class ConstructionFrames(SceneFrames):
+    """Pictures of the steps of a construction, over the pose at which a plan begins."""
+
+    def __init__(
+        self, scene: Scene, plan: Plan, size: tuple[int, int], look: Look, kind: ConstructionKind
+    ) -> None:
+        from linkanim.picture.constructed import places_of, steps_before
+
+        super().__init__(scene, plan, size, look)
+        phase = plan.clip.start
+        self._before = steps_before(scene, kind)
+        self._picture = Picture(scene, size, look, moment=phase, also=places_of(scene, kind, phase))
+        self._drawn = 0
+
+    def draw(self, frame: int) -> Frame:
+        """Return the bytes of a frame; those of one step are drawn once."""
+        step, speed = self._plan.step(frame), self._plan.clip.speed
+        if step != self._drawn:
+            over = Overlay(construction=self._before + step)
+            self._printer.print(self._surface, self._picture, self._plan.clip.start, speed, over)
+            self._drawn = step
+        return pixel_view(self._surface)
+
+
 def record(
     scene: Scene,
     path: Target,
@@ -223,19 +248,30 @@ def record(
     start: float = 0.0,
     look: Look = Look(),  # noqa: B008 -- frozen
     noted: bool = False,
+    construction: ConstructionKind | None = None,
+    steps: int | None = None,
     progress: Progress | None = None,
 ) -> Recording:
     """Record whole periods of a scene's motion as a GIF, MP4 or numbered PNG, by the path's ending.
 
     `size` is in pixels. `speed` is dφ/dt in rad/s, the scene's own if it is None. `seconds` sets the length
     instead of `periods` (true periods); the clip need not close then. `start` is the phase of the first
-    frame. With `noted` the text notes nearby limits and change points. `progress` is called with (frames
+    frame. With `noted` the text notes nearby limits and change points. With a `construction` its steps are
+    recorded, the first `steps` of them if that is not None, a second each, over the pose at `start`, and no
+    motion. `progress` is called with (frames
     done, frames in all). The file appears when it is whole, or not at all. `BadInput`, before any work, for
     what cannot be recorded; `RecordingFailed` if the disk or the encoder gives up.
     """
     _, form = checked_path(path)
     refuse_size(size)
     rate = scene.linkage.drive.speed if speed is None else speed
+    if construction:
+        # with it comes the synthesis, which a motion does not need
+        from linkanim.picture.constructed import steps_of
+
+        count = min(len(steps_of(scene, construction, start)), steps or MOST_FRAMES)
+        plan = make_plan(Clip(rate, scene.period, fps, start=start, steps=count), form)
+        return write(ConstructionFrames(scene, plan, size, look, construction), plan, path, progress)
     plan = make_plan(Clip(rate, scene.period, fps, periods, seconds, reverse, start), form)
     return write(SceneFrames(scene, plan, size, look, noted=noted), plan, path, progress)
 

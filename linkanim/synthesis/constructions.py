@@ -9,7 +9,7 @@ import cmath
 import math
 from collections.abc import Iterator
 from itertools import pairwise
-from typing import Literal, NamedTuple
+from typing import Literal, NamedTuple, cast
 
 import numpy as np
 
@@ -20,13 +20,15 @@ from linkanim.scenes.scene import FunctionPurpose, PosesPurpose, Scene, TimeRati
 from linkanim.synthesis.burmester import CentreCurve, Poses, burmester_points, circle_points
 from linkanim.synthesis.linkages import Complex
 
-Shape = Literal["plate", "line", "dashed", "thin", "bar", "dot", "ring", "cross", "frame", "arc"]
+Shape = Literal["plate", "line", "dashed", "thin", "bar", "dot", "ring", "cross", "frame", "arc", "word"]
 Tone = Literal["ink", "dim", "first", "second", "third", "fourth"]
 
 _NEAR, _FAR = 2.0, 4.0
 """Of the poses' size: what the picture is fitted to lies so near; a pole farther from there is not drawn."""
 _INNER, _OUTER = 0.6, 1.1
 """The scales of input and output, in links."""
+_SWING = 0.35
+"""How far an arc runs to each side of a dead centre (rad)."""
 _CURVE = 1600
 _ARC = 64
 _SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
@@ -35,7 +37,8 @@ _SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 class Mark(NamedTuple):
     """What is drawn: a shape through or at points (x + yi), what it is called, and in which tone.
 
-    A frame's points are its origin and the end of its x axis; an arc's are its points one by one. What
+    A frame's points are its origin and the end of its x axis; an arc's are its points one by one; a word has
+    nothing but its name, about its point. What
     `spreads` does not count when the picture is fitted.
     """
 
@@ -361,34 +364,145 @@ class InLineCentres(NamedTuple):
     angle: float
 
 
+class InLineParts(NamedTuple):
+    """The joints of a crank and of the coupler on it; `held` is the rocker's pivot, None of a slider."""
+
+    pivot: str
+    pin: str
+    end: str
+    held: str | None
+
+
+def in_line_parts(scene: Scene) -> InLineParts | None:
+    """Return the joints of a slider-crank or a crank-rocker whose crank is the input; None of others.
+
+    Of a longer chain it is the first loop. A coupler whose end does not swing has no dead centres.
+    """
+    linkage = scene.linkage
+    crank = linkage.driven.joint
+    if not isinstance(crank, Crank) or not scene.info.full_turn:
+        return None
+    for joint in linkage.joints:
+        if isinstance(joint, RRP) and joint.end == crank.name and joint.line.on is None:
+            return InLineParts(crank.pivot, crank.name, joint.name, None)
+        if isinstance(joint, RRR) and crank.name in joint.ends:
+            own = joint.ends.index(crank.name)
+            held, coupler, rocker = joint.ends[1 - own], joint.lengths[own], joint.lengths[1 - own]
+            if linkage.joint(held).fixed:
+                apart = abs(_pin_of(scene, held) - _pin_of(scene, crank.pivot))
+                near, far = abs(coupler - crank.length), coupler + crank.length
+                swings = abs(apart - rocker) < near and far < apart + rocker
+                return InLineParts(crank.pivot, crank.name, joint.name, held) if swings else None
+    return None
+
+
+def _pin_of(scene: Scene, name: str) -> complex:
+    return complex(*scene.linkage.pin(name).position)
+
+
 def dead_centres(scene: Scene) -> InLineCentres:
     """Return a crank-rocker or slider-crank with crank and coupler in line: overlapping, then stretched."""
-    start = next(complex(*pin.position) for pin in scene.linkage.pins if pin.name == "O2")
+    parts = in_line_parts(scene)
+    assert parts
+    start = _pin_of(scene, parts.pivot)
     motion = scene.cycle(1440, derivatives=0)
-    far = np.abs(as_complex(motion.position["B"]) - start)
-    crank = abs(complex(*scene.pose(0.0, 0).position["A"]) - start)
+    far = np.abs(as_complex(motion.position[parts.end]) - start)
+    crank = abs(complex(*scene.pose(0.0, 0).position[parts.pin]) - start)
     ends, pins = [], []
     for place in (far.argmin(), far.argmax()):
-        phase = _in_line(scene, float(motion.phase[place]), start)
-        end = complex(*scene.pose(phase, 0).position["B"])
-        pin = complex(*scene.pose(phase, 0).position["A"])
+        phase = _in_line(scene, parts, float(motion.phase[place]), start)
+        pose = scene.pose(phase, 0)
+        end, pin = (complex(*pose.position[name]) for name in (parts.end, parts.pin))
         ends.append(end)
         pins.append(start + crank * (pin - start) / abs(pin - start))
-    pivot = next((complex(*pin.position) for pin in scene.linkage.pins if pin.name == "O4"), None)
+    pivot = _pin_of(scene, parts.held) if parts.held else None
     turned = abs(cmath.phase((ends[1] - start) / (ends[0] - start)))
     return InLineCentres(start, (pins[0], pins[1]), (ends[0], ends[1]), pivot, turned)
 
 
-def _in_line(scene: Scene, phase: float, start: complex) -> float:
+def _in_line(scene: Scene, parts: InLineParts, phase: float, start: complex) -> float:
     """Return the phase near by at which crank and coupler lie in line, by Newton's steps."""
     for _ in range(8):
         pose = scene.pose(phase, 1, speed=1.0)
-        pin, end = (complex(*pose.position[name]) - start for name in "AB")
-        pin_rate, end_rate = (complex(*pose.velocity[name]) for name in "AB")
+        pin, end = (complex(*pose.position[name]) - start for name in (parts.pin, parts.end))
+        pin_rate, end_rate = (complex(*pose.velocity[name]) for name in (parts.pin, parts.end))
         off = (pin.conjugate() * end).imag
         rate = (pin_rate.conjugate() * end).imag + (pin.conjugate() * end_rate).imag
         phase -= off / rate
     return phase
+
+
+def dead_centre_steps(scene: Scene) -> tuple[ConstructionStep, ...]:
+    """Return how compasses find the dead centres of a slider-crank or crank-rocker from its lengths."""
+    parts, found = in_line_parts(scene), dead_centres(scene)
+    assert parts
+    start, (near, far) = found.crank_pivot, found.ends
+    o2, a, b, unit = parts.pivot.translate(_SUBSCRIPTS), parts.pin, parts.end, scene.length_unit
+    crank, coupler = abs(found.pins[0] - start), abs(far - found.pins[1])
+    word = "rod" if found.pivot is None else "coupler"
+    marks = [
+        Mark("dot", _at(start), o2, spreads=True),
+        Mark("thin", _circled(start, crank), tone="first", spreads=True),
+    ]
+    if found.pivot is None:
+        over = 0.25 * (far - near)
+        where, marks = (
+            "its line of travel",
+            [*marks, Mark("line", _at(near - over, far + over), tone="second")],
+        )
+        words = f"Given are the crank's circle about {o2} and the line of travel of {b}."
+    else:
+        o4 = (parts.held or "").translate(_SUBSCRIPTS)
+        where, arm = f"the circle about {o4}", abs(far - found.pivot)
+        begin, swing = (
+            cmath.phase(near - found.pivot),
+            cmath.phase((far - found.pivot) / (near - found.pivot)),
+        )
+        arc = _arc(found.pivot, begin - 0.3 * swing, begin + 1.3 * swing, arm)
+        marks += [
+            Mark("dot", _at(found.pivot), o4, spreads=True),
+            Mark("arc", arc, tone="second", spreads=True),
+        ]
+        words = f"Given are the crank's circle about {o2} and the circle of {b} about {o4}."
+    steps = [_step(words, *marks)]
+    stretched = ("Stretched out", f"{word} plus crank", coupler + crank, "bar")
+    less = f"{word} less crank" if coupler > crank else f"crank less {word}"
+    folded = ("Folded", less, abs(coupler - crank), "thin")
+    for end, pin, dash, (how, made, length, shape) in (
+        (far, found.pins[1], "″", stretched),
+        (near, found.pins[0], "′", folded),
+    ):
+        turn = cmath.phase(end - start)
+        around = Mark("arc", _arc(start, turn - _SWING, turn + _SWING, abs(end - start)), tone="third")
+        said = f"{how}, crank and {word} lie in line: {b}{dash} is on {where}, {length:.4g} {unit} from {o2}"
+        steps.append(_step(f"{said}: {made}.", around, Mark("ring", _at(end), f"{b}{dash}", "second", True)))
+        bars = [Mark(cast(Shape, shape), _at(start, pin, end))]
+        bars += [Mark("thin", _at(found.pivot, end))] if found.pivot is not None else []
+        angle = math.degrees(cmath.phase(pin - start)) % 360
+        said = f"The crank pin {a}{dash} lies on {o2}{b}{dash}: there the input stands at {angle:.4g}°."
+        steps.append(_step(said, *bars, Mark("ring", _at(pin), f"{a}{dash}", "first", True)))
+    alpha = math.degrees(found.angle)
+    if found.pivot is None:
+        what = f"The stroke is {b}′{b}″ = {abs(far - near):.4g} {unit}"
+    else:
+        swing = math.degrees(cmath.phase((far - found.pivot) / (near - found.pivot)))
+        what = f"The swing is {abs(swing):.4g}°"
+    if alpha > 1e-6:
+        ratio = (180 + alpha) / (180 - alpha)
+        begin, turn = cmath.phase(near - start), cmath.phase((far - start) / (near - start))
+        corner = Mark("arc", _arc(start, begin, begin + turn, 0.3 * abs(near - start)), "α", "first")
+        said = (
+            f"; seen from {o2} it is α = {alpha:.4g}°: the time ratio is (180° + α)/(180° − α) = {ratio:.4g}."
+        )
+        steps.append(_step(what + said, corner, Mark("thin", _at(near, far), tone="fourth")))
+    else:
+        said = f"; it lies in line with {o2}, so both ways take the same time."
+        steps.append(_step(what + said, Mark("thin", _at(near, far), tone="fourth")))
+    return tuple(steps)
+
+
+def _circled(middle: complex, radius: float) -> Complex:
+    return np.asarray(middle + radius * np.exp(1j * np.linspace(0, math.tau, 2 * _ARC)))
 
 
 def _returning(scene: Scene, purpose: TimeRatioPurpose) -> Iterator[ConstructionStep]:
@@ -430,7 +544,7 @@ def _returning(scene: Scene, purpose: TimeRatioPurpose) -> Iterator[Construction
         middle, radius = _circle(start, near, far)
         circle = Mark(
             "arc",
-            middle + radius * np.exp(1j * np.linspace(0, math.tau, 2 * _ARC)),
+            _circled(middle, radius),
             tone="third",
             spreads=True,
         )

@@ -14,6 +14,7 @@ from PIL import Image
 from reading import durations, frames_of, loops_for_ever
 
 from linkanim.bench.command import CHART
+from linkanim.cli import main
 from linkanim.errors import BadInput, RecordingFailed
 from linkanim.manifest import single
 from linkanim.picture.figure import figure
@@ -52,6 +53,38 @@ def test_a_scene_loops_over_its_true_period_without_a_seam(tmp_path: Path, name:
     pictures = [picture.astype(float) for picture in frames_of(made.path)]
     seam, *steps = (np.abs(b - a).mean() for a, b in zip([pictures[-1], *pictures], pictures, strict=False))
     assert 0 < seam <= 1.2 * max(steps)
+
+
+def test_a_construction_shows_a_step_a_second_over_one_pose(tmp_path: Path) -> None:
+    look = replace(BARE, theme="dark")
+    made = record(
+        load("crank-rocker"),
+        tmp_path / "out.gif",
+        size=SIZE,
+        fps=4,
+        look=look,
+        construction="centres",
+        start=0.9,
+    )
+    assert made.plan.summary.endswith(", 7 s, 5 steps of a second")
+    pictures = frames_of(made.path)
+    assert len(pictures) == made.frames == 28
+    changes = [n for n, (a, b) in enumerate(pairwise(pictures), start=1) if (a != b).any()]
+    assert changes == [4, 8, 12, 16]  # the last one stands longer
+    first = record(
+        load("crank-rocker"), tmp_path / "one.gif", size=SIZE, fps=4, construction="dead-centres", steps=1
+    )
+    assert first.seconds == 3
+
+
+def test_a_motion_s_options_are_refused_for_a_construction(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    line = ["record", "crank-rocker", "--construction", "centres", "-o", str(tmp_path / "out.gif")]
+    for option in (["--periods", "2"], ["--seconds", "3"], ["--reverse"]):
+        assert main([*line, *option]) == 2
+        assert f"{option[0]} is for a motion; a construction takes a second" in capsys.readouterr().err
+    assert not [*tmp_path.iterdir()]
 
 
 @pytest.mark.slow

@@ -128,8 +128,25 @@ def test_draw_writes_it_and_refuses_a_scene_without(
     assert main(["draw", "lid.toml", "--construction", "2", "-o", "two.svg"]) == 0
     assert len((tmp_path / "two.svg").read_text()) < len((tmp_path / "all.svg").read_text())
     capsys.readouterr()
-    assert main(["draw", "crank-rocker", "--construction"]) == 2
+    assert main(["draw", "press", "--construction"]) == 2
     assert "has no construction" in capsys.readouterr().err
+    assert main(["draw", "crank-rocker", "--construction", "synthesis"]) == 2
+    assert "crank-rocker: has no construction of a synthesis" in capsys.readouterr().err
+    assert main(["draw", "crank-rocker", "--construction", "center"]) == 2
+    assert '"center" is no construction; give synthesis, centres or dead-centres' in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("kind", ["centres", "dead-centres"])
+def test_draw_writes_the_construction_of_a_catalogue_scene(
+    kind: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    for steps in ("", ":1"):
+        line = ["draw", "slider-crank", "--construction", f"{kind}{steps}", "-o", f"{kind}{steps[1:]}.svg"]
+        assert main(line) == 0
+    whole, first = ((tmp_path / f"{kind}{n}.svg").read_text(encoding="utf-8") for n in ("", "1"))
+    assert len(first) < len(whole)
+    assert f"the construction of its {'instant' if kind == 'centres' else 'dead'} centres" in whole
 
 
 @pytest.mark.parametrize("name", FEW)

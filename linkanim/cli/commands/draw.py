@@ -26,7 +26,9 @@ def run(options: Namespace) -> None:
     if options.construction is not None:
         from linkanim.paper.construction import ConstructionPage
 
-        page = ConstructionPage(scene, size, look.theme, options.construction or None)
+        kind, steps = options.construction
+        phase = options.phase if options.angle is None else phase_at(scene, options.angle)
+        page = ConstructionPage(scene, size, look.theme, steps, kind, phase)
         _write(page, target, latex=bool(options.text))
         told(page.title)
         return

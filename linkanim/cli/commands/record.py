@@ -24,8 +24,9 @@ from linkanim.picture.look import TOGGLES
 from linkanim.picture.quantities import speed_words
 from linkanim.recorder.recording import SUFFIXES, Progress, Recording, record
 from linkanim.scenes import load
+from linkanim.scenes.scene import Scene
 
-_OF_A_SCENE = ("speed", "periods", "seconds", "reverse", "noted")
+_OF_A_SCENE = ("speed", "periods", "seconds", "reverse", "noted", "construction")
 """Options that a tape has its own answer to, beside those of the look."""
 
 
@@ -71,7 +72,23 @@ def _of_scene(options: Namespace, target: Path) -> Callable[..., Recording]:
     scene = load(options.scene)
     refuse_photograph(scene, target)
     asked = {name: getattr(options, name) for name in _OF_A_SCENE}
-    return partial(record, scene, **{**asked, "periods": options.periods or 1}, look=look_of(scene, options))
+    asked |= {"periods": options.periods or 1, "look": look_of(scene, options)}
+    if options.construction:
+        asked |= _construction(scene, options)
+    return partial(record, scene, **asked)
+
+
+def _construction(scene: Scene, options: Namespace) -> dict[str, object]:
+    """Return what of a construction is recorded; `BadInput` for options of a motion."""
+    from linkanim.picture.constructed import clear_phase, usual_kind
+
+    for name in ("periods", "seconds", "reverse"):
+        if getattr(options, name):
+            raise BadInput(f"--{name} is for a motion; a construction takes a second for each of its steps")
+    kind, steps = options.construction
+    kind = kind or usual_kind(scene)
+    start = clear_phase(scene) if kind == "centres" else 0.0
+    return {"construction": kind, "steps": steps, "start": start}
 
 
 def _of_tape(options: Namespace) -> Callable[..., Recording]:

@@ -1,0 +1,281 @@
+"""Which constructions are drawn of a scene, and their steps: its synthesis, its centres, its dead centres."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from itertools import combinations
+from typing import NamedTuple, get_args
+
+import numpy as np
+
+from linkanim.errors import BadInput
+from linkanim.mechanics.centres import Centre, KennedyStep, joint_between, slide_between
+from linkanim.mechanics.motion import Pose
+from linkanim.picture.centres import CentrePairs, kennedy_line, label_of
+from linkanim.picture.figure import Figure, figure
+from linkanim.picture.look import ConstructionKind
+from linkanim.scenes.scene import Scene
+from linkanim.synthesis.constructions import (
+    ConstructionStep,
+    Mark,
+    construction,
+    dead_centre_steps,
+    in_line_parts,
+    is_synthesised,
+)
+
+KINDS: tuple[ConstructionKind, ...] = get_args(ConstructionKind)
+
+_TITLES: dict[ConstructionKind, str] = {
+    "synthesis": "its construction",
+    "centres": "the construction of its instant centres",
+    "dead-centres": "the construction of its dead centres",
+}
+_REFUSED: dict[ConstructionKind, str] = {
+    "synthesis": (
+        "has no construction of a synthesis; one is drawn of what linkanim guide, function and quick-return "
+        "have made"
+    ),
+    "centres": "has more than five links; instant centres are constructed of up to five",
+    "dead-centres": (
+        "is neither a slider-crank nor a crank-rocker, driven by its crank; of those dead centres are "
+        "constructed"
+    ),
+}
+_LOWERED = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
+_BEYOND = 0.06
+"""How far Kennedy's lines run beyond their centres, in their lengths."""
+_REACH = 3.0
+"""How long lines towards what is infinitely far are, in sizes of the linkage."""
+_POSES, _CLOSE = 72, 0.08
+"""So many poses are looked at for one whose centres are as near as can be, yet no nearer to each other."""
+_SHORT = 0.3
+"""How long the mark of a way there is."""
+
+
+class ConstructionShown(NamedTuple):
+    """The first steps of a construction, as many as are shown, and how many it has in all."""
+
+    kind: ConstructionKind
+    steps: tuple[ConstructionStep, ...]
+    total: int
+
+
+def kinds_of(scene: Scene) -> tuple[ConstructionKind, ...]:
+    """Return which constructions a scene has, that of its synthesis first."""
+    known = CentrePairs(figure(scene))
+    has = {
+        "synthesis": is_synthesised(scene),
+        "centres": bool(known.steps),
+        "dead-centres": in_line_parts(scene) is not None,
+    }
+    return tuple(kind for kind in KINDS if has[kind])
+
+
+def title_of(scene: Scene, kind: ConstructionKind) -> str:
+    """Return what a figure of a construction shows."""
+    return f"{scene.title}: {_TITLES[kind]}"
+
+
+def usual_kind(scene: Scene) -> ConstructionKind:
+    """Return the first construction that a scene has; BadInput where there is none."""
+    if kinds := kinds_of(scene):
+        return kinds[0]
+    raise BadInput(
+        f"{scene.name}: has no construction; one is drawn of what linkanim guide, function and quick-return "
+        "have made, of the instant centres of three to five links, and of the dead centres of a "
+        "slider-crank or a crank-rocker"
+    )
+
+
+def steps_of(scene: Scene, kind: ConstructionKind, phase: float = 0.0) -> tuple[ConstructionStep, ...]:
+    """Return the steps of a construction, that of the centres at a phase; BadInput where there is none."""
+    if kind not in kinds_of(scene):
+        raise BadInput(f"{scene.name}: {_REFUSED[kind]}")
+    match kind:
+        case "synthesis":
+            return construction(scene)
+        case "dead-centres":
+            return dead_centre_steps(scene)
+        case "centres":
+            return _centre_steps(figure(scene), phase)
+
+
+def all_steps(scene: Scene) -> int:
+    """Return how many steps all constructions of a scene have; BadInput where there is none."""
+    usual_kind(scene)
+    return sum(len(steps_of(scene, kind)) for kind in kinds_of(scene))
+
+
+def steps_before(scene: Scene, kind: ConstructionKind) -> int:
+    """Return how many steps those constructions have that come before one."""
+    kinds = kinds_of(scene)
+    return sum(len(steps_of(scene, one)) for one in kinds[: kinds.index(kind)])
+
+
+def places_of(scene: Scene, kind: ConstructionKind, phase: float) -> tuple[complex, ...]:
+    """Return places in the scene's unit that a picture of a construction has to hold."""
+    if kind == "centres":
+        return CentrePairs(figure(scene)).near(scene.pose(phase, 1))
+    marks = [mark for step in steps_of(scene, kind, phase) for mark in step.marks if mark.spreads]
+    return tuple(complex(point) for mark in marks for point in mark.points if np.isfinite(point))
+
+
+def shown_at(scene: Scene, at: int, phase: float) -> ConstructionShown:
+    """Return what is shown in a step, counted from 1 through all constructions of a scene."""
+    *earlier, last = kinds_of(scene)
+    for kind in earlier:
+        count = len(steps_of(scene, kind, phase))
+        if at <= count:
+            return ConstructionShown(kind, steps_of(scene, kind, phase)[:at], count)
+        at -= count
+    steps = steps_of(scene, last, phase)
+    return ConstructionShown(last, steps[:at], len(steps))
+
+
+def clear_phase(scene: Scene) -> float:
+    """Return the phase of the pose whose instant centres are nearest to the linkage, and apart.
+
+    Of several such poses it is the first.
+    """
+    known = CentrePairs(figure(scene))
+    size, middle = known.size, complex(*known.figure.box.middle)
+
+    def spread(phase: float) -> tuple[float, float]:
+        places = [one.place for one in known.of(scene.pose(phase, 1)).values() if one.place is not None]
+        apart = min((abs(one - other) for one, other in combinations(places, 2)), default=size)
+        return max(_CLOSE - apart / size, 0.0), round(max(abs(place - middle) for place in places) / size, 6)
+
+    phases = (scene.period * n / _POSES for n in range(_POSES))
+    return min(phases, key=spread)
+
+
+def linkage_marks(scene: Scene, phase: float) -> tuple[Mark, ...]:
+    """Return the linkage in a pose as a construction's figure has it: bars, plates, pins, links' numbers."""
+    shown, pose = figure(scene), scene.pose(phase, 0)
+    numbers = shown.numbers | {body: number for number, body in shown.by_number.items() if body}
+    marks = list[Mark]()
+    for body in dict.fromkeys((*shown.bodies, *numbers)):
+        names = body.joints or (body.slider or "",)
+        points = np.array([complex(*pose.position[name]) for name in names])
+        if body.joints:
+            marks.append(Mark("plate" if len(points) > 2 else "bar", points, tone="dim", spreads=True))
+        if body in numbers and body.joints:
+            marks.append(Mark("word", np.array([points.mean()]), numbers[body], spreads=True))
+        elif body in numbers:
+            marks.append(Mark("ring", points, numbers[body], spreads=True))
+    rings = [Mark("ring", np.array([complex(*pose.position[name])]), spreads=True) for name in shown.pins]
+    return (*marks, *rings)
+
+
+# Kennedy's construction: what adjacent links share, then each further centre where two lines meet.
+
+
+def _centre_steps(shown: Figure, phase: float) -> tuple[ConstructionStep, ...]:
+    known = CentrePairs(shown)
+    pose = shown.scene.pose(phase, 1)
+    found, near = known.of(pose), set(known.near(pose))
+    size = known.size
+    later = {step.pair for step in known.steps}
+    given = [pair for pair, _ in known.pairs if pair in found and pair not in later]
+    marks = [_given_mark(shown, pose, pair, found[pair], near, size) for pair in given]
+    steps = [ConstructionStep(_given_words(shown, found, given), tuple(marks))]
+    for step in known.steps:
+        steps += _kennedy_steps(step, found, near, size)
+    return tuple(steps)
+
+
+def _listed(words: Iterable[str]) -> str:
+    """Return words as a sentence lists them."""
+    *first, last = words
+    return f"{', '.join(first)} and {last}" if first else last
+
+
+def _named(pair: tuple[str, str]) -> str:
+    """Return what a centre is called in a sentence: P₁₃."""
+    return label_of(*pair).replace("_{", "").replace("}", "").translate(_LOWERED)
+
+
+def _given_words(shown: Figure, found: dict[tuple[str, str], Centre], given: list[tuple[str, str]]) -> str:
+    links, linkage = shown.by_number, shown.linkage
+    joined = [pair for pair in given if joint_between(linkage, *(links[number] for number in pair))]
+    slid = [
+        pair
+        for pair in given
+        if pair not in joined and slide_between(linkage, *(links[number] for number in pair))
+    ]
+    geared = [pair for pair in given if pair not in joined and pair not in slid]
+    words = [f"The joints of adjacent links are their instant centres: {_listed(map(_named, joined))}."]
+    if slid:
+        words.append(
+            f"Across a guide the centre of what slides is infinitely far: {_listed(map(_named, slid))}."
+        )
+    if geared:
+        words.append(f"Pitch circles touch in {_listed(map(_named, geared))}.")
+    return " ".join(words)
+
+
+def _given_mark(
+    shown: Figure, pose: Pose, pair: tuple[str, str], found: Centre, near: set[complex], size: float
+) -> Mark:
+    """Return the mark of a centre that is known by how links touch: of one at infinity the way to it."""
+    place, way = found
+    if place is not None:
+        return Mark("dot", np.array([place]), _named(pair), "first", place in near)
+    slide = slide_between(shown.linkage, *(shown.by_number[number] for number in pair))
+    assert slide
+    foot = complex(*pose.position[slide.point])
+    way = way if (way.imag, way.real) > (1e-9, 0.0) else -way
+    ends = np.array([foot + _SHORT * size * way, foot])
+    return Mark("dashed", ends, f"to {_named(pair)} at ∞", "first", True)
+
+
+def _kennedy_steps(
+    step: KennedyStep, found: dict[tuple[str, str], Centre], near: set[complex], size: float
+) -> list[ConstructionStep]:
+    """Return the steps to a centre: a line for each of the links that lead to it, and where they meet."""
+    one, other = step.pair
+    target, name = found.get(step.pair), _named(step.pair)
+    place = target.place if target else None
+    steps = []
+    for n, third in enumerate(step.by):
+        through = _through((one, third), (third, other), found)
+        ends = kennedy_line(step.pair, third, found, _REACH * size)
+        marks = []
+        if ends:
+            begin, end = ends
+            over = _BEYOND * (end - begin)
+            marks.append(Mark("dashed", np.array([begin - over, end + over]), tone="third"))
+        last = n == len(step.by) - 1
+        if n == 0:
+            words = f"By Kennedy's theorem for links {one}, {third} and {other}, {name} lies on {through}."
+        else:
+            words = f"For links {one}, {third} and {other} it lies on {through}, too"
+            words += (
+                ": there it is." if place is not None else f"; both are parallel: {name} is infinitely far."
+            )
+        if not ends and _all_far(step.pair, third, found):
+            words = f"For links {one}, {third} and {other} the line is at infinity: {name} is infinitely far."
+        elif not ends:
+            words = f"Links {one}, {third} and {other} give no line here: their centres coincide."
+        if last and place is not None:
+            marks.append(Mark("cross", np.array([place]), name, "first", place in near))
+        steps.append(ConstructionStep(words, tuple(marks)))
+    return steps
+
+
+def _all_far(pair: tuple[str, str], third: str, found: dict[tuple[str, str], Centre]) -> bool:
+    """Return whether the centres of two links with a third are both infinitely far."""
+    known = [found.get((end, third)) or found.get((third, end)) for end in pair]
+    return all(centre is not None and centre.place is None for centre in known)
+
+
+def _through(one: tuple[str, str], other: tuple[str, str], found: dict[tuple[str, str], Centre]) -> str:
+    """Return the line through two centres in words."""
+    names = [_named(pair) for pair in (one, other)]
+    known = [found.get(pair) or found.get(pair[::-1]) for pair in (one, other)]
+    far = [centre is not None and centre.place is None for centre in known]
+    if any(far) and not all(far):
+        there, here = names if far[0] else names[::-1]
+        return f"the line through {here} towards {there}"
+    return f"the line through {names[0]} and {names[1]}"

@@ -1,0 +1,147 @@
+"""Constructions in their steps: of instant centres, and of dead centres."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from linkanim.errors import BadInput
+from linkanim.picture.centres import CentrePairs
+from linkanim.picture.constructed import (
+    KINDS,
+    all_steps,
+    clear_phase,
+    kinds_of,
+    linkage_marks,
+    places_of,
+    shown_at,
+    steps_before,
+    steps_of,
+)
+from linkanim.picture.figure import figure
+from linkanim.picture.look import Look
+from linkanim.picture.overlay import Overlay
+from linkanim.picture.picture import Picture
+from linkanim.scenes import load
+from linkanim.synthesis.constructions import Mark, dead_centres
+
+# scene, what is constructed of it: dead centres only where the crank drives and the output swings or slides
+HAS = [
+    ("crank-rocker", ["centres", "dead-centres"]),
+    ("slider-crank", ["centres", "dead-centres"]),
+    ("drag-link", ["centres"]),
+    ("rocker-driven", ["centres"]),
+    ("inverted-slider-crank", ["centres"]),
+    ("geared-five-bar-2-1", ["centres"]),
+    ("six-bar", ["dead-centres"]),
+    ("press", []),
+]
+
+
+@pytest.mark.parametrize(("name", "kinds"), HAS)
+def test_the_constructions_of_a_scene(name: str, kinds: list[str]) -> None:
+    scene = load(name)
+    assert [*kinds_of(scene)] == kinds
+    for kind in KINDS:
+        if kind not in kinds:
+            with pytest.raises(BadInput, match=f"{name}: "):
+                steps_of(scene, kind)
+    if not kinds:
+        with pytest.raises(BadInput, match="has no construction"):
+            all_steps(scene)
+
+
+def named(marks: tuple[Mark, ...]) -> dict[str, complex]:
+    return {mark.label: complex(mark.points[0]) for mark in marks if mark.label and len(mark.points) == 1}
+
+
+@pytest.mark.parametrize(
+    "name", ["crank-rocker", "slider-crank", "inverted-slider-crank", "geared-five-bar-2-1"]
+)
+@pytest.mark.parametrize("phase", [0.3, 2.0, 4.4])
+def test_a_centre_is_where_the_lines_of_its_steps_meet(name: str, phase: float) -> None:
+    scene = load(name)
+    known = CentrePairs(figure(scene))
+    first, *steps = steps_of(scene, "centres", phase)
+    places = known.of(scene.pose(phase, 1))
+    shown = named(first.marks)
+    lines: list[np.ndarray] = []
+    for one, two, step in zip(steps[::2], steps[1::2], known.steps, strict=True):
+        lines = [mark.points for each in (one, two) for mark in each.marks if mark.shape == "dashed"]
+        assert len(lines) == 2
+        (label,) = named(two.marks)
+        assert label in one.words
+        place = places[step.pair].place
+        assert place is not None
+        assert named(two.marks)[label] == place
+        for begin, end in lines:
+            across = ((place - begin) * (end - begin).conjugate()).imag / abs(end - begin)
+            assert abs(across) < 1e-9 * max(abs(end - begin), abs(place))
+        shown |= named(two.marks)
+    finite = [one for one in places.values() if one.place is not None]
+    assert len(shown) == len(finite)
+
+
+def test_two_centres_at_infinity_lead_to_a_third_one() -> None:
+    scene = load("elliptic-trammel")
+    words = [step.words for step in steps_of(scene, "centres", 0.7)]
+    assert any("the line is at infinity: P₄₅ is infinitely far" in said for said in words)
+
+
+@pytest.mark.parametrize("name", ["crank-rocker", "slider-crank", "engine"])
+def test_dead_centres_are_where_the_linkage_has_them(name: str) -> None:
+    scene = load(name)
+    steps, found = steps_of(scene, "dead-centres"), dead_centres(scene)
+    assert len(steps) == 6
+    marks = named(tuple(mark for step in steps for mark in step.marks))
+    end = scene.cycle(7200, derivatives=0).position["B"] @ [1, 1j]
+    for place, label in zip(found.ends, ("B′", "B″"), strict=True):
+        assert marks[label] == place
+        assert np.abs(end - place).min() < 0.02
+    # crank and coupler in line
+    for pin, place in zip(found.pins, found.ends, strict=True):
+        way = (pin - found.crank_pivot).conjugate() * (place - found.crank_pivot)
+        assert abs(way.imag) < 1e-9 * abs(way)
+    told = [float(said.partition("stands at ")[2][:-2]) for said in (steps[2].words, steps[4].words)]
+    if scene.info.dead_centres:
+        angles = [math.degrees(scene.pose(phase, 0).coordinate) % 360 for phase in scene.info.dead_centres]
+        assert sorted(told) == pytest.approx(sorted(angles), abs=0.06)
+    if scene.info.time_ratio:
+        assert f"= {scene.info.time_ratio:.4g}." in steps[-1].words or "same time" in steps[-1].words
+
+
+def test_steps_are_counted_through_all_constructions() -> None:
+    scene = load("slider-crank")
+    count = len(steps_of(scene, "centres"))
+    assert steps_before(scene, "centres") == 0
+    assert steps_before(scene, "dead-centres") == count
+    last = shown_at(scene, count, 0.4)
+    assert (last.kind, len(last.steps), last.total) == ("centres", count, count)
+    assert shown_at(scene, count + 2, 0.4).kind == "dead-centres"
+    assert len(shown_at(scene, all_steps(scene), 0.4).steps) == 6
+
+
+def test_the_picture_says_what_is_done_and_holds_the_centres() -> None:
+    scene = load("crank-rocker")
+    phase = clear_phase(scene)
+    also = places_of(scene, "centres", phase)
+    picture = Picture(scene, (640, 360), Look(), moment=phase, also=also)
+    for place in also:
+        x, y = picture.view.to_pixel(place.real, place.imag)
+        assert 0 < x < 640
+        assert 0 < y < 360
+    said = [
+        line.text
+        for group in picture.groups(scene.pose(phase, 2), Overlay(construction=3))
+        for line in group.captions
+    ]
+    assert any("it lies on the line through P₁₄ and P₃₄, too: there it is" in line for line in said)
+    assert "step 3 of 5" in said
+    assert scene.title not in said  # what stands there else would lie below
+
+
+def test_the_linkage_of_a_figure_has_its_links_numbers() -> None:
+    scene = load("inverted-slider-crank")
+    assert {mark.label for mark in linkage_marks(scene, 0.3)} == {"", "2", "3", "4"}
