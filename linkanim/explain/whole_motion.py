@@ -424,9 +424,19 @@ class _WholeMotion:
         forth = places[1] - places[0]
         forth = forth if forth.value >= 0 else forth + _ROUND
         slow = forth if forth.value >= _STRAIGHT.value else _ROUND - forth
-        ratio, whole = self.info.time_ratio or 0.0, slow.value / (_ROUND.value - slow.value)
-        if self.info.true_period == 1 and math.isclose(ratio, whole, rel_tol=_ALIKE):
+        ratio, quick = self.info.time_ratio or 0.0, _ROUND.value - slow.value
+        if self.info.true_period == 1 and math.isclose(ratio * quick, slow.value, rel_tol=_ALIKE):
             self._ratio(slow)
+        elif self.info.true_period > 1:
+            work.say(
+                f"Its true period is {self.info.true_period} drive periods. From one of these places to the "
+                f"other the slow way takes {ratio:.4f} times as long as the quick one."
+            )
+        elif quick < _ALIKE * _ROUND.value:
+            work.say(
+                "The quick way is too short for the digits that are printed here. The slow way takes "
+                f"{ratio:.4g} times as long."
+            )
         else:
             work.say(
                 "It comes to one of them more than once in a true period. From one to the next the slow way "

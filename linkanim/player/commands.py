@@ -134,8 +134,8 @@ def slid(state: State, number: int, share: float) -> tuple[Action, ...]:
 
 
 def slides(state: State, number: int) -> bool:
-    """Tell whether a button is a slider."""
-    return _HANDLES[state.mode][number].action == _SPEED
+    """Tell whether a button is a slider; a number that the bar of this mode does not have is none."""
+    return any(one.action == _SPEED for one in _HANDLES[state.mode][number : number + 1])
 
 
 def _buttons(state: State) -> tuple[Button, ...]:

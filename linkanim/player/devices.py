@@ -437,7 +437,8 @@ class Mouse:
         """Return what is asked of the bar of commands: a button, or a slider that is dragged; None off it."""
         if self._drag in ("bar", "speed"):
             drag, self._drag = self._drag, None if gesture.kind == "up" else self._drag
-            return self._slid(screen) if drag == "speed" and gesture.kind == "move" else ()
+            moved = drag == "speed" and gesture.kind == "move"
+            return self._slid(screen) if moved and slides(screen.state, self._slider) else ()
         number = screen.button_at(*self._at) if self._drag is None else None
         if number is None or gesture.kind == "up":
             return None

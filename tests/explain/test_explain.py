@@ -486,6 +486,24 @@ def test_stroke_swing_and_time_ratio_are_derived_as_info_has_them(name: str) -> 
     assert lines["TR"] == pytest.approx(info.time_ratio, rel=2e-6)
 
 
+def test_a_swing_over_two_drive_periods_has_its_time_ratio_in_words() -> None:
+    """A link that follows a slider to where the rod and the link lie in one line, and on through it."""
+    written = {
+        "ground": {"O2": [0, 0]},
+        "drive": {"slider": {"joint": "C", "from": 54, "to": 60}},
+        "joints": {
+            "C": {"line": {"through": "O2", "angle": "30 deg"}},
+            "A": {"from": ["C", "O2"], "length": [54, 6], "side": "right"},
+        },
+        "bodies": {"lever": {"joints": ["O2", "A"]}},
+    }
+    scene = scene_from(written, name="my", where="my.toml")
+    text = document(solution(PoseRequest(scene, "phase", 0.7, 2.0)), MARKDOWN)
+    assert scene.info.true_period == 2
+    assert "Its true period is 2 drive periods." in text
+    assert "more than once" not in text
+
+
 @pytest.mark.parametrize(
     "lengths",
     [(110, 130, 80, 115), (100, 60, 45, 50), (100, 30, 85, 80), (100, 70, 40, 50)],

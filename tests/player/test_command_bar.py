@@ -176,6 +176,19 @@ def test_the_speed_is_dragged_on_its_slider_and_the_wheel_turns_it(player: Playe
     assert player.state.look.zoom == 1.0
 
 
+def test_a_drag_of_the_speed_ends_where_the_mode_has_another_bar(player: Player) -> None:
+    pygame.display.set_mode((900, 500), pygame.RESIZABLE)
+    x, y, _ = button(player, "speed")
+    player.mouse(pygame.MOUSEBUTTONDOWN, (x, y), button=1)
+    level = player.state.clock.level
+    player.window.state = advance(player.state, [Action("shelf")])
+    player.tick()
+    assert player.state.mode == "shelf"  # its bar has few buttons
+    player.mouse(pygame.MOUSEMOTION, (x + 40, y), rel=(0, 0), buttons=(1, 0, 0))
+    player.mouse(pygame.MOUSEBUTTONUP, (x + 40, y), button=1)
+    assert player.state.clock.level == level
+
+
 def test_a_slider_says_its_end_by_the_state_alone(rocker: State) -> None:
     number = next(n for n, one in enumerate(getattr(bar(rocker), "buttons", ())) if one.share is not None)
     assert slides(rocker, number)
