@@ -170,13 +170,13 @@ class Plate:
             places = around if wheel.ring else [*places, *around]
         edge = hull(self.corners)
         sides = [pair for pair in zip(edge, edge[1:] + edge[:1], strict=True) if len(edge) > 2]
-
-        def room(place: complex) -> float:
-            within = (((place - a) * (b - a).conjugate()).imag / abs(b - a) for a, b in sides)
-            clear = (_between((place, place, 0.0), (*cut, 0.0)) for cut in cuts)
-            return min((self.radius + min(within, default=0.0)), *clear, math.inf)
-
-        return max(places, key=room)
+        at = np.array(places)
+        within = [((at - a) * (b - a).conjugate()).imag / abs(b - a) for a, b in sides]
+        room = self.radius + np.min(within, axis=0) if within else np.full(len(at), self.radius)
+        for begin, end in cuts:
+            cut = np.broadcast_to(np.array([begin, end]), (len(at), 2))
+            room = np.minimum(room, hulls_apart(at[:, None], cut))
+        return places[int(room.argmax())]
 
 
 class KitPin(NamedTuple):
