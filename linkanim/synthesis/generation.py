@@ -264,7 +264,8 @@ _SHARES = (1.0, 0.5, 0.25, 0.1, 0.03)
 """Of a step of Newton's, the first that makes the largest error less is taken."""
 _LEVEL = 1e-9
 """Of the error: by how much its extremes may differ when they are level."""
-_SAME = 1e-6
+_SAME, _ALIKE = 1e-6, 1e-3
+"""Of an angle, and of the longest link: what differs by less is one."""
 _FARTHEST = 3.0
 """Of the slider's way: where its scale is tried to begin, to either side of the crank's pivot."""
 _KEPT, _MORE = 4, 7
@@ -681,7 +682,7 @@ def answers(task: FunctionTask, count: int = COUNT) -> tuple[Generated, ...]:
     found: list[Generated] = []
     for design in _candidates(task, count):
         one = checked(task, design)
-        if one is not None and not any(_same(one, other) for other in found):
+        if one is not None:
             found.append(one)
         if len(found) == count:
             break
@@ -691,12 +692,6 @@ def answers(task: FunctionTask, count: int = COUNT) -> tuple[Generated, ...]:
             "one branch; take other ranges, another number of precision points, or a shorter piece of it"
         )
     return tuple(sorted(found, key=lambda one: one.error))
-
-
-def _same(one: Generated, other: Generated) -> bool:
-    scale = max(one.size, other.size)
-    lengths = (abs(one.parameters[name] - other.parameters[name]) for name in one.parameters)
-    return max(lengths) <= 1e-3 * scale and abs(one.input_range - other.input_range) < _SAME
 
 
 class _Design(NamedTuple):
@@ -709,6 +704,8 @@ class _Design(NamedTuple):
     points: int
     chebyshev: float = math.nan
     """The largest error before it was levelled."""
+    left: tuple[int, ...] = ()
+    """The numbers by which it could not be levelled yet."""
 
 
 def _candidates(task: FunctionTask, count: int) -> Iterator[_Design]:
@@ -722,9 +719,23 @@ def _candidates(task: FunctionTask, count: int) -> Iterator[_Design]:
     x = np.linspace(task.function.first, task.function.last, _PLACES)
     chosen = [one._replace(chebyshev=float(np.abs(_errors(task, one, x)).max())) for one in chosen]
     if task.level:
-        chosen = [_levelled(task, design) for design in chosen]
-        chosen.sort(key=lambda design: _merit(task, design))
-    yield from chosen
+        chosen = _different(task, [_levelled(task, design) for design in chosen])
+        chosen = _different(task, [*(_again(task, one) for one in chosen[:count]), *chosen[count:]])
+    yield from _different(task, chosen)
+
+
+def _different(task: FunctionTask, designs: list[_Design]) -> list[_Design]:
+    """Return linkages, the best first, none of them like one before it."""
+    found: list[tuple[_Design, Real]] = []
+    for one in sorted(designs, key=lambda design: _merit(task, design)):
+        lengths = task.generator.lengths(one.row[None])[0]
+        if not any(
+            np.abs(lengths - others).max() <= _ALIKE * max(lengths.max(), others.max())
+            and abs(one.input_range - other.input_range) < _SAME
+            for other, others in found
+        ):
+            found.append((one, lengths))
+    return [one for one, _ in found]
 
 
 def _ranges(task: FunctionTask) -> Iterator[tuple[float, float]]:
@@ -823,14 +834,7 @@ def _at_start(
         return np.sin(found[:, column] - start)
 
     phases = np.linspace(0.0, math.tau, 4 * _CURVE + 1)
-    values = off(rows(phases))
-    turns = np.flatnonzero(values[:-1] * values[1:] < 0)
-    low, high, below = phases[turns], phases[turns + 1], values[turns]
-    for _ in range(_HALVINGS if len(turns) else 0):
-        middle = (low + high) / 2
-        same = off(rows(middle)) * below > 0
-        low, high = np.where(same, middle, low), np.where(same, high, middle)
-    return rows(low)
+    return rows(_zeros(lambda at: off(rows(at)), phases, off(rows(phases)), 1))
 
 
 def _generated(
@@ -875,6 +879,15 @@ def _levelled(task: FunctionTask, design: _Design) -> _Design:
     return min((_exchanged(task, design, columns) for columns in choices), key=lambda one: _merit(task, one))
 
 
+def _again(task: FunctionTask, design: _Design) -> _Design:
+    """Return a linkage whose exchange ended early, begun again where the errors' squares are least."""
+    if not design.left:
+        return design
+    columns = list(design.left)
+    other = _exchanged(task, _smoothed(task, design, columns), columns)
+    return min((design, other), key=lambda one: _merit(task, one))
+
+
 def _exchanged(task: FunctionTask, design: _Design, columns: list[int]) -> _Design:
     """Return a linkage with its largest error made least by some of its numbers.
 
@@ -886,16 +899,21 @@ def _exchanged(task: FunctionTask, design: _Design, columns: list[int]) -> _Desi
     if places is None:
         design = _smoothed(task, design, columns)
         places = _alternating(task, design, x, len(columns) + 1)
+    design = design._replace(left=tuple(columns))
     worst = np.abs(_errors(task, design, x)).max()
     for _ in range(_EXCHANGES):
         if places is None:
             break
         error = _errors(task, design, places)
+        if np.ptp(np.abs(error)) <= _LEVEL * np.abs(error).max():
+            return design._replace(left=())
         step = _step(task, design, places, error, columns)
-        if step is None or np.ptp(np.abs(error)) <= _LEVEL * np.abs(error).max():
+        if step is None:
             break
         for share in _SHARES:
             tried = design._replace(row=design.row + share * step)
+            if not np.abs(_errors(task, tried, x)).max() < worst:
+                continue
             after = _alternating(task, tried, x, len(columns) + 1)
             if after is not None and (less := np.abs(_errors(task, tried, after)).max()) < worst:
                 design, places, worst = tried, after, less
@@ -1026,7 +1044,7 @@ def checked(task: FunctionTask, design: _Design) -> Generated | None:
         if generator.turning:
             seen = float(scene.solve(angle=start, derivatives=0).angle[generator.output])
             first += math.tau * round((seen - first) / math.tau)
-        points = _zeros(errors, x, sampled) if task.level else function.chebyshev(design.points)
+        points = _zeros(errors, x, sampled, 5) if task.level else function.chebyshev(design.points)
         stated = {"function": _stated(task, points, (start, wide, first, high))}
         scene = scene_from({**document, **stated}, name=task.name, where=task.name)
     except (AssemblyError, SceneError):
@@ -1077,14 +1095,18 @@ def _solved_errors(
     return np.asarray(off * (function.span / high))
 
 
-def _zeros(errors: Callable[[Real], Real], x: Real, values: Real) -> Real:
-    """Return where errors change their sign, between samples by halving."""
+def _zeros(errors: Callable[[Real], Real], x: Real, values: Real, at_once: int) -> Real:
+    """Return where errors change their sign, between samples by halving, so many times at once."""
     turns = np.flatnonzero(values[:-1] * values[1:] <= 0)
     low, high, below = x[turns], x[turns + 1], values[turns]
-    for _ in range(_HALVINGS if len(turns) else 0):
-        middle = (low + high) / 2
-        same = errors(middle) * below > 0
-        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    parts, each = 2**at_once, np.arange(len(turns))
+    share = np.arange(1, parts) / parts
+    for _ in range(_HALVINGS // at_once if len(turns) else 0):
+        inner = low[:, None] + (high - low)[:, None] * share
+        same = errors(inner.ravel()).reshape(inner.shape) * below[:, None] > 0
+        last = np.where(same.all(axis=1), parts - 1, same.argmin(axis=1))
+        edges = np.column_stack([low, inner, high])
+        low, high = edges[each, last], edges[each, last + 1]
     return np.asarray((low + high) / 2)
 
 
