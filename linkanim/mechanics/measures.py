@@ -480,7 +480,9 @@ def _of_paths(prefix: str) -> tuple[Measure, ...]:
 
     def bent(name: str, symbol: str, words: str, unit: str, order: int, work: Callable[..., Any]) -> Measure:
         def read(motion: Any, part: str) -> Any:
-            return said(motion, work(motion, prefix, part), unit, order)
+            with np.errstate(invalid="ignore"):  # a limit's unbounded rates leave no number
+                found = work(motion, prefix, part)
+            return said(motion, found, unit, order)
 
         def turning(motion: Any, part: str) -> Any:
             return cross(*_rates(motion, prefix, part))

@@ -60,8 +60,15 @@ def test_twenty_thousand_good_scenes_are_made_into_everything(part: int, tmp_pat
     assert faults_apart(SEED + 1, part, PARTS, 20_000 // PARTS, tmp_path) == []
 
 
-def test_labels_that_are_alike_are_told_apart_while_a_still_is_named(tmp_path: Path) -> None:
-    assert faults(SEED, 770, tmp_path) == []
+@pytest.mark.parametrize(
+    ("seed", "number"),
+    [
+        pytest.param(20, 770, id="labels that are alike, of a still"),
+        pytest.param(21, 10953, id="the curvature of a path where its rates are unbounded"),
+    ],
+)
+def test_what_once_failed_is_made(seed: int, number: int, tmp_path: Path) -> None:
+    assert faults(seed, number, tmp_path) == []
 
 
 @pytest.mark.slow
