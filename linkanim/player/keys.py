@@ -282,7 +282,7 @@ _IN_A_MODE: Table = {
     ),
     "in F4": (
         KeyRow("press, drag", "set down a frame; drag it, or turn it by its axis"),
-        KeyRow("drag a pivot", "hold it there; of four poses it slides along its curve"),
+        KeyRow("drag a pivot, a joint", "move it; of four poses it slides along its curve"),
         KeyRow("P", "set pins, or frames again", _on("p", "pinning")),
         KeyRow("S", "linkages with a slider, or four-bars", _on("s", "sliding")),
         KeyRow("B", "poles, Burmester's curves and points", _on("b", "theory")),

@@ -87,14 +87,23 @@ def _handles(sketch: PoseSketch, reach: float) -> Iterator[tuple[PoseGrip, Point
         yield PoseGrip("pose", n), (pose.x, pose.y)
         yield PoseGrip("axis", n), _tip(pose, reach)
     yield from ((PoseGrip("pin", n), place) for n, place in enumerate(sketch.pins))
+    for name, place in free_joints(sketch).items():
+        is_pivot = name in PIVOTS
+        yield (
+            PoseGrip("pin", -1 - PIVOTS.index(name)) if is_pivot else PoseGrip("joint", "AB".index(name)),
+            place,
+        )
+
+
+def free_joints(sketch: PoseSketch) -> dict[str, Point]:
+    """Return the joints of the linkage that is shown that poses leave some choice of, in the first pose."""
     if sketch.answer is None or len(sketch.poses) >= MOST:
-        return
+        return {}
     joints = sketch.answer.joints
-    pivots = [joints[name] for name in PIVOTS if name in joints]
-    yield from ((PoseGrip("pin", -1 - n), (place.real, place.imag)) for n, place in enumerate(pivots))
-    if len(sketch.poses) < 4:
-        for n, name in enumerate("AB"):
-            yield PoseGrip("joint", n), (joints[name].real, joints[name].imag)
+    # of four poses one point alone can slide
+    moving = "A" if sketch.answer.sliding and len(sketch.poses) == MOST - 1 else "AB"
+    names = (*(name for name in PIVOTS if name in joints), *moving)
+    return {name: (joints[name].real, joints[name].imag) for name in names}
 
 
 def _tip(pose: SetPose, reach: float) -> Point:

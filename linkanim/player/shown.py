@@ -49,13 +49,13 @@ from linkanim.player.commands import bar
 from linkanim.player.dial import place_of
 from linkanim.player.keys import help_groups
 from linkanim.player.pointing import Pointed, told
+from linkanim.player.posing import free_joints
 from linkanim.player.state import (
     DIAL,
     FAMILY,
     FLASH_FRAMES,
     LARGEST_DIAL,
     LIFTED,
-    PIVOTS,
     SHUTTER_FRAMES,
     BuildSheet,
     Grip,
@@ -247,11 +247,10 @@ _HINT = (
 _OTHERS_HINT = "↑ ↓ choose   type to filter   Enter takes   Esc closes"
 _LIST_HINT = "↑ ↓ choose   type to filter   Enter charts   Esc closes"
 _BAR = "Space pause · Tab next · drag any joint · right click: all commands · H keys"
-_MOST_OF_FREE_JOINTS, MOST_POSES = 4, 5
 _FREE = {
     2: "pivots and joints are free: drag them",
     3: "a pivot or its joint is free: drag them",
-    4: "a pivot slides along the curve of centre points (B)",
+    4: "pivots and joints slide along Burmester's curves (B)",
     5: "nothing is free: Burmester's points (B)",
 }
 """What can be chosen, by how many poses there are."""
@@ -416,9 +415,7 @@ def _poses(state: State, sketch: PoseSketch) -> PosesShown:
     bodies: list[tuple[Point, ...]] = []
     if answer:
         joints, first = answer.joints, sketch.poses[0]
-        few, most = len(sketch.poses) < _MOST_OF_FREE_JOINTS, len(sketch.poses) < MOST_POSES
-        names = [*(PIVOTS if most else ()), *("AB" if few else "")]
-        handles = tuple(as_point(joints[name]) for name in names if name in joints)
+        handles = tuple(free_joints(sketch).values())
         origin = complex(first.x, first.y)
         for pose in sketch.poses:
             turn = cmath.rect(1.0, pose.angle - first.angle)

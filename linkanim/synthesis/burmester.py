@@ -136,6 +136,15 @@ class Poses:
         """Return fixed points as the body in each pose sees them, laid on the first pose (..., n)."""
         return np.asarray(self.origins[0] + (np.asarray(points)[..., None] - self.origins) / self.turns)
 
+    @cached_property
+    def inverse(self) -> Poses:
+        """The poses of the fixed plane as the body sees it, laid on its first pose.
+
+        Its centre points are the circle points of these, and the other way round.
+        """
+        origins = self.images(complex(self.origins[0]))
+        return Poses(origins, 2 * self.angles[0] - self.angles)
+
     def pole(self, one: int, other: int) -> complex | None:
         """Return the point about which a turn takes one pose to the other; None where they are parallel."""
         turn = complex(self.turns[other] / self.turns[one])

@@ -664,8 +664,8 @@ def _held_by(pivots: Sequence[complex], bars: list[tuple[complex, complex]]) -> 
 def _bar_of(poses: Poses, joint: complex, pivot: complex) -> Bars | None:
     """Return the bar of a joint of the body in the first pose, its pivot near one of before; None for none.
 
-    Two poses leave the pivot on the midperpendicular, three put it where two of those meet; four and five
-    leave no joint free.
+    Two poses leave the pivot on the midperpendicular, three put it where two of those meet. Of four the
+    joint goes to the nearest point of the curve of circle points; five leave no joint free.
     """
     if poses.count == 2:
         first, second = poses.places(joint)
@@ -674,8 +674,10 @@ def _bar_of(poses: Poses, joint: complex, pivot: complex) -> Bars | None:
         middle = (first + second) / 2
         foot = middle + along * ((pivot - middle) * np.conj(along)).real
         return Bars(np.array([joint]), np.array([foot]))
-    if poses.count > 3:
+    if poses.count > 4 or (poses.count == 4 and not poses.poles):
         return None
+    if poses.count == 4:
+        joint = CentreCurve(poses.inverse).nearest(joint)
     found = Bars(np.array([joint]), centre_points(poses, np.array([joint])))
     return polished(poses, found) if np.isfinite(found.centre[0]) else None
 

@@ -16,9 +16,10 @@ from linkanim.player import beside, screen
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
 from linkanim.player.beside import actions_of, request_of
+from linkanim.player.posing import free_joints
 from linkanim.player.shown import overlay
 from linkanim.player.state import LARGEST_DIAL, PoseSketch, SetPose, State, begin
-from linkanim.player.tape import Taping
+from linkanim.player.tape import Taping, resumed
 from linkanim.scenes import load
 from linkanim.scenes.scene import PosesPurpose
 from linkanim.synthesis.burmester import CentreCurve, Poses
@@ -186,6 +187,36 @@ def test_a_pivot_of_four_poses_slides_along_the_curve_of_centre_points(empty: St
     foot = complex(*sketch_of(led).pins[0])
     assert abs(curve.nearest(foot) - foot) < 1e-9
     assert abs(foot - at) > 1
+
+
+@pytest.mark.parametrize("name", ["A", "B"])
+def test_a_joint_of_four_poses_slides_along_the_curve_of_circle_points(empty: State, name: str) -> None:
+    follower = Follower()
+    state = answered(after(empty, put(4)), follower)
+    before = sketch_of(state).answer.joints
+    at = before[name]
+    assert sketch_of(state).poses[3] == ROWS[3]
+    begun = after(state, hand("hand_down", at.real, at.imag), hand("hand_to", at.real + 6, at.imag - 4, 0.0))
+    led = answered(begun, follower)
+    now = sketch_of(led).answer.joints
+    rows = np.array(ROWS[:4])
+    poses = Poses(rows[:, 0] + 1j * rows[:, 1], rows[:, 2].copy())
+    assert abs(CentreCurve(poses.inverse).nearest(now[name]) - now[name]) < 1e-6
+    assert abs(now[name] - at) > 1
+    pivot, other, its = ("O2", "B", "O4") if name == "A" else ("O4", "A", "O2")
+    assert np.ptp(np.abs(poses.places(now[name]) - now[pivot])) < 1e-9 * poses.size
+    assert (now[other], now[its]) == pytest.approx((before[other], before[its]), abs=1e-6)
+    # a tape has it, and it is undone
+    done = answered(after(led, "hand_up"), follower)
+    again = after(begin(load("crank-rocker")), *resumed(done))
+    assert sketch_of(again).answer.joints[name] == pytest.approx(now[name], abs=1e-6)
+    assert sketch_of(after(done, "take_back")).answer.joints[name] == pytest.approx(at, abs=1e-6)
+
+
+def test_of_four_poses_one_point_alone_slides(empty: State) -> None:
+    sliding = answered(after(empty, put(4, sliding=True)))
+    if sketch_of(sliding).answers:
+        assert set(free_joints(sketch_of(sliding))) == {"O2", "A"}
 
 
 def test_five_poses_leave_no_pivot_to_be_dragged_or_set(empty: State) -> None:

@@ -186,3 +186,13 @@ def test_a_large_shift_and_scale_change_nothing_else() -> None:
 def test_poses_that_are_none_are_refused(places: list[complex], angles: list[float], said: str) -> None:
     with pytest.raises(BadInput, match=said):
         Poses(np.array(places, dtype=np.complex128), np.array(angles) * DEGREE)
+
+
+def test_the_circle_points_are_the_centre_points_of_the_inverse_motion() -> None:
+    (known,) = of_four_bars(31, 4, 1)
+    poses = poses_of(np.array(known.rows))
+    bars, inverse = CentreCurve(poses).bars(40), CentreCurve(poses.inverse)
+    assert poses.inverse.inverse.origins == pytest.approx(poses.origins)
+    for circle, centre in zip(*bars, strict=True):
+        assert abs(inverse.nearest(complex(circle)) - circle) < 1e-7 * max(poses.size, abs(circle))
+        assert centre_points(poses, np.array([circle]))[0] == pytest.approx(centre, rel=1e-5, abs=1e-5)
