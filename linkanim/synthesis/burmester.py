@@ -37,6 +37,8 @@ FEWEST, MOST = 2, 5
 """Poses."""
 SAME = 1e-9
 """Of the poses' size, and in radians: what differs by less is one."""
+_LARGEST = 1e30
+"""Of x and y: what is larger cannot be computed with, and no scene file takes it."""
 STRAIGHT = 1e-12
 """Of the poses' size: a point that strays from a line by no more runs along it."""
 _FAR = 1e6
@@ -87,6 +89,8 @@ class Poses:
         for number, (origin, angle) in enumerate(zip(self.origins, self.angles, strict=True), start=1):
             if not (cmath.isfinite(origin) and math.isfinite(angle)):
                 raise BadInput(f"pose {number} is not finite; give it x, y and an angle as numbers")
+            if abs(origin) > _LARGEST:
+                raise BadInput(f"pose {number} lies beyond {_LARGEST:g}; take a larger unit of length")
         for (one, first), (other, second) in combinations(enumerate(self.angles, start=1), 2):
             if abs(second - first) >= math.tau - SAME:
                 turned = math.degrees(second - first)
@@ -577,7 +581,7 @@ def _conics(rows: Sequence[_Row]) -> tuple[list[Decimal], list[Decimal]]:
     p = max(cubics, key=lambda cubic: abs(cubic[0]) + abs(cubic[3]))
     square = p[0] ** 2 + p[3] ** 2
     if square <= (_NOTHING * most) ** 2:
-        raise BadInput("these five poses are not turned against each other; take fewer, or turn them")
+        raise BadInput("four or more of these five poses are parallel; turn one of them, or leave one out")
     one, two, three = (
         _freed(cubic, (p, (cubic[0] * p[0] + cubic[3] * p[3]) / square)) for cubic in cubics if cubic is not p
     )

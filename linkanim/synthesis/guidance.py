@@ -165,7 +165,10 @@ def task_of(
     if kind not in KINDS:
         raise BadInput(f"kind={shown(kind)}: take {' or '.join(KINDS)}")
     units.metre(unit)
-    rows = np.asarray(poses, dtype=np.float64)
+    try:
+        rows = np.asarray(poses, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise BadInput("poses are numbers: give a row of x, y and angle for each") from None
     if rows.ndim != 2 or rows.shape[1] != 3:
         raise BadInput(f"poses of shape {rows.shape}: give a row of x, y and angle for each, (n, 3)")
     found, chosen = Poses(rows[:, 0] + 1j * rows[:, 1], rows[:, 2].copy()), KINDS[kind]
@@ -176,16 +179,29 @@ def task_of(
         )
     if len(pivots) > len(chosen.pins):
         raise BadInput(f"a {kind} has {len(chosen.pins)} fixed pins; {len(pivots)} are given")
-    given = tuple(_pivot(found, pivot) for pivot in pivots if pivot is not None)
+    given = tuple(_pivot(pivot) for pivot in pivots if pivot is not None)
+    if len(given) == 2 and abs(given[1] - given[0]) <= SAME * found.size:
+        raise BadInput(
+            f"both pivots are given at {given[0].real:g}, {given[0].imag:g}, so there is no ground link "
+            "between them; give one of them another place, or leave it out"
+        )
     limits = Requirements.of(
         found.size, "sizes of the poses", largest=largest, least_angle=least_angle, box=box
     )
+    for pivot in given:
+        if not limits.holds(pivot):
+            raise BadInput(
+                f"the pivot at {pivot.real:g}, {pivot.imag:g} lies outside the box; enlarge the box"
+            )
     return GuideTask(found, chosen, given, replace(limits, full_turn=False), unit, name, source)
 
 
-def _pivot(poses: Poses, pivot: Sequence[float]) -> complex:
+def _pivot(pivot: Sequence[float]) -> complex:
     """Return where a fixed pin is to be."""
-    values = tuple(float(value) for value in pivot)
+    try:
+        values = tuple(float(value) for value in pivot)
+    except (TypeError, ValueError):
+        values = ()
     if len(values) != 2 or not all(map(math.isfinite, values)):
         raise BadInput(f"pivot {shown(str(list(pivot)))}: give x and y, two numbers")
     return complex(*values)
@@ -431,6 +447,8 @@ def _judged(task: GuideTask, pairs: _Pairs) -> _Judged:
             p = (r3 * r3 + r4 * r4 - r1 * r1 - r2 * r2) / (2 * r3 * r4)
             side = (np.conj(held[:, None] - pins) * coupler).imag
         angle = np.angle(crank / reference[:, None])
+        # a link of no length closes nowhere
+        p, q = (np.where(np.isfinite(part), part, np.nan) for part in (p, q))
     # where c reaches 1 and goes no farther the two closures meet: a change point
     near, far = (np.abs(place) - 1 for place in (p + q, p - q))
     changes = (np.abs(near) <= _CLOSED).astype(int) + (np.abs(far) <= _CLOSED)

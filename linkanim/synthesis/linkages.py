@@ -377,6 +377,13 @@ class Requirements:
             given=given or {},
         )
 
+    def holds(self, pivot: complex) -> bool:
+        """Tell whether a pivot may stand at a point."""
+        if self.box is None:
+            return True
+        x, y, width, height = self.box
+        return x <= pivot.real <= x + width and y <= pivot.imag <= y + height
+
     def slack(self, kind: LinkageKind, rows: Real) -> Real:
         """Return (B, m), negative for each limit that is broken; the two of a full turn come first."""
         turning = [kind.slack(rows, self.angle_to_keep("angle"))] if self.full_turn else []

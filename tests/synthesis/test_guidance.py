@@ -234,7 +234,16 @@ FIVE = [*FOUR, (60, -80, 170 * DEGREE)]
         ([(0, 0), (1, 1)], {}, "give a row of x, y and angle"),
         (turned((0, 0, 0), (math.nan, 0, 0)), {}, "pose 2 is not finite"),
         (turned((0, 0, 0), (5, 5, 9), (5, 5, 9)), {}, "poses 2 and 3 are one"),
+        (turned((0, 0, 0), (1e-12, 0, 0), (50, 20, 30)), {}, "poses 1 and 2 are one"),
         (turned((0, 0, 0), (5, 5, 9), (9, 5, 400)), {}, "poses 1 and 3 are turned by 400 deg"),
+        (turned((0, 0, 0), (9, 0, 360)), {}, "poses 1 and 2 are turned by 360 deg"),
+        (turned((0, 0, 0), (0, 0, 360)), {}, "poses 1 and 2 are turned by 360 deg"),
+        (turned((0, 0, 0), (5, 0, -400)), {}, "poses 1 and 2 are turned by -400 deg"),
+        (turned((0, 0, 0), (4e31, 0, 9)), {}, "pose 2 lies beyond 1e.30; take a larger unit"),
+        (turned((0, 0, 0), (4, 0, math.inf)), {}, "pose 2 is not finite"),
+        ("abc", {}, "poses are numbers"),
+        ([("a", 0, 0), (1, 1, 1)], {}, "poses are numbers"),
+        ([], {}, "give a row of x, y and angle"),
         (about(7 - 3j, 0, 30, 70), {}, "all poses turn about one point, 7, -3"),
         (about(0j, 0, 30, 70, -20, 90), {}, "all poses turn about one point"),
         (turned((4, 4, 0), (4, 4, 30), (4, 4, 70)), {}, "all poses turn about one point, 4, 4"),
@@ -242,6 +251,13 @@ FIVE = [*FOUR, (60, -80, 170 * DEGREE)]
         (LID, {"pivots": [(0, 0), (1, 1), (2, 2)]}, "has 2 fixed pins; 3 are given"),
         (LID, {"pivots": [(0, 0)] * 2, "kind": "slider-crank"}, "has 1 fixed pins; 2 are given"),
         (LID, {"pivots": [(math.inf, 0)]}, "give x and y, two numbers"),
+        (LID, {"pivots": ["a"]}, "give x and y, two numbers"),
+        (LID, {"pivots": [(1, 2, 3)]}, "give x and y, two numbers"),
+        (LID, {"pivots": [(5, 5), (5, 5)]}, "both pivots are given at 5, 5, so there is no ground link"),
+        (LID[:2], {"pivots": [(5, 5), (5, 5)]}, "both pivots are given at 5, 5, so there is no ground link"),
+        (LID, {"pivots": [(0, 0)], "box": (10, 10, 5, 5)}, "the pivot at 0, 0 lies outside the box"),
+        (LID, {"box": (0, 0, math.nan, 1)}, "give x, y, width and height"),
+        (LID, {"least_angle": 1.57}, "the least transmission angle; give it more room"),
         (LID, {"count": 0}, "from 1 to 50"),
         (LID, {"prefer": "exact"}, "take compact or angle"),
         (LID, {"largest": -1}, "give the longest link in sizes of the poses"),
@@ -252,6 +268,23 @@ FIVE = [*FOUR, (60, -80, 170 * DEGREE)]
         (LID, {"unit": "ft"}, "ft"),
         # parallel poses whose places lie on no circle and no line
         (SHIFTED, {}, "no circle"),
+        # of parallel poses in one line no point stays on a circle: three, four and five of them
+        (turned((0, 0, 0), (10, 0, 0), (20, 0, 0)), {}, "these 3 poses are parallel"),
+        (turned((0, 0, 0), (10, 5, 0), (20, 10, 0), (36, 18, 0)), {}, "these 4 poses are parallel"),
+        (turned((0, 0, 0), (9, 0, 0), (2, 0, 0), (3, 0, 0), (5, 0, 0)), {}, "these 5 poses are parallel"),
+        (turned((0, 0, 0), (10, 0, 0), (20, 0, 0)), {"kind": "slider-crank"}, "these 3 poses are parallel"),
+        (SHIFTED[:3], {"kind": "slider-crank"}, "so none can slide; turn them against each other"),
+        # four of five are parallel, or three
+        (
+            turned((0, 0, 0), (40, 10, 0), (70, -5, 0), (90, -40, 0), (20, 60, 20)),
+            {},
+            "four or more of these five poses are parallel",
+        ),
+        (
+            turned((0, 0, 0), (40, 10, 0), (70, -5, 0), (90, -40, 80), (20, 60, 20)),
+            {},
+            "none of Burmester's four points is real",
+        ),
         (ROUND, {"kind": "slider-crank"}, "turn them against each other, or take a four-bar"),
         (FIVE, {"kind": "slider-crank"}, "leave one out, or take a four-bar"),
         (FOUR, {"pivots": [(500, 500)]}, "is no centre point of these four poses; the nearest one is"),
@@ -262,6 +295,26 @@ FIVE = [*FOUR, (60, -80, 170 * DEGREE)]
 def test_what_cannot_be_is_said(poses: list[tuple[float, ...]], options: dict[str, Any], said: str) -> None:
     with pytest.raises(BadInput, match=said):
         linkanim.guide(poses, **options)
+
+
+# Odd sets that can be met all the same.
+ODD = {
+    "a half turn": turned((0, 0, 0), (40, 10, 180), (20, -30, 90)),
+    "all but a whole turn": turned((0, 0, 0), (40, 10, 359.9)),
+    "two at one place": turned((4, 4, 0), (4, 4, 30), (50, 10, 60)),
+    "two that are shifted": turned((0, 0, 0), (10, 5, 0)),
+    "two pairs of parallel ones": turned((0, 0, 0), (40, 10, 0), (70, -5, 80), (90, -40, 80)),
+    "three of four parallel": turned((0, 0, 0), (40, 10, 0), (70, -5, 0), (90, -40, 80)),
+    "three of four about one pole": [*about(7 - 3j, 0, 30, 70), (80, -40, 1.9)],
+    "four of five about one pole": [*about(7 - 3j, 0, 30, 70, 110), (80, -40, 1.9)],
+    "two all but one": turned((0, 0, 0), (1e-7, 0, 0), (50, 20, 30)),
+}
+
+
+@pytest.mark.parametrize("name", ODD)
+def test_odd_sets_that_can_be_met_are_met(name: str) -> None:
+    for one in linkanim.guide(ODD[name], count=1):
+        assert one.error < 1e-11 * max(one.size, one.task.poses.size)
 
 
 def test_a_pivot_whose_images_lie_in_line_is_refused() -> None:
