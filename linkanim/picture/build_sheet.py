@@ -6,6 +6,8 @@ A path is the pencil's line, and then the stroke behind its trace, with handles.
 
 from __future__ import annotations
 
+import cmath
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from math import ceil
@@ -146,15 +148,15 @@ class DraftDrawing:
     def __init__(self, draft: DraftShown, view: View, gauge_: Gauge, theme: Theme) -> None:
         self._draft, self._view, self._gauge, self._theme = draft, view, gauge_, theme
 
-    def groups(self, size: int) -> Iterator[Group]:
-        """Yield all of it, back to front; names are written at that size."""
+    def groups(self) -> Iterator[Group]:
+        """Yield all of it but the names, back to front."""
         drawn = {"gears": self._wheels, "guides": self._guide, "pins": self._foot}
         behind = [layer for kind, draw in drawn.items() for one in self._of(kind) for layer in draw(one)]
         yield Group("draft-ground", behind)
         yield Group("draft-bodies", [*self._bodies()])
         struts = (layer for kind in _STRUTS for one in self._of(kind) for layer in self._strut(one))
         yield Group("draft-struts", [*struts])
-        yield Group("draft-pins", [*self._pins()], [*self._names(size)])
+        yield Group("draft-pins", [*self._pins()])
 
     def _of(self, *kinds: str) -> list[Shape]:
         return [one for one in self._draft.shapes if one.kind in kinds]
@@ -221,16 +223,28 @@ class DraftDrawing:
             pivot, pin = self._placed(self._draft.crank)
             yield from turning_arrow(pivot, pin, self._gauge, self._theme)
 
-    def _names(self, size: int) -> Iterator[Caption]:
+    def names(self, size: int) -> Iterator[Caption]:
+        """Yield the joints' names at a size, each where the bars of its joint leave most room."""
         halo = Halo(self._theme.background, 0.12 * size)
         for joint in self._of("pins", "joints"):
-            aside = 2.6 + 1.9j if joint.kind == "pins" else 1.3 - 1.3j
-            at = self._view.place(joint.places[0]) + self._gauge.bar * aside
-            words = subscripted(joint.label)
-            yield Caption(words, (at.real, at.imag - size), size, self._theme.dim, halo=halo)
+            here, aside = self._placed(joint.places)[0], self._aside(joint)
+            at = here + (1.5 * self._gauge.bar + 0.75 * size) * aside
+            place = at.real, at.imag - 0.62 * size
+            yield Caption(subscripted(joint.label), place, size, self._theme.ink, "centre", halo=halo)
+
+    def _aside(self, joint: Shape) -> complex:
+        """Return the direction farthest from those of a joint's bars, and from a pin's foot."""
+        here = joint.places[0]
+        bars = [self._placed(bar.places) for bar in self._of("bars") if here in bar.places]
+        at = self._placed((here,))[0]
+        busy = [unit(place - at) for places in bars for place in places if abs(place - at) > 1e-9]
+        busy += [1j] if joint.kind == "pins" else []
+        return max(_ASIDE, key=lambda way: -max(((way * one.conjugate()).real for one in busy), default=-1.0))
 
 
 _STRUTS = ("springs", "dampers", "cylinder")
+_ASIDE = tuple(cmath.rect(1.0, n * math.pi / 4) for n in (-1, 0, -2, -3, 1, 4, 3, 2))
+"""Directions of a name from its joint, in pixels; of equal ones the first is taken."""
 
 
 def lit(shape: Shape, view: View, reach: float) -> Iterator[Loop]:
@@ -286,22 +300,24 @@ def drafted(shown: BuildShown, draft: DraftShown, setting: DrawSetting) -> Itera
     """Yield a draft that does not move, what the hand does to it, and the words."""
     thick = draft_gauge(setting.layout, setting.view, draft)
     drawing = DraftDrawing(draft, setting.view, thick, setting.theme)
-    yield from drawing.groups(setting.layout.small_size)
-    yield from hand(shown, replace(setting, gauge=thick))
+    yield from drawing.groups()
+    yield from hand(shown, replace(setting, gauge=thick), [*drawing.names(setting.layout.small_size)])
 
 
 def loose(draft: DraftShown, setting: DrawSetting) -> Iterator[Group]:
     """Yield what is drawn beside a linkage that moves: guides and pins that nothing holds on to yet."""
     drawing = DraftDrawing(draft, setting.view, setting.gauge, setting.theme)
-    yield from drawing.groups(setting.layout.small_size)
+    yield from drawing.groups()
+    yield Group("draft-names", (), [*drawing.names(setting.layout.small_size)])
 
 
-def hand(shown: BuildShown, setting: DrawSetting) -> Iterator[Group]:
-    """Yield what is chosen, what the hand draws, what that would be joined to, and the words on it all."""
+def hand(shown: BuildShown, setting: DrawSetting, names: Sequence[Caption] = ()) -> Iterator[Group]:
+    """Yield what is chosen, with names on it, what the hand draws and joins, and the words on it all."""
     if shown.dots:
         yield Group("dots", [*_dots(shown.dots, setting)], over=True)
     yield _grid_words(shown, setting)
     yield from _chosen(shown, setting)
+    yield Group("draft-names", (), names, over=True)
     for one in (shown.panel, shown.offers):
         if one:
             yield from rows(one, setting)

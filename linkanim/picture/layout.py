@@ -30,6 +30,8 @@ _NARROW = 30
 """A window narrower than so many heights of its text has a list at its foot, not at its left."""
 _SHARE_LISTED = 0.42
 """A list's share of the height at the foot."""
+_HEAD_OF_MARKS = 1.5
+"""The height of the marks of recording and pause, in heights of their text: a chart begins below them."""
 _TALLEST = 0.42
 """The height of a chart beside the scene, in widths of the window."""
 _ROW = 1.3
@@ -207,8 +209,9 @@ def _charted(
     if not chart:
         return replace(empty, stage=room)
     if beside:
-        wide, high = _SHARE_BESIDE * room.width, min(room.height - 2 * edge, _TALLEST * room.width)
-        chart_place = Rect(room.right - wide, (room.height - high) / 2, wide - edge, high)
+        head = edge + _HEAD_OF_MARKS * empty.text_size
+        wide, high = _SHARE_BESIDE * room.width, min(room.height - head - edge, _TALLEST * room.width)
+        chart_place = Rect(room.right - wide, max((room.height - high) / 2, head), wide - edge, high)
         return replace(empty, stage=room._replace(width=room.width - wide - 0.6 * edge), chart=chart_place)
     tall = _SHARE_BELOW * room.height
     chart_place = Rect(room.x + edge, room.bottom - edge - tall, room.width - 2 * edge, tall)

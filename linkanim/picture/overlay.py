@@ -512,3 +512,9 @@ class Overlay:
     shutter: int = 0
     noted: bool = False
     bar: CommandBar | None = None
+
+    @property
+    def hides_chart(self) -> bool:
+        """Whether a chart is not to be seen: on blank paper, under a draft or among parts in layers."""
+        blank = (self.path and self.path.blank) or (self.poses and self.poses.blank)
+        return bool(blank or (self.build and self.build.draft) or (self.layers and self.layers.parts))

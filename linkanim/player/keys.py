@@ -497,8 +497,44 @@ _APART: Mapping[Action, str] = {
     Action("files_here"): "open a scene file of this folder",
     Action("unbuild"): "undo",
     Action("rebuild"): "redo",
+    Action("number", -1): "the value above it",
+    Action("number", 1): "the value below it",
+    Action("choose", -1): "the dimension above",
+    Action("choose", 1): "the dimension below",
+    Action("nudge", -1): "a step less",
+    Action("nudge", 1): "a step more",
+    Action("nudge", -10): "ten steps less",
+    Action("nudge", 10): "ten steps more",
+    Action("pass_on", -1): "the row above; the typed value waits",
+    Action("pass_on", 1): "the row below; the typed value waits",
+    Action("take"): "take all typed values",
+    Action("move", -1): "the one before",
+    Action("move", 1): "the next one",
+    Action("move", -10): "ten rows up",
+    Action("move", 10): "ten rows down",
+    Action("row", -1): "the row above",
+    Action("row", 1): "the row below",
+    Action("scroll", -2): "scroll up",
+    Action("scroll", 2): "scroll down",
+    Action("turn", -1): "turn the crank a step back",
+    Action("turn", 1): "turn the crank a step on",
+    Action("turn", -10): "turn the crank ten steps back",
+    Action("turn", 10): "turn the crank ten steps on",
+    Action("raise", -1): "the one below",
+    Action("raise", 1): "the one above",
+    **{Action("option", n): f"answer or door {n + 1}" for n in range(9)},
 }
 """What each command is called where a row of the table has several."""
+_IN_ONE_MODE: Mapping[tuple[Mode, Action], str] = {
+    ("build", Action("build")): "done: leave the sheet and keep the linkage",
+    ("pencil", Action("dial_on", -1)): "the dial: more exact",
+    ("pencil", Action("dial_on", 1)): "the dial: more compact",
+    ("poses", Action("dial_on", -1)): "the dial: smaller links",
+    ("poses", Action("dial_on", 1)): "the dial: a larger transmission angle",
+    ("poses", Action("further", -1)): "the frame or pin before",
+    ("poses", Action("further", 1)): "the next frame or pin",
+}
+"""What it is called in a mode, where that is something else."""
 
 
 class CommandGroup(NamedTuple):
@@ -531,7 +567,10 @@ def group_key(name: str) -> str:
     return ", ".join(keys[action] for action in GROUPS[name].actions if len(keys[action]) == 1)
 
 
-_WRITTEN = {"left": "←", "right": "→", "up": "↑", "down": "↓", "return": "Enter", "escape": "Esc"}
+_WRITTEN = {
+    **{"left": "←", "right": "→", "up": "↑", "down": "↓", "return": "Enter", "escape": "Esc"},
+    **{"pageup": "PgUp", "pagedown": "PgDn", "delete": "Del"},
+}
 
 
 def commands(mode: Mode) -> tuple[tuple[str, str, Action], ...]:
@@ -547,9 +586,12 @@ def commands(mode: Mode) -> tuple[tuple[str, str, Action], ...]:
     for row, bind, below in every:
         if bind.action.name not in _NEEDS_KEYS:
             key = "" if below and (bind.key in own or _types(bind.key, mode)) else _as_written(bind.key)
-            words, known, _ = found.get(bind.action, (_APART.get(bind.action, row.words), "", bind.action))
+            apart = _IN_ONE_MODE.get((mode, bind.action), _APART.get(bind.action, row.words))
+            words, known, _ = found.get(bind.action, (apart, "", bind.action))
             found[bind.action] = (words, known or key, bind.action)
-    return tuple(found.values())
+    # what a mode has by a name stands for what there is by the same name else
+    by_name = {words: action for words, _, action in reversed(found.values())}
+    return tuple(one for one in found.values() if by_name[one[0]] == one[-1])
 
 
 def _types(key: str, mode: Mode) -> bool:

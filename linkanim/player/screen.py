@@ -590,4 +590,4 @@ class Screen:
 
     def charted(self, x: float, y: float) -> float | None:
         """Return the phase under a pixel of the chart; None beside it."""
-        return self._framing.last.chart_phase_at(x, y)
+        return None if self.over.hides_chart else self._framing.last.chart_phase_at(x, y)

@@ -130,6 +130,7 @@ def _numbers(building: Building) -> RowsShown | None:
     row = building.row % len(numbers)
     rows = [(one.label, _stated(one, building.typed if n == row else "")) for n, one in enumerate(numbers)]
     title = "input" if thing[0] == "drive" else name if name.startswith(kind) else f"{kind} {name}"
+    title = _NAME.sub(lambda found: subscripted(found[0]), title)
     return RowsShown(title, tuple(rows), row)
 
 

@@ -16,6 +16,7 @@ from linkanim.build.dimensions import numbers_of
 from linkanim.build.draft import UNTITLED, Photo
 from linkanim.build.tools import TOOLS
 from linkanim.errors import BadInput
+from linkanim.picture.build_sheet import DraftDrawing, draft_gauge
 from linkanim.picture.overlay import NEW, RowsShown
 from linkanim.picture.photograph import lack
 from linkanim.picture.sheet_rows import row_rects
@@ -754,7 +755,7 @@ def test_all_numbers_of_what_is_chosen_are_listed_and_a_click_chooses_one(builde
     builder.tick(200)
     builder.click(0, 0)
     rows, places = listed(builder, "panel")
-    assert rows.title == "pin O2"
+    assert rows.title == "pin O₂"
     numbers = numbers_of(builder.sheet.building.draft, ("joints", "O2"))
     assert [label for label, _ in rows.rows] == [one.label for one in numbers]
     builder.drag((places[1].middle.real, places[1].middle.imag))
@@ -814,3 +815,25 @@ def test_the_grid_says_its_size_and_points_of_bodies_are_dots(builder: Builder) 
     groups = screen_._framing.last.groups(builder.state.scene.pose(builder.state.phase), screen_.over)
     captions = [one.text for group in groups for one in group.captions]
     assert f"grid {builder.window.screen.grid_step:g} mm" in captions
+
+
+@pytest.mark.parametrize("size", [(640, 360), (1280, 720)], ids=str)
+def test_letters_of_a_draft_are_off_its_bars(builder: Builder, size: tuple[int, int]) -> None:
+    pygame.display.set_mode(size, pygame.RESIZABLE)
+    builder.tick()
+    builder.four_bar()
+    for end in ((150, 40), (60, 20), (130, -40)):
+        builder.draw((100, 0), end)
+    shown, picture = builder.window.screen.over.build, builder.window.screen._framing.last
+    assert shown
+    assert shown.draft
+    thick = draft_gauge(picture.layout, picture.view, shown.draft)
+    drawing = DraftDrawing(shown.draft, picture.view, thick, picture.theme)
+    size_ = picture.layout.small_size
+    for name in drawing.names(size_):
+        at = complex(name.at[0], name.at[1] + 0.62 * size_)
+        for bar in (one for one in shown.draft.shapes if one.kind == "bars"):
+            begin, end_ = (picture.view.place(place) for place in bar.places[:2])
+            share = ((at - begin) / (end_ - begin)).real
+            off = abs(at - begin - min(max(share, 0.0), 1.0) * (end_ - begin))
+            assert off > thick.bar + 0.3 * size_, name.text

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
-from typing import Any
+from typing import Any, get_args
 
 import pygame
 import pytest
@@ -307,3 +307,16 @@ def test_a_short_list_has_none(player: Player) -> None:
     assert all(
         window.scrolled_by(x, y, held=False) is None for x in range(0, 640, 4) for y in range(0, 360, 20)
     )
+
+
+@pytest.mark.parametrize("mode", get_args(Mode))
+def test_no_two_commands_of_a_mode_have_one_name(mode: Mode) -> None:
+    names_ = [words for words, _, _ in commands(mode)]
+    assert sorted({*names_}) == sorted(names_)
+
+
+def test_the_button_that_leaves_the_sheet_says_so() -> None:
+    named = {action: words for words, _, action in commands("build")}
+    assert named[Action("build")].startswith("done")
+    assert Action("unbuild") in named
+    assert Action("undo") not in named

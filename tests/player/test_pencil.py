@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pygame
@@ -467,3 +468,25 @@ def test_answers_of_an_older_tape_come_without_figures(stroke: State) -> None:
     older = after(stroke, Action("answers", (0.0, *BETTER[:-2], *OTHER[:-2])))
     assert [one.size for one in sketch_of(older).answers if isinstance(one, PathAnswer)] == [0.0, 0.0]
     assert sketch_of(older).names == ()
+
+
+@pytest.mark.usefixtures("in_step")
+@pytest.mark.parametrize("key", ["w", "f2", "f4"])
+def test_blank_paper_is_drawn_on_where_a_chart_was(player: Player, key: str) -> None:
+    pygame.display.set_mode((900, 500), pygame.RESIZABLE)
+    player.window.state = advance(player.state, [Action("plot", "rocker.angle")])
+    player.settle()
+    chart, phase = player.window.screen._framing.last.layout.chart, player.state.phase
+    assert chart
+    player.press({"w": pygame.K_w, "f2": pygame.K_F2, "f4": pygame.K_F4}[key])
+    player.settle()
+    middle = chart.middle.real, chart.middle.imag
+    assert player.window.screen.charted(*middle) is None
+    player.drag(middle, *((middle[0] + 6 * n, middle[1] - 2 * n) for n in range(8)))
+    assert player.state.phase == phase
+    begun: dict[str, Callable[[Any], bool]] = {
+        "w": lambda state: state.drawing.curve is not None,
+        "f2": lambda state: state.look.pan != (0.0, 0.0),
+        "f4": lambda state: len(state.posing.poses) == 1,
+    }
+    assert begun[key](player.state)
