@@ -22,9 +22,12 @@ from playing import CTRL, SHIFT, NoSearch, Player
 from linkanim.build.tools import TOOLS
 from linkanim.picture.command_bar import bar_cells
 from linkanim.picture.tools import tool_cells
+from linkanim.play.arcade import Arcade
 from linkanim.play.games import game_of
+from linkanim.play.menus import DOORS as TITLE_DOORS
 from linkanim.player import beside, screen
 from linkanim.player.action import Action
+from linkanim.player.actions import carried
 from linkanim.player.state import State, begin
 from linkanim.player.tape import Taping
 from linkanim.player.tape_file import read, write
@@ -116,12 +119,28 @@ class Pointing(Hand):
         cell = tool_cells(self.player.window.screen._framing.last.layout)[number]
         self.drag((cell.middle.real, cell.middle.imag))
 
-    def choose(self) -> None:
-        self.press("the shelf")
+    def option(self, number: int) -> None:
+        """Take a door, or the row of a game."""
+        option = self.player.window.screen.option_at
+        self.drag(next((60.0, float(y)) for y in range(2, 718, 2) if option(60, y) == number))
+
+    def mechanism(self) -> None:
+        """Take the second mechanism from the shelf."""
         shown, browsing = self.player.window.screen, self.state.browsing
         assert browsing
         cell = shown.shelf_grid(browsing).cells[browsing.entries.index(SECOND)]
         self.drag((cell.middle.real, cell.middle.imag))
+
+    def loop(self) -> Iterator[Place]:
+        """Yield the places of a closed stroke."""
+        stage = self.player.window.screen._framing.last.layout.stage
+        middle, reach = stage.middle, 0.25 * min(stage.width, stage.height)
+        for turn in np.linspace(0, 6.2, 40).tolist():
+            yield middle.real + 1.3 * reach * math.cos(turn), middle.imag + 0.8 * reach * math.sin(turn)
+
+    def choose(self) -> None:
+        self.press("the shelf")
+        self.mechanism()
 
     def run(self) -> None:
         self.press("play / pause")
@@ -157,11 +176,7 @@ class Pointing(Hand):
 
     def draw(self) -> None:
         self.press("draw a path")
-        stage = self.player.window.screen._framing.last.layout.stage
-        middle, reach = stage.middle, 0.25 * min(stage.width, stage.height)
-        turns = np.linspace(0, 6.2, 40)
-        round_ = ((1.3 * reach * math.cos(a), 0.8 * reach * math.sin(a)) for a in turns)
-        self.drag(*((middle.real + x, middle.imag + y) for x, y in round_))
+        self.drag(*self.loop())
         self.player.tick(90)
         self.press("keep the linkage")
 
@@ -455,3 +470,41 @@ def test_the_tape_of_that_lecture_shows_it(kind: type[Hand]) -> None:
         if task.taped:
             assert any(task.done(state) for state in states), name
     assert Action("stir") not in {action for _, action in read(_kept(kind.name), game_of).actions}
+
+
+# What is seen two gestures after the title, by its doors.
+DOORS: dict[str, tuple[Callable[[Any], object], Callable[[Any], object]]] = {
+    "explore": (lambda hand: hand.mechanism(), lambda state: state.mode == "play"),
+    "build": (
+        lambda hand: hand.drag(hand.pixel(0, 0)),
+        lambda state: state.building.building.draft.of("pins"),
+    ),
+    "path": (
+        lambda hand: hand.drag(*hand.loop()),
+        lambda state: state.scene.name == "path" and not state.sketch.is_blank,
+    ),
+    "play": (lambda hand: hand.option(1), lambda state: state.game.words.startswith("match")),
+}
+
+
+@pytest.mark.parametrize("door", DOORS)
+@pytest.mark.parametrize("kind", [ByMouse, ByTouch], ids=["mouse", "touch"])
+def test_two_gestures_after_the_title_something_moves_or_asks(
+    kind: type[Pointing], door: str, here: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(_FromTheTape, "name", kind.name)
+    monkeypatch.setattr(beside, "Following", _FromTheTape)
+    second, seen = DOORS[door]
+    keeper = Arcade(here / "scores.json")
+    with screen.opened(SIZE):
+        state = replace(begin(load(SECOND)), games=keeper.game_of)
+        player = Player(carried(state, Action("play", "title")), keeper=keeper)
+        player.tick(30)
+        hand = kind(player)
+        hand.option([one.name for one in TITLE_DOORS].index(door))
+        player.tick(20)
+        second(hand)
+        player.tick(60)
+        assert seen(player.state)
+        assert hand.gestures == 2
+        player.window.close()

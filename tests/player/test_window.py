@@ -25,7 +25,6 @@ from linkanim.player.action import Action
 from linkanim.player.actions import carried
 from linkanim.player.clock import STEP
 from linkanim.player.framing import Framing
-from linkanim.player.keys import commands
 from linkanim.player.shown import _OTHERS_HINT, overlay
 from linkanim.player.state import FRAMES, TOAST_FRAMES, State, begin
 from linkanim.player.tape_file import read
@@ -764,36 +763,6 @@ def test_a_file_is_opened_before_an_edited_first_mechanism_which_stays_as_it_was
     assert (player.state.scene, player.state.place) == (load("press"), 0)
     player.window.state = carried(player.state, Action("mechanism", 1))
     assert (player.state.scene, player.state.place) == (edited, 1)
-
-
-def test_every_command_is_reached_by_mouse_alone(player: Player) -> None:
-    player.mouse(pygame.MOUSEBUTTONDOWN, (200, 90), button=3)
-    asked = []
-    listed = [one for one in commands("paused") if one[-1].name != "menu"]
-    for place, (_, _, action) in enumerate(listed):
-        screen, listing = player.window.screen, player.state.listing
-        assert listing
-        y = next(y for y in range(2, SIZE[1], 2) if screen.row_at(40, y) == place)
-        click = pygame.event.Event(pygame.MOUSEBUTTONDOWN, pos=(40, y), button=1)
-        assert player.window._mouse.actions(click, screen) == (Action("stir"), Action("pick", place))
-        asked.append((listing.asked(player.state.scene, place), action))
-        player.mouse(pygame.MOUSEBUTTONUP, (40, y), button=1)
-        pygame.event.post(pygame.event.Event(pygame.MOUSEWHEEL, y=-1))
-        player.tick()
-    assert all(found == action for found, action in asked)
-    assert len(asked) > 50
-
-
-def test_every_command_is_reached_by_keys_alone(player: Player) -> None:
-    for words, key, action in (one for one in commands("paused") if one[-1].name != "menu"):
-        player.press(pygame.K_F10)
-        assert player.state.listing
-        others = player.state.listing.others
-        assert others
-        found = [one for one in others.entries if (one.words, one.key) == (words, key)]
-        assert [one.action for one in found] == [action]
-        player.press(pygame.K_F10)
-        assert not player.state.listing
 
 
 def test_the_list_of_commands_opens_by_a_right_click_and_does_what_is_chosen(player: Player) -> None:
