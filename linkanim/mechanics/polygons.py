@@ -4,7 +4,7 @@ Every point of the polygon is the image of a joint: its velocity, or its acceler
 Between the images stand the relative vectors, worked out from angular velocities and what slides,
 
     v_BA = iω r      a_BA = -ω² r + iα r      r = B - A
-    v = v_guide + s' u      a = a_guide + 2iω s' u + s'' u
+    v = v_guide + vʳ      vʳ = s' u      a = a_guide + aᶜ + aʳ      aᶜ = 2iω s' u      aʳ = s'' u
 
 so that a polygon closes only where the motion is right (Uicker, Pennock and Shigley, Theory of Machines and
 Mechanisms). Vectors are x + yi: complex numbers for a `Pose`, arrays (N,) for a `Motion`.
@@ -25,7 +25,7 @@ Order = Literal[1, 2]
 """1 for velocities, 2 for accelerations."""
 Sort = Literal["absolute", "relative", "normal", "tangential", "coriolis", "sliding"]
 
-_MARKS: dict[Sort, str] = {"normal": "ⁿ", "tangential": "ᵗ", "coriolis": "ᶜ"}
+_MARKS: dict[Sort, str] = {"normal": "ⁿ", "tangential": "ᵗ", "coriolis": "ᶜ", "sliding": "ʳ"}
 
 
 class Side(NamedTuple):
@@ -119,8 +119,7 @@ class _Images:
         guide = self._carried(arm, turning) if slide.axis else []
         sides = self._laid(self._image(start), under if fixed else f"{under}{start}", guide)
         begin = sides[-1].end if sides else self._image(start)
-        label = f"{point}{under if slide.axis else start}"
-        slid = self._laid(begin, label, self._along(slide, arm, turning))
+        slid = self._laid(begin, point, self._along(slide, arm, turning))
         return Chain(None if fixed else start, point, (*sides, *slid))
 
     def _carried(self, arm: Any, turning: _Turning) -> list[_Step]:

@@ -43,7 +43,7 @@ CAPTION_STEP = 1.25
 """From line to line of a caption, in heights of its text."""
 _SHARE_OF_CAPTION = 0.16
 """The greatest share of the stage's height that a caption takes."""
-_SHARE_OF_POLYGONS = 0.36
+_SHARE_OF_POLYGONS = 0.38
 """The polygons' share of what is left beside a chart: of its width, or of its height if that is greater."""
 
 

@@ -24,8 +24,16 @@ from linkanim.units import three_digits
 _TITLES = {1: ("velocity polygon", "velocities", "/s"), 2: ("acceleration polygon", "accelerations", "/s²")}
 _NOTHING = 1e-9
 """Of a polygon's greatest extent: what is shorter has no direction."""
-_LABELLED = 1.1
-"""A vector has its symbol where it is as long as this, in heights of the text."""
+_LABELLED = 0.3
+"""A moving vector has its symbol where it is as long as this, in heights of the text."""
+_ASIDE = (0.0, 0.3, 1.1, 2.0, 3.0, 4.2)
+"""How far off its vector a symbol may stand, in heights of the text."""
+_SHARES = (0.5, 0.35, 0.65)
+"""Where along it."""
+_LED = 1.0
+"""From so far off on a thin line leads to the vector."""
+_TITLE = 0.6
+"""So much of the width has a title beside the bar of the scale."""
 _BARS = 5
 """So many bars of the scale, at the most, go into the panel's width."""
 _GUIDED: frozenset[Sort] = frozenset({"coriolis", "sliding"})
@@ -53,6 +61,14 @@ class Arrow(NamedTuple):
         return abs(self.foot - other.foot) + abs(self.reach - other.reach) < 1e-3
 
 
+class Symbols(NamedTuple):
+    """Names in their places, lines from them to what they name, and vectors without room for a name."""
+
+    captions: list[Caption]
+    leaders: list[Layer]
+    left: list[Arrow]
+
+
 @frozen
 class Polygon:
     """One polygon of a figure in its place: all poses of the cycle at one scale, about one pole.
@@ -73,7 +89,10 @@ class Polygon:
         pole = self.pole(pose.input_speed)
         found = self._arrows(pose, pole, scale)
         dot = Layer(self.pen.theme.ink, [pole + disc(1.8 * self.pen.line)])
-        layers, captions = [*self._drawn(found), dot], [self._title, *self._symbols(found)]
+        symbols = self._symbols(found, pole)
+        layers, captions = [*symbols.leaders, *self._drawn(found), dot], [self._title, *symbols.captions]
+        if scale > 0 and symbols.left and self.moment is not None:
+            captions += self._listed(symbols.left, scale, per, found, symbols.captions)
         if scale > 0:
             bar, meaning = self._bar(scale, per)
             layers.append(bar)
@@ -87,12 +106,20 @@ class Polygon:
 
     @cached_property
     def _title(self) -> Caption:
-        """The title, as long and as large as there is room for."""
-        pen, (full, brief, _) = self.pen, _TITLES[self.order]
-        ways = [(words, size) for words in (full, brief) for size in (pen.text, pen.small)]
-        fits = (way for way in ways if pen.type.width(*way) <= self.rect.width)
-        words, size = next(fits, ways[-1])
+        """The title, as long and as large as there is room for, beside the bar of the scale if it can be."""
+        pen, (full, brief, _), wide = self.pen, _TITLES[self.order], self.rect.width
+        rooms = (_TITLE * wide, wide)
+        ways = [
+            (room, words, size) for room in rooms for words in (full, brief) for size in (pen.text, pen.small)
+        ]
+        fits = (way[1:] for way in ways if pen.type.width(*way[1:]) <= way[0])
+        words, size = next(fits, ways[-1][1:])
         return Caption(words, (self.rect.x, self.rect.y), size, pen.theme.ink)
+
+    @property
+    def _barred(self) -> bool:
+        """Whether the bar of the scale stands beside the title; else it stands at the foot."""
+        return self._title.around(self.pen.type).width <= _TITLE * self.rect.width
 
     def scale(self, speed: float) -> float:
         """Return pixels for one unit of length and second at this input speed; 0 where nothing moves.
@@ -115,8 +142,9 @@ class Polygon:
 
     @property
     def _room(self) -> Rect:
-        """What of its place is left for the vectors: beside symbols, under the title, over the scale."""
-        rect, side, top, foot = self.rect, 1.6 * self.pen.small, 2.2 * self.pen.text, 2.8 * self.pen.small
+        """What of its place is left for the vectors: between symbols, title and foot."""
+        rect, side, top = self.rect, 1.6 * self.pen.small, 2.4 * self.pen.text
+        foot = (1.2 if self._barred else 2.8) * self.pen.small
         width, height = max(rect.width - 2 * side, 1.0), max(rect.height - top - foot, 1.0)
         return Rect(rect.x + side, rect.y + top, width, height)
 
@@ -160,34 +188,98 @@ class Polygon:
             return theme.velocity if self.order == 1 else theme.acceleration
         return theme.traces[0] if sort in _GUIDED else theme.dim
 
-    def _symbols(self, found: list[Arrow]) -> Iterator[Caption]:
-        """Yield the vectors' symbols, each beyond its vector as seen from the middle, where there is room."""
-        pen, halo = self.pen, Halo(self.pen.theme.background, 0.8 * self.pen.line)
+    def _symbols(self, found: list[Arrow], pole: complex) -> Symbols:
+        """Return the name of the pole and the symbols, each beyond its vector as seen from the middle.
+
+        Where there is no room beside a vector its symbol stands farther off, and a thin line leads to it.
+        """
+        pen = self.pen
         middle = sum((arrow.middle for arrow in found), 0j) / max(len(found), 1)
         long = [arrow for arrow in found if abs(arrow.reach) >= _LABELLED * pen.small]
-        arrows_ = sorted(long, key=lambda arrow: not arrow.is_absolute)
+        arrows_ = sorted(long, key=lambda arrow: (not arrow.is_absolute, -abs(arrow.reach)))
         wide = [pen.type.width(arrow.side.symbol, pen.small) for arrow in arrows_]
-        to_place = [_beside(*known, pen.small, middle) for known in zip(arrows_, wide, strict=True)]
+        origin = "o_{v}" if self.order == 1 else "o_{a}"
+        to_place = [_about(pole, pen.type.width(origin, pen.small), pen.small)]
+        to_place += [_beside(*known, pen.small, middle) for known in zip(arrows_, wide, strict=True)]
         ends = [np.array([[arrow.foot, arrow.foot + arrow.reach]]) for arrow in found]
         solids = tuple(Solid(end, pen.line) for end in ends)
-        clutter = Clutter(self.rect.inset(-2.0 * pen.text), solids=solids)
-        for arrow, label, placed in zip(arrows_, to_place, place(to_place, clutter), strict=True):
-            if placed.shown[0]:
-                at = complex(label.places[0, placed.which])
-                top, colour = (at.real, at.imag - pen.small / 2), self._colour(arrow.side.sort)
-                yield Caption(arrow.side.symbol, top, pen.small, colour, "centre", halo=halo)
+        words = tuple(self._words)
+        clutter = Clutter(self.rect.inset(-1.0 * pen.text), words, solids=solids)
+        (named, *placed) = place(to_place, clutter)
+        at = complex(to_place[0].places[0, named.which])
+        captions = [self._written(origin, at, pen.theme.ink)]
+        leaders, left = list[Layer](), [arrow for arrow in found if arrow not in long]
+        for arrow, label, one in zip(arrows_, to_place[1:], placed, strict=True):
+            if not one.shown[0]:
+                left.append(arrow)
+                continue
+            at, colour = complex(label.places[0, one.which]), self._colour(arrow.side.sort)
+            captions.append(self._written(arrow.side.symbol, at, colour))
+            share = _SHARES[one.which % (2 * len(_SHARES)) // 2]
+            if _ASIDE[one.which // (2 * len(_SHARES))] >= _LED:
+                foot = arrow.foot + share * arrow.reach
+                towards = unit(foot - at)
+                half = 0.5 * (abs(towards.real) * label.size[0] + abs(towards.imag) * label.size[1])
+                leaders.append(Layer(pen.theme.dim, segments(at + half * towards, foot, 0.5 * pen.line)))
+        return Symbols(captions, leaders, left)
+
+    def _written(self, words: str, at: complex, colour: Colour) -> Caption:
+        """Return a name about a place."""
+        pen, halo = self.pen, Halo(self.pen.theme.background, 0.8 * self.pen.line)
+        return Caption(words, (at.real, at.imag - pen.small / 2), pen.small, colour, "centre", halo=halo)
+
+    @property
+    def _words(self) -> Iterator[Rect]:
+        """Yield where the title stands, and the bar of the scale with its meaning."""
+        title, small, rect = self._title, self.pen.small, self.rect
+        yield title.around(self.pen.type)
+        wide = (1 - _TITLE) * rect.width
+        if self._barred:
+            yield Rect(rect.right - wide, rect.y, wide, 2.0 * small)
+        else:
+            yield Rect(rect.x, rect.bottom - 2.1 * small, wide, 2.1 * small)
+
+    def _listed(
+        self, left: list[Arrow], scale: float, per: str, found: list[Arrow], named: list[Caption]
+    ) -> Iterator[Caption]:
+        """Yield symbols and sizes of vectors beside which no symbol stands, in the corner that is freest."""
+        small, rect, unit_ = self.pen.small, self.rect, f"{self.figure.scene.length_unit}{per}"
+        rows = list[tuple[str, Colour]]()
+        for arrow in left:
+            size = abs(arrow.reach) / scale
+            words = f"{arrow.side.symbol} = {three_digits(size) if size >= 1e-3 else '0'} {unit_}"
+            rows.append((words, self._colour(arrow.side.sort)))
+        wide, high = max(self.pen.type.width(words, small) for words, _ in rows), 1.2 * small * len(rows)
+        low, top = rect.bottom - high, rect.y + 2.4 * self.pen.text
+        corners = [Rect(x, y, wide, high) for y in (low, top) for x in (rect.right - wide, rect.x)]
+        ends = [(arrow.foot, arrow.foot + arrow.reach) for arrow in found]
+        busy = [line.around(self.pen.type) for line in named] + [*self._words]
+
+        def covered(corner: Rect) -> int:
+            crossed = sum(corner.crossed(*pair) is not None for pair in ends)
+            return crossed + sum(corner.meets(other) for other in busy)
+
+        corner = min(corners, key=covered)
+        for n, (words, colour) in enumerate(rows):
+            yield Caption(words, (corner.x, corner.y + 1.2 * n * small), small, colour)
 
     def _bar(self, scale: float, per: str) -> tuple[Layer, Caption]:
-        """Return the bar of the scale, at the foot, and what it stands for."""
-        (x, bottom), small, ink = (self.rect.x, self.rect.bottom), self.pen.small, self.pen.theme.ink
-        step = round_step(self.rect.width / scale, _BARS)
-        begin, tick = complex(x, bottom - 0.5 * small), 0.35j * small
-        end = begin + step * scale
+        """Return the bar of the scale, beside the title or at the foot, and what it stands for."""
+        rect, small, ink = self.rect, self.pen.small, self.pen.theme.ink
+        step = round_step(rect.width / scale, _BARS)
+        long, tick = step * scale, 0.35j * small
+        if self._barred:
+            begin, top = complex(rect.right - long, rect.y + 1.75 * small), rect.y
+        else:
+            begin, top = complex(rect.x, rect.bottom - 0.5 * small), rect.bottom - 2.0 * small
+        end = begin + long
         feet, heads = [begin, begin - tick, end - tick], [end, begin + tick, end + tick]
         number = f"{step:g}" if 1e-3 <= step < 1e6 else three_digits(step)
         words = f"{number} {self.figure.scene.length_unit}{per}"
         bar = Layer(ink, segments(feet, heads, 0.8 * self.pen.line))
-        return bar, Caption(words, (x, bottom - 2.0 * small), small, ink)
+        if self._barred:
+            return bar, Caption(words, (rect.right, top), small, ink, "right")
+        return bar, Caption(words, (rect.x, top), small, ink)
 
 
 def _beside(arrow: Arrow, wide: float, high: float, middle: complex) -> LabelPlaces:
@@ -197,12 +289,23 @@ def _beside(arrow: Arrow, wide: float, high: float, middle: complex) -> LabelPla
         across = -across
     away = 0.5 * (abs(across.real) * wide + abs(across.imag) * high) + 0.175 * high
     places = [
-        arrow.foot + share * arrow.reach + side * (away + further) * across
-        for further in (0, 0.3 * high)
-        for share in (0.5, 0.35, 0.65)
+        arrow.foot + share * arrow.reach + side * (away + further * high) * across
+        for further in _ASIDE
+        for share in _SHARES
         for side in (1, -1)
     ]
-    return LabelPlaces((wide, high), np.array([places]), np.arange(12.0))
+    return LabelPlaces((wide, high), np.array([places]), np.arange(float(len(places))))
+
+
+def _about(pole: complex, wide: float, high: float) -> LabelPlaces:
+    """Return places for the name of the pole round it."""
+    turns = np.exp(0.25j * np.pi * np.arange(8))
+    rings = [
+        turns.real * (0.4 * high + out + wide / 2) + 1j * turns.imag * (out + 0.7 * high)
+        for out in (0.0, high)
+    ]
+    places = pole + np.concatenate(rings)
+    return LabelPlaces((wide, high), places[None], np.arange(float(len(places))))
 
 
 def polygons_of(figure: Figure, rect: Rect, pen: Pen, moment: float | None = None) -> tuple[Polygon, Polygon]:

@@ -99,7 +99,8 @@ def test_a_symbol_stands_beside_the_vector_that_it_names(name: str, phase: float
             for chain in chains(pose, panel.figure.linkage, panel.order)
             for side in chain.sides
         }
-        for caption in panel.group(pose).captions:
+        group = panel.group(pose)
+        for caption in group.captions:
             if caption.text in sides:
                 begin, end = sides[caption.text]
                 middle = complex(caption.at[0], caption.at[1] + 0.5 * caption.size)
@@ -109,7 +110,30 @@ def test_a_symbol_stands_beside_the_vector_that_it_names(name: str, phase: float
                 across = 1j * (end - begin) / abs(end - begin)
                 wide = Type().width(caption.text, caption.size)
                 assert away > 0.5 * (abs(across.real) * wide + abs(across.imag) * caption.size)
-                assert away < 0.5 * wide + caption.size
+                if away >= 0.5 * wide + 1.2 * caption.size:  # a thin line leads from there to the vector
+                    assert away < 0.5 * wide + 5.2 * caption.size
+                    foots = [loop.mean() for layer in group.layers for loop in layer.loops if len(loop) == 4]
+                    assert min(abs(foot - middle) for foot in foots) < 0.5 * away + wide
+
+
+@pytest.mark.parametrize("name", ["whitworth", "crank-shaper", "six-bar", "press", "crank-rocker"])
+@pytest.mark.parametrize("phase", [0.4, 1.5, 3.1, 5.0])
+def test_in_a_figure_every_vector_is_named_once_and_the_pole_too(name: str, phase: float) -> None:
+    assert WINDOW.polygons is not None
+    shown, pen = figure(load(name)), pen_for(WINDOW, Type(), LIGHT)
+    for panel in polygons_of(shown, WINDOW.polygons, pen, phase):
+        pose = shown.scene.pose(phase)
+        said = [text.partition(" = ")[0] for text in words(panel.group(pose))]
+        pole, scale = panel.pole(pose.input_speed), panel.scale(pose.input_speed)
+        drawn_ = [arrow.side.symbol for arrow in panel._arrows(pose, pole, scale)]
+        assert {symbol: said.count(symbol) for symbol in drawn_} == dict.fromkeys(drawn_, 1)
+        assert said.count("o_{v}" if panel.order == 1 else "o_{a}") == 1
+
+
+@pytest.mark.parametrize("size", [(1280, 720), (720, 1280), (640, 360)])
+def test_each_has_a_third_of_the_picture_s_width(size: tuple[int, int]) -> None:
+    for panel in panels("press", layout(size, polygons=True)):
+        assert panel.rect.width >= size[0] / 3
 
 
 @pytest.mark.parametrize("name", FEW)
