@@ -69,6 +69,8 @@ _ON_CURVE = 1e-4
 """Of the poses' size: a given pivot that is nearer to where one can be stands there."""
 _MET = 1e-6
 """Of the poses' size: a pose that a linkage passes at this distance is one that it passes."""
+_EXACT = 1e-14
+"""Of the poses' size: at this distance no step of Newton's goes nearer."""
 _APART = 0.25
 """Of the poses' size: linkages from which better ones are looked for lie that far apart."""
 _PREFERRED = 2
@@ -520,13 +522,18 @@ def answers(task: GuideTask, count: int = COUNT, weight: float | None = None) ->
     smallest and that of the best angle among them.
     """
     ends = _ends(task)
-    alike = _ALIKE if any(choice.free for pair in ends for choice in pair) else SAME
+    free = any(choice.free for pair in ends for choice in pair)
+    alike = _ALIKE if free else SAME
     found: list[GuidedLinkage] = []
     for pairs in _candidates(task, ends, count, weight):
+        bars = _bars_of(task, pairs)
+        if any(_bars_apart(bars, other.bars, task.poses.size) <= alike for other in found):
+            continue
         one = checked(task, pairs)
-        if one is not None and not any(apart(one, other) <= alike for other in found):
+        if one is not None:
             found.append(one)
-        if sum(not one.defects for one in found) >= count:
+        # where nothing is free they come in the order of their defects
+        if sum(not one.defects for one in found) >= count or (not free and len(found) >= count):
             break
     if not found:
         raise BadInput(_none_keeps(task, ends))
@@ -813,9 +820,11 @@ def _met(task: GuideTask, scene: Scene, angles: Real, lean: float) -> tuple[Real
     turns = math.tau * np.arange(round(scene.period / math.tau))
     home = np.array([phase_along(scene, 0.0, cmath.exp(1j * angle)) for angle in angles])[:, None]
     tried = home + turns if scene.info.full_turn else np.hstack([home + turns, turns - home])
-    origins = np.broadcast_to(task.poses.origins[:, None], tried.shape)
-    tried = np.hstack([tried, _nearer(scene, origins.ravel(), tried.ravel()).reshape(tried.shape)])
     off = _off(task, scene, tried, lean)
+    if off.min(axis=1).max() > _EXACT * task.poses.size:
+        origins = np.broadcast_to(task.poses.origins[:, None], tried.shape)
+        nearer = _nearer(scene, origins.ravel(), tried.ravel()).reshape(tried.shape)
+        tried, off = np.hstack([tried, nearer]), np.hstack([off, _off(task, scene, nearer, lean)])
     best = off.argmin(axis=1)[:, None]
     phases, off = (np.take_along_axis(part, best, axis=1)[:, 0] for part in (tried, off))
     return phases % scene.period, off
@@ -864,10 +873,14 @@ def apart(one: GuidedLinkage, other: GuidedLinkage) -> float:
 
     Which of two bars drives does not count.
     """
-    (first, second), (third, fourth) = one.bars, other.bars
+    return _bars_apart(one.bars, other.bars, one.task.poses.size)
+
+
+def _bars_apart(one: tuple[Complex, Complex], other: tuple[Complex, Complex], size: float) -> float:
+    (first, second), (third, fourth) = one, other
     straight = max(abs(first - third).max(), abs(second - fourth).max())
     crossed = max(abs(first - fourth).max(), abs(second - third).max())
-    return float(min(straight, crossed) / one.task.poses.size)
+    return float(min(straight, crossed) / size)
 
 
 # An answer as plain numbers, as it goes from one process to another and onto a tape; and back to a scene.
