@@ -153,6 +153,19 @@ def _of_struts(scene: Scene) -> Iterator[MeasuredRow]:
         yield MeasuredRow(2, "driving cylinder", known["input.length"], scene.length_step)
 
 
+def charted(scene: Scene) -> dict[str, str]:
+    """Return the tokens of the quantities that rows tell, by their labels: what a click on a row charts."""
+    linkage, info = scene.linkage, scene.info
+    drive, coordinate = linkage.drive, linkage.drive.coordinate
+    cranks = (body for body in linkage.bodies if linkage.crank_of(body) and drive.joint in body.joints)
+    sliders = (body for body in linkage.bodies if body.slider == drive.joint)
+    driven = next((body.name for body in (cranks if coordinate.is_angle else sliders)), "")
+    found = {f"{info.input_name} {coordinate.name}": f"{driven}.{coordinate.name}"}
+    found[" ".join(filter(None, (drive.actuator.noun, coordinate.velocity)))] = coordinate.rate_token
+    found |= {one.label: one.quantity.token for one in measured(scene)}
+    return {label: token for label, token in found.items() if token in scene.quantities}
+
+
 def _row(one: MeasuredRow, length_unit: str) -> Row:
     """Return the row that puts a quantity into words; None where it is not known."""
     quantity, unit = one.quantity, one.quantity.shown_unit(length_unit)
@@ -296,6 +309,21 @@ class Hud:
             Caption(row.value, (right, self._top(n)), size, self.theme.ink, "right", strong=True)
             for n, (_, row) in enumerate(ranked(self._rows, pose))
         ]
+
+    def label_at(self, x: float, y: float) -> str | None:
+        """Return the label of the row under a pixel, "" on the class; None beside them."""
+        if not self.place.x <= x <= self.place.x + max(self.block.column, self.block.width):
+            return None
+        if any(self.place.y + one.y <= y <= self.place.y + one.y + 1.2 * one.size for one in self._classed):
+            return ""
+        found = [row.label for _, row in ranked(self._rows, self.scene.pose(0.0))]
+        number = floor((y - self._top(0)) / (STEP * self.block.size) + 0.1)
+        return found[number] if 0 <= number < len(found) else None
+
+    @property
+    def _classed(self) -> tuple[WordLine, ...]:
+        """The lines that name the class."""
+        return tuple(line for line in self.block.lines if not line.strong)
 
     @cached_property
     def _rows(self) -> tuple[Row, ...]:

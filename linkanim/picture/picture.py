@@ -504,6 +504,10 @@ class Picture:
             return None
         return ghost_of(self.scene) if self.scene.towards else self._beside
 
+    def label_at(self, x: float, y: float) -> str | None:
+        """Return the label of the row of numbers under a pixel, "" on the class; None beside them."""
+        return self._hud.label_at(x, y) if self._hud else None
+
     @cached_property
     def _hud(self) -> Hud | None:
         block, place = self.fit.arrangement.block, self.layout.hud

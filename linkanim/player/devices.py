@@ -19,7 +19,7 @@ from linkanim.build.tools import TOOLS
 from linkanim.player.action import Action, Mode
 from linkanim.player.commands import line_asks, pressed, slid, slides
 from linkanim.player.keys import MENU_IN, Bind, Press, bind_of, button_name, hat_name, key_names, key_of
-from linkanim.player.pointing import Pointed
+from linkanim.player.pointing import SPEED_ROWS, Pointed, row_asks
 from linkanim.player.screen import Screen
 from linkanim.player.state import State
 from linkanim.scenes.editing import phase_along, phase_towards
@@ -312,6 +312,7 @@ Drag = Literal[
     "bar",
     "speed",
     "scroll",
+    "pace",
 ]
 _KINDS: Mapping[int, Literal["wheel", "down", "up", "move"]] = {
     pygame.MOUSEWHEEL: "wheel",
@@ -413,7 +414,8 @@ class Mouse:
             click = (self._handed("hand_down", screen), Action("hand_up"), Action("menu", "chosen"))
             return click if chosen else (Action("menu"),)
         if screen.state.mode in _THINGS_IN and (found := screen.pointed(*self._at, _NEAR * screen.size[1])):
-            words = f"{found.thing.kind} {found.thing.name}" if found.thing else ""
+            of_scene = found.thing and found.thing.kind != "row"
+            words = f"{found.thing.kind} {found.thing.name}" if found.thing and of_scene else ""
             return (Action("menu", words or ("chart" if screen.charted(*self._at) is not None else None)),)
         return (Action("menu", "chart" if screen.charted(*self._at) is not None else None),)
 
@@ -461,9 +463,18 @@ class Mouse:
 
     def _on_the_picture(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...]:
         """Zoom, pan, or drag what is under the mouse."""
+        row = self._on_a_row(screen) if gesture.kind in ("wheel", "down") else None
         match gesture.kind:
+            case "wheel" if row in SPEED_ROWS:
+                return (Action("speed", gesture.notches),)
             case "wheel":
                 return self._zoomed(gesture.notches, screen)
+            case "down" if row is not None and (asked := row_asks(screen.state, row)):
+                self._drag = "bar"
+                return asked
+            case "down" if row in SPEED_ROWS:
+                self._drag, self._steps = "pace", 0
+                return ()
             case "down":
                 handle = screen.handle_at(*self._at, _REACH * screen.size[1])
                 curve = None if handle else screen.on_trace(*self._at, _NEAR * screen.size[1])
@@ -477,6 +488,11 @@ class Mouse:
                 held, self._drag = self._drag, None
                 return (Action("drop"),) if held == "joint" else ()
         return (Action("pan", gesture.by),) if self._drag == "pan" else self._moved(screen)
+
+    def _on_a_row(self, screen: Screen) -> str | None:
+        """Return the label of the row of numbers under the mouse; None beside them."""
+        found = screen.pointed(*self._at, _NEAR * screen.size[1]) if self._drag is None else None
+        return found.thing.name if found and found.thing and found.thing.kind == "row" else None
 
     def _on_a_list(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
         """Return what is asked of the open list: a click, the wheel, a value dragged; None beside it."""
@@ -679,6 +695,10 @@ class Mouse:
         return (Action("zoom", (float(notches), x / screen.size[1], y / screen.size[1])),)
 
     def _moved(self, screen: Screen) -> tuple[Action, ...]:
+        if self._drag == "pace":
+            before = self._steps
+            self._steps = round((self._at[0] - self._begun[0]) / (_PULL * screen.size[1]))
+            return (Action("speed", self._steps - before),) if self._steps != before else ()
         if self._drag == "joint":
             fine = _TENTHS if pygame.key.get_mods() & pygame.KMOD_SHIFT else 1.0
             return (Action("carry", (*screen.world(*self._at), fine)),)

@@ -13,19 +13,26 @@ import numpy as np
 from linkanim.mechanics.linkage import Damper, Point, Spring
 from linkanim.mechanics.motion import Pose, Strut
 from linkanim.picture.figure import Figure
-from linkanim.picture.hud import rows
+from linkanim.picture.hud import charted, rows
 from linkanim.picture.overlay import Told
 from linkanim.picture.quantities import quantity
 from linkanim.picture.shapes import hull
+from linkanim.player.action import Action
 from linkanim.player.state import State
 from linkanim.scenes.scene import Scene
 from linkanim.units import four_digits
 
+SPEED_ROWS = ("input speed", "input rate")
+"""The rows that tell how fast the scene runs, by their labels."""
+
 
 class PointedThing(NamedTuple):
-    """A joint, a link (a body), or a spring or damper, by its name."""
+    """A joint, a link (a body), or a spring or damper, by its name; a row of numbers by its label.
 
-    kind: Literal["joint", "link", "strut"]
+    The class below the title is a row without a label.
+    """
+
+    kind: Literal["joint", "link", "strut", "row"]
     name: str
 
 
@@ -84,6 +91,9 @@ def told(state: State, pointed: Pointed) -> Told | None:
         return Told(_of_instant(state, scene, pointed.instant), pointed.place)
     if thing is None:
         return None
+    if thing.kind == "row":
+        lines = _of_row(state, scene, thing.name)
+        return Told(lines, pointed.place) if lines else None
     pose = scene.pose(state.phase, speed=state.clock.speed)
     if thing.kind == "joint" and thing.name in pose.position:
         return Told(_of_joint(scene, pose, thing.name), pointed.place, thing.name)
@@ -109,6 +119,32 @@ def _of_instant(state: State, scene: Scene, phase: float) -> tuple[str, ...]:
         for one in known
     )
     return (f"{where.label} {where.value}", *words)
+
+
+def _of_row(state: State, scene: Scene, label: str) -> tuple[str, ...]:
+    """Return what a row of numbers is a handle of; nothing where it is none."""
+    if not label:
+        return class_words(scene)
+    if label in SPEED_ROWS:
+        return ("drag it sideways, or turn the wheel",)
+    token = charted(scene).get(label)
+    if token is None:
+        return ()
+    return ("a click puts its chart away" if token == state.look.chart else "a click charts it",)
+
+
+def row_asks(state: State, label: str) -> tuple[Action, ...]:
+    """Return what a click on a row of numbers asks for: its chart, or none; of the class why it is that."""
+    if not label:
+        return (Action("note", ": ".join(class_words(state.displayed))),)
+    token = charted(state.displayed).get(label)
+    return (Action("plot", "" if token == state.look.chart else token),) if token else ()
+
+
+def class_words(scene: Scene) -> tuple[str, ...]:
+    """Return a scene's class, and why it is that: Grashof's sum, else how its input moves."""
+    info = scene.info
+    return info.class_name[:1].upper() + info.class_name[1:], info.grashof or f"input {info.input_words}"
 
 
 def _of_joint(scene: Scene, pose: Pose, name: str) -> tuple[str, ...]:

@@ -38,7 +38,7 @@ from linkanim.picture.tools import ToolPrinter, tool_at
 from linkanim.picture.view import Rect
 from linkanim.player.action import Action
 from linkanim.player.framing import Fade, Framing
-from linkanim.player.pointing import Pointed, thing_at
+from linkanim.player.pointing import Pointed, PointedThing, thing_at
 from linkanim.player.posing import has_room
 from linkanim.player.posing import under as posed_under
 from linkanim.player.shown import Hover
@@ -581,6 +581,9 @@ class Screen:
         phase, place, picture = self.charted(x, y), self.world(x, y), self._framing.last
         if phase is not None:
             return Pointed(place, instant=phase)
+        label = picture.label_at(x, y) if self.state.mode in ("play", "paused") else None
+        if label is not None:
+            return Pointed(place, PointedThing("row", label))
         scale, half = picture.view.scale, picture.gauge.bar
         scene = self.state.displayed
         thing = thing_at(picture.figure, scene.pose(self.state.phase, 0), place, reach / scale, half / scale)

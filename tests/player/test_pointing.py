@@ -171,3 +171,85 @@ def test_a_mouse_that_rests_over_what_runs_reads_nothing_more(player: Player) ->
     player.press(pygame.K_SPACE)
     player.tick(2)
     assert shown.over.told is None
+
+
+@pytest.fixture
+def rows_shown(here: Path) -> Iterator[Player]:
+    del here
+    with screen.opened((1280, 720)):
+        player = Player(standing("press"))
+        player.settle()
+        yield player
+        player.window.close()
+
+
+def row_of(player: Player, label: str) -> tuple[float, float]:
+    picture = player.window.screen._framing.last
+    return next((40.0, float(y)) for y in range(20, 400, 2) if picture.label_at(40, y) == label)
+
+
+def click(player: Player, at: tuple[float, float]) -> None:
+    player.mouse(pygame.MOUSEMOTION, at, rel=(0, 0), buttons=(0, 0, 0))
+    player.drag(at)
+
+
+def charts(player: Player) -> list[str]:
+    return [one for one in [player.state.look.chart] if one]
+
+
+def test_a_row_of_numbers_charts_its_quantity_and_puts_that_away(rows_shown: Player) -> None:
+    for label, token in (
+        ("spring force", "return.force"),
+        ("input torque", "input.torque"),
+        ("crank angle", "2.angle"),
+    ):
+        click(rows_shown, row_of(rows_shown, label))
+        assert charts(rows_shown) == [token]
+        assert token in rows_shown.state.scene.quantities
+        rows_shown.settle()
+        click(rows_shown, row_of(rows_shown, label))
+        rows_shown.settle()
+        assert charts(rows_shown) == []
+
+
+def test_the_row_of_the_speed_is_dragged_and_the_wheel_turns_it(rows_shown: Player) -> None:
+    x, y = row_of(rows_shown, "input speed")
+    rows_shown.drag((x, y), (x - 60, y))
+    slower = rows_shown.state.clock.level
+    assert slower < 0
+    rows_shown.mouse(pygame.MOUSEMOTION, (x, y), rel=(0, 0), buttons=(0, 0, 0))
+    pygame.event.post(pygame.event.Event(pygame.MOUSEWHEEL, x=0, y=2, flipped=False))
+    rows_shown.tick()
+    assert (rows_shown.state.clock.level, rows_shown.state.look.zoom) == (slower + 2, 1.0)
+
+
+def test_the_class_says_why_it_is_that(here: Path) -> None:
+    del here
+    with screen.opened((1280, 720)):
+        player = Player(standing("crank-rocker"))
+        player.settle()
+        at = row_of(player, "")
+        player.mouse(pygame.MOUSEMOTION, at, rel=(0, 0), buttons=(0, 0, 0))
+        assert player.window.screen.over.told
+        assert "s + l = 150 < p + q = 165" in player.window.screen.over.told.lines
+        player.drag(at)
+        player.tick()
+        assert player.state.toast
+        assert "s + l = 150" in player.state.toast.text
+        player.window.close()
+
+
+def test_a_right_click_on_a_row_of_numbers_lists_all_commands(rows_shown: Player) -> None:
+    rows_shown.mouse(pygame.MOUSEBUTTONDOWN, row_of(rows_shown, "spring force"), button=3)
+    assert rows_shown.state.listing
+    assert rows_shown.state.listing.others
+    assert rows_shown.state.listing.others.title == "Commands"
+
+
+def test_every_row_of_numbers_is_under_the_mouse_at_its_place(rows_shown: Player) -> None:
+    picture = rows_shown.window.screen._framing.last
+    assert picture._hud
+    for label in picture.fit.arrangement.block.rows if picture.fit.arrangement.block else ():
+        _, y = row_of(rows_shown, label)
+        caption = next(one for one in picture._hud.still() if one.text == label)
+        assert abs(caption.at[1] - y) <= 0.5 * caption.size
