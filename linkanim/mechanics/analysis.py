@@ -27,7 +27,7 @@ from linkanim.mechanics.linkage import RRR, Body, DrivenSlider, Joint, Linkage, 
 from linkanim.mechanics.measures import output_body, output_slider, pivots_of, said, transmission_angle
 from linkanim.mechanics.motion import Mechanism, Motion
 from linkanim.mechanics.program import Array, batch
-from linkanim.mechanics.quantities import input_symbol
+from linkanim.mechanics.quantities import input_symbol, phrase
 from linkanim.mechanics.search import around, changes_by_row, highest, in_blocks, own_rows, sign_changes
 from linkanim.mechanics.solver.closing import CLOSERS, walk_at
 from linkanim.mechanics.solver.signed_root import Kind
@@ -537,9 +537,9 @@ class Info:
 
     @property
     def output_name(self) -> str:
-        """What the output is called; empty without one."""
+        """What the output is called within a sentence, "the rocker"; empty without one."""
         body = output_body(self.mechanism.linkage)
-        return self.link_names[body.name] if body else ""
+        return phrase(body, self.link_names) if body else ""
 
     @property
     def dead_centres(self) -> tuple[float, float] | None:
@@ -710,7 +710,7 @@ def _facts(info: Info) -> Iterator[tuple[str, str | None]]:
     yield "circuits", str(info.circuits or "")
     yield "transmission angle", info.transmission and _worst(info, info.transmission)
     yield "stroke", None if info.stroke is None else f"{significant(info.stroke, 6)} {info.length_unit}"
-    yield "swing", info.swing and f"{degrees(info.swing.stroke)} of the {info.output_name}"
+    yield "swing", info.swing and f"{degrees(info.swing.stroke)} of {info.output_name}"
     yield "time ratio", None if info.time_ratio is None else f"{info.time_ratio:.4f}"
     if info.demand is not None:
         (work, *efforts), (name, unit) = info.demand, info.effort

@@ -60,6 +60,10 @@ _STANDARD = {
 }
 """The numbers that textbooks give the links of the common linkages; the ground is 1."""
 _SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
+_NOUN = 3
+"""A name of fewer letters is no noun."""
+_ADJECTIVES = frozenset({"upper", "lower", "left", "right", "large", "small", "short", "upright"})
+"""What bodies are called that is no noun."""
 
 
 def indexed(symbol: str, index: str) -> str:
@@ -86,11 +90,23 @@ def link_labels(linkage: Linkage) -> dict[str, str]:
 
 
 def called(body: Body, names: Mapping[str, str]) -> str:
-    """Return what a body is called in words, by its name in `names`: "Rocker", "Link 3", "Slider 5"."""
-    if not body.name.isdecimal():
-        words = names.get(body.name, body.name)
-        return words[:1].upper() + words[1:]
-    return f"{'Slider' if body.slider else 'Link'} {body.name}"
+    """Return what a body is called in words, by its name in `names`: "Rocker", "Link 3", "Slider 5".
+
+    One with a letter is "Link b": the letter alone would be read as a joint's.
+    """
+    if body.name.isdecimal():
+        return f"{'Slider' if body.slider else 'Link'} {body.name}"
+    words = names.get(body.name, body.name)
+    return words[:1].upper() + words[1:] if len(words) >= _NOUN else f"Link {words}"
+
+
+def phrase(body: Body, names: Mapping[str, str]) -> str:
+    """Return what a body is called within a sentence: "the rocker", "the upper link", "link 3"."""
+    words = names.get(body.name, body.name)
+    if words in _ADJECTIVES:
+        return f"the {words} link"
+    noun = words != body.name or (len(words) >= _NOUN and words.islower())
+    return f"the {words}" if noun else f"link {words}"
 
 
 def input_symbol(linkage: Linkage) -> str:

@@ -19,7 +19,7 @@ from linkanim.frozen import frozen
 from linkanim.mechanics.forces import effort_token
 from linkanim.mechanics.linkage import Linkage
 from linkanim.mechanics.measures import TRAVELLING, TURNING, coefficients_of, output_body, output_slider
-from linkanim.mechanics.quantities import Quantity, bodies_in_chain, called, input_symbol
+from linkanim.mechanics.quantities import Quantity, bodies_in_chain, called, input_symbol, phrase
 from linkanim.mechanics.search import sign_changes
 from linkanim.paper.curves import SAMPLES, Pace, curves_of, extremes
 from linkanim.scenes.scene import Scene
@@ -77,7 +77,7 @@ def usual_instants(scene: Scene) -> tuple[Instant, ...]:
         curve = curves_of(scene, (f"{output.name}.{place}",), (pace,), "phase").curves[0]
         for peak, words in zip(extremes(scene, curve), ("greatest", "least"), strict=False):
             phase = _at_rest(scene, (rate, output.name), float(np.radians(peak.x)))
-            found.append(Instant(phase, f"{words} {curve.quantity.words.lower()}"))
+            found.append(Instant(phase, f"{words} {place} of {phrase(output, scene.info.link_names)}"))
     return tuple(_together(found, scene.period))
 
 

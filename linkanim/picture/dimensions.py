@@ -175,7 +175,10 @@ def _ground(figure: Figure) -> Iterator[Measurement]:
         yield _bar(figure, "1", first, second, bare=True)
         way = figure.start(second) - figure.start(first)
         if abs(way.imag) > _NONE * figure.extent:
-            value, about = degrees(float(np.angle(way))), f"{_named(first, second)} from the horizontal"
+            value, about = (
+                degrees(float(np.angle(way))),
+                f"angle of {_named(first, second)} to the horizontal",
+            )
             yield Measurement("θ₁", value, about, (first, first), 1, way.conjugate(), frozenset(), angle=True)
 
 

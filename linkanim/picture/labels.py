@@ -768,23 +768,31 @@ def _centred(setting: DrawSetting) -> Mapping[str, tuple[str, ...]]:
 def _links(ground: Surroundings) -> Forms:
     """Yield the links' names, their numbers where there is no room for those.
 
-    Where instant centres are shown, which are called by numbers, all have their numbers, and blocks too.
+    Bodies that cannot move against each other share a number: they have their names. Where instant centres
+    are shown, which go by numbers, each link has its number, and a block without a name, too.
     """
     setting = ground.setting
     figure, size = setting.figure, setting.layout.small_size
-    numbers = dict(figure.numbers)
+    called: Mapping[Body, tuple[str, ...]]
     if setting.look.centres:
-        numbers |= {body: number for number, body in figure.by_number.items() if body}
-    for body, number in numbers.items():
-        words = (
-            (figure.links[body], number) if body in figure.links and _long_enough(ground, body) else (number,)
-        )
-        words = words[-1:] if setting.look.centres else words
+        called = {body: (number,) for number, body in figure.by_number.items() if body}
+    else:
+        called = {body: _called(ground, body) for body in figure.numbers}
+    for body, words in called.items():
         labels = [_label(setting, text, size, setting.theme.ink) for text in dict.fromkeys(words)]
         if body.slider:
             yield tuple((label, ground.around(body.slider, label.size, slider=True)) for label in labels)
         elif len(body.joints) > 1:
             yield tuple((label, ground.on(body, label.size)) for label in labels)
+
+
+def _called(ground: Surroundings, body: Body) -> tuple[str, ...]:
+    """Return what a link may be called: its name where that has room, its number where no other has that."""
+    figure = ground.setting.figure
+    number = figure.numbers[body]
+    if [*figure.numbers.values()].count(number) > 1:
+        return (figure.links[body],)
+    return (figure.links[body], number) if _long_enough(ground, body) else (number,)
 
 
 def _long_enough(ground: Surroundings, body: Body) -> bool:

@@ -19,6 +19,7 @@ from linkanim.frozen import frozen
 from linkanim.mechanics.linkage import Body, Point, holding
 from linkanim.mechanics.motion import Motion, Pose
 from linkanim.mechanics.program import Array
+from linkanim.mechanics.quantities import phrase
 from linkanim.picture.figure import Figure, figure
 from linkanim.picture.look import Look
 from linkanim.scenes.scene import Scene
@@ -30,9 +31,6 @@ CLEAR = 0.02
 """Two values that differ by less of their range look alike; below as much a value is as good as zero."""
 PLAIN = 0.1
 """A share of a greatest value that is seen at once."""
-
-_ADJECTIVES = frozenset({"upper", "lower", "left", "right", "large", "small", "short", "upright"})
-"""What bodies are called that is no noun."""
 
 
 class QuizAnswer(NamedTuple):
@@ -169,12 +167,9 @@ class Puzzle:
 
     def name(self, body: Body) -> str:
         """Return what a body is called, with its number where the scene gives one."""
-        called = self.scene.info.link_names[body.name]
-        if called in _ADJECTIVES:
-            return f"the {called} link"
-        if called != body.name:
-            return f"the {called} ({body.name})" if body.name.isdecimal() else f"the {called}"
-        return f"the {called}" if len(called) > 2 and called.islower() else f"link {called}"
+        names = self.scene.info.link_names
+        numbered = names[body.name] != body.name and body.name.isdecimal()
+        return f"{phrase(body, names)} ({body.name})" if numbered else phrase(body, names)
 
     def value(self, token: str) -> float:
         """Return what a quantity says at the pose: 0 of nothing, infinite where it is not bounded."""

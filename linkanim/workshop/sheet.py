@@ -238,7 +238,7 @@ class Sheet:
         if info.stroke:
             yield "stroke of the slider", _mm(info.stroke * made.sizes.scale)
         if info.swing is not None:
-            yield f"swing of the {info.output_name}", f"{math.degrees(info.swing.stroke):.1f}°"
+            yield f"swing of {info.output_name}", f"{math.degrees(info.swing.stroke):.1f}°"
         if info.time_ratio is not None:
             yield "the input's way for the slow stroke, over that for the quick one", f"{info.time_ratio:.2f}"
         if info.transmission_angle is not None:

@@ -371,7 +371,7 @@ def test_what_stands_still_has_no_stroke_no_swing_and_no_time_ratio() -> None:
     lever = {"slot": {"pivot": "F", "through": "P"}, "length": 50}
     ground, bodies = {"F": [250, -600]}, {"lever": {"joints": ["F", "L"]}}
     info = _beside_a_straight_line(joints={"L": lever}, ground=ground, bodies=bodies)
-    assert info.output_name == "lever"
+    assert info.output_name == "the lever"
     assert (info.swing, info.time_ratio) == (None, None)
     assert not {"swing", "time ratio"} & {label for label, _ in info.lines}
 

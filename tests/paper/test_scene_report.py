@@ -369,7 +369,7 @@ def test_of_joints_that_are_not_traced_and_of_poles_the_tables_tell() -> None:
 
 def test_an_extreme_at_the_start_is_looked_at_once() -> None:
     words = [instant.words for instant in usual_instants(load("toggle-press"))]
-    assert words == ["half-way, least ram: travel", "greatest ram: travel"]
+    assert words == ["half-way, least travel of the ram", "greatest travel of the ram"]
 
 
 def test_angles_choose_the_phase_also_of_a_swing() -> None:

@@ -12,6 +12,7 @@ from linkanim.picture.drawing import Drawing
 from linkanim.picture.figure import figure
 from linkanim.picture.look import Look
 from linkanim.picture.picture import Picture
+from linkanim.picture.text import subscripted
 from linkanim.picture.view import Rect
 from linkanim.scenes import load, names
 from linkanim.units import three_digits
@@ -158,3 +159,19 @@ def test_without_a_coupler_there_are_no_curves() -> None:
     centres = found("scotch-yoke")
     assert centres.fixed().loops == centres.moving({}).loops == []
     assert figure(load("scotch-yoke")).linkage is not None
+
+
+# of each scene what its links are called: no two the same
+@pytest.mark.parametrize("name", ["excavator", "landing-gear", "parallel-locomotive", "press", "jansen"])
+@pytest.mark.parametrize("centres", [0, 1])
+def test_no_two_links_are_called_the_same(name: str, centres: int) -> None:
+    look = Look(hud=False, names=1, centres=centres)
+    picture = Picture(load(name), (1280, 720), look, moment=1.0)
+    assert picture.names is not None
+    figure_ = picture.figure
+    joints = {subscripted(joint.name) for joint in figure_.linkage.joints}
+    links = [label.text for label in picture.names.labels if label.text.partition(",")[0] not in joints]
+    known = {*figure_.numbers.values(), *figure_.links.values()}
+    said = [text for text in links if text in known]
+    assert said
+    assert len(said) == len(set(said))

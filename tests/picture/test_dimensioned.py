@@ -198,7 +198,7 @@ def test_they_are_at_every_size_and_pose(name: str, size: tuple[int, int], theme
         # the offset of a guide; the angle of a plate's third pin; a ground that is not level
         ("slider-crank", {"e = 20 mm": "O₂ to the guide of B"}),
         ("six-bar", {"β₆ = 60°": "B–O₄–C"}),
-        ("watt-line", {"θ₁ = −18.43°": "O₂–O₄ from the horizontal"}),
+        ("watt-line", {"θ₁ = −18.43°": "angle of O₂–O₄ to the horizontal"}),
         # from the driven pivot to those that its chain needs first
         ("pantograph", {"r₁ = 80 mm": "O₂–O₄"}),
     ],
