@@ -61,7 +61,7 @@ class Arrow(NamedTuple):
         return abs(self.foot - other.foot) + abs(self.reach - other.reach) < 1e-3
 
 
-class Symbols(NamedTuple):
+class PlacedSymbols(NamedTuple):
     """Names in their places, lines from them to what they name, and vectors without room for a name."""
 
     captions: list[Caption]
@@ -188,7 +188,7 @@ class Polygon:
             return theme.velocity if self.order == 1 else theme.acceleration
         return theme.traces[0] if sort in _GUIDED else theme.dim
 
-    def _symbols(self, found: list[Arrow], pole: complex) -> Symbols:
+    def _symbols(self, found: list[Arrow], pole: complex) -> PlacedSymbols:
         """Return the name of the pole and the symbols, each beyond its vector as seen from the middle.
 
         Where there is no room beside a vector its symbol stands farther off, and a thin line leads to it.
@@ -221,7 +221,7 @@ class Polygon:
                 towards = unit(foot - at)
                 half = 0.5 * (abs(towards.real) * label.size[0] + abs(towards.imag) * label.size[1])
                 leaders.append(Layer(pen.theme.dim, segments(at + half * towards, foot, 0.5 * pen.line)))
-        return Symbols(captions, leaders, left)
+        return PlacedSymbols(captions, leaders, left)
 
     def _written(self, words: str, at: complex, colour: Colour) -> Caption:
         """Return a name about a place."""
