@@ -202,7 +202,7 @@ KEYS: Table = {
         KeyRow(
             "C (Shift: off)", "chart: next quantity, off", _on("c", "chart", 1) + _on("shift+c", "plot", "")
         ),
-        KeyRow("X", "the chart's axis: angle, time, phase", _of_look("over")),
+        KeyRow("X", "chart's axis: angle, time, phase", _of_look("over")),
         KeyRow("K", "the list of quantities", _on("k", "list")),
         KeyRow("Shift+U", "unit of lengths: mm, cm, m, in", _of_look("unit")),
     ),
@@ -222,7 +222,7 @@ KEYS: Table = {
         KeyRow("F6 (Shift: write them)", "its parts in layers, to be made", _MAKE),
         KeyRow(
             "Ctrl+S, O",
-            "save the scene (Shift: under another name); open one",
+            "save (Shift: save as); open",
             _on("ctrl+s", "save") + _on("ctrl+shift+s", "save_as") + _on("ctrl+o", "files_here"),
         ),
         KeyRow("F5", "load the scene's file again", _on("f5", "reload")),
