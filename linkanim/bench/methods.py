@@ -15,7 +15,7 @@ from collections import deque
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import partial
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -39,7 +39,7 @@ from linkanim.bench.questions import (
     point_on,
 )
 from linkanim.bench.reference import Solve, answer
-from linkanim.frozen import frozen
+from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.linkage import RRR
 
 # The usual ways to solve a chain of dyads, as they are usually written, and this project's own.

@@ -11,12 +11,13 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Iterator
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from linkanim.bench.result import Progress
 from linkanim.export import columns, json_text, markdown
+from linkanim.frozen import NamedTuple
 from linkanim.synthesis.curves import drawn
 from linkanim.synthesis.linkages import FOUR_BAR, Complex, Real
 from linkanim.synthesis.path import path

@@ -17,7 +17,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
 from statistics import median
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -25,7 +25,7 @@ from linkanim.bench.methods import Entry, Timed, entries
 from linkanim.bench.questions import MECHANISMS, CaseSet
 from linkanim.bench.reference import Score, Solve, answer, score, together
 from linkanim.export import columns, json_text, markdown
-from linkanim.frozen import frozen
+from linkanim.frozen import NamedTuple, frozen
 
 # Times of many pieces of work, taken in turn, so that a busy machine slows all of them alike.
 #

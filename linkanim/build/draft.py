@@ -9,9 +9,9 @@ from __future__ import annotations
 from collections.abc import Container, Iterable, Iterator, Mapping
 from dataclasses import field, replace
 from itertools import chain, count
-from typing import Any, NamedTuple
+from typing import Any
 
-from linkanim.frozen import frozen
+from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.linkage import Point
 
 # What has been drawn: joints with their places, bars, points, guides, and what else hangs on them.

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import NamedTuple
 
 from linkanim.build.building import Building, grown, refused
 from linkanim.build.draft import JOINT, Draft, Thing
@@ -27,6 +26,7 @@ from linkanim.build.gestures import (
     under,
 )
 from linkanim.build.places import crank_of, from_span, place_of, snapped
+from linkanim.frozen import NamedTuple
 
 _TARGETS = {"slider": "on a guide", "slot": "on a bar, or on a slider"}
 _STUB = 0.5

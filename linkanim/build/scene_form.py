@@ -11,13 +11,14 @@ from cmath import phase
 from collections.abc import Iterator, Mapping
 from functools import partial
 from math import degrees, dist, isclose, nan, pi
-from typing import Any, NamedTuple
+from typing import Any
 
 from linkanim import units
 from linkanim.build.draft import Draft, Photo, named_in
 from linkanim.build.freedom import mobility
 from linkanim.build.places import Found, ends_of, found, place_of, plates_of
 from linkanim.errors import BadInput, UnitError
+from linkanim.frozen import NamedTuple
 from linkanim.mechanics.linkage import RRP, RRR, Body, Crank, Joint, Pin, Point, Rigid
 from linkanim.scenes.editing import phase_towards
 from linkanim.scenes.file_form import SHORTHANDS, Expansion, names_of

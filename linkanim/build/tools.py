@@ -5,7 +5,7 @@ It loads nothing, so that the help of a command can read it.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from linkanim.frozen import NamedTuple
 
 
 class Tool(NamedTuple):

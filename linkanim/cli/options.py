@@ -13,12 +13,12 @@ from argparse import Action, BooleanOptionalAction, Namespace, _ActionsContainer
 from collections.abc import Callable, Mapping, Sequence
 from decimal import Decimal, InvalidOperation
 from pathlib import Path
-from typing import Any, NamedTuple, NoReturn, cast, get_args
+from typing import Any, NoReturn, cast, get_args
 
 from linkanim import units
 from linkanim.bounds import LARGEST_SIDE, MOST_LISTED, MOST_POSES
 from linkanim.errors import BadInput
-from linkanim.frozen import frozen
+from linkanim.frozen import NamedTuple, frozen
 from linkanim.picture.look import TOGGLES, ConstructionKind, Look, Option, Toggle
 from linkanim.units import shown
 from linkanim.workshop.media import PAGES, WAYS

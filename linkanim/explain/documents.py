@@ -17,7 +17,7 @@ from functools import cache, reduce
 from html import escape
 from importlib.resources import files
 from itertools import chain, groupby, pairwise
-from typing import Literal, NamedTuple
+from typing import Literal
 
 import numpy as np
 
@@ -37,7 +37,7 @@ from linkanim.explain.steps import (
     decimals,
     rounded,
 )
-from linkanim.frozen import frozen
+from linkanim.frozen import NamedTuple, frozen
 
 # The rows of one item of a worked solution in a notation: sides of equations, one below the other.
 

@@ -12,10 +12,10 @@ import math
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from html import escape
-from typing import Literal, NamedTuple
+from typing import Literal
 from unicodedata import normalize
 
-from linkanim.frozen import frozen
+from linkanim.frozen import NamedTuple, frozen
 
 # Formulas of a worked solution as trees, whose leaves hold the digits that are printed.
 #

@@ -12,7 +12,7 @@ import math
 from cmath import phase, rect
 from collections.abc import Callable, Mapping
 from itertools import takewhile
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -53,7 +53,7 @@ from linkanim.explain.steps import (
     route_of_bar,
     slide_sides,
 )
-from linkanim.frozen import frozen
+from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.linkage import RPP, RPR, RRP, RRR, Brace, Crank, DrivenSlider, Gear, Joint, Pin, Rigid
 from linkanim.units import significant
 

@@ -14,7 +14,8 @@ from collections.abc import Iterator, Sequence
 from functools import cache
 from html import escape, unescape
 from pathlib import Path
-from typing import NamedTuple
+
+from linkanim.frozen import NamedTuple
 
 FOLDER = Path(__file__).parent
 CONTENTS = "README"

@@ -15,12 +15,11 @@ import re
 from collections.abc import Callable, Collection, Iterator, Mapping
 from functools import cached_property, partial
 from operator import itemgetter
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from linkanim.frozen import frozen
+from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.arithmetic import Graph, Slope
 from linkanim.mechanics.forces import Demand, demand, usual_effort
 from linkanim.mechanics.linkage import RRR, Body, DrivenSlider, Joint, Linkage, Rigid, holding

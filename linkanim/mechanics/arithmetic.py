@@ -14,7 +14,9 @@ import operator
 from collections.abc import Callable
 from decimal import Context, Decimal
 from fractions import Fraction
-from typing import Any, NamedTuple
+from typing import Any
+
+from linkanim.frozen import NamedTuple
 
 # Constants of the formulas: floats that know which number they stand for.
 #

@@ -10,10 +10,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from itertools import combinations
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
+from linkanim.frozen import NamedTuple
 from linkanim.mechanics.angles import unit
 from linkanim.mechanics.linkage import Body, Crank, Linkage, Slide, holding
 from linkanim.mechanics.measures import as_complex, between, components, cross, over, stands

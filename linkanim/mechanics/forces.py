@@ -14,11 +14,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from linkanim.frozen import NamedTuple
 from linkanim.mechanics.linkage import Damper, Linkage, Spring, holding
 from linkanim.mechanics.measures import (
     ROUNDING,

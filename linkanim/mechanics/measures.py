@@ -11,10 +11,11 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from functools import lru_cache
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
+from linkanim.frozen import NamedTuple
 from linkanim.mechanics.angles import STATED
 from linkanim.mechanics.linkage import Body, Crank, Damper, Linkage, Spring, holding, share_of
 

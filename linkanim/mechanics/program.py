@@ -17,12 +17,12 @@ from dataclasses import dataclass, field
 from decimal import Decimal
 from functools import lru_cache
 from types import CodeType, FunctionType
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from linkanim.frozen import frozen
+from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.arithmetic import WHOLE, Expr, Value, digits_of
 from linkanim.mechanics.precise import cosine, sine, square_root
 

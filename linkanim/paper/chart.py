@@ -10,13 +10,12 @@ from dataclasses import replace
 from functools import cached_property
 from itertools import pairwise
 from math import radians
-from typing import NamedTuple
 
 import numpy as np
 import pygame
 
 from linkanim.export import csv_head, csv_rows
-from linkanim.frozen import frozen
+from linkanim.frozen import NamedTuple, frozen
 from linkanim.paper.curves import Curve, Curves, MeasuredCurve, Peak, extremes, table
 from linkanim.paper.sentences import about, plain
 from linkanim.picture.chart import (

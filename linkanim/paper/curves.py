@@ -11,7 +11,6 @@ from collections.abc import Iterator
 from itertools import chain
 from math import degrees, tau
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -19,7 +18,7 @@ from numpy.typing import ArrayLike
 from linkanim.bounds import MOST_ROWS_READ
 from linkanim.errors import BadInput, OutOfRange
 from linkanim.export import columns
-from linkanim.frozen import frozen
+from linkanim.frozen import NamedTuple, frozen
 from linkanim.intake import Intake, NumberRow, named, read_numbers
 from linkanim.mechanics.motion import Motion
 from linkanim.mechanics.quantities import Quantity, plain_unit

@@ -10,12 +10,11 @@ from collections.abc import Iterable, Iterator
 from functools import cache
 from itertools import chain
 from math import degrees, isinf, isnan, nan, pi, sin, tau
-from typing import NamedTuple
 
 import numpy as np
 
 from linkanim.errors import OutOfRange
-from linkanim.frozen import frozen
+from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.forces import effort_token
 from linkanim.mechanics.linkage import Linkage
 from linkanim.mechanics.measures import TRAVELLING, TURNING, coefficients_of, output_body, output_slider

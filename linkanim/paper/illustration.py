@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import pygame
 
+from linkanim.frozen import NamedTuple
 from linkanim.picture.items import Group
 from linkanim.picture.raster import Colour, offscreen
 from linkanim.picture.surface import printed

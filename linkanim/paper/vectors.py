@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import NamedTuple
 
 import numpy as np
 
 from linkanim.explain.solution import Solution
+from linkanim.frozen import NamedTuple
 from linkanim.paper.figure import Figured
 from linkanim.paper.svg import svg
 from linkanim.picture.chart import Pen, pen_for

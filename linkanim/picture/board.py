@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import field
 from math import floor
-from typing import NamedTuple
 
 import pygame
 
-from linkanim.frozen import frozen
+from linkanim.frozen import NamedTuple, frozen
 from linkanim.picture.layout import Layout
 from linkanim.picture.raster import Colour, Cover, Layer, Shapes, covers, paint
 from linkanim.picture.shapes import box

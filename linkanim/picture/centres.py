@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from functools import cached_property
 from itertools import combinations, pairwise
-from typing import NamedTuple
 
 import numpy as np
 
-from linkanim.frozen import frozen
+from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.centres import Centre, KennedyStep, centre, centrodes, joint_between, kennedy
 from linkanim.mechanics.measures import coupler_body
 from linkanim.mechanics.motion import Pose

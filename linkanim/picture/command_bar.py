@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import accumulate
-from typing import NamedTuple
 
 import pygame
 
+from linkanim.frozen import NamedTuple
 from linkanim.picture.board import Board
 from linkanim.picture.command_icons import COMMAND_ICONS
 from linkanim.picture.layout import Gauge, Layout

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from itertools import combinations
-from typing import NamedTuple, get_args
+from typing import get_args
 
 import numpy as np
 
 from linkanim.errors import BadInput
+from linkanim.frozen import NamedTuple
 from linkanim.mechanics.centres import Centre, KennedyStep, joint_between, slide_between
 from linkanim.mechanics.motion import Pose
 from linkanim.picture.centres import CentrePairs, kennedy_line, label_of

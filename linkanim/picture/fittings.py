@@ -11,11 +11,10 @@ from collections.abc import Iterable, Iterator, Sequence
 from functools import cached_property, lru_cache
 from itertools import pairwise
 from math import frexp, pi
-from typing import NamedTuple
 
 import numpy as np
 
-from linkanim.frozen import frozen
+from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.linkage import Damper, Joint, Line, Slide, Spring
 from linkanim.picture.figure import DOWN, DrawContext, Figure
 from linkanim.picture.layout import Gauge

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from math import floor
-from typing import NamedTuple
 
 import numpy as np
 import pygame
 
+from linkanim.frozen import NamedTuple
 from linkanim.picture.board import Board
 from linkanim.picture.overlay import Choice, GamePanel, Mood, ScoreBar
 from linkanim.picture.raster import Colour, Layer, paint

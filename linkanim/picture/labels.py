@@ -11,12 +11,12 @@ from dataclasses import replace
 from functools import cached_property
 from itertools import chain, pairwise, product
 from math import ceil, pi, prod
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from linkanim.frozen import frozen
+from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.linkage import Body
 from linkanim.mechanics.motion import Pose
 from linkanim.picture.bodies import BEYOND, body_parts

@@ -9,11 +9,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Literal, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Literal, TypeVar
 
 from linkanim.build.draft import Photo
 from linkanim.build.places import Shape
-from linkanim.frozen import frozen
+from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.linkage import Point
 from linkanim.picture.layered import Layered
 from linkanim.picture.look import ThemeName

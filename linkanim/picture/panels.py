@@ -9,12 +9,12 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 from itertools import chain, product
 from math import ceil, floor
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import pygame
 
-from linkanim.frozen import frozen
+from linkanim.frozen import NamedTuple, frozen
 from linkanim.picture.board import STEP, Board, Rows, around
 from linkanim.picture.command_bar import bar_place
 from linkanim.picture.game_panel import answer_rows, game_panel

@@ -6,8 +6,9 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import cached_property, partial
 from itertools import chain, islice
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
+from linkanim.frozen import NamedTuple
 from linkanim.mechanics.motion import Pose
 from linkanim.picture.arrangement import FitRequest, SceneFit, fitted, request_of
 from linkanim.picture.build_sheet import (

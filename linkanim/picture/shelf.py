@@ -6,11 +6,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from itertools import groupby
 from math import ceil
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pygame
 
+from linkanim.frozen import NamedTuple
 from linkanim.picture.board import Board
 from linkanim.picture.layout import Layout, layout
 from linkanim.picture.look import Look

@@ -16,13 +16,14 @@ from io import BytesIO
 from itertools import pairwise, product
 from math import ceil, prod
 from pathlib import Path
-from typing import Literal, NamedTuple
+from typing import Literal
 from unicodedata import normalize
 
 import numpy as np
 import pygame
 from numpy.typing import NDArray
 
+from linkanim.frozen import NamedTuple
 from linkanim.picture.raster import Colour, offscreen, pixel_view
 from linkanim.picture.shapes import directions
 

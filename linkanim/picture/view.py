@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
-from linkanim.frozen import frozen
+from linkanim.frozen import NamedTuple, frozen
 
 
 class Rect(NamedTuple):

@@ -14,13 +14,13 @@ from importlib.resources import files
 from itertools import pairwise
 from pathlib import Path
 from random import Random
-from typing import NamedTuple, TypeVar
+from typing import TypeVar
 
 import numpy as np
 
 from linkanim.bounds import LONGEST_TEXT
 from linkanim.errors import BadInput, LinkanimError
-from linkanim.frozen import frozen
+from linkanim.frozen import NamedTuple, frozen
 from linkanim.intake import Intake, Section, control_in, refuse_controls
 from linkanim.picture.look import Look
 from linkanim.picture.overlay import Choice, GamePanel, Overlay, PathShown, ScoreBar

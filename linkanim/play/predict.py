@@ -7,10 +7,9 @@ from collections.abc import Iterator
 from dataclasses import replace
 from math import pi, radians, sin
 from random import Random
-from typing import NamedTuple
 
 from linkanim.errors import BadInput
-from linkanim.frozen import frozen
+from linkanim.frozen import NamedTuple, frozen
 from linkanim.picture.look import Look
 from linkanim.picture.overlay import Choice, GamePanel, Mood, Overlay, Spot
 from linkanim.play.games import ALL, LEVELS, GameWords, begun, members, titled

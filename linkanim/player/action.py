@@ -5,7 +5,9 @@ Keys, mouse, tapes and `advance` share it. It loads nothing, so that the help of
 
 from __future__ import annotations
 
-from typing import Literal, NamedTuple
+from typing import Literal
+
+from linkanim.frozen import NamedTuple
 
 # What can be asked of the player, as plain data: keys, mouse, tapes and `advance` share it.
 

@@ -11,9 +11,10 @@ import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from math import isfinite, radians
-from typing import Any, Literal, NamedTuple, TypeVar, cast
+from typing import Any, Literal, TypeVar, cast
 
 from linkanim.errors import LinkanimError
+from linkanim.frozen import NamedTuple
 from linkanim.intake import control_in
 from linkanim.mechanics.quantities import input_symbol
 from linkanim.picture.look import TOGGLES, Look, answer, toggled

@@ -14,11 +14,12 @@ import tempfile
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from pathlib import Path
-from typing import BinaryIO, NamedTuple, TextIO, cast
+from typing import BinaryIO, TextIO, cast
 
 from linkanim import child
 from linkanim.atomic_files import made_folder
 from linkanim.errors import WorkFailed
+from linkanim.frozen import NamedTuple
 from linkanim.player import tape_file
 from linkanim.player.action import Action
 from linkanim.player.files import FOLDER, free_stem, where

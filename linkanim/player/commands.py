@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from functools import lru_cache
-from typing import NamedTuple
 
+from linkanim.frozen import NamedTuple
 from linkanim.picture.overlay import Button, CommandBar
 from linkanim.player.action import Action, Mode
 from linkanim.player.clock import FASTEST, SLOWEST

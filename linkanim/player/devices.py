@@ -10,12 +10,13 @@ import math
 from collections.abc import Mapping
 from itertools import zip_longest
 from math import dist, isfinite, isnan, log
-from typing import Literal, NamedTuple
+from typing import Literal
 
 import pygame
 from pygame.event import Event
 
 from linkanim.build.tools import TOOLS
+from linkanim.frozen import NamedTuple
 from linkanim.player.action import Action, Mode
 from linkanim.player.commands import line_asks, pressed, slid, slides
 from linkanim.player.keys import MENU_IN, Bind, Press, bind_of, button_name, hat_name, key_names, key_of

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import NamedTuple, get_args
+from typing import get_args
 
 from linkanim.build.tools import TOOLS
+from linkanim.frozen import NamedTuple
 from linkanim.picture.look import TOGGLES
 from linkanim.player.action import Action, Mode, Value
 

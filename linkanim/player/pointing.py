@@ -6,10 +6,11 @@ The words and numbers are those of the shared page.
 from __future__ import annotations
 
 from math import degrees, hypot
-from typing import Literal, NamedTuple
+from typing import Literal
 
 import numpy as np
 
+from linkanim.frozen import NamedTuple
 from linkanim.mechanics.linkage import Damper, Point, Spring
 from linkanim.mechanics.motion import Pose, Strut
 from linkanim.picture.figure import Figure

@@ -14,7 +14,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import replace
 from math import ceil, hypot, log10
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal
 
 import numpy as np
 import pygame
@@ -22,6 +22,7 @@ import pygame
 from linkanim.build.draft import UNTITLED, Draft, Thing
 from linkanim.build.gestures import under
 from linkanim.errors import NoDisplay
+from linkanim.frozen import NamedTuple
 from linkanim.mechanics.linkage import Point
 from linkanim.picture.build_sheet import grid_step, pencil
 from linkanim.picture.command_bar import BarPrinter, button_at, share_at

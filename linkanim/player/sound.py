@@ -13,12 +13,13 @@ import sys
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from threading import Thread
-from typing import Literal, NamedTuple, get_args
+from typing import Literal, get_args
 
 import numpy as np
 import pygame
 from numpy.typing import NDArray
 
+from linkanim.frozen import NamedTuple
 from linkanim.player.state import State
 from linkanim.scenes.scene import Scene
 

@@ -13,7 +13,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Protocol, Self
+from typing import TYPE_CHECKING, Any, Literal, Protocol, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,7 +22,7 @@ from linkanim.build.building import Building, Undoable
 from linkanim.build.draft import Draft, Thing
 from linkanim.build.meanings import Meaning
 from linkanim.errors import BadInput, LinkanimError
-from linkanim.frozen import frozen
+from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.analysis import Info
 from linkanim.mechanics.linkage import Point
 from linkanim.mechanics.motion import stopped

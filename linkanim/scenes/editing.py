@@ -23,11 +23,11 @@ from dataclasses import replace
 from difflib import Match, SequenceMatcher
 from fractions import Fraction
 from math import atan2, degrees, hypot
-from typing import Any, NamedTuple
+from typing import Any
 
 from linkanim import units
 from linkanim.errors import AssemblyError, BadInput, LinkanimError, SceneError
-from linkanim.frozen import frozen
+from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.angles import unit
 from linkanim.mechanics.linkage import Body, DrivenSlider, Joint, Line, Pin, Point, Rigid
 from linkanim.scenes.file_form import DRIVE, SCENE_FILE, SHORTHANDS

@@ -14,11 +14,11 @@ from __future__ import annotations
 import math
 from collections.abc import Container, Mapping
 from dataclasses import replace
-from typing import Any, NamedTuple, get_args
+from typing import Any, get_args
 
 from linkanim import units
 from linkanim.bounds import LONGEST_TEXT
-from linkanim.frozen import frozen
+from linkanim.frozen import NamedTuple, frozen
 from linkanim.intake import unnameable
 from linkanim.mechanics.angles import unit
 from linkanim.mechanics.linkage import (

@@ -9,10 +9,10 @@ from functools import cache
 from importlib.resources import files
 from pathlib import Path
 from types import MappingProxyType
-from typing import NamedTuple
 
 from linkanim import intake
 from linkanim.errors import BadInput
+from linkanim.frozen import NamedTuple
 from linkanim.intake import meant
 from linkanim.scenes.scene import Scene
 from linkanim.scenes.toml import SCENE_FILE, parse

@@ -14,11 +14,12 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 from math import hypot
-from typing import Any, NamedTuple
+from typing import Any
 
 from linkanim import units
 from linkanim.bounds import MOST_PROBLEMS
 from linkanim.errors import AssemblyError, BadInput
+from linkanim.frozen import NamedTuple
 from linkanim.mechanics.linkage import (
     RRR,
     Body,

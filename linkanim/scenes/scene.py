@@ -12,10 +12,10 @@ import math
 from collections.abc import Mapping
 from dataclasses import field
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal
 
 from linkanim.errors import BadInput
-from linkanim.frozen import frozen
+from linkanim.frozen import NamedTuple, frozen
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike

@@ -12,11 +12,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator
 from functools import lru_cache
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from linkanim.frozen import NamedTuple
 from linkanim.synthesis.curves import DrawnCurve
 from linkanim.synthesis.linkages import Complex, Indices, LinkageKind, Real
 

@@ -12,12 +12,12 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from linkanim.frozen import frozen
+from linkanim.frozen import NamedTuple, frozen
 from linkanim.synthesis.atlas import Candidates
 from linkanim.synthesis.curves import DrawnCurve
 from linkanim.synthesis.linkages import Indices, LinkageKind, Real, Requirements, TracedPoints

@@ -15,10 +15,11 @@ import math
 from collections.abc import Callable, Iterable, Sequence, Set
 from dataclasses import replace
 from itertools import pairwise
-from typing import Literal, NamedTuple
+from typing import Literal
 
 import numpy as np
 
+from linkanim.frozen import NamedTuple
 from linkanim.synthesis.answers import Figures, Fit
 from linkanim.synthesis.atlas import CURVES, Candidates
 from linkanim.synthesis.fitting import PathTask, merit, refined

@@ -15,13 +15,13 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import field
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from linkanim import units
 from linkanim.errors import AssemblyError, BadInput, SceneError
-from linkanim.frozen import frozen
+from linkanim.frozen import NamedTuple, frozen
 from linkanim.intake import meant
 from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene

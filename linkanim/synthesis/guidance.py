@@ -14,14 +14,14 @@ import cmath
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import field, replace
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkanim import units
 from linkanim.errors import AssemblyError, BadInput, SceneError
-from linkanim.frozen import frozen
+from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.measures import as_complex
 from linkanim.scenes.editing import phase_along
 from linkanim.scenes.reading import scene_from

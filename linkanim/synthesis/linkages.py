@@ -12,13 +12,13 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import field, replace
-from typing import Any, NamedTuple, Self
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkanim.errors import BadInput
-from linkanim.frozen import frozen
+from linkanim.frozen import NamedTuple, frozen
 from linkanim.units import shown
 
 # The linkages whose coupler point is to run along a path: a four-bar and a slider-crank, many at once.

@@ -18,13 +18,13 @@ import math
 from collections.abc import Mapping
 from dataclasses import field, replace
 from functools import cached_property, lru_cache
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from linkanim import units
 from linkanim.errors import BadInput
-from linkanim.frozen import frozen
+from linkanim.frozen import NamedTuple, frozen
 from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene, TimeRatioPurpose
 from linkanim.synthesis.linkages import Real, refuse_count

@@ -6,13 +6,13 @@ import math
 from dataclasses import replace
 from functools import cached_property
 from itertools import count
-from typing import Literal, NamedTuple
+from typing import Literal
 
 import numpy as np
 
 from linkanim import units
 from linkanim.errors import BadInput
-from linkanim.frozen import frozen
+from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.motion import Pose
 from linkanim.picture.figure import figure
 from linkanim.picture.layered import Frame, Layered, LayeredPin, LayeredPlate

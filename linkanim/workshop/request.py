@@ -6,11 +6,11 @@ import math
 import os
 from dataclasses import replace
 from itertools import combinations
-from typing import NamedTuple
 
 import numpy as np
 
 from linkanim.errors import BadInput
+from linkanim.frozen import NamedTuple
 from linkanim.scenes.scene import Scene
 from linkanim.units import shown
 from linkanim.workshop.gears import NotFlat

@@ -9,11 +9,12 @@ speeds account for. Where that does not settle whether two pieces stay apart, th
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from linkanim.frozen import NamedTuple
 from linkanim.picture.layered import Frame
 from linkanim.scenes.scene import Scene
 

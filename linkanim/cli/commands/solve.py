@@ -15,7 +15,7 @@ from decimal import Decimal
 from fractions import Fraction
 from itertools import repeat
 from pathlib import Path as FilePath
-from typing import Any, NamedTuple, TextIO
+from typing import Any, TextIO
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,7 +26,7 @@ from linkanim.bounds import MOST_NUMBERS, MOST_NUMBERS_READ
 from linkanim.cli.options import EVERY_ANGLE, inputs_of
 from linkanim.errors import BadInput, OutOfRange
 from linkanim.export import columns, csv_head, csv_rows, json_text, lines, mapped
-from linkanim.frozen import frozen
+from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.linkage import Linkage, Pin
 from linkanim.mechanics.measures import DAMPER, POINT, SPRING, TRAVELLING, TURNING, Measure, coefficients_of
 from linkanim.mechanics.motion import Motion

@@ -15,10 +15,10 @@ from dataclasses import dataclass, field
 from decimal import localcontext
 from fractions import Fraction
 from functools import cached_property, partial
-from typing import Any, NamedTuple
+from typing import Any
 
 from linkanim.errors import AssemblyError
-from linkanim.frozen import frozen
+from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.angles import (
     Half,
     Sum,

@@ -14,13 +14,12 @@ from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 from decimal import Decimal, localcontext
 from functools import cache, partial
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkanim.errors import AssemblyError
-from linkanim.frozen import frozen
+from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.angles import FULL_TURN, Sum
 from linkanim.mechanics.arithmetic import Graph, Slope, Value
 from linkanim.mechanics.linkage import Linkage

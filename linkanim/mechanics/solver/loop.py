@@ -14,10 +14,9 @@ from collections.abc import Callable, Iterator, Mapping
 from decimal import Decimal, localcontext
 from fractions import Fraction
 from functools import partial
-from typing import NamedTuple
 
 from linkanim.errors import AssemblyError
-from linkanim.frozen import frozen
+from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.angles import (
     HALF_TURN,
     Half,

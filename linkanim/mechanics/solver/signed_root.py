@@ -13,9 +13,8 @@ from dataclasses import replace
 from decimal import Decimal, localcontext
 from enum import Enum
 from fractions import Fraction
-from typing import NamedTuple
 
-from linkanim.frozen import frozen
+from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.angles import (
     FULL_TURN,
     HALF_TURN,
