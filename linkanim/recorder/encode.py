@@ -263,20 +263,19 @@ class Stream:
 
 @contextmanager
 def encoding(
-    stream: Stream, form: Format, part: Path, palette: Callable[[], Sequence[Colour]]
+    stream: Stream, form: Format, part: Path, palette: Sequence[Colour]
 ) -> Iterator[Callable[[Frame], None]]:
     """Give a function that takes the frames, one after the other, and have them encoded into `part`.
 
-    `part` is a file, for PNG a folder that gets 0001.png, ...; `palette` gives a GIF's colours, 255 at
-    most, and is called for no other. Of a frame nothing is kept. When the block ends the encoder is
-    done; whatever else ends it, the encoder is gone. `RecordingFailed` where the encoder cannot be
-    started, stops early or reports an error.
+    `part` is a file, for PNG a folder that gets 0001.png, ...; `palette` has a GIF's colours, 255 at most.
+    Of a frame nothing is kept. When the block ends the encoder is done; whatever else ends it, the encoder
+    is gone. `RecordingFailed` where the encoder cannot be started, stops early or reports an error.
     """
     with running(_command(stream, form, part), ahead=_AHEAD[form]) as write:
         if form == "gif":
             from linkanim.recorder.palette import Indexing
 
-            indices = Indexing(palette(), math.prod(stream.size), alpha=stream.alpha)
+            indices = Indexing(palette, math.prod(stream.size), alpha=stream.alpha)
             yield lambda frame: write(indices(frame))
         else:
             yield write

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import base64
+import math
 import os
 import re
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import astuple
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol, cast
 
@@ -28,6 +28,7 @@ from linkanim.picture.theme import theme_of
 from linkanim.recorder.encode import Frame, Stream, count_frames, encoding
 from linkanim.recorder.palette import Colour, make_palette
 from linkanim.recorder.plan import Clip, Format, Plan, make_plan, refuse_size
+from linkanim.recorder.processes import drawing, processes_for
 
 if TYPE_CHECKING:
     from linkanim.recorder.encode import Frame
@@ -56,6 +57,10 @@ class Frames(Protocol):
     @property
     def colours(self) -> Sequence[Colour]:
         """The colours that a GIF's palette has to have exactly."""
+
+    @property
+    def independent(self) -> bool:
+        """Whether a frame costs the same whichever was drawn before it."""
 
     def draw(self, frame: int) -> Frame:
         """Return a frame's bytes, to be let go before the next is drawn: that may be in their place."""
@@ -171,10 +176,16 @@ def _saying_why(target: Path) -> Iterator[None]:
 
 
 def _encode(frames: Frames, plan: Plan, part: Path, form: Format, progress: Progress | None) -> None:
-    stream = Stream(frames.size, plan.rate, frames.alpha)
-    with encoding(stream, form, part, partial(palette_of, frames, plan.frames)) as send:
+    stream, size = Stream(frames.size, plan.rate, frames.alpha), 4 * math.prod(frames.size)
+    colours = palette_of(frames, plan.frames) if form == "gif" else []
+    processes = processes_for(plan.frames, size) if frames.independent else 0
+    # before the encoder is there: a copy of ours that held its pipe would keep it waiting for more
+    with (
+        drawing(frames.draw, plan.frames, size, processes) as draw,
+        encoding(stream, form, part, colours) as send,
+    ):
         for frame in range(plan.frames):
-            send(frames.draw(frame))
+            send(draw(frame))
             if progress is not None:
                 progress(frame + 1, plan.frames)
 
@@ -192,6 +203,8 @@ def palette_of(frames: Frames, count: int) -> list[Colour]:
 
 class SceneFrames:
     """Pictures of a scene at the phases of a plan; `noted` as in the overlay."""
+
+    independent = True
 
     def __init__(
         self, scene: Scene, plan: Plan, size: tuple[int, int], look: Look, *, noted: bool = False
@@ -213,6 +226,8 @@ class SceneFrames:
 
 class ConstructionFrames(SceneFrames):
     """Pictures of the steps of a construction, over the pose at which a plan begins."""
+
+    independent = False
 
     def __init__(
         self, scene: Scene, plan: Plan, size: tuple[int, int], look: Look, kind: ConstructionKind

@@ -42,6 +42,8 @@ _LONGER = 1280
 class TapeFrames:
     """Pictures of what a tape does. Drawn in their order each costs one; going back starts anew."""
 
+    independent = False
+
     def __init__(self, tape: Tape, fps: float, size: tuple[int, int], *, photo: bool = False) -> None:
         self.size = size
         self.alpha = not tape.start.look.background

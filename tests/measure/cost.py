@@ -12,7 +12,6 @@ import tempfile
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
@@ -133,7 +132,7 @@ def _stored(file: Path, scene: Scene, plan: Plan) -> NDArray[np.uint8]:
 
 def _encode(stored: NDArray[np.uint8], scene: Scene, plan: Plan, target: Path) -> None:
     form: Format = "gif" if target.suffix == ".gif" else "mp4"
-    palette = partial(palette_of, SceneFrames(scene, plan, SIZE, LOOK), plan.frames)
+    palette = palette_of(SceneFrames(scene, plan, SIZE, LOOK), plan.frames) if form == "gif" else []
     with encoding(Stream(SIZE, plan.rate), form, target, palette) as send:
         for frame in stored:
             send(frame.data)

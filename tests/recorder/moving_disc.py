@@ -20,12 +20,13 @@ TWO_SECONDS = Clip(speed=TURN / 2.0, period=TURN)
 
 @dataclass(frozen=True)
 class MovingDisc:
-    """Frames of the disc, one turn over the plan; `on_draw` sees each frame's number."""
+    """Frames of the disc, one turn over the plan; `on_draw` sees each frame's number, in this process."""
 
     plan: Plan
     size: tuple[int, int] = (64, 48)
     alpha: bool = False
     colours: Sequence[Colour] = field(default=(BACKGROUND, DISC))
+    independent: bool = False
     on_draw: Callable[[int], None] = lambda frame: None
 
     def draw(self, frame: int) -> memoryview:

@@ -29,7 +29,7 @@ def encoded(
     """Write frames (height, width) of 0xaarrggbb as a GIF."""
     path = folder / "frames.gif"
     height, width = frames[0].shape
-    with encoding(Stream((width, height), Fraction(25), alpha), "gif", path, lambda: palette) as send:
+    with encoding(Stream((width, height), Fraction(25), alpha), "gif", path, palette) as send:
         for frame in frames:
             send(frame.astype("<u4").tobytes())
     return path

@@ -118,6 +118,8 @@ def bar(*, shown: bool = False, unit: str = " frames") -> Iterator[Progress]:
 
     Nothing is drawn where stderr is no terminal, unless it is to be `shown` all the same.
     """
+    # its watch over slow bars is a thread, and a process with threads is not copied for drawing
+    tqdm.monitor_interval = 0
     # tqdm takes None for "not on a terminal"
     with tqdm(unit=unit, leave=False, disable=False if shown else None, file=sys.stderr) as drawn:
         yield lambda done, total: advance(drawn, done, total)
