@@ -127,7 +127,7 @@ def _copy() -> int:
 
 
 def _end_with_parent(*ends: int) -> None:
-    """Leave Ctrl-C to the process that this is a copy of, and let go of its ends: each is to see the other go."""
+    """Leave Ctrl-C to the process copied, and let go of its ends of pipes: each has to see the other go."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     for end in ends:
