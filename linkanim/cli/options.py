@@ -522,7 +522,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _value(
             "--quantity Q[,Q...]",
             str,
-            "what to draw, such as rocker.angular_velocity or B.velocity.x; a wrong name prints the list",
+            "what to draw, such as rocker.angular_velocity or B.velocity.x; `list` lists them",
             required=True,
         ),
         _output("write OUT.png, OUT.svg, OUT.pdf or OUT.csv (default: SCENE.png in this folder)"),

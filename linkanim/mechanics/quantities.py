@@ -119,7 +119,7 @@ def input_symbol(linkage: Linkage) -> str:
 
 NO_NAMES: Mapping[str, str] = MappingProxyType({})
 """Every body by its own name."""
-_NEAREST = 3
+_NEAREST = 10
 _LONG = 60
 """Characters of a token: more take long to compare, and none has them."""
 _LEVEL = 1e-9
@@ -186,7 +186,17 @@ class Quantity:
 
     def title(self, length_unit: str) -> str:
         """Return what an axis is titled: "Rocker: angular velocity ω₄ (rad/s)"."""
-        return f"{self.words} {self.headed(length_unit)}"
+        return f"{self.words}{self._joint}{self.headed(length_unit)}"
+
+    @property
+    def named(self) -> str:
+        """What it is called, and its symbol: "Rocker: angular velocity ω₄", "B: x-position, x_{B}"."""
+        return f"{self.words}{self._joint}{self.symbol}"
+
+    @property
+    def _joint(self) -> str:
+        """What stands between its words and its symbol: a comma after those of a component."""
+        return ", " if self.token.endswith((".x", ".y")) else " "
 
     def headed(self, length_unit: str) -> str:
         """Return what a column is headed: "ω₄ (rad/s)", without a unit the symbol alone."""
@@ -214,17 +224,32 @@ def recorded(linkage: Linkage) -> Iterator[Quantity]:
 
 
 def look_up(known: Mapping[str, Quantity], token: str, of: str) -> Quantity:
-    """Return the quantity of that token; BadInput with the nearest ones and the list where there is none.
+    """Return the quantity of that token; BadInput with the nearest ones where there is none.
 
     `of` says whose quantities they are.
     """
     if token in known:
         return known[token]
-    from difflib import get_close_matches
+    near = ", ".join(_nearest(known, token[:_LONG]))
+    listed = f"; `linkanim chart SCENE --quantity list` has all {len(known)}" if len(known) > _NEAREST else ""
+    raise BadInput(f"quantity {shown(token)}: {of} has none of this name; nearest are {near}{listed}")
 
-    near = get_close_matches(token[:_LONG], list(known), n=_NEAREST)
-    meant = f" (did you mean {' or '.join(near)}?)" if near else ""
-    raise BadInput(f"quantity {shown(token)}: {of} has none of this name{meant}; it has {', '.join(known)}")
+
+def _nearest(known: Iterable[str], token: str) -> list[str]:
+    """Return the tokens most like another: of the same part and of words like its, then those like it."""
+    from difflib import SequenceMatcher
+
+    part, _, measure = token.casefold().partition(".")
+    sought = measure or part
+
+    def likeness(candidate: str) -> float:
+        other, _, named = candidate.casefold().partition(".")
+        whole = SequenceMatcher(None, token.casefold(), candidate.casefold()).ratio()
+        words = SequenceMatcher(None, sought, named or other).ratio()
+        within = bool(sought) and sought in (named or other)
+        return whole + words + within + (other == part)
+
+    return sorted(known, key=likeness, reverse=True)[:_NEAREST]
 
 
 def _quantities(linkage: Linkage, names: Mapping[str, str], *, still: bool) -> Iterator[Quantity]:
@@ -359,7 +384,8 @@ def _vector(measure: Measure, names: tuple[str, str, str], path: Path) -> Iterat
         yield Quantity(token, *whole, vector, ("x", "y"), divisor=divisor)
     for n, axis in enumerate("xy"):
         symbol = indexed(measure.symbol, f"{label}{axis}") if measure.order else indexed(axis, label)
-        part_of = f"{token}.{axis}", symbol, f"{words}, {axis}", measure.unit, measure.order
+        along = f"{axis}-{measure.words}" if " " not in measure.words else f"{axis} of the {measure.words}"
+        part_of = f"{token}.{axis}", symbol, f"{called_}: {along}", measure.unit, measure.order
         yield Quantity(*part_of, _component(vector, n), path=(*path, measure.key, n), divisor=divisor)
 
 

@@ -9,7 +9,6 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import cached_property
 from itertools import pairwise
-from math import radians
 
 import numpy as np
 import pygame
@@ -21,27 +20,30 @@ from linkanim.paper.sentences import about, plain
 from linkanim.picture.chart import (
     Pen,
     Plot,
+    asymptotes,
     axes,
     curve_layer,
     dot,
     line_layer,
     marked,
+    paths,
     pen_for,
     right_axis,
+    without_values,
     x_title,
 )
 from linkanim.picture.items import Caption, Group, Item, grouped
 from linkanim.picture.layout import layout
 from linkanim.picture.look import ThemeName
 from linkanim.picture.placing import Clutter, LabelPlaces, Solid, place
-from linkanim.picture.quantities import Axis, driven_words, linear, range_around, zeros_level
+from linkanim.picture.quantities import Axis, linear, range_around, zeros_level
 from linkanim.picture.raster import Colour, Layer, offscreen
 from linkanim.picture.shapes import box, disc, segments
 from linkanim.picture.surface import printed
 from linkanim.picture.text import Type
 from linkanim.picture.theme import theme_of
 from linkanim.picture.view import Rect
-from linkanim.units import short, stepped, typeset
+from linkanim.units import stepped
 
 # Words on a chart's curves: each extreme beside its dot, and at their ends the names of many curves.
 
@@ -99,6 +101,8 @@ class Annotations:
     curves: Curves
     pen: Pen
     colour: Callable[[Curve], Colour]
+    points: tuple[complex, ...] = ()
+    """Measured points, which no word lies on."""
 
     def items(self, drawn: Sequence[InPlot], marked: Sequence[InPlot]) -> Iterator[Item]:
         """Yield names of the curves in plots of one area, and extremes of those marked, off other curves."""
@@ -145,7 +149,9 @@ class Annotations:
         }
         to_place = [one.places._replace(beside=own[id(one.curve)]) for one in words]
         dots = tuple(_around(one.at, _DOT * pen.line) for one in words if one.dotted)
-        clutter = Clutter(drawn[0][0].area, dots, tuple(line for _, line in tracks))
+        half_dot = 0.5 * _DOT * pen.line
+        measured = tuple(_around(at, half_dot) for at in _thinned(self.points, half_dot))
+        clutter = Clutter(drawn[0][0].area, (*dots, *measured), tuple(line for _, line in tracks))
         for one, spot in zip(words, place(to_place, clutter), strict=True):
             size, middle = one.places.size, complex(one.places.places[0, spot.which])
             lead = -1 if one.places.drawn is None else int(one.places.drawn[spot.which])
@@ -179,14 +185,14 @@ def _around(at: complex, half: float) -> Rect:
     return Rect(at.real - half, at.imag - half, 2 * half, 2 * half)
 
 
+def _thinned(points: Sequence[complex], apart: float) -> Iterator[complex]:
+    """Yield points of which no two lie within one square of that side."""
+    yield from {(round(at.real / apart), round(at.imag / apart)): at for at in points}.values()
+
+
 def _peak_words(plot: Plot, peak: Peak, curves: Curves, curve: Curve) -> str:
-    scene = curves.scene
-    unit = "°" if curve.quantity.shown_unit(scene.length_unit) == "°" else ""
-    value = stepped(peak.value, (plot.y.high - plot.y.low) / 500)
-    if curves.over == "time":
-        return f"{value}{unit} at {typeset(short(float(f'{peak.x:.4g}')))} s"
-    angle = radians(peak.angle) if scene.linkage.drive.coordinate.is_angle else peak.angle
-    return f"{value}{unit} at {driven_words(scene, angle)}"
+    unit = "°" if curve.quantity.shown_unit(curves.scene.length_unit) == "°" else ""
+    return f"{stepped(peak.value, (plot.y.high - plot.y.low) / 500)}{unit} at {curves.place_words(peak.x)}"
 
 
 def _about(at: complex, text: str, pen: Pen, *, high: bool) -> LabelPlaces:
@@ -216,9 +222,10 @@ def _about(at: complex, text: str, pen: Pen, *, high: bool) -> LabelPlaces:
 
 def _tracks(plot: Plot, curve: Curve, half: float) -> Iterator[Solid]:
     """Yield a curve in short straight lines."""
-    points = plot.place(curve.x, np.where(np.isfinite(curve.values), curve.values, np.nan))[::_EVERY]
-    for begin, end in pairwise(points[np.isfinite(points)]):
-        yield Solid(np.array([[begin, end]]), half)
+    for path in paths(plot, curve.x, curve.values):
+        points = path[np.r_[0 : len(path) - 1 : _EVERY, len(path) - 1]]
+        for begin, end in pairwise(points):
+            yield Solid(np.array([[begin, end]]), half)
 
 
 # A chart on a page: curves with their legend, extremes marked, one axis a unit or a column of strips.
@@ -231,6 +238,8 @@ _BELOW = 0.8
 """Below each plot, in heights of tick labels."""
 _DASHES = ((), (7.0, 3.0), (2.0, 2.5), (9.0, 3.0, 2.0, 3.0), (4.0, 2.0), (12.0, 4.0))
 """The dashes and gaps of curves that share a plot, in widths of a line; the first is whole."""
+_FEWEST = 4
+"""So many ticks at least an axis has, however little room there is beside a plot's four lines of words."""
 _THINNEST = 0.9
 """A line of a small chart, in pixels."""
 _WIDTH = 1.2
@@ -312,13 +321,28 @@ class Page:
         yield from self._plots(whole._replace(y=below, height=whole.bottom - below))
 
     def _legend(self) -> list[_Entry]:
-        words = self.curves.name if self.brief else self.curves.words
+        """Return what tells curves apart, in words unless the axes say those; not one alone in its strip."""
+        measured = self.measured and self.measured.curve
+        words = self.curves.name if self.brief or self._worded else self.curves.words
         entries = [
-            _Entry(words(curve), self.colour(curve), self.dashes(curve)) for curve in self.curves.curves
+            _Entry(words(curve), self.colour(curve), self.dashes(curve))
+            for group in _by_unit(self.curves)
+            for curve in group
+            if not self._in_strips or len(group) > 1 or curve is measured
         ]
         if self.measured:
             entries.append(_Entry(self.measured.label, self.pen.theme.ink, dotted=True))
         return entries
+
+    @property
+    def _in_strips(self) -> bool:
+        """Whether each unit has a plot of its own."""
+        return len(_by_unit(self.curves)) > _TOGETHER or named_at_ends(self.curves)
+
+    @property
+    def _worded(self) -> bool:
+        """Whether the one quantity of all curves stands in words at the axis."""
+        return len({curve.quantity.token for curve in self.curves.curves}) == 1
 
     def colour(self, curve: Curve) -> Colour:
         """Return the colour of a curve: after the theme's they repeat."""
@@ -328,19 +352,20 @@ class Page:
         return palette[self.curves.curves.index(curve) % len(palette)]
 
     def dashes(self, curve: Curve) -> tuple[float, ...]:
-        """Return the dashes of a curve; they repeat as well."""
-        return _DASHES[self.curves.curves.index(curve) % len(_DASHES)]
+        """Return the dashes of a curve among those of its plot; they repeat as well."""
+        side = next(group for group in _by_unit(self.curves) if curve in group)
+        together = side if self._in_strips else self.curves.curves
+        return _DASHES[together.index(curve) % len(_DASHES)]
 
     def _plots(self, rect: Rect) -> Iterator[Item]:
         """Yield the plots one below the other over one common axis."""
         pen, groups = self.pen, _by_unit(self.curves)
-        many = len(groups) > _TOGETHER or named_at_ends(self.curves)
-        columns = [[group] for group in groups] if many else [groups]
+        columns = [[group] for group in groups] if self._in_strips else [groups]
         foot = (2 * _LINE - _BELOW) * pen.small
         high = (rect.height - foot) / len(columns)
         tall = max(high - (_LINE + _BELOW) * pen.small, 1)
         edges = [max(edge) for edge in zip(*(self._margins(sides, tall) for sides in columns), strict=True)]
-        x = self.curves.axis(max(min(round(rect.width / (5 * pen.small)), 12), 2))
+        x = self.curves.axis(max(min(round(rect.width / (5 * pen.small)), 12), 2), _FEWEST)
         for n, sides in enumerate(columns):
             last = n == len(columns) - 1
             top = rect.y + n * high + _LINE * pen.small
@@ -361,12 +386,17 @@ class Page:
 
     def _axes(self, sides: list[list[Curve]], high: float) -> list[Axis]:
         """Return the vertical axes of a plot, a unit each; two about zero have it at one height."""
-        ranges = [range_around(np.concatenate([curve.values for curve in side]), _ROOM) for side in sides]
+        if not any(np.isfinite(curve.values).any() for side in sides for curve in side):
+            return [Axis(0.0, 1.0, ()) for _ in sides]
+        ranges = [_range_of(side) for side in sides]
         if len(ranges) == _TOGETHER and all(low < 0 < high for low, high in ranges):
             ranges = zeros_level(ranges)
         most = max(min(round(high / (2.0 * self.pen.small)), 6), 3)
         units = [side[0].quantity.shown_unit(self.curves.scene.length_unit) for side in sides]
-        return [linear(*ends, most=most, unit=unit) for ends, unit in zip(ranges, units, strict=True)]
+        least = _FEWEST if high > (_FEWEST + 1) * self.pen.small else 0
+        return [
+            linear(*ends, most=most, unit=unit, least=least) for ends, unit in zip(ranges, units, strict=True)
+        ]
 
     def _plot(self, area: Rect, x: Axis, sides: list[list[Curve]]) -> Iterator[Item]:
         pen = self.pen
@@ -382,13 +412,20 @@ class Page:
         pairs = list(zip(plots, sides, strict=True))
         drawn = [(plot, curve) for plot, side in pairs for curve in side]
         for plot, curve in drawn:
+            yield from asymptotes(plot, curve.x, curve.values, self.colour(curve), pen)
             width = _WIDTH * pen.line
             yield curve_layer(plot, curve.x, curve.values, self.colour(curve), width, self.dashes(curve))
-        if self.measured and self.measured.curve in sides[0]:
-            places = [complex(plots[0].place(*point)) for point in self.measured.points]
-            yield from dot(pen.theme.ink, finer(pen)).at(places)
+        yield from without_values(plots[0], [curve.values for _, curve in drawn], pen)
+        points = self._points(plots[0], sides[0])
         extremes_of = [(plot, curve) for plot, side in pairs for curve in self._marked(side)]
-        yield from Annotations(self.curves, pen, self.colour).items(drawn, extremes_of)
+        yield from Annotations(self.curves, pen, self.colour, points).items(drawn, extremes_of)
+        yield from dot(pen.theme.ink, finer(pen)).at(points)
+
+    def _points(self, plot: Plot, side: list[Curve]) -> tuple[complex, ...]:
+        """Return where measured points lie in a plot, if any do."""
+        if not self.measured or self.measured.curve not in side:
+            return ()
+        return tuple(complex(plot.place(*point)) for point in self.measured.points)
 
     def _y_titles(self, area: Rect, sides: list[list[Curve]]) -> Iterator[Item]:
         pen, top = self.pen, area.y - (_LINE - _LIFT) * self.pen.small
@@ -401,7 +438,7 @@ class Page:
         """Return what a vertical axis is titled: in words where it has one quantity, else in symbols."""
         known = list(dict.fromkeys(curve.quantity for curve in side))
         unit = self.curves.scene.length_unit
-        if len(known) == 1 and not self.brief:
+        if len(known) == 1 and not self.brief and (self._worded or self._in_strips):
             return known[0].title(unit)
         shown = known[0].shown_unit(unit)
         if self.brief and len(known) > 1 and shown:
@@ -414,6 +451,14 @@ class Page:
             return side
         one = len({curve.quantity.token for curve in self.curves.curves}) == 1
         return [max(side, key=lambda curve: float(np.ptp(curve.values)))] if one else []
+
+
+def _range_of(side: list[Curve]) -> tuple[float, float]:
+    """Return from where to where an axis runs that all of a side's curves have."""
+    if any(np.isinf(curve.values).any() for curve in side):
+        ranges = [range_around(curve.values, _ROOM) for curve in side if np.isfinite(curve.values).any()]
+        return (min(low for low, _ in ranges), max(high for _, high in ranges)) if ranges else (0.0, 1.0)
+    return range_around(np.concatenate([curve.values for curve in side]), _ROOM)
 
 
 def _zero(plot: Plot, pen: Pen) -> Iterator[Layer]:

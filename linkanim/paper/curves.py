@@ -36,7 +36,7 @@ from linkanim.picture.quantities import (
     series_of,
 )
 from linkanim.scenes.scene import Scene
-from linkanim.units import shown, significant
+from linkanim.units import short, shown, significant, stepped, typeset
 
 # Curves of quantities over one true period, at one speed or several: what a chart and its table show.
 
@@ -95,13 +95,17 @@ class Curves:
             return np.degrees(motion.coordinate)
         return course(self.scene, curve.pace.speed, self.over).x_of(motion.phase)
 
-    def axis(self, most: int) -> Axis:
-        """Return the axis that the curves share, with at most so many ticks."""
-        return linear(self.low, self.high, most=most, unit=self.unit)
+    def axis(self, most: int, least: int = 0) -> Axis:
+        """Return the axis that the curves share, with at most so many ticks, and `least` all the same."""
+        return linear(self.low, self.high, most=most, unit=self.unit, least=least)
+
+    def place_words(self, x: float) -> str:
+        """Return a place along the axis in its unit: 87.0°, 1.25 s."""
+        return f"{stepped(x, 0.1)}°" if self.unit else f"{typeset(short(float(f'{x:.4g}')))} s"
 
     def words(self, curve: Curve) -> str:
         """Return what sets a curve off from the others: quantity, component, speed, as far as they differ."""
-        return self._distinguishing(curve, curve.quantity.words + " " + curve.quantity.symbol)
+        return self._distinguishing(curve, curve.quantity.named)
 
     def name(self, curve: Curve) -> str:
         """Return the same with the quantity's symbol alone."""
@@ -110,7 +114,7 @@ class Curves:
     def _distinguishing(self, curve: Curve, called: str) -> str:
         several = len({other.quantity.token for other in self.curves}) > 1
         paces = len({other.pace for other in self.curves}) > 1
-        words = called if several or not paces else ""
+        words = called if several or not (paces or curve.label) else ""
         return ", ".join(part for part in (words, curve.label, curve.pace.words if paces else "") if part)
 
 

@@ -15,7 +15,7 @@ from linkanim.mechanics.measures import output_body, output_slider
 from linkanim.mechanics.quantities import called, input_symbol
 from linkanim.mechanics.search import sign_changes
 from linkanim.paper.curves import Curve, Curves, Pace, curves_of, extremes
-from linkanim.picture.quantities import Floats, driven_words
+from linkanim.picture.quantities import Floats, driven_words, unbounded_places
 from linkanim.scenes.scene import Scene
 from linkanim.units import rounded, typeset
 
@@ -35,7 +35,7 @@ _LOWERED = re.compile(r"_\{([^}]*)\}")
 
 
 def about(curves: Curves) -> str:
-    """Return what a chart shows, in sentences; nothing of curves that are level or somewhere unbounded."""
+    """Return what a chart shows, in sentences; of an unbounded one where it is so, of a level one nothing."""
     return " ".join(sentence for curve in _told(curves) for sentence in _sentences(curves, curve))
 
 
@@ -108,6 +108,7 @@ def _told(curves: Curves) -> Sequence[Curve]:
 def _sentences(curves: Curves, curve: Curve) -> Iterator[str]:
     peaks = extremes(curves.scene, curve)
     if not peaks:
+        yield from _unbounded(curves, curve)
         return
     high, low = ((_value(curves, curve, peak.value), _at(curves, peak.angle)) for peak in peaks)
     symbol = ", ".join(part for part in (curve.quantity.symbol, curve.label) if part)
@@ -119,6 +120,15 @@ def _sentences(curves: Curves, curve: Curve) -> Iterator[str]:
     zeros = _zeros(curves, curve)
     there = f"; {_zero_words(zeros)}" if zeros else ""
     yield f"{name} is greatest, {high[0]}, {high[1]}, and least, {low[0]}, {low[1]}{there}."
+
+
+def _unbounded(curves: Curves, curve: Curve) -> Iterator[str]:
+    """Yield where a curve goes to infinity, if it does so at a few places."""
+    phases = unbounded_places(curve.phases, curve.values)
+    places = list(dict.fromkeys(_input_places(curves, phases)))
+    if 0 < len(places) <= _MOST_ZEROS:
+        symbol = ", ".join(part for part in (curve.quantity.symbol, curve.label) if part)
+        yield f"{symbol} goes to infinity at {input_symbol(curves.scene.linkage)} = {_listed(places)}."
 
 
 def _to_and_fro(
@@ -166,7 +176,12 @@ def _zeros(curves: Curves, curve: Curve) -> list[str]:
     # from between two samples round to there: many are zero at the start itself
     shifted = np.linspace(phases[0], phases[-1], len(phases)) + 0.5 * (phases[1] - phases[0])
     found = sign_changes(lambda near: curve.solved(curves.scene, near), shifted)
-    angles = (float(curves.scene.pose(float(phase), 0).coordinate) for phase in found)
+    return _input_places(curves, found)
+
+
+def _input_places(curves: Curves, phases: Floats) -> list[str]:
+    """Return where the input is at phases, in words, in its order."""
+    angles = (float(curves.scene.pose(float(phase), 0).coordinate) for phase in phases)
     shown = sorted(curves.scene.linkage.drive.coordinate.shown(angle) for angle in angles)
     return [_at(curves, angle % 360 if curves.scene.info.full_turn else angle, bare=True) for angle in shown]
 
@@ -174,8 +189,11 @@ def _zeros(curves: Curves, curve: Curve) -> list[str]:
 def _zero_words(zeros: list[str]) -> str:
     if len(zeros) > _MOST_ZEROS:
         return f"it changes its sign {len(zeros)} times"
-    listed = " and ".join(part for part in (", ".join(zeros[:-1]), zeros[-1]) if part)
-    return f"it changes its sign at {listed}"
+    return f"it changes its sign at {_listed(zeros)}"
+
+
+def _listed(places: list[str]) -> str:
+    return " and ".join(part for part in (", ".join(places[:-1]), places[-1]) if part)
 
 
 def _at(curves: Curves, angle: float, *, bare: bool = False) -> str:

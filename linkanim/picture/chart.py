@@ -28,6 +28,7 @@ from linkanim.picture.quantities import (
     course,
     quantity,
     series_of,
+    unbounded_places,
 )
 from linkanim.picture.raster import Colour, Layer, Loop
 from linkanim.picture.shapes import Stamp, dashed, disc, segments, stroke
@@ -38,6 +39,10 @@ from linkanim.units import stepped
 
 # Charts: a frame with axes, curves and points.
 
+_ASYMPTOTE, _ASYMPTOTE_DASHES = 0.6, (8.0, 6.0)
+"""How thin an asymptote is, in thin lines, and its dashes and gaps, in widths of it."""
+_RIM = 1e-6
+"""A curve's points so far outside of a plot, in pixels, are on its edge."""
 _FOOT = 1.6
 """From the plot down to the title of the horizontal axis, in heights of small text."""
 
@@ -159,10 +164,50 @@ def _lines(feet: Loop, reach: complex, pen: Pen) -> list[Loop]:
 def curve_layer(
     plot: Plot, x: ArrayLike, y: ArrayLike, colour: Colour, width: float, dashes: Sequence[float] = ()
 ) -> Layer:
-    """Return a curve, dashed in widths of its line; it is broken where a value is not finite."""
-    pixels = plot.place(x, np.where(np.isfinite(y), y, np.nan))
-    held = (pixels[run] for run in runs_of(np.isfinite(pixels)))
-    return line_layer(held, colour, width, dashes)
+    """Return a curve, dashed in widths of its line; it is broken where a value is not finite, or outside."""
+    return line_layer(paths(plot, x, y), colour, width, dashes)
+
+
+def paths(plot: Plot, x: ArrayLike, y: ArrayLike) -> Iterator[Loop]:
+    """Yield in pixels what of a curve lies between the lower and the upper edge of a plot."""
+    area = plot.area
+    across = area.x + plot.x.share(x) * area.width
+    pixels = across + 1j * (area.bottom - plot.y.share(np.where(np.isfinite(y), y, np.nan)) * area.height)
+    for run in runs_of(np.isfinite(pixels)):
+        path = pixels[run]
+        for edge in (area.y, area.bottom):
+            path = _with_crossings(path, edge)
+        for held in runs_of((path.imag >= area.y - _RIM) & (path.imag <= area.bottom + _RIM)):
+            yield path[held]
+
+
+def _with_crossings(path: Loop, level: float) -> Loop:
+    """Return a path in pixels with a point more wherever it crosses a level."""
+    above = path.imag - level
+    at = np.flatnonzero(above[:-1] * above[1:] < 0)
+    part = above[at] / (above[at] - above[at + 1])
+    crossings = path[at].real + part * (path[at + 1].real - path[at].real) + 1j * level
+    found: Loop = np.insert(path, at + 1, crossings)
+    return found
+
+
+def asymptotes(plot: Plot, x: ArrayLike, y: ArrayLike, colour: Colour, pen: Pen) -> Iterator[Layer]:
+    """Yield a thin dashed line from edge to edge at each place where a curve goes to infinity."""
+    for place in unbounded_places(x, y).tolist():
+        foot = complex(plot.place(place, plot.y.low))
+        run = np.array([foot, foot - 1j * plot.area.height])
+        yield line_layer([run], colour, _ASYMPTOTE * pen.line, _ASYMPTOTE_DASHES)
+
+
+def without_values(plot: Plot, columns: Sequence[ArrayLike], pen: Pen) -> Iterator[Caption]:
+    """Yield words in the middle of a plot in which no curve has a finite value."""
+    if any(np.isfinite(column).any() for column in columns):
+        return
+    unbounded = any(np.isinf(column).any() for column in columns)
+    words = "at infinity throughout" if unbounded else "without a value throughout"
+    area = plot.area
+    at = (area.x + 0.5 * area.width, area.y + 0.5 * area.height - 0.5 * pen.small)
+    yield Caption(words, at, pen.small, pen.theme.ink, "centre")
 
 
 def line_layer(runs: Iterable[Loop], colour: Colour, width: float, dashes: Sequence[float] = ()) -> Layer:
@@ -233,7 +278,7 @@ class ChartPanel:
         """Where the curves are drawn."""
         small = self.pen.small
         most = max(min(round(self.rect.height / (2.1 * small)), 6), 2)
-        y = around(self.curves[1], most=most, unit=self.series.unit)
+        y = around(self.curves[1], most=most, unit=self.series.unit, least=min(most, 4))
         area = plot_area(self.rect, y, self.pen, foot=self._has_foot)
         return Plot(area, self.course.axis(max(min(round(self.rect.width / (5 * small)), 8), 2)), y)
 
@@ -245,8 +290,11 @@ class ChartPanel:
     def still(self) -> Iterator[Item]:
         """Yield what stands still, back to front."""
         yield from self.frame()
-        for n, column in enumerate(self.curves[1].T):
-            yield curve_layer(self.plot, self.curves[0], column, self.colour(n), self.width)
+        x, values = self.curves
+        for n, column in enumerate(values.T):
+            yield from asymptotes(self.plot, x, column, self.colour(n), self.pen)
+            yield curve_layer(self.plot, x, column, self.colour(n), self.width)
+        yield from without_values(self.plot, values.T.tolist(), self.pen)
 
     @property
     def width(self) -> float:

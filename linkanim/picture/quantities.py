@@ -122,6 +122,8 @@ _WILD = 8.0
 """A peak this many times the span of the middle nine tenths is cut off, or all else would be a line."""
 _LITTLE = 0.06
 """Of the span of the values, left free at either end."""
+_COMMON = (0.08, 0.92)
+"""Of what goes to infinity an axis holds these quantiles, and half as much again beyond either."""
 
 
 @frozen
@@ -138,28 +140,52 @@ class Axis:
         return share
 
 
-def linear(low: float, high: float, *, most: int = 5, unit: str = "") -> Axis:
+def linear(low: float, high: float, *, most: int = 5, unit: str = "", least: int = 0) -> Axis:
     """Return an axis from `low` to `high` with at most so many ticks, at 1, 2 or 5 times a power of ten.
 
-    In degrees (`unit` "°") ticks lie at parts of a turn; no other unit stands with their numbers.
+    In degrees (`unit` "°") ticks lie at parts of a turn; no other unit stands with their numbers. Where they
+    are fewer than `least` they lie closer, even if that is more than `most`.
     """
+    found = _ticks(low, high, most, unit)
+    for closer in range(most + 1, 3 * max(most, least)):
+        if len(found) >= least:
+            break
+        found = _ticks(low, high, closer, unit)
+    return Axis(low, high, found)
+
+
+def _ticks(low: float, high: float, most: int, unit: str) -> tuple[tuple[float, str], ...]:
     sign = "°" if unit == "°" else ""
     step = _degrees(high - low, most) if unit == "°" else round_step(high - low, most)
     first, last = ceil(low / step - 1e-9), floor(high / step + 1e-9)
-    ticks = tuple((k * step, f"{stepped(k * step, step)}{sign}") for k in range(first, last + 1))
-    return Axis(low, high, ticks)
+    return tuple((k * step, f"{stepped(k * step, step)}{sign}") for k in range(first, last + 1))
 
 
-def around(values: NDArray[np.float64], *, most: int = 5, unit: str = "", room: float = _LITTLE) -> Axis:
-    """Return a linear axis that holds the finite values, with a little room; wild peaks run out of it."""
+def around(
+    values: NDArray[np.float64], *, most: int = 5, unit: str = "", room: float = _LITTLE, least: int = 0
+) -> Axis:
+    """Return a linear axis that holds the finite values, with a little room; wild peaks run out of it.
+
+    Where there are none it has no ticks.
+    """
     low, high = range_around(values, room)
-    return linear(low, high, most=most, unit=unit)
+    if not np.isfinite(values).any():
+        return Axis(low, high, ())
+    return linear(low, high, most=most, unit=unit, least=least)
 
 
 def range_around(values: NDArray[np.float64], room: float = _LITTLE) -> tuple[float, float]:
-    """Return from where to where an axis runs that holds the finite values, with a little room."""
-    finite = values[np.isfinite(values)]
-    low, high = _span(finite) if finite.size else (0.0, 1.0)
+    """Return from where to where an axis runs that holds the finite values, with a little room.
+
+    Of a column that goes to infinity it holds what is common, and what is near that.
+    """
+    columns = [column[np.isfinite(column)] for column in (values.T if values.ndim > 1 else [values])]
+    finite = np.concatenate(columns)
+    if np.isinf(values).any():
+        spans = [_common_span(column) for column in columns if column.size]
+        low, high = (min(span[0] for span in spans), max(span[1] for span in spans)) if spans else (0.0, 1.0)
+    else:
+        low, high = _span(finite) if finite.size else (0.0, 1.0)
     size = max(abs(low), abs(high))
     if high - low <= 1e-9 * size or high == low:
         low, high = (low - 0.5 * size, high + 0.5 * size) if size else (-1.0, 1.0)
@@ -186,6 +212,20 @@ def _span(finite: NDArray[np.float64]) -> tuple[float, float]:
     if high - low > _WILD * middle > 0:
         return max(low, float(inner[0]) - middle), min(high, float(inner[1]) + middle)
     return low, high
+
+
+def _common_span(finite: NDArray[np.float64]) -> tuple[float, float]:
+    low, high = np.quantile(finite, _COMMON)
+    beyond = 0.5 * (high - low)
+    return max(float(finite.min()), float(low - beyond)), min(float(finite.max()), float(high + beyond))
+
+
+def unbounded_places(x: ArrayLike, values: ArrayLike) -> Floats:
+    """Return where a curve goes to infinity: at an infinite value that has a finite one beside it."""
+    x, values = np.asarray(x, float), np.asarray(values, float)
+    beside = np.pad(np.isfinite(values), 1)
+    found: Floats = x[np.isinf(values) & (beside[:-2] | beside[2:])]
+    return found
 
 
 def round_step(span: float, most: int) -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from typing import Any
 
 import numpy as np
@@ -32,10 +33,10 @@ TOLD = [
     ("press", "5.travel_acceleration", "a₅", "Slider 5: acceleration", "{}/s²"),
     # a vector has a magnitude and two components; what is no number stands in braces
     ("press", "B.position", "r_{B}", "B: position", "{}"),
-    ("press", "B.position.x", "x_{B}", "B: position, x", "{}"),
+    ("press", "B.position.x", "x_{B}", "B: x-position", "{}"),
     ("press", "B.velocity", "v_{B}", "B: velocity", "{}/s"),
-    ("press", "B.velocity.y", "v_{By}", "B: velocity, y", "{}/s"),
-    ("press", "3.com_acceleration.x", "a_{G3x}", "Link 3, centre of mass: acceleration, x", "{}/s²"),
+    ("press", "B.velocity.y", "v_{By}", "B: y-velocity", "{}/s"),
+    ("press", "3.com_acceleration.x", "a_{G3x}", "Link 3, centre of mass: x-acceleration", "{}/s²"),
     ("press", "return.length", "L_{return}", "Return spring: length", "{}"),
     ("press", "return.force", "F_{return}", "Return spring: force", "N"),
     ("press", "cushion.rate", "v_{cushion}", "Cushion damper: rate of length", "{}/s"),
@@ -110,12 +111,27 @@ def test_people_read_degrees_and_the_scenes_unit() -> None:
     assert known["B.velocity"].shown(pose) == known["B.velocity"].read(pose)
 
 
-def test_a_wrong_token_is_answered_with_the_nearest_and_the_list() -> None:
-    known = register(load("crank-rocker").linkage)
-    with pytest.raises(
-        BadInput, match=r'"rocker\.angel": crank-rocker .*mean rocker\.angle.*; it has crank\.angle, '
-    ):
-        look_up(known, "rocker.angel", "crank-rocker")
+# what is asked for, and what is meant by it
+MEANT = [
+    ("crank-rocker", "rocker.angel", "rocker.angle"),
+    ("crank-rocker", "Rocker.Angle", "rocker.angle"),
+    ("crank-rocker", "velocity", "P.velocity"),
+    ("press", "5.velocity", "5.travel_velocity"),
+    ("press", "torque", "input.torque"),
+    ("press", "x" * 100_000, "A.velocity.x"),  # whatever is like it, at once
+]
+
+
+@pytest.mark.parametrize(("scene", "token", "meant"), MEANT)
+def test_a_wrong_token_is_answered_with_the_ten_nearest(scene: str, token: str, meant: str) -> None:
+    known = register(load(scene).linkage)
+    with pytest.raises(BadInput) as refused:
+        look_up(known, token, scene)
+    near = re.findall(r"[\w.]+", str(refused.value).partition("nearest are ")[2].partition("; `")[0])
+    assert len(near) == 10
+    assert set(near) <= set(known)
+    assert meant in near
+    assert f"has all {len(known)}" in str(refused.value)
 
 
 def test_a_number_is_given_once() -> None:

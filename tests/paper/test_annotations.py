@@ -8,8 +8,9 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 
+from linkanim.intake import NumberRow
 from linkanim.paper.chart import Page, _apart
-from linkanim.paper.curves import Curve, Pace, curves_of, extremes
+from linkanim.paper.curves import Curve, MeasuredTable, Pace, beside, curves_of, extremes
 from linkanim.picture.items import Caption, Item
 from linkanim.picture.look import Over
 from linkanim.picture.raster import Layer
@@ -168,3 +169,49 @@ def test_six_curves_have_none() -> None:
 )
 def test_names_stand_apart_as_near_to_their_ends_as_can_be(levels: list[float], placed: list[float]) -> None:
     assert _apart(levels, 10.0, (0.0, 100.0)) == pytest.approx(placed)
+
+
+# scene, quantity, over, what is said of its peaks: the place on the axis, in the axis' unit
+PLACED: list[tuple[str, str, Over | None, set[str]]] = [
+    ("kite", "coupler.angle", None, {"0.0° at 0.0°", "360.0° at 720.0°"}),
+    ("double-rocker", "rocker.angular_velocity", None, {"1.399 at 1.163 s"}),
+    ("slider-crank", "slider.travel", "phase", {"158.7 at 307.2°", "77.5 at 134.5°"}),
+]
+
+
+@pytest.mark.parametrize(("scene", "token", "over", "said"), PLACED)
+def test_an_extreme_is_told_where_it_stands_on_the_axis(
+    scene: str, token: str, over: Over | None, said: set[str]
+) -> None:
+    found = load(scene)
+    curves = curves_of(found, (token,), (Pace(found.linkage.drive.speed, ""),), over)
+    captions = {item.text for item in Page(curves, (960, 540)).items() if isinstance(item, Caption)}
+    assert said <= captions
+
+
+@pytest.mark.parametrize("scene", ["slider-crank", "crank-rocker", "press"])
+def test_no_word_lies_on_a_measured_point(scene: str) -> None:
+    found = load(scene)
+    curves = curves_of(found, ("transmission_angle",), (Pace(found.linkage.drive.speed, ""),))
+    (curve,) = curves.curves
+    rows = tuple(
+        NumberRow(n, (float(x), float(value)))
+        for n, (x, value) in enumerate(zip(curve.x[:-1:12], curve.values[:-1:12], strict=True))
+    )
+    page = Page(curves, (960, 540), measured=beside(curves, MeasuredTable("t", "", rows), "t"))
+    items = list(page.items())
+    inner = [item for item in items if isinstance(item, Layer)][-1]
+    dots = [complex(loop.mean()) for loop in inner.loops]
+    words = [box_of(page, item) for item in items if isinstance(item, Caption) and TOLD.match(item.text)]
+    assert len(dots) == len(rows)
+    assert len(words) == 2
+    assert min(gap(box, dot) for box in words for dot in dots) > 0
+
+
+def test_what_the_axes_say_the_legend_does_not() -> None:
+    alone, two = page_of("press", "3.angular_velocity"), page_of("press", "B.position")
+    for page, said in ((alone, {"5 rad/s", "10 rad/s", "20 rad/s"}), (two, {"x, 5 rad/s", "y, 20 rad/s"})):
+        captions = [item.text for item in page.items() if isinstance(item, Caption)]
+        assert said <= set(captions)
+        token = page.curves.curves[0].quantity
+        assert sum(token.words in text for text in captions) == 1

@@ -10,7 +10,7 @@ import pytest
 
 from linkanim.cli import main
 from linkanim.paper.curves import Pace, curves_of
-from linkanim.paper.sentences import about, closing
+from linkanim.paper.sentences import about, closing, plain
 from linkanim.scenes import load
 
 PACE = Pace(10.0, "10 rad/s")
@@ -53,12 +53,24 @@ def test_what_is_backwards_in_time_falls_where_it_rose() -> None:
     assert "the way up is the slow one" in back
 
 
-@pytest.mark.parametrize(
-    ("scene", "tokens"),
-    [("drag-link", ("crank.angular_velocity",)), ("double-rocker", ("coupler.second_coefficient",))],
-)
-def test_nothing_is_said_of_what_is_level_or_unbounded(scene: str, tokens: tuple[str, ...]) -> None:
-    assert said(scene, *tokens) == ""
+# a level curve, one that is at infinity all along, one unbounded at both limits of a swing, one at two angles
+BARE: list[tuple[str, str, str]] = [
+    ("drag-link", "crank.angular_velocity", ""),
+    ("wiper", "link.pole.x", ""),
+    (
+        "double-rocker",
+        "coupler.second_coefficient",
+        "h′₃ goes to infinity at θ₂ = 13.8° and 108.4°.",
+    ),
+    ("crank-rocker", "coupler.pole.x", "xP13 goes to infinity at θ₂ = 127.8° and 319.2°."),
+]
+
+
+@pytest.mark.parametrize(("scene", "token", "sentence"), BARE)
+def test_of_what_is_unbounded_it_is_said_where_and_of_the_level_nothing(
+    scene: str, token: str, sentence: str
+) -> None:
+    assert plain(said(scene, token)) == sentence
 
 
 def test_a_report_ends_with_what_the_output_does() -> None:

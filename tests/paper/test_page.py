@@ -59,7 +59,7 @@ UNITS = [
     (("3.angular_velocity", "6.angular_velocity"), ["ω₃, ω₆ (rad/s)"]),
     (
         ("3.angular_velocity", "return.force"),
-        ["Link 3: angular velocity ω₃ (rad/s)", "Return spring: force F_{return} (N)"],
+        ["ω₃ (rad/s)", "F_{return} (N)"],  # the legend says the words
     ),
     (
         ("3.angular_velocity", "return.force", "transmission_angle"),
@@ -235,8 +235,8 @@ def test_the_svg_holds_all_that_is_said_as_text() -> None:
     document = ElementTree.fromstring(svg(SIZE, None, page.items(), title="a < b & c"))
     assert document.find(f"{SVG}title").text == "a < b & c"  # type: ignore[union-attr]
     found = ["".join(text.itertext()) for text in document.iter(f"{SVG}text")]
-    assert "Return spring: force Freturn (N)" in found
-    assert "Link 3: angular velocity ω3 (rad/s)" in found
+    assert {"Return spring: force Freturn", "Freturn (N)"} <= set(found)
+    assert {"Link 3: angular velocity ω3", "ω3 (rad/s)"} <= set(found)
     assert document.find(f"{SVG}rect") is None
     assert document.get("viewBox") == "0 0 800 450"
 

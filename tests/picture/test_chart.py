@@ -7,13 +7,16 @@ import math
 import numpy as np
 import pytest
 
-from linkanim.picture.chart import Pen, Plot, axes, curve_layer, dot, right_axis
+from linkanim.paper.chart import Page
+from linkanim.paper.curves import Pace, curves_of
+from linkanim.picture.chart import Pen, Plot, asymptotes, axes, curve_layer, dot, paths, right_axis
 from linkanim.picture.items import Caption
-from linkanim.picture.quantities import linear
+from linkanim.picture.quantities import linear, range_around, unbounded_places
 from linkanim.picture.raster import Layer
 from linkanim.picture.text import Type
 from linkanim.picture.theme import LIGHT
 from linkanim.picture.view import Rect
+from linkanim.scenes import load
 
 
 def _pen(line: float = 1.8) -> Pen:
@@ -51,3 +54,58 @@ def test_every_tick_has_its_line_and_its_label() -> None:
 def test_a_dot_fills_most_of_its_ring(line: float) -> None:
     ring, inner = dot((1, 2, 3), _pen(line)).at([140 + 70j])
     assert 0.7 < np.ptp(inner.loops[0].real) / np.ptp(ring.loops[0].real) < 0.8
+
+
+def test_a_curve_ends_at_the_edges_of_its_plot() -> None:
+    plot = Plot(Rect(0, 0, 100, 50), linear(0, 10), linear(-1, 1))
+    up, down = paths(plot, [0.0, 5.0, 10.0], [0.0, 2.0, -2.0])
+    assert up == pytest.approx(np.array([25j, 25.0]))
+    assert down == pytest.approx(np.array([62.5, 87.5 + 50j]))
+
+
+# An infinite value beside a finite one is where a curve goes to infinity; a run of them has no asymptote.
+def test_an_asymptote_stands_where_a_curve_goes_to_infinity() -> None:
+    plot = Plot(Rect(0, 0, 100, 50), linear(0, 10), linear(-1, 1))
+    once = [0.0, 0.5, math.inf, -0.5, math.nan, math.inf, math.inf, math.inf, math.nan, 0.0, 0.0]
+    (line,) = asymptotes(plot, np.arange(11.0), once, (0, 0, 0), _pen())
+    places = np.concatenate(line.loops)
+    assert places.real == pytest.approx(20, abs=1)
+    assert places.imag.min() == pytest.approx(0, abs=1)
+    assert places.imag.max() == pytest.approx(50, abs=12)
+
+
+# scene and what of it goes to infinity: both ways, one way, at the ends of the axis, along a whole curve
+UNBOUNDED = [
+    ("crank-rocker", "coupler.pole.x", 2),
+    ("crank-rocker", "P.curvature_radius", 2),
+    ("double-rocker", "coupler.second_coefficient", 3),
+    ("wiper", "link.pole.x", 0),
+]
+
+
+@pytest.mark.parametrize(("scene", "token", "count"), UNBOUNDED)
+def test_a_chart_is_broken_at_infinities_and_its_range_leaves_them_out(
+    scene: str, token: str, count: int
+) -> None:
+    curves = curves_of(load(scene), (token,), (Pace(1.0, ""),))
+    (curve,) = curves.curves
+    assert len(unbounded_places(curve.x, curve.values)) == count
+    page = Page(curves, (960, 540))
+    captions = [item.text for item in page.items() if isinstance(item, Caption)]
+    assert not any("inf" in text.split() or "nan" in text for text in captions)
+    assert ("at infinity throughout" in captions) == (not count)
+    low, high = range_around(curve.values)
+    finite = curve.values[np.isfinite(curve.values)]
+    if count:
+        assert high - low < 6 * np.ptp(np.quantile(finite, (0.1, 0.9)))
+        assert low < np.median(finite) < high
+
+
+# Few ticks at round numbers are not fewer than four: spans in which the steps of 1, 2 and 5 fall badly.
+@pytest.mark.parametrize("unit", ["", "°"])
+@pytest.mark.parametrize("most", [2, 3, 4, 6])
+@pytest.mark.parametrize("span", [(-1490, 1510), (0, 360), (0.9, 3.05), (1, 1.0001), (-35, 33), (0, 720)])
+def test_an_axis_has_four_ticks_at_least(span: tuple[float, float], most: int, unit: str) -> None:
+    ticks = linear(*span, most=most, unit=unit, least=4).ticks
+    assert 4 <= len(ticks) <= 9
+    assert len({label for _, label in ticks}) == len(ticks)

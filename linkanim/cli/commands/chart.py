@@ -11,13 +11,25 @@ from linkanim.errors import BadInput
 from linkanim.paper.chart import Page
 from linkanim.paper.curves import Curves, MeasuredCurve, Pace, beside, curves_of, read_table, usual_over
 from linkanim.paper.latex import labels_of
+from linkanim.paper.sentences import plain
 from linkanim.paper.write import OF_A_CHART, write
+from linkanim.scenes import load
+from linkanim.scenes.editing import in_unit
 from linkanim.scenes.scene import Scene
 from linkanim.units import rpm, stepped
 
+_LIST = "list"
+"""Asked for as a quantity it lists them."""
+
 
 def run(options: Namespace) -> None:
-    """Write the chart that was asked for; print its path, and how far a table beside it differs."""
+    """Write the chart that was asked for; print its path, and how far a table beside it differs.
+
+    Asked for the list it prints what there is.
+    """
+    if options.quantity.strip() == _LIST:
+        print(_listed(in_unit(load(options.scene), options.unit)))
+        return
     scene, size, target = scene_size_target(options, OF_A_CHART, ".png")
     tokens = tuple(part.strip() for part in options.quantity.split(",") if part.strip())
     curves = curves_of(scene, tokens, paces(scene, options), options.over)
@@ -30,6 +42,13 @@ def run(options: Namespace) -> None:
     if options.text:
         print(labels_of(target).path)
     told(f"{page.title}. {page.words}".strip())
+
+
+def _listed(scene: Scene) -> str:
+    """Return all quantities of a scene, one a line: how each is asked for, and what it is."""
+    wide = max(map(len, scene.quantities))
+    titles = {token: plain(one.title(scene.length_unit)) for token, one in scene.quantities.items()}
+    return "\n".join(f"{token:<{wide}}  {title}" for token, title in titles.items())
 
 
 def paces(scene: Scene, options: Namespace) -> tuple[Pace, ...]:
