@@ -43,6 +43,7 @@ From the ground up; a module imports from those before it only:
     photograph    a photograph behind a sheet
     sheet_rows    rows of words on the sheet
     build_sheet   the sheet: its grid, a draft, the pencil's path
+    cognates      cognates of the pencil's linkage
     poses         poses of a body, pins, Burmester's curves
     picture       the one description of a picture, for every printer
     stills        the pose of a still

@@ -317,7 +317,8 @@ class PathShown:
     """A path that is drawn: the `pen`'s points while it is down, then the curve that was meant, as x + yi.
 
     While it is `blank` no linkage is shown. `off` says how far off the shown one is; of the curve's points,
-    which are `marked` where they can be dragged, one may be `held`, and so may fixed `pins`.
+    which are `marked` where they can be dragged, one may be `held`, and so may fixed `pins`. The `cognates`
+    of these numbers, 0 and 1, are drawn faintly.
     """
 
     curve: DrawnCurve | None
@@ -327,6 +328,7 @@ class PathShown:
     held: int | None = None
     pins: tuple[Point, ...] = ()
     marked: bool = True
+    cognates: tuple[int, ...] = ()
 
 
 class DialShown(NamedTuple):

@@ -252,6 +252,10 @@ class Picture:
         yield from self._within(self.drawing.wheels(self.drawing.places(pose)))
         for n, other in enumerate(faint, start=1):
             yield from self._within([Group(f"pose-{n}", self.drawing.faint(other))])
+        if path and path.cognates:
+            from linkanim.picture.cognates import cognate_group
+
+            yield from self._within([cognate_group(self.drawing.setting, pose, path.cognates)])
         if self._moves_behind:
             yield from self._standing
         named = self.names.captions(pose, self.drawing.places(pose)) if self.names else []

@@ -600,6 +600,7 @@ ACTIONS: Mapping[str, Rule] = {
     "dial": Rule(_share, _either(dial.dial, posing.dial)),  # from 0 to 1, the most compact; of poses steepest
     "dial_on": Rule(_whole, _dial_on),  # so many steps further
     "answer": Rule(_whole, sketching.choose),  # its place in the row
+    "cognate": Rule(_whole, pencil.cognate),  # its place among those that turn fully, from 0
     "take_point": Rule(_whole, pencil.take_point),  # its place on the stroke
     "take_pivot": Rule(_text, pencil.take_pivot),
     "lead": Rule(_numbers(2), pencil.lead),  # to (x, y) in the scene's unit

@@ -356,6 +356,7 @@ class Mouse:
         self._far, self._steps = 0.0, 0
         self._turned: int | None = None
         self._slider = 0
+        self._cognate: int | None = None
         self._seen, self._moved_in = False, 0
         self._down_in = 0
 
@@ -603,6 +604,7 @@ class Mouse:
         reach = _REACH * screen.size[1]
         if gesture.kind == "down" and screen.charted(*self._at) is None:
             begun = screen.pencil_at(*self._at, reach)
+            self._cognate = screen.cognate_at(*self._at, _NEAR * screen.size[1])
             self._drag = _PENCIL.get(begun.name)
             return (begun,)
         if self._drag not in ("pen", "lead", "dial") or gesture.kind not in ("move", "up"):
@@ -612,8 +614,12 @@ class Mouse:
         if gesture.kind == "move":
             return (Action("pen_to" if self._drag == "pen" else "lead", screen.world(*self._at)),)
         drag, self._drag = self._drag, None
-        drawn = "pen_up" if self._far > reach else "pen_off"
-        return (Action(drawn if drag == "pen" else "let_go"),)
+        if drag != "pen":
+            return (Action("let_go"),)
+        if self._far > reach:
+            return (Action("pen_up"),)
+        taken = () if self._cognate is None else (Action("cognate", self._cognate),)
+        return (Action("pen_off"), *taken)
 
     def _of_the_poses(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
         """Take an answer, or set down and drag frames and pins; None for what the mouse does else."""

@@ -54,8 +54,10 @@ def place_of(sketch: PathSketch) -> float:
     answer, way = sketch.answer, sketch.way
     if len(way) < 2 or answer is None or isinstance(answer, Scene):
         return 0.0
-    row = answer.row
-    return min(range(len(way)), key=lambda n: math.dist(way[n].row, row)) / (len(way) - 1)
+    off, row = answer.off, answer.row
+    # a cognate of one of them, which lies elsewhere, is as far off
+    near = min(range(len(way)), key=lambda n: (way[n].off != off, math.dist(way[n].row, row)))
+    return near / (len(way) - 1)
 
 
 def dial(state: State, share: float) -> State:

@@ -279,6 +279,11 @@ _IN_A_MODE: Table = {
         KeyRow("mouse", "draw a path in one stroke; drag its points and the fixed pins"),
         KeyRow("1–9, click", "take another answer", _digits("answer")),
         KeyRow(", .", "the dial: more exact, more compact", _both(",", ".", "dial_on")),
+        KeyRow(
+            "F, click",
+            "take a cognate: the faint linkage, which traces the same curve",
+            _on("f", "cognate", 0),
+        ),
         KeyRow("Ctrl+Z", "undo the last stroke or drag", _on("ctrl+z", "take_back", held=True)),
         KeyRow("Enter", "keep the linkage as the scene; Esc goes back", _enter("keep")),
     ),

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from linkanim.errors import BadInput
 from linkanim.player.dial import dialled
-from linkanim.player.edits import drop
+from linkanim.player.edits import drop, exchanged
 from linkanim.player.sketching import left, released, sketching, taken
 from linkanim.player.state import DIAL, PIVOTS, PathSketch, State, nothing_begun, with_effect, with_toast
 from linkanim.scenes.scene import Scene
@@ -190,6 +190,22 @@ def _without_own(sketch: PathSketch) -> dict[str, object]:
     """Return the answers without the scene whose trace was taken: the stroke is another curve now."""
     own = sum(isinstance(one, Scene) for one in sketch.answers)
     return {"answers": sketch.answers[own:], "chosen": max(sketch.chosen - own, 0)}
+
+
+def cognate(state: State, place: int) -> State:
+    """Show a cognate of the answer instead of it: one of those that turn fully."""
+    sketch = state.drawing
+    found = [one for one in sketch.cognates if one] if sketch else []
+    if sketch is None or not 0 <= place < len(found):
+        return with_toast(state, "none of its cognates turns fully") if sketch and sketch.follows else state
+    from linkanim.synthesis.front import names_of
+
+    answers = (*sketch.answers[: sketch.chosen], found[place], *sketch.answers[sketch.chosen + 1 :])
+    figures = [one.figures for one in answers if isinstance(one, tuple) and one.size > 0]
+    names = names_of(figures) if len(figures) == len(answers) == len(sketch.names) else ()
+    taken = replace(sketch.undialled, answers=answers, names=names, picked=True, earlier=sketch)
+    state = replace(exchanged(state, taken.scene_of(found[place])), glide=None, faded=state.frame)
+    return replace(state, sketch=taken)
 
 
 def let_go(state: State, _: None) -> State:

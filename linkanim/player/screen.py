@@ -21,6 +21,7 @@ import pygame
 
 from linkanim.build.draft import UNTITLED, Draft, Thing
 from linkanim.build.gestures import under
+from linkanim.build.places import from_span
 from linkanim.errors import NoDisplay
 from linkanim.frozen import NamedTuple
 from linkanim.mechanics.linkage import Point
@@ -397,6 +398,21 @@ class Screen:
         if away and min(away) <= reach:
             return Action("take_point", away.index(min(away)))
         return Action("pen_down", self.world(x, y))
+
+    def cognate_at(self, x: float, y: float, reach: float) -> int | None:
+        """Return the place of the cognate under a pixel among those that are drawn; None beside them."""
+        numbers = self.over.path.cognates if self.over.path else ()
+        if not numbers:
+            return None
+        from linkanim.picture.cognates import cognate_sides
+
+        pose, at = self.state.displayed.pose(self.state.phase, 0), complex(*self.world(x, y))
+        reach /= self._framing.last.view.scale
+        for place, number in enumerate(numbers):
+            sides = cognate_sides(pose, number)
+            if any(abs(from_span(begin, end, at)) <= reach for begin, end in sides):
+                return place
+        return None
 
     def on_dial(self, x: float, y: float) -> bool:
         """Return whether a pixel is on the dial above the answers."""

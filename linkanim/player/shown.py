@@ -464,7 +464,9 @@ def _path(sketch: PathSketch) -> PathShown:
     held = sketch.held if isinstance(sketch.held, int) else None
     searched = "searching" if curve and not sketch.pen else None
     pins = tuple(place for _, place in sketch.pivots)
-    return PathShown(curve, sketch.pen, sketch.is_blank, searched if sketch.is_blank else off, held, pins)
+    cognates = tuple(n for n, one in enumerate(sketch.cognates) if one)
+    words = searched if sketch.is_blank else off
+    return PathShown(curve, sketch.pen, sketch.is_blank, words, held, pins, cognates=cognates)
 
 
 def _off(sketch: PathSketch) -> str | None:

@@ -491,6 +491,16 @@ class PathSketch(Sketch):
         """Whether the linkage that is shown was found for the stroke, and its fixed pins can be dragged."""
         return not (self.is_blank or isinstance(self.answer, Scene))
 
+    @cached_property
+    def cognates(self) -> tuple[PathAnswer | None, ...]:
+        """The cognates of the answer that is shown at rest, None for one that does not turn; else nothing."""
+        answer = self.answer
+        if not self.follows or self.held is not None or answer is None or isinstance(answer, Scene):
+            return ()
+        from linkanim.synthesis.answers import turning_cognates
+
+        return turning_cognates(answer)
+
     @property
     def off(self) -> float | None:
         """By how much of the stroke's size, in percent, the answer shown is off; None before the first."""

@@ -2,6 +2,7 @@
 
 From the ground up; a module imports from those before it only:
 
+    roberts        a coupler curve's cognates
     linkages       many four-bars and slider-cranks at once; limits on them
     curves         a curve to be followed: points, or a stroke by hand
     curve_files    a curve's file: numbers, or an SVG's first path

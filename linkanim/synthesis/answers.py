@@ -4,7 +4,7 @@ Its parts, in reading order:
 
 - An answer: a linkage as a scene, and how well it follows the curve, as the solver says.
 - Every answer as the solver runs it: its whole turn, one closure, the points in order, true distances.
-- Roberts's theorem: every coupler curve of a four-bar is traced by two further four-bars.
+- Roberts's theorem: the cognates of an answer that are answers, too.
 - An answer as plain numbers, as it goes from one process to another and onto a tape; and back to a scene.
 - Answers as scene files: the first under the name that was asked for, the others numbered.
 """
@@ -32,6 +32,7 @@ from linkanim.scenes.toml import text
 from linkanim.synthesis.curves import DrawnCurve
 from linkanim.synthesis.fitting import FEW, PathTask
 from linkanim.synthesis.linkages import FOUR_BAR, Complex, Linkage4, LinkageKind, Real
+from linkanim.synthesis.roberts import CognateJoints, cognate_joints
 
 # An answer: a linkage as a scene, and how well it follows the curve, as the solver says.
 
@@ -441,16 +442,10 @@ def _off(places: Complex, start: Complex, side: Complex) -> Real:
     return np.asarray(np.sqrt((x * x + y * y).min(axis=0)))
 
 
-# Roberts's theorem: every coupler curve of a four-bar is traced by two further four-bars.
-#
-# With the coupler point P = A + k·(B - A) in complex numbers, the third pivot is O6 = O2 + k·(O4 - O2). One
-# cognate stands on O2 and O6 with the parallelogram O2 A P A', the other on O6 and O4 with O4 B P B'; each
-# has a coupler similar to the first one's (Roberts 1875, Chebyshev 1878).
+# Roberts's theorem: the cognates of an answer that are answers, too.
 
 _TIMED = 1e-9
 """By how much crank angles (rad) may be off those that are given."""
-_Joints = tuple[complex, Complex, Complex, complex]
-"""A pivot, the pins of its crank (n,) and of the rocker (n,), and that one's pivot."""
 
 
 def cognates_of(fit: Fit) -> Iterator[Fit]:
@@ -485,17 +480,13 @@ def _timed(fit: Fit, angles: Real) -> Real | None:
     return angles - turns if np.abs(late - turns).max() <= _TIMED else None
 
 
-def _cognates(fit: Fit, point: Complex) -> tuple[_Joints, _Joints]:
+def _cognates(fit: Fit, point: Complex) -> tuple[CognateJoints[Complex], CognateJoints[Complex]]:
     """Return both cognates' joints at the points: whose crank turns as the first one's, and the other."""
     x, y, crank, coupler, along, across, x4, y4, _ = fit.row
-    o2, o4 = complex(x, y), complex(x4, y4)
-    share = complex(along, across) / coupler
-    o6 = o2 + share * (o4 - o2)
+    o2, share = complex(x, y), complex(along, across) / coupler
     pin_a = o2 + crank * np.exp(1j * fit.angles)
     pin_b = pin_a + (point - pin_a) / share if share else pin_a
-    first = o6, o6 + (1 - share) * (pin_a - o2), o4 + point - pin_b, o4
-    second = o2, o2 + point - pin_a, o6 + share * (pin_b - o4), o6
-    return first, second
+    return cognate_joints((o2, complex(x4, y4)), share, (pin_a, pin_b, point))
 
 
 # An answer as plain numbers, as it goes from one process to another and onto a tape; and back to a scene.
@@ -552,6 +543,54 @@ def answer_from(numbers: tuple[float, ...]) -> PathAnswer:
     """Return the answer that is all of these `NUMBERS` numbers; the last two may be missing."""
     off, closure, start, sense = numbers[:4]
     return PathAnswer(off, closure, start, sense, tuple(numbers[4:EARLIER]), *numbers[EARLIER:])
+
+
+_TURN = np.linspace(0.0, 2 * math.pi, 73)
+"""The crank's angles at which cognates are looked at."""
+
+
+def turning_cognates(answer: PathAnswer) -> tuple[PathAnswer | None, PathAnswer | None]:
+    """Return both cognates of an answer, None for one whose crank does not turn fully on one closure.
+
+    They trace the same curve, and are as far off. Of an answer whose own crank swings there is none.
+    """
+    row, sign = np.array([answer.row]), np.array([answer.closure])
+    angles = answer.start + answer.sense * _TURN
+    with np.errstate(all="ignore"):
+        point = FOUR_BAR.points(row, sign, angles[None])[0]
+    x, y, crank, coupler, along, across, x4, y4, _ = answer.row
+    o2, share = complex(x, y), complex(along, across) / coupler
+    if not share or not np.isfinite(point).all():
+        return None, None
+    pin_a = o2 + crank * np.exp(1j * angles)
+    pins = pin_a, pin_a + (point - pin_a) / share, point
+    first, second = cognate_joints((o2, complex(x4, y4)), share, pins)
+    return _turning(answer, first, point[0]), _turning(answer, second, point[0])
+
+
+def _turning(answer: PathAnswer, joints: CognateJoints[Complex], point: complex) -> PathAnswer | None:
+    pivot, crank, rocker, other = joints
+    angles, sides = np.unwrap(np.angle(crank - pivot)), (np.conj(other - crank) * (rocker - crank)).imag
+    turned = float(angles[-1] - angles[0])
+    if abs(abs(turned) - 2 * math.pi) > _SLACK or not ((sides > 0).all() or (sides < 0).all()):
+        return None
+    start = Linkage4(pivot, crank[0], rocker[0], other, point)
+    with np.errstate(all="ignore"):
+        row = np.array(start.row)
+    if not np.isfinite(row).all():
+        return None
+    # the extremes of the transmission angle are where the crank lies along the ground
+    crank_, coupler, rocker_, ground = row[2], row[3], row[8], abs(other - pivot)
+    cosines = (coupler**2 + rocker_**2 - (ground + np.array([-1, 1]) * crank_) ** 2) / (2 * coupler * rocker_)
+    longest, own = (FOUR_BAR.link_lengths(np.array([one]))[0].max() for one in (row, answer.row))
+    return answer._replace(
+        closure=start.closure,
+        start=float(angles[0]),
+        sense=math.copysign(1.0, turned),
+        row=tuple(map(float, row)),
+        size=float(answer.size * longest / own),
+        angle=float(np.arccos(np.clip(np.abs(cosines), 0.0, 1.0)).min()),
+    )
 
 
 # Answers as scene files: the first under the name that was asked for, the others numbered.

@@ -21,7 +21,7 @@ from linkanim.frozen import NamedTuple
 from linkanim.synthesis import guidance
 from linkanim.synthesis.answers import NAME, Fit, answer_of
 from linkanim.synthesis.atlas import atlas
-from linkanim.synthesis.front import cards, cost, front_of, knee, searched_front, way_along
+from linkanim.synthesis.front import cards, cost, front_of, knee, searched_front, way_along, with_cognates
 from linkanim.synthesis.guidance import GuidedLinkage, pose_answer_of
 from linkanim.synthesis.linkages import FOUR_BAR
 from linkanim.synthesis.path import task_of
@@ -135,7 +135,7 @@ class Follower:
             row = cards(front, shown, COUNT)
             yield row, row.index(shown), ()
         exact = found(task, 2 * COUNT, lambda *_: pulse(), widely=False)
-        front = front_of([*front, *exact])
+        front = with_cognates(front_of([*front, *exact]), pulse)
         shown = _shown(front, shown)
         row = cards(front, shown, COUNT)
         yield row, row.index(shown), way_along(task, front, pulse)

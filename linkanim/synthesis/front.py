@@ -20,10 +20,10 @@ from typing import Literal
 import numpy as np
 
 from linkanim.frozen import NamedTuple
-from linkanim.synthesis.answers import Figures, Fit
+from linkanim.synthesis.answers import Figures, Fit, answer_of, cognates_of, turning_cognates
 from linkanim.synthesis.atlas import CURVES, Candidates
 from linkanim.synthesis.fitting import PathTask, merit, refined
-from linkanim.synthesis.linkages import Indices, Real
+from linkanim.synthesis.linkages import FOUR_BAR, Indices, Real
 from linkanim.synthesis.search import ALIKE, MATCHED, spread, started, verified
 
 # Which answers are on the front, the one that one would choose, and a few that differ to the eye.
@@ -35,7 +35,9 @@ _SEEN = 3e-3
 _TRADE = math.log(1.5, 2)
 """How size counts beside deviation: twice the size has to save a third of the deviation."""
 _COMPACT, _NEAR = 2.5, 1.5
-"""An answer of that size at the most is chosen where its deviation is within that factor of the best one."""
+"""No larger answer is chosen where one of that size is within that factor of the best deviation."""
+_STILL_NEAR = 2.0
+"""Then one is chosen within that factor: a better transmission angle is worth so much."""
 _WELL = math.radians(35)
 """From this transmission angle on a linkage runs well; below, the angle counts as much as the deviation."""
 _FARTHEST, _TIMES = 0.03, 3.0
@@ -82,18 +84,20 @@ def _of_angle(figures: Figures) -> float:
 def knee(front: Sequence[Figures]) -> int:
     """Return which answer one would choose.
 
-    None is taken that doubles the size for less than a third of the deviation. One of at most 2.5 curve
-    sizes is chosen where its deviation is within 1.5 times the best one.
+    None is taken that doubles the size for less than a third of the deviation, nor one of more than 2.5 curve
+    sizes where one of those is within 1.5 times the best deviation.
     """
     off = [max(one.deviation, _SEEN) for one in front]
-    small = [n for n, one in enumerate(front) if one.size <= _COMPACT and off[n] <= _NEAR * min(off)]
 
     def is_worth_it(n: int) -> bool:
         halves = (m for m, other in enumerate(front) if other.size <= front[n].size / 2)
         return all(off[n] <= off[m] / _NEAR for m in halves)
 
     worth = [*filter(is_worth_it, range(len(front)))]
-    return min([n for n in small if n in worth] or small or worth, key=lambda n: (cost(front[n]), n))
+    if any(one.size <= _COMPACT and off[n] <= _NEAR * min(off) for n, one in enumerate(front)):
+        small = [n for n in worth if front[n].size <= _COMPACT]
+        worth = [n for n in small if off[n] <= _STILL_NEAR * min(off)] or small
+    return min(worth, key=lambda n: (cost(front[n]), n))
 
 
 def preferred(fits: Iterable[Fit], prefer: Preference) -> list[Fit]:
@@ -203,7 +207,20 @@ def searched_front(
         now, costs = _fitted(task, now, before, chosen, steps)
         now = now.take(_best_of_each(now, costs, kept))
     pulse()
-    return front_of([*known, *verified(task, now.found, chosen)])
+    return with_cognates(front_of([*known, *verified(task, now.found, chosen)]), pulse)
+
+
+def with_cognates(front: Sequence[Fit], pulse: Callable[[], None] = lambda: None) -> tuple[Fit, ...]:
+    """Return the front of a front and the cognates of its answers, which are as exact at another size."""
+    if not front or front[0].kind is not FOUR_BAR:
+        return tuple(front)
+    more: list[Fit] = []
+    for fit in front:
+        pulse()
+        own, likely = fit.figures, filter(None, turning_cognates(answer_of(fit)))
+        if any(one.size < own.size or one.angle > own.angle for one in likely):
+            more += [replace(one, cognate=False) for one in cognates_of(fit)]
+    return front_of([*front, *more])
 
 
 def _fitted(

@@ -13,6 +13,7 @@ import pygame
 import pytest
 from playing import CTRL, SHIFT, NoSearch, Player
 
+from linkanim.picture.cognates import cognate_sides
 from linkanim.player import beside as following
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
@@ -462,6 +463,68 @@ def test_an_answer_that_was_taken_by_hand_stays_when_more_come(answered: State) 
     again = after(taken, Action("cards", (0.0, *FIRST, *BETTER)))
     assert sketch_of(again).answer == sketch_of(taken).answer
     assert len(sketch_of(again).answers) == 3
+
+
+def test_a_cognate_takes_the_place_of_the_answer_and_traces_the_same_curve(answered: State) -> None:
+    before = sketch_of(answered)
+    path = overlay(answered).path
+    assert path
+    assert path.cognates == (0,)  # of a crank-rocker one is another, the other a double-rocker
+    taken = after(answered, Action("cognate", 0))
+    after_, answer = sketch_of(taken), sketch_of(taken).answer
+    assert isinstance(answer, PathAnswer)
+    assert (after_.off, len(after_.answers), after_.picked) == (before.off, 2, True)
+    assert answer.row != WIDER
+    places = np.linspace(0, 2 * math.pi, 40)
+    ways = [one.scene.solve(phase=places, derivatives=0).position["P"] for one in (answered, taken)]
+    assert ways[0] == pytest.approx(ways[1], abs=1e-9)
+    assert after(taken, "take_back").scene.linkage == answered.scene.linkage
+
+
+def test_the_cognate_of_a_cognate_is_the_answer_itself(answered: State) -> None:
+    again = sketch_of(after(answered, Action("cognate", 0), Action("cognate", 0)))
+    assert isinstance(again.answer, PathAnswer)
+    assert again.answer.row == pytest.approx(WIDER)
+
+
+def test_a_cognate_leaves_the_dial_where_it_is(fronted: State) -> None:
+    rest = after(fronted, Action("dial", 0.5), "let_go")
+    row = overlay(after(rest, Action("cognate", 0))).row
+    assert row
+    assert row.dial
+    assert row.dial.value == 0.5
+
+
+def test_without_an_answer_there_is_no_cognate(plain: State, stroke: State) -> None:
+    for state in (plain, stroke):
+        assert after(state, Action("cognate", 0)).sketch == state.sketch
+    own = after(plain, "own_trace", Action("cognate", 0))
+    assert own.scene is plain.scene
+
+
+@pytest.mark.usefixtures("in_step")
+def test_a_click_on_a_faint_linkage_takes_it_and_a_stroke_begun_there_is_drawn(player: Player) -> None:
+    pygame.display.set_mode((1280, 720), pygame.RESIZABLE)
+    player.type("w")
+    player.drag(*loop(player))
+    settle(player)
+    screen, before = player.window.screen, sketch_of(player.state)
+    pose = player.state.displayed.pose(player.state.phase, 0)
+    places = [
+        begin + share / 9 * (end - begin) for begin, end in cognate_sides(pose, 0) for share in range(9)
+    ]
+    pixels = [screen.pixel(one.real, one.imag) for one in places]
+    at = next(one for one in pixels if screen.pencil_at(*one, 30).name == "pen_down")
+    assert screen.cognate_at(*at, 10) == 0
+    player.mouse(pygame.MOUSEBUTTONDOWN, at, button=1)
+    player.mouse(pygame.MOUSEBUTTONUP, at, button=1)
+    taken = sketch_of(player.state)
+    assert taken.answer != before.answer
+    assert taken.off == before.off
+    player.press(pygame.K_f, text="f")
+    assert sketch_of(player.state).answers[0].row == pytest.approx(before.answers[0].row)  # type: ignore[union-attr]
+    player.drag(at, *loop(player))
+    assert sketch_of(player.state).strokes == before.strokes + 1
 
 
 def test_answers_of_an_older_tape_come_without_figures(stroke: State) -> None:

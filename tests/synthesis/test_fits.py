@@ -16,7 +16,7 @@ from random_curves import curves, linkages
 
 import linkanim
 from linkanim.mechanics.measures import transmission_angle
-from linkanim.synthesis.answers import Fit, checked, cognates_of
+from linkanim.synthesis.answers import Fit, PathAnswer, checked, cognates_of, turning_cognates
 from linkanim.synthesis.atlas import Candidates, atlas, matched
 from linkanim.synthesis.curves import DrawnCurve
 from linkanim.synthesis.fitting import refined
@@ -268,6 +268,30 @@ def answer(row: Real, angles: Real, *, closed: bool = True, **options: Any) -> F
 
 STEP = 2 * math.pi / 40
 TURN: Real = STEP * np.arange(40, dtype=np.float64)
+
+
+@pytest.mark.parametrize("kind", ["crank-rocker", "drag-link"])
+def test_cognates_that_turn_trace_the_whole_curve_and_say_their_own_figures(kind: str) -> None:
+    rows = {
+        "crank-rocker": (9.0, 7.0, 30.0, 90.0, 45.0, 30.0, 100.0, 0.0, 80.0),
+        "drag-link": (0.0, 0.0, 60.0, 55.0, 20.0, 15.0, 30.0, 5.0, 65.0),
+    }
+    first = PathAnswer(0.4, 1.0, 0.3, -1.0, rows[kind], 2.0, 0.5)
+    found = [one for one in turning_cognates(first) if one]
+    assert len(found) == (1 if kind == "crank-rocker" else 2)
+    longest = [FOUR_BAR.link_lengths(np.array([one.row]))[0].max() for one in (first, *found)]
+    whole = first.scene("mm").cycle(720, derivatives=0).position["P"] @ np.array([1, 1j])
+    for one, long in zip(found, longest[1:], strict=True):
+        scene = one.scene("mm")
+        assert scene.info.full_turn
+        assert scene.info.transmission
+        assert one.angle == pytest.approx(scene.info.transmission.least)
+        assert one.size / long == pytest.approx(first.size / longest[0])
+        way = scene.cycle(720, derivatives=0).position["P"] @ np.array([1, 1j])
+        assert np.abs(way[0] - whole[0]) < 1e-9
+        assert np.abs(way[:, None] - whole).min(axis=1).max() < 1.0
+
+
 # What is asked for, and how many cognates of three crank-rockers and drag-links keep to it.
 COGNATES: tuple[tuple[dict[str, Any], int], ...] = (
     ({}, 12),

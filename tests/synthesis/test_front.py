@@ -49,6 +49,13 @@ def figures(*values: tuple[float, float] | tuple[float, float, float]) -> list[F
         (figures((0.010, 8.0), (0.014, 2.4)), 1, "within 1.5 times the best, and at most 2.5 sizes"),
         (figures((0.0001, 2.0), (0.0008, 1.0)), 1, "a deviation that nobody sees is worth nothing"),
         (figures((0.020, 1.0, 6.0), (0.022, 1.0, 35.0)), 1, "the one all but jams"),
+        (
+            figures((0.0029, 0.8, 7.0), (0.0049, 0.8, 50.0)),
+            1,
+            "a foot's: all but jams for what is hardly seen",
+        ),
+        (figures((0.022, 0.8, 7.0), (0.030, 0.6, 15.0), (0.056, 0.7, 30.0)), 1, "an eight's: another curve"),
+        (figures((0.026, 0.6, 5.0), (0.047, 0.6, 15.0)), 1, "a crescent's: it jams"),
         (figures((0.020, 1.0, 40.0), (0.022, 1.0, 50.0)), 0, "both run well"),
     ],
 )
@@ -65,7 +72,7 @@ def test_a_chosen_answer_never_doubles_the_size_for_less_than_a_third_of_the_dev
             near = [each for each in front if each.size <= 2.5 and each.deviation <= 1.5 * best]
             assert one.size <= 2.5 or not near
             halves = [each for each in front if each.size <= one.size / 2]
-            assert one in near or not any(each.deviation < 1.5 * one.deviation for each in halves)
+            assert not any(max(each.deviation, 0.003) < 1.5 * one.deviation for each in halves)
 
 
 @pytest.mark.slow
