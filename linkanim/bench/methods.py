@@ -41,6 +41,7 @@ from linkanim.bench.questions import (
 from linkanim.bench.reference import Solve, answer
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.linkage import RRR
+from linkanim.synthesis import linkages as synthesised
 
 # The usual ways to solve a chain of dyads, as they are usually written, and this project's own.
 #
@@ -290,6 +291,23 @@ def single(question: Question) -> Orders:
     )
 
 
+def each_its_own(question: Question) -> Orders:
+    """Close every pose as a four-bar of its own lengths, as an atlas of curves is made: positions alone.
+
+    Those of the question are one linkage's; what an answer costs and how exact it is does not depend on that.
+    """
+    chain = question.chain
+    (crank, dyad, point), (o2, o4) = chain.steps, chain.pins.values()
+    if not (isinstance(crank, TurnStep) and isinstance(dyad, RRR) and isinstance(point, FixedStep)):
+        raise TypeError("a four-bar is asked for")
+    places = (o2.real, o2.imag, crank.length, dyad.lengths[0], point.at.real, point.at.imag)
+    row = np.array([*places, o4.real, o4.imag, dyad.lengths[1]])
+    rows, sides = np.tile(row, (question.angles.size, 1)), question.sides[dyad.name]
+    joints = synthesised.FOUR_BAR.joints(rows, sides, question.angles[:, None]).T
+    names = (*chain.pins, crank.name, dyad.name, point.name)
+    return (dict(zip(names, joints, strict=True)),)
+
+
 # The same linkages in other people's packages: pylinkage (Assur groups, numba) and scipy (root finding).
 
 
@@ -483,8 +501,21 @@ def _own(turns: list[Question], one: Question) -> Iterator[Entry]:
     for key, turn in zip(("batch", "batch, many"), turns, strict=False):
         name, runs = f"linkanim, {turn.angles.size:,} at once", (_timed(_solved(n), turn) for n in (0, 2))
         yield Entry("", key, name, here, batch, *runs)
+    if turns[1:]:  # of a four-bar
+        yield of_many_linkages()
     runs = (_timed(_posed(derivatives), one) for derivatives in (0, 2))
     yield Entry("", "single", "linkanim, one pose a call", here, single, *runs)
+
+
+def of_many_linkages() -> Entry:
+    """Return the row of ten thousand four-bars whose cranks turn fully, each at one angle."""
+    kind, random = synthesised.FOUR_BAR, np.random.default_rng(1)
+    rows = kind.random_rows(random, 20 * FEW)
+    rows = rows[(kind.slack(rows, 0.0) > 0).all(axis=1)][:FEW]
+    ways, angles = np.ones(len(rows)), random.uniform(0.0, TURN, (len(rows), 1))
+    timed = Timed(lambda: kind.joints(rows, ways, angles), len(rows))
+    name = f"linkanim, {len(rows):,} different linkages"
+    return Entry("", "different", name, "linkanim, its synthesis", each_its_own, timed)
 
 
 def _solved(derivatives: int) -> Callable[[Question], object]:

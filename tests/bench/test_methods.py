@@ -70,6 +70,21 @@ def test_a_method_is_right_on_the_easy_cycle(
     assert all(not error > 100 * most for error in found.errors)
 
 
+def test_four_bars_each_of_its_own_lengths_are_closed_on_the_easy_cycle() -> None:
+    found = score(methods.each_its_own, first_quarter("four-bar"))
+    assert (found.poses, found.wrong, found.nan) == (90, 0, 0)
+    assert found.error <= 16 * EPS
+
+
+def test_a_row_tells_of_ten_thousand_different_linkages() -> None:
+    row = methods.of_many_linkages()
+    assert row.position.poses == 10_000
+    joints = np.asarray(row.position.work())
+    assert joints.shape == (10_000, 5)
+    assert np.isfinite(joints).all()
+    assert len(np.unique(joints[:, 1])) == 10_000, "as many ground links"
+
+
 @pytest.mark.parametrize(
     "solve", [methods.pylinkage_fast(1), methods.pylinkage_fast(4), methods.pylinkage_step, methods.fsolve]
 )
