@@ -91,8 +91,7 @@ def usual_kind(scene: Scene) -> ConstructionKind:
 
 def steps_of(scene: Scene, kind: ConstructionKind, phase: float = 0.0) -> tuple[ConstructionStep, ...]:
     """Return the steps of a construction, that of the centres at a phase; BadInput where there is none."""
-    if kind not in kinds_of(scene):
-        raise BadInput(f"{scene.name}: {_REFUSED[kind]}")
+    _refuse_lacking(scene, kind)
     match kind:
         case "synthesis":
             return construction(scene)
@@ -100,6 +99,11 @@ def steps_of(scene: Scene, kind: ConstructionKind, phase: float = 0.0) -> tuple[
             return dead_centre_steps(scene)
         case "centres":
             return _centre_steps(figure(scene), phase)
+
+
+def _refuse_lacking(scene: Scene, kind: ConstructionKind) -> None:
+    if kind not in kinds_of(scene):
+        raise BadInput(f"{scene.name}: {_REFUSED[kind]}")
 
 
 def all_steps(scene: Scene) -> int:
@@ -137,8 +141,9 @@ def shown_at(scene: Scene, at: int, phase: float) -> ConstructionShown:
 def clear_phase(scene: Scene) -> float:
     """Return the phase of the pose whose instant centres are nearest to the linkage, and apart.
 
-    Of several such poses it is the first.
+    Of several such poses it is the first. BadInput where no centres are constructed.
     """
+    _refuse_lacking(scene, "centres")
     known = CentrePairs(figure(scene))
     size, middle = known.size, complex(*known.figure.box.middle)
 

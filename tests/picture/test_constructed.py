@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from random_scenes import chain
 
 from linkanim.errors import BadInput
 from linkanim.picture.centres import CentrePairs
@@ -25,6 +26,7 @@ from linkanim.picture.look import Look
 from linkanim.picture.overlay import Overlay
 from linkanim.picture.picture import Picture
 from linkanim.scenes import load
+from linkanim.scenes.reading import scene_from
 from linkanim.synthesis.constructions import Mark, dead_centres
 
 # scene, what is constructed of it: dead centres only where the crank drives and the output swings or slides
@@ -51,6 +53,12 @@ def test_the_constructions_of_a_scene(name: str, kinds: list[str]) -> None:
     if not kinds:
         with pytest.raises(BadInput, match="has no construction"):
             all_steps(scene)
+
+
+def test_a_chain_has_no_pose_for_centres_that_are_not_constructed() -> None:
+    scene = scene_from(chain(5), name="chain", where="chain.toml")
+    with pytest.raises(BadInput, match="chain: has more than five links"):
+        clear_phase(scene)
 
 
 def named(marks: tuple[Mark, ...]) -> dict[str, complex]:

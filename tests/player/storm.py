@@ -6,8 +6,12 @@ import errno
 import math
 import os
 import shutil
-from collections.abc import Callable, Iterator
+import tomllib
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import chdir, redirect_stdout
 from dataclasses import replace
+from functools import cache
+from io import StringIO
 from pathlib import Path
 from random import Random
 
@@ -15,29 +19,58 @@ import pygame
 import pytest
 from playing import NoSearch, fake_start
 
+from linkanim.cli import main
+from linkanim.export import json_text
+from linkanim.picture.command_bar import bar_cells
 from linkanim.play.arcade import Arcade
 from linkanim.player import beside, files
+from linkanim.player import window as window_module
 from linkanim.player.action import Action
 from linkanim.player.actions import carried
 from linkanim.player.devices import code
 from linkanim.player.files import DraftFile, SceneFile
 from linkanim.player.keys import key_names
-from linkanim.player.state import begin
+from linkanim.player.state import State, begin
 from linkanim.player.window import Window
 from linkanim.scenes import load, names
+from linkanim.scenes.reading import scene_from
+from linkanim.scenes.scene import Scene
 from linkanim.scenes.toml import text
 from linkanim.synthesis.answers import PathAnswer
 from linkanim.synthesis.follower import FollowPoses, Reply, Request
 from linkanim.synthesis.guidance import PoseAnswer
+from linkanim.workshop.request import make
 
-SIZES = ((320, 180), (640, 200), (180, 320), (64, 36), (2, 700), (700, 2), (1, 1), (500, 400))
+SIZES = ((320, 180), (640, 200), (180, 320), (64, 36), (2, 700), (700, 2), (1, 1), (800, 500))
 _KEYS = [code(name) for name in key_names()]
 _OFTEN = [
-    code(name) for name in ("return", "escape", "up", "down", "left", "right", "o", "w", "f2", "f3", "e")
+    *(code(name) for name in ("return", "escape", "up", "down", "left", "right", "o", "w", "e", ",", ".")),
+    *(code(name) for name in ("f2", "f3", "f4", "f6", "f7", "f10")),
 ]
 _RARE = {code(name) for name in ("f11", "q", "g", "m", "s", "f12")}
 _MODS = (0, 0, 0, 0, pygame.KMOD_LSHIFT, pygame.KMOD_LCTRL, pygame.KMOD_LALT, pygame.KMOD_LCTRL | 1)
 _STRANGE = (math.nan, math.inf, -math.inf, -1.0, 2.0, 1e300)
+_FOUND = (
+    ("quick-return", "--stroke", "80", "--ratio", "1.4"),
+    ("quick-return", "--swing", "60 deg", "--ratio", "1.2"),
+    ("guide", "poses.csv"),
+    ("function", "table.csv"),
+)
+"""Commands that find linkages whose construction is drawn."""
+_POSES = "0,0,0\n40,10,34\n70,-5,80\n"
+_TABLE = "".join(f"{x},{x * x}\n" for x in range(1, 6))
+_GUIDED = (0.0, 0.0, 0.0, 0.0, 40.0, 10.0, 0.6)
+_BEGUN: Mapping[str, tuple[Action, ...]] = {
+    "poses": (Action("poses"), Action("set_poses", _GUIDED)),
+    "construction": (Action("construct", 2),),
+    "layers": (Action("layers"),),
+    "a joint's commands": (Action("menu", "things"),),
+    "pencil": (Action("own_trace"),),
+    "sheet": (Action("build_on"),),
+    "lengths": (Action("edit"),),
+    "chart": (Action("chart", 1), Action("names")),
+}
+"""What is on in a window that opens, by name."""
 _LINKS = (30.0, 90.0, 45.0, 30.0, 100.0, 0.0, 80.0)
 
 
@@ -100,7 +133,10 @@ class Storm:
         self._here = folder / "here"
         self._there()
         self._is_full = False
-        patch.setattr(beside, "_start", fake_start([]))
+        self.met: set[tuple[str, str]] = set()  # modes, and what was carried out in them
+        self._found = _found_scenes(folder)
+        patch.setattr(beside, "_start", self._started)
+        patch.setattr(window_module, "carried", self._carried)
         patch.setattr(beside, "Following", lambda *_: Search(self._random))
         patch.setattr(pygame.joystick, "Joystick", Pad)
         synced = os.fsync
@@ -138,13 +174,17 @@ class Storm:
         own = self._here / "mine.toml"
         if own.is_dir():
             own.rmdir()
-        own.write_text(text(load(random.choice(names()))), encoding="utf-8")
+        found = random.choice(self._found) if random.random() < 0.4 else load(random.choice(names()))
+        own.write_text(text(found), encoding="utf-8")
         mine = random.random() < 0.5
-        scene = load(own if mine else random.choice(names()))
+        scene = load(own) if mine else found
         state = replace(begin(scene), games=keeper.game_of, from_title=random.random() < 0.3)
         if random.random() < 0.3:
             words = random.choice(("title", "lobby", "menu", "match", "predict", "follow"))
             state = carried(state, Action("play", keeper.completed(words)))
+        elif random.random() < 0.5:
+            for action in random.choice(tuple(_BEGUN.values())):
+                state = carried(state, action)
         drafts = DraftFile(self._folder / "data" / "draft.json")
         return Window(state, None, SceneFile(Path("mine.toml")) if mine else None, keeper, drafts)
 
@@ -153,6 +193,7 @@ class Storm:
             *[self._key] * 6,
             *[self._mouse] * 6,
             *[self._finger] * 2,
+            *[self._press] * 2,
             *[self._pad] * 2,
             self._drop,
             self._of_the_window,
@@ -173,10 +214,13 @@ class Storm:
         return pygame.event.Event(pygame.KEYDOWN, key=key, mod=random.choice(_MODS), unicode=typed or own)
 
     def _place(self, window: Window) -> tuple[int, int]:
-        """Return a pixel: anywhere, outside, or on a joint."""
+        """Return a pixel: anywhere, outside, on what can be pressed, or on a joint."""
         random, (width, height) = self._random, pygame.display.get_window_size()
-        if random.random() < 0.5:
+        chance = random.random()
+        if chance < 0.4:
             return random.randint(-5, width + 5), random.randint(-5, height + 5)
+        if chance < 0.7 and window._good and (spots := _spots(window)):
+            return random.choice(spots)
         places = list(window.state.shown.pose(window.state.phase, 0).position.values())
         try:
             x, y = window.screen.pixel(*random.choice(places))
@@ -198,12 +242,24 @@ class Storm:
                 return self._wheel(window)
         return pygame.event.Event(pygame.MOUSEMOTION, pos=at, rel=(0, 0), buttons=(1, 0, 0))
 
+    def _press(self, window: Window) -> pygame.event.Event:
+        """Press where something is, and let go there or, with a few moves between, elsewhere."""
+        random, at = self._random, self._place(window)
+        button = random.choice((1, 1, 1, 3))
+        pygame.event.post(pygame.event.Event(pygame.MOUSEBUTTONDOWN, pos=at, button=button))
+        for _ in range(random.choice((0, 0, 0, 1, 3))):
+            at = self._place(window)
+            pygame.event.post(pygame.event.Event(pygame.MOUSEMOTION, pos=at, rel=(0, 0), buttons=(1, 0, 0)))
+        return pygame.event.Event(pygame.MOUSEBUTTONUP, pos=at, button=button)
+
     def _wheel(self, _: Window) -> pygame.event.Event:
         return pygame.event.Event(pygame.MOUSEWHEEL, x=0, y=self._random.choice((-40, -1, 0, 1, 40)))
 
-    def _finger(self, _: Window) -> pygame.event.Event:
-        random = self._random
-        x, y = (random.choice(_STRANGE) if random.random() < 0.1 else random.random() for _ in "xy")
+    def _finger(self, window: Window) -> pygame.event.Event:
+        random, (width, height) = self._random, pygame.display.get_window_size()
+        at = self._place(window)
+        shares = at[0] / width, at[1] / height
+        x, y = (random.choice(_STRANGE) if random.random() < 0.1 else share for share in shares)
         kind = random.choice((pygame.FINGERDOWN, pygame.FINGERMOTION, pygame.FINGERMOTION, pygame.FINGERUP))
         return pygame.event.Event(kind, finger_id=random.randrange(3), touch_id=1, x=x, y=y, dx=0.0, dy=0.0)
 
@@ -260,11 +316,53 @@ class Storm:
             case 9:
                 shutil.rmtree(data, ignore_errors=True)
 
+    def _carried(self, state: State, action: Action) -> State:
+        """Carry an action out, and note that it came."""
+        self.met.add((state.mode, action.name))
+        return carried(state, action)
+
+    def _started(self, command: list[str], message: int, out: int | None = None) -> object:
+        """Start nothing: what renders has ended well; what looks for layers has found some, or has failed."""
+        if out is None or self._random.random() < 0.3:
+            return fake_start([])(command, message, out)
+        if "--json" in command:
+            os.write(out, _layers_of(Path(command[command.index("make") + 1]).read_text(encoding="utf-8")))
+        return fake_start([])(command, message)
+
     def _there(self) -> None:
         """Have the current folder there again."""
         self._is_full = False
         self._here.mkdir(exist_ok=True)
         os.chdir(self._here)
+
+
+def _spots(window: Window) -> list[tuple[int, int]]:
+    """Return a pixel of each thing in sight that can be pressed: buttons, rows, answers, a slider, a dial."""
+    shown, layout = window.screen, window.screen._framing.last.layout
+    buttons = shown.over.bar.buttons if shown.over.bar else ()
+    cells = [*bar_cells(shown._bar_layout(shown.over), buttons), *shown.answer_cells(), layout.dial]
+    middles = [cell.middle for cell in cells if cell]
+    width, height = shown.size
+    rows = [complex(width / 8, height * n / 9) for n in range(1, 9)] if window.state.listing else []
+    return [(round(at.real), round(at.imag)) for at in (*middles, *rows)]
+
+
+@cache
+def _found_scenes(folder: Path) -> tuple[Scene, ...]:
+    """Return linkages that were found: by poses, by a function, by a time ratio."""
+    with chdir(folder), redirect_stdout(StringIO()):
+        Path("poses.csv").write_text(_POSES, encoding="utf-8")
+        Path("table.csv").write_text(_TABLE, encoding="utf-8")
+        for number, words in enumerate(_FOUND):
+            assert main((*words, "--count", "1", "-o", f"found-{number}.toml")) == 0
+        return tuple(load(folder / f"found-{number}.toml") for number in range(len(_FOUND)))
+
+
+@cache
+def _layers_of(document: str) -> bytes:
+    """Return what `linkanim make` prints of a scene file's text."""
+    scene = scene_from(tomllib.loads(document), name="made", where="made.toml")
+    return json_text(make(scene, fit="A4").as_object()).encode()
 
 
 def _found(text: str, name: str) -> Path:

@@ -15,6 +15,7 @@ from pathlib import Path
 from random import Random
 from unicodedata import category
 from xml.etree import ElementTree
+from zipfile import ZipFile
 
 import pygame
 import tomli_w
@@ -35,7 +36,11 @@ SECONDS, MEGABYTES = 10.0, 400
 """What each output of a scene may take: processor time, and memory beside what was there before."""
 KEYS = "abcdehiklnoprtv0123456789+-=.?sg"
 MODS = (0, 0, 0, pygame.KMOD_LSHIFT, pygame.KMOD_LCTRL)
-MOVES = (pygame.K_LEFT, pygame.K_RIGHT, pygame.K_UP, pygame.K_DOWN, pygame.K_RETURN, pygame.K_TAB)
+MOVES = (
+    *(pygame.K_LEFT, pygame.K_RIGHT, pygame.K_UP, pygame.K_DOWN, pygame.K_RETURN, pygame.K_TAB),
+    *(pygame.K_F2, pygame.K_F4, pygame.K_F6, pygame.K_F7, pygame.K_F10, pygame.K_PERIOD, pygame.K_COMMA),
+    *(pygame.K_w, pygame.K_y, pygame.K_k, pygame.K_o, pygame.K_x, pygame.K_ESCAPE, pygame.K_BACKSPACE),
+)
 FAR = (-1e100, -1e9, 0.0, 1.0, 1e9, 1e16, 1e100)
 EVERYTHING = ("--names", "--names", "--vectors", "v,a", "--polygons")
 WAYS: tuple[tuple[str, ...], ...] = (
@@ -47,7 +52,10 @@ WAYS: tuple[tuple[str, ...], ...] = (
     ("--theme", "dark", "--transparent"),
     ("--chain", "--instant-centres", "--caption"),
     ("--unit", "in"),
+    ("--ink",),
+    ("--ink", "--theme", "dark", "--chain"),
 )
+CONSTRUCTIONS = ("", "centres", "dead-centres", "synthesis", "centres:1", "dead-centres:2", "99")
 FORMS = ("html", "tex", "md")
 BOUND = re.compile(r"(is|are) the (most|least)|at the most|(figure|report) holds")
 """What says that something is more than is made, before work begins."""
@@ -57,6 +65,10 @@ NOT_OF_ALL = re.compile(
     r"|--angles .* cannot be reached; the .* goes from "
 )
 """Why some output is not made of every scene."""
+
+
+_REFUSED = re.compile(r": 2: linkanim: [^\n]+\n\Z")
+"""How a failure ends where one sentence refuses what was asked for."""
 
 
 class Failure(Exception):
@@ -75,6 +87,15 @@ class Case:
     def folder(self) -> Path:
         return self.path.parent
 
+    def asked(self, *words: str) -> str | None:
+        """Run a command that cannot be done of every scene, as `command`; None where a sentence says why."""
+        try:
+            return self.command(*words)
+        except Failure as failure:
+            if _REFUSED.search(str(failure)):
+                return None
+            raise
+
     def command(self, *words: str) -> str | None:
         """Run a command, and return what it printed; None where that is refused for a bound that is said.
 
@@ -89,7 +110,7 @@ class Case:
             if said.count("\n") == 1 and ((code == 2 and BOUND.search(whole)) or NOT_OF_ALL.search(said)):
                 return None
             raise Failure(whole)
-        if "Warning" in said:
+        if "Warning" in said or "Traceback" in said:
             raise Failure(f"{' '.join(words)}: warned: {said}")
         for line in (*printed.getvalue().splitlines(), *problems.getvalue().splitlines()):
             if set(map(category, line)) & {"Cc", "Cs"}:
@@ -311,13 +332,129 @@ def reported(case: Case) -> None:
 def laid(case: Case) -> None:
     """Make it of flat parts, in true size or on a page, or hear in a sentence why not."""
     words = case.rng.choice(((), ("--fit", "A4"), ("--fit", "Letter", "--bridge"), ("--bridge",)))
-    try:
-        found = json.loads(case.command("make", str(case.path), "--json", *words) or "null")
-    except Failure as failure:
-        if ": 2: linkanim: " not in str(failure):
-            raise
+    found = json.loads(case.asked("make", str(case.path), "--json", *words) or "null")
+    assert found is None or (found["refused"] is None) == bool(found["fittings"])
+
+
+def cut(case: Case) -> None:
+    """Write its parts into a folder, with or without a picture of their layers."""
+    folder, picture = case.made("parts"), case.made(f"layers{case.rng.choice(('.svg', '.png', '.pdf'))}")
+    words = case.rng.choice((("--fit", "A4"), ("--fit", "A4", "--bridge", "--kerf", "0.2"), ()))
+    more = case.rng.choice(((), ("--preview", str(picture))))
+    way = case.rng.choice(("cardboard", "laser", "print"))
+    done = case.asked("make", str(case.path), "-o", str(folder), "--way", way, *words, *more)
+    assert (done is None) != folder.exists()
+    if done is not None:
+        for path in folder.rglob("*.svg"):
+            well_formed(path.read_text(encoding="utf-8"))
+        for path in folder.rglob("*.html"):
+            closed(path.read_text(encoding="utf-8"))
+
+
+def constructed(case: Case) -> None:
+    """Draw or record a construction, whole or its first steps, or hear in a sentence why there is none."""
+    kind, alt = case.rng.choice(CONSTRUCTIONS), case.made("told.txt")
+    path = case.made(f"steps{case.rng.choice(('.svg', '.svg', '.png', '.pdf', '.gif'))}")
+    command = "record" if path.suffix == ".gif" else "draw"
+    words = ("--construction", *((kind,) if kind else ()), "--alt", str(alt), "--size", "160x90")
+    if case.asked(command, str(case.path), *words, "-o", str(path)) is not None:
+        told(alt)
+        if path.suffix == ".svg":
+            well_formed(path.read_text(encoding="utf-8"))
+
+
+def described(case: Case) -> None:
+    """Have a figure, a chart, a recording or a page told in words."""
+    alt = case.made("told.txt")
+    kind = case.rng.choice(("draw", "draw", "chart", "record"))
+    tokens = sorted(load(case.path).quantities)
+    more: tuple[str, ...] = {
+        "draw": (*case.rng.choice(case.ways), "-o", str(case.made("out.svg"))),
+        "chart": ("--quantity", case.rng.choice(tokens), "--over", "time", "-o", str(case.made("out.svg"))),
+        "record": ("--seconds", "0.08", *case.rng.choice(((), ("--ink",))), "-o", str(case.made("out.gif"))),
+    }[kind]
+    if case.command(kind, str(case.path), "--size", "64x36", "--alt", str(alt), *more) is not None:
+        told(alt)
+
+
+def told(path: Path) -> None:
+    """Hold a text to one paragraph of plain words."""
+    text = path.read_text(encoding="utf-8")
+    assert text.endswith("\n")
+    assert not set(map(category, text[:-1])) & {"Cc", "Cs", "Zl", "Zp"}, text
+    assert not re.search(r"\b(nan|inf|None)\b", text.replace("None.", "")), text
+
+
+def examined(case: Case) -> None:
+    """Write it as an exercise, of either level, in versions."""
+    path, count = case.made(f"exam.{case.rng.choice(FORMS)}"), case.rng.choice(("1", "2", "3"))
+    level = case.rng.choice(("formulas", "drawing"))
+    words = ("--exercise", "--level", level, "--versions", count, "--seed", "2")
+    if case.asked("explain", str(case.path), *words, "-o", str(path)) is not None and path.suffix == ".html":
+        closed(path.read_text(encoding="utf-8"))
+
+
+def platformed(case: Case) -> None:
+    """Write questions for learning platforms: strict XML, and a package of it."""
+    moodle, qti = case.made("q.xml"), case.made("q.zip")
+    words = ("-n", case.rng.choice(("2", "6")), "--moodle", str(moodle), "--qti", str(qti))
+    if case.command("quiz", str(case.path), *words) is not None:
+        ElementTree.parse(moodle)
+        with ZipFile(qti) as package:
+            assert package.testzip() is None
+            for name in package.namelist():
+                assert not name.startswith(("/", "..")), name
+                if name.endswith(".xml"):
+                    ElementTree.fromstring(package.read(name))
+
+
+def measured(case: Case) -> None:
+    """Lay a table of its own values beside a report or a chart."""
+    scene, table = load(case.path), case.made("measured.csv")
+    token = case.rng.choice(sorted(scene.quantities))
+    chart = ("chart", str(case.path), "--quantity", token, "--over", "time")
+    if case.command(*chart, "-o", str(table)) is None:
+        return
+    rows = table.read_text(encoding="utf-8").splitlines()
+    table.write_text("\n".join((f"time,{token}", *rows[1::40])) + "\n", encoding="utf-8")
+    if case.rng.random() < 0.5:
+        case.asked("report", str(case.path), "--data", str(table), "-o", str(case.made("measured")))
     else:
-        assert found is None or (found["refused"] is None) == bool(found["fittings"])
+        case.asked(*chart, "--data", str(table), "--size", "200x120", "-o", str(case.made("laid.svg")))
+
+
+def found_again(case: Case) -> None:
+    """Seek a linkage for a motion of this one, and make of what is found a figure, a solution and a page."""
+    target, table = case.made("found.toml"), case.made("given.csv")
+    cycle = load(case.path).cycle(40)
+    joint = case.rng.choice(sorted(cycle.position))
+    kind = case.rng.choice(("guide", "guide", "function", "quick-return", "path"))
+    words: tuple[str, ...]
+    if kind == "quick-return":
+        ratio, size = f"{case.rng.uniform(0.9, 4)}", f"{case.rng.choice((1e-9, 1, 80, 1e9, 170))}"
+        words = case.rng.choice((("--stroke", size), ("--swing", f"{size} deg")))
+        words = ("--ratio", ratio, *words)
+    elif kind == "function":
+        turned = sorted(cycle.angle) or [""]
+        values = cycle.angle.get(case.rng.choice(turned), cycle.position[joint][:, 0])
+        rows = [f"{x},{y}" for x, y in list(enumerate(values))[: case.rng.choice((5, 12, 40))]]
+        table.write_text("\n".join(rows) + "\n", encoding="utf-8")
+        words = (str(table), *case.rng.choice(((), ("--points", "3"), ("--kind", "slider-crank"))))
+    else:
+        step = case.rng.choice((1, 3, 9))
+        places = cycle.position[joint][:: step if kind == "guide" else 1]
+        turn = [10.0 * n for n in range(len(places))]
+        most = case.rng.randint(2, 5) if kind == "guide" else 40
+        rows = [f"{x},{y},{angle}" for (x, y), angle in zip(places, turn, strict=True)][:most]
+        table.write_text("\n".join(rows) + "\n", encoding="utf-8")
+        words = (str(table), "--count", "2")
+    if case.asked(kind, *words, "-o", str(target)) is None:
+        assert not target.exists()
+        return
+    case.command("check", str(target))
+    found = Case(target, case.rng, case.ways)
+    for output in (constructed, drawn, explained):
+        output(found)
 
 
 def taped(case: Case) -> None:
@@ -361,9 +498,14 @@ def _press(rng: Random) -> None:
     at = rng.randrange(160), rng.randrange(90)
     match rng.randrange(6):
         case 0:
+            button = rng.choice((1, 1, 1, 3))
             for kind in (pygame.MOUSEBUTTONDOWN, pygame.MOUSEMOTION, pygame.MOUSEBUTTONUP):
                 at = rng.randrange(160), rng.randrange(90)
-                more = {"rel": (0, 0), "buttons": (1, 0, 0)} if kind == pygame.MOUSEMOTION else {"button": 1}
+                more = (
+                    {"rel": (0, 0), "buttons": (1, 0, 0)}
+                    if kind == pygame.MOUSEMOTION
+                    else {"button": button}
+                )
                 pygame.event.post(pygame.event.Event(kind, pos=at, **more))
         case 1:
             key = rng.choice(MOVES)
@@ -397,6 +539,13 @@ OUTPUTS: Mapping[str, Output] = {
         recorded,
         reported,
         laid,
+        cut,
+        constructed,
+        described,
+        examined,
+        platformed,
+        measured,
+        found_again,
         taped,
         played,
     )
