@@ -42,7 +42,7 @@ _DEVICES = frozenset(
 """Names that Windows keeps for devices, whatever their ending."""
 _IN_USE = (5, 32)
 """Windows' numbers for a file that may not be touched and for one that is open elsewhere."""
-_PART = re.compile(r"\.linkanim-[0-9a-f]{16}\.part")
+_PART = r"\.linkanim-[0-9a-f]{16}\.part"
 _LOCK = "lock"
 _FORSAKEN = 7 * 24 * 3600
 """Seconds after which a scratch folder of another machine, whose locks we may not see, is left behind."""
@@ -330,7 +330,7 @@ def clear_stale(folder: Path) -> None:
     """Remove what runs that are no longer alive left in a folder; what cannot be removed stays."""
     with suppress(OSError):
         for path in list(folder.iterdir()):
-            if _PART.fullmatch(path.name) and path.is_dir() and not path.is_symlink() and _is_stale(path):
+            if re.fullmatch(_PART, path.name) and path.is_dir() and not path.is_symlink() and _is_stale(path):
                 _remove(path)
 
 

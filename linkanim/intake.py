@@ -9,7 +9,6 @@ Its parts, in reading order:
 
 from __future__ import annotations
 
-import csv
 import math
 import os
 import re
@@ -33,7 +32,7 @@ from linkanim.units import shown
 DEEPEST = 16
 """Keys within keys, or brackets within brackets; a scene needs four."""
 
-_TEXTS = re.compile(
+_TEXTS = (
     r'"""[\s\S]*?(?:(?<!\\)(?:\\\\)*+"{3,5}|\Z)'
     r"|'''[\s\S]*?(?:'{3,5}|\Z)"
     r'|"[^\n]*?(?:(?<!\\)(?:\\\\)*+"|(?=\n)|\Z)'
@@ -42,17 +41,15 @@ _TEXTS = re.compile(
 )
 # Before its fifth patch Python 3.11 errs about groups that are repeated without going back and may match
 # in several ways: there are none here.
-_DOTTED = re.compile(rf"(?<![\w-])(?:[\w-]++[ \t]*+\.[ \t]*+){{{DEEPEST}}}")
-_LONG_NUMBER = re.compile(
-    rf"(?<![0-9_.])(?:[0-9_.]{{{MOST_DIGITS + 1}}}|0x[0-9a-fA-F_]{{{MOST_DIGITS + 1}}})"
-)
-_CONTROLS = re.compile(
+_DOTTED = rf"(?<![\w-])(?:[\w-]++[ \t]*+\.[ \t]*+){{{DEEPEST}}}"
+_LONG_NUMBER = rf"(?<![0-9_.])(?:[0-9_.]{{{MOST_DIGITS + 1}}}|0x[0-9a-fA-F_]{{{MOST_DIGITS + 1}}})"
+_CONTROLS = (
     r"[\0-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2060-\u206f\ud800-\udfff"
     r"\ufff9-\ufffb\ufffe\uffff\U000e0000-\U000e007f]"
 )
-_PARTED, _LONGEST_NAME = re.compile(r"[/\\]"), 255
+_PARTED, _LONGEST_NAME = r"[/\\]", 255
 """What parts the names of a path on any system, and the bytes of a name that a disk holds."""
-_BRACKETS = re.compile(r"[\[\]{}]")
+_BRACKETS = r"[\[\]{}]"
 _MARKS = "=,:[{"
 _OUR_TROUBLE = (EMFILE, ENFILE, ENOMEM)
 """Why the system refuses any file, not this one."""
@@ -138,15 +135,15 @@ class Intake:
 
         Texts in quotes and comments weigh nothing but by their digits; the time grows with the length alone.
         """
-        bare = _TEXTS.sub("s", text)
+        bare = re.sub(_TEXTS, "s", text)
         if sum(map(bare.count, _MARKS)) > self.most_values:
             raise self.refusal(f"{where}: has more than {self.most_values:,} values; it is not {self.noun}")
-        if number := _LONG_NUMBER.search(text):
+        if number := re.search(_LONG_NUMBER, text):
             line = text.count("\n", 0, number.start()) + 1
             raise self.refusal(
                 f"{where}: has a number of more than {MOST_DIGITS:,} digits (line {line}); write fewer"
             )
-        if _DOTTED.search(bare) or _depth(bare) > DEEPEST:
+        if re.search(_DOTTED, bare) or _depth(bare) > DEEPEST:
             raise self.refusal(f"{where}: is nested deeper than {DEEPEST} levels; {self.noun} needs but four")
 
 
@@ -157,7 +154,7 @@ def control_in(text: str) -> str | None:
     characters, invisible signs (U+2060 to U+206F, tags): what a terminal obeys, no page may hold or no reader
     can see. Tabs and line breaks pass, and what joins letters or figures into one.
     """
-    found = _CONTROLS.search(text)
+    found = re.search(_CONTROLS, text)
     return f"the control character U+{ord(found[0]):04X}" if found else None
 
 
@@ -165,7 +162,7 @@ def unnameable(path: str) -> str | None:
     """Return why no file of ours can name a path, in words; None where it can."""
     if found := control_in(path):
         return f"has {found} in its name"
-    if any(len(part.encode()) > _LONGEST_NAME for part in _PARTED.split(path)):
+    if any(len(part.encode()) > _LONGEST_NAME for part in re.split(_PARTED, path)):
         return f"has a name of more than {_LONGEST_NAME} letters"
     return None if path.strip() else "has no name"
 
@@ -178,7 +175,7 @@ def named(path: str | os.PathLike[str]) -> str:
 def _depth(bare: str) -> int:
     """Return how deeply brackets stand in brackets, or one more than is allowed."""
     depth = deepest = 0
-    for bracket in _BRACKETS.findall(bare):
+    for bracket in re.findall(_BRACKETS, bare):
         depth = depth + 1 if bracket in "[{" else max(depth - 1, 0)
         deepest = max(deepest, depth)
         if deepest > DEEPEST:
@@ -194,8 +191,8 @@ Option = TypeVar("Option", bound=str)
 
 _FEW = 12
 _LONG = 60
-_BREAK = re.compile(r"\s*[\t\n\r]\s*")
-_BARE_KEY = re.compile(r"[A-Za-z0-9_-]+(\[\d+\])?")
+_BREAK = r"\s*[\t\n\r]\s*"
+_BARE_KEY = r"[A-Za-z0-9_-]+(\[\d+\])?"
 
 
 @frozen
@@ -276,7 +273,7 @@ class Section:
             raise self.error(key, "must be a text in quotes")
         if len(value) > LONGEST_TEXT:
             raise self.error(key, f"is longer than {LONGEST_TEXT:,} characters; cut it")
-        return _BREAK.sub(" ", value)
+        return re.sub(_BREAK, " ", value)
 
     def texts(self, key: str) -> tuple[str, ...]:
         """Return a list of texts, empty where it is missing."""
@@ -335,7 +332,7 @@ def refuse_controls(document: Section) -> None:
 
 
 def _written(key: str) -> str:
-    return key if len(key) <= _LONG and _BARE_KEY.fullmatch(key) else shown(key)
+    return key if len(key) <= _LONG and re.fullmatch(_BARE_KEY, key) else shown(key)
 
 
 def meant(name: str, known: Iterable[str]) -> str:
@@ -363,7 +360,7 @@ def _is_finite(value: float) -> bool:
 
 # Tables of numbers as they come: commas, tabs, blanks or semicolons between, with or without a heading.
 
-_NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?")
+_NUMBER = r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?"
 _LONGEST_LINE = 100_000
 _WITH_COMMA = re.compile(r"[+-]?\d+(,\d+)?([eE][+-]?\d+)?")
 
@@ -423,18 +420,22 @@ def _form(lines: list[str]) -> tuple[str, bool]:
     mark = next((mark for mark in ";\t," if any(mark in line for line in lines)), " ")
     if mark != ",":
         return mark, True
-    cells = [line.split() for line in lines if _NUMBER.match(_plain(line))]
+    cells = [line.split() for line in lines if re.match(_NUMBER, _plain(line))]
     decimal = all(len(row) > 1 and all(map(_WITH_COMMA.fullmatch, row)) for row in cells)
     return (" ", True) if cells and decimal else (mark, False)
 
 
 def _cells(line: str, between: str) -> list[str]:
+    import csv
+
     return line.split() if between == " " else next(csv.reader([line], delimiter=between))
 
 
 def _is_heading(cells: list[str]) -> bool:
     """Whether no cell is a number, and the first one does not begin as one, such as 87 deg."""
-    return not (_NUMBER.match(_plain(cells[0])) or any(_NUMBER.fullmatch(_plain(cell)) for cell in cells))
+    return not (
+        re.match(_NUMBER, _plain(cells[0])) or any(re.fullmatch(_NUMBER, _plain(cell)) for cell in cells)
+    )
 
 
 def _plain(cell: str) -> str:
@@ -459,6 +460,6 @@ def _row(line: int, cells: list[str], columns: str, where: str, comma: bool) -> 
 def _number(cell: str, comma: bool) -> float:
     """Return a cell's number, NaN where it has none."""
     plain = _plain(cell)
-    if not _NUMBER.fullmatch(plain) or ("," in plain and not comma):
+    if not re.fullmatch(_NUMBER, plain) or ("," in plain and not comma):
         return math.nan
     return float(plain.replace(",", "."))

@@ -235,8 +235,8 @@ _WORDS = {"sliders": "guide", "yokes": "slot", "gears": "gear pair"}
 _HOLDING = ("points", "bars", "sliders", "slots", "yokes", "gears")
 """The kinds that hold joints."""
 _OWN = ("points", "sliders", "yokes", "gears")
-_APART = re.compile(r"(joint |joints\.)(?P<joint>[^:]+): the bars of (?P<lengths>.*) cannot meet")
-_KEYS = re.compile(r"^draft: (joints: |[a-z-]+: (?=joint )|[a-z_.-]+\.(?P<name>[^:.= ]+)[^:]*: )?")
+_APART = r"(joint |joints\.)(?P<joint>[^:]+): the bars of (?P<lengths>.*) cannot meet"
+_KEYS = r"^draft: (joints: |[a-z-]+: (?=joint )|[a-z_.-]+\.(?P<name>[^:.= ]+)[^:]*: )?"
 
 
 def missing(draft: Draft, known: Found) -> str:
@@ -253,12 +253,12 @@ def missing(draft: Draft, known: Found) -> str:
 def reworded(draft: Draft, error: BadInput) -> str:
     """Return why reading a draft's document refused it, as a sentence about what was drawn."""
     text = str(error)
-    if apart := _APART.search(text):
+    if apart := re.search(_APART, text):
         joint = apart["joint"]
         names = [_body_of(draft, joint, end) for _, end, _ in draft.bars_at(joint)]
         return f"Bars {' and '.join(names[:2])} ({apart['lengths']}) cannot meet{text[apart.end() :]}"
-    name = (_KEYS.match(text) or {"name": None})["name"]
-    text = f"{name or ''}: {_KEYS.sub('', text)}".removeprefix(": ")
+    name = (re.match(_KEYS, text) or {"name": None})["name"]
+    text = f"{name or ''}: {re.sub(_KEYS, '', text)}".removeprefix(": ")
     return text[:1].upper() + text[1:]
 
 

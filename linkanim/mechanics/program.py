@@ -13,7 +13,7 @@ from bisect import bisect_left
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Set
 from ctypes import addressof, c_char
-from dataclasses import dataclass, field
+from dataclasses import field
 from decimal import Decimal
 from functools import lru_cache
 from types import CodeType, FunctionType
@@ -94,19 +94,16 @@ def _heirs(
     return heirs
 
 
-@dataclass
 class _Free:
     """The places that are free; `filled` says at which pass each row gets its own values."""
 
-    filled: Mapping[str, int]
-    rows: list[tuple[int, str]] = field(init=False)
-    """Those never used, with when they are filled: the first one to be filled first."""
-    places: list[str] = field(default_factory=list)
-    """Those given back, the last one last."""
-    buffers: int = 0
-
-    def __post_init__(self) -> None:
-        self.rows = sorted((at, row) for row, at in self.filled.items())
+    def __init__(self, filled: Mapping[str, int]) -> None:
+        self.filled = filled
+        self.rows = sorted((at, row) for row, at in filled.items())
+        """Those never used, with when they are filled: the first one to be filled first."""
+        self.places: list[str] = []
+        """Those given back, the last one last."""
+        self.buffers = 0
 
     def take(self, at: int, last: int, heir: tuple[int, str]) -> str:
         """Take the row to which a value is handed down, one free that long, or one free while used."""

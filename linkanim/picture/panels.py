@@ -6,7 +6,6 @@ The help has as many columns as the window has room for. Chips are words that co
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, field
 from itertools import chain, product
 from math import ceil, floor
 from typing import Any
@@ -451,12 +450,12 @@ _BACKING = 0.7
 """How little of what lies under a mark shows through its backing."""
 
 
-@dataclass
 class Panels:
     """Draws overlays; the last panel of each kind is kept, so that an open one costs one blit."""
 
-    board: Board
-    _kept: dict[Any, tuple[Any, Any]] = field(default_factory=dict)
+    def __init__(self, board: Board) -> None:
+        self.board = board
+        self._kept: dict[Any, tuple[Any, Any]] = {}
 
     def draw(self, surface: pygame.Surface, overlay: Overlay) -> None:
         """Draw what an overlay holds: the help over a game or beside the edit list, a toast at the foot."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
 from itertools import groupby
 from math import ceil
 from typing import TYPE_CHECKING
@@ -151,14 +150,13 @@ def _chapter(browsing: Browsing, place: int) -> str:
     return name[:1].upper() + name[1:]
 
 
-@dataclass
 class Live:
     """A mechanism on the shelf, and its picture as of a turn."""
 
-    picture: Picture
-    printer: SurfacePrinter = field(default_factory=SurfacePrinter)
-    turn: int = -1
-    printed: pygame.Surface | None = None
+    def __init__(self, picture: Picture) -> None:
+        self.picture, self.printer = picture, SurfacePrinter()
+        self.turn = -1
+        self.printed: pygame.Surface | None = None
 
     def go(self, turn: int) -> None:
         """Print the picture of a turn."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from functools import partial
 from itertools import chain
 from math import ceil
@@ -54,12 +54,12 @@ def tool_at(layout: Layout, x: float, y: float) -> int | None:
     return next((n for n, cell in enumerate(tool_cells(layout)) if cell.holds(x, y)), None)
 
 
-@dataclass
 class ToolPrinter:
     """Paints the bar of tools; the bar without its tooltip is kept."""
 
-    _kept: tuple[object, pygame.Surface] | None = None
-    _type: Type = field(default_factory=Type)
+    def __init__(self) -> None:
+        self._kept: tuple[object, pygame.Surface] | None = None
+        self._type = Type()
 
     def draw(self, surface: pygame.Surface, layout: Layout, theme: Theme, bar: ToolBar | None) -> None:
         """Draw a bar over the picture, and what the tool under the mouse is called."""

@@ -250,7 +250,7 @@ def put(state: State, place: int) -> State:
 
 AGAIN = "R again: the file's dimensions"
 
-_KEY = re.compile(r"^[\w.\[\]-]+( =|:) ")
+_KEY = r"^[\w.\[\]-]+( =|:) "
 _NUDGE = {
     "mm": "1", "cm": "0.1", "m": "0.001", "in": "0.1",
     "deg": "1", "°": "1", "rad": "0.01",
@@ -563,7 +563,7 @@ def _united(shown: Scene, values: Mapping[Key, str]) -> dict[Key, str]:
 def _reason(message: str, values: Mapping[Key, str], scene: Scene) -> str:
     """Leave out the key of a single value, beside which the reason stands; of several say it in words."""
     if len(values) == 1:
-        return _KEY.sub("", message)
+        return re.sub(_KEY, "", message)
     words = {".".join(map(str, item.key)): item.label for item in dimensions(scene) if item.key in values}
     key, _, reason = message.partition(": ")
     return f"{words[key]}: {reason}" if key in words else message

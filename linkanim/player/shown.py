@@ -130,7 +130,7 @@ def _numbers(building: Building) -> RowsShown | None:
     row = building.row % len(numbers)
     rows = [(one.label, _stated(one, building.typed if n == row else "")) for n, one in enumerate(numbers)]
     title = "input" if thing[0] == "drive" else name if name.startswith(kind) else f"{kind} {name}"
-    title = _NAME.sub(lambda found: subscripted(found[0]), title)
+    title = re.sub(_NAME, lambda found: subscripted(found[0]), title)
     return RowsShown(title, tuple(rows), row)
 
 
@@ -258,7 +258,7 @@ _FREE = {
 _MAKE_HINT = "Enter writes the parts"
 _BAR_FRAMES = 6 * FRAMES_PER_SECOND
 _WATCH_FRAMES = 6 * FRAMES_PER_SECOND
-_NAME = re.compile(r"\b[^\W\d_]\w*")
+_NAME = r"\b[^\W\d_]\w*"
 _WAYS = ("along", "to the left", "to the right", "x", "y")
 """What the labels of places end in, and the other side."""
 _READ, _NEAR = 15, 40
@@ -605,7 +605,7 @@ def _panel(state: State, items: tuple[Dimension, ...]) -> Panel:
 
 
 def _label(item: Dimension) -> str:
-    return _NAME.sub(lambda name: subscripted(name[0]), item.label)
+    return re.sub(_NAME, lambda name: subscripted(name[0]), item.label)
 
 
 def _valued(item: Dimension, digits: int) -> str:

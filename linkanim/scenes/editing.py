@@ -37,7 +37,7 @@ from linkanim.scenes.scene import Scene
 
 # The numbers of a scene's document that can be edited: what each is called, what it lies between.
 
-_COUNTED = re.compile(r"([a-z]{2})(\d+)$")
+_COUNTED = r"([a-z]{2})(\d+)$"
 _SHORT = 2
 """A name of so many letters stands for nothing by itself."""
 _ADJECTIVES = frozenset({"left", "right", "upper", "lower", "large", "small", "short", "long"})
@@ -123,7 +123,7 @@ def _named(body: str, names: Mapping[str, str]) -> str:
     """Return what a body is called: by its number, "Bar b", "Upper bar", "Rod 2", or by its name alone."""
     if body.isdigit():
         return f"Link {body}"
-    words = _COUNTED.sub(r"\1 \2", names[body])
+    words = re.sub(_COUNTED, r"\1 \2", names[body])
     if len(words) <= _SHORT:
         return f"Bar {words}"
     return f"{words} bar".capitalize() if words in _ADJECTIVES else words[:1].upper() + words[1:]
@@ -202,7 +202,7 @@ def _words(text: str) -> list[str]:
 #
 # A change is made to the document and read again, so that it is checked exactly as a file is.
 
-_BARE = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?", re.I | re.A)
+_BARE = r"(?ia)[+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?"
 _EXACT = 2**53
 
 
@@ -282,7 +282,7 @@ def dimension_of(key: Key, label: str, kind: ValueType, stated: Any, length_unit
 def written(value: float | str, dimension: Dimension) -> object:
     """Return a new value as the document writes it: a number, or a text with its unit."""
     text = value.strip() if isinstance(value, str) else repr(value)
-    if _BARE.fullmatch(text) is None or not dimension.bare:
+    if re.fullmatch(_BARE, text) is None or not dimension.bare:
         return with_unit(text, dimension)
     number = float(text)
     return int(number) if number.is_integer() and abs(number) < _EXACT else number
@@ -290,7 +290,7 @@ def written(value: float | str, dimension: Dimension) -> object:
 
 def with_unit(text: str, dimension: Dimension) -> str:
     """Return a value as it is typed with the dimension's unit, where it is a number without any."""
-    return f"{text} {dimension.unit}" if _BARE.fullmatch(text.strip()) and dimension.unit else text
+    return f"{text} {dimension.unit}" if re.fullmatch(_BARE, text.strip()) and dimension.unit else text
 
 
 def replaced(document: Any, key: Key, value: object) -> Any:

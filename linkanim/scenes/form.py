@@ -119,8 +119,8 @@ SHORTEST = 1 / _LONGEST
 """The least length of a scene file, and the least way of an input."""
 _MOST_TURNS = 100
 _SMALL, _STEEP = 12, 100
-_FRACTION = re.compile(r"\s*([+-]?\d{1,9}(?:\.\d{1,18})?)\s*(?:/\s*(\d{1,9})\s*)?", re.A)
-_HEX = re.compile(r"#[0-9a-f]{6}", re.I | re.A)
+_FRACTION = r"(?a)\s*([+-]?\d{1,9}(?:\.\d{1,18})?)\s*(?:/\s*(\d{1,9})\s*)?"
+_HEX = r"(?ia)#[0-9a-f]{6}"
 _NUMBER = r"^\s*[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?\s*"
 
 
@@ -275,7 +275,7 @@ def _ratio(table: Table, key: str) -> Fraction:
 
 def _fraction(value: object) -> Fraction | None:
     if isinstance(value, str):
-        match = _FRACTION.fullmatch(value)
+        match = re.fullmatch(_FRACTION, value)
         bottom = int(match[2] or 1) if match else 0
         return Fraction(match[1]) / bottom if match and bottom else None
     if isinstance(value, bool) or not isinstance(value, int | float):
@@ -291,7 +291,7 @@ def _text(table: Table, key: str) -> str:
 
 def _colour(table: Table, key: str) -> tuple[int, int, int]:
     value = table.text(key)
-    if not _HEX.fullmatch(value):
+    if not re.fullmatch(_HEX, value):
         raise table.error(key, 'is no colour; write red, green and blue as in "#d55e00"')
     red, green, blue = bytes.fromhex(value[1:])
     return red, green, blue

@@ -421,8 +421,8 @@ def _check_assembly(top: Table, scene: Scene, check: Check | None) -> None:
 
 # Every problem of a scene file at once, each with its line.
 
-_AT_LINE = re.compile(r"\(at line (\d+), column \d+\)|\(line (\d+)\)")
-_ITEM = re.compile(r"(.+)\[\d+\]")
+_AT_LINE = r"\(at line (\d+), column \d+\)|\(line (\d+)\)"
+_ITEM = r"(.+)\[\d+\]"
 
 
 class Problem(NamedTuple):
@@ -447,12 +447,12 @@ def problems(text: str, *, name: str, where: str) -> list[Problem]:
 def _unparsed(error: BadInput, text: str) -> Problem:
     if error.keys:
         return Problem(str(error), _line(line_numbers(text), error.keys))
-    at = _AT_LINE.search(str(error))
+    at = re.search(_AT_LINE, str(error))
     return Problem(str(error), int(at[1] or at[2]) if at else None)
 
 
 def _line(lines: dict[Keys, int], keys: Keys) -> int | None:
     """Return the line of a key, or of the nearest table around it."""
-    items = [(key, _ITEM.fullmatch(key)) for key in keys]
+    items = [(key, re.fullmatch(_ITEM, key)) for key in keys]
     plain = tuple(item[1] if item else key for key, item in items)
     return next((lines[plain[:n]] for n in range(len(plain), 0, -1) if plain[:n] in lines), None)

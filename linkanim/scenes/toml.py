@@ -52,8 +52,8 @@ Keys = tuple[str, ...]
 
 _PATIENCE = 500_000
 """Characters looked at, at the most: a list of lists over very many lines is looked at anew for each."""
-_IDLE = re.compile(r"\s*(#.*)?\s*")
-_ENDS = re.compile(r"[\]}]|\"{3}|'{3}")
+_IDLE = r"\s*(#.*)?\s*"
+_ENDS = r"[\]}]|\"{3}|'{3}"
 """What a statement over several lines has in its last."""
 
 
@@ -76,10 +76,10 @@ def _statements(text: str) -> Iterator[tuple[int, str, Any]]:
     begun, lines, seen = 1, list[str](), 0
     for number, line in enumerate(text.splitlines(keepends=True), 1):
         begun = begun if lines else number
-        if not lines and _IDLE.fullmatch(line):
+        if not lines and re.fullmatch(_IDLE, line):
             continue
         lines.append(line)
-        if begun < number and not _ENDS.search(line):
+        if begun < number and not re.search(_ENDS, line):
             continue
         statement = "".join(lines)
         seen += len(statement)
@@ -120,9 +120,9 @@ def _keys(document: dict[str, Any]) -> list[Keys]:
 _SECTIONED = ("joints", "springs", "dampers")
 """The tables of whose tables each has a head of its own."""
 _MARK = "\x01"
-_INLINE = re.compile(r'"\\u0001(\d+)"')
-_LIST = re.compile(r" = \[\n((?:    [^\[\]].*,\n)+)\]$", re.MULTILINE)
-_INNER_LIST = re.compile(r"^    \[\n((?:        .*,\n)+)    \],$", re.MULTILINE)
+_INLINE = r'"\\u0001(\d+)"'
+_LIST = r"(?m) = \[\n((?:    [^\[\]].*,\n)+)\]$"
+_INNER_LIST = r"(?m)^    \[\n((?:        .*,\n)+)    \],$"
 
 
 def text(scene: Scene) -> str:
@@ -135,7 +135,7 @@ def text(scene: Scene) -> str:
         raise SceneError(f"{scene.name}: has no scene file behind it that could be written; load it from one")
     inline: list[str] = []
     document = {key: _section(key, value, inline) for key, value in scene.document.items()}
-    return _INLINE.sub(lambda found: inline[int(found[1])], _lines(document))
+    return re.sub(_INLINE, lambda found: inline[int(found[1])], _lines(document))
 
 
 def save(scene: Scene, folder: Path) -> Path:
@@ -195,8 +195,8 @@ def _on_a_line(table: Mapping[str, Any]) -> str:
 def _lines(document: Mapping[str, Any]) -> str:
     import tomli_w
 
-    outer = _LIST.sub(lambda found: f" = {_on_one_line(found)}", tomli_w.dumps(document))
-    return _INNER_LIST.sub(lambda found: f"    {_on_one_line(found)},", outer)
+    outer = re.sub(_LIST, lambda found: f" = {_on_one_line(found)}", tomli_w.dumps(document))
+    return re.sub(_INNER_LIST, lambda found: f"    {_on_one_line(found)},", outer)
 
 
 def _on_one_line(found: re.Match[str]) -> str:

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from decimal import localcontext
 from fractions import Fraction
 from functools import cached_property, partial
@@ -496,20 +496,19 @@ class Piece:
     arms: dict[tuple[str, str], Vec] = field(default_factory=dict)
 
 
-@dataclass
 class Walk:
     """What has been found so far; joints add themselves to it in their order.
 
     `pieces` stand in the order of the linkage's rigid bodies.
     """
 
-    assembly: Assembly
-    state: InputState
-    points: dict[str, MovingPoint] = field(default_factory=dict)
-    pieces: list[Piece] = field(default_factory=lambda: [Piece()])
-    travels: dict[str, Moving] = field(default_factory=dict)
-    closings: dict[str, Closing] = field(default_factory=dict)
-    """What closes each dyad on moving points: L², or how far its end lies from its line, U and W."""
+    def __init__(self, assembly: Assembly, state: InputState) -> None:
+        self.assembly, self.state = assembly, state
+        self.points: dict[str, MovingPoint] = {}
+        self.pieces = [Piece()]
+        self.travels: dict[str, Moving] = {}
+        self.closings: dict[str, Closing] = {}
+        """What closes each dyad on moving points: L², or how far its end lies from its line, U and W."""
 
     @property
     def bodies(self) -> dict[str, Slope]:
