@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import json
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from io import StringIO
@@ -36,6 +34,8 @@ def csv_head(names: Iterable[str]) -> str:
 
     A name that one would run, such as "=A1", has an apostrophe in front.
     """
+    import csv
+
     text = StringIO()
     csv.writer(text, lineterminator="\n").writerow(
         f"'{name}" if name.startswith(_RUN) else name for name in names
@@ -65,6 +65,8 @@ def markdown(rows: Sequence[Sequence[str]]) -> str:
 
 def json_text(value: object, *, indent: int | None = None) -> str:
     """Return the value as strict JSON; NaN and infinities, at any depth, are null."""
+    import json  # a command that prints text ends sooner without
+
     return json.dumps(mapped(_finite, value), indent=indent, allow_nan=False, ensure_ascii=False)
 
 

@@ -6,7 +6,7 @@ import platform
 import sys
 from argparse import Action, Namespace
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from importlib import import_module, metadata
+from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any, cast
@@ -36,7 +36,8 @@ def parse(argv: Sequence[str] | None = None) -> Namespace:
     for word in words:
         if found := control_in(word):
             raise BadInput(f"{shown(word)} has {found} in it; write plain text, and rename such a file")
-    return build().parse_args(_with_command(words))
+    words = _with_command(words)
+    return build(words[0] if words[0] in COMMANDS else None).parse_args(words)
 
 
 def run(chosen: Namespace) -> None:
@@ -48,8 +49,11 @@ def run(chosen: Namespace) -> None:
     work(chosen)
 
 
-def build() -> Parser:
-    """Build the parser with every command in it; imports nothing that draws, solves or encodes."""
+def build(only: str | None = None) -> Parser:
+    """Build the parser with every command in it; imports nothing that draws, solves or encodes.
+
+    With `only` that command alone is in it, which a command line that begins with it needs.
+    """
     parser = Parser(
         prog="linkanim",
         usage="linkanim [SCENE | FILE.toml | FILE.tape.json]\n       linkanim COMMAND ...",
@@ -71,7 +75,8 @@ def build() -> Parser:
     add = parser.add_subparsers(
         dest="command", metavar="COMMAND", prog="linkanim", parser_class=Parser, title="commands"
     )
-    for name, (about, *examples) in COMMANDS.items():
+    for name in [only] if only else COMMANDS:
+        about, *examples = COMMANDS[name]
         text = f"{about[0].upper()}{about[1:]}."
         made = add.add_parser(name, help=about, description=text, examples=examples)
         for argument in ARGUMENTS[name]:
@@ -100,6 +105,8 @@ def _versions() -> Iterator[str]:
 
 def _installed(package: str) -> str:
     """Return the version of an installed package; empty where it is not installed."""
+    from importlib import metadata
+
     try:
         return metadata.version(package)
     except metadata.PackageNotFoundError:

@@ -15,8 +15,8 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import cache, reduce
 from html import escape
-from importlib.resources import files
 from itertools import chain, groupby, pairwise
+from pathlib import Path
 from typing import Literal
 
 import numpy as np
@@ -167,7 +167,7 @@ figure.vectors { margin: .6rem 0; break-inside: avoid; } figure.vectors svg { ma
 @cache
 def math_style() -> str:
     """Return how formulas are set, with the font that they are set in, whose brackets stretch."""
-    face = (files("linkanim.explain") / "faces/LinkanimMath.woff2").read_bytes()
+    face = (Path(__file__).parent / "faces/LinkanimMath.woff2").read_bytes()
     source = f"url(data:font/woff2;base64,{b64encode(face).decode()}) format('woff2')"
     return f"\n@font-face {{ font-family: 'Linkanim Math'; src: {source}; }}{_MATH}"
 

@@ -11,7 +11,6 @@ import unicodedata
 import warnings
 from collections.abc import Hashable, Iterable, Iterator
 from functools import cached_property
-from importlib.resources import files
 from io import BytesIO
 from itertools import pairwise, product
 from math import ceil, prod
@@ -133,7 +132,7 @@ class Fonts:
 def file_of(path: str) -> str:
     """Return where a font's file lies; the bundled face's by its name alone."""
     bundled = path in (REGULAR, SEMIBOLD)
-    return str(files("linkanim.picture") / "faces" / path) if bundled else path
+    return str(Path(__file__).parent / "faces" / path) if bundled else path
 
 
 def _files() -> Iterator[str]:

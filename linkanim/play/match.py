@@ -10,7 +10,6 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import cached_property, lru_cache
-from importlib.resources import files
 from itertools import pairwise
 from pathlib import Path
 from random import Random
@@ -123,7 +122,7 @@ def _least_angle(row: Real) -> float:
 # The levels of Match: a dotted curve, where the joints begin, what full score takes; files, or seeds.
 
 Made = TypeVar("Made")
-FOLDER = files("linkanim.play") / "levels"
+FOLDER = Path(__file__).parent / "levels"
 _FILE = Intake("a level", most_bytes=100_000, most_values=5_000)
 _KEYS = frozenset({"title", "about", "closed", "points", "fixed", "start", "full", "answer"})
 _JOINTS = Linkage4._fields

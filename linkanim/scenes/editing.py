@@ -20,10 +20,9 @@ import re
 from cmath import rect
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from difflib import Match, SequenceMatcher
 from fractions import Fraction
 from math import atan2, degrees, hypot
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from linkanim import units
 from linkanim.errors import AssemblyError, BadInput, LinkanimError, SceneError
@@ -34,6 +33,9 @@ from linkanim.scenes.file_form import DRIVE, SCENE_FILE, SHORTHANDS
 from linkanim.scenes.form import LENGTHS, Field, Key, Measure, ValueType, fields_in
 from linkanim.scenes.reading import Check, scene_from
 from linkanim.scenes.scene import Scene
+
+if TYPE_CHECKING:
+    from difflib import Match
 
 # The numbers of a scene's document that can be edited: what each is called, what it lies between.
 
@@ -186,6 +188,8 @@ def _shared(title: str, class_name: str) -> Match | None:
     """Return the most words in a row that title and class have in common; None where they are no phrase."""
     known, words = _words(title), list(re.finditer(r"\w+", class_name.lower()))
     named = [word[0] for word in words]
+    from difflib import SequenceMatcher  # for an edited scene only: a window opens sooner without
+
     same = SequenceMatcher(None, known, named, autojunk=False).find_longest_match()
     # A word, or words from a preposition on, out of a phrase leave no phrase.
     if not same.size or (same.b and (same.size == 1 or named[same.b] in _BOUND)):

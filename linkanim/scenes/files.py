@@ -6,7 +6,6 @@ import os
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import cache
-from importlib.resources import files
 from pathlib import Path
 from types import MappingProxyType
 
@@ -118,4 +117,4 @@ def _catalogue_text(name: str) -> str:
 
 def _text(path: str) -> str:
     """Return the text of a file of the package."""
-    return (files("linkanim.scenes") / path).read_text(encoding="utf-8")
+    return (Path(__file__).parent / path).read_text(encoding="utf-8")

@@ -13,9 +13,9 @@ from collections.abc import Iterator
 from dataclasses import replace
 from functools import cache
 from html import escape
-from importlib.resources import files
 from itertools import count, pairwise
 from math import floor, log10, radians
+from pathlib import Path
 from string import Template
 from typing import Any
 
@@ -421,4 +421,4 @@ def _short(value: Any) -> Any:
 @cache
 def packaged(name: str) -> str:
     """Return the text of a file of this room."""
-    return files("linkanim.share").joinpath(name).read_text(encoding="utf-8")
+    return Path(__file__).with_name(name).read_text(encoding="utf-8")
