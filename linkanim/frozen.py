@@ -10,10 +10,12 @@ classes of an import never have a value. The rest is Python's own: `field`, `fie
 from __future__ import annotations
 
 import collections
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import MISSING, Field, FrozenInstanceError, dataclass, field, fields
+from functools import cache
 from operator import attrgetter
 from reprlib import recursive_repr
+from types import CodeType, FunctionType
 from typing import TYPE_CHECKING, Any, NoReturn, TypeVar, dataclass_transform, overload
 
 Made = TypeVar("Made")
@@ -41,20 +43,20 @@ def frozen(
             for name in vars(kind).get("__annotations__", ()):
                 if isinstance(getattr(cls, name, None), property):
                     raise TypeError(f"{cls.__name__}.{name}: a base has a property of this name")
-        statement = _Statement(cls, kw_only=kw_only)
+        cls._stated = _Statement(cls, kw_only=kw_only)  # type: ignore[attr-defined]
         methods: dict[str, object] = {
-            "__init__": _Late(cls, "__init__", lambda: _written_init(cls)),
+            "__init__": _Late(cls, "__init__", _written_init),
             "__repr__": _repr,
             "__setattr__": _refuse_to_set,
             "__delattr__": _refuse_to_delete,
-            "__match_args__": _Late(cls, "__match_args__", lambda: statement.read("__match_args__")),
+            "__match_args__": _Late(cls, "__match_args__", _placed),
         }
         if eq:
-            compared = _Late(cls, "_compared", lambda: property(_reader(cls)))
+            compared = _Late(cls, "_compared", lambda cls: property(_reader(cls)))
             methods |= {"_compared": compared, "__eq__": _equal, "__hash__": _hash}
         for name in methods.keys() - own:
             setattr(cls, name, methods[name])
-        setattr(cls, _FIELDS, _Late(cls, _FIELDS, lambda: statement.read(_FIELDS)))
+        setattr(cls, _FIELDS, _Late(cls, _FIELDS, _standard_fields))
         return cls
 
     return made if cls is None else made(cls)
@@ -67,65 +69,125 @@ _FIELDS = "__dataclass_fields__"
 class _Late:
     """Stand where a class has an attribute, and put it there when it is first asked for."""
 
-    def __init__(self, owner: type, name: str, make: Callable[[], object]) -> None:
+    def __init__(self, owner: type, name: str, make: Callable[[Any], object]) -> None:
         self._owner, self._name, self._make = owner, name, make
 
     def __get__(self, value: object, kind: type | None = None) -> Any:
         if vars(self._owner).get(self._name) is self:
-            setattr(self._owner, self._name, self._make())
+            setattr(self._owner, self._name, self._make(self._owner))
         return getattr(self._owner if value is None else value, self._name)
 
 
 class _Statement:
-    """What a class states of its fields, until Python's own `dataclass` reads it."""
+    """What a class states of its fields, those of its bases apart."""
 
     def __init__(self, cls: type, *, kw_only: bool) -> None:
-        self._cls, self._kw_only = cls, kw_only
-        self._stated = {name: one for name, one in vars(cls).items() if isinstance(one, Field)}
-        for name, one in self._stated.items():
+        self.kw_only = kw_only
+        self._types = {
+            name: kind
+            for name, kind in vars(cls).get("__annotations__", {}).items()
+            if not str(kind).startswith(("ClassVar", "typing.ClassVar"))
+        }
+        self.special = {name: one for name, one in vars(cls).items() if isinstance(one, Field)}
+        for name, one in self.special.items():
             if one.default is MISSING:
                 delattr(cls, name)
             else:
                 setattr(cls, name, one.default)
+        self._defaults = {name: getattr(cls, name, MISSING) for name in self._types}
 
-    def read(self, wanted: str) -> object:
-        """Have the class read, and return this attribute, which it has by that."""
-        for name, one in self._stated.items():
-            setattr(self._cls, name, one)
-        if isinstance(vars(self._cls)["__match_args__"], _Late):
-            delattr(self._cls, "__match_args__")  # what is there would be kept
-        dataclass(init=False, repr=False, eq=False, kw_only=self._kw_only)(self._cls)
-        return vars(self._cls)[wanted]
+    def fields(self) -> Iterator[_Field]:
+        """Iterate the fields in their order."""
+        for name, kind in self._types.items():
+            factory: object = MISSING
+            compare, kw_only = True, self.kw_only
+            if (special := self.special.get(name)) is not None:
+                factory, compare = special.default_factory, special.compare
+                kw_only = kw_only if special.kw_only is MISSING else special.kw_only
+            yield _Field(name, kind, self._defaults[name], factory, compare, kw_only)
+
+
+def _fields(cls: type) -> list[_Field]:
+    """Return the fields of a class, those of its bases first."""
+    found: dict[str, _Field] = {}
+    for kind in reversed(cls.__mro__):
+        if "_stated" in vars(kind):
+            found.update((one.name, one) for one in vars(kind)["_stated"].fields())
+    return list(found.values())
+
+
+def _standard_fields(cls: Any) -> object:
+    """Return the fields as Python's own functions look for them, such as `replace`."""
+    for name, one in cls._stated.special.items():
+        setattr(cls, name, one)
+    dataclass(init=False, repr=False, eq=False, kw_only=cls._stated.kw_only)(cls)
+    return vars(cls)[_FIELDS]
+
+
+def _placed(cls: type) -> tuple[str, ...]:
+    return tuple(one.name for one in _fields(cls) if not one.kw_only)
 
 
 def _written_init(cls: type) -> Callable[..., None]:
     """Return the `__init__` of a class, as `dataclass(frozen=True)` writes it."""
-    names: dict[str, Any] = {"_set": object.__setattr__, "_missing": MISSING}
-    placed, named, lines = ["self"], ["*"], []
-    for one in fields(cls):
-        name, value, default = one.name, one.name, ""
-        if one.default is not MISSING:
-            default = f"=_default_{name}"
-            names[f"_default_{name}"] = one.default
-        elif one.default_factory is not MISSING:
-            default, value = "=_missing", f"_make_{name}() if {name} is _missing else {name}"
-            names[f"_make_{name}"] = one.default_factory
-        (named if one.kw_only else placed).append(name + default)
-        lines.append(f"_set(self, {name!r}, {value})")
-    if hasattr(cls, "__post_init__"):
-        lines.append("self.__post_init__()")
-    arguments = ", ".join(placed + (named if len(named) > 1 else []))
-    exec(f"def __init__({arguments}):\n " + "\n ".join(lines or ["pass"]), names)
-    init = names["__init__"]
-    init.__qualname__ = f"{cls.__qualname__}.__init__"
-    init.__module__ = cls.__module__
-    init.__annotations__ = {**{one.name: one.type for one in fields(cls)}, "return": None}
-    return init  # type: ignore[no-any-return]
+    stated = sorted(_fields(cls), key=lambda one: one.kw_only)
+    made_by = {f"_make{n}": one.factory for n, one in enumerate(stated) if one.factory is not MISSING}
+    placed = [f"_{n}" for n, one in enumerate(stated) if not one.kw_only]
+    named = [f"_{n}" for n in range(len(placed), len(stated))]
+    lines = (
+        f"_set(self, '_{n}', "
+        + (f"_make{n}() if _{n} is _missing else _{n})" if f"_make{n}" in made_by else f"_{n})")
+        for n in range(len(stated))
+    )
+    last = "self.__post_init__()" if hasattr(cls, "__post_init__") else ""
+    arguments = ", ".join(["self", *placed, *(["*", *named] if named else [])])
+    body = "\n ".join([*lines, last or "pass"])
+    init = _function(
+        f"def __init__({arguments}):\n {body}",
+        {f"_{n}": one.name for n, one in enumerate(stated)},
+        {"_set": object.__setattr__, "_missing": MISSING, **made_by},
+    )
+    defaults = {
+        one.name: MISSING if one.factory is not MISSING else one.default
+        for one in stated
+        if one.default is not MISSING or one.factory is not MISSING
+    }
+    init.__defaults__ = tuple(
+        defaults[one.name] for one in stated if not one.kw_only and one.name in defaults
+    )
+    init.__kwdefaults__ = {
+        one.name: defaults[one.name] for one in stated if one.kw_only and one.name in defaults
+    }
+    init.__qualname__, init.__module__ = f"{cls.__qualname__}.__init__", cls.__module__
+    init.__annotations__ = {**{one.name: one.type for one in stated}, "return": None}
+    return init
+
+
+def _function(text: str, names: Mapping[str, str], known: dict[str, Any]) -> FunctionType:
+    """Return the function of a text, with other names for its arguments, and for the same words in it.
+
+    Functions of one form are compiled once: to rename takes a twentieth of the time.
+    """
+    code = _code(text)
+
+    def renamed(words: tuple[Any, ...]) -> tuple[Any, ...]:
+        return tuple(names.get(word, word) if isinstance(word, str) else word for word in words)
+
+    code = code.replace(co_varnames=renamed(code.co_varnames), co_consts=renamed(code.co_consts))
+    return FunctionType(code, known)
+
+
+@cache
+def _code(text: str) -> CodeType:
+    found: dict[str, Any] = {}
+    exec(text, found)
+    (code,) = (one.__code__ for one in found.values() if isinstance(one, FunctionType))
+    return code
 
 
 def _reader(cls: type) -> Callable[[Any], tuple[object, ...]]:
     """Return what reads the fields of a value that are compared, as a tuple."""
-    names = tuple(one.name for one in fields(cls) if one.compare)
+    names = tuple(one.name for one in _fields(cls) if one.compare)
     if len(names) > 1:
         return attrgetter(*names)  # one alone it returns bare
     return lambda value: tuple(getattr(value, name) for name in names)
@@ -191,10 +253,10 @@ class _LateMaker:
     def __get__(self, value: object, kind: type | None = None) -> Callable[..., Any]:
         owner = self._owner
         if vars(owner)["__new__"] is self:
-            names: dict[str, Any] = {"_new": tuple.__new__}
-            listed = "".join(f"{one}, " for one in owner._fields)
-            exec(f"def __new__(_cls, {listed}): return _new(_cls, ({listed}))", names)
-            made = names["__new__"]
+            names = {f"_{n}": one for n, one in enumerate(owner._fields)}
+            listed = "".join(f"{one}, " for one in names)
+            text = f"def __new__(_cls, {listed}): return _new(_cls, ({listed}))"
+            made = _function(text, names, {"_new": tuple.__new__})
             made.__defaults__ = tuple(owner._field_defaults.values())
             made.__module__, made.__qualname__ = owner.__module__, f"{owner.__qualname__}.__new__"
             made.__annotations__ = {**owner.__annotations__}
@@ -236,3 +298,14 @@ _OF_TUPLES: dict[str, object] = {
 """What all named tuples have in common, beside what a tuple has."""
 _field_at: Callable[[int, str], object] = collections._tuplegetter  # type: ignore[attr-defined]
 """Reads one place of a tuple by its name; Python's own named tuples have no other, and none is as quick."""
+
+
+class _Field(NamedTuple):
+    """A field of a frozen class: its name and type, its default or what makes one, and how it is used."""
+
+    name: str
+    type: object
+    default: object
+    factory: object
+    compare: bool
+    kw_only: bool
