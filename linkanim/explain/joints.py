@@ -65,13 +65,18 @@ Lengths = NDArray[np.float64]
 
 def place_pin(pin: Pin, work: Work) -> None:
     """Take where the pin stands, or work it out from its length and angle."""
-    if pin.polar is None or not pin.polar.length:
+    origin = next((name for name, at in work.points.items() if at == NOWHERE), None)
+    named = frozenset((origin, pin.name)) in work.names.lengths
+    if pin.polar is not None and pin.polar.length:
+        base, (length, angle) = pin.polar.base, (pin.polar.length, pin.polar.angle)
+    elif named and pin.position[0] > 0 == pin.position[1]:
+        # level with the origin: its one coordinate is a length of the figure
+        base, length, angle = None, pin.position[0], 0.0
+    else:
         places = zip("xy", pin.position, strict=True)
         x, y = (work.stated(Symbol(letter, pin.name), value, LENGTH) for letter, value in places)
         work.points[pin.name] = Components(x, y)
         return
-    base, (length, angle) = pin.polar.base, (pin.polar.length, pin.polar.angle)
-    origin = next((name for name, at in work.points.items() if at == NOWHERE), None)
     index = work.names.length(start, pin.name) if (start := base or origin) else pin.name
     arm = along(work.stated(Symbol("θ", index), angle, ANGLE)).times(
         work.stated(Symbol("r", index), length, LENGTH)
@@ -626,6 +631,8 @@ def _ground(work: Work, start: str, end: str) -> tuple[LoopSide, complex]:
     length, angle = (work.given.get(Symbol(letter, index)) for letter in "rθ")
     if length and angle:
         way = along(angle.value).times(length.value)
+    elif length and way.y.constant == 0:
+        way = Components(length.value if way.x.value > 0 else -length.value, ZERO)
     return LoopSide(Symbol("R", index, bold=True), way), work.place(start)
 
 

@@ -53,8 +53,10 @@ _LEAD = 1.2
 """From a plot's edge to the names beside it, in heights of their text."""
 _STEP = 1.15
 """From one such name to the next, likewise."""
-_ASIDE, _LEVELS = (0.6, 2.5, 5.0), (1.6, 2.8, 4.0, 5.2)
+_ASIDE, _LEVELS = (0.6, 2.5, 5.0, 7.5, 10.0), (1.6, 2.8, 4.0, 5.2, 6.4, 7.6)
 """How far aside of a dot, in heights of their text, and above or below it, in their own, words may stand."""
+_FAR = 0.3
+"""What being far costs, so that words rather stand there than on their own curve."""
 _DOT = 2.4
 """Half of what a dot takes, in widths of a thin line."""
 _CLOSE = 0.7
@@ -205,10 +207,11 @@ def _about(at: complex, text: str, pen: Pen, *, high: bool) -> LabelPlaces:
     asides = [(side, off) for off in _ASIDE for side in (1, -1)]
     columns = [(0.0, 0.0), *((side * (wide / 2 + off * pen.small), off) for side, off in asides)]
     near = [complex(x, y) for y in rows[::-up] for x, _ in columns[:3]]
+    far = [(complex(x, y), 0.3 * off) for y in (0.0, *rows) for x, off in columns[3:]]
     levels = [(n, side * n * tall) for n in _LEVELS for side in (up, -up)]
-    far = [(complex(x, y), 0.35 * n + 0.3 * off) for n, y in levels for x, off in columns]
+    far += [(complex(x, y), 0.35 * n + 0.3 * off) for n, y in levels for x, off in columns]
     offs = np.array([*near, *(off for off, _ in far)])
-    price = np.array([*(0.2 * np.arange(len(near))), *(1.0 + more for _, more in far)])
+    price = _FAR * np.array([*(0.2 * np.arange(len(near))), *(1.0 + more for _, more in far)])
     # from the dot to the nearest point of the words
     away = np.maximum(np.abs(offs.real) - wide / 2, 0) * np.sign(offs.real)
     reach = away + 1j * np.maximum(np.abs(offs.imag) - tall / 2, 0) * np.sign(offs.imag)

@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 from itertools import chain
-from math import degrees, tau
+from math import degrees, floor, tau
 from pathlib import Path
 
 import numpy as np
@@ -43,6 +44,8 @@ from linkanim.units import short, shown, significant, stepped, typeset
 SAMPLES = 720
 """For each period of the drive."""
 _MOST_PERIODS = 8
+_ROUNDING = 1e-6
+"""Of an angle in degrees."""
 
 
 class Pace(NamedTuple):
@@ -88,6 +91,11 @@ class Curves:
     unit: str
     marks: tuple[tuple[float, str], ...]
     over: Over | None
+
+    @property
+    def in_time(self) -> bool:
+        """Whether they run over time: as asked for, or since an input that swings is twice at one place."""
+        return self.over == "time" or (self.over is None and not self.scene.info.full_turn)
 
     def places(self, curve: Curve, motion: Motion) -> Floats:
         """Return where the instants of a motion lie along the axis of a curve."""
@@ -138,6 +146,22 @@ def curves_of(
         return Curves(scene, found, input_title(scene), low, high, "°", (), over)
     marks = longest.marks if len(paces) == 1 else ()
     return Curves(scene, found, longest.title, 0.0, longest.span, longest.unit, marks, over)
+
+
+def within_a_turn(curves: Curves) -> Curves:
+    """Return curves whose angles lie between 0° and 360° where they can, else about 0°."""
+    return replace(curves, curves=tuple(_within_a_turn(curve) for curve in curves.curves))
+
+
+def _within_a_turn(curve: Curve) -> Curve:
+    values = curve.values[np.isfinite(curve.values)]
+    if curve.quantity.unit != "rad" or curve.quantity.order or not values.size:
+        return curve
+    low, high = float(values.min()), float(values.max())
+    turns = floor((low + _ROUNDING) / 360)
+    if high - 360 * turns > 360 + _ROUNDING:
+        turns = round((low + high) / 720)
+    return replace(curve, values=curve.values - 360 * turns)
 
 
 def _there_and_back(scene: Scene, over: Over | None) -> bool:

@@ -46,7 +46,8 @@ tbody tr:nth-child(-n+2):not(:last-child), tbody tr:nth-last-child(2) {{ break-a
 @page {{ size: A4; margin: 15mm 14mm 16mm; FOOT }}
 @media print {{ body {{ margin: 0; padding: 0; max-width: none; font-size: 9.5pt; line-height: 1.35; }}
   h1 {{ font-size: 17pt; }} h2 {{ font-size: 12.5pt; margin: .8rem 0 .3rem; }}
-  table {{ font-size: 8.5pt; line-height: 1.25; }} th, td {{ padding-top: .08rem; padding-bottom: .08rem; }}
+  table {{ font-size: 8.5pt; line-height: 1.25; }} th, td {{ padding-top: .02rem; padding-bottom: .02rem; }}
+  .long::before {{ content: ''; display: block; height: 46mm; margin-bottom: -46mm; break-inside: avoid; }}
   figure {{ margin: .2rem 0 .4rem; }} }}
 """
 _FOOT = (
@@ -62,7 +63,7 @@ _APART = " style='break-before: page'"
 _KEPT, _LONG = "<div class='keep'>", "<div class='long'>"
 _LISTED = 3
 """So many figures have a list of their own."""
-_ROWS_KEPT = 24
+_ROWS_KEPT = 14
 """A table of so many rows at the most stands on one page."""
 
 
@@ -77,13 +78,14 @@ def embedded(picture: str, title: str, style: str = "") -> str:
 class FigurePart:
     """A picture as SVG, with what it shows, which its number comes before; how high it is at the most.
 
-    `words` stand under the caption: what is seen in it.
+    `words` stand under the caption: what is seen in it. A `broad` one is as wide as the page.
     """
 
     picture: str
     caption: str
     highest: int = 140
     words: str = ""
+    broad: bool = False
 
 
 @frozen
@@ -137,15 +139,21 @@ def page(
     contents = f"<nav aria-label='Contents'><ul>{entries}</ul></nav>"
     listed = _figures_of(chapters)
     body = "\n".join([heading(1, title), *head, contents])
-    sections = "\n".join(
+    sections = [
         f"<section id='chapter-{n}'{_APART * (name in apart)}>\n"
         f"{_sectioned(heading(2, f'{n} {name}'), written)}\n</section>"
         for n, name, written in numbered
         if written
-    )
+    ]
+    if listed and all(isinstance(part, str) for part in chapters[-1][1]):
+        # a short end and the list of figures stand on one page
+        sections[-1:] = [_KEPT, *sections[-1:], listed, "</div>"]
+    else:
+        sections.append(listed)
+    inside = "\n".join(sections)
     return (
         f"<!doctype html>\n<html lang='en'><head>{start}</head><body>\n"
-        f"<header>\n{body}\n</header>\n<main>\n{sections}\n{listed}\n</main>\n</body></html>\n"
+        f"<header>\n{body}\n</header>\n<main>\n{inside}\n</main>\n</body></html>\n"
     )
 
 
@@ -186,7 +194,7 @@ def _written(part: Part, figures: Iterator[int], tables: Iterator[int]) -> str:
     match part:
         case str():
             return part
-        case FigurePart(picture, caption, highest, words):
+        case FigurePart(picture, caption, highest, words, _):
             number = next(figures)
             title = f"Figure {number}. {caption}"
             drawn = embedded(picture, f"{title}. {words}" if words else title, f"max-height: {highest}mm")

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import field, replace
 from functools import cached_property
-from itertools import chain
+from itertools import chain, groupby
 from math import pi
 
 import numpy as np
@@ -16,12 +16,14 @@ from linkanim.explain.documents import HTML, chapters
 from linkanim.explain.solution import PoseRequest, Solution, solution
 from linkanim.export import csv_head, csv_rows
 from linkanim.frozen import frozen
+from linkanim.mechanics.quantities import input_symbol
 from linkanim.paper import html
 from linkanim.paper.chart import Page
-from linkanim.paper.curves import MeasuredCurve, MeasuredTable, Pace, compared, curves_of
+from linkanim.paper.curves import MeasuredCurve, MeasuredTable, Pace, compared, curves_of, within_a_turn
 from linkanim.paper.figure import Figured
 from linkanim.paper.findings import (
     Instant,
+    PlannedChart,
     Values,
     charted,
     paces_of,
@@ -35,7 +37,7 @@ from linkanim.paper.findings import (
 from linkanim.paper.html import Beside, FigurePart, Part, TablePart
 from linkanim.paper.sentences import about, closing
 from linkanim.paper.svg import svg
-from linkanim.paper.vectors import vectors_svg
+from linkanim.paper.vectors import polygons_svg, vectors_svg
 from linkanim.picture.figure import figure
 from linkanim.picture.look import Look
 from linkanim.picture.text import subscripted
@@ -45,12 +47,23 @@ from linkanim.scenes.scene import Scene
 from linkanim.units import rounded, significant
 
 _CHART = (400, 225)
-_WIDE, _TALL = (820, 440), (440, 700)
-"""The figure's size in pixels: as wide as the page, or beside facts and dimensions, in these shares."""
-_SHARES = 2, 3
+_BROAD_CHART = (820, 225)
+"""A chart that has a row of its own."""
+_WIDE, _TALL = (820, 440), (360, 640)
+"""The figure's size in pixels: as wide as the page, or beside facts and dimensions."""
+_HIGHEST, _HIGHEST_BESIDE = 160, 80
+"""How high the figure, loops and poses are at the most, in millimetres, where the page has others beside."""
+_MOST_LINES = 34
+"""So many dimensions stand below each other beside the figure at the most."""
+_POSES = {2: (400, 270), 3: (272, 184)}
+_TALL_POSE = (264, 372)
+"""A pose's size in pixels, of so many in a row: letters are as large as the figure's."""
+_NAMES = 60
+"""Room for names above and below a figure that stands, in pixels."""
 _HIGH = 1.1
 """How high for its width a scene is whose figure stands so."""
-_POLYGONS = 440, 380
+_POLYGONS = 820, 300
+"""Both polygons of a pose, side by side."""
 _COMPARED = 19
 """So many rows of a measured table are printed at the most."""
 _PRINTED = 6
@@ -58,6 +71,7 @@ _PRINTED = 6
 _UNSAFE = re.compile(r"[^\w.-]+")
 _WORD = re.compile(r"\w+")
 _DECIMALS = re.compile(r"\d+\.\d+")
+_BRACES = {ord("{"): None, ord("}"): None}
 _LONGEST = 60
 """Letters of a chart's file name that come from its quantities."""
 
@@ -103,10 +117,18 @@ class Report:
 
     @cached_property
     def _figure(self) -> Figured:
-        size, clearest = _TALL if self._tall else _WIDE, figure(self.scene).clearest
+        clearest = figure(self.scene).clearest
         # at an end of its swing the input rests, and nothing has a rate
         phase = pi / 2 if rests(self.scene, Instant(clearest, "")) else clearest
-        return Figured(self.scene, size, Look(names=2, hud=False), phase)
+        return Figured(self.scene, self._size, Look(names=2, hud=False), phase)
+
+    @cached_property
+    def _size(self) -> tuple[int, int]:
+        """The figure's size: one that stands is as high as its scene is for its width, and room for names."""
+        if not self._tall:
+            return _WIDE
+        box, (wide, high) = figure(self.scene).box, _TALL
+        return wide, min(round(wide * (box.high - box.low) / (box.right - box.left)) + _NAMES, high)
 
     @cached_property
     def _tall(self) -> bool:
@@ -121,20 +143,30 @@ class Report:
     def _topics(self) -> dict[str, list[DrawnChart]]:
         """The charts of each topic."""
         found = topics(self._values, self.paces).items()
-        return {title: [self._drawn(*chart) for chart in charts] for title, charts in found}
+        return {title: [*self._in_topic(charts)] for title, charts in found}
+
+    def _in_topic(self, charts: list[PlannedChart]) -> Iterator[DrawnChart]:
+        """Yield the charts of a topic; of an odd number the one with the most curves is as broad as the page.
+
+        It is one that has a pair of them before it, or none.
+        """
+        pairs = charts[:: 2 if len(charts) % 2 else len(charts)]
+        broad = max(reversed(pairs), key=lambda chart: len(chart.tokens)) if len(charts) % 2 else None
+        for chart in charts:
+            yield self._drawn(*chart, broad=chart is broad)
 
     @cached_property
     def _every(self) -> list[DrawnChart]:
         tokens = charted(self._values) if self.every else ()
         return [self._drawn((token,), self.scene.quantities[token].words) for token in tokens]
 
-    def _drawn(self, tokens: tuple[str, ...], caption: str) -> DrawnChart:
+    def _drawn(self, tokens: tuple[str, ...], caption: str, *, broad: bool = False) -> DrawnChart:
         order, paces = self.scene.quantities[tokens[0]].order, paces_of(self.scene, tokens[0], self.paces)
-        curves = curves_of(self.scene, tokens, paces)
-        drawn = Page(curves, _CHART, brief=True)
-        picture = svg(_CHART, drawn.background, drawn.groups(), title=caption)
+        curves, size = within_a_turn(curves_of(self.scene, tokens, paces)), _BROAD_CHART if broad else _CHART
+        drawn = Page(curves, size, brief=True)
+        picture = svg(size, drawn.background, drawn.groups(), title=caption)
         at = f", at {paces[0].words}" if order and len(paces) == 1 else ""
-        return tokens, FigurePart(picture, f"{caption}{at}", words=about(curves))
+        return tokens, FigurePart(picture, f"{caption}{at}", words=about(curves), broad=broad)
 
     def _head(self) -> Iterator[str]:
         yield html.paragraph(self.scene.source, "source")
@@ -169,7 +201,7 @@ class Report:
         if self.measured:
             yield f"Beside {self.label}", self._beside()
         yield "Velocity and acceleration polygons", self._polygons()
-        yield "In short", [html.paragraph(sentence) for sentence in closing(self.scene, self.paces[0])]
+        yield "In short", [html.paragraph(self._told(one)) for one in closing(self.scene, self.paces[0])]
         if self.every:
             speeds = [pace.words for pace in self.paces]
             for instant in self.instants:
@@ -187,10 +219,12 @@ class Report:
         stated = (
             (self._indexed(item.label), self._stated(item.value, item.unit)) for item in dimensions(scene)
         )
-        known = ((label, _shorter(value, self.digits)) for label, value in scene.info.lines)
+        known = ((label, self._told(value)) for label, value in scene.info.lines)
         facts, lengths = ("Facts", tuple(known)), ("Dimensions", tuple(stated))
         if self._tall:
-            yield Beside((drawn, (html.facts(*facts, 1), html.facts(*lengths, 2))), 2, _SHARES)
+            yield html.facts(*facts, 3)
+            told = html.facts(*lengths, 1 if len(lengths[1]) <= _MOST_LINES else 2)
+            yield Beside((replace(drawn, highest=_HIGHEST), told))
         else:
             yield from (html.facts(*facts, 2), drawn, html.facts(*lengths, 3))
 
@@ -198,6 +232,11 @@ class Report:
         """Return words with the names of joints in them set as such: Pin O₂."""
         names = {joint.name for joint in self.scene.linkage.joints}
         return _WORD.sub(lambda found: subscripted(found[0]) if found[0] in names else found[0], label)
+
+    def _told(self, text: str) -> str:
+        """Return words of the scene's facts with the tables' digits, and the input's symbol as it is set."""
+        symbol = input_symbol(self.scene.linkage)
+        return _shorter(text, self.digits).replace(symbol.translate(_BRACES), symbol)
 
     @staticmethod
     def _stated(value: float, unit: str) -> str:
@@ -210,7 +249,7 @@ class Report:
         alone = replace(self._worked, chapters=(replace(given, steps=()), loops))
         # behind the headings of both and the figure
         _, _, _, *equations = chapters(alone, replace(HTML, steps="\n".join))
-        yield Beside((FigurePart(vectors_svg(alone), caption, 90), tuple(equations)))
+        yield Beside((FigurePart(vectors_svg(alone), caption, _HIGHEST_BESIDE), tuple(equations)))
 
     def _beside(self) -> Iterator[Part]:
         """Yield a chart and a table of each quantity that was measured: both values and their difference."""
@@ -269,12 +308,12 @@ class Report:
         """Yield a figure of the scene at each instant."""
         look = Look(names=1, hud=False, trace=False)
         across = 3 if self._tall or len(self.instants) % 3 == 0 else 2
-        size = (_TALL[0], _TALL[1]) if self._tall else (_WIDE[0] // 2, _WIDE[1] * 5 // 8)
+        size = _TALL_POSE if self._tall else _POSES[across]
         figures = (
             FigurePart(
                 Figured(self.scene, size, look, instant.phase).document(),
                 f"The mechanism at {place_of(self.scene, instant)}",
-                90,
+                _HIGHEST_BESIDE,
             )
             for instant in self.instants
         )
@@ -287,16 +326,13 @@ class Report:
             yield html.paragraph(note)
 
     def _polygons(self) -> Iterator[Part]:
-        look = Look(trace=False, polygons=True, hud=False)
-        pace, found = self.paces[0], []
-        moving = [instant for instant in self.instants if not rests(self.scene, instant)]
-        for instant in moving:
-            shown = Figured(
-                self.scene, _POLYGONS, look, instant.phase, speed=pace.speed, acceleration=pace.acceleration
-            )
-            caption = f"Polygons at {place_of(self.scene, instant)}, {pace.words}"
-            found.append(FigurePart(shown.document(), caption))
-        yield from _in_rows(found)
+        pace, look = self.paces[0], Look(trace=False, hud=False)
+        for instant in self.instants:
+            if not rests(self.scene, instant):
+                speed, second = pace.speed, pace.acceleration
+                shown = Figured(self.scene, _POLYGONS, look, instant.phase, speed=speed, acceleration=second)
+                where = f"at {place_of(self.scene, instant)}, {pace.words}"
+                yield FigurePart(polygons_svg(shown), f"Velocity and acceleration polygon {where}")
 
 
 def _shorter(text: str, digits: int) -> str:
@@ -308,6 +344,9 @@ def _shorter(text: str, digits: int) -> str:
     return _DECIMALS.sub(shorter, text)
 
 
-def _in_rows(parts: list[FigurePart], across: int = 2) -> Iterator[Beside]:
-    """Yield figures side by side, so many in a row."""
-    return (Beside(tuple(parts[n : n + across]), across) for n in range(0, len(parts), across))
+def _in_rows(parts: list[FigurePart], across: int = 2) -> Iterator[Part]:
+    """Yield figures side by side, so many in a row; one that is broad has a row of its own."""
+    for broad, some in groupby(parts, key=lambda part: part.broad):
+        row = [*some]
+        for n in range(0, len(row), across):
+            yield from row[n : n + 1] if broad else [Beside(tuple(row[n : n + across]), across)]

@@ -14,7 +14,7 @@ import numpy as np
 from linkanim.mechanics.measures import output_body, output_slider
 from linkanim.mechanics.quantities import called, input_symbol
 from linkanim.mechanics.search import sign_changes
-from linkanim.paper.curves import Curve, Curves, Pace, curves_of, extremes
+from linkanim.paper.curves import Curve, Curves, Pace, Peak, curves_of, extremes, within_a_turn
 from linkanim.picture.quantities import Floats, driven_words, unbounded_places
 from linkanim.scenes.scene import Scene
 from linkanim.units import rounded, typeset
@@ -29,14 +29,20 @@ _DIGITS = 4
 _EVEN = 0.005
 """Two ways whose times differ by less of the period are equally quick."""
 _NOTHING = 1e-9
+_ROUNDING = 1e-7
+"""Of what a curve comes to at the most: a speed is as near to nothing as its place is found."""
 _MOST_TOLD = 8
 """So many links of a pose are told of."""
 _LOWERED = re.compile(r"_\{([^}]*)\}")
 
 
 def about(curves: Curves) -> str:
-    """Return what a chart shows, in sentences; of an unbounded one where it is so, of a level one nothing."""
-    return " ".join(sentence for curve in _told(curves) for sentence in _sentences(curves, curve))
+    """Return what a chart shows, in sentences; of an unbounded one where it is so, of a level one nothing.
+
+    Of several curves that share a chart each has a short one.
+    """
+    told = _told(curves)
+    return " ".join(sentence for curve in told for sentence in _sentences(curves, curve, brief=len(told) > 1))
 
 
 def closing(scene: Scene, pace: Pace) -> Iterator[str]:
@@ -51,7 +57,7 @@ def closing(scene: Scene, pace: Pace) -> Iterator[str]:
         kinds = ("angle", "angular_velocity", "angular_acceleration")
     tokens = [token for kind in kinds if (token := f"{output.name}.{kind}") in scene.quantities]
     for token in tokens:
-        if said := about(curves_of(scene, (token,), (pace,))):
+        if said := about(within_a_turn(curves_of(scene, (token,), (pace,)))):
             yield f"{scene.quantities[token].words}. {said}"
 
 
@@ -105,21 +111,26 @@ def _told(curves: Curves) -> Sequence[Curve]:
     return [max(first, key=lambda curve: float(np.ptp(np.nan_to_num(curve.values))))]
 
 
-def _sentences(curves: Curves, curve: Curve) -> Iterator[str]:
+def _sentences(curves: Curves, curve: Curve, *, brief: bool) -> Iterator[str]:
     peaks = extremes(curves.scene, curve)
     if not peaks:
         yield from _unbounded(curves, curve)
         return
-    high, low = ((_value(curves, curve, peak.value), _at(curves, peak.angle)) for peak in peaks)
+    high, low = peaks
     symbol = ", ".join(part for part in (curve.quantity.symbol, curve.label) if part)
     several = len({one.pace for one in curves.curves}) > 1 and curve.quantity.order
     name = f"At {curve.pace.words} {symbol}" if several else symbol
+    zeros = _zeros(curves, curve)
+    if brief:
+        there = f", and {_zero_words(zeros)}" if zeros else ""
+        yield f"{name} goes from {_ends(curves, curve, (low, high))}{there}."
+        return
     if curve.quantity.order == 0 and (way := _way_up(curves, curve)) is not None:
         yield _to_and_fro(curves, curve, name, (low, high), way)
         return
-    zeros = _zeros(curves, curve)
-    there = f"; {_zero_words(zeros)}" if zeros else ""
-    yield f"{name} is greatest, {high[0]}, {high[1]}, and least, {low[0]}, {low[1]}{there}."
+    there = f"; it {_zero_words(zeros)}" if zeros else ""
+    told = [f"{_value(curves, curve, peak.value)}, {_at(curves, peak)}" for peak in peaks]
+    yield f"{name} is greatest, {told[0]}, and least, {told[1]}{there}."
 
 
 def _unbounded(curves: Curves, curve: Curve) -> Iterator[str]:
@@ -131,12 +142,14 @@ def _unbounded(curves: Curves, curve: Curve) -> Iterator[str]:
         yield f"{symbol} goes to infinity at {input_symbol(curves.scene.linkage)} = {_listed(places)}."
 
 
-def _to_and_fro(
-    curves: Curves, curve: Curve, name: str, ends: tuple[tuple[str, str], tuple[str, str]], up: float
-) -> str:
+def _ends(curves: Curves, curve: Curve, ends: tuple[Peak, Peak]) -> str:
+    """Return between which values a curve goes: −611.0 mm at θ₂ = 316.7° to −543.8 mm at θ₂ = 70.9°."""
+    return " to ".join(f"{_value(curves, curve, end.value)} {_at(curves, end)}" for end in ends)
+
+
+def _to_and_fro(curves: Curves, curve: Curve, name: str, ends: tuple[Peak, Peak], up: float) -> str:
     """Return how what goes to and fro once in a period does so; `up` is the share of the way up."""
-    (low, low_at), (high, high_at) = ends
-    between = f"{name} rises from {low} {low_at} to {high} {high_at} and falls again"
+    between = f"{name} rises from {_ends(curves, curve, ends)} and falls again"
     if abs(up - 0.5) < _EVEN:
         return f"{between}; both ways take the same time."
     slow, share = ("way up", up) if up > 0.5 else ("way down", 1 - up)
@@ -176,6 +189,8 @@ def _zeros(curves: Curves, curve: Curve) -> list[str]:
     # from between two samples round to there: many are zero at the start itself
     shifted = np.linspace(phases[0], phases[-1], len(phases)) + 0.5 * (phases[1] - phases[0])
     found = sign_changes(lambda near: curve.solved(curves.scene, near), shifted)
+    if curves.in_time:
+        return [_seconds(time) for time in sorted(_times(curve, found))]
     return _input_places(curves, found)
 
 
@@ -183,27 +198,45 @@ def _input_places(curves: Curves, phases: Floats) -> list[str]:
     """Return where the input is at phases, in words, in its order."""
     angles = (float(curves.scene.pose(float(phase), 0).coordinate) for phase in phases)
     shown = sorted(curves.scene.linkage.drive.coordinate.shown(angle) for angle in angles)
-    return [_at(curves, angle % 360 if curves.scene.info.full_turn else angle, bare=True) for angle in shown]
+    return [_place(curves, angle % 360 if curves.scene.info.full_turn else angle) for angle in shown]
+
+
+def _times(curve: Curve, phases: Floats) -> list[float]:
+    """Return when a curve comes to phases of its period, on its chart's axis of time."""
+    known, x = _rising(curve.phases, curve.x)
+    period = known[-1] - known[0]
+    times: list[float] = np.interp(known[0] + (phases - known[0]) % period, known, x).tolist()
+    return times
 
 
 def _zero_words(zeros: list[str]) -> str:
     if len(zeros) > _MOST_ZEROS:
-        return f"it changes its sign {len(zeros)} times"
-    return f"it changes its sign at {_listed(zeros)}"
+        return f"changes its sign {len(zeros)} times"
+    return f"changes its sign at {_listed(zeros)}"
 
 
 def _listed(places: list[str]) -> str:
     return " and ".join(part for part in (", ".join(places[:-1]), places[-1]) if part)
 
 
-def _at(curves: Curves, angle: float, *, bare: bool = False) -> str:
-    """Return a place of the input in words: "at θ₂ = 71.0°"; `bare` without the first two."""
+def _at(curves: Curves, peak: Peak) -> str:
+    """Return a place of the input in words: "at θ₂ = 71.0°"; of one that swings the time, "at t = 2 s"."""
+    if curves.in_time:
+        return f"at t = {_seconds(peak.x)}"
+    return f"at {input_symbol(curves.scene.linkage)} = {_place(curves, peak.angle)}"
+
+
+def _seconds(time: float) -> str:
+    return f"{rounded(0.0 if abs(time) < _NOTHING else time, _DIGITS - 1)} s"
+
+
+def _place(curves: Curves, angle: float) -> str:
     drive = curves.scene.linkage.drive
-    value = driven_words(curves.scene, radians(angle) if drive.coordinate.is_angle else angle)
-    return value if bare else f"at {input_symbol(curves.scene.linkage)} = {value}"
+    return driven_words(curves.scene, radians(angle) if drive.coordinate.is_angle else angle)
 
 
 def _value(curves: Curves, curve: Curve, value: float) -> str:
     unit = curve.quantity.shown_unit(curves.scene.length_unit)
-    number = typeset(rounded(0.0 if abs(value) < _NOTHING else value, _DIGITS))
+    most = float(np.abs(curve.values).max())
+    number = typeset(rounded(0.0 if abs(value) <= _ROUNDING * most else value, _DIGITS))
     return f"{number}{'' if unit == '°' else ' '}{unit}".rstrip()

@@ -1,4 +1,4 @@
-"""The vectors of a worked solution's loops as a figure: over the links, which are faint."""
+"""Vectors as figures: those of a worked solution's loops over the links, which are faint, and polygons."""
 
 from __future__ import annotations
 
@@ -16,17 +16,29 @@ from linkanim.picture.items import Caption, Group, Halo, Item, grouped
 from linkanim.picture.look import Look
 from linkanim.picture.picture import Picture
 from linkanim.picture.placing import Clutter, LabelPlaces, Solid, place
+from linkanim.picture.polygons import polygons_of
 from linkanim.picture.raster import Colour, Layer
 from linkanim.picture.shapes import arrows
 from linkanim.picture.text import subscripted
 from linkanim.picture.view import Rect
 
-_WIDE, _TALL = (520, 380), (400, 520)
+_WIDE, _TALL = (520, 380), (400, 480)
 """The figure's size in pixels; printed beside its equations its letters are some 7 pt high."""
 _FILLED = 0.82
 """Of the picture's width or height the vectors and the links take so much."""
 _SHORT = 1e-6
 """Of the picture's width: what is shorter has no direction."""
+
+
+def polygons_svg(figured: Figured) -> str:
+    """Return the velocity and the acceleration polygon of a figure's pose, side by side and nothing else."""
+    picture, scene = figured.picture, figured.scene
+    pose = scene.pose(figured.shown_phase, speed=figured.speed, acceleration=figured.acceleration)
+    pen, edge = pen_for(picture.layout, picture.type, picture.theme), 0.02 * figured.size[0]
+    whole = Rect(0, 0, *figured.size).inset(edge)
+    groups = [one.group(pose) for one in polygons_of(picture.figure, whole, pen, figured.shown_phase)]
+    title = f"Velocity and acceleration polygon of {scene.title}"
+    return svg(figured.size, picture.theme.background, groups, title=title)
 
 
 class _Named(NamedTuple):

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
 
 from linkanim.frozen import NamedTuple, frozen
-from linkanim.mechanics.motion import Pose
+from linkanim.mechanics.motion import Motion, Pose
 from linkanim.mechanics.polygons import Order, Side, Sort, chains
 from linkanim.picture.chart import Pen
 from linkanim.picture.figure import Figure
@@ -35,6 +36,8 @@ _TITLE = 0.6
 """So much of the width has a title beside the bar of the scale."""
 _BARS = 5
 """So many bars of the scale, at the most, go into the panel's width."""
+_ROW = 1.2
+"""From row to row of a list, in heights of its text."""
 _GUIDED: frozenset[Sort] = frozenset({"coriolis", "sliding"})
 
 
@@ -72,7 +75,8 @@ class PlacedSymbols(NamedTuple):
 class Polygon:
     """One polygon of a figure in its place: all poses of the cycle at one scale, about one pole.
 
-    With a `moment` they are such as fill the place at that phase.
+    With a `moment` they are such as fill the place at that phase. So does a pose that is `shown`; what cannot
+    be named beside its vector is listed, `aside` of them where no corner is free.
     """
 
     figure: Figure
@@ -80,9 +84,13 @@ class Polygon:
     rect: Rect
     pen: Pen
     moment: float | None = None
+    shown: Pose | None = None
+    aside: float = 0.0
 
     def group(self, pose: Pose) -> Group:
         """Return the polygon of a pose with its title and the bar of its scale."""
+        if self.moment is not None and self.shown is None:
+            return replace(self, shown=pose).group(pose)
         words, _, per = _TITLES[self.order]
         scale = self.scale(pose.input_speed)
         pole = self.pole(pose.input_speed)
@@ -90,8 +98,13 @@ class Polygon:
         dot = Layer(self.pen.theme.ink, [pole + disc(1.8 * self.pen.line)])
         symbols = self._symbols(found, pole)
         layers, captions = [*symbols.leaders, *self._drawn(found), dot], [self._title, *symbols.captions]
-        if scale > 0 and symbols.left and self.moment is not None:
-            captions += self._listed(symbols.left, scale, per, found, symbols.captions)
+        if scale > 0 and symbols.left and self.shown is not None:
+            rows = self._rows(symbols.left, scale, per)
+            wide = max(self.pen.type.width(text, self.pen.small) for text, _ in rows)
+            corner, free = self._corner(rows, wide, found, symbols.captions)
+            if not free and not self.aside:
+                return replace(self, aside=min(wide + self.pen.small, 0.5 * self.rect.width)).group(pose)
+            captions += self._listed(rows, corner)
         if scale > 0:
             bar, meaning = self._bar(scale, per)
             layers.append(bar)
@@ -125,7 +138,7 @@ class Polygon:
 
         It changes with the speed and with nothing else, so that a polygon's size tells where it is fast.
         """
-        faster = abs(speed / self.figure.linkage.drive.speed) ** self.order
+        faster = 1.0 if self.shown else abs(speed / self.figure.linkage.drive.speed) ** self.order
         box, room = self._box, self._room
         spans = [(room.width, box.right - box.left), (room.height, box.high - box.low)]
         shares = [have / need for have, need in spans if need > 0]
@@ -134,7 +147,7 @@ class Polygon:
     def pole(self, speed: float) -> complex:
         """Return where the pole stands, so that all poses of the cycle have room."""
         box, room = self._box, self._room
-        backwards = self.order == 1 and speed * self.figure.linkage.drive.speed < 0
+        backwards = not self.shown and self.order == 1 and speed * self.figure.linkage.drive.speed < 0
         across, up = box.middle if not backwards else (-box.middle[0], -box.middle[1])
         scale = self.scale(self.figure.linkage.drive.speed)
         return complex(room.x + room.width / 2 - scale * across, room.y + room.height / 2 + scale * up)
@@ -144,14 +157,16 @@ class Polygon:
         """What of its place is left for the vectors: between symbols, title and foot."""
         rect, side, top = self.rect, 1.6 * self.pen.small, 2.4 * self.pen.text
         foot = (1.2 if self._barred else 2.8) * self.pen.small
-        width, height = max(rect.width - 2 * side, 1.0), max(rect.height - top - foot, 1.0)
+        width, height = max(rect.width - 2 * side - self.aside, 1.0), max(rect.height - top - foot, 1.0)
         return Rect(rect.x + side, rect.y + top, width, height)
 
     @cached_property
     def _box(self) -> Box:
         """What the polygons of the cycle take up about the pole, at the scene's own speed."""
-        scene, cycle = self.figure.scene, self.figure.cycle
-        motion = cycle if self.moment is None else scene.pose(self.moment, speed=scene.linkage.drive.speed)
+        scene = self.figure.scene
+        motion: Motion | Pose = self.shown or self.figure.cycle
+        if self.moment is not None and self.shown is None:
+            motion = scene.pose(self.moment, speed=scene.linkage.drive.speed)
         ends = np.concatenate([np.atleast_1d(side.end) for side in self._sides(motion)])
         ends = np.append(ends[np.isfinite(ends)], 0.0)
         x, y = ends.real, ends.imag
@@ -238,17 +253,20 @@ class Polygon:
         else:
             yield Rect(rect.x, rect.bottom - 2.1 * small, wide, 2.1 * small)
 
-    def _listed(
-        self, left: list[Arrow], scale: float, per: str, found: list[Arrow], named: list[Caption]
-    ) -> Iterator[Caption]:
-        """Yield symbols and sizes of vectors beside which no symbol stands, in the corner that is freest."""
-        small, rect, unit_ = self.pen.small, self.rect, f"{self.figure.scene.length_unit}{per}"
-        rows = list[tuple[str, Colour]]()
+    def _rows(self, left: list[Arrow], scale: float, per: str) -> list[tuple[str, Colour]]:
+        """Return symbols and sizes of vectors beside which no symbol stands."""
+        rows, unit_ = list[tuple[str, Colour]](), f"{self.figure.scene.length_unit}{per}"
         for arrow in left:
             size = abs(arrow.reach) / scale
             words = f"{arrow.side.symbol} = {three_digits(size) if size >= 1e-3 else '0'} {unit_}"
             rows.append((words, self._colour(arrow.side.sort)))
-        wide, high = max(self.pen.type.width(words, small) for words, _ in rows), 1.2 * small * len(rows)
+        return rows
+
+    def _corner(
+        self, rows: list[tuple[str, Colour]], wide: float, found: list[Arrow], named: list[Caption]
+    ) -> tuple[Rect, bool]:
+        """Return the corner for so many rows in which least is drawn, and whether it is free."""
+        rect, high = self.rect, _ROW * self.pen.small * len(rows)
         low, top = rect.bottom - high, rect.y + 2.4 * self.pen.text
         corners = [Rect(x, y, wide, high) for y in (low, top) for x in (rect.right - wide, rect.x)]
         ends = [(arrow.foot, arrow.foot + arrow.reach) for arrow in found]
@@ -258,9 +276,13 @@ class Polygon:
             crossed = sum(corner.crossed(*pair) is not None for pair in ends)
             return crossed + sum(corner.meets(other) for other in busy)
 
-        corner = min(corners, key=covered)
+        corner = min(corners[::2] if self.aside else corners, key=covered)
+        return corner, covered(corner) == 0
+
+    def _listed(self, rows: list[tuple[str, Colour]], corner: Rect) -> Iterator[Caption]:
+        small = self.pen.small
         for n, (words, colour) in enumerate(rows):
-            yield Caption(words, (corner.x, corner.y + 1.2 * n * small), small, colour)
+            yield Caption(words, (corner.x, corner.y + _ROW * n * small), small, colour)
 
     def _bar(self, scale: float, per: str) -> tuple[Layer, Caption]:
         """Return the bar of the scale, beside the title or at the foot, and what it stands for."""

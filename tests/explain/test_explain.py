@@ -372,6 +372,25 @@ def _straightness(scene: Scene) -> list[float]:
     return found
 
 
+@pytest.mark.parametrize(
+    ("name", "sides"),
+    [
+        ("crank-rocker", ("r_{1} + r_{4}",)),
+        ("six-bar", ("r_{1} + r_{4}", "r_{5} + r_{8}")),
+        ("watt-1", ("r_{1} + r_{5}",)),  # its pin is stated by a place level with the other
+    ],
+)
+def test_a_ground_that_is_level_is_a_length_in_loop_figure_and_given(
+    name: str, sides: tuple[str, ...]
+) -> None:
+    text = document(solution(PoseRequest(load(name), "phase", 1.0, 1.0)), MARKDOWN)
+    given, _, loops = text.partition("## Positions")[0].partition("## Vector loops")
+    for side in sides:
+        assert f"= {side} \\, \\cos" in loops
+        assert side[:5] in given
+    assert "= x_{O_{4}} +" not in loops
+
+
 def test_a_cylinder_that_drives_is_a_loop_and_where_none_closes_it_says_so() -> None:
     found = solution(_request("excavator", 100.0))
     (loop,) = found.loops
@@ -565,6 +584,13 @@ def test_versions_have_letters_other_lengths_and_their_keys(capsys: pytest.Captu
     assert main([*asked[:5], "--seed", "4"]) == 0
     alone = capsys.readouterr().out
     assert alone.partition("# Key:")[0].partition("\n")[2].strip() in text
+
+
+def test_figures_of_versions_share_no_id(tmp_path: Path) -> None:
+    out = tmp_path / "sheet.html"
+    assert main(["explain", "crank-rocker", "--exercise", "--versions", "2", "-o", str(out)]) == 0
+    ids = re.findall(r' id=["\']([^"\']*)', out.read_text(encoding="utf-8"))
+    assert len(ids) == len(set(ids))
 
 
 def test_levels_and_versions_are_of_an_exercise(capsys: pytest.CaptureFixture[str]) -> None:

@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 
 from linkanim.intake import NumberRow
-from linkanim.paper.chart import Page, _apart
+from linkanim.paper.chart import Page, _apart, _by_unit
 from linkanim.paper.curves import Curve, MeasuredTable, Pace, beside, curves_of, extremes
+from linkanim.paper.findings import Values, topics
 from linkanim.picture.items import Caption, Item
 from linkanim.picture.look import Over
 from linkanim.picture.raster import Layer
@@ -129,6 +130,32 @@ def test_words_on_a_crowded_chart_are_tied_to_their_dots(
     tokens: tuple[str, ...], size: tuple[int, int], over: Over | None
 ) -> None:
     assert [*faults(page_of("press", *tokens, size=size, over=over))] == []
+
+
+@pytest.mark.parametrize("name", ["slider-crank", "excavator", "press"])
+def test_words_of_a_small_chart_lie_on_no_curve_and_its_axes_have_four_ticks(name: str) -> None:
+    scene = load(name)
+    paces, found = (Pace(abs(scene.linkage.drive.speed), ""),), 0
+    for charts in topics(Values(scene), paces).values():
+        for tokens, _ in charts:
+            page = Page(curves_of(scene, tokens, paces), (400, 225), brief=True)
+            items = list(page.items())
+            boxes = [box_of(page, one) for one in items if isinstance(one, Caption) and TOLD.match(one.text)]
+            curves = [
+                one
+                for n, one in enumerate(items)
+                if isinstance(one, Layer)
+                and one.colour in {page.colour(curve) for curve in page.curves.curves}
+                and sum(len(loop) for loop in one.loops) > 100
+            ]
+            assert curves
+            places = np.concatenate([loop for layer in curves for loop in layer.loops])
+            for box in boxes:
+                assert min(gap(box, complex(place)) for place in places) > 0, tokens
+            found += len(boxes)
+            for axis in page._axes([[*side] for side in _by_unit(page.curves)], 150.0):
+                assert 4 <= len(axis.ticks) <= 9, tokens
+    assert found > 4
 
 
 def test_more_than_six_curves_have_names_at_their_ends() -> None:

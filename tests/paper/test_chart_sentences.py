@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import re
+from math import pi
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from linkanim.cli import main
-from linkanim.paper.curves import Pace, curves_of
+from linkanim.paper.curves import Pace, curves_of, within_a_turn
 from linkanim.paper.sentences import about, closing, plain
 from linkanim.scenes import load
 
@@ -31,6 +32,34 @@ def test_the_ram_falls_slowly() -> None:
         "the way down is the slow one (245.8° of the input), time ratio 2.15."
     )
     assert f"time ratio {load('press').info.time_ratio:.2f}" in text
+
+
+def test_of_several_curves_each_has_a_short_sentence() -> None:
+    text = said("press", "3.angular_velocity", "4.angular_velocity")
+    assert text.startswith(
+        "ω₃ goes from −3.724 rad/s at θ₂ = 3.2° to 3.495 rad/s at θ₂ = 104.9°, and changes "
+    )
+    assert text.count(" goes from ") == 2
+
+
+def test_what_swings_is_told_over_time_and_changes_its_sign_at_different_times() -> None:
+    text = about(curves_of(load("excavator"), ("boom.angular_acceleration",), (Pace(pi / 2, ""),)))
+    assert " at t = 0 s, and least, " in text
+    first, second = re.findall(r"([\d.]+) s", text.partition("changes its sign at")[2])
+    assert float(first) + float(second) == pytest.approx(4.0, abs=0.01)
+    assert float(first) < float(second)
+
+
+def test_what_is_zero_but_for_rounding_is_told_as_nothing() -> None:
+    assert "least, 0 mm/s, at θ₂ = 231.3°" in said("six-bar", "P2.velocity")
+
+
+def test_angles_are_told_within_one_turn_where_they_can_be() -> None:
+    curves = within_a_turn(curves_of(load("press"), ("3.angle", "6.angle"), (PACE,)))
+    first, second = (curve.values for curve in curves.curves)
+    assert 255 < first.min() < first.max() < 298
+    assert -11 < second.min() < 0 < second.max() < 55  # is on both sides of the line of 0°
+    assert "θ₃ goes from 255.2° at" in about(curves)
 
 
 def test_extremes_and_zeros_are_where_a_fine_motion_has_them() -> None:

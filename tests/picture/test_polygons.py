@@ -148,6 +148,37 @@ def test_in_a_figure_of_one_pose_they_fill_their_place(name: str) -> None:
         assert 0.95 < filled < 1.1
 
 
+@pytest.mark.parametrize(("name", "phase"), [("jansen", 0.0), ("six-bar", 0.34), ("excavator", 1.5)])
+def test_what_is_listed_in_a_figure_lies_on_no_vector(name: str, phase: float) -> None:
+    assert WINDOW.polygons is not None
+    shown, pen = figure(load(name)), pen_for(WINDOW, Type(), LIGHT)
+    listed = 0
+    for panel in polygons_of(shown, WINDOW.polygons, pen, phase):
+        group = panel.group(shown.scene.pose(phase))
+        rows = [caption for caption in group.captions if " = " in caption.text]
+        boxes = [row.around(Type()) for row in rows]
+        places = np.concatenate([loop for layer in group.layers for loop in layer.loops])
+        for box in boxes:
+            within = (abs(places.real - box.x - box.width / 2) < box.width / 2) & (
+                abs(places.imag - box.y - box.height / 2) < box.height / 2
+            )
+            assert not within.any()
+        others = [one for one in group.captions if one not in rows]
+        assert not any(box.meets(other.around(Type())) for box in boxes for other in others)
+        listed += len(rows)
+    assert listed
+
+
+def test_a_pose_with_an_acceleration_fills_its_place_too() -> None:
+    assert WINDOW.polygons is not None
+    shown, pen = figure(load("crank-rocker")), pen_for(WINDOW, Type(), LIGHT)
+    _, panel = polygons_of(shown, WINDOW.polygons, pen, 1.0)
+    pose = shown.scene.pose(1.0, acceleration=300.0)
+    points = np.concatenate([loop for layer in panel.group(pose).layers for loop in layer.loops])
+    assert panel.rect.y < points.imag.min() < points.imag.max() < panel.rect.bottom
+    assert panel.rect.x < points.real.min() < points.real.max() < panel.rect.right + 1
+
+
 def test_the_pole_is_a_dot() -> None:
     for panel in panels("crank-rocker"):
         pole, found = panel.pole(panel.figure.scene.linkage.drive.speed), drawn(panel, 1.0)

@@ -15,6 +15,7 @@ from linkanim.explain.documents import HTML, MARKDOWN, TEX, document, exercise
 from linkanim.explain.solution import PoseRequest, Solution, solution
 from linkanim.explain.variant import variant
 from linkanim.paper.construction import ConstructionPage
+from linkanim.paper.html import embedded
 from linkanim.paper.svg import svg
 from linkanim.paper.vectors import vectors_svg
 from linkanim.picture.figure import figure
@@ -55,13 +56,16 @@ def run(options: Namespace) -> None:
 
 
 def _figure(found: Solution) -> str:
-    return f"<figure class='vectors'>{vectors_svg(found)}</figure>" if found.loops else ""
+    if not found.loops:
+        return ""
+    drawn = embedded(vectors_svg(found), f"Vector loops of {found.title}")
+    return f"<figure class='vectors'>{drawn}</figure>"
 
 
 def _construction(found: Solution) -> str:
     page = ConstructionPage(found.request.scene, _CONSTRUCTION)
     drawn = svg(page.size, None, page.groups(), title=page.title)
-    return f"<figure class='vectors'>{drawn[drawn.index('<svg') :]}</figure>"
+    return f"<figure class='vectors'>{embedded(drawn, page.title)}</figure>"
 
 
 def _requests(scene: Scene, options: Namespace) -> Iterator[PoseRequest]:
