@@ -243,12 +243,19 @@ class Parser(argparse.ArgumentParser):
         self, *, examples: Sequence[str] = (), before: Callable[[], str] | None = None, **options: object
     ) -> None:
         super().__init__(
-            formatter_class=argparse.RawDescriptionHelpFormatter,
+            formatter_class=self._formatter,
             allow_abbrev=False,
             **options,  # type: ignore[arg-type]
         )
         self._examples = examples
         self._before = before
+
+    _width: int | None = 80
+    """In columns; None for the terminal's."""
+
+    def _formatter(self, prog: str) -> argparse.HelpFormatter:
+        # argparse makes one for each argument, to check it; to ask for the terminal's width takes longer
+        return argparse.RawDescriptionHelpFormatter(prog, width=self._width)
 
     def error(self, message: str) -> NoReturn:
         """Raise the usage error as one sentence that names the help to read."""
@@ -269,6 +276,7 @@ class Parser(argparse.ArgumentParser):
 
     def format_help(self) -> str:
         """Return argparse's help, what `before` adds, and the examples as its last lines."""
+        self._width = None
         added = f"\n{self._before()}" if self._before else ""
         examples = "".join(f"  {line}\n" for line in self._examples)
         return f"{super().format_help()}{added}\nexamples:\n{examples}"

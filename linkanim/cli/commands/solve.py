@@ -32,7 +32,6 @@ from linkanim.mechanics.measures import DAMPER, POINT, SPRING, TRAVELLING, TURNI
 from linkanim.mechanics.motion import Motion
 from linkanim.mechanics.quantities import Path, plain_unit, recorded
 from linkanim.scenes import load
-from linkanim.scenes.editing import in_unit
 from linkanim.scenes.scene import Scene
 from linkanim.units import significant
 
@@ -324,7 +323,11 @@ def run(options: Namespace) -> None:
     target = (
         None if options.csv in (None, "-") else checked_target(options.csv, (".csv",), inputs_of(options))
     )
-    scene = in_unit(load(options.scene), options.unit)
+    scene = load(options.scene)
+    if options.unit:
+        from linkanim.scenes.editing import in_unit
+
+        scene = in_unit(scene, options.unit)
     speed = scene.linkage.drive.speed if options.speed is None else options.speed
     if inputs.steps is not None:
         _refuse_many(scene, inputs.steps.rows, shown=not (options.csv or options.json))
