@@ -81,9 +81,8 @@ def test_hud_chart_arrows_names_table_and_json_agree(
     assert printed["length_unit"] == unit
     # the chart's reading, titled with the unit
     joint = token.partition(".")[0]
-    chart = picture._chart
-    assert chart is not None
-    chart = chart.at(SPEED)
+    assert picture._chart is not None
+    (chart,) = picture._chart.at(SPEED).panels
     read = _numbers(chart.reading(chart.values_at(pose))[0])[0]
     span = chart.plot.y.high - chart.plot.y.low
     assert read == pytest.approx(printed["joints"][joint]["velocity"][0], abs=span / 400)

@@ -373,7 +373,7 @@ class Page:
             last = n == len(columns) - 1
             top = rect.y + n * high + _LINE * pen.small
             area = Rect(rect.x + edges[0], top, max(rect.width - sum(edges), 1), tall)
-            yield from self._plot(area, x if last else _unlabelled(x), sides)
+            yield from self._plot(area, x if last else x.unlabelled, sides)
             if last:
                 yield x_title(Plot(area, x, self._axes(sides, tall)[0]), self.curves.title, pen)
 
@@ -469,10 +469,6 @@ def _zero(plot: Plot, pen: Pen) -> Iterator[Layer]:
     if plot.y.low < 0 < plot.y.high:
         foot = complex(plot.place(plot.x.low, 0.0))
         yield Layer(pen.theme.dim, segments(foot, foot + plot.area.width, 0.6 * pen.line))
-
-
-def _unlabelled(axis: Axis) -> Axis:
-    return replace(axis, ticks=tuple((value, "") for value, _ in axis.ticks))
 
 
 def _by_unit(curves: Curves) -> list[list[Curve]]:

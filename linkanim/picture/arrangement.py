@@ -456,7 +456,8 @@ class FitRequest(NamedTuple):
     """What of a window and a look an arrangement depends on."""
 
     size: tuple[int, int]
-    chart: bool
+    chart: int
+    """How many charts there are."""
     keys: int
     """How many lines the key to the colours has."""
     hud: bool
@@ -478,12 +479,19 @@ class FitRequest(NamedTuple):
 
 
 def request_of(
-    size: tuple[int, int], look: Look, *, listed: bool, row: bool, still: bool = False, bar: bool = False
+    size: tuple[int, int],
+    look: Look,
+    charts: int,
+    *,
+    listed: bool,
+    row: bool,
+    still: bool = False,
+    bar: bool = False,
 ) -> FitRequest:
-    """Return what an arrangement for a look depends on."""
-    chart, keys = look.chart is not None, key_lines(look)
+    """Return what an arrangement for a look with so many charts depends on."""
+    keys = key_lines(look)
     captioned = look.caption and not listed
-    request = FitRequest(size, chart, keys, look.hud, listed, look.polygons, row, caption=captioned)
+    request = FitRequest(size, charts, keys, look.hud, listed, look.polygons, row, caption=captioned)
     return request._replace(bar=bar, still=still, lined=still and (look.names > 1 or bool(look.vectors)))
 
 

@@ -6,10 +6,12 @@ from cmath import isfinite
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import cached_property
+from itertools import chain
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from linkanim.errors import BadInput
 from linkanim.frozen import frozen
 from linkanim.mechanics.motion import Motion, Pose
 from linkanim.mechanics.quantities import Quantity
@@ -18,6 +20,7 @@ from linkanim.picture.items import Caption, Item
 from linkanim.picture.layout import Layout
 from linkanim.picture.look import Over
 from linkanim.picture.quantities import (
+    MOST_CHARTS,
     Axis,
     Course,
     Floats,
@@ -45,6 +48,8 @@ _RIM = 1e-6
 """A curve's points so far outside of a plot, in pixels, are on its edge."""
 _FOOT = 1.6
 """From the plot down to the title of the horizontal axis, in heights of small text."""
+_WITH_FOOT, _NO_FOOT, _FOR_FOOT = 1.2, 1.6, 9.0
+"""The height of that title; what is below a plot that has none; how high a chart is that has one."""
 
 
 @frozen
@@ -80,14 +85,24 @@ def pen_for(layout: Layout, type_: Type, theme: Theme) -> Pen:
     return Pen(type_, theme, layout.small_size, layout.text_size, 1.8 * layout.unit)
 
 
-def plot_area(rect: Rect, y: Axis, pen: Pen, *, foot: bool = False) -> Rect:
-    """Return what of a rectangle is left for curves beside tick labels, a title above and one at the foot."""
-    labels = max((pen.type.width(label, pen.small) for _, label in y.ticks), default=0)
-    left, top = labels + 0.6 * pen.small, 1.5 * pen.text
-    right, low = 1.4 * pen.small, (_FOOT + 1.2 if foot else 1.6) * pen.small
+def plot_area(
+    rect: Rect, y: Axis, pen: Pen, *, foot: bool = False, left: float = 0.0, low: float | None = None
+) -> Rect:
+    """Return what of a rectangle is left for curves beside tick labels, a title above and one at the foot.
+
+    At the `left` it leaves so much at least; with `low` so much at the foot.
+    """
+    left, top = max(left, room_for_ticks(y, pen)), 1.5 * pen.text
+    usual = (_FOOT + _WITH_FOOT if foot else _NO_FOOT) * pen.small
+    right, low = 1.4 * pen.small, usual if low is None else low
     return Rect(
         rect.x + left, rect.y + top, max(rect.width - left - right, 1), max(rect.height - top - low, 1)
     )
+
+
+def room_for_ticks(y: Axis, pen: Pen) -> float:
+    """Return how much room the tick labels of a vertical axis take beside the plot."""
+    return max((pen.type.width(label, pen.small) for _, label in y.ticks), default=0) + 0.6 * pen.small
 
 
 def axes(plot: Plot, pen: Pen) -> Iterator[Item]:
@@ -235,11 +250,17 @@ _TITLE = 1.35
 """From the plot up to the line above it, in heights of its text."""
 _GAP = 1.2
 """Between two things in that line, in heights of its text."""
+_BETWEEN = 0.7
+"""Below a plot that has another one below it, in heights of small text."""
 
 
 @frozen
 class ChartPanel:
-    """A quantity of a motion that runs at `speed` (rad/s, negative: the phase runs back), `over` an axis."""
+    """A quantity of a motion that runs at `speed` (rad/s, negative: the phase runs back), `over` an axis.
+
+    Among others at the same axis `left` is the room that the widest of their tick labels takes; one that is
+    not the `lowest` leaves it to that to tell what they run over.
+    """
 
     figure: Figure
     quantity: Quantity
@@ -247,6 +268,8 @@ class ChartPanel:
     pen: Pen
     speed: float
     over: Over | None = None
+    left: float = 0.0
+    lowest: bool = True
 
     def at(self, speed: float) -> ChartPanel:
         """Return the chart of the same motion at another speed; nothing is solved for it."""
@@ -276,16 +299,22 @@ class ChartPanel:
     @cached_property
     def plot(self) -> Plot:
         """Where the curves are drawn."""
-        small = self.pen.small
-        most = max(min(round(self.rect.height / (2.1 * small)), 6), 2)
-        y = around(self.curves[1], most=most, unit=self.series.unit, least=min(most, 4))
-        area = plot_area(self.rect, y, self.pen, foot=self._has_foot)
-        return Plot(area, self.course.axis(max(min(round(self.rect.width / (5 * small)), 8), 2)), y)
+        y, small = self.y_axis, self.pen.small
+        low = None if self.lowest else _BETWEEN * small
+        area = plot_area(self.rect, y, self.pen, foot=self._has_foot, left=self.left, low=low)
+        x = self.course.axis(max(min(round(self.rect.width / (5 * small)), 8), 2))
+        return Plot(area, x if self.lowest else x.unlabelled, y)
+
+    @cached_property
+    def y_axis(self) -> Axis:
+        """The vertical axis."""
+        most = max(min(round(self.rect.height / (2.1 * self.pen.small)), 6), 2)
+        return around(self.curves[1], most=most, unit=self.series.unit, least=min(most, 4))
 
     @property
     def _has_foot(self) -> bool:
         """Whether there is room for a line below the tick labels."""
-        return self.rect.height >= 9 * self.pen.small
+        return self.lowest and self.rect.height >= _FOR_FOOT * self.pen.small
 
     def still(self) -> Iterator[Item]:
         """Yield what stands still, back to front."""
@@ -304,14 +333,18 @@ class ChartPanel:
     def frame(self) -> Iterator[Item]:
         """Yield what stands still but for the curves."""
         title, pen = self.course.title, self.pen
-        yield from axes(self.plot if self._has_foot else beside_title(self.plot, title, pen), pen)
-        yield x_title(self.plot, title, pen, foot=self._has_foot)
+        bare = self._has_foot or not self.lowest
+        yield from axes(self.plot if bare else beside_title(self.plot, title, pen), pen)
+        if self.lowest:
+            yield x_title(self.plot, title, pen, foot=self._has_foot)
         x, values = self.curves
         heights = np.interp([place for place, _ in self.course.marks], x, values[:, 0])
-        yield from marked(self.plot, self.course.marks, heights, pen)
-        yield self._y_title()
+        marks = [(place, label if self.lowest else "") for place, label in self.course.marks]
+        yield from marked(self.plot, marks, heights, pen)
+        yield self.title
 
-    def _y_title(self) -> Caption:
+    @cached_property
+    def title(self) -> Caption:
         """Return the vertical axis' title: words, symbol and unit, as much as leaves room for the reading."""
         pen, area = self.pen, self.plot.area
         room = area.width - self._widest_reading - _GAP * pen.text
@@ -402,3 +435,71 @@ def chart_panel(figure: Figure, token: str, layout: Layout, pen: Pen, over: Over
     """
     rect = layout.chart or Rect(0, 0, *layout.size)
     return ChartPanel(figure, quantity(figure.scene, token), rect, pen, figure.linkage.drive.speed, over)
+
+
+@frozen
+class ChartStrips:
+    """The charts of one or several quantities of a motion, one below the other over one axis."""
+
+    panels: tuple[ChartPanel, ...]
+
+    def at(self, speed: float) -> ChartStrips:
+        """Return the charts of the same motion at another speed; nothing is solved for them."""
+        moved = tuple(panel.at(speed) for panel in self.panels)
+        same = all(one is other for one, other in zip(moved, self.panels, strict=True))
+        return self if same else ChartStrips(moved)
+
+    def still(self) -> Iterator[Item]:
+        """Yield what stands still, back to front."""
+        return chain.from_iterable(panel.still() for panel in self.panels)
+
+    def foot(self, pose: Pose) -> complex:
+        """Return where the cursor stands on the lowest axis at a pose, in pixels."""
+        return self.panels[-1].foot(pose)
+
+    def cursor(self, pose: Pose) -> list[Layer]:
+        """Return the lines at a pose and the dots where they meet the curves."""
+        return [layer for panel in self.panels for layer in panel.cursor(pose)]
+
+    def readings(self, pose: Pose) -> Iterator[Item]:
+        """Yield the pose's values above each plot."""
+        return chain.from_iterable(panel.readings(pose) for panel in self.panels)
+
+    def phase_at(self, px: float, py: float) -> float | None:
+        """Return the phase under a pixel, None outside all charts."""
+        found = (panel.phase_at(px, py) for panel in self.panels)
+        return next((phase for phase in found if phase is not None), None)
+
+    def titled_at(self, px: float, py: float) -> str | None:
+        """Return the token of the chart whose title is under a pixel; None elsewhere."""
+        titled = (panel for panel in self.panels if panel.title.around(panel.pen.type).holds(px, py))
+        return next((panel.quantity.token for panel in titled), None)
+
+
+def chart_strips(
+    figure: Figure, tokens: Sequence[str], layout: Layout, pen: Pen, over: Over | None = None
+) -> ChartStrips:
+    """Return the charts of quantities as `chart_panel` returns one, in strips of equal plots.
+
+    BadInput where the scene has no such quantity, and for more than have room.
+    """
+    if len(tokens) > MOST_CHARTS:
+        raise BadInput(f"{len(tokens)} quantities in charts: there is room for {MOST_CHARTS}")
+    whole = chart_panel(figure, tokens[0], layout, pen, over)
+    if len(tokens) == 1:
+        return ChartStrips((whole,))
+    rect, last = whole.rect, len(tokens) - 1
+    # of the lowest one's room its plot has as much as the others have of theirs
+    rests = [(low - _BETWEEN) * pen.small for low in (_FOOT + _WITH_FOOT, _NO_FOOT)]
+    highs = [((rect.height - rest) / len(tokens), rest) for rest in rests]
+    high, _ = highs[0] if sum(highs[0]) >= _FOR_FOOT * pen.small else highs[1]
+    panels = [
+        replace(
+            chart_panel(figure, token, layout, pen, over),
+            rect=Rect(rect.x, rect.y + n * high, rect.width, rect.height - n * high if n == last else high),
+            lowest=n == last,
+        )
+        for n, token in enumerate(tokens)
+    ]
+    left = max(room_for_ticks(panel.y_axis, pen) for panel in panels)
+    return ChartStrips(tuple(replace(panel, left=left) for panel in panels))

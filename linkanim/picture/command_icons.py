@@ -184,6 +184,10 @@ def _new(gauge: Gauge, theme: Theme) -> list[Layer]:
     return [_line(gauge, theme.ink, page, closed=True), plus]
 
 
+def _add(gauge: Gauge, theme: Theme) -> list[Layer]:
+    return [_line(gauge, theme.ink, [-7 + 0j, 7 + 0j], [-7j, 7j])]
+
+
 def _done(gauge: Gauge, theme: Theme) -> list[Layer]:
     thick = 1.5 * _THIN * gauge.line
     return [Layer(theme.traces[1], stroke(gauge.line * np.array([-7.5 + 0.5j, -2 + 6j, 7.5 - 6j]), thick))]
@@ -244,6 +248,7 @@ COMMAND_ICONS: Mapping[str, Icon] = {
     "farther": partial(_lifted, apart=5.0),
     "save": _save,
     "new": _new,
+    "add": _add,
     "done": _done,
     "again": _again,
     "close": _close,

@@ -12,8 +12,8 @@ from linkanim.picture.view import Rect
 _DRAWN_FOR = (1280, 720)
 _EDGE = 10.8
 """From the window's edge to the edit list, in units."""
-_SHARE_BELOW, _SHARE_BESIDE = 0.27, 0.45
-"""A chart's share of the height, or of the width."""
+_SHARES_BELOW, _SHARE_BESIDE = (0.27, 0.41, 0.52), 0.45
+"""The share of the height that charts take, by how many there are, or of the width."""
 _ROW_OF_ANSWERS = 0.17
 """The height of a row of small pictures, in heights of the window."""
 _SLIDER = 1.9
@@ -33,7 +33,7 @@ _SHARE_LISTED = 0.42
 _HEAD_OF_MARKS = 1.5
 """The height of the marks of recording and pause, in heights of their text: a chart begins below them."""
 _TALLEST = 0.42
-"""The height of a chart beside the scene, in widths of the window."""
+"""The height of a chart beside the scene, in widths of the window; of several below each other twice that."""
 _ROW = 1.3
 """From row to row of a table, in heights of its text."""
 _SMALLEST_ROW = 8
@@ -123,14 +123,14 @@ class Layout:
 def layout(
     size: tuple[int, int],
     *,
-    chart: bool = False,
+    chart: int = 0,
     beside: bool = False,
     listed: bool = False,
     polygons: bool = False,
     row: bool = False,
     bar: bool = False,
 ) -> Layout:
-    """Divide a window: a chart along the bottom, or `beside` the scene; the stage is what is left.
+    """Divide a window: so many charts along the bottom, or `beside` the scene; the stage is what is left.
 
     `listed` leaves room for a list, on the left or in a narrow window at the foot, `polygons` for those,
     on the right or below, and a `row` for small pictures at the foot, with the bar of commands below it. The
@@ -188,7 +188,7 @@ def with_caption(parts: Layout, lines: int) -> Layout:
 
 
 def _charted(
-    size: tuple[int, int], *, chart: bool, beside: bool, listed: bool, row: bool, bar: bool
+    size: tuple[int, int], *, chart: int, beside: bool, listed: bool, row: bool, bar: bool
 ) -> Layout:
     """Return the layout with its chart and without polygons."""
     unit = min(max(size) / _DRAWN_FOR[0], min(size) / _DRAWN_FOR[1])
@@ -210,10 +210,11 @@ def _charted(
         return replace(empty, stage=room)
     if beside:
         head = edge + _HEAD_OF_MARKS * empty.text_size
-        wide, high = _SHARE_BESIDE * room.width, min(room.height - head - edge, _TALLEST * room.width)
+        tallest = _TALLEST * room.width * min(chart, 2)
+        wide, high = _SHARE_BESIDE * room.width, min(room.height - head - edge, tallest)
         chart_place = Rect(room.right - wide, max((room.height - high) / 2, head), wide - edge, high)
         return replace(empty, stage=room._replace(width=room.width - wide - 0.6 * edge), chart=chart_place)
-    tall = _SHARE_BELOW * room.height
+    tall = _SHARES_BELOW[min(chart, len(_SHARES_BELOW)) - 1] * room.height
     chart_place = Rect(room.x + edge, room.bottom - edge - tall, room.width - 2 * edge, tall)
     return replace(empty, stage=room._replace(height=chart_place.y - 0.6 * edge), chart=chart_place)
 

@@ -69,16 +69,16 @@ class Look:
     """What is shown; two pictures of one pose with equal looks and sizes have the same bytes.
 
     With `ink` traces are thickened and coloured by speed. `vectors` holds "v" (velocity) and "a"
-    (acceleration). `chart` is one of `scene.quantities`, or None for no chart; `over` is its horizontal
-    axis, "angle", "time" or "phase", or None for the usual one. Lengths are shown in `unit`, or in the
-    scene's own if it is None. With `background` False the ground stays transparent. `zoom` multiplies the
-    fitted scale; `pan` shifts the picture right and down, in fractions of the window's height. `ghost`
-    draws the other closure faintly. `names` is 0 for none, 1 for the names of joints and links with the
-    input's direction of turning, 2 for dimensions and the input's angle as well; with either a slider's
-    guide has its `dead_centres`, unless they would give an answer away. `caption` adds the scene's
-    sentence on what to watch for. `polygons` draws the velocity and acceleration polygons beside the
-    linkage. `chain` colours the links in the order in which they are solved. `centres` is 0 for none, 1
-    for the instant centres with Kennedy's lines, 2 for the coupler's centrodes as well.
+    (acceleration). `chart` is one of `scene.quantities`, up to three with commas between, or None for no
+    chart; `over` is its horizontal axis, "angle", "time" or "phase", or None for the usual one. Lengths are
+    shown in `unit`, or in the scene's own if it is None. With `background` False the ground stays
+    transparent. `zoom` multiplies the fitted scale; `pan` shifts the picture right and down, in fractions
+    of the window's height. `ghost` draws the other closure faintly. `names` is 0 for none, 1 for the names
+    of joints and links with the input's direction of turning, 2 for dimensions and the input's angle as
+    well; with either a slider's guide has its `dead_centres`, unless they would give an answer away.
+    `caption` adds the scene's sentence on what to watch for. `polygons` draws the velocity and acceleration
+    polygons beside the linkage. `chain` colours the links in the order in which they are solved. `centres`
+    is 0 for none, 1 for the instant centres with Kennedy's lines, 2 for the coupler's centrodes as well.
     """
 
     trace: bool = _toggle(

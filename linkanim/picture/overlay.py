@@ -235,7 +235,7 @@ class Panel:
 class Quantities:
     """A list, as of quantities: rows of words and symbol, the chosen one's number, what has been typed.
 
-    The mouse is over the row `pointed`.
+    The mouse is over the row `pointed`. Rows with `boxes` have one each, ticked or not.
     """
 
     rows: tuple[tuple[str, str], ...]
@@ -244,6 +244,7 @@ class Quantities:
     hint: str = ""
     pointed: int | None = None
     title: str = "Quantities"
+    boxes: tuple[bool, ...] = ()
 
 
 NEW = -1

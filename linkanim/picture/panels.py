@@ -367,6 +367,8 @@ def _draw(board: Board, sheet: pygame.Surface, column: _Column, x: float, size: 
 
 _QUANTITY_FRAME = 2.6
 """How many lines high the list is without its rows and hint."""
+_BOX = 2.5
+"""Where the words of rows with boxes begin, in heights of their text."""
 
 
 def quantity_list(board: Board, shown: Quantities) -> pygame.Surface:
@@ -433,14 +435,30 @@ def _quantity_row(
     behind = board.behind(row, shown.chosen, shown.pointed)
     if behind:
         board.bar(sheet, y, size, behind)
-    (words, symbol), room = shown.rows[row], sheet.get_width() - 2.4 * size
+    begin = (_BOX if shown.boxes else 1.2) * size
+    (words, symbol), room = shown.rows[row], sheet.get_width() - begin - 1.2 * size
+    if shown.boxes:
+        _box(board, sheet, complex(1.6 * size, y + 0.55 * size), size, ticked=shown.boxes[row])
     left = room - board.type.width(words, size) - size
     ways = (symbol, symbol.rpartition(" = ")[2])
     symbol = next((text for text in ways if board.type.width(text, size) <= left), "")
     if symbol:
         at = (sheet.get_width() - 1.2 * size, y)
         board.write(sheet, symbol, at, size=size, colour=board.theme.dim, anchor="right")
-    board.write(sheet, board.fitting((words,), size, room), (1.2 * size, y), size=size)
+    board.write(sheet, board.fitting((words,), size, room), (begin, y), size=size)
+
+
+def _box(board: Board, sheet: pygame.Surface, at: complex, size: int, *, ticked: bool) -> None:
+    """Draw a box about a place, ticked or empty."""
+    line = max(0.09 * size, 1.0)
+    edge, inside = (at + box(wide, wide, 0.15 * size) for wide in (0.86 * size, 0.86 * size - 2 * line))
+    layers = [Layer(board.theme.velocity if ticked else board.theme.dim, [edge])]
+    if ticked:
+        tick = at + size * np.array([-0.24 + 0.02j, -0.07 + 0.2j, 0.26 - 0.2j])
+        layers.append(Layer(board.theme.panel, stroke(tick, 0.14 * size)))
+    else:
+        layers.append(Layer(board.theme.panel, [inside]))
+    paint(sheet, layers)
 
 
 # What lies over the picture: the help, the edit list, a toast, the marks of pause and recording.
@@ -536,6 +554,14 @@ class Panels:
                 found: int | None = self._keep(rows_of, shown).at(y - top)
                 return -1 if found is None and shown is not overlay.game else found
         return None
+
+    def is_at_boxes(self, overlay: Overlay, x: float) -> bool:
+        """Return whether a pixel is as far left as the boxes of the open list's rows, if these have some."""
+        shown = overlay.quantities
+        if shown is None or not shown.boxes:
+            return False
+        left, _ = self._listed(self._keep(quantity_list, shown))
+        return x < left + _BOX * self.board.layout.small_size
 
     def scrolled_at(self, overlay: Overlay, x: float, y: float, *, held: bool) -> int | None:
         """Return the row to which the scroll bar of the open list leads at a pixel; None beside the bar.

@@ -23,7 +23,7 @@ from linkanim.picture.build_sheet import (
     sheet,
     worded,
 )
-from linkanim.picture.chart import ChartPanel, chart_panel, pen_for
+from linkanim.picture.chart import ChartStrips, chart_strips, pen_for
 from linkanim.picture.drawing import Drawing
 from linkanim.picture.figure import DrawSetting, Figure, figure
 from linkanim.picture.hud import Hud, Legend, caption_lines, legend_for, measured
@@ -34,6 +34,7 @@ from linkanim.picture.look import Look
 from linkanim.picture.marks import glow, grip, measure, spots
 from linkanim.picture.motion_marks import motion_of
 from linkanim.picture.overlay import Lane, LayersShown, Overlay, PathShown, SliderShown
+from linkanim.picture.quantities import chart_tokens
 from linkanim.picture.shapes import Part
 from linkanim.picture.slider import slider
 from linkanim.picture.text import Type
@@ -108,7 +109,8 @@ class Picture:
         self._beside = self._other_closure(before) if look.ghost else None
         self._apart, self._moment = apart, moment
         follows = held or self.scene.towards is not None
-        request = request_of(size, look, listed=listed, row=row, still=moment is not None, bar=bar)
+        charts = len(chart_tokens(self.scene, look.chart))
+        request = request_of(size, look, charts, listed=listed, row=row, still=moment is not None, bar=bar)
         if look.centres and moment is not None:
             from linkanim.picture.centres import CentrePairs
 
@@ -182,7 +184,7 @@ class Picture:
             self.gauge = gauge(self.layout.unit, self.figure.shortest * self.fitted.scale)
         setting = DrawSetting(self.figure, self.view, self.gauge, self.theme, self.layout, look, self.type)
         self.drawing = Drawing(setting, apart=self._apart)
-        self._chart = self._chart_panel()
+        self._chart = self._charted()
 
     @property
     def _of_sheet(self) -> View | None:
@@ -392,7 +394,7 @@ class Picture:
         if self._chart:
             yield from self._as_earlier("reading", self._read(self._chart, pose, grasped=grasped))
 
-    def _read(self, chart: ChartPanel, pose: Pose, *, grasped: bool) -> Iterator[Group]:
+    def _read(self, chart: ChartStrips, pose: Pose, *, grasped: bool) -> Iterator[Group]:
         items: list[Item] = [*chart.cursor(pose)]
         if grasped:
             items += grip(chart.foot(pose), self.layout.unit, self.theme)
@@ -498,6 +500,10 @@ class Picture:
         """Return the phase under a pixel of the chart, 0 to one true period; None beside the chart."""
         return self._chart.phase_at(px, py) if self._chart else None
 
+    def chart_titled_at(self, px: float, py: float) -> str | None:
+        """Return the token of the chart whose title is under a pixel; None elsewhere."""
+        return self._chart.titled_at(px, py) if self._chart else None
+
     def _other_closure(self, before: Picture | None) -> Scene | None:
         if before and before._goal is self._goal and before._beside:
             return before._beside
@@ -527,11 +533,12 @@ class Picture:
         ink = parts.inks[0].scale if parts.inks else None
         return legend_for(parts.arrows, self.layout, self.type, self.theme, chain, ink)
 
-    def _chart_panel(self) -> ChartPanel | None:
-        if self.look.chart is None:
+    def _charted(self) -> ChartStrips | None:
+        tokens = chart_tokens(self.scene, self.look.chart)
+        if not tokens:
             return None
         pen = pen_for(self.layout, self.type, self.theme)
-        return chart_panel(self.figure, self.look.chart, self.layout, pen, self.look.over)
+        return chart_strips(self.figure, tokens, self.layout, pen, self.look.over)
 
     @cached_property
     def _polygons(self) -> tuple[Polygon, ...]:

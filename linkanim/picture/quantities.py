@@ -7,6 +7,7 @@ in which its speed is told, stands here, too.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from functools import lru_cache
 from math import ceil, degrees, floor, log10, pi, radians
 
@@ -22,6 +23,9 @@ from linkanim.scenes.scene import Scene
 from linkanim.units import SPEED, short, split, stepped, typeset
 
 # What a chart shows of a scene: quantities by name, and their values over one true period.
+
+MOST_CHARTS = 3
+"""So many charts have room below each other."""
 
 
 class Series(NamedTuple):
@@ -42,10 +46,32 @@ def quantity(scene: Scene, token: str) -> Quantity:
 
     BadInput with the nearest ones and the list where there is none.
     """
+    return look_up(scene.quantities, _own_token(scene, token) or token, scene.name)
+
+
+def _own_token(scene: Scene, token: str) -> str | None:
+    """Return a quantity's token by the scene's own name of its body; None where there is no such quantity."""
     owner, dot, measure = token.partition(".")
     own = {words: name for name, words in scene.info.link_names.items()}
     named = token if token in scene.quantities else f"{own.get(owner, owner)}{dot}{measure}"
-    return look_up(scene.quantities, named if named in scene.quantities else token, scene.name)
+    return named if named in scene.quantities else None
+
+
+def chart_tokens(scene: Scene, charted: str | None) -> tuple[str, ...]:
+    """Return the tokens of the quantities that a look's `chart` names, which has commas between several.
+
+    A name may hold a comma itself.
+    """
+    if charted is None or "," not in charted or charted in scene.quantities:
+        return () if charted is None else (charted,)
+    found: list[str] = []
+    begun = ""
+    for part in charted.split(","):
+        begun = f"{begun},{part}" if begun else part.strip()
+        if _own_token(scene, begun):
+            found.append(begun)
+            begun = ""
+    return (*found, begun) if begun else tuple(found)
 
 
 def broken(series: Series, quantity: Quantity, cycle: Motion) -> Series:
@@ -138,6 +164,11 @@ class Axis:
         """Return where values lie, 0 at the low end and 1 at the high one."""
         share: NDArray[np.float64] = (np.asarray(values, float) - self.low) / (self.high - self.low)
         return share
+
+    @property
+    def unlabelled(self) -> Axis:
+        """The same with ticks alone."""
+        return replace(self, ticks=tuple((value, "") for value, _ in self.ticks))
 
 
 def linear(low: float, high: float, *, most: int = 5, unit: str = "", least: int = 0) -> Axis:

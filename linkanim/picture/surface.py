@@ -85,6 +85,10 @@ class SurfacePrinter:
         """Return the row of the open list under a pixel, -1 on the list beside them; None off it."""
         return self._panels_of(picture).row_at(overlay, x, y)
 
+    def is_at_boxes(self, picture: Picture, overlay: Overlay, x: float) -> bool:
+        """Return whether a pixel is as far left as the boxes of the open list's rows, if these have some."""
+        return self._panels_of(picture).is_at_boxes(overlay, x)
+
     def scrolled_at(
         self, picture: Picture, overlay: Overlay, x: float, y: float, *, held: bool
     ) -> int | None:

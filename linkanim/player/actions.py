@@ -18,7 +18,7 @@ from linkanim.frozen import NamedTuple
 from linkanim.intake import control_in
 from linkanim.mechanics.quantities import input_symbol
 from linkanim.picture.look import TOGGLES, Look, answer, toggled
-from linkanim.picture.quantities import axes_of, axis_of, driven_words, quantity, speed_words
+from linkanim.picture.quantities import axes_of, axis_of, chart_tokens, driven_words, quantity, speed_words
 from linkanim.player import building, dial, edits, making, pencil, posing, sketching
 from linkanim.player.action import Action
 from linkanim.player.clock import Clock
@@ -499,11 +499,13 @@ def _returns(_: State, after: State) -> str:
 
 
 def _chart(before: State, after: State) -> str | None:
-    """Say what is charted."""
-    token = after.look.chart
-    if token == before.look.chart:
-        return None
-    return quantity(after.scene, token).words if token else "no chart"
+    """Say what is charted now, or no more."""
+    was, now = (chart_tokens(one.scene, one.look.chart) for one in (before, after))
+    if was == now or not now:
+        return None if was == now else "no chart"
+    new = next((token for token in now if token not in was), None)
+    gone = next((token for token in was if token not in now), now[0])
+    return quantity(after.scene, new).words if new else f"no {quantity(after.scene, gone).words}"
 
 
 def _sounds(_: State, after: State) -> str:
@@ -561,6 +563,7 @@ ACTIONS: Mapping[str, Rule] = {
     **{name: _of_look(name) for name, toggle in TOGGLES.items() if toggle.keys},
     "chart": Rule(_whole, chart, answer=_chart),  # quantities further
     "plot": Rule(_text, edits.plot, answer=_chart),  # a quantity's token
+    "strip": Rule(_text, edits.strip, answer=_chart),  # one that is charted below the others, or no more
     "help": Rule(_nothing, lambda state, _: replace(state, help=not state.help)),
     # notches, about the point (x, y): window heights from the picture's middle, y down
     "zoom": Rule(_numbers(3), zoom, answer=_zoom),
@@ -648,7 +651,7 @@ ACTIONS: Mapping[str, Rule] = {
     "lift": Rule(_whole, making.lift),  # steps
     "slide": Rule(_whole, making.slide),  # the step of the slider that is shown
     "back": Rule(_nothing, back),
-    "list": Rule(_nothing, edits.list_, taped=False),
+    "list": Rule(_one_of(None, "below"), edits.list_, taped=False),  # one whose charts are below the others
     "menu": Rule(_words_or_none, edits.menu, taped=False),  # some commands, as `commands.menu_of` has them
     "take_toast": Rule(_nothing, take_toast, taped=False),  # a click on it: the folder that it tells of
     "stir": Rule(_nothing, lambda state, _: replace(state, stirred=state.frame), taped=False),

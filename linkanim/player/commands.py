@@ -57,6 +57,7 @@ _SCENE = (
     *_LAST,
     BarEntry("chart", Action("chart", 1), 2, on_chart=True),
     BarEntry("axis", Action("over"), 3, on_chart=True),
+    BarEntry("add", Action("list", "below"), 4, on_chart=True),
     BarEntry("close", Action("plot", ""), 1, on_chart=True),
 )
 _SHEET = (
@@ -223,8 +224,8 @@ def _of_mode(state: State, usual: Mapping[Action, ListRow], group: str | None) -
 
 _CHOSEN: Mapping[str, tuple[Action, ...]] = {
     "chart": (
-        *(Action("over"), Action("unit"), Action("chart", 1), Action("list"), Action("plot", "")),
-        Action("screenshot"),
+        *(Action("over"), Action("unit"), Action("chart", 1), Action("list"), Action("list", "below")),
+        *(Action("plot", ""), Action("screenshot")),
     ),
     "chosen": (
         *(Action("trace_on"), Action("drive_by"), Action("remove"), Action("number", 1)),

@@ -478,6 +478,9 @@ class Mouse:
                 self._drag, self._steps = "pace", 0
                 return ()
             case "down":
+                if token := screen.chart_titled_at(*self._at):
+                    self._drag = "bar"
+                    return (Action("strip", token),)
                 handle = screen.handle_at(*self._at, _REACH * screen.size[1])
                 curve = None if handle else screen.on_trace(*self._at, _NEAR * screen.size[1])
                 self._drag = "joint" if handle or curve else self._grabbed(screen)
@@ -514,7 +517,7 @@ class Mouse:
         if gesture.kind != "down" or row < 0:
             return ()
         if not editing:
-            return (Action("pick", row),)
+            return (Action("tick" if screen.on_box(self._at[0]) else "pick", row),)
         self._drag, self._steps = "row", 0
         return (Action("grab_row", row),)
 

@@ -11,6 +11,7 @@ from linkanim.build.building import Step
 from linkanim.errors import LinkanimError
 from linkanim.mechanics.analysis import Info
 from linkanim.picture.overlay import Browsing
+from linkanim.picture.quantities import MOST_CHARTS, chart_tokens
 from linkanim.player.action import Action
 from linkanim.player.commands import menu_of
 from linkanim.player.keys import MENU_IN
@@ -141,17 +142,19 @@ def _kept_edits(state: State) -> tuple[Edited, ...]:
 
 
 def _kept_chart(state: State, scene: Scene) -> str | None:
-    chart = state.look.chart
-    return chart if chart and chart in scene.quantities else None
+    """Return what of the charts another scene has, too."""
+    tokens = chart_tokens(state.scene, state.look.chart)
+    return ",".join(token for token in tokens if token in scene.quantities) or None
 
 
-def list_(state: State, _: None) -> State:
-    """Open the list of quantities, at the one that is charted, or close it."""
+def list_(state: State, below: str | None) -> State:
+    """Open the list of quantities, at the one that is charted, or close it; for another chart `below`."""
     if state.listing:
         return replace(state, listing=None)
     tokens = listed(state.scene, "")
-    at = tokens.index(state.look.chart) if state.look.chart in tokens else 0
-    return replace(state, listing=Listing(at), browsing=None)
+    charted = chart_tokens(state.scene, state.look.chart)
+    at = next((tokens.index(token) for token in charted if token in tokens), 0)
+    return replace(state, listing=Listing(at, adds=bool(below)), browsing=None)
 
 
 def open_shelf(state: State, _: None) -> State:
@@ -234,6 +237,20 @@ def plot(state: State, token: str) -> State:
     if token not in state.scene.quantities:
         return with_toast(state, f"{state.scene.name} has no quantity {token}")
     return replace(state, look=replace(state.look, chart=token), listing=None)
+
+
+def strip(state: State, token: str) -> State:
+    """Chart a quantity below what is charted; one that is charted is charted no more."""
+    charted = chart_tokens(state.scene, state.look.chart)
+    if token in charted:
+        charted = tuple(one for one in charted if one != token)
+    elif token not in state.scene.quantities:
+        return with_toast(state, f"{state.scene.name} has no quantity {token}")
+    elif len(charted) >= MOST_CHARTS:
+        return with_toast(state, f"there is room for {MOST_CHARTS} charts; a click on a title puts one away")
+    else:
+        charted = (*charted, token)
+    return replace(state, look=replace(state.look, chart=",".join(charted) or None))
 
 
 def put(state: State, place: int) -> State:

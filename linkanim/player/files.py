@@ -16,6 +16,7 @@ from linkanim import atomic_files, intake
 from linkanim.atomic_files import Claim
 from linkanim.build.draft import UNTITLED, Draft
 from linkanim.errors import BadInput, WorkFailed
+from linkanim.picture.quantities import chart_tokens
 from linkanim.picture.raster import png_bytes
 from linkanim.player.building import DRAFT, offered, stored_text
 from linkanim.player.state import BuildSheet, State
@@ -55,7 +56,8 @@ def page(state: State) -> Path:
     from linkanim.share.page import Shared, document
 
     look = state.look
-    shown = Shared(state.displayed, state.clock.speed, chart=look.chart, names=look.names)
+    chart = next(iter(chart_tokens(state.scene, look.chart)), None)
+    shown = Shared(state.displayed, state.clock.speed, chart=chart, names=look.names)
     return _added(document(shown).encode(), state.scene.name, ".html")
 
 

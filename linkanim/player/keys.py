@@ -204,7 +204,9 @@ KEYS: Table = {
             "C (Shift: off)", "chart: next quantity, off", _on("c", "chart", 1) + _on("shift+c", "plot", "")
         ),
         KeyRow("X", "chart's axis: angle, time, phase", _of_look("over")),
-        KeyRow("K", "the list of quantities", _on("k", "list")),
+        KeyRow(
+            "K (Shift: more)", "the list of quantities", _on("k", "list") + _on("shift+k", "list", "below")
+        ),
         KeyRow("Shift+U", "unit of lengths: mm, cm, m, in", _of_look("unit")),
     ),
     "edit": (
@@ -259,6 +261,11 @@ _IN_A_MODE: Table = {
         ),
         KeyRow("type", "filter by name"),
         KeyRow("Enter, click", "chart it", _enter("pick", "unsift")),
+        KeyRow(
+            "Ctrl+Enter, its box",
+            "chart it below the others; off again",
+            _on("ctrl+return ctrl+kp_enter", "tick"),
+        ),
     ),
     "in O": (
         KeyRow(
@@ -472,6 +479,8 @@ _APART: Mapping[Action, str] = {
     Action("play", "title door=play"): "the title",
     Action("back"): "close what is open, leave full screen",
     Action("quit"): "quit",
+    Action("list"): "the list of quantities",
+    Action("list", "below"): "another chart below",
     Action("plot", ""): "chart: off",
     Action("chart", 1): "chart: the next quantity",
     Action("build"): "build a linkage",

@@ -16,7 +16,7 @@ from linkanim.mechanics.motion import Pose, Strut
 from linkanim.picture.figure import Figure
 from linkanim.picture.hud import charted, rows
 from linkanim.picture.overlay import Told
-from linkanim.picture.quantities import quantity
+from linkanim.picture.quantities import chart_tokens, quantity
 from linkanim.picture.shapes import hull
 from linkanim.player.action import Action
 from linkanim.player.state import State
@@ -110,8 +110,8 @@ def _of_instant(state: State, scene: Scene, phase: float) -> tuple[str, ...]:
     """Return where the input is at an instant, and the charted quantity or the traced joint's speed there."""
     pose = scene.pose(phase, speed=state.clock.speed)
     where = rows(scene, pose)[0]
-    chart = state.look.chart
-    tokens = [chart] if chart else [f"{joint}.velocity" for joint in scene.trace[:1]]
+    traced = tuple(f"{joint}.velocity" for joint in scene.trace[:1])
+    tokens = chart_tokens(scene, state.look.chart) or traced
     known = (quantity(scene, token) for token in tokens)
     unit = scene.length_unit
     words = (
@@ -131,7 +131,8 @@ def _of_row(state: State, scene: Scene, label: str) -> tuple[str, ...]:
     token = charted(scene).get(label)
     if token is None:
         return ()
-    return ("a click puts its chart away" if token == state.look.chart else "a click charts it",)
+    known = token in chart_tokens(scene, state.look.chart)
+    return ("a click puts its chart away" if known else "a click charts it",)
 
 
 def row_asks(state: State, label: str) -> tuple[Action, ...]:
@@ -139,7 +140,7 @@ def row_asks(state: State, label: str) -> tuple[Action, ...]:
     if not label:
         return (Action("note", ": ".join(class_words(state.displayed))),)
     token = charted(state.displayed).get(label)
-    return (Action("plot", "" if token == state.look.chart else token),) if token else ()
+    return (Action("strip", token),) if token else ()
 
 
 def class_words(scene: Scene) -> tuple[str, ...]:

@@ -561,6 +561,10 @@ class Screen:
         """Return the row of the open list under a pixel, -1 on the list beside them; None off it."""
         return self._printer.row_at(self._framing.last, self.over, x, y) if self.state.listed else None
 
+    def on_box(self, x: float) -> bool:
+        """Tell whether a pixel of the open list is as far left as the boxes of its rows, where it has any."""
+        return self._printer.is_at_boxes(self._framing.last, self.over, x)
+
     def scrolled_by(self, x: float, y: float, *, held: bool) -> int | None:
         """Return by how many rows the list's scroll bar is moved at a pixel; None beside the bar."""
         listing, shown = self.state.listing, self.over.quantities
@@ -607,6 +611,10 @@ class Screen:
         curve = self.on_trace(x, y, reach) if thing is None or thing.kind != "joint" else None
         found = Pointed(place, None if curve else thing, curve[1] if curve else None)
         return found if thing or curve else None
+
+    def chart_titled_at(self, x: float, y: float) -> str | None:
+        """Return the token of the chart whose title is under a pixel; None elsewhere."""
+        return None if self.over.hides_chart else self._framing.last.chart_titled_at(x, y)
 
     def charted(self, x: float, y: float) -> float | None:
         """Return the phase under a pixel of the chart; None beside it."""

@@ -42,7 +42,7 @@ from linkanim.picture.overlay import (
     Snap,
     ToolBar,
 )
-from linkanim.picture.quantities import quantity
+from linkanim.picture.quantities import chart_tokens, quantity
 from linkanim.picture.text import subscripted
 from linkanim.player.clock import FRAMES_PER_SECOND
 from linkanim.player.commands import bar
@@ -246,7 +246,7 @@ _HINT = (
     "Ctrl+S save   Esc closes"
 )
 _OTHERS_HINT = "↑ ↓ choose   type to filter   Enter takes   Esc closes"
-_LIST_HINT = "↑ ↓ choose   type to filter   Enter charts   Esc closes"
+_LIST_HINT = "↑ ↓ choose   type to filter   Enter charts   Ctrl+Enter adds   Esc closes"
 _BAR = "Space pause · Tab next · drag any joint · right click: all commands · H keys"
 _FREE = {
     2: "pivots and joints are free: drag them",
@@ -384,7 +384,10 @@ def _quantities(state: State, listing: Listing) -> Quantities:
         (one.words, value_words(scene, one, pose) if n in near or n < _NEAR else one.symbol)
         for n, one in enumerate(found)
     )
-    return Quantities(rows, listing.chosen, listing.sieve, _LIST_HINT)
+    charted = chart_tokens(scene, state.look.chart)
+    boxes = tuple(one.token in charted for one in found)
+    title, hint = ("Another chart below", _OTHERS_HINT) if listing.adds else ("Quantities", _LIST_HINT)
+    return Quantities(rows, listing.chosen, listing.sieve, hint, title=title, boxes=boxes)
 
 
 def value_words(scene: Scene, one: Quantity, pose: Pose) -> str:

@@ -79,11 +79,15 @@ class Entries:
 
 @frozen
 class Listing:
-    """The open list: the row that is chosen, and the letters that sift it; of quantities, or of `others`."""
+    """The open list: the row that is chosen, and the letters that sift it; of quantities, or of `others`.
+
+    One that `adds` has a quantity charted below what is charted, not in its place.
+    """
 
     chosen: int
     sieve: str = ""
     others: Entries | None = None
+    adds: bool = False
 
     def found(self, scene: Scene) -> tuple[str, ...]:
         """Return the tokens of quantities, or the words of others, that have all the sieve's words."""
@@ -95,11 +99,12 @@ class Listing:
         """Return what a row asks for; None where there is none."""
         if self.others is not None:
             return next((one.action for one in self.others.found[row : row + 1]), None)
-        return next((Action("plot", token) for token in self.found(scene)[row : row + 1]), None)
+        charts = "strip" if self.adds else "plot"
+        return next((Action(charts, token) for token in self.found(scene)[row : row + 1]), None)
 
     def sifted(self, sieve: str) -> Listing:
         """Return it with other letters, at its top."""
-        return Listing(0, sieve, self.others and replace(self.others, sieve=sieve))
+        return replace(self, chosen=0, sieve=sieve, others=self.others and replace(self.others, sieve=sieve))
 
 
 def listed(scene: Scene, sieve: str) -> tuple[str, ...]:

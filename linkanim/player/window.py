@@ -212,8 +212,15 @@ class Window:
         if listing := self.state.listing:
             row = row if isinstance(row, int) else listing.chosen
             asked = listing.asked(self.state.scene, row)
-            yield from () if listing.others is None else (Action("back"),)
+            yield from (Action("back"),) if listing.others or listing.adds else ()
             yield from self._resolved(asked) if asked else ()
+
+    def _tick(self, row: Value) -> Iterator[Action]:
+        """Yield what charts a quantity of the list below the others, the chosen one unless it is given."""
+        listing = self.state.listing
+        if listing and listing.others is None:
+            row = row if isinstance(row, int) else listing.chosen
+            yield from (Action("strip", token) for token in listing.found(self.state.scene)[row : row + 1])
 
     def _put_chosen(self, _: Value) -> Iterator[Action]:
         """Yield what puts on the mechanism that is chosen on the shelf, where the sieve has left one."""
@@ -595,6 +602,7 @@ class Window:
 MEANINGS: Mapping[str, Callable[[Window, Value], Iterator[Action]]] = {
     "back": Window._back,
     "pick": Window._pick,
+    "tick": Window._tick,
     "put_chosen": Window._put_chosen,
     "move": Window._move,
     "row": Window._row,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import replace
-from itertools import combinations
+from itertools import combinations, pairwise
 from typing import Any
 
 import numpy as np
@@ -14,14 +14,16 @@ import pytest
 from fidelity import Pixels
 from pictures import pixels
 
+from linkanim.errors import BadInput
 from linkanim.mechanics.motion import Mechanism, Motion, Pose
 from linkanim.mechanics.quantities import input_symbol
-from linkanim.picture.chart import ChartPanel, chart_panel, pen_for
+from linkanim.picture.chart import ChartPanel, chart_panel, chart_strips, pen_for
 from linkanim.picture.figure import figure
 from linkanim.picture.items import Caption
 from linkanim.picture.layout import Layout, layout
 from linkanim.picture.look import Look, Over
 from linkanim.picture.picture import Picture
+from linkanim.picture.quantities import chart_tokens
 from linkanim.picture.raster import offscreen
 from linkanim.picture.surface import SurfacePrinter
 from linkanim.picture.text import Type
@@ -305,3 +307,50 @@ def test_the_axes_are_titled(size: tuple[int, int], monkeypatch: pytest.MonkeyPa
     SurfacePrinter().paint(offscreen(size), painter, scene.pose(1.0))
     assert "crank angle θ₂ (°)" in drawn
     assert any(text.endswith("ω₄ (rad/s)") for text in drawn)
+
+
+STRIPS = [((1280, 720), False, 2), ((1280, 720), False, 3), ((640, 360), True, 2), ((1920, 1080), True, 3)]
+
+
+@pytest.mark.parametrize(("size", "beside", "count"), STRIPS)
+def test_strips_share_their_axis_and_have_equal_plots(
+    size: tuple[int, int], beside: bool, count: int
+) -> None:
+    window = layout(size, chart=count, beside=beside)
+    scene = load("press")
+    pen = pen_for(window, Type(), LIGHT)
+    strips = chart_strips(figure(scene), scene.telling[:count], window, pen)
+    areas = [panel.plot.area for panel in strips.panels]
+    assert len(areas) == count
+    assert all(area.x == areas[0].x and area.width == areas[0].width for area in areas)
+    assert all(area.height == pytest.approx(areas[0].height) for area in areas)
+    assert all(upper.bottom < lower.y for upper, lower in pairwise(areas))
+    assert window.chart
+    assert areas[-1].bottom < window.chart.bottom
+    titles = [panel.title.around(Type()) for panel in strips.panels]
+    assert all(area.bottom < title.y for area, title in zip(areas, titles[1:], strict=False))
+    pose = scene.pose(1.0, 2)
+    assert len({round(panel.foot(pose).real, 9) for panel in strips.panels}) == 1
+    for panel, title in zip(strips.panels, titles, strict=True):
+        assert strips.titled_at(title.x + 2, title.y + 2) == panel.quantity.token
+
+
+def test_more_strips_than_have_room_are_refused() -> None:
+    scene = load("press")
+    with pytest.raises(BadInput, match="4 quantities in charts: there is room for 3"):
+        chart_strips(figure(scene), scene.telling[:4], WINDOW, pen_for(WINDOW, Type(), LIGHT))
+
+
+NAMED = {
+    "none": (None, ()),
+    "one": ("P.velocity", ("P.velocity",)),
+    "two": ("P.velocity,rocker.angle", ("P.velocity", "rocker.angle")),
+    "two with a blank": ("P.velocity, transmission_angle", ("P.velocity", "transmission_angle")),
+    "unknown": ("P.velocity,nothing", ("P.velocity", "nothing")),
+}
+
+
+@pytest.mark.parametrize("case", NAMED)
+def test_quantities_of_several_charts_have_commas_between(case: str) -> None:
+    charted, tokens = NAMED[case]
+    assert chart_tokens(load("crank-rocker"), charted) == tokens

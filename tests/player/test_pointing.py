@@ -148,7 +148,7 @@ def test_the_trace_and_the_chart_point_at_one_instant(player: Player) -> None:
     assert shown.over.instant == pytest.approx(2.5, abs=0.05)
     assert shown.over.told
     assert shown.over.told.lines[0].startswith("crank angle 14")
-    area = shown._framing.last._chart.plot.area  # type: ignore[union-attr]
+    area = shown._framing.last._chart.panels[0].plot.area  # type: ignore[union-attr]
     move(player, (area.x + area.width / 4, area.y + area.height / 2))
     assert shown.over.instant == pytest.approx(math.pi / 2, abs=0.05)
 

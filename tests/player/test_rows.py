@@ -29,7 +29,7 @@ def crank(state: State) -> float:
 
 def row_place(player: Player, row: int) -> tuple[float, float]:
     """Return the middle of a row's stretch of pixels in the window."""
-    x = 40.0 * player.window.screen.size[0] / 1280
+    x = 140.0 * player.window.screen.size[0] / 1280
     found = [y for y in range(player.window.screen.size[1]) if player.window.screen.row_at(x, y) == row]
     assert found, row
     return x, found[len(found) // 2]
@@ -152,6 +152,24 @@ def test_a_quantity_is_charted_with_a_click(listed: Player) -> None:
     listed.drag(row_place(listed, chosen))
     assert not overlay(listed.state).quantities
     assert listed.state.look.chart == list(listed.state.scene.telling)[chosen]
+
+
+def test_boxes_chart_several_quantities_below_each_other_and_the_list_stays(listed: Player) -> None:
+    listed.press(pygame.K_ESCAPE)
+    listed.press(pygame.K_k)
+    telling = listed.state.scene.telling
+    for row in (0, 1):
+        x, y = row_place(listed, row)
+        listed.drag((x * 0.2, y))
+    assert listed.state.look.chart == f"{telling[0]},{telling[1]}"
+    panel = overlay(listed.state).quantities
+    assert panel
+    assert panel.boxes[:4] == (True, True, False, False)
+    listed.press(pygame.K_RETURN, mod=pygame.KMOD_CTRL)  # the one that is chosen, off again
+    assert listed.state.look.chart == telling[1]
+    listed.press(pygame.K_ESCAPE)
+    assert not listed.state.listing
+    assert listed.state.look.chart == telling[1]
 
 
 def test_a_tape_keeps_a_dragged_value() -> None:
