@@ -450,10 +450,19 @@ _SPEED = _value(
 )
 
 
-def _limits(sizes: str) -> tuple[Argument, ...]:
+_BOX = _value("--box X,Y,W,H", box, "the rectangle in which all fixed pins lie")
+_BOXES = _value(
+    "--box X,Y,W,H",
+    box,
+    "the rectangle in which the fixed pins lie that are not given, or two of them, one for each",
+    nargs="+",
+)
+
+
+def _limits(sizes: str, room: Argument = _BOX) -> tuple[Argument, ...]:
     """Return the limits of what is synthesised."""
     return (
-        _value("--box X,Y,W,H", box, "the rectangle in which all fixed pins lie"),
+        room,
         _value("--largest F", positive, f"the longest link allowed, in {sizes} (default: 8)", 8.0),
         _value("--least-angle ANGLE", units.angle, "the least transmission angle allowed", 0.0),
     )
@@ -670,7 +679,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         ),
         _KIND_SOUGHT,
         _value("--pivots X,Y", pair, "one or two fixed pins that are given", (), nargs="+"),
-        *_limits("sizes of the poses"),
+        *_limits("sizes of the poses", _BOXES),
         _takes(
             "--prefer", choices=("compact", "angle"), help="prefer small links, or a large transmission angle"
         ),

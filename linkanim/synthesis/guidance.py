@@ -44,11 +44,14 @@ from linkanim.synthesis.burmester import (
 from linkanim.synthesis.linkages import (
     KINDS,
     SLIDER_CRANK,
+    Box,
     Complex,
     Indices,
     LinkageKind,
     Real,
     Requirements,
+    box_of,
+    holds,
     refuse_count,
 )
 from linkanim.units import shown
@@ -63,10 +66,15 @@ USUAL_WEIGHT = 2.0
 
 _SAMPLES = {2: 160, 3: 160, 4: 72}
 """Bars that are tried, of each circuit where they lie on a curve."""
+_ON_A_CURVE = 4
+"""Poses whose pivots lie on a curve; where they are to lie in a box it is sampled so many times as close."""
+_CLOSER = 20
 _REACH = 1.6
 """In the poses' sizes: how far from their middle free pivots are tried."""
 _ON_CURVE = 1e-4
 """Of the poses' size: a given pivot that is nearer to where one can be stands there."""
+_GIVEN = 1e-13
+"""Of the poses' size: by so much rounding may move a pivot that is given."""
 _MET = 1e-6
 """Of the poses' size: a pose that a linkage passes at this distance is one that it passes."""
 _EXACT = 1e-14
@@ -100,6 +108,8 @@ class GuideTask:
     kind: LinkageKind
     pivots: tuple[complex, ...]
     requirements: Requirements
+    boxes: tuple[Box, ...] = ()
+    """In which the pins that are not given lie: all in one, or one in each of two."""
     unit: str = "mm"
     name: str = "guide"
     source: str = "made by linkanim for poses"
@@ -150,7 +160,7 @@ def task_of(
     *,
     kind: str = "four-bar",
     pivots: Sequence[Sequence[float] | None] = (),
-    box: Sequence[float] | None = None,
+    box: Sequence[float] | Sequence[Sequence[float]] | None = None,
     largest: float = LARGEST,
     least_angle: float = 0.0,
     unit: str = "mm",
@@ -160,9 +170,9 @@ def task_of(
     """Return what is asked for, checked.
 
     `kind` is "four-bar" or "slider-crank". `pivots` are fixed pins in any order, None for one that is free.
-    `box` is the x, y, width and height of the rectangle in which all fixed pins lie, `largest` the longest
-    link in sizes of the set of poses, `least_angle` the least transmission angle (rad) on the way from the
-    first pose to the last.
+    `box` is the x, y, width and height of the rectangle in which the other fixed pins lie, or two of them
+    with a pin in each, `largest` the longest link in sizes of the set of poses, `least_angle` the least
+    transmission angle (rad) on the way from the first pose to the last.
     """
     if kind not in KINDS:
         raise BadInput(f"kind={shown(kind)}: take {' or '.join(KINDS)}")
@@ -187,15 +197,44 @@ def task_of(
             f"both pivots are given at {given[0].real:g}, {given[0].imag:g}, so there is no ground link "
             "between them; give one of them another place, or leave it out"
         )
+    boxes = _boxes(box, found, given, len(chosen.pins) - len(given))
     limits = Requirements.of(
-        found.size, "sizes of the poses", largest=largest, least_angle=least_angle, box=box
+        found.size, "sizes of the poses", largest=largest, least_angle=least_angle, box=None
     )
-    for pivot in given:
-        if not limits.holds(pivot):
-            raise BadInput(
-                f"the pivot at {pivot.real:g}, {pivot.imag:g} lies outside the box; enlarge the box"
-            )
-    return GuideTask(found, chosen, given, replace(limits, full_turn=False), unit, name, source)
+    return GuideTask(found, chosen, given, replace(limits, full_turn=False), boxes, unit, name, source)
+
+
+def _boxes(
+    box: Sequence[float] | Sequence[Sequence[float]] | None,
+    poses: Poses,
+    given: tuple[complex, ...],
+    free: int,
+) -> tuple[Box, ...]:
+    """Return the boxes for so many pins that are free; BadInput for more, and if nothing can lie in them."""
+    if box is None or not len(box):
+        return ()
+    rows = [box] if np.ndim(box[0]) == 0 else list(box)
+    found = tuple(box_of(row) for row in rows)  # type: ignore[arg-type]
+    if not free:
+        for pivot in given:
+            if not any(holds(one, pivot) for one in found):
+                raise BadInput(
+                    f"the pivot at {pivot.real:g}, {pivot.imag:g} lies outside the box; enlarge the box"
+                )
+        return ()
+    if len(found) > free:
+        pins = "one fixed pin is" if free == 1 else f"{free} fixed pins are"
+        raise BadInput(f"{len(found)} boxes are given, and {pins} free; give a box for each free pin, or one")
+    if poses.count == _ON_A_CURVE and poses.poles:
+        curve = CentreCurve(poses)
+        for one in found:
+            if not len(_phases_in((one,), curve)):
+                nearest = curve.nearest(complex(one[0] + one[2] / 2, one[1] + one[3] / 2))
+                raise BadInput(
+                    f"no centre point of these four poses lies in the box of {one[2]:g} x {one[3]:g} at "
+                    f"{one[0]:g}, {one[1]:g}; one that is near is {nearest.real:.6g}, {nearest.imag:.6g}"
+                )
+    return found
 
 
 def _pivot(pivot: Sequence[float]) -> complex:
@@ -244,32 +283,32 @@ def _bars(task: GuideTask) -> _EndChoice:
     """Return the bars that may hold one end of the coupler, their pivots free."""
     poses = task.poses
     if poses.count == 2:
-        rows = _scattered(poses, _SAMPLES[2], task.requirements.box)
+        rows = _scattered(poses, _SAMPLES[2], task.boxes)
         rows[:, 2] = np.tan((rows[:, 2] - 0.5) * 0.85 * math.pi) * poses.size
         return _EndChoice(rows, lambda rows: _of_two(poses, rows), (0.2 * poses.size,) * 3)
     if poses.count == 3 or not poses.poles:
-        rows = _scattered(poses, _SAMPLES[3], task.requirements.box)[:, :2]
+        rows = _scattered(poses, _SAMPLES[3], task.boxes)[:, :2]
         if not np.isfinite(_about(poses, rows).circle).any():
             raise BadInput(
                 f"these {poses.count} poses are parallel and their places lie on no circle, so no point of "
                 "the body stays at one distance from a pivot; turn them against each other"
             )
         return _EndChoice(rows, lambda rows: _about(poses, rows), (0.2 * poses.size,) * 2)
-    return _on_curve(poses) if poses.count == 4 else _all_of(_of_five(poses))
+    return _on_curve(task) if poses.count == _ON_A_CURVE else _all_of(_of_five(poses))
 
 
 _STEPS = np.array([0.8191725133961645, 0.6710436067037893, 0.5497004779019703])
 """Powers of the root of x⁴ = x + 1, whose multiples are evenly scattered (Roberts's sequence)."""
 
 
-def _scattered(poses: Poses, count: int, box: tuple[float, ...] | None = None) -> Real:
-    """Return (count, 3): x and y of points in a box, or about the poses, and a number from 0 to 1."""
+def _scattered(poses: Poses, count: int, boxes: Sequence[Box] = ()) -> Real:
+    """Return (count, 3): x and y of points in boxes, or about the poses, and a number from 0 to 1."""
     rows = (0.5 + np.outer(np.arange(1, count + 1), _STEPS)) % 1.0
     reach = _REACH * poses.size
     low = poses.centre - complex(reach, reach)
-    left, below, wide, high = box or (low.real, low.imag, 2 * reach, 2 * reach)
-    rows[:, 0] = left + wide * rows[:, 0]
-    rows[:, 1] = below + high * rows[:, 1]
+    rooms = np.array(boxes or [(low.real, low.imag, 2 * reach, 2 * reach)])
+    corner, sides = np.split(rooms[np.arange(count) % len(rooms)], 2, axis=1)
+    rows[:, :2] = corner + sides * rows[:, :2]
     return np.asarray(rows)
 
 
@@ -288,12 +327,16 @@ def _about(poses: Poses, rows: Real) -> Bars:
     return Bars(circle_points(poses, centre), centre)
 
 
-def _on_curve(poses: Poses) -> _EndChoice:
+def _on_curve(task: GuideTask) -> _EndChoice:
     """Return the bars of four poses: circuits of the centre points' curve and phases along them."""
+    poses = task.poses
     curve = CentreCurve(poses)
     count = len(curve.circuits)
-    phases = (np.arange(_SAMPLES[4]) + 0.5) * (math.tau / _SAMPLES[4])
-    rows = np.column_stack([np.repeat(np.arange(count), len(phases)), np.tile(phases, count)])
+    if task.boxes:
+        rows = _phases_in(task.boxes, curve)
+    else:
+        phases = (np.arange(_SAMPLES[4]) + 0.5) * (math.tau / _SAMPLES[4])
+        rows = np.column_stack([np.repeat(np.arange(count), len(phases)), np.tile(phases, count)])
 
     def make(rows: Real) -> Bars:
         centre = np.full(len(rows), np.nan, np.complex128)
@@ -303,6 +346,20 @@ def _on_curve(poses: Poses) -> _EndChoice:
         return Bars(circle_points(poses, centre), centre)
 
     return _EndChoice(rows, make, (0.0, math.tau / _SAMPLES[4]))
+
+
+def _phases_in(boxes: Sequence[Box], curve: CentreCurve) -> Real:
+    """Return circuits of a curve and phases along them (n, 2) at which it runs within each of some boxes."""
+    count = _CLOSER * _SAMPLES[4]
+    phases = np.asarray((np.arange(count) + 0.5) * (math.tau / count), dtype=np.float64)
+    found = [np.empty((0, 2))]
+    for circuit in range(len(curve.circuits)):
+        places = curve.at(circuit, phases)
+        for box in boxes:
+            there = phases[[holds(box, place) for place in places.tolist()]]
+            there = there[:: -(-len(there) // _SAMPLES[4]) or 1]
+            found.append(np.column_stack([np.full(len(there), float(circuit)), there]))
+    return np.concatenate(found)
 
 
 def _held(task: GuideTask, pivot: complex) -> _EndChoice:
@@ -510,9 +567,26 @@ def _merit(task: GuideTask, judged: _Judged, weight: float) -> Real:
         found -= _TURNING * judged.turning
         limits = task.requirements
         slack = limits.slack(task.kind, judged.rows).min(axis=1)
+        if task.boxes:
+            slack = np.minimum(slack, -_outside(task, task.kind.pivots(judged.rows)))
         kept = (slack >= -1e-9 * task.poses.size) & (judged.transmission >= limits.angle_to_keep("angle"))
     found += _DEFECT * judged.defects.sum(axis=1)
     return np.asarray(np.where(kept & np.isfinite(found), found, np.inf))
+
+
+def _outside(task: GuideTask, pivots: Complex) -> Real:
+    """Return how far pivots (k, m) that are not given lie outside the box, or of two one outside each."""
+    beyond = []
+    for x, y, width, height in task.boxes:
+        ways = x - pivots.real, pivots.real - x - width, y - pivots.imag, pivots.imag - y - height
+        beyond.append(np.max(ways, axis=0))
+    off = np.stack(beyond)
+    if len(off) > 1:
+        orders = [np.stack([off[0, :, n], off[1, :, 1 - n]]).max(axis=0) for n in (0, 1)]
+        return np.asarray(np.minimum(*orders))
+    for pivot in task.pivots:
+        off = np.where(np.abs(pivots - pivot) <= _ON_CURVE * task.poses.size, -np.inf, off)
+    return np.asarray(off[0].max(axis=1))
 
 
 def answers(task: GuideTask, count: int = COUNT, weight: float | None = None) -> tuple[GuidedLinkage, ...]:
@@ -542,7 +616,7 @@ def answers(task: GuideTask, count: int = COUNT, weight: float | None = None) ->
 
 def _none_keeps(task: GuideTask, ends: list[tuple[_EndChoice, _EndChoice]]) -> str:
     """Return why there is no answer, with what the smallest linkage would need."""
-    limits = ["the box"] if task.requirements.box else []
+    limits = [("the box", "a pin in each box")[len(task.boxes) - 1]] if task.boxes else []
     kept = ", ".join([*limits, "the longest link"]) + " and the least transmission angle"
     sizes = [_judged(task, _all_pairs(pair)).size for pair in ends]
     least = float(np.nanmin([*np.concatenate(sizes), np.inf])) / task.poses.size
@@ -756,7 +830,7 @@ def _nearest_slide(poses: Poses, joint: complex) -> Slides | None:
 def checked(task: GuideTask, pairs: _Pairs) -> GuidedLinkage | None:
     """Return a linkage as it is written and as the solver runs it; None where it does not assemble."""
     judged, kind = _judged(task, pairs), task.kind
-    row = np.array([_written(task, *one) for one in zip(kind.parameters, judged.rows[0], strict=True)])
+    row = _written(task, judged.rows[0])
     closures, angles = judged.closures[0], judged.angles[0]
     lean = cmath.phase(pairs.end[0] - pairs.pin[0]) - float(task.poses.angles[0])
     try:
@@ -785,10 +859,23 @@ def checked(task: GuideTask, pairs: _Pairs) -> GuidedLinkage | None:
     )
 
 
-def _written(task: GuideTask, name: str, value: float) -> float:
-    """Return a parameter to fifteen digits after the poses' first: one input gives one file."""
-    places = 16 if name == "line_angle" else _DIGITS - math.floor(math.log10(task.poses.size))
-    return round(float(value), places) + 0.0
+def _written(task: GuideTask, row: Real) -> Real:
+    """Return parameters to fifteen digits after the poses' first: one input gives one file.
+
+    Pivots that are given stand where they are given, not beside that place by rounding.
+    """
+    size, row = task.poses.size, row.copy()
+    for x in task.kind.pins:
+        for pivot in task.pivots:
+            if abs(complex(row[x], row[x + 1]) - pivot) < _GIVEN * size:
+                row[x : x + 2] = pivot.real, pivot.imag
+    places = _DIGITS - math.floor(math.log10(size))
+    return np.array(
+        [
+            round(float(value), 16 if name == "line_angle" else places) + 0.0
+            for name, value in zip(task.kind.parameters, row, strict=True)
+        ]
+    )
 
 
 def _scene(task: GuideTask, row: Real, closure: float, angles: Real) -> Scene:

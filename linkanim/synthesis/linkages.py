@@ -373,16 +373,9 @@ class Requirements:
             largest=largest * size,
             shortest=SHORTEST * size,
             least_angle=least_angle,
-            box=None if box is None else _box(box),
+            box=None if box is None else box_of(box),
             given=given or {},
         )
-
-    def holds(self, pivot: complex) -> bool:
-        """Tell whether a pivot may stand at a point."""
-        if self.box is None:
-            return True
-        x, y, width, height = self.box
-        return x <= pivot.real <= x + width and y <= pivot.imag <= y + height
 
     def slack(self, kind: LinkageKind, rows: Real) -> Real:
         """Return (B, m), negative for each limit that is broken; the two of a full turn come first."""
@@ -428,7 +421,18 @@ def refuse_count(count: int) -> None:
         raise BadInput(f"count={shown(count)}: give a whole number from 1 to {MOST_ANSWERS}")
 
 
-def _box(box: Sequence[float]) -> tuple[float, float, float, float]:
+Box = tuple[float, float, float, float]
+"""The x, y, width and height of a rectangle."""
+
+
+def holds(box: Sequence[float], pivot: complex) -> bool:
+    """Tell whether a point lies in a box."""
+    x, y, width, height = box
+    return x <= pivot.real <= x + width and y <= pivot.imag <= y + height
+
+
+def box_of(box: Sequence[float]) -> Box:
+    """Return a box as it is asked for; BadInput where it is none, or has no room."""
     values = tuple(float(value) for value in box)
     if len(values) != 4 or not all(map(math.isfinite, values)):
         raise BadInput(f"box={shown(str(list(box)))}: give x, y, width and height, four numbers")

@@ -14,7 +14,7 @@ from random_poses import of_four_bars, of_slider_cranks, runs_through
 import linkanim
 from linkanim.errors import BadInput
 from linkanim.mechanics.measures import as_complex, transmission_angle
-from linkanim.synthesis.burmester import Poses, slide_points
+from linkanim.synthesis.burmester import CentreCurve, Poses, slide_points
 from linkanim.synthesis.guidance import GuidedLinkage, answers, apart, followed, task_of
 
 DEGREE = math.pi / 180
@@ -160,6 +160,39 @@ def test_limits_are_kept(kind: str) -> None:
         assert all(0 <= x <= 60 and -60 <= y <= -10 for x, y in pins)
 
 
+def within(box: Sequence[float], place: Sequence[float]) -> bool:
+    return all(low <= at <= low + side for at, low, side in zip(place, box[:2], box[2:], strict=True))
+
+
+ROOMS = ((-30.0, 30.0, 60.0, 60.0), (30.0, -90.0, 60.0, 95.0))
+
+
+@pytest.mark.parametrize("count", [2, 3, 4])
+def test_of_two_boxes_each_has_a_pin(count: int) -> None:
+    for one in linkanim.guide(turned(*POSES[:count]), box=ROOMS, count=3):
+        verify(one)
+        pins = [pin.position for pin in one.scene.linkage.pins]
+        assert any(all(map(within, ROOMS, order)) for order in (pins, pins[::-1]))
+
+
+def test_a_box_is_for_the_pin_that_is_not_given_and_the_other_stands_where_it_is() -> None:
+    for one in linkanim.guide(LID, pivots=[(0, 60)], box=(30, -20, 40, 40), count=3):
+        verify(one)
+        first, second = sorted((pin.position for pin in one.scene.linkage.pins), key=lambda at: at[0])
+        assert list(first) == [0, 60]
+        assert within((30, -20, 40, 40), second)
+
+
+def test_a_small_box_on_the_curve_of_centre_points_is_found() -> None:
+    poses = turned(*POSES[:4])
+    row = np.array(poses)
+    curve = CentreCurve(Poses(row[:, 0] + 1j * row[:, 1], row[:, 2].copy()))
+    at = curve.nearest(30 + 45j)
+    box = (at.real - 0.5, at.imag - 0.5, 1.0, 1.0)
+    for one in linkanim.guide(poses, box=[box, ROOMS[1]], count=2):
+        assert any(within(box, pin.position) for pin in one.scene.linkage.pins)
+
+
 def test_parallel_poses_on_a_circle_are_a_parallelogram_s() -> None:
     places = 20 * np.exp(1j * np.array([0.1, 0.7, 1.5, 2.6]))
     rows = np.column_stack([places.real, places.imag, np.zeros(4)])
@@ -222,7 +255,8 @@ def about(point: complex, *angles: float) -> list[tuple[float, float, float]]:
 SHIFTED = turned((0, 0, 0), (10, 4, 0), (30, -5, 0), (50, 20, 0))
 IMAGINARY = turned((9, 24, -20), (80, 58, 3), (9, 43, -12), (48, 16, 16), (73, 11, 43))
 ROUND = turned((20, 0, 0), (0, 20, 0), (-20, 0, 0), (12, 16, 0))
-FOUR = turned((0, 0, 0), (40, 10, 35), (70, -5, 80), (90, -40, 120))
+POSES = (0, 0, 0), (40, 10, 35), (70, -5, 80), (90, -40, 120)
+FOUR = turned(*POSES)
 FIVE = [*FOUR, (60, -80, 170 * DEGREE)]
 
 
@@ -255,7 +289,12 @@ FIVE = [*FOUR, (60, -80, 170 * DEGREE)]
         (LID, {"pivots": [(1, 2, 3)]}, "give x and y, two numbers"),
         (LID, {"pivots": [(5, 5), (5, 5)]}, "both pivots are given at 5, 5, so there is no ground link"),
         (LID[:2], {"pivots": [(5, 5), (5, 5)]}, "both pivots are given at 5, 5, so there is no ground link"),
-        (LID, {"pivots": [(0, 0)], "box": (10, 10, 5, 5)}, "the pivot at 0, 0 lies outside the box"),
+        (LID, {"pivots": [(0, 0), (30, 0)], "box": (20, -5, 20, 9)}, "pivot at 0, 0 lies outside the box"),
+        (LID, {"pivots": [(0, 0)], "box": [(9, 9, 9, 9)] * 2}, "2 boxes are given, and one fixed pin"),
+        (LID, {"box": [(9, 9, 9, 9)] * 3}, "3 boxes are given, and 2 fixed pins are free"),
+        (LID, {"box": [(9, 9, 9, 9), (0, 0, 0, 9)]}, "nothing fits in it"),
+        (LID, {"box": [(9000, 0, 9, 9), (0, 0, 9, 9)]}, "keeps to a pin in each box"),
+        (FOUR, {"box": [(0, 40, 30, 30), (130, -90, 60, 9)]}, "no centre point of these four poses lies in"),
         (LID, {"box": (0, 0, math.nan, 1)}, "give x, y, width and height"),
         (LID, {"least_angle": 1.57}, "the least transmission angle; give it more room"),
         (LID, {"count": 0}, "from 1 to 50"),

@@ -19,7 +19,7 @@ from linkanim.synthesis.linkages import Real
 from linkanim.units import significant
 
 _UNIT = "mm"
-_TITLES = ("defects", f"off {_UNIT}", "transmission", f"longest link {_UNIT}", "sizes", "class")
+_TITLES = ("defects", f"off {_UNIT}", "transmission", f"longest link {_UNIT}", "sizes", "crank", "class")
 _HANDED_ON = ("kind", "count", "pivots", "box", "largest", "least_angle", "prefer")
 """Options that are called alike here and there."""
 
@@ -52,8 +52,16 @@ def _cells(one: GuidedLinkage) -> tuple[str, ...]:
     defects = ", ".join(one.defects) or "none"
     return (
         *(defects, significant(one.error, 2), angle),
-        *(significant(one.size, 4), sizes, one.class_name),
+        *(significant(one.size, 4), sizes, _way(one), one.class_name),
     )
+
+
+def _way(one: GuidedLinkage) -> str:
+    """Return between which angles the crank swings, if it does not turn fully."""
+    if one.scene.info.full_turn:
+        return "turns"
+    first, last = (significant(math.degrees(angle), 4) for angle in one.scene.info.input_range)
+    return f"{first}…{last} deg"
 
 
 def _object(one: GuidedLinkage) -> dict[str, object]:
@@ -66,6 +74,7 @@ def _object(one: GuidedLinkage) -> dict[str, object]:
         "size": one.size / one.task.poses.size,
         "class": one.class_name,
         "full_turn": one.scene.info.full_turn,
+        "limits": [] if one.scene.info.full_turn else list(one.scene.info.input_range),
         "angles": one.angles.tolist(),
         "phases": one.phases.tolist(),
         "parameters": {"kind": one.task.kind.name, **one.parameters, "closure": one.closure},
