@@ -61,7 +61,7 @@ from linkanim.mechanics.quantities import input_symbol, link_labels
 from linkanim.mechanics.solver.strokes import CylinderStroke, Stroke
 from linkanim.picture.figure import figure
 from linkanim.scenes.scene import Scene
-from linkanim.units import significant
+from linkanim.units import rounded as told
 
 # Where the input is and how it moves: as it was asked for, or from the phase.
 
@@ -587,7 +587,7 @@ class _Draft:
     def _left_over(self, order: Order) -> str:
         """Return by how much the rates of an order miss the differentiated loops at the most."""
         found, self.rates.left_over = self.rates.left_over, 0.0
-        return f"{significant(found, 2)} {self.rates.scale.unit_of(Powers(1, order))}"
+        return f"{told(found, 2)} {self.rates.scale.unit_of(Powers(1, order))}"
 
     def _moved(self, rates: Rates, order: Order, words: str = "") -> None:
         """Add a step for each joint that moves."""

@@ -119,7 +119,8 @@ _INK, _AXIS = (27, 31, 35), (140, 149, 159)
 _PRINTED = 12
 """So many of a curve's values stand in plain text."""
 LETTERS = "abcd"
-_SIZE = (480, 300)
+_SIZE, _ON_PAPER = (480, 300), (344, 200)
+"""A figure's size in pixels, and that of one on paper, which is 40 mm high with letters of 6 pt."""
 _A_PAGE = 5
 """Questions of a printed page at the most."""
 _SIGNED = "<p class='signed'><span>Name</span><span>Date</span></p>"
@@ -131,13 +132,15 @@ section { display: grid; grid-template-columns: 1fr 1.1fr; gap: 0 1.5rem; break-
           margin: 1.2rem 0; }
 section > h2 { grid-column: 1 / -1; } figure { margin: 0; }
 figure svg { width: 100%; height: auto; display: block; }
-figcaption { color: #57606a; font-size: .92em; } ol.answers { list-style: lower-alpha; margin: .3rem 0; }
+.posed { color: #57606a; font-size: .92em; margin: 0; }
+ol.answers { list-style: lower-alpha; margin: .3rem 0; }
 .signed { display: flex; gap: 2rem; } .signed span { flex: 1; border-bottom: 1px solid #57606a; }
 .signed span:first-child { flex: 2; }
 .key { break-before: page; } @page { size: A4; margin: 12mm 14mm; }
 @media print { body { margin: 0; padding: 0; max-width: none; font-size: 9pt; line-height: 1.3; }
   h1 { font-size: 14pt; margin: 0 0 .3rem; } h2 { font-size: 10.5pt; } section { margin: .5rem 0; }
-  section figure svg { height: 41mm; width: auto; }
+  section { grid-template-columns: 70mm 1fr; }
+  section figure svg { height: 40mm; width: auto; }
   .page + .page { break-before: page; } .page { break-inside: avoid; } }
 """
 )
@@ -156,7 +159,7 @@ def pose_words(question: QuizQuestion) -> str:
     return f"{scene.title}, {scene.info.input_name} at {driven_words(scene, at)}{way}"
 
 
-def question_figure(question: QuizQuestion) -> Figured:
+def question_figure(question: QuizQuestion, size: tuple[int, int] = _SIZE) -> Figured:
     """Return the figure of a question as it stands on paper: answers that are places are lettered dots."""
     look = Look(hud=False, trace=False, names=question.names, dead_centres=False)
     spots = (
@@ -164,7 +167,7 @@ def question_figure(question: QuizQuestion) -> Figured:
         for n, (letter, one) in enumerate(zip(LETTERS, question.answers, strict=False))
         if one.place and answer_text(question, n) != one.text
     )
-    return Figured(question.scene, _SIZE, look, question.phase, overlay=Overlay(spots=tuple(spots)))
+    return Figured(question.scene, size, look, question.phase, overlay=Overlay(spots=tuple(spots)))
 
 
 def answer_text(question: QuizQuestion, number: int) -> str:
@@ -213,7 +216,7 @@ def _pages(sections: Sequence[str]) -> Iterator[Sequence[str]]:
 
 def _sections(round_: Sequence[QuizQuestion], progress: Callable[[int, int], None]) -> Iterator[str]:
     for number, question in enumerate(round_, 1):
-        drawn = question_figure(question).document()
+        drawn = question_figure(question, _ON_PAPER).document()
         words = pose_words(question)
         answers = "".join(
             f"<li>{escape(answer_text(question, n))}{_drawn(one.curve)}</li>"
@@ -221,8 +224,8 @@ def _sections(round_: Sequence[QuizQuestion], progress: Callable[[int, int], Non
         )
         yield (
             f"<section><h2>{number}. {escape(question.text)}</h2>"
-            f"<figure>{embedded(drawn, words)}<figcaption>{escape(words)}</figcaption></figure>"
-            f"<ol class='answers'>{answers}</ol></section>"
+            f"<figure>{embedded(drawn, words)}</figure>"
+            f"<div><p class='posed'>{escape(words)}</p><ol class='answers'>{answers}</ol></div></section>"
         )
         progress(number, len(round_))
 

@@ -14,7 +14,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-from browser import PROGRAM
+from browser import PROGRAM, pages_of, printed
 from PIL import Image
 
 from linkanim.cli import main
@@ -80,7 +80,7 @@ def press(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.mark.slow
-def test_the_page_s_path_is_printed(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_page_s_path_isprinted(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["report", "scotch-yoke", "-o", str(tmp_path / "out")]) == 0
     assert capsys.readouterr().out == f"{tmp_path / 'out' / 'report.html'}\n"
 
@@ -457,19 +457,7 @@ def test_a_page_that_is_not_ours_alone_is_never_written_over(
 @pytest.mark.window
 @pytest.mark.skipif(not PROGRAM, reason="needs Chromium")
 def test_the_press_is_printed_on_nine_pages_at_most(press: Path, tmp_path: Path) -> None:
-    target = _printed(press / "report.html", tmp_path)
-    assert 4 <= len(re.findall(rb"/Type\s*/Page\b", target.read_bytes())) <= 9
-
-
-def _printed(page: Path, folder: Path) -> Path:
-    """Return a page as Chromium prints it."""
-    assert PROGRAM
-    target = folder / "printed.pdf"
-    switches = ("--headless", "--no-sandbox", "--disable-gpu", "--no-pdf-header-footer")
-    profile = f"--user-data-dir={folder / 'profile'}"
-    command = [PROGRAM, *switches, profile, f"--print-to-pdf={target}", page.as_uri()]
-    subprocess.run(command, check=True, capture_output=True)
-    return target
+    assert 4 <= pages_of(printed(press / "report.html", tmp_path)) <= 9
 
 
 @pytest.mark.long
@@ -479,7 +467,7 @@ def _printed(page: Path, folder: Path) -> Path:
 def test_no_page_but_the_last_is_under_half_full(name: str, tmp_path: Path) -> None:
     asked = PRESS[1:] if name == "press" else (name,)
     assert main(["report", *asked, "-o", str(tmp_path / "out")]) == 0
-    target = _printed(tmp_path / "out" / "report.html", tmp_path)
+    target = printed(tmp_path / "out" / "report.html", tmp_path)
     subprocess.run(["pdftoppm", "-r", "20", "-gray", str(target), str(tmp_path / "page")], check=True)
     pages = sorted(tmp_path.glob("page-*.pgm"))
     assert len(pages) > 2

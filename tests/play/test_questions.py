@@ -15,6 +15,7 @@ from typing import Any
 
 import orjson
 import pytest
+from browser import PROGRAM, pages_of, printed
 from exact_motion import ExactMotion
 from made_scenes import FEW as FEW_MADE
 from made_scenes import MADE
@@ -231,6 +232,14 @@ def test_a_sheet_has_lines_for_a_name_and_at_most_five_questions_a_page(tmp_path
     pages = text.partition("class='key'")[0].split("<div class='page'>")[1:]
     assert [page.count("<section>") for page in pages] == [3, 4, 4]
     assert "dead centre" not in re.sub(r"<h2>.*?</h2>|<ol.*?</ol>", "", "".join(pages))
+
+
+@pytest.mark.window
+@pytest.mark.skipif(not PROGRAM, reason="needs Chromium")
+def test_ten_questions_of_a_tall_scene_are_printed_on_two_pages_and_their_key(tmp_path: Path) -> None:
+    sheet = tmp_path / "sheet.html"
+    assert main(["quiz", "press", "-n", "10", "--seed", "7", "-o", str(sheet)]) == 0
+    assert pages_of(printed(sheet, tmp_path)) == 3
 
 
 @pytest.mark.parametrize(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import json
 import os
+import re
 import select
 import shutil
 import subprocess
@@ -28,6 +29,22 @@ _SWITCHES = (
     "--remote-debugging-pipe",
 )
 _PATIENCE = 30.0
+
+
+def printed(page: Path, folder: Path) -> Path:
+    """Return a page as the browser prints it, in a folder."""
+    assert PROGRAM
+    target = folder / "printed.pdf"
+    switches = ("--headless", "--no-sandbox", "--disable-gpu", "--no-pdf-header-footer")
+    profile = f"--user-data-dir={folder / 'profile'}"
+    command = [PROGRAM, *switches, profile, f"--print-to-pdf={target}", page.as_uri()]
+    subprocess.run(command, check=True, capture_output=True)
+    return target
+
+
+def pages_of(pdf: Path) -> int:
+    """Return how many pages a file of the browser's has."""
+    return len(re.findall(rb"/Type\s*/Page\b", pdf.read_bytes()))
 
 
 class Page:
