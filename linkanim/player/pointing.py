@@ -5,7 +5,7 @@ The words and numbers are those of the shared page.
 
 from __future__ import annotations
 
-from math import degrees, hypot
+from math import hypot
 from typing import Literal
 
 import numpy as np
@@ -151,8 +151,14 @@ def class_words(scene: Scene) -> tuple[str, ...]:
 
 def _of_joint(scene: Scene, pose: Pose, name: str) -> tuple[str, ...]:
     unit = scene.length_unit
-    x, y = pose.position[name]
-    speed, acceleration = (hypot(*rates[name]) for rates in (pose.velocity, pose.acceleration))
+    if scene.linkage.joint(name).fixed:
+        (x, y), rates = pose.position[name], (0.0, 0.0)
+    else:
+        x, y, *rates = (
+            _number(scene, pose, f"{name}.{what}")
+            for what in ("position.x", "position.y", "velocity", "acceleration")
+        )
+    speed, acceleration = rates
     return (
         f"{name} ({four_digits(x)}, {four_digits(y)}) {unit}",
         f"v = {four_digits(speed)} {unit}/s   a = {four_digits(acceleration)} {unit}/s²",
@@ -162,12 +168,19 @@ def _of_joint(scene: Scene, pose: Pose, name: str) -> tuple[str, ...]:
 def _of_link(scene: Scene, pose: Pose, name: str) -> tuple[str, ...]:
     begin, end = (pose.position[joint] for joint in scene.linkage.body(name).joints[:2])
     long = hypot(end[0] - begin[0], end[1] - begin[1])
+    rate, angle = (_number(scene, pose, f"{name}.{what}") for what in ("angular_velocity", "angle"))
     return (
-        f"{scene.info.link_names[name]}: ω = {four_digits(pose.angular_velocity[name])} rad/s",
-        f"{four_digits(long)} {scene.length_unit} at {four_digits(degrees(pose.angle[name]) % 360.0)}°",
+        f"{scene.info.link_names[name]}: ω = {four_digits(rate)} rad/s",
+        # within one turn once it is rounded, so that 359.99999° is 0°
+        f"{four_digits(long)} {scene.length_unit} at {four_digits(float(f'{angle % 360.0:.4g}') % 360.0)}°",
     )
 
 
 def _of_strut(scene: Scene, strut: Strut, name: str) -> tuple[str, ...]:
     force = "" if strut.force is None else f"   {four_digits(strut.force)} N"
     return (f"{name}: {four_digits(strut.length)} {scene.length_unit}{force}",)
+
+
+def _number(scene: Scene, pose: Pose, token: str) -> float:
+    """Return what all outputs say of a quantity: 0 where it is nothing but rounding."""
+    return float(scene.quantities[token].shown(pose))

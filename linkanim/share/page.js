@@ -487,11 +487,11 @@
         text = `${couple(world(pointer.at, view))} ${page.unit}`;
         const { link, tail, head } = pointer.mover || {};
         if (link) {
-          const way = sub(pose(head).p, pose(tail).p), moved = sub(pose(head).v, pose(tail).v);
+          const [way, moved] = ["p", "v"].map((kind) => sub(pose(head)[kind], pose(tail)[kind]).map(clear));
           const turning = -(way[0] * moved[1] - way[1] * moved[0]) / (size(way) ** 2) * speed();
-          const angle = mod(Math.atan2(-way[1], way[0]) * 180 / Math.PI, 360);
+          const angle = mod(Math.atan2(-way[1], way[0]) * 180 / Math.PI, 360).toPrecision(4);
           text = `${link}: ω = ${short(turning)} rad/s\n` +
-            `${short(size(way) / view[0])} ${page.unit} at ${short(angle)}°`;
+            `${short(size(way) / view[0])} ${page.unit} at ${short(mod(Number(angle), 360))}°`;
         }
       }
     }

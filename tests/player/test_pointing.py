@@ -64,6 +64,31 @@ def test_a_link_tells_its_length_angle_and_angular_speed() -> None:
     )
 
 
+# What vanishes, but for rounding: the scene, the phase, the thing and its two lines.
+VANISHING = {
+    "a link that never turns": (
+        ("wiper", 1e-12, PointedThing("link", "link")),
+        ("link: ω = 0 rad/s", "260 mm at 0°"),
+    ),
+    "a crank a hair before a whole turn": (
+        ("crank-rocker", math.tau - 1e-15, PointedThing("link", "crank")),
+        ("crank: ω = 2.094 rad/s", "50 mm at 0°"),
+    ),
+    "a fixed pin": (
+        ("crank-rocker", 1.0, PointedThing("joint", "O4")),
+        ("O4 (100, 0) mm", "v = 0 mm/s   a = 0 mm/s²"),
+    ),
+}
+
+
+@pytest.mark.parametrize(("at", "lines"), VANISHING.values(), ids=VANISHING)
+def test_what_is_nothing_but_rounding_is_told_as_0(
+    at: tuple[str, float, PointedThing], lines: tuple[str, str]
+) -> None:
+    name, phase, thing = at
+    assert lines_of(standing(name, phase), thing) == lines
+
+
 def test_a_spring_tells_its_length_and_force() -> None:
     state = standing("press")
     spring = state.scene.pose(1.0, speed=state.clock.speed).spring["return"]

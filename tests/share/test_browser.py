@@ -184,6 +184,31 @@ def test_the_pointer_reads_the_joint_under_it(page: Page, tmp_path: Path) -> Non
     assert shown(page, "reading").startswith("O2 (0, 0) mm\nv = 0 mm/s")
 
 
+# 359.999° is 0° to four digits.
+@pytest.mark.parametrize(
+    ("name", "link", "phases", "reading"),
+    [
+        ("wiper", "link", (0.0, 1.0, pi, 4.0), "link: ω = 0 rad/s\n260 mm at 0°"),
+        ("crank-rocker", "crank", (2 * pi - 1e-5,), "crank: ω = 2.094 rad/s\n50 mm at 0°"),
+    ],
+)
+def test_the_pointer_reads_0_where_a_link_s_number_is_0(
+    name: str, link: str, phases: tuple[float, ...], reading: str, page: Page, tmp_path: Path
+) -> None:
+    page.go(put(tmp_path, Shared(load(name))))
+    middle = (
+        "(() => { const { movers } = JSON.parse(document.getElementById('data').textContent).sides[0];"
+        f"const number = movers.findIndex((mover) => mover.link === '{link}');"
+        "const box = document.querySelector(`#side0 [data-m='${number}']`).getBoundingClientRect();"
+        "return [(box.left + box.right) / 2, (box.top + box.bottom) / 2]; })()"
+    )
+    for at in phases:
+        go_to(page, at)
+        page.mouse("mouseMoved", *page.value(middle))
+        page.frame()
+        assert shown(page, "reading") == reading
+
+
 def test_it_runs_in_a_frame_and_rests_where_motion_is_not_wanted(page: Page, tmp_path: Path) -> None:
     held = escape(document(Shared(load("slider-crank"))), quote=True)
     outer = tmp_path / "slide.html"
