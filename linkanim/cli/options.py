@@ -165,23 +165,23 @@ def poses(text: str) -> int:
 
 def box(text: str) -> tuple[float, ...]:
     """Read four numbers with commas between: x, y, width and height."""
-    try:
-        found = tuple(float(part) for part in text.split(","))
-    except ValueError:
-        found = ()
-    if len(found) != 4 or not all(map(math.isfinite, found)):
-        raise BadInput(f"{shown(text)} is not X,Y,W,H: four numbers with commas between, such as 0,0,200,100")
-    return found
+    return _numbers(text, 4, "X,Y,W,H: four numbers with commas between, such as 0,0,200,100")
 
 
 def pair(text: str) -> tuple[float, float]:
     """Read two numbers with a comma between: x and y."""
+    x, y = _numbers(text, 2, "X,Y: two numbers with a comma between, such as 20,-40")
+    return x, y
+
+
+def _numbers(text: str, count: int, form: str) -> tuple[float, ...]:
+    """Read so many finite numbers; `BadInput` says the form in which they are written."""
     try:
-        found = tuple(float(part) for part in text.split(","))
+        found = tuple(map(float, text.split(",")))
     except ValueError:
         found = ()
-    if len(found) != 2 or not all(map(math.isfinite, found)):
-        raise BadInput(f"{shown(text.strip())} is not X,Y: two numbers with a comma between, such as 20,-40")
+    if len(found) != count or not all(map(math.isfinite, found)):
+        raise BadInput(f"{shown(text.strip())} is not {form}")
     return found
 
 
