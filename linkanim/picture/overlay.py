@@ -252,6 +252,22 @@ NEW = -1
 NEW_TITLE = "New: an empty sheet"
 
 
+MINE = "Mine"
+"""The chapter of the scene files in the current folder."""
+
+
+class OwnFile(NamedTuple):
+    """A scene file in the current folder: its name, and when it was written last, in words."""
+
+    name: str
+    written: str
+
+    @property
+    def title(self) -> str:
+        """Its name without the ending."""
+        return self.name.removesuffix(".toml")
+
+
 def found_among(entries: Sequence[Scene | str], sieve: str) -> tuple[int, ...]:
     """Return the places of the mechanisms that have all the sieve's words in name, title or chapter."""
     return sifted(dict(enumerate((NEW_TITLE, *_searched(entries)), start=NEW)), sieve)
@@ -280,7 +296,8 @@ def _searched(entries: Sequence[Scene | str]) -> Iterator[str]:
 class Browsing:
     """The open shelf: its mechanisms as the state has them, the one that is chosen, the frame of opening.
 
-    Letters sift it; it is scrolled to the row numbered `top`.
+    Letters sift it; it is scrolled to the row numbered `top`. The files of one's `own` have the places behind
+    those of the mechanisms.
     """
 
     entries: tuple[Scene | str, ...]
@@ -288,11 +305,20 @@ class Browsing:
     since: int
     sieve: str = ""
     top: int = 0
+    own: tuple[OwnFile, ...] = ()
 
     @cached_property
     def found(self) -> tuple[int, ...]:
         """The places of those that have all the sieve's words."""
-        return found_among(self.entries, self.sieve)
+        texts = (f"{one.title} {one.written} {MINE}" for one in self.own)
+        return found_among(self.entries, self.sieve) + sifted(
+            dict(enumerate(texts, start=len(self.entries))), self.sieve
+        )
+
+    def file_at(self, place: int) -> OwnFile | None:
+        """Return the file at a place; None where there is a mechanism, or nothing."""
+        behind = place - len(self.entries)
+        return self.own[behind] if 0 <= behind < len(self.own) else None
 
     def sifted(self, sieve: str) -> Browsing:
         """Return it with other letters, at the first that is found where the chosen one is not."""

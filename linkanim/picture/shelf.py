@@ -5,16 +5,18 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import groupby
 from math import ceil
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 import pygame
 
+from linkanim.errors import LinkanimError
 from linkanim.frozen import NamedTuple
 from linkanim.picture.board import Board
 from linkanim.picture.layout import Layout, layout
 from linkanim.picture.look import Look
-from linkanim.picture.overlay import NEW, NEW_TITLE, AnswerRow, Browsing, Shelf
+from linkanim.picture.overlay import MINE, NEW, NEW_TITLE, AnswerRow, Browsing, Shelf
 from linkanim.picture.picture import Picture
 from linkanim.picture.raster import Layer, Loop, paint
 from linkanim.picture.shapes import box, disc
@@ -144,7 +146,9 @@ class _Shape:
 def _chapter(browsing: Browsing, place: int) -> str:
     """Return what stands over a mechanism: its chapter, in capitals where it begins."""
     if place == NEW:  # it leads the first chapter
-        return next((_chapter(browsing, n) for n in browsing.found if n != NEW), "Your own")
+        return next((_chapter(browsing, n) for n in browsing.found if n != NEW), MINE)
+    if browsing.file_at(place):
+        return MINE
     entry = browsing.entries[place]
     name = (chapter_of(entry) or "") if isinstance(entry, str) else entry.chapter or "opened"
     return name[:1].upper() + name[1:]
@@ -172,19 +176,21 @@ class ShelfPrinter:
         self._made_for: object = None
         self._still: tuple[object, pygame.Surface] | None = None
         self._live: dict[int, Live] = {}
+        self._unread: set[int] = set()
         self._type: Type | None = None
 
     def close(self) -> None:
         """Forget what was drawn for a shelf that is no longer open."""
         self._made_for = self._still = self._type = None
-        self._live = {}
+        self._live, self._unread = {}, set()
 
     def draw(self, surface: pygame.Surface, shelf: Shelf) -> None:
         """Draw the shelf instead of the picture, with one mechanism more than before."""
         size = surface.get_size()
-        if self._made_for != (size, shelf.theme, shelf.browsing.entries):
+        made_for = size, shelf.theme, shelf.browsing.entries, shelf.browsing.own
+        if self._made_for != made_for:
             self.close()
-            self._made_for = size, shelf.theme, shelf.browsing.entries
+            self._made_for = made_for
         self._type = self._type or Type()
         board, found = Board(layout(size), self._type, theme_of(shelf.theme)), grid(size, shelf.browsing)
         shown = (found.top, shelf.browsing.found, shelf.browsing.sieve)
@@ -204,15 +210,20 @@ class ShelfPrinter:
         _foot(surface, board, found, shelf, self._live.get(shelf.browsing.chosen))
 
     def _join(self, found: Grid, shelf: Shelf) -> None:
-        """Read the next mechanism in sight, the chosen one first."""
+        """Read the next mechanism in sight, the chosen one first; a file that is no scene has no picture."""
         order = sorted(found.cells, key=lambda n: n != shelf.browsing.chosen)
-        n = next((n for n in order if n not in self._live and n != NEW), None)
-        if n is not None:
-            entry, cell = shelf.browsing.entries[n], found.cells[n]
-            scene = load(entry) if isinstance(entry, str) else entry
-            size = round(cell.width), round(cell.height - found.line)
-            look = Look(theme=shelf.theme, hud=False, background=False)
+        n = next((n for n in order if n not in self._live and n not in self._unread and n != NEW), None)
+        if n is None:
+            return
+        cell, file = found.cells[n], shelf.browsing.file_at(n)
+        size = round(cell.width), round(cell.height - found.line)
+        look = Look(theme=shelf.theme, hud=False, background=False)
+        try:
+            entry = file.name if file else shelf.browsing.entries[n]
+            scene = load(Path(entry) if file else entry) if isinstance(entry, str) else entry
             self._live[n] = Live(Picture(scene, size, look))
+        except LinkanimError:
+            self._unread.add(n)
 
 
 def _due(live: dict[int, Live], found: Grid, shelf: Shelf) -> list[int]:
@@ -240,9 +251,9 @@ def _still(size: tuple[int, int], board: Board, found: Grid, browsing: Browsing)
     text, x, y = found.text, found.room.x, 0.7 * found.text
     board.write(still, words, (x, y), size=text, colour=colour, strong=True)
     count = (
-        f"{len([n for n in browsing.found if n != NEW])} of {len(browsing.entries)}"
+        f"{len([n for n in browsing.found if n != NEW])} of {len(browsing.entries) + len(browsing.own)}"
         if browsing.sieve
-        else f"{len(browsing.entries)}"
+        else f"{len(browsing.entries) + len(browsing.own)}"
     )
     hint = count if browsing.sieve else f"type to filter   {count}"
     board.write(still, hint, (found.room.right, y), size=text, colour=board.theme.dim, anchor="right")
@@ -259,6 +270,9 @@ def _still(size: tuple[int, int], board: Board, found: Grid, browsing: Browsing)
             paint(still, [Layer(board.theme.dim, _plus(cell, found.line, board.layout.unit))])
             _title(still, board, NEW_TITLE, cell, found)
             continue
+        if file := browsing.file_at(n):
+            _title(still, board, file.title, cell, found, file.written)
+            continue
         entry = browsing.entries[n]
         _title(still, board, named[entry] if isinstance(entry, str) else entry.title, cell, found)
     still.fill(board.theme.background, pygame.Rect(0, int(found.room.bottom), *size))
@@ -271,9 +285,20 @@ def _plus(cell: Rect, line: float, unit: float) -> list[Loop]:
     return [np.asarray(middle + bar) for bar in (box(2 * reach, 5 * unit), box(5 * unit, 2 * reach))]
 
 
-def _title(surface: pygame.Surface, board: Board, title: str, cell: Rect, found: Grid) -> None:
-    """Write a title in two lines below its picture, as large as fits."""
-    lines, size = titled(board, title, found.text, cell.width - 0.5 * found.text)
+def _title(
+    surface: pygame.Surface, board: Board, title: str, cell: Rect, found: Grid, below: str = ""
+) -> None:
+    """Write a title in two lines below its picture, as large as fits; or what is `below` it in the second."""
+    room = cell.width - 0.5 * found.text
+    if below:
+        at, foot = cell.x + cell.width / 2, cell.bottom - found.line + 0.1 * found.text
+        words = board.fitting((title,), found.text, room)
+        board.write(surface, words, (at, foot), size=found.text, anchor="centre")
+        size = max(round(0.85 * found.text), _LEAST)
+        at_foot = (at, foot + 1.25 * found.text)
+        board.write(surface, below, at_foot, size=size, colour=board.theme.dim, anchor="centre")
+        return
+    lines, size = titled(board, title, found.text, room)
     top = cell.bottom - found.line + (0.1 + 0.6 * (_LINES - len(lines))) * found.text
     for n, line in enumerate(lines):
         at = (cell.x + cell.width / 2, top + 1.15 * found.text * n + (found.text - size) / 2)

@@ -656,7 +656,7 @@ ACTIONS: Mapping[str, Rule] = {
     "take_toast": Rule(_nothing, take_toast, taped=False),  # a click on it: the folder that it tells of
     "stir": Rule(_nothing, lambda state, _: replace(state, stirred=state.frame), taped=False),
     "shelf": Rule(_nothing, edits.open_shelf, taped=False),
-    "files": Rule(_text, edits.files, taped=False),  # scene files, one a line
+    "files": Rule(_text, edits.files, taped=False),  # scene files with their dates, one a line
     "open_file": Rule(_text, effect("open"), taped=False),
     "move": Rule(_whole, edits.move, taped=False),  # rows of the list, or places on the shelf
     "point": Rule(_whole, edits.point, taped=False),  # the place on the shelf

@@ -10,19 +10,16 @@ from decimal import Decimal
 from linkanim.build.building import Step
 from linkanim.errors import LinkanimError
 from linkanim.mechanics.analysis import Info
-from linkanim.picture.overlay import Browsing
+from linkanim.picture.overlay import Browsing, OwnFile
 from linkanim.picture.quantities import MOST_CHARTS, chart_tokens
-from linkanim.player.action import Action
 from linkanim.player.commands import menu_of
 from linkanim.player.keys import MENU_IN
 from linkanim.player.state import (
     Edited,
     Editing,
-    Entries,
     Grasp,
     Held,
     Listing,
-    ListRow,
     State,
     check_of_turning,
     chosen,
@@ -211,10 +208,11 @@ def _relisted(state: State, sieve: str) -> State:
     return replace(state, listing=state.listing.sifted(sieve[:_LONGEST]))
 
 
-def files(state: State, names: str) -> State:
-    """Open the list of files, one name a line."""
-    entries = tuple(ListRow(name, "", Action("open_file", name)) for name in names.splitlines())
-    return replace(state, listing=Listing(0, others=Entries("Scene files here", entries)), browsing=None)
+def files(state: State, lines: str) -> State:
+    """Have files of one's own on the shelf, which is opened: name and date a line, a tab between them."""
+    own = tuple(OwnFile(*line.split("\t")[:2]) for line in lines.split("\n") if "\t" in line)
+    opened = state if state.browsing else open_shelf(state, None)
+    return replace(opened, browsing=opened.browsing and replace(opened.browsing, own=own))
 
 
 def menu(state: State, group: str | None) -> State:

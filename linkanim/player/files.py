@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+import time
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import replace
@@ -16,6 +17,7 @@ from linkanim import atomic_files, intake
 from linkanim.atomic_files import Claim
 from linkanim.build.draft import UNTITLED, Draft
 from linkanim.errors import BadInput, WorkFailed
+from linkanim.picture.overlay import OwnFile
 from linkanim.picture.quantities import chart_tokens
 from linkanim.picture.raster import png_bytes
 from linkanim.player.building import DRAFT, offered, stored_text
@@ -180,11 +182,27 @@ def open_folder(text: str) -> None:
             webbrowser.open(path.parent.as_uri())
 
 
-def scene_files() -> list[str]:
-    """Return the names of the scene files in the current folder, none where it is there no more."""
+_MOST_FILES = 300
+
+
+def scene_files() -> tuple[OwnFile, ...]:
+    """Return the scene files in the current folder, the newest ones first; none where it is there no more.
+
+    Of very many the newest three hundred are enough to look through.
+    """
+    found: list[tuple[float, str]] = []
     with suppress(OSError), os.scandir() as entries:
-        return sorted(one.name for one in entries if one.name.endswith(".toml") and one.name.isprintable())
-    return []
+        for one in entries:
+            if one.name.endswith(".toml") and one.name.isprintable():
+                with suppress(OSError):
+                    found.append((-one.stat().st_mtime, one.name))
+    return tuple(OwnFile(name, _date(-newest)) for newest, name in sorted(found)[:_MOST_FILES])
+
+
+def _date(seconds: float) -> str:
+    with suppress(OSError, OverflowError, ValueError):
+        return time.strftime("%Y-%m-%d %H:%M", time.localtime(seconds))
+    return ""
 
 
 # The file in which the draft on a sheet is kept, whole and at most a second behind, until it is written.

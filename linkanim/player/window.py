@@ -21,6 +21,7 @@ from pygame.event import Event
 from linkanim import intake
 from linkanim.errors import BadInput, LinkanimError
 from linkanim.picture.look import Look
+from linkanim.picture.overlay import OwnFile
 from linkanim.picture.photograph import SUFFIXES, lack
 from linkanim.player import files, screen
 from linkanim.player.action import Action, Value
@@ -226,7 +227,23 @@ class Window:
         """Yield what puts on the mechanism that is chosen on the shelf, where the sieve has left one."""
         browsing = self.state.browsing
         if browsing and browsing.chosen in browsing.found:
-            yield Action("put", browsing.chosen)
+            yield from self._put(browsing.chosen)
+
+    def _put(self, place: Value) -> Iterator[Action]:
+        """Yield what puts on what is at a place of the shelf: a mechanism, or a file of one's own."""
+        browsing = self.state.browsing
+        file = browsing.file_at(place) if browsing and isinstance(place, int) else None
+        if file:
+            yield Action("shelf")
+            yield Action("open_file", file.name)
+        else:
+            yield Action("put", place)
+
+    def _shelf(self, _: Value) -> Iterator[Action]:
+        """Yield what opens the shelf with the scene files of the current folder, or closes it."""
+        yield Action("shelf")
+        files = scene_files() if self.state.browsing else ()
+        yield from (Action("files", _listed(files)) for _ in files[:1])
 
     def _move(self, further: Value) -> Iterator[Action]:
         """Yield a step in the list or along the shelf, which scrolls with it."""
@@ -310,9 +327,13 @@ class Window:
             yield from (Action("point", n) for n in (seen[:1] if rows > 0 else seen[-1:]))
 
     def _files_here(self, _: Value) -> Iterator[Action]:
-        """Yield what opens the list of the scene files in the current folder."""
-        names = scene_files()
-        yield Action("files", "\n".join(names)) if names else Action("note", _NO_FILES)
+        """Yield what opens the shelf at the scene files of the current folder."""
+        files = scene_files()
+        if not files:
+            yield Action("note", _NO_FILES)
+            return
+        yield Action("files", _listed(files))
+        yield Action("point", len(self.state.shelf))
 
     def _aim(self, way: Value) -> Iterator[Action]:
         """Yield what an arrow means on a sheet or among poses: the cursor goes on."""
@@ -599,11 +620,18 @@ class Window:
         return (bind.action,) if bind else ()
 
 
+def _listed(files: Sequence[OwnFile]) -> str:
+    """Return files as an action has them."""
+    return "\n".join(f"{one.name}\t{one.written}" for one in files)
+
+
 MEANINGS: Mapping[str, Callable[[Window, Value], Iterator[Action]]] = {
     "back": Window._back,
     "pick": Window._pick,
     "tick": Window._tick,
+    "put": Window._put,
     "put_chosen": Window._put_chosen,
+    "shelf": Window._shelf,
     "move": Window._move,
     "row": Window._row,
     "scroll": Window._scroll,

@@ -206,7 +206,7 @@ LEFT: dict[str, tuple[Action | str, ...]] = {
     "list": ("list",),
     "sifted list": ("list", Action("sift", "vel")),
     "list while paused": ("pause", "list"),
-    "files": (Action("files", "one.toml\ntwo.toml"),),
+    "files": (Action("files", "one.toml\t2026-01-02\ntwo.toml\t2026-01-01"),),
     "shelf": ("shelf",),
     "sifted shelf": ("shelf", Action("sift", "geneva")),
     "shelf while paused": ("pause", "shelf"),

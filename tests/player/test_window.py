@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import os
 import re
 from collections.abc import Callable
 from dataclasses import replace
@@ -17,7 +18,6 @@ import pytest
 from playing import CTRL, SHIFT, SIZE, Player, fake_start
 
 from linkanim.picture.look import Look
-from linkanim.picture.overlay import Quantities
 from linkanim.picture.placing import Placer
 from linkanim.player import beside
 from linkanim.player import screen as display
@@ -25,7 +25,7 @@ from linkanim.player.action import Action
 from linkanim.player.actions import carried
 from linkanim.player.clock import STEP
 from linkanim.player.framing import Framing
-from linkanim.player.shown import _OTHERS_HINT, overlay
+from linkanim.player.shown import overlay
 from linkanim.player.state import FRAMES, TOAST_FRAMES, State, begin
 from linkanim.player.tape_file import read
 from linkanim.scenes import load, names
@@ -716,25 +716,57 @@ def test_a_picture_that_stands_still_is_painted_once(player: Player, monkeypatch
     assert flips == [1]
 
 
-def test_ctrl_o_lists_the_scene_files_here_and_opens_one(player: Player, here: Path) -> None:
+def test_ctrl_o_opens_the_shelf_at_the_scene_files_here_and_puts_one_on(player: Player, here: Path) -> None:
     player.press(pygame.K_o, CTRL)
     player.tick()
     assert player.state.toast
     assert "no scene file" in player.state.toast.text
-    for name in ("press", "hart"):
+    for n, name in enumerate(("press", "hart")):
         save(replace(load(name), name=f"my-{name}"), here)
+        os.utime(here / f"my-{name}.toml", (1e9 + n, 1e9 + n))
     player.press(pygame.K_o, CTRL)
-    player.type("pr")
-    assert overlay(player.state).quantities == Quantities(
-        (("my-press.toml", ""),), 0, "pr", _OTHERS_HINT, title="Scene files here"
-    )
+    browsing = player.state.browsing
+    assert browsing
+    assert [one.title for one in browsing.own] == ["my-hart", "my-press"]  # the newest one first
+    assert all(one.written.startswith("2001-09-09") for one in browsing.own)
+    assert browsing.chosen == len(browsing.entries)
+    player.type("my pr")
+    assert player.state.browsing
+    assert player.state.browsing.found == (browsing.chosen + 1,)
     player.press(pygame.K_RETURN)
-    assert (player.state.listing, player.state.scene.name) == (None, "my-press")
+    assert (player.state.browsing, player.state.scene.name) == (None, "my-press")
     (here / "my-press.toml").write_text("title = 3")
     player.press(pygame.K_F5)
     player.tick()
     assert player.state.toast
     assert "my-press.toml" in player.state.toast.text
+
+
+def test_the_shelf_has_the_scene_files_here_in_a_chapter_of_their_own(player: Player, here: Path) -> None:
+    save(replace(load("press"), name="my-press"), here)
+    (here / "broken.toml").write_text("title = 3")
+    player.press(pygame.K_o)
+    browsing = player.state.browsing
+    assert browsing
+    assert browsing.chosen == player.state.place
+    player.type("mine")
+    shown = player.state.browsing
+    assert shown
+    player.tick(5)
+    grid = player.window.screen.shelf_grid(shown)
+    assert [words for words, _ in grid.headings] == ["Mine"]
+    place = next(n for n in grid.cells if (file := shown.file_at(n)) and file.name == "my-press.toml")
+    middle = grid.cells[place].middle
+    player.drag((middle.real, middle.imag))
+    assert (player.state.browsing, player.state.scene.name) == (None, "my-press")
+    player.press(pygame.K_o)
+    player.type("broken")
+    player.tick(3)
+    player.press(pygame.K_RETURN)
+    player.tick()
+    assert player.state.toast
+    assert "broken.toml" in player.state.toast.text
+    assert player.state.scene.name == "my-press"
 
 
 def test_a_file_that_is_dropped_is_opened_or_refused_in_a_sentence(player: Player, here: Path) -> None:
