@@ -144,13 +144,12 @@ h3 {{ font-size: 1.05rem; margin: 1.2rem 0 .2rem; }} h2, h3 {{ break-after: avoi
   h1 {{ font-size: 15pt; }} h2 {{ font-size: 11.5pt; margin: .4rem 0 .1rem; border-width: 1px; }}
   h3 {{ font-size: 9pt; margin: .2rem 0 0; }}
   math[display=block] {{ font-size: 8pt; overflow: visible; margin: .1rem 0 .1rem .6rem !important; }}
-  math .rows > mtr > mtd {{ padding: .09em 0 !important; }}
-  math .rows > mtr:has(.blank) > mtd {{ padding: .13em 0 !important; }}
+  math .rows > mtr > mtd {{ padding: .1em 0 !important; }}
   p:has(+ math) {{ break-after: avoid; }} p, li {{ font-size: 8.5pt; margin: 0; }}
   .steps {{ display: grid; grid-template-columns: 1fr 1fr; gap: 0 1rem; align-items: start; }}
   .steps > .wide {{ grid-column: 1 / -1; }} .steps > .short {{ break-inside: avoid; }}
   ul.given {{ columns: 3 !important; }} ul.results {{ columns: 5 !important; }}
-  figure.vectors svg {{ max-height: 70mm; width: auto; }} }}
+  figure.vectors svg {{ max-height: 66mm; width: auto; }} }}
 """
 _MATH = """
 math { font-family: "Linkanim Math", "Latin Modern Math", "STIX Two Math", math; }
