@@ -43,7 +43,7 @@ def frozen(
             for name in vars(kind).get("__annotations__", ()):
                 if isinstance(getattr(cls, name, None), property):
                     raise TypeError(f"{cls.__name__}.{name}: a base has a property of this name")
-        cls._stated = _Statement(cls, kw_only=kw_only)  # type: ignore[attr-defined]
+        cls.__frozen_statement__ = _Statement(cls, kw_only=kw_only)  # type: ignore[attr-defined]
         methods: dict[str, object] = {
             "__init__": _Late(cls, "__init__", _written_init),
             "__repr__": _repr,
@@ -52,8 +52,8 @@ def frozen(
             "__match_args__": _Late(cls, "__match_args__", _placed),
         }
         if eq:
-            compared = _Late(cls, "_compared", lambda cls: property(_reader(cls)))
-            methods |= {"_compared": compared, "__eq__": _equal, "__hash__": _hash}
+            compared = _Late(cls, "__frozen_compared__", lambda cls: property(_reader(cls)))
+            methods |= {"__frozen_compared__": compared, "__eq__": _equal, "__hash__": _hash}
         for name in methods.keys() - own:
             setattr(cls, name, methods[name])
         setattr(cls, _FIELDS, _Late(cls, _FIELDS, _standard_fields))
@@ -111,16 +111,16 @@ def _fields(cls: type) -> list[_Field]:
     """Return the fields of a class, those of its bases first."""
     found: dict[str, _Field] = {}
     for kind in reversed(cls.__mro__):
-        if "_stated" in vars(kind):
-            found.update((one.name, one) for one in vars(kind)["_stated"].fields())
+        if "__frozen_statement__" in vars(kind):
+            found.update((one.name, one) for one in vars(kind)["__frozen_statement__"].fields())
     return list(found.values())
 
 
 def _standard_fields(cls: Any) -> object:
     """Return the fields as Python's own functions look for them, such as `replace`."""
-    for name, one in cls._stated.special.items():
+    for name, one in cls.__frozen_statement__.special.items():
         setattr(cls, name, one)
-    dataclass(init=False, repr=False, eq=False, kw_only=cls._stated.kw_only)(cls)
+    dataclass(init=False, repr=False, eq=False, kw_only=cls.__frozen_statement__.kw_only)(cls)
     return vars(cls)[_FIELDS]
 
 
@@ -196,12 +196,12 @@ def _reader(cls: type) -> Callable[[Any], tuple[object, ...]]:
 def _equal(self: Any, other: Any) -> bool:
     if other.__class__ is not self.__class__:
         return NotImplemented  # type: ignore[no-any-return]
-    equal: bool = self._compared == other._compared
+    equal: bool = self.__frozen_compared__ == other.__frozen_compared__
     return equal
 
 
 def _hash(self: Any) -> int:
-    return hash(self._compared)
+    return hash(self.__frozen_compared__)
 
 
 @recursive_repr()

@@ -164,6 +164,21 @@ def test_a_field_is_not_hidden_by_a_property_of_a_base() -> None:
             size: int
 
 
+def test_a_class_may_have_helpers_of_any_name() -> None:
+    @frozen
+    class Report:
+        value: int
+
+        def _stated(self) -> int:
+            return self.value
+
+        def _compared(self) -> int:
+            return self.value
+
+    assert Report(3) == Report(3) != Report(4)
+    assert (Report(3)._stated(), Report(4)._compared()) == (3, 4)
+
+
 def test_an_assignment_is_refused() -> None:
     with pytest.raises(FrozenInstanceError, match="cannot assign to field 'a'"):
         Kept(1).a = 2  # type: ignore[misc]
