@@ -67,7 +67,7 @@ def _shapes(scene: Scene) -> tuple[dict[str, tuple[int, ...]], frozenset[str]]:
     The points of a path, and with their squares of distance, span a space: of a line 2 and 3 dimensions,
     of a circle 3 and 3, of any other curve 3 and 4.
     """
-    cycle = scene.cycle(_PLACES, derivatives=0)
+    cycle = scene.cycle(scene.mechanism.count(_PLACES), derivatives=0)
     size = max(scene.linkage.longest, float(np.ptp(list(cycle.position.values()))))
     spans = {}
     for name, place in cycle.position.items():

@@ -46,7 +46,7 @@ from linkanim.frozen import NamedTuple
 from linkanim.mechanics.analysis import FourBar, four_bar_of
 from linkanim.mechanics.linkage import RRP, RRR, Body, Crank, Joint
 from linkanim.mechanics.measures import output_body, output_slider
-from linkanim.mechanics.search import around, highest
+from linkanim.mechanics.search import highest
 from linkanim.scenes.scene import Scene
 from linkanim.units import significant
 
@@ -256,10 +256,7 @@ class _WholeMotion:
     def _ends(self, function: Callable[[np.ndarray], np.ndarray]) -> tuple[float, float]:
         """Return the least and the greatest value over one true period."""
         mechanism = self.scene.mechanism
-        places, step = (
-            around(mechanism.periods, mechanism.assembly.samples),
-            math.tau / mechanism.assembly.samples,
-        )
+        places, step = mechanism.sampled, math.tau / mechanism.assembly.samples
         values = function(places)
         found = []
         for sign in (-1, 1):

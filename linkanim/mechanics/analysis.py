@@ -27,7 +27,7 @@ from linkanim.mechanics.measures import output_body, output_slider, pivots_of, s
 from linkanim.mechanics.motion import Mechanism, Motion
 from linkanim.mechanics.program import Array, batch
 from linkanim.mechanics.quantities import input_symbol, phrase
-from linkanim.mechanics.search import around, changes_by_row, highest, in_blocks, own_rows, sign_changes
+from linkanim.mechanics.search import changes_by_row, highest, in_blocks, own_rows, sign_changes
 from linkanim.mechanics.solver.closing import CLOSERS, walk_at
 from linkanim.mechanics.solver.signed_root import Kind
 from linkanim.units import degrees, short, significant
@@ -98,10 +98,9 @@ def _where_least(mechanism: Mechanism, dyad: str) -> float:
         motion = mechanism.solve(phase=phases, speed=1.0, derivatives=0)
         return -np.asarray(transmission_angle(motion, dyad), dtype=np.float64)
 
-    count = mechanism.assembly.samples
-    places = around(mechanism.periods, count)
+    places = mechanism.sampled
     worst = float(places[np.nanargmax(np.concatenate([*map(negative, in_blocks(places))]))])
-    return highest(negative, worst, math.tau / count) % (math.tau * mechanism.periods)
+    return highest(negative, worst, math.tau / mechanism.assembly.samples) % (math.tau * mechanism.periods)
 
 
 def _of_loops(mechanism: Mechanism) -> Iterator[tuple[str, Array]]:
@@ -134,7 +133,7 @@ def _of_chain(mechanism: Mechanism) -> Iterator[tuple[str, Array]]:
         rates[np.abs(rates) <= RIGID * np.abs(values[::3])] = 0.0
         return values
 
-    places = around(assembly.path.periods, assembly.samples)
+    places = assembly.sampled
     with np.errstate(all="ignore"):
         rows, extremes = changes_by_row(moving, places, NEARLY)
         whose = np.concatenate([np.arange(count), rows // len(parts[0])])
@@ -659,7 +658,7 @@ def _to_and_fro(mechanism: Mechanism, name: str, place: str, rate: str) -> _ToAn
     In a longer true period it goes so more than once: each way ends at the next dead centre.
     """
     whole = 2 * math.pi * mechanism.periods
-    samples = around(mechanism.periods, mechanism.assembly.samples)
+    samples = mechanism.sampled
     if _rests(mechanism, name, rate, samples):
         return _ToAndFro(0.0, None, None)
     reversals = sign_changes(

@@ -37,6 +37,7 @@ from linkanim.mechanics.measures import (
     unbounded,
 )
 from linkanim.mechanics.program import Array, Batch, batch, scalar
+from linkanim.mechanics.search import around
 from linkanim.mechanics.solver import limits
 from linkanim.mechanics.solver.assembly import assemble
 from linkanim.mechanics.solver.closing import Assembly, Walk, walked
@@ -570,7 +571,7 @@ _Key = tuple[int, bool, bool]
 """Which poses a program gives: how many derivatives, whether the input accelerates, whether `per_input`."""
 
 
-_FINE, _MOST_SEEN = 24, 10_001
+_MOST_SEEN = 10_001
 
 Traced = tuple[tuple[str, ...], Rows]
 """The formulas as traced for one way of asking: the inputs' names, and every quantity."""
@@ -604,12 +605,17 @@ class Mechanism:
         phases: Array = np.arange(count, dtype=np.float64) * (2 * math.pi * self.periods / count)
         return phases
 
-    def count(self, least: int) -> int:
+    @property
+    def sampled(self) -> Array:
+        """As many phases, half a step off the start, where a swing's rates vanish: to search between them."""
+        return around(self.periods, self.assembly.samples)
+
+    def count(self, least: int, *, a_turn: int = 24) -> int:
         """Return at how many phases of one true period its course is seen: `least`, more of quick gears.
 
-        Of each turn of the quickest crank it is 24 of them, as far as that is not too many.
+        Of each turn of the quickest crank it is `a_turn` of them, as far as that is not too many.
         """
-        return max(least, min(math.ceil(_FINE * self.assembly.quickest * self.periods), _MOST_SEEN))
+        return max(least, min(math.ceil(a_turn * self.assembly.quickest * self.periods), _MOST_SEEN))
 
     @property
     def retraced(self) -> bool:

@@ -86,16 +86,16 @@ class Layered:
     @cached_property
     def reach(self) -> Loop:
         """Corners of the plane, in mm, within which all plates stay over the whole period."""
-        motion = self.scene.cycle(_PHASES, derivatives=0)
+        motion = self.scene.cycle(self.scene.mechanism.count(_PHASES), derivatives=0)
         scale = self._scale(self.scene.length_unit)
         found = []
         for plate in self.plates:
             edge = np.array(hull(plate.loops[0].tolist()))
             origin, axis, turn = plate.frame
-            at = np.zeros(_PHASES, np.complex128)
+            at = np.zeros(len(motion.phase), np.complex128)
             if origin:
                 at += scale * as_complex(motion.position[origin])
-            ways = np.full(_PHASES, turn)
+            ways = np.full(len(motion.phase), turn)
             if axis:
                 one, other = (as_complex(motion.position[name]) for name in axis)
                 ways *= (other - one) / np.abs(other - one)

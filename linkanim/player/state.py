@@ -298,7 +298,7 @@ def _on_the_way(way: Glide, after: Scene, part: float) -> Scene | None:
 
 def closes(scene: Scene) -> bool:
     """Tell whether every joint is somewhere at all phases; worked out as its poses are, all in one pass."""
-    places = scene.cycle(_TRIED).every["position"].values()
+    places = scene.cycle(scene.mechanism.count(_TRIED)).every["position"].values()
     return all(bool(np.isfinite(place).all()) for place in places)
 
 
@@ -961,7 +961,7 @@ def proved(scene: Scene, phase: float) -> Scene:
     info = scene.info
     _ = info.class_name, info.grashof, info.change_points
     # Read, for a motion works out what is read of it; the picture asks for the same.
-    _ = scene.cycle(_TRIED).position
+    _ = scene.cycle(scene.mechanism.count(_TRIED)).position
     scene.pose(phase)
     return scene
 

@@ -48,8 +48,11 @@ CHART = (960, 300)
 _TEXT = (26, 22)
 """The heights of a chart's text and of its small text."""
 _LINE = 2.0
-_MOMENTS, _MOST = 240, 2880
-"""How many steps a table has for a drive's turn, and in all at most; cubics run between its entries."""
+_MOMENTS, _A_TURN, _MOST = 240, 40, 2880
+"""How many steps a table has for a drive's turn, for one of the quickest crank, and in all at most.
+
+Cubics run between its entries.
+"""
 _INSIDE = 1e-9
 """How far inside of a way there, or back, its table's ends are, in phase."""
 _NEAR, _NEARER = 1e-3, 1e-4
@@ -93,7 +96,8 @@ def rows(scene: Scene, speed: float) -> Iterator[dict[str, Any]]:
 def _phases(scene: Scene, begin: float, end: float) -> NDArray[np.float64]:
     """Return phases at equal steps from one to another, part by part with its ends."""
     parts = parts_of(scene)
-    count = max(min(_MOMENTS * round(scene.period / radians(360)), _MOST) // parts, 3)
+    count = scene.mechanism.count(_MOMENTS * round(scene.period / radians(360)), a_turn=_A_TURN)
+    count = max(min(count, _MOST) // parts, 3)
     ends = np.linspace(begin, end, parts + 1)
     if parts == 1:
         return np.linspace(begin, end, count + 1)

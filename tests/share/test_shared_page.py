@@ -200,6 +200,34 @@ def test_a_page_s_numbers_hold_beside_a_limit(name: str) -> None:
     assert tables or not scene.linkage.forceful
 
 
+QUICK = """
+length_unit = "mm"
+[drive]
+joint = "A"
+speed = "20 rpm"
+[ground]
+O2 = [0, 0]
+O4 = [300, 0]
+[joints]
+A = { crank = "O2", length = 60 }
+Q = { crank = "O4", length = 60, gear = { with = "A", ratio = 20 } }
+[springs.s]
+between = ["Q", "O2"]
+stiffness = "100 N/m"
+free_length = 100
+"""
+
+
+def test_a_page_s_numbers_hold_where_a_gear_is_quick() -> None:
+    # One crank turns twenty times while the other turns once, and the spring's length with it.
+    scene = scene_from(parse(QUICK, "quick"), name="quick", where="quick")
+    length = next(one for one in measured(scene) if "length" in one.label)
+    data = held(document(Shared(scene)))
+    for phase in np.linspace(0.01, scene.period, 101)[:-1].tolist():
+        exact = float(length.quantity.shown(scene.pose(phase)))
+        assert read_tables.row(data, length.label, phase) == pytest.approx(exact, abs=length.step / 10)
+
+
 def test_a_torque_that_is_not_bounded_is_told_to_be_so_and_only_there() -> None:
     data = held(document(Shared(swinging("simple"))))
     for phase in (0.0, math.pi):

@@ -60,7 +60,8 @@ from linkanim.mechanics.linkage import (
     holding,
 )
 from linkanim.mechanics.precise import context, cosine, direction, exactly, nearest_sum
-from linkanim.mechanics.search import samples_a_turn
+from linkanim.mechanics.program import Array
+from linkanim.mechanics.search import around, samples_a_turn
 from linkanim.mechanics.solver.input import InputPath, InputState, TravelState
 from linkanim.mechanics.solver.loop import (
     Gearing,
@@ -480,6 +481,11 @@ class Assembly:
     def samples(self) -> int:
         """At how many phases of a drive period it is looked at: as near as what turns fastest needs."""
         return samples_a_turn(self.quickest)
+
+    @property
+    def sampled(self) -> Array:
+        """Those phases, once along its path, half a step off the start, where a swing's rates vanish."""
+        return around(self.path.periods, self.samples)
 
 
 AT_ITS_LIMIT = (

@@ -25,7 +25,7 @@ from linkanim.mechanics.arithmetic import Graph, Slope, Value
 from linkanim.mechanics.linkage import Linkage
 from linkanim.mechanics.precise import context, exactly, interpolated, nearest_sum, nodes, sine_and_cosine
 from linkanim.mechanics.program import Array, Bools, batch, decimals
-from linkanim.mechanics.search import around, ends_of
+from linkanim.mechanics.search import ends_of
 from linkanim.mechanics.solver.assembly import JUST_AFTER, most_turns, precise, resigned
 from linkanim.mechanics.solver.closing import (
     AT_ITS_LIMIT,
@@ -511,7 +511,7 @@ def _phases(assembly: Assembly) -> Array:
     The start is among them, and the ends of a way there and back.
     """
     marks = 0.0, math.pi, assembly.path.home(assembly.linkage.drive.start)
-    return np.sort(np.concatenate([around(assembly.path.periods, assembly.samples), marks]))
+    return np.sort(np.concatenate([assembly.sampled, marks]))
 
 
 def _scales(assembly: Assembly, phases: Array) -> Mapping[str, tuple[float, float]]:
