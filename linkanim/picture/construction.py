@@ -29,6 +29,9 @@ _ROOM = 0.12
 """Of the marks' width and height, left free at every side."""
 _AROUND = np.exp(1j * np.pi * np.array([0.25, 0.75, -0.25, -0.75, 0.0, 1.0, 0.5, -0.5]))
 _FARTHER = (1.0, 1.9)
+_BEYOND = (1.0, 1.9, 2.8)
+_FAR_OFF = (2.8, 3.7, 4.6, 5.5)
+"""How far from its point a name stands, in letters: as a rule, along a tick, and where that is taken."""
 
 
 def box_of(marks: Sequence[Mark]) -> Box:
@@ -148,7 +151,7 @@ def _inside(one: complex, other: complex, area: Rect) -> tuple[complex, complex]
     return area.crossed(one, other)
 
 
-def _names(marks: Sequence[Mark], pixels: Callable[[Loop], Loop], area: Rect, pen: Pen) -> Iterator[Caption]:
+def _names(marks: Sequence[Mark], pixels: Callable[[Loop], Loop], area: Rect, pen: Pen) -> Iterator[Item]:
     """Yield each mark's name beside it, where it meets no other name and as few points as can be."""
     points = [pixels(mark.points) for mark in marks if mark.spreads]
     busy = np.concatenate(points) if points else np.empty(0, np.complex128)
@@ -160,19 +163,42 @@ def _names(marks: Sequence[Mark], pixels: Callable[[Loop], Loop], area: Rect, pe
         if mark.shape == "word":
             tries = [_about(complex(at[0]), wide, high)]
         elif mark.shape == "thin" and len(at) == 2:
-            # a tick of a scale has its number beyond it
+            # a tick of a scale has its number beyond it, or before it
             way = complex(at[1] - at[0]) / max(abs(at[1] - at[0]), 1e-9)
             beyond = 0.5 * (wide * abs(way.real) + high * abs(way.imag)) + 0.25 * pen.small
-            tries = [_about(complex(at[1]) + away * beyond * way, wide, high) for away in _FARTHER]
+            ends = ((at[1], way), (at[0], -way))
+            tries = [
+                _about(complex(end) + away * beyond * out, wide, high)
+                for away in _BEYOND
+                for end, out in ends
+            ]
         else:
             foot = complex(at[len(at) // 2 if mark.shape == "arc" else 0])
-            ways = [away * pen.small * complex(way) for away in _FARTHER for way in _AROUND]
-            tries = [_about(foot + way, wide, high) for way in ways]
+            tries = [_about(foot + way, wide, high) for way in _ways(_FARTHER, pen)]
+            if all(_meeting(rect, placed) for rect in tries if _within(rect, area)):
+                # the room about it is taken: a thin line leads to a name that stands off
+                away = [_about(foot + way, wide, high) for way in _ways(_FAR_OFF, pen)]
+                free = [rect for rect in away if _within(rect, area) and not _meeting(rect, placed)]
+                if free:
+                    tries = free[:1]
+                    colour = mixed(_tone(mark, pen), pen.theme.background, 0.5)
+                    led = np.array([foot, _nearest(free[0], foot)])
+                    yield Layer(colour, segments(led[:1], led[1:], _WIDTHS["thin"] * pen.line))
         inside = [rect for rect in tries if _within(rect, area)] or tries
         best = min(inside, key=lambda rect: (_meeting(rect, placed), _covering(rect, busy)))
         placed.append(best)
         halo = Halo(pen.theme.background, 1.5 * pen.line)
         yield Caption(mark.label, (best.x, best.y), pen.small, _tone(mark, pen), halo=halo)
+
+
+def _ways(distances: Sequence[float], pen: Pen) -> Iterator[complex]:
+    """Yield where about its point a name may stand, the nearest first."""
+    return (away * pen.small * complex(way) for away in distances for way in _AROUND)
+
+
+def _nearest(rect: Rect, at: complex) -> complex:
+    """Return the point of a rectangle that is nearest to a place."""
+    return complex(min(max(at.real, rect.x), rect.right), min(max(at.imag, rect.y), rect.bottom))
 
 
 def _about(at: complex, wide: float, high: float) -> Rect:

@@ -30,7 +30,7 @@ _WORDS = 0.5
 
 
 def posed(setting: DrawSetting, shown: PosesShown) -> Iterator[Group]:
-    """Yield poses, and what belongs to them, over the linkage; then the words."""
+    """Yield what belongs to poses, over the linkage; the words; then frames and what can be dragged."""
     view, theme, layout = setting.view, setting.theme, setting.layout
     line = max(1.8 * layout.unit, 1.2)
     if shown.curves and len(shown.frames) > 1:
@@ -42,9 +42,10 @@ def posed(setting: DrawSetting, shown: PosesShown) -> Iterator[Group]:
     yield Group(
         "couplers", [Layer(faint, [loop for one in ghosts for loop in stroke(one, 0.6 * line, closed=True)])]
     )
+    # what can be taken hold of lies over the words, whose backing would hide it
+    yield worded(setting, shown.sentence, shown.facts, is_warning=shown.is_warning, room=_WORDS)
     yield Group("handles", [*_handles(setting, shown, line)], over=True)
     yield Group("poses", [*_frames(setting, shown, line)], [*_numbers(setting, shown)], over=True)
-    yield worded(setting, shown.sentence, shown.facts, is_warning=shown.is_warning, room=_WORDS)
 
 
 def _reach(setting: DrawSetting) -> float:

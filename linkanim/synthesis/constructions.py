@@ -19,7 +19,8 @@ from linkanim.mechanics.linkage import RRP, RRR, Crank
 from linkanim.mechanics.measures import as_complex
 from linkanim.scenes.scene import FunctionPurpose, PosesPurpose, Scene, TimeRatioPurpose
 from linkanim.synthesis.burmester import CentreCurve, Poses, burmester_points, circle_points
-from linkanim.synthesis.linkages import Complex
+from linkanim.synthesis.linkages import Complex, Real
+from linkanim.units import four_digits
 
 Shape = Literal["plate", "line", "dashed", "thin", "bar", "dot", "ring", "cross", "frame", "arc", "word"]
 Tone = Literal["ink", "dim", "first", "second", "third", "fourth"]
@@ -231,6 +232,7 @@ def _curves(poses: Poses, count: int = _CURVE) -> Iterator[ConstructionStep]:
         "The poles, among them the quadrilateral of two pairs of opposite ones, lie on the former.", *marks
     )
     if poses.count > 4:
+        yield from _of_last(poses, phases)
         bars = burmester_points(poses)
         shapes: tuple[tuple[Shape, Complex], ...] = (("dot", bars.centre), ("ring", bars.circle))
         marks = [
@@ -240,6 +242,23 @@ def _curves(poses: Poses, count: int = _CURVE) -> Iterator[ConstructionStep]:
         ]
         words = f"Of all five poses {len(bars.centre)} of Burmester's four pairs of points are real."
         yield _step(words, *marks)
+
+
+def _of_last(poses: Poses, phases: Real) -> Iterator[ConstructionStep]:
+    """Yield the curve of the first three poses and the last: two such curves meet in Burmester's points.
+
+    Of the nine points that two cubics share two are those of all circles, and three are poles.
+    """
+    which = np.array([0, 1, 2, -1])
+    others = Poses(poses.origins[which], poses.angles[which])
+    if others.poles:
+        curve = CentreCurve(others)
+        walks = [curve.at(circuit, phases) for circuit in range(len(curve.circuits))]
+        yield _step(
+            "That of the centre points of poses 1, 2, 3 and 5 crosses it at P₁₂, P₁₃, P₂₃ and, of all five "
+            "poses, at Burmester's points.",
+            *(Mark("line", walk, tone="dim") for walk in walks),
+        )
 
 
 def _linkage(found: GuidedBody) -> ConstructionStep:
@@ -297,13 +316,16 @@ def _generated(scene: Scene, purpose: FunctionPurpose) -> Iterator[ConstructionS
         Mark("bar", first, spreads=True),
     ]
     yield _step("The linkage in its precision points: there what it does is y, to the last digit.", *marks)
-    yield from _freudenstein(scene, purpose, sliding=other is None)
+    yield from _freudenstein(scene, purpose, None if other is None else abs(other - start))
 
 
-def _freudenstein(scene: Scene, purpose: FunctionPurpose, *, sliding: bool) -> Iterator[ConstructionStep]:
-    """Yield Freudenstein's equations with their numbers, and the lengths that they lead to."""
+def _freudenstein(scene: Scene, purpose: FunctionPurpose, r1: float | None) -> Iterator[ConstructionStep]:
+    """Yield Freudenstein's equations with their numbers, and the lengths that they lead to.
+
+    `r1` is the ground's, None of a slider.
+    """
     theta, place = np.array(purpose.input), np.array(purpose.output)
-    if sliding:
+    if r1 is None:
         form, right = "K₁ s cos θ + K₂ sin θ + K₃ = s²", place**2
         rows = np.column_stack([place * np.cos(theta), np.sin(theta), np.ones_like(theta)])
     else:
@@ -311,7 +333,7 @@ def _freudenstein(scene: Scene, purpose: FunctionPurpose, *, sliding: bool) -> I
         rows = np.column_stack([np.cos(place), -np.cos(theta), np.ones_like(theta)])
     k1, k2, k3 = np.linalg.lstsq(rows, right, rcond=None)[0].tolist()
     said = "; ".join(
-        f"{_signed(a)} K₁ {_joined(b)} K₂ + K₃ = {_signed(c)}"
+        f"{four_digits(a)} K₁ {_joined(b)} K₂ + K₃ = {four_digits(c)}"
         for (a, b, _), c in zip(rows, right, strict=True)
     )
     yield _step(f"Freudenstein's equation, {form}, holds in each point: {said}.")
@@ -319,26 +341,22 @@ def _freudenstein(scene: Scene, purpose: FunctionPurpose, *, sliding: bool) -> I
         frozenset((joint.name, end)): value for joint in scene.linkage.joints for end, value in joint.bars
     }
     r2, r3 = bars[frozenset(("O2", "A"))], bars[frozenset(("A", "B"))]
-    given = f"K₁ = {_signed(k1)}, K₂ = {_signed(k2)}, K₃ = {_signed(k3)}"
-    if sliding:
-        offset = f"e = K₂/K₁ = {_signed(k2 / k1)}"
+    given = f"K₁ = {four_digits(k1)}, K₂ = {four_digits(k2)}, K₃ = {four_digits(k3)}"
+    if r1 is None:
+        offset = f"e = K₂/K₁ = {four_digits(k2 / k1)}"
         yield _step(f"So {given}; r₂ = K₁/2 = {r2:.4g}, {offset}, r₃ = √(K₃ + r₂² + e²) = {r3:.4g}.")
     else:
         r4 = bars[frozenset(("O4", "B"))]
         yield _step(
-            f"So {given}; r₂ = r₁/K₁ = {r2:.4g}, r₄ = r₁/K₂ = {r4:.4g}, "
+            f"So {given}; with r₁ = {four_digits(r1)} r₂ = r₁/K₁ = {r2:.4g}, "
+            f"r₄ = r₁/K₂ = {r4:.4g}, "
             f"r₃ = √(r₁² + r₂² + r₄² − 2 r₂ r₄ K₃) = {r3:.4g}."
         )
 
 
-def _signed(value: float) -> str:
-    """Return a number to four digits with a true minus sign."""
-    return f"{value:.4g}".replace("-", "−")
-
-
 def _joined(value: float) -> str:
     """Return a number behind another one, its sign between them."""
-    return f"{'−' if value < 0 else '+'} {abs(value):.4g}"
+    return f"{'−' if value < 0 else '+'} {four_digits(abs(value))}"
 
 
 def _tick(centre: complex, angle: float, reach: float, label: str, tone: Tone) -> Mark:

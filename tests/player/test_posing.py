@@ -338,6 +338,15 @@ def test_frames_are_set_down_with_the_mouse(player: Player) -> None:
     )
 
 
+def test_a_frame_below_the_words_is_drawn_over_them(player: Player) -> None:
+    player.drag((30, 30), (70, 30))
+    place = sketch_of(player.state).poses[0]
+    at = player.window.screen.pixel(place.x, place.y)
+    player.settle()
+    red, green, blue, *_ = screen.display_surface().get_at((round(at[0]) + 12, round(at[1])))
+    assert max(red, green, blue) < 100
+
+
 def test_poses_are_set_down_by_keys_alone(player: Player) -> None:
     arrows = {"left": pygame.K_LEFT, "right": pygame.K_RIGHT, "up": pygame.K_UP, "down": pygame.K_DOWN}
 

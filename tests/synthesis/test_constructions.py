@@ -76,6 +76,25 @@ def test_the_curves_run_through_pivots_joints_and_poles(name: str) -> None:
         assert all(np.nanmin(np.abs(walk - place)) < 0.05 * size for place in places)
 
 
+def test_two_curves_of_five_poses_meet_in_burmester_s_points_and_three_poles() -> None:
+    marks = marks_of("guide-5")
+    first, last = (
+        np.concatenate([mark.points for mark in marks if mark.shape == "line" and mark.tone == tone])
+        for tone in ("third", "dim")
+    )
+    points = [complex(place) for mark in marks if mark.shape == "dot" for place in mark.points]
+    poles = [labelled(marks, label) for label in ("P₁₂", "P₁₃", "P₂₃")]
+    scene = MADE["guide-5"]()
+    assert isinstance(scene.purpose, PosesPurpose)
+    poses = guided_body(scene, scene.purpose).poses
+    size = poses.size
+    # curves are drawn by points, which lie close where the picture is
+    near = [place for place in points if abs(place - poses.centre) < 4 * size]
+    assert len(near) >= 2
+    for place in (*near, *poles):
+        assert all(np.nanmin(np.abs(walk - place)) < 0.05 * size for walk in (first, last))
+
+
 @pytest.mark.parametrize("name", ["stroke", "swing"])
 def test_alt_s_circle_sees_the_chord_at_the_angle_of_the_time_ratio(name: str) -> None:
     scene, marks = MADE[name](), marks_of(name)
@@ -100,6 +119,24 @@ def test_freudenstein_s_numbers_lead_to_the_lengths() -> None:
     assert f"r₂ = r₁/K₁ = {crank:.4g}" in lengths.words
 
 
+# Precision points that lie so close that their numbers find no room at them.
+@pytest.mark.parametrize("asked", [("log10(x)", 1, 10, "four-bar"), ("1/x", 1, 2, "slider-crank")])
+def test_numbers_of_close_precision_points_stand_free(asked: tuple[str, float, float, str]) -> None:
+    *given, kind = asked
+    page = ConstructionPage(linkanim.function(*given, kind=kind, count=1)[0].scene, (960, 640))
+    words = [item for item in page.items() if isinstance(item, Caption)]
+    boxes = boxes_of(page, words)
+    assert len(boxes) > 10
+    assert not any(one.meets(other) for one, other in combinations(boxes, 2))
+    assert not any("e+" in word.text for word in words)
+
+
+def boxes_of(page: ConstructionPage, words: list[Caption]) -> list[Rect]:
+    """Return where the names of marks stand."""
+    names = [word for word in words if word.halo is not None]
+    return [Rect(*word.at, page.pen.type.width(word.text, word.size), 0.9 * word.size) for word in names]
+
+
 @pytest.mark.parametrize("name", FEW)
 def test_each_construction_is_drawn_step_by_step(name: str) -> None:
     scene = MADE[name]()
@@ -112,8 +149,7 @@ def test_each_construction_is_drawn_step_by_step(name: str) -> None:
     words = [item for item in items if isinstance(item, Caption)]
     assert all(0 <= word.at[0] <= 960 and 0 <= word.at[1] <= 640 for word in words)
     page = ConstructionPage(scene, (960, 640))
-    names = [word for word in words if word.halo is not None]
-    boxes = [Rect(*word.at, page.pen.type.width(word.text, word.size), 0.9 * word.size) for word in names]
+    boxes = boxes_of(page, words)
     met = sum(one.meets(other) for one, other in combinations(boxes, 2))
     assert met <= 0.1 * len(boxes)
     assert "construction" in data(page, ".svg").decode()
