@@ -152,13 +152,12 @@ def class_words(scene: Scene) -> tuple[str, ...]:
 def _of_joint(scene: Scene, pose: Pose, name: str) -> tuple[str, ...]:
     unit = scene.length_unit
     if scene.linkage.joint(name).fixed:
-        (x, y), rates = pose.position[name], (0.0, 0.0)
+        (x, y), speed, acceleration = pose.position[name], 0.0, 0.0
     else:
-        x, y, *rates = (
+        x, y, speed, acceleration = (
             _number(scene, pose, f"{name}.{what}")
             for what in ("position.x", "position.y", "velocity", "acceleration")
         )
-    speed, acceleration = rates
     return (
         f"{name} ({four_digits(x)}, {four_digits(y)}) {unit}",
         f"v = {four_digits(speed)} {unit}/s   a = {four_digits(acceleration)} {unit}/s²",
