@@ -31,9 +31,12 @@ _PASSING = 25 / 3
 to turn back."""
 _FEWEST = 9
 _DWARFED = 2.0
-"""A pair both of whose wheels have radii of more than so many cranks is drawn as pitch circles."""
+"""A pair both of whose wheels have radii of more than so many cranks is drawn as quiet rims; as pitch
+circles where one is wider than the linkage."""
 TIP, FOOT = 0.85, 1.0
 """How far a tooth reaches beyond the pitch circle and the gap below it, in modules."""
+_QUIET_TIP, _QUIET_FOOT, _QUIET_RIM = 0.4, 0.5, 0.45
+"""Likewise of a quiet rim, whose teeth are low; and how broad it is below its gaps."""
 _TOGETHER = 1e-9
 """How far pivots that have nothing between them to show are apart, as a share of the picture."""
 _BELT = 0.3
@@ -47,7 +50,7 @@ class Wheel:
     It turns with the direction from its centre to the joint `arm`, or not at all without one. `tooth` is
     the angle of a tooth ahead of that direction, in radians, counter-clockwise. The teeth of a `ring`
     point inwards: `tooth` is then the angle of a gap. Of one that is but its `pitch` circle it is that of
-    a mark.
+    a mark. One that is `quiet` would dwarf what it drives: it is but a faint rim with low teeth.
     """
 
     centre: str
@@ -57,11 +60,12 @@ class Wheel:
     tooth: float = 0.0
     ring: bool = False
     pitch: bool = False
+    quiet: bool = False
 
     @property
     def reach(self) -> float:
         """How far it reaches from its middle, in the scene's unit: to its tips, or a ring's outer edge."""
-        beyond = 7.0 if self.ring else 2 * TIP
+        beyond = 7.0 if self.ring else 2 * (_QUIET_TIP if self.quiet else TIP)
         return self.radius * (1 + beyond / self.teeth) if self.teeth else self.radius
 
 
@@ -130,11 +134,13 @@ def _meshing(figure: Figure, cranks: tuple[Crank, Crank], apart: complex) -> Whe
     at, facing = contact - _angle(figure, driver), contact + pi - _angle(figure, driven)
     one = Wheel(driver.pivot, driver.name, radius, tooth=at, pitch=True)
     other = Wheel(driven.pivot, driven.name, second, tooth=facing, pitch=True)
-    if radius > _DWARFED * driver.length and second > _DWARFED * driven.length:
+    quiet = radius > _DWARFED * driver.length and second > _DWARFED * driven.length
+    box = figure.box
+    if quiet and 2 * max(radius, second) > max(box.right - box.left, box.high - box.low):
         return WheelPair(one, other)
     some, others = _teeth(ratio.numerator, ratio.denominator, _turns(figure, driven))
-    toothed = replace(other, teeth=others, tooth=facing + pi / others, pitch=False)
-    return WheelPair(replace(one, teeth=some, pitch=False), toothed)
+    toothed = replace(other, teeth=others, tooth=facing + pi / others, pitch=False, quiet=quiet)
+    return WheelPair(replace(one, teeth=some, pitch=False, quiet=quiet), toothed)
 
 
 def _teeth(one: int, other: int, turns: float) -> tuple[int, int]:
@@ -193,6 +199,8 @@ def wheels(figure: Figure) -> Iterator[Wheel]:
 
 _PRESSURE = radians(25)
 """Steep enough for a wheel of the fewest teeth, whose flanks would be undercut at the usual 20 degrees."""
+_FADED = 0.45
+"""How much of the background's colour is in a quiet rim."""
 _SHADED = 0.3
 """How much of the ground's colour is in the driven wheel's."""
 _MARK = (1.7, 0.55)
@@ -211,6 +219,8 @@ def wheel_layers(context: DrawContext) -> list[Layer]:
         for wheel in (wheel for wheel in pair.wheels if _stays(figure, wheel)):
             if wheel.pitch:
                 shown = [Layer(theme.ground, _pitch_circle(wheel.radius * view.scale, gauge))]
+            elif wheel.quiet:
+                continue
             elif wheel.arm:
                 shown = [Layer(_tone(wheel, pair, theme), [disc(_root(wheel, view, gauge))])]
             else:
@@ -237,6 +247,9 @@ def wheel_parts(context: DrawContext) -> tuple[Part, ...]:
             if wheel.pitch:
                 parts.append(Part(*ends, (Layer(theme.outline, [_mark(wheel, view, gauge)]),)))
                 continue
+            if wheel.quiet:
+                parts.append(Part(*ends, tuple(_quiet(wheel, pair, (view, gauge, theme))), fold=wheel.teeth))
+                continue
             rim, *holes, edge = _wheel(wheel, pair, (view, gauge, theme), moving=not stays)
             # the outline of a pulley has equal sides instead of teeth
             fold = (wheel.teeth or len(rim.loops[0])) if stays else 1
@@ -248,6 +261,17 @@ def wheel_parts(context: DrawContext) -> tuple[Part, ...]:
             belt = list(_belt(pair, 0j, complex(far), view, gauge))
             parts.append(Part(*ends, (Layer(theme.ground, belt),)))
     return tuple(parts)
+
+
+def _quiet(wheel: Wheel, pair: WheelPair, drawn: tuple[View, Gauge, Theme]) -> Iterator[Layer]:
+    """Yield the rim of a wheel that would dwarf what it drives, about the origin: faint, with low teeth."""
+    view, gauge, theme = drawn
+    radius = wheel.radius * view.scale
+    rim = _toothed(wheel, radius, _QUIET_FOOT, _QUIET_TIP)
+    within = disc(max(radius - (2 * _QUIET_FOOT + _QUIET_RIM) * 2 * radius / wheel.teeth, 1.0))[::-1]
+    yield Layer(mixed(_tone(wheel, pair, theme), theme.background, _FADED), [rim, within])
+    lines = [loop for outline in (rim, within) for loop in stroke(outline, 0.7 * gauge.outline, closed=True)]
+    yield Layer(mixed(theme.ground, theme.background, _FADED), lines)
 
 
 def _wheel(
