@@ -34,13 +34,14 @@ On the chosen thing:
     move(building, x, y, snap=)    what is chosen goes to a point       delete(building)
     trace(building)                its curve on or off                  drive(building)  it is the drive
     write(building, text), erase(building), take(building)              digits for its number `row`, Enter
-    choose_number(building, further)                                    the next number of it
+    choose_number(building, further)                                    the next row of it
+    next_option(building)                                               another look, another colour
     undo(building), redo(building)
 
 A photograph behind it: `lay_photo(building, file, x, y, width)`, `move_photo(building, x, y,
 to_x, to_y)`, `fit_photo(building, x, y, to_x, to_y, x2, y2, to_x2, to_y2)`, by two known points.
 
-`numbers_of(draft, chosen)` are its numbers (label, value, unit), `row` the one that digits are for.
+`rows_of(draft, chosen)` is what is said of it (label, number or words), `row` the one that is typed.
 
 What comes of it: `building.made.scene` (a Scene, or None) and `building.made.missing` (why there is none).
 The scene's document is its file: `scenes.editing.write.save` writes it. While there is a scene, the window

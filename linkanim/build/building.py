@@ -51,6 +51,8 @@ class Undoable(Generic[Kept]):
 class Building(Undoable[Draft]):
     """A draft with what was `chosen` of it, the digits begun for its number `row`, and what undo goes to.
 
+    What is typed is `lettered` where its row is no number and was asked for.
+
     `sentence` says what the last gesture did besides, or as a refusal why it did nothing; "" where that is
     plain.
     """
@@ -59,6 +61,7 @@ class Building(Undoable[Draft]):
     chosen: Thing | None = None
     row: int = 0
     typed: str = ""
+    lettered: bool = False
     sentence: str = ""
     is_refusal: bool = False
 
@@ -109,7 +112,7 @@ def posed(building: Building, phase: float) -> Building:
 
 def choosing(building: Building, thing: Thing | None) -> Building:
     """Return the building with a thing chosen, or nothing, and nothing typed."""
-    return replace(building, chosen=thing, row=0, typed="", sentence="")
+    return replace(building, chosen=thing, row=0, typed="", lettered=False, sentence="")
 
 
 def undo(building: Building) -> Building:

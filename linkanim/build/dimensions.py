@@ -1,4 +1,4 @@
-"""The numbers of the chosen thing: what they are called, and digits typed for one of them."""
+"""What is said of the chosen thing: its numbers, its name, how it is drawn; and what is typed of it."""
 
 from __future__ import annotations
 
@@ -8,12 +8,14 @@ from math import atan2, degrees, hypot, nan
 from typing import Any
 
 from linkanim.build.building import Building, changed, refused
-from linkanim.build.draft import DRIVE, JOINT, Draft, Thing
-from linkanim.build.places import crank_of, fitted, lengths_within, round_number, with_number
+from linkanim.build.draft import DRIVE, JOINT, Draft, Thing, body_name, renamed
+from linkanim.build.places import crank_of, fitted, lengths_within, place_of, round_number, with_number
 from linkanim.errors import BadInput
+from linkanim.frozen import NamedTuple
 from linkanim.scenes import file_form
 from linkanim.scenes.editing import Dimension, dimension_of, written
-from linkanim.scenes.form import LENGTHS, OFFSET, Context, Field, Form, Key, Table
+from linkanim.scenes.form import LENGTHS, NAME, OFFSET, Context, Field, Form, Key, Table
+from linkanim.units import shown
 
 _FORMS: Mapping[str, Form] = {
     "bars": Form((file_form.CRANK.field("length"),)),
@@ -28,20 +30,66 @@ _FORMS: Mapping[str, Form] = {
 }
 """What may be said of each kind, as a scene file has it."""
 _UNITS = {"angle": "deg", "speed": "rpm", "stiffness": "N/m", "damping": "N s/m", "ratio": ""}
+_UNITS |= {"mass": "kg", "inertia": "kg m^2"}
+_NAME = Field("name", NAME)
+_COLOURS = {
+    **{"red": "#d55e00", "blue": "#0072b2", "green": "#009e73", "orange": "#e69f00", "sky": "#56b4e9"},
+    **{"purple": "#cc79a7", "grey": "#8c939f", "black": "#20242c"},
+}
+"""Colours by what they may be called instead."""
+_NOTHING = ("-", "–")
+"""What is typed to say nothing of it any more."""
 _LONGEST = 40
 
 
-def numbers_of(draft: Draft, thing: Thing | None) -> tuple[Dimension, ...]:
-    """Return the numbers of a thing, the first of them the one that is meant by digits typed.
+class PropertyRow(NamedTuple):
+    """One thing that is said of what is chosen, what it is called, and how it stands, "" where it does not.
 
-    Those of a joint are what is said of it as a pin, a point, a yoke or a geared crank, then its guide's
-    and the drive's where it is driven. A `value` is NaN where nothing is stated yet. `key` leads to it.
+    `number` is it as a number, if it is one: its `value` is NaN where nothing is stated. Of others
+    `options` are what can be chosen from. `key` leads to it.
     """
-    return tuple(_dimension(draft, key, one) for key, one in _fields(draft, thing))
+
+    key: Key
+    label: str
+    words: str = ""
+    number: Dimension | None = None
+    options: tuple[str, ...] = ()
+
+
+def rows_of(draft: Draft, thing: Thing | None) -> tuple[PropertyRow, ...]:
+    """Return what is said of a thing, the first being what is meant by digits typed.
+
+    Of a joint that is what it is as a pin, a point, a yoke or a geared crank, then its guide's and the
+    drive's where it is driven, its block's and its name. Of a bar it is its length, and what its body has:
+    a mass and where that is, a look, a colour, a name.
+    """
+    return tuple(_row(draft, key, one) for key, one in _fields(draft, thing))
+
+
+def numbers_of(draft: Draft, thing: Thing | None) -> tuple[Dimension, ...]:
+    """Return those that are numbers."""
+    return tuple(row.number for row in rows_of(draft, thing) if row.number)
+
+
+def _row(draft: Draft, key: Key, one: Field) -> PropertyRow:
+    assert one.plain
+    if one.plain.measure:
+        number = _dimension(draft, key, one)
+        return PropertyRow(key, number.label, number=number)
+    stated = str(key[1]) if one is _NAME else str(_stated(draft, key) or "")
+    words = next((name for name, colour in _COLOURS.items() if colour == stated.lower()), stated)
+    options = tuple(_COLOURS) if one.key == "colour" else one.plain.options
+    return PropertyRow(key, _label(one, key), words, options=options)
 
 
 def write(building: Building, text: str) -> Building:
-    """Return the building with text added to what is being typed; after a refusal it is typed anew."""
+    """Return the building with text added to what is being typed; after a refusal it is typed anew.
+
+    Of what is no number only when its row was asked for: letters are tools until then.
+    """
+    row = _chosen_row(building)
+    if row and row.number is None and not building.lettered:
+        return refused(building, f"Choose its {row.label} among the rows, then type it")
     typed = "" if building.is_refusal else building.typed
     return replace(building, typed=(typed + text)[:_LONGEST], sentence="", is_refusal=False)
 
@@ -53,12 +101,36 @@ def erase(building: Building) -> Building:
 
 def choose_number(building: Building, further: int) -> Building:
     """Return the building with another number of the chosen thing as the one that is typed."""
-    count = len(numbers_of(building.draft, building.chosen))
-    return replace(building, row=(building.row + further) % count if count else 0, typed="", sentence="")
+    rows = rows_of(building.draft, building.chosen)
+    if not rows:
+        return replace(building, row=0, typed="", sentence="")
+    place = (building.row + further) % len(rows)
+    row, how = rows[place], ""
+    if row.options:
+        how = f"{row.label.capitalize()}: {', '.join(row.options)}; type one, or click again for the next"
+    elif row.number is None:
+        how = f"Type another {row.label}, then Enter"
+    bare = replace(building, row=place, typed="", sentence=how, is_refusal=False)
+    return replace(bare, lettered=row.number is None)
+
+
+def next_option(building: Building) -> Building:
+    """Return the building with the next of what its chosen row can be; after the last nothing is said."""
+    row = _chosen_row(building)
+    if row is None or not row.options:
+        return building
+    follows = dict(zip(("", *row.options), (*row.options, _NOTHING[0]), strict=True))
+    place, taken = building.row, take(replace(building, typed=follows.get(row.words, row.options[0])))
+    return replace(choose_number(replace(taken, row=place), 0), is_refusal=taken.is_refusal)
+
+
+def _chosen_row(building: Building) -> PropertyRow | None:
+    rows = rows_of(building.draft, building.chosen)
+    return rows[building.row % len(rows)] if rows else None
 
 
 def take(building: Building) -> Building:
-    """Return the building with what was typed as the chosen number; or the same, and why it is refused.
+    """Return the building with what was typed in the chosen row; or the same, and why it is refused.
 
     What has no unit is in the draft's, in degrees or in the unit of the number before. The next number is
     then the one that is typed.
@@ -67,14 +139,78 @@ def take(building: Building) -> Building:
     if not fields or not building.typed.strip():
         return refused(building, "Choose what has a length or an angle, then type it")
     key, one = fields[building.row % len(fields)]
+    assert one.plain
     try:
-        value = written(building.typed, _dimension(draft, key, one))
-        _refuse(draft, key, one, value)
+        if one is _NAME:
+            after = _named(building, key, building.typed.strip())
+        elif key[0] == "bodies" and building.typed.strip() in _NOTHING:
+            after = changed(building, _without(draft, key), building.chosen)
+        else:
+            after = _taken(building, key, one)
     except BadInput as error:
         return replace(building, sentence=str(error), is_refusal=True)
-    draft = _with_polar(draft, key)
-    draft = replace(with_number(draft, key, value), typed=draft.typed | {key})
-    return replace(changed(building, fitted(draft), building.chosen), row=(building.row + 1) % len(fields))
+    if building.made.scene and after.made.scene is None:
+        return (
+            replace(building, sentence=after.made.missing, is_refusal=True)
+            if one.plain.measure is None
+            else after
+        )
+    return replace(after, row=(building.row + 1) % len(fields))
+
+
+def _taken(building: Building, key: Key, one: Field) -> Building:
+    """Return the building with what was typed at a key; BadInput for what cannot stand there."""
+    assert one.plain
+    draft, text = _with_body(building, key), building.typed.strip()
+    value: object = text if one.plain.options else _COLOURS.get(text.lower(), f"#{text.removeprefix('#')}")
+    if one.plain.measure:
+        value = written(building.typed, _dimension(draft, key, one))
+    _refuse(draft, key, one, value)
+    draft = with_number(_with_polar(draft, key), key, value)
+    if one.plain.measure and key[0] != "bodies":
+        draft = replace(draft, typed=draft.typed | {key})
+    return changed(building, fitted(_with_centre(draft, key)), building.chosen)
+
+
+def _named(building: Building, key: Key, name: str) -> Building:
+    """Return the building with a joint, a body, a spring or a damper called otherwise; BadInput as above."""
+    draft, (kind, old) = _with_body(building, key), (str(key[0]), str(key[1]))
+    taken = draft.places if kind == JOINT else draft.of(kind)
+    holder = Table(old, {"name": name}, (), Context(draft.unit))
+    NAME.read(holder, "name")
+    if name in taken and name != old:
+        raise holder.error("name", f"is that of another one; {shown(old)} needs one of its own")
+    chosen = (kind, name) if building.chosen == (kind, old) else building.chosen
+    after = renamed(draft, kind, old, name)
+    if kind == JOINT and chosen and chosen[0] in ("bars", "slots"):
+        chosen = None
+    return changed(building, after, chosen, f"{old} is {name} now")
+
+
+def _with_body(building: Building, key: Key) -> Draft:
+    """Return the draft with a body of the chosen bar where that had none of its own yet."""
+    draft, chosen = building.draft, building.chosen
+    if key[0] != "bodies" or key[1] in draft.of("bodies") or chosen is None:
+        return draft
+    own = {"joints": draft.ends(chosen[1])} if chosen[0] == "bars" else {"slider": chosen[1]}
+    return draft.having("bodies", str(key[1]), own)
+
+
+def _with_centre(draft: Draft, key: Key) -> Draft:
+    """Return the draft with the centre of a body's mass in the middle of its first two joints, if unsaid."""
+    body = draft.of("bodies").get(str(key[1]), {}) if key[0] == "bodies" else {}
+    if "mass" not in body or "joints" not in body or "com" in body:
+        return draft
+    start, end = (place_of(draft, joint) for joint in body["joints"][:2])
+    return draft.having("bodies", str(key[1]), {**body, "com": [round_number(abs(end - start) / 2, 0.0), 0]})
+
+
+def _without(draft: Draft, key: Key) -> Draft:
+    """Return the draft with nothing said any more at a key of a body, nor of what goes with it."""
+    gone = {str(key[2])} | ({"mass", "com", "inertia"} if key[2] in ("mass", "com") else set())
+    body = draft.of("bodies").get(str(key[1]), {})
+    left = {part: value for part, value in body.items() if part not in gone}
+    return draft.having("bodies", str(key[1]), left or None)
 
 
 def _fields(draft: Draft, thing: Thing | None) -> Iterator[tuple[Key, Field]]:
@@ -96,10 +232,36 @@ def _fields(draft: Draft, thing: Thing | None) -> Iterator[tuple[Key, Field]]:
             yield from _fields(draft, ("guides", draft.of("sliders")[name]["guide"]))
         if name == draft.driven:
             yield from _fields(draft, DRIVE)
+        if name in draft.of("sliders"):
+            yield from _of_body(draft, {"slider": name})
+        yield (JOINT, name, "name"), _NAME
     elif kind in _FORMS and name in draft.of(kind):
         yield from _of_form(_FORMS[kind], draft.of(kind)[name], thing)
         if kind == "bars" and _is_crank(draft, name):
             yield from reversed(list(_fields(draft, DRIVE)))
+        if kind == "bars":
+            yield from _of_body(draft, {"joints": draft.ends(name)})
+        if kind in ("springs", "dampers"):
+            yield (*thing, "name"), _NAME
+
+
+def _of_body(draft: Draft, own: Mapping[str, Any]) -> Iterator[tuple[Key, Field]]:
+    """Yield the fields of the body of a bar's joints, or of a block, as far as they can be said."""
+    bodies = draft.of("bodies")
+    if "slider" in own:
+        name = next((name for name, one in bodies.items() if one.get("slider") == own["slider"]), None)
+    else:
+        name = draft.body_of(own["joints"])
+    name = name or body_name(draft)
+    table, form = bodies.get(name, own), file_form.BLOCK if "slider" in own else file_form.BAR
+    fields = {one.key: one for one in form.fields}
+    parts = ["mass", *(["com", "inertia"] if "mass" in table else []), "look", "colour"]
+    if table.get("look") in ("wheel", "railwheel"):
+        parts.insert(-1, "radius")
+    for part in (part for part in parts if part in fields):
+        key, one = ("bodies", name, part), fields[part]
+        yield from (((*key, n), one) for n in (0, 1)) if part == "com" else [(key, one)]
+    yield ("bodies", name, "name"), _NAME
 
 
 def _is_crank(draft: Draft, name: str) -> bool:
@@ -133,7 +295,7 @@ def _dimension(draft: Draft, key: Key, one: Field) -> Dimension:
 
 def _stated(draft: Draft, key: Key) -> Any:
     """Return what stands at a key; of a fixed pin also what is not written, but follows; else None."""
-    table: Any = draft.of(str(key[0])).get(str(key[1]))
+    table: Any = draft.of(str(key[0])).get(str(key[1]), {} if key[0] == "bodies" else None)
     if key[0] == "pins":
         x, y = draft.places[str(key[1])]
         angle = f"{round_number(degrees(atan2(y, x)), 0.0)} deg"
@@ -149,7 +311,10 @@ def _label(one: Field, key: Key) -> str:
     """Return what a number is called, in short: "length", "along", "x"."""
     part = key[-1]
     if isinstance(part, int):
-        return ("x", "y")[part] if key[0] == "pins" else ("along", "to the left")[part]
+        where = ("along", "to the left")[part]
+        return ("x", "y")[part] if key[0] == "pins" else f"mass {where}" if key[-2] == "com" else where
+    if part == "name" and key[0] == "bodies":
+        return "link's name"
     return {"length": "length", "angle": "direction"}.get(part) or part.replace("_", " ")
 
 

@@ -26,6 +26,8 @@ UNTITLED = "New linkage"
 JOINT, DRIVE = "joints", ("drive", "input")
 """The kind of a joint, fixed or not, and the one thing that drives."""
 _NAMING = {"guide": "guides", "bar": "bars"}
+OWN = ("pins", "points", "sliders", "yokes", "gears", "sides")
+"""The kinds of tables whose names are those of joints."""
 _JOINTS = ("joints", "on", "between", "through", "with", "pin", "joint", "slider")
 
 
@@ -157,6 +159,45 @@ def named_in(table: Any, key: str = "at") -> Iterator[Thing]:
             yield from named_in(value, key)
     elif key in _NAMING or key in _JOINTS:
         yield _NAMING.get(key, JOINT), table
+
+
+def renamed(draft: Draft, kind: str, old: str, new: str) -> Draft:
+    """Return the draft with a thing called otherwise; a joint wherever it is named, with bars and slots."""
+    if kind != JOINT:
+        tables = {new if name == old else name: table for name, table in draft.of(kind).items()}
+        typed = frozenset((kind, new, *key[2:]) if key[:2] == (kind, old) else key for key in draft.typed)
+        return replace(draft.having_all(kind, tables), typed=typed)
+    bars = {
+        name: "–".join(new if end == old else end for end in one["joints"])
+        for name, one in draft.of("bars").items()
+        if old in one["joints"] and name == "–".join(one["joints"])
+    }
+
+    def called(kind: str, name: str) -> str:
+        if kind == "bars":
+            return bars.get(name, name)
+        if kind == "slots":
+            through, within, bar = name.partition(" in ")
+            return f"{new if through == old else through}{within}{bars.get(bar, bar)}"
+        return new if name == old and kind in OWN else name
+
+    def told(value: Any, key: str) -> Any:
+        if isinstance(value, Mapping):
+            return {under: told(one, under) for under, one in value.items()}
+        if isinstance(value, list | tuple):
+            return [told(one, key) for one in value]
+        if key in _JOINTS:
+            return new if value == old else value
+        return bars.get(value, value) if key == "bar" else value
+
+    tables = {
+        kind: {called(kind, name): told(table, "at") for name, table in every.items()}
+        for kind, every in draft.tables.items()
+    }
+    places = {new if name == old else name: place for name, place in draft.places.items()}
+    typed = frozenset((key[0], called(str(key[0]), str(key[1])), *key[2:]) for key in draft.typed)
+    rest = {**draft.rest, **({"trace": told(draft.rest["trace"], "at")} if "trace" in draft.rest else {})}
+    return replace(draft, places=places, tables=tables, typed=typed, rest=rest)
 
 
 # Names as a person gives them: O2, O4 for ground pins, A, B for joints, P for points, 2, 3 for bodies.

@@ -16,6 +16,7 @@ from linkanim.build.building import Building, changed, choosing, refused
 from linkanim.build.draft import (
     DRIVE,
     JOINT,
+    OWN,
     Draft,
     Photo,
     Thing,
@@ -307,8 +308,6 @@ def _with_slot(draft: Draft, name: str, joint: str) -> Draft:
 
 # What is done to the chosen thing: it is moved, driven, traced, removed; and the next one is chosen.
 
-OWN = ("pins", "points", "sliders", "yokes", "gears", "sides")
-"""The kinds of tables whose names are those of joints."""
 _HELD = ("pins", "points", "sliders")
 _WORDS = {JOINT: "joint", "drive": "drive"}
 

@@ -7,9 +7,9 @@ from dataclasses import replace
 from typing import Any
 
 from linkanim.build.building import Building
-from linkanim.build.dimensions import numbers_of
-from linkanim.build.draft import JOINT, Draft, Photo, named_in
-from linkanim.build.gestures import OWN, under
+from linkanim.build.dimensions import rows_of
+from linkanim.build.draft import JOINT, OWN, Draft, Photo, named_in
+from linkanim.build.gestures import under
 from linkanim.build.places import drawn, fitted, within_bodies
 from linkanim.intake import Section, refuse_controls
 
@@ -74,7 +74,7 @@ def _ask(building: Building) -> None:
             raise TypeError
     _ = building.made, drawn(draft), under(draft, 0.0, 0.0, 1.0), fitted(draft)
     for thing in draft.things():
-        numbers_of(draft, thing)
+        rows_of(draft, thing)
 
 
 def _tables(draft: Draft) -> Iterator[tuple[str, str, Any]]:

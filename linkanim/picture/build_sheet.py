@@ -23,7 +23,7 @@ from linkanim.picture.figure import DrawSetting
 from linkanim.picture.fittings import Coil, Damping, StrutSpan, block_layers, damping, hatched, pedestal
 from linkanim.picture.items import Caption, Group, Halo
 from linkanim.picture.layout import Gauge, Layout, gauge
-from linkanim.picture.marks import measure
+from linkanim.picture.marks import beside, measure
 from linkanim.picture.motion_marks import turning_arrow
 from linkanim.picture.overlay import BuildShown, DimensionLine, DraftShown, PathShown, Rubber, Snap
 from linkanim.picture.photograph import Photograph
@@ -362,8 +362,11 @@ def _chosen(shown: BuildShown, setting: DrawSetting) -> Iterator[Group]:
         ends = [setting.view.place(point) for point in shown.chosen.places[:2]]
         if len(ends) < 2 or shown.chosen.kind == "guides":
             ends = [ends[0] - 30 * setting.layout.unit, ends[0] + 30 * setting.layout.unit]
-        words = DimensionLine(_ALONG, 0, 1, shown.number, chosen=False)
-        yield from measure(setting, ends[0], ends[1], words)
+        if shown.measures:
+            words = DimensionLine(_ALONG, 0, 1, shown.number, chosen=False)
+            yield from measure(setting, ends[0], ends[1], words)
+        else:
+            yield beside(setting, ends[0], ends[1], shown.number)
 
 
 def _rubber(rubber: Rubber, setting: DrawSetting) -> Iterator[Group]:

@@ -50,6 +50,18 @@ def measure(setting: DrawSetting, begin: complex, end: complex, shown: Dimension
     yield Group("measure", lines, [words], over=True)
 
 
+def beside(setting: DrawSetting, begin: complex, end: complex, words: str) -> Group:
+    """Return words that measure nothing there, beside what lies from `begin` to `end`, in pixels."""
+    gauge, layout, size = setting.gauge, setting.layout, setting.layout.small_size
+    away = 1j * unit(end - begin)
+    away *= (2.0 * gauge.bar + 14 * layout.unit) * (-1 if away.imag > 0 else 1)
+    wide, high = setting.type.width(words, size, strong=True) + 0.7 * size, 1.35 * size
+    middle = _inside(layout.stage, (begin + end) / 2 + _clear(away, gauge, wide, high), wide, high)
+    back = Layer(setting.theme.panel, [middle + box(wide, high, 0.3 * size)], 0.9)
+    at = (middle.real, middle.imag - 0.52 * size)
+    return Group("beside", [back], [Caption(words, at, size, setting.theme.ink, "centre")], over=True)
+
+
 def _clear(away: complex, gauge: Gauge, wide: float, high: float) -> complex:
     """Return how far from a bar's middle that of a label of this size lies, off the bar, by its line."""
     side = unit(away)

@@ -70,13 +70,14 @@ class DraftShown:
 class RowsShown(NamedTuple):
     """A list on the sheet: a title, rows of a label and a value, which is lit, and the place it stands at.
 
-    Without a place it stands at the upper right.
+    Without a place it stands at the upper right. Of the rows `options` another click takes the next value.
     """
 
     title: str
     rows: tuple[tuple[str, str], ...]
     chosen: int
     at: Point | None = None
+    options: tuple[int, ...] = ()
 
 
 @frozen
@@ -84,7 +85,8 @@ class BuildShown:
     """A sheet with what is built on it: the `draft`, or the linkage itself and what is `loose` beside it.
 
     `sentence` says what it is or what is missing, as a warning or not, `facts` what it can do. What is
-    `chosen` is lit, with its number in words or as it is typed. The `cursor` is that of the keys. Where
+    `chosen` is lit, with its number in words or as it is typed, on a dimension line where it is the length
+    there, as `measures` tells. The `cursor` is that of the keys. Where
     there are no tools, as in a recording, the place of the `hand` is shown. The `panel` has all numbers of
     what is chosen, `offers` what the last gesture can mean; `dots` are points of bodies. Lengths are in
     `unit`. A `photo` lies behind, and its `anchor` stays where it is.
@@ -96,6 +98,7 @@ class BuildShown:
     facts: tuple[str, ...] = ()
     chosen: Shape | None = None
     number: str = ""
+    measures: bool = True
     rubber: Rubber | None = None
     snap: Snap | None = None
     cursor: Point | None = None

@@ -637,6 +637,7 @@ ACTIONS: Mapping[str, Rule] = {
     "further": Rule(_whole, _either(building.further, posing.further)),
     "offer": Rule(_whole, building.offer),  # the place of what the last drag can mean
     "number": Rule(_whole, building.number),
+    "option_on": Rule(_nothing, building.option),  # another of what the chosen row of the sheet can be
     "digits": Rule(_text, building.write),
     "undigit": Rule(_nothing, building.erase),
     "take_number": Rule(_nothing, building.take),

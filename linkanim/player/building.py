@@ -382,6 +382,7 @@ def _changed(work: Callable[..., Building]) -> Handler:
 
 
 number = _changed(dimensions.choose_number)
+option = _changed(dimensions.next_option)
 write = _changed(dimensions.write)
 erase = _changed(dimensions.erase)
 take = _changed(dimensions.take)

@@ -329,7 +329,7 @@ _IN_A_MODE: Table = {
         *_TOOLS,
         KeyRow(
             "digits, Enter",
-            "type the value of what is chosen; Ctrl+↑ ↓: its other values",
+            "type the value of what is chosen; Ctrl+↑ ↓: its other rows, name and colour too",
             _both("ctrl+up", "ctrl+down", "number") + _on("backspace", "undigit", held=True),
         ),
         KeyRow(

@@ -487,6 +487,8 @@ class Screen:
         shown, last = self.over.build, self._framing.last
         for rows, name in ((shown.offers, "offer"), (shown.panel, "number")) if shown else ():
             row = row_at(last.layout, last.view, rows, x, y) if rows else None
+            if rows and row == rows.chosen and row in rows.options:
+                return Action("option_on")
             if rows and row is not None:
                 by = max(row, 0) - (rows.chosen if name == "number" else 0)
                 return Action(name, by if row >= 0 else 0 if name == "number" else rows.chosen)

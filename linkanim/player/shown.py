@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkanim.build.building import Building
-from linkanim.build.dimensions import numbers_of
+from linkanim.build.dimensions import PropertyRow, rows_of
 from linkanim.build.draft import JOINT, Draft, Thing
 from linkanim.build.gestures import under
 from linkanim.build.places import Shape, as_point, drawn, foot, from_span, line_of, snapped
@@ -103,6 +103,7 @@ def built(state: State, sheet: BuildSheet, hover: Hover | None = None) -> BuildS
         facts=facts,
         chosen=next((one for one in shapes if one.thing == building.chosen), None),
         number=_number(sheet, moves=moves and not state.clock.paused),
+        measures=_measures(building),
         rubber=_rubber(seen, sheet, sheet.grip) if sheet.grip and not sheet.grip.is_click else None,
         snap=_snap(seen, sheet, hover),
         cursor=sheet.cursor,
@@ -121,23 +122,27 @@ def built(state: State, sheet: BuildSheet, hover: Hover | None = None) -> BuildS
 def _numbers(building: Building) -> RowsShown | None:
     """Return what is chosen with all its numbers, the one that is typed among them."""
     thing, draft = building.chosen, building.draft
-    numbers = numbers_of(draft, thing)
-    if thing is None or not numbers:
+    found = rows_of(draft, thing)
+    if thing is None or not found:
         return None
     kind, name = thing[0].removesuffix("s"), thing[1]
     if thing[0] == JOINT:
         kind = next((word for word in _WORDS if name in draft.of(f"{word}s")), kind)
-    row = building.row % len(numbers)
-    rows = [(one.label, _stated(one, building.typed if n == row else "")) for n, one in enumerate(numbers)]
+    row = building.row % len(found)
+    rows = [(one.label, _stated(one, building, n == row)) for n, one in enumerate(found)]
     title = "input" if thing[0] == "drive" else name if name.startswith(kind) else f"{kind} {name}"
     title = re.sub(_NAME, lambda found: subscripted(found[0]), title)
-    return RowsShown(title, tuple(rows), row)
+    options = tuple(n for n, one in enumerate(found) if one.options)
+    return RowsShown(title, tuple(rows), row, options=options)
 
 
-def _stated(one: Dimension, typed: str) -> str:
-    """Return a number as it stands, or as it is typed."""
-    if typed:
-        return f"{typed}_"
+def _stated(row: PropertyRow, building: Building, is_chosen: bool) -> str:
+    """Return what is said in a row as it stands, or as it is typed."""
+    one = row.number
+    if is_chosen and (building.typed or (building.lettered and not row.options)):
+        return f"{building.typed}_"
+    if one is None:
+        return row.words or "–"
     return "–" if isnan(one.value) else typeset(f"{significant(one.value, 6)} {one.unit}".rstrip())
 
 
@@ -152,12 +157,20 @@ def _offers(sheet: BuildSheet) -> RowsShown | None:
 def _number(sheet: BuildSheet, *, moves: bool) -> str:
     """Return the number of what is chosen, as it stands or is typed; nothing while it runs."""
     building = sheet.building
-    numbers = numbers_of(building.draft, building.chosen)
-    if not numbers or sheet.grip or (moves and not building.typed):
+    rows = rows_of(building.draft, building.chosen)
+    if not rows or sheet.grip or (moves and not building.typed):
         return ""
-    one = numbers[building.row % len(numbers)]
+    one = rows[building.row % len(rows)].number
+    if one is None:
+        return ""
     value = "–" if isnan(one.value) else significant(one.value, 6)
     return typeset(f"{one.label} {building.typed}_" if building.typed else f"{one.label} {value} {one.unit}")
+
+
+def _measures(building: Building) -> bool:
+    """Return whether what is typed is the length of the bar that is chosen, as it stands."""
+    rows = rows_of(building.draft, building.chosen)
+    return bool(rows) and rows[building.row % len(rows)].key[::2] == ("bars", "length")
 
 
 def _words(state: State, sheet: BuildSheet) -> tuple[str, tuple[str, ...]]:

@@ -903,7 +903,8 @@ class State:
             return bool(self.listing.sieve)
         if self.editing.open:
             return self.editing.typed != ""
-        begun = self.building.building.typed if self.building else self.place_typed
+        sheet = self.building
+        begun = sheet.building.typed or sheet.building.lettered if sheet else self.place_typed
         browsed = self.browsing.sieve if self.browsing else begun
         return bool(browsed)
 

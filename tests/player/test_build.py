@@ -12,7 +12,7 @@ import pygame
 import pytest
 from playing import CTRL, SHIFT, NoSearch, Player
 
-from linkanim.build.dimensions import numbers_of
+from linkanim.build.dimensions import rows_of
 from linkanim.build.draft import UNTITLED, Photo
 from linkanim.build.tools import TOOLS
 from linkanim.errors import BadInput
@@ -756,12 +756,64 @@ def test_all_numbers_of_what_is_chosen_are_listed_and_a_click_chooses_one(builde
     builder.click(0, 0)
     rows, places = listed(builder, "panel")
     assert rows.title == "pin O₂"
-    numbers = numbers_of(builder.sheet.building.draft, ("joints", "O2"))
-    assert [label for label, _ in rows.rows] == [one.label for one in numbers]
+    known = rows_of(builder.sheet.building.draft, ("joints", "O2"))
+    assert [label for label, _ in rows.rows] == [one.label for one in known]
     builder.drag((places[1].middle.real, places[1].middle.imag))
     assert (builder.sheet.building.row, builder.sheet.building.chosen) == (1, ("joints", "O2"))
     builder.type("7")
     assert listed(builder, "panel")[0].rows[1] == ("y", "7_")
+
+
+def row_of(builder: Builder, label: str) -> tuple[float, float]:
+    """Return where in the window a row of the panel is."""
+    rows, places = listed(builder, "panel")
+    middle = places[[name for name, _ in rows.rows].index(label)].middle
+    return middle.real, middle.imag
+
+
+def test_letters_are_typed_in_a_row_of_words_that_was_asked_for_and_tools_before(builder: Builder) -> None:
+    builder.four_bar()
+    builder.tick(200)
+    builder.click(45, 40)
+    builder.press(pygame.K_v, text="v")
+    assert builder.sheet.tool == "move"
+    builder.drag(row_of(builder, "link's name"))
+    builder.type("rod")
+    assert dict(listed(builder, "panel")[0].rows)["link's name"] == "rod_"
+    builder.press(pygame.K_RETURN)
+    assert builder.sheet.tool == "move"
+    assert "rod" in [body.name for body in builder.state.scene.linkage.bodies]
+    builder.press(pygame.K_b, text="b")
+    assert builder.sheet.tool == "bar"
+
+
+def test_a_second_click_on_a_row_of_looks_takes_the_next(builder: Builder) -> None:
+    builder.four_bar()
+    builder.tick(200)
+    builder.click(45, 40)
+    for stated in ("–", "bar", "plate"):
+        builder.drag(row_of(builder, "look"))
+        assert dict(listed(builder, "panel")[0].rows)["look"] == stated
+    assert "plate" in [body.get("look") for body in builder.state.scene.document["bodies"].values()]
+    builder.press(pygame.K_z, CTRL)
+    assert dict(listed(builder, "panel")[0].rows)["look"] == "bar"
+
+
+def test_what_is_no_length_stands_on_no_dimension_line(builder: Builder) -> None:
+    builder.click(0, 0)
+    builder.tick(30)
+    builder.click(60, -20)
+    builder.draw((0, 0), (120, 30))
+    shown = builder.window.screen.over.build
+    assert shown
+    assert (shown.number, shown.measures) == ("length 124 mm", True)
+    builder.press(pygame.K_y, text="y")
+    builder.draw((60, -20), (72, 18))
+    builder.tick(200)
+    shown = builder.window.screen.over.build
+    assert shown
+    assert shown.number.startswith("from ")
+    assert not shown.measures
 
 
 def test_after_a_refusal_digits_are_typed_anew(builder: Builder) -> None:
