@@ -1,6 +1,8 @@
 """Dyads that close all along, and barely: their separation comes near a limit of theirs, and turns back.
 
-The reference is plain geometry to many digits, as for `hard_cases`.
+The reference is plain geometry to many digits, as for `hard_cases`. Rates are measured beside those of both
+closures of a dyad: on one side of the extreme its own all but cancel, and the last digit of a stated length
+moves them by thousands of theirs.
 
 `python tests/mechanics/barely_closing.py [COUNT]` prints the worst places and rates, by phase, by angle.
 """
@@ -69,7 +71,7 @@ class Dyad:
     """A dyad on points C and S: what limits it, and itself, made for the least and the most of that."""
 
     seen: Callable[[Any, Any], Any]
-    made: Callable[[float, float, float], tuple[dict[str, Any], float, Callable[[Any, Any], Any]]]
+    made: Callable[[float, float, float], tuple[dict[str, Any], float, Callable[[Any, Any, int], Any]]]
     far: bool
 
 
@@ -103,7 +105,7 @@ def slider(rng: Random, tilt: str) -> Dyad:
         bar = most * (1 + gap)
         line = {"through": "S", "angle": f"{tilt} deg", "offset": offset}
         joint = {"from": "C", "length": bar, "line": line, "side": "forward"}
-        return joint, bar, lambda point, pin: on_line(point, pin, (bar, offset, tilt))
+        return joint, bar, lambda point, pin, root: on_line(point, pin, (bar, offset, tilt), root)
 
     return Dyad(lambda point, pin: abs(((point - pin) / along).imag - offset), made, far=True)
 
@@ -115,14 +117,14 @@ def slot(rng: Random, _: str) -> Dyad:
     def made(least: float, _: float, gap: float) -> Any:
         offset = least * (1 - gap)
         joint = {"slot": {"pivot": "S", "through": "C", "offset": offset}, "length": bar}
-        return joint, bar, lambda point, pin: in_slot(point, pin, bar, offset)
+        return joint, bar, lambda point, pin, root: in_slot(point, pin, bar, offset, root)
 
     return Dyad(_distance, made, far=False)
 
 
 def _bars(bars: tuple[float, float], side: int) -> Any:
     joint = {"from": ["C", "S"], "length": list(bars), "side": SIDES[side]}
-    return joint, max(bars), lambda point, pin: meet(point, pin, bars, side)
+    return joint, max(bars), lambda point, pin, root: meet(point, pin, bars, root * side)
 
 
 def _distance(point: Any, pin: Any) -> Any:
@@ -151,7 +153,8 @@ def dyads_that_barely_close(seed: int = 7) -> Iterator[Barely]:
         loop.document["joints"]["J"] = joint
         solved = _read(loop.document)
         if solved is not None and least > max(2.0, 0.5 * longest) and _smooth(base, solved):
-            guided = Guided(loop.document, max(loop.longest, longest), _closed(loop, pin, close))
+            places = (_closed(loop, pin, close, root) for root in (1, -1))
+            guided = Guided(loop.document, max(loop.longest, longest), *places)
             yield Barely(guided, solved, _angle(loop, solved), phase, gap)
 
 
@@ -167,8 +170,8 @@ def _smooth(base: Mechanism, solved: Mechanism) -> bool:
     return all(dip.near is None or 2 * dip.near.root.width > SHARP for dip in dips)
 
 
-def _closed(loop: Loop, pin: Any, close: Callable[[Any, Any], Any]) -> Callable[[Any], Any]:
-    return lambda angle: close(loop.place(angle), pin)
+def _closed(loop: Loop, pin: Any, close: Callable[[Any, Any, int], Any], root: int) -> Callable[[Any], Any]:
+    return lambda angle: close(loop.place(angle), pin, root)
 
 
 def _read(document: dict[str, Any]) -> Mechanism | None:
@@ -215,8 +218,11 @@ def _angle(loop: Loop, solved: Mechanism) -> Callable[[Any], Any]:
 
 def by_phase(case: Barely) -> Error:
     """Return how far the motion by phase is off beside the extreme."""
-    loop_place, angle = case.guided.place, case.angle
-    guided = replace(case.guided, place=lambda phase: loop_place(angle(phase)))
+    place, other, angle = case.guided.place, case.guided.other, case.angle
+    assert other
+    guided = replace(
+        case.guided, place=lambda phase: place(angle(phase)), other=lambda phase: other(angle(phase))
+    )
     return off(guided, case.solved.solve(phase=np.array(case.phases), speed=1.0), case.phases)
 
 

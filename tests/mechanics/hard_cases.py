@@ -50,11 +50,16 @@ class Bars:
 
 @dataclass(frozen=True)
 class Guided:
-    """A bar to a slider, or a slotted bar, on the crank's pin: J at an angle, NaN where it cannot close."""
+    """A bar to a slider, or a slotted bar, on the crank's pin: J at an angle, NaN where it cannot close.
+
+    If `other` is given it is J on its other closure. What J's rates are made of is half the sum and half the
+    difference of both, and as large as the larger one, also where J's own cancel.
+    """
 
     document: dict[str, Any]
     longest: float
     place: Callable[[Any], Any]
+    other: Callable[[Any], Any] | None = None
 
 
 class Error(NamedTuple):
@@ -236,20 +241,26 @@ def meet(p: Any, q: Any, bars: tuple[float, float], side: int) -> Any:
     return crossing(p, q, a, b, side) if abs(a - b) < way < a + b else mp.mpc(mp.nan)
 
 
-def on_line(point: Any, base: Any, slider: tuple[float, float, str]) -> Any:
+def on_line(point: Any, base: Any, slider: tuple[float, float, str], root: int = 1) -> Any:
     """Return where a bar, its offset and its line's tilt put a slider, NaN where it does not reach."""
     bar, offset, tilt = slider
     along = unit(radians(tilt))
     end = (point - base) / along
     square = mpf(bar) ** 2 - (end.imag - mpf(offset)) ** 2
-    return base + along * mp.mpc(end.real + mp.sqrt(square), mpf(offset)) if square > 0 else mp.mpc(mp.nan)
+    return (
+        base + along * mp.mpc(end.real + root * mp.sqrt(square), mpf(offset))
+        if square > 0
+        else mp.mpc(mp.nan)
+    )
 
 
-def in_slot(point: Any, base: Any, bar: float, offset: float) -> Any:
+def in_slot(point: Any, base: Any, bar: float, offset: float, root: int = 1) -> Any:
     """Return the end of a slotted bar, NaN where the slot does not reach."""
     way = point - base
     square = abs(way) ** 2 - mpf(offset) ** 2
-    return base + mpf(bar) * way / mp.mpc(mp.sqrt(square), mpf(offset)) if square > 0 else mp.mpc(mp.nan)
+    return (
+        base + mpf(bar) * way / mp.mpc(root * mp.sqrt(square), mpf(offset)) if square > 0 else mp.mpc(mp.nan)
+    )
 
 
 def radians(degrees: str) -> Any:
@@ -468,14 +479,21 @@ def guided_by_angle(guided: Guided, solved: Mechanism) -> Error:
 
 def off(guided: Guided, motion: Motion, places: list[float]) -> Error:
     """Return how far a motion is off at places of the input."""
-    found = [derivatives(lambda place: {"J": guided.place(place)}, mpf(place)) for place in places]
+    found = [_rates_of(guided.place, place) for place in places]
+    others = [_rates_of(guided.other, place) for place in places] if guided.other else []
     errors = []
     for order, kind in HIGHEST_FIRST:
         true = [one[order]["J"] for one in found]
         rates = np.max([np.hypot(*values.T) for values in getattr(motion, kind).values()], axis=0)
+        if others:
+            rates = np.maximum(rates, [float(abs(one[order]["J"])) for one in others])
         sizes = np.maximum(guided.longest, rates * (order > 0)).tolist()
         errors.append(_worst(getattr(motion, kind)["J"], list(zip(true, sizes, strict=True))))
     return Error(errors[-1], max(errors[:-1]))
+
+
+def _rates_of(closed: Callable[[Any], Any], place: float) -> Any:
+    return derivatives(lambda at: {"J": closed(at)}, mpf(place))
 
 
 def _angles(path: Swing) -> list[float]:

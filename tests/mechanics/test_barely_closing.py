@@ -1,4 +1,4 @@
-"""Dyads that barely close: 16 last digits of places and 64 of rates beside there, by phase and by angle."""
+"""Dyads that barely close: 16 last digits of places and 32 of rates beside there, by phase and by angle."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from barely_closing import by_angle, by_phase, dyads_that_barely_close
 from hard_cases import DIGITS
 from mpmath import mp
 
-POSITION, RATE = 16, 64
+POSITION, RATE = 16, 32
 
 
 @pytest.fixture(autouse=True)
