@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import cached_property, partial
 from itertools import chain, islice
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from linkanim.frozen import NamedTuple
 from linkanim.mechanics.motion import Pose
@@ -65,6 +65,23 @@ class Earlier(NamedTuple):
     groups: dict[str, tuple[Group, ...]]
 
 
+class Deferral(NamedTuple):
+    """What of a picture waits for a later frame: nothing, unless a hand leads it.
+
+    While the hand `holds` something names keep the places that they have. New places for them are found at
+    once; with "as before" they stay where they were in the picture before, and with "in steps" they are there
+    when `place_names` has found them all. What stood still `earlier` is drawn as it was, where it has the
+    same place.
+    """
+
+    holds: bool = False
+    names: Literal["at once", "as before", "in steps"] = "at once"
+    earlier: Earlier | None = None
+
+
+AT_ONCE = Deferral()
+
+
 class Picture:
     """A scene at one pixel size and look: what stands where is measured once, `groups` is a pose of it.
 
@@ -72,12 +89,10 @@ class Picture:
     in the unit of the look. `listed` leaves room for the edit list, instead of the HUD, and `row` for one of
     small pictures. A `kept` view is zoomed and panned instead of the one that fits, or that of a rectangle
     of the `sheet` that it is built on. With `apart` each joint has a group of its own. What `before`
-    measured of the same scene is taken over; names keep their places on one that is zoomed, on its way to
-    another, or `held` by the hand. Where they have to be placed anew, one that is `hurried` has those that
-    were there, and one that is `gradual` is whole once `place_names` has placed all. With a `moment` names
-    stand as is best at that phase alone. `also` are further places, in the scene's unit, that the view holds.
-    What stood still `earlier` is drawn as it was then, where it has the same place. The `bar` of commands
-    has room at the foot. Raises BadInput where the look's chart is no quantity of the scene.
+    measured of the same scene is taken over; names keep their places on one that is zoomed, or on its way to
+    another. `later` says what waits. With a `moment` names stand as is best at that phase alone. `also` are
+    further places, in the scene's unit, that the view holds. The `bar` of commands has room at the foot.
+    Raises BadInput where the look's chart is no quantity of the scene.
     """
 
     def __init__(
@@ -87,19 +102,17 @@ class Picture:
         look: Look,
         before: Picture | None = None,
         *,
+        later: Deferral = AT_ONCE,
         listed: bool = False,
-        held: bool = False,
-        hurried: bool = False,
-        gradual: bool = False,
         apart: bool = False,
         row: bool = False,
         kept: View | None = None,
         sheet: Box | None = None,
         moment: float | None = None,
-        earlier: Earlier | None = None,
         also: tuple[complex, ...] = (),
         bar: bool = False,
     ) -> None:
+        held, earlier = later.holds, later.earlier
         self._made_for, self._kept, self.row = (scene, size, look, listed, held, row, sheet), kept, row
         self.sheet, self.held = sheet, held
         self.scene, self.size, self.look = in_unit(scene, look.unit), size, look
@@ -124,13 +137,13 @@ class Picture:
         """Whether what stands still is that of an earlier picture."""
         self._arrange(request, before, held=held)
         anew = before is not None and not self._named_as(before, held=held)
-        self.hurried: bool = hurried and look.named and anew
+        self.hurried: bool = later.names == "as before" and look.named and anew
         """Whether its names are those of another picture."""
         if self.hurried and before and before.fit.request.table[0] and before._goal is self._goal:
             self._arrange(request._replace(table=self._table_size()), before, held=held)
         self.names: Names | None = None
         self._steps = self._named(before, earlier, held=held)
-        if not gradual:
+        if later.names != "in steps":
             self.place_names()
 
     def place_names(self, most: int | None = None) -> bool:

@@ -13,7 +13,7 @@ from linkanim.picture.figure import Figure, figure
 from linkanim.picture.labels import TRIES, Surroundings, names_of, placed_at_once
 from linkanim.picture.look import Look
 from linkanim.picture.motion_marks import motion_of
-from linkanim.picture.picture import Picture
+from linkanim.picture.picture import Deferral, Picture
 from linkanim.scenes.scene import Scene
 
 _USUAL = 60.0
@@ -39,7 +39,7 @@ def still_phase(scene: Scene, size: tuple[int, int]) -> float:
     shown, tried = figure(scene), _tried(figure(scene))
     if len(scene.linkage.joints) > _MOST_NAMED:
         return tried[0]
-    picture = Picture(scene, size, Look(names=2), gradual=True, moment=tried[0])
+    picture = Picture(scene, size, Look(names=2), later=Deferral(names="in steps"), moment=tried[0])
     left = dict[float, tuple[int, int]]()
     # the poses at the usual input are looked at closely, then all, then the best of these closely
     for more, poses in ((True, tried[:_USUAL_POSES]), (False, tried[_USUAL_POSES:]), (True, None)):

@@ -18,7 +18,7 @@ from pygame.event import Event
 
 from linkanim.frozen import frozen
 from linkanim.picture.look import Look
-from linkanim.picture.picture import Earlier, Picture
+from linkanim.picture.picture import Deferral, Earlier, Picture
 from linkanim.picture.view import Box, View, eased
 from linkanim.player.clock import FRAMES_PER_SECOND
 from linkanim.player.state import FADE_FRAMES, Sketch, State
@@ -100,8 +100,8 @@ class Framing:
     ) -> Picture:
         """Return the picture that fits the state; a view other than the last one's, it is approached.
 
-        One that is `hurried` keeps the names of the last, where those have to be placed anew: some of them in
-        each frame that comes. What stood still `earlier` is kept, too.
+        In a `hurried` frame of a window names that have to be placed anew stay where they were: some of them
+        are placed in each frame that comes. What stood still `earlier` is kept, too.
         """
         before, sketch, look = self._fitting, state.sketch, self._look(state)
         hurried = hurried and self._captioned
@@ -121,18 +121,18 @@ class Framing:
             look,
             before,
             listed=listed,
-            held=held,
             row=row,
             sheet=home,
             bar=self._captioned,
         )
         if before and fits and not sketch:
-            self._coming = self._coming or make(gradual=True)
+            self._coming = self._coming or make(later=Deferral(held, "in steps"))
             if not self._coming.place_names(_NAMES if hurried else None):
                 return before
             made = self._coming
         else:
-            make = partial(make, hurried=hurried and not (sketch and stays), earlier=earlier)
+            stay = hurried and not (sketch and stays)
+            make = partial(make, later=Deferral(held, "as before" if stay else "at once", earlier))
             made = make(kept=before.fitted if before and sketch and stays else None)
         self._coming = None
         if before and sketch and stays and not held and not made.look.framed:
@@ -190,8 +190,7 @@ class Framing:
             row=goal.row,
             kept=kept,
             sheet=goal.sheet,
-            earlier=earlier,
-            hurried=goal.hurried,
+            later=Deferral(names="as before" if goal.hurried else "at once", earlier=earlier),
             bar=self._captioned,
         )
         return self._passing

@@ -5,12 +5,15 @@ from __future__ import annotations
 import pytest
 
 from linkanim.picture.look import Look
-from linkanim.picture.picture import Picture
+from linkanim.picture.picture import Deferral, Picture
 from linkanim.picture.view import Rect
 from linkanim.scenes import load, names
 from linkanim.scenes.scene import Scene
 
 SIZES = [(640, 360), (1280, 720), (1920, 1080), (3840, 2160), (720, 1280)]
+
+IN_STEPS = Deferral(names="in steps")
+"""The layout is what is looked at: no name needs its place."""
 
 
 def looks(scene: Scene) -> dict[str, Look]:
@@ -31,7 +34,7 @@ def test_words_and_sign_stand_in_their_corners_in_every_look(name: str, size: tu
     scene = load(name)
     corners, signs = set(), set()
     for look in looks(scene).values():
-        layout = Picture(scene, size, look, gradual=True).layout
+        layout = Picture(scene, size, look, later=IN_STEPS).layout
         if layout.hud:  # a small window has no room for words beside all of it
             corners.add((layout.hud.x, layout.hud.y))
         signs.add((layout.marks.right, layout.marks.y))
@@ -43,7 +46,7 @@ def test_words_and_sign_stand_in_their_corners_in_every_look(name: str, size: tu
 @pytest.mark.parametrize("size", SIZES)
 @pytest.mark.parametrize("listed", [False, True])
 def test_the_sign_stays_beside_an_open_list(listed: bool, size: tuple[int, int]) -> None:
-    layout = Picture(load("crank-rocker"), size, Look(), listed=listed, gradual=True).layout
+    layout = Picture(load("crank-rocker"), size, Look(), listed=listed, later=IN_STEPS).layout
     assert (layout.marks.right, layout.marks.y) == pytest.approx((size[0] - layout.margin, layout.margin))
 
 
@@ -51,7 +54,7 @@ def test_the_sign_stays_beside_an_open_list(listed: bool, size: tuple[int, int])
 @pytest.mark.sampled
 def test_nothing_is_drawn_under_words_or_the_sign_of_a_pause(name: str) -> None:
     scene = load(name)
-    picture = Picture(scene, (640, 360), Look(), gradual=True)
+    picture = Picture(scene, (640, 360), Look(), later=IN_STEPS)
     layout = picture.layout
     side = 1.2 * layout.text_size
     sign = Rect(layout.marks.right - side, layout.marks.y, side, side)
@@ -64,7 +67,7 @@ def test_nothing_is_drawn_under_words_or_the_sign_of_a_pause(name: str) -> None:
 
 def test_the_table_of_dimensions_begins_below_the_sign() -> None:
     for name in ("jansen", "press"):
-        layout = Picture(load(name), (3840, 2160), Look(names=2), gradual=True).layout
+        layout = Picture(load(name), (3840, 2160), Look(names=2), later=IN_STEPS).layout
         if layout.table:
             assert (
                 layout.table.y >= layout.marks.y + 1.2 * layout.text_size
@@ -74,7 +77,7 @@ def test_the_table_of_dimensions_begins_below_the_sign() -> None:
 
 def test_a_title_keeps_off_the_sign_in_a_narrow_window() -> None:
     for wide in range(200, 700, 20):
-        layout = Picture(load("press"), (wide, 360), Look(), gradual=True).layout
+        layout = Picture(load("press"), (wide, 360), Look(), later=IN_STEPS).layout
         side = 1.2 * layout.text_size
         sign = Rect(wide - layout.margin - side, layout.margin, side, side)
         assert not any(sign.meets(words) for words in layout.words)

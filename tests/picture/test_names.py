@@ -15,7 +15,7 @@ from linkanim.picture.figure import figure
 from linkanim.picture.layout import Gauge
 from linkanim.picture.look import Look
 from linkanim.picture.motion_marks import Sliding, Turning
-from linkanim.picture.picture import Picture
+from linkanim.picture.picture import Deferral, Picture
 from linkanim.picture.raster import offscreen
 from linkanim.picture.surface import SurfacePrinter
 from linkanim.picture.text import Lettering, Type, subscripted
@@ -316,7 +316,7 @@ def test_while_the_hand_holds_a_joint_names_keep_their_places_and_lengths_are_to
     scene, size, look = load("crank-rocker"), (1280, 720), Look(names=2)
     longer = with_dimensions(scene, {("four-bar", "rocker"): 85.0})
     before = Picture(scene, size, look)
-    held, free = (Picture(longer, size, look, before, held=held) for held in (True, False))
+    held, free = (Picture(longer, size, look, before, later=Deferral(held)) for held in (True, False))
     assert all(one is other for one, other in zip(_spots(before), _spots(held), strict=True))
     assert not any(one is other for one, other in zip(_spots(before), _spots(free), strict=False))
     for picture in (held, free):
