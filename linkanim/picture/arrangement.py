@@ -463,7 +463,8 @@ class FitRequest(NamedTuple):
     hud: bool
     listed: bool
     """Whether it leaves room for the edit list."""
-    polygons: bool = False
+    polygons: int = 0
+    """1 for both polygons, 2 for a large one."""
     row: bool = False
     table: tuple[int, float] = (0, 0.0)
     """How many rows a table beside the figure has, and how wide they are."""
@@ -489,9 +490,9 @@ def request_of(
     bar: bool = False,
 ) -> FitRequest:
     """Return what an arrangement for a look with so many charts depends on."""
-    keys = key_lines(look)
+    keys, polygons = key_lines(look), look.polygons_shown
     captioned = look.caption and not listed
-    request = FitRequest(size, charts, keys, look.hud, listed, look.polygons, row, caption=captioned)
+    request = FitRequest(size, charts, keys, look.hud, listed, polygons, row, caption=captioned)
     return request._replace(bar=bar, still=still, lined=still and (look.names > 1 or bool(look.vectors)))
 
 

@@ -43,8 +43,11 @@ CAPTION_STEP = 1.25
 """From line to line of a caption, in heights of its text."""
 _SHARE_OF_CAPTION = 0.16
 """The greatest share of the stage's height that a caption takes."""
-_SHARE_OF_POLYGONS = 0.38
-"""The polygons' share of what is left beside a chart: of its width, or of its height if that is greater."""
+_SHARES_OF_POLYGONS = (0.38, 0.6)
+"""The polygons' share of what is left beside a chart: of its width, or of its height if that is greater.
+
+That of a large one comes second.
+"""
 
 
 @frozen
@@ -126,26 +129,28 @@ def layout(
     chart: int = 0,
     beside: bool = False,
     listed: bool = False,
-    polygons: bool = False,
+    polygons: int = 0,
     row: bool = False,
     bar: bool = False,
 ) -> Layout:
     """Divide a window: so many charts along the bottom, or `beside` the scene; the stage is what is left.
 
-    `listed` leaves room for a list, on the left or in a narrow window at the foot, `polygons` for those,
-    on the right or below, and a `row` for small pictures at the foot, with the bar of commands below it. The
-    `bar` has room at the foot without a row, too, where that takes little of it. The HUD has no place yet:
-    that depends on the scene.
+    `listed` leaves room for a list, on the left or in a narrow window at the foot, `polygons` for those, on
+    the right or below, for 2 more of it, and a `row` for small pictures at the foot, with the bar of
+    commands below it. The `bar` has room at the foot without a row, too, where that takes little of it. The
+    HUD has no place yet: that depends on the scene.
     """
     parts = _charted(size, chart=chart, beside=beside, listed=listed, row=row, bar=bar)
     if not polygons:
         return parts
-    stage, edge = parts.stage, 20 * parts.unit
+    stage, edge, share = parts.stage, 20 * parts.unit, _SHARES_OF_POLYGONS[polygons - 1]
     if stage.width >= stage.height:
-        wide = _SHARE_OF_POLYGONS * stage.width
-        place = Rect(stage.right - wide, edge, wide - edge, stage.height - 2 * edge)
+        wide = share * stage.width
+        # in a window with its bar they begin below the mark of pause
+        top = edge + (_HEAD_OF_MARKS * parts.text_size if bar else 0.0)
+        place = Rect(stage.right - wide, top, wide - edge, stage.height - top - edge)
         return replace(parts, polygons=place, stage=stage._replace(width=stage.width - wide - 0.6 * edge))
-    high = _SHARE_OF_POLYGONS * stage.height
+    high = share * stage.height
     place = Rect(stage.x + edge, stage.bottom - high, stage.width - 2 * edge, high - edge)
     return replace(parts, polygons=place, stage=stage._replace(height=stage.height - high - 0.6 * edge))
 

@@ -77,8 +77,9 @@ class Look:
     of joints and links with the input's direction of turning, 2 for dimensions and the input's angle as
     well; with either a slider's guide has its `dead_centres`, unless they would give an answer away.
     `caption` adds the scene's sentence on what to watch for. `polygons` draws the velocity and acceleration
-    polygons beside the linkage. `chain` colours the links in the order in which they are solved. `centres`
-    is 0 for none, 1 for the instant centres with Kennedy's lines, 2 for the coupler's centrodes as well.
+    polygons beside the linkage; `large_polygon` 1 draws the first of them alone, 2 the second. `chain`
+    colours the links in the order in which they are solved. `centres` is 0 for none, 1 for the instant
+    centres with Kennedy's lines, 2 for the coupler's centrodes as well.
     """
 
     trace: bool = _toggle(
@@ -124,8 +125,12 @@ class Look:
         Option("polygons", "draw the velocity and acceleration polygons beside the linkage", True),
         answers=("no polygons", "polygons"),
         keys=("p",),
-        title="velocity and acceleration polygons",
-        subject="measure",
+    )
+    large_polygon: int = _toggle(
+        0,
+        steps=(0, 1, 2),
+        answers=("no polygon alone", "the velocity polygon, large", "the acceleration polygon, large"),
+        keys=("shift+p",),
     )
     centres: int = _toggle(
         0,
@@ -216,6 +221,11 @@ class Look:
     def framed(self) -> bool:
         """Whether it is zoomed or panned."""
         return self.zoom != 1 or self.pan != (0.0, 0.0)
+
+    @property
+    def polygons_shown(self) -> int:
+        """0 for no polygons, 1 for both, 2 for a large one alone."""
+        return 2 if self.large_polygon else int(self.polygons)
 
     @property
     def named(self) -> bool:

@@ -230,7 +230,7 @@ class Picture:
     def _order(self) -> int:
         """The derivatives that are asked for: none on the way to another scene where nothing shows them."""
         look, info = self.look, self._goal.info
-        shown = look.vectors or look.chart or look.polygons or look.centres or look.names
+        shown = look.vectors or look.chart or look.polygons_shown or look.centres or look.names
         still = self.scene.towards is None or not info.full_turn or any(measured(self._goal))
         return 2 if shown or still else 0
 
@@ -276,7 +276,9 @@ class Picture:
         named = self.names.captions(pose, self.drawing.places(pose)) if self.names else []
         taken = (line.around(self.type) for line in named)
         yield from self._within(self.drawing.moving(pose, chain(self.layout.words, taken)))
-        yield from (polygon.group(pose) for polygon in self._polygons)
+        for polygon in self._polygons:
+            stands = overlay.paused and self._moment is None
+            yield (polygon.standing(pose.phase) if stands else polygon).group(pose)
         yield from self._on_chart(pose, grasped=overlay.grip)
         yield from self._within(self._named_groups(pose, named))
         if not overlay.construction:  # whose words stand there
@@ -560,7 +562,12 @@ class Picture:
         from linkanim.picture.polygons import polygons_of
 
         pen = pen_for(self.layout, self.type, self.theme)
-        return polygons_of(self.figure, self.layout.polygons, pen, self._moment)
+        only = self.look.large_polygon
+        return polygons_of(self.figure, self.layout.polygons, pen, self._moment, only=only)
+
+    def polygon_at(self, px: float, py: float) -> int | None:
+        """Return the polygon under a pixel: 1 of velocities, 2 of accelerations; None elsewhere."""
+        return next((one.order for one in self._polygons if one.rect.holds(px, py)), None)
 
     def _placed(self, before: Picture | None, *, held: bool) -> Iterator[None]:
         """Place the names of joints and links, and their dimensions, as the scene fits the window, in steps.

@@ -76,8 +76,13 @@ class Polygon:
     """One polygon of a figure in its place: all poses of the cycle at one scale, about one pole.
 
     With a `moment` they are such as fill the place at that phase. So does a pose that is `shown`; what cannot
-    be named beside its vector is listed, `aside` of them where no corner is free.
+    be named beside its vector is listed, `aside` of them where no corner is free. What the bar of the scale
+    `says` besides stands with it where it has room.
     """
+
+    def standing(self, phase: float) -> Polygon:
+        """Return it as large as its place lets it be at a phase, of which the bar of the scale tells."""
+        return replace(self, moment=phase, says="at this pose")
 
     figure: Figure
     order: Order
@@ -86,6 +91,7 @@ class Polygon:
     moment: float | None = None
     shown: Pose | None = None
     aside: float = 0.0
+    says: str = ""
 
     def group(self, pose: Pose) -> Group:
         """Return the polygon of a pose with its title and the bar of its scale."""
@@ -297,6 +303,9 @@ class Polygon:
         feet, heads = [begin, begin - tick, end - tick], [end, begin + tick, end + tick]
         number = f"{step:g}" if 1e-3 <= step < 1e6 else three_digits(step)
         words = f"{number} {self.figure.scene.length_unit}{per}"
+        whole = f"{words} {self.says}"
+        taken = self._title.around(self.pen.type).width + self.pen.text if self._barred else 0.0
+        words = whole if self.says and self.pen.type.width(whole, small) <= rect.width - taken else words
         bar = Layer(ink, segments(feet, heads, 0.8 * self.pen.line))
         if self._barred:
             return bar, Caption(words, (rect.right, top), small, ink, "right")
@@ -329,8 +338,15 @@ def _about(pole: complex, wide: float, high: float) -> LabelPlaces:
     return LabelPlaces((wide, high), places[None], np.arange(float(len(places))))
 
 
-def polygons_of(figure: Figure, rect: Rect, pen: Pen, moment: float | None = None) -> tuple[Polygon, Polygon]:
-    """Return both polygons in a rectangle: over each other where it is tall, else side by side."""
+def polygons_of(
+    figure: Figure, rect: Rect, pen: Pen, moment: float | None = None, *, only: int = 0
+) -> tuple[Polygon, ...]:
+    """Return both polygons in a rectangle: over each other where it is tall, else side by side.
+
+    Of 1 or 2 `only` the velocity or the acceleration polygon.
+    """
+    if only:
+        return (Polygon(figure, 1 if only == 1 else 2, rect, pen, moment),)
     if rect.height >= rect.width:
         first = rect._replace(height=0.48 * rect.height)
         second = first._replace(y=rect.bottom - first.height)

@@ -291,11 +291,11 @@ def _title(
     """Write a title in two lines below its picture, as large as fits; or what is `below` it in the second."""
     room = cell.width - 0.5 * found.text
     if below:
-        at, foot = cell.x + cell.width / 2, cell.bottom - found.line + 0.1 * found.text
+        middle, foot = cell.x + cell.width / 2, cell.bottom - found.line + 0.1 * found.text
         words = board.fitting((title,), found.text, room)
-        board.write(surface, words, (at, foot), size=found.text, anchor="centre")
+        board.write(surface, words, (middle, foot), size=found.text, anchor="centre")
         size = max(round(0.85 * found.text), _LEAST)
-        at_foot = (at, foot + 1.25 * found.text)
+        at_foot = (middle, foot + 1.25 * found.text)
         board.write(surface, below, at_foot, size=size, colour=board.theme.dim, anchor="centre")
         return
     lines, size = titled(board, title, found.text, room)

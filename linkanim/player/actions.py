@@ -82,6 +82,11 @@ def ghost(state: State, _: None) -> State:
     return replace(state, look=toggled(state.look, "ghost"))
 
 
+def polygons(state: State, _: None) -> State:
+    """Show both polygons, or none; both where one stands alone by itself."""
+    return replace(state, look=replace(toggled(state.look, "polygons"), large_polygon=0))
+
+
 def unit(state: State, _: None) -> State:
     """Show lengths in the next unit, the scene's own among them."""
     following = _after(settled_look(state).unit, LENGTH_UNITS, usual=state.scene.length_unit)
@@ -535,7 +540,7 @@ def _running(work: Callable[[Clock, int, Any], Clock]) -> Callable[[State, Any],
 
 def _of_look(name: str) -> Rule:
     """Return the rule of a field of the look; some do more than to go on a step."""
-    more = {"ghost": ghost, "theme": theme, "unit": unit, "over": over}
+    more = {"ghost": ghost, "theme": theme, "unit": unit, "over": over, "polygons": polygons}
     handle = more.get(name, toggling(name))
     return Rule(
         _one_of(*TOGGLES[name].members),

@@ -287,7 +287,7 @@ _ON: Mapping[Action, Callable[[State], bool]] = {
     Action("names"): lambda state: state.look.names > 0,
     Action("menu", "arrows"): lambda state: bool(state.look.vectors) or _shows(GROUPS["arrows"].title)(state),
     Action("list"): lambda state: state.look.chart is not None,
-    Action("menu", "construction"): lambda state: state.look.polygons or state.look.centres > 0,
+    Action("menu", "construction"): lambda state: state.look.polygons_shown > 0 or state.look.centres > 0,
     Action("menu", "record"): lambda state: state.recording is not None,
     Action("menu"): _shows("Commands"),
     Action("edit"): lambda state: state.editing.open,

@@ -481,6 +481,9 @@ class Mouse:
                 if token := screen.chart_titled_at(*self._at):
                     self._drag = "bar"
                     return (Action("strip", token),)
+                if order := screen.polygon_at(*self._at):
+                    self._drag, alone = "bar", screen.state.look.large_polygon
+                    return (Action("large_polygon"),) * ((3 - alone) if alone else order)
                 handle = screen.handle_at(*self._at, _REACH * screen.size[1])
                 curve = None if handle else screen.on_trace(*self._at, _NEAR * screen.size[1])
                 self._drag = "joint" if handle or curve else self._grabbed(screen)

@@ -201,6 +201,11 @@ KEYS: Table = {
     "measure": (
         *_looks("measure"),
         KeyRow(
+            "P (Shift: one, large)",
+            "velocity and acceleration polygons",
+            _of_look("polygons") + _of_look("large_polygon"),
+        ),
+        KeyRow(
             "C (Shift: off)", "chart: next quantity, off", _on("c", "chart", 1) + _on("shift+c", "plot", "")
         ),
         KeyRow("X", "chart's axis: angle, time, phase", _of_look("over")),
@@ -464,6 +469,9 @@ _APART: Mapping[Action, str] = {
     Action("mechanism", 1): "the next mechanism",
     **{Action("select", n): f"mechanism {n + 1} of the chapter" for n in range(9)},
     Action("names"): "names, then dimensions",
+    Action("over"): "the chart's axis: angle, time, phase",
+    Action("polygons"): "velocity and acceleration polygons",
+    Action("large_polygon"): "one polygon alone, large",
     Action("chain"): "the input's colour along the chain",
     Action("centres"): "instant centres, then centrodes",
     Action("vectors", "v"): "velocities",
@@ -564,7 +572,14 @@ GROUPS: Mapping[str, CommandGroup] = {
     "arrows": CommandGroup("Arrows", (Action("vectors", "v"), Action("vectors", "a"))),
     "construction": CommandGroup(
         "Construction",
-        (Action("closure"), Action("polygons"), Action("centres"), Action("chain"), Action("ghost")),
+        (
+            Action("closure"),
+            Action("polygons"),
+            Action("large_polygon"),
+            Action("centres"),
+            Action("chain"),
+            Action("ghost"),
+        ),
     ),
     "record": CommandGroup(
         "Record and save",

@@ -618,6 +618,10 @@ class Screen:
         """Return the token of the chart whose title is under a pixel; None elsewhere."""
         return None if self.over.hides_chart else self._framing.last.chart_titled_at(x, y)
 
+    def polygon_at(self, x: float, y: float) -> int | None:
+        """Return the polygon under a pixel: 1 of velocities, 2 of accelerations; None elsewhere."""
+        return None if self.over.hides_chart else self._framing.last.polygon_at(x, y)
+
     def charted(self, x: float, y: float) -> float | None:
         """Return the phase under a pixel of the chart; None beside it."""
         return None if self.over.hides_chart else self._framing.last.chart_phase_at(x, y)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 
 import numpy as np
@@ -218,3 +219,28 @@ def test_the_window_shows_them_beside_the_scene() -> None:
     with_them = pixels(painted(scene, 1.0, Look(hud=False, polygons=True), (640, 360)))
     assert (with_them[:, 420:] != LIGHT.background).any()
     assert not (pixels(painted(scene, 1.0, Look(hud=False), (640, 360))) == with_them).all()
+
+
+def test_one_polygon_alone_is_larger_and_one_that_stands_fills_its_place_and_says_so() -> None:
+    scene = load("press")
+    shown, pose = figure(scene), scene.pose(math.radians(178.0))
+
+    def reach(polygon: Polygon) -> float:
+        ends = np.concatenate([loop for layer in polygon.group(pose).layers for loop in layer.loops])
+        return float(np.ptp(ends.real) + np.ptp(ends.imag))
+
+    for n, order in enumerate((1, 2)):
+        window, wide = layout((1280, 720), polygons=1, bar=True), layout((1280, 720), polygons=2, bar=True)
+        assert window.polygons
+        assert wide.polygons
+        pens = [pen_for(one, Type(), LIGHT) for one in (window, wide)]
+        usual = polygons_of(shown, window.polygons, pens[0])[n]
+        (large,) = polygons_of(shown, wide.polygons, pens[1], only=order)
+        assert large.order == usual.order == order
+        assert large.scale(pose.input_speed) > 1.2 * usual.scale(pose.input_speed)
+        stands = large.standing(pose.phase)
+        assert reach(stands) > reach(large)
+        words = [caption.text for caption in stands.group(pose).captions]
+        assert sum(text.endswith("at this pose") for text in words) == 1
+        assert not any("at this pose" in caption.text for caption in large.group(pose).captions)
+        assert window.polygons.y >= window.marks.y + window.text_size

@@ -278,3 +278,22 @@ def test_every_row_of_numbers_is_under_the_mouse_at_its_place(rows_shown: Player
         _, y = row_of(rows_shown, label)
         caption = next(one for one in picture._hud.still() if one.text == label)
         assert abs(caption.at[1] - y) <= 0.5 * caption.size
+
+
+def test_a_click_on_a_polygon_makes_it_large_and_another_shows_both(player: Player) -> None:
+    player.press(pygame.K_p)
+    shown = player.window.screen
+    for order in (1, 2):
+        rects = {one.order: one.rect for one in shown._framing.last._polygons}
+        assert sorted(rects) == [1, 2]
+        at = rects[1 if order == 1 else 2].middle
+        player.drag((at.real, at.imag))
+        assert player.state.look.large_polygon == order
+        (alone,) = shown._framing.last._polygons
+        player.drag((alone.rect.middle.real, alone.rect.middle.imag))
+        assert player.state.look.large_polygon == 0
+    player.press(pygame.K_p, pygame.KMOD_LSHIFT)
+    assert player.state.look.large_polygon == 1
+    player.press(pygame.K_p)  # off
+    player.press(pygame.K_p)
+    assert (player.state.look.polygons, player.state.look.large_polygon) == (True, 0)

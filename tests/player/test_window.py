@@ -734,7 +734,8 @@ def test_ctrl_o_opens_the_shelf_at_the_scene_files_here_and_puts_one_on(player: 
     assert player.state.browsing
     assert player.state.browsing.found == (browsing.chosen + 1,)
     player.press(pygame.K_RETURN)
-    assert (player.state.browsing, player.state.scene.name) == (None, "my-press")
+    assert player.state.scene.name == "my-press"
+    assert not player.state.is_covered
     (here / "my-press.toml").write_text("title = 3")
     player.press(pygame.K_F5)
     player.tick()
