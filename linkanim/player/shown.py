@@ -344,7 +344,7 @@ def _kept(state: State, items: tuple[Dimension, ...], over: Hover | None = None)
         poses=_poses(state, state.posing) if state.posing else None,
         row=_answer_row(state, state.sketch) if state.sketch and not state.sketch.is_blank else None,
         build=built(state, state.building, over) if state.building else None,
-        layers=_layers(state.layers) if state.layers else None,
+        layers=_layers(state.scene, state.layers) if state.layers else None,
         construction=state.constructed,
         slider=_slider(state),
     )
@@ -357,12 +357,15 @@ def _stands(state: State) -> bool:
     return state.clock.paused and not (state.grasp and state.grasp.ran)
 
 
-def _layers(shown: Layering) -> LayersShown:
-    """Return parts in layers with what there is to know of them in words."""
-    parts = shown.parts
+def _layers(scene: Scene, shown: Layering) -> LayersShown:
+    """Return a scene's parts in layers with what there is to know of them in words.
+
+    Those of the scene before, in the frame in which another is put on, are not its own.
+    """
+    parts, refused = (shown.parts, shown.refused) if shown.scene is scene else (None, "")
     if parts is None:
-        waits = f"{shown.scene.title}: looking for layers in which it can turn"
-        return LayersShown(sentence=shown.refused or waits, is_warning=bool(shown.refused))
+        waits = f"{scene.title}: looking for layers in which it can turn"
+        return LayersShown(sentence=refused or waits, is_warning=bool(refused))
     times = "in true size" if parts.ratio == 1 else f"{significant(parts.ratio, 3)} times as large"
     on = f"{parts.layers} layer{'s' * (parts.layers != 1)} on the ground"
     facts = f"{len(parts.plates)} parts, {len(parts.pins)} pins, {times}", _MAKE_HINT
@@ -371,7 +374,7 @@ def _layers(shown: Layering) -> LayersShown:
 
 def _slider(state: State) -> SliderShown | None:
     """Return the slider that is there for what is on."""
-    if state.layers and state.layers.parts:
+    if state.layers and state.layers.parts and state.layers.scene is state.scene:
         return SliderShown("layers", "flat", "lifted", LIFTED, state.layers.lifted)
     if not state.constructed or not isinstance(state.scene.purpose, TimeRatioPurpose):
         return None

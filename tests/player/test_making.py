@@ -143,6 +143,17 @@ def test_another_scene_has_its_layers_asked_for_and_stays_lifted(shown: State) -
     assert state.layers.scene is state.scene
 
 
+def test_another_scene_is_not_shown_in_the_parts_of_the_one_before(shown: State) -> None:
+    other = after(shown, Action("put", 0))
+    over = overlay(other)
+    assert over.layers
+    assert over.layers.parts is None
+    assert over.layers.sentence.startswith(other.scene.title)
+    assert over.slider is None
+    picture = Picture(other.scene, (320, 180), Look(hud=False))
+    assert list(picture.groups(other.scene.pose(0.0), over))
+
+
 @pytest.mark.parametrize("name", ["edit", "pencil", "build"])
 def test_what_is_done_with_the_linkage_shows_it_again(shown: State, name: str) -> None:
     assert after(shown, name).layers is None
