@@ -14,7 +14,8 @@ from linkanim.scenes.editing import dimensions, with_dimensions
 from linkanim.scenes.form import LENGTHS, Key
 from linkanim.scenes.scene import Scene
 
-_TRIES = 60
+_TRIES, _FEW = 60, 20
+"""How often lengths are drawn for a scene of a few joints; in one of more they hardly ever keep its motion."""
 _LEAST, _MOST = 0.8, 1.25
 _PLACES = 48
 """Of a path that are looked at."""
@@ -44,7 +45,8 @@ def variant(scene: Scene, seed: int, fits: Callable[[Scene], bool]) -> Scene:
 
 def _choices(scene: Scene, random: Random) -> Iterator[Mapping[Key, float]]:
     lengths = {item.key: item.value for item in dimensions(scene) if item.kind in LENGTHS and item.value}
-    for _ in range(_TRIES):
+    crowd = max(len(scene.linkage.joints) / _FEW, 1.0)
+    for _ in range(max(int(_TRIES / crowd**2), 1)):
         factors = {size: random.uniform(_LEAST, _MOST) for size in dict.fromkeys(map(abs, lengths.values()))}
         yield {key: _round(value * factors[abs(value)]) for key, value in lengths.items()}
     for factor in random.sample(_SIMILAR, len(_SIMILAR)):

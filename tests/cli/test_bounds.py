@@ -16,6 +16,7 @@ from linkanim.bounds import (
     MOST_NUMBERS_READ,
     MOST_PIXELS,
     MOST_POSES,
+    MOST_VERSIONS,
 )
 from linkanim.cli import main
 from linkanim.scenes import load, names
@@ -32,6 +33,10 @@ REFUSED = {
     "a recording of many pixels": ("record kite --size 16384x16384", "33,177,600 are the most"),
     "many questions on many joints": ("quiz chain.toml -n 200", "a round has 3 questions at the most"),
     "a sheet of many figures": ("quiz chain.toml -n 24 -o sheet.html", "a round has 3 questions"),
+    "many versions of many joints": (
+        "explain chain.toml --exercise --versions 26 -o a.html",
+        "--versions 26: give a number from 1 to 3; chain has 126 joints",
+    ),
     "a report of all quantities": ("report chain.toml --all -o report", "a report holds 1,000"),
     "a report at many speeds": (
         "report chain.toml -o report --speeds " + ",".join(f"{n}rpm" for n in range(1, 38)),
@@ -75,6 +80,7 @@ def test_the_bounds_leave_room_for_every_built_in_scene() -> None:
     joints = max(len(load(name).linkage.joints) for name in names())
     assert joints * MOST_POSES <= MOST_DRAWN
     assert joints**2 * 200 <= MOST_ASKED
+    assert joints * 26 <= MOST_VERSIONS
     quantities = max(len(load(name).quantities) for name in names())
     assert 4 * quantities <= MOST_CHARTED
     assert MOST_PIXELS > 3840 * 2160

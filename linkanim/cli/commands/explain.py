@@ -8,6 +8,7 @@ from dataclasses import replace
 from math import degrees, isnan, radians
 
 from linkanim.atomic_files import checked_target, write_text
+from linkanim.bounds import MOST_VERSIONS
 from linkanim.cli.commands.solve import phase_at
 from linkanim.cli.options import inputs_of
 from linkanim.errors import BadInput
@@ -25,7 +26,8 @@ from linkanim.scenes.scene import Scene
 
 _CONSTRUCTION = (960, 640)
 """The size of the figure of a construction."""
-_MOST_VERSIONS = 26
+_MOST_LETTERS = 26
+"""Versions are called A to Z."""
 FORMS = {".html": HTML, ".htm": HTML, ".tex": TEX, ".md": MARKDOWN}
 
 
@@ -76,8 +78,11 @@ def _requests(scene: Scene, options: Namespace) -> Iterator[PoseRequest]:
     """
     request = _rounded(_pose(scene, options)) if options.exercise else _pose(scene, options)
     count = 1 if options.versions is None else options.versions
-    if not 1 <= count <= _MOST_VERSIONS:
-        raise BadInput(f"--versions {count}: give a number from 1 to {_MOST_VERSIONS}")
+    joints = len(scene.linkage.joints)
+    most = max(min(MOST_VERSIONS // joints, _MOST_LETTERS), 1)
+    if not 1 <= count <= most:
+        of = f"; {scene.name} has {joints} joints" if most < _MOST_LETTERS else ""
+        raise BadInput(f"--versions {count}: give a number from 1 to {most}{of}")
 
     def reached(changed: Scene) -> bool:
         return not isnan(replace(request, scene=changed).motion().phase)
