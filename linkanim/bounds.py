@@ -25,7 +25,7 @@ MOST_DRAWN_PIXELS = 1920 * 1080
 MOST_ASKED = 60_000
 """Questions of a round times the square of a scene's joints, whose names keep off each other in a figure."""
 MOST_VERSIONS = 500
-"""Versions of an exercise times a scene's joints: lengths are sought for each, and all of it is worked out."""
+"""Versions of an exercise times a scene's joints: lengths are sought for each, and all is worked out."""
 MOST_CHARTED = 1_000
 """Quantities of a report with all of them, at each of its speeds."""
 MOST_LISTED = 36

@@ -15,7 +15,7 @@ from linkanim.scenes.form import LENGTHS, Key
 from linkanim.scenes.scene import Scene
 
 _TRIES, _FEW = 60, 20
-"""How often lengths are drawn for a scene of a few joints; in one of more they hardly ever keep its motion."""
+"""How often lengths are drawn for a scene of few joints; those of one of more hardly ever keep its motion."""
 _LEAST, _MOST = 0.8, 1.25
 _PLACES = 48
 """Of a path that are looked at."""

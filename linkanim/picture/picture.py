@@ -139,7 +139,8 @@ class Picture:
         anew = before is not None and not self._named_as(before, held=held)
         self.hurried: bool = later.names == "as before" and look.named and anew
         """Whether its names are those of another picture."""
-        if self.hurried and before and before.fit.request.table[0] and before._goal is self._goal:
+        tabled = look.names > 1 and before and before.fit.request.table[0]
+        if self.hurried and tabled and before and before._goal is self._goal:
             self._arrange(request._replace(table=self._table_size()), before, held=held)
         self.names: Names | None = None
         self._steps = self._named(before, earlier, held=held)

@@ -381,3 +381,11 @@ def test_fixed_pins_bear_their_letters_all_the_time(name: str, level: int, size:
                 middle = complex(one.at[0], one.at[1] + 0.5 * one.size)
                 away = {joint: abs(places[joint] - middle) for joint in picture.figure.fixed}
                 assert min(away, key=lambda joint: away[joint]) == pin or away[pin] < 4 * one.size
+
+
+def test_dimensions_in_a_table_give_way_to_centres_that_are_named_alone() -> None:
+    scene = load("jansen")
+    before = Picture(scene, (320, 180), Look(names=2))
+    assert before.fit.request.table[0]
+    after = Picture(scene, (320, 180), Look(centres=1), before, later=Deferral(names="as before"))
+    assert after.drawing.symbols is None
