@@ -221,6 +221,7 @@ COMMANDS: Mapping[str, tuple[str, ...]] = {
         "linkanim draw crank-rocker --names --names",
         'linkanim draw press -o press.png --angle "87 deg" --vectors v --instant-centres',
         "linkanim draw kite -o kite.svg --poses 12 --no-trace",
+        "linkanim draw crank-rocker --names --names --for book -o column.svg",
         "linkanim draw lid.toml -o lid.svg --construction",
     ),
     "explain": (

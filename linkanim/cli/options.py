@@ -19,6 +19,7 @@ from linkanim import units
 from linkanim.bounds import LARGEST_SIDE, MOST_LISTED, MOST_POSES
 from linkanim.errors import BadInput
 from linkanim.frozen import NamedTuple, frozen
+from linkanim.paper.purpose import PURPOSES
 from linkanim.picture.look import TOGGLES, ConstructionKind, Look, Option, Toggle
 from linkanim.units import shown
 from linkanim.workshop.media import PAGES, WAYS
@@ -421,6 +422,14 @@ _KIND_SOUGHT = _takes(
 )
 _SIZE = _value("--size WxH", size, "width and height in pixels (default: 1280x720)")
 _WINDOW_SIZE = _value("--size WxH", size, "the size of the window in pixels")
+_PURPOSE = _takes(
+    "--for",
+    dest="purpose",
+    choices=tuple(PURPOSES),
+    help="take width, letters and ground for a "
+    + ", ".join(f"{name} ({purpose.words})" for name, purpose in PURPOSES.items())
+    + "; --size is then its shape",
+)
 _TEXT = _takes(
     "--text", choices=("latex",), help="leave the words of a PDF to LaTeX, in FIG.pdf_tex beside it"
 )
@@ -543,6 +552,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
             required=True,
         ),
         _output("write OUT.png, OUT.svg, OUT.pdf or OUT.csv (default: SCENE.png in this folder)"),
+        _PURPOSE,
         _ALT,
         _TEXT,
         _speeds("draw a curve for each speed"),
@@ -592,6 +602,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
     "draw": (
         _SCENE,
         _output("write OUT.svg, OUT.png or OUT.pdf (default: SCENE.svg in this folder)"),
+        _PURPOSE,
         _ALT,
         _TEXT,
         _either(_ANGLE, _PHASE),

@@ -8,8 +8,11 @@ from pathlib import Path
 from linkanim.atomic_files import refuse_input
 from linkanim.cli.options import inputs_of
 from linkanim.errors import BadInput
+from linkanim.frozen import NamedTuple
 from linkanim.manifest import Output, checked_output
 from linkanim.mechanics.measures import coupler_body
+from linkanim.paper.purpose import PURPOSES
+from linkanim.picture.layout import SMALL, layout
 from linkanim.picture.look import TOGGLES, Look
 from linkanim.recorder.plan import refuse_size
 from linkanim.scenes import load
@@ -19,10 +22,37 @@ from linkanim.scenes.scene import Scene
 _SIZE = (1280, 720)
 
 
-def scene_size_target(
+class Sheet(NamedTuple):
+    """What a picture is drawn on: so many pixels, so many mm wide on paper, with a ground or none.
+
+    Without a width a pixel is 3/4 pt. Words are `type_scale` times as large as usual.
+    """
+
+    size: tuple[int, int]
+    wide: float | None = None
+    type_scale: float = 1.0
+    ground: bool = True
+
+
+def _sheet(options: Namespace) -> Sheet:
+    """Return the sheet for the purpose that the options name; of words that LaTeX sets that is a book."""
+    name = options.purpose or ("book" if options.text else None)
+    if name is None:
+        return Sheet(options.size or _SIZE)
+    purpose = PURPOSES[name]
+    size = purpose.size(options.size)
+    scale = purpose.type_scale(SMALL * layout(size).unit)
+    if options.text:
+        from linkanim.paper.latex import WIDER
+
+        scale *= WIDER
+    return Sheet(size, purpose.wide, scale, purpose.ground)
+
+
+def scene_sheet_target(
     options: Namespace, suffixes: tuple[str, ...], usual: str
-) -> tuple[Scene, tuple[int, int], Output]:
-    """Return the scene, the size in pixels, and the file, by default named after the scene.
+) -> tuple[Scene, Sheet, Output]:
+    """Return the scene, what it is drawn on, and the file, by default named after the scene.
 
     `BadInput` for a size or a file that cannot be.
     """
@@ -33,11 +63,11 @@ def scene_size_target(
         from linkanim.paper.latex import refuse_latex
 
         refuse_latex(target)
-    size = options.size or _SIZE
-    refuse_size(size, painted=target.path.suffix.lower() == ".png")
+    sheet = _sheet(options)
+    refuse_size(sheet.size, painted=target.path.suffix.lower() == ".png")
     scene = load(options.scene)
     refuse_photograph(scene, target.path)
-    return in_unit(scene, getattr(options, "unit", None)), size, target
+    return in_unit(scene, getattr(options, "unit", None)), sheet, target
 
 
 def refuse_photograph(scene: Scene, target: Path) -> None:

@@ -41,7 +41,7 @@ from linkanim.picture.raster import Colour, Layer, offscreen
 from linkanim.picture.shapes import box, disc, segments
 from linkanim.picture.surface import printed
 from linkanim.picture.text import Type
-from linkanim.picture.theme import theme_of
+from linkanim.picture.theme import on_paper, theme_of
 from linkanim.picture.view import Rect
 from linkanim.units import stepped
 
@@ -263,24 +263,29 @@ class Page:
     size: tuple[int, int]
     theme: ThemeName = "light"
     measured: MeasuredCurve | None = None
+    type_scale: float = 1.0
+    ground: bool = True
     brief: bool = False
     """Small, beside words that say the rest: no title, symbols for words, extremes of one curve alone."""
 
     @cached_property
     def pen(self) -> Pen:
         """What it is drawn with."""
-        pen = pen_for(layout(self.size), Type(), theme_of(self.theme))
+        theme = theme_of(self.theme)
+        parts = layout(self.size, type_scale=self.type_scale)
+        pen = pen_for(parts, Type(), theme if self.ground else on_paper(theme))
         return replace(pen, line=max(pen.line, _THINNEST)) if self.brief else pen
 
     @property
-    def background(self) -> Colour:
-        """The colour under everything."""
-        return self.pen.theme.background
+    def background(self) -> Colour | None:
+        """The colour under everything; None where it is left open."""
+        return self.pen.theme.background if self.ground else None
 
     def surface(self) -> pygame.Surface:
         """Return the chart drawn."""
-        surface = offscreen(self.size)
-        surface.fill(self.background)
+        surface = offscreen(self.size, alpha=not self.ground)
+        if self.ground:
+            surface.fill(self.pen.theme.background)
         printed(surface, self.groups(), self.pen.type)
         return surface
 

@@ -24,7 +24,7 @@ from linkanim.picture.raster import Colour, Layer, offscreen
 from linkanim.picture.shapes import segments
 from linkanim.picture.surface import printed
 from linkanim.picture.text import Type
-from linkanim.picture.theme import theme_of
+from linkanim.picture.theme import on_paper, theme_of
 from linkanim.picture.view import Rect
 from linkanim.scenes.scene import Scene
 from linkanim.synthesis.constructions import ConstructionStep
@@ -52,6 +52,8 @@ class ConstructionPage:
     steps: int | None = None
     kind: ConstructionKind | None = None
     phase: float | None = None
+    type_scale: float = 1.0
+    ground: bool = True
 
     @property
     def _kind(self) -> ConstructionKind:
@@ -74,12 +76,14 @@ class ConstructionPage:
     @cached_property
     def pen(self) -> Pen:
         """What it is drawn with."""
-        return pen_for(layout(self.size), Type(), theme_of(self.theme))
+        theme = theme_of(self.theme)
+        parts = layout(self.size, type_scale=self.type_scale)
+        return pen_for(parts, Type(), theme if self.ground else on_paper(theme))
 
     @property
-    def background(self) -> Colour:
-        """The colour under everything."""
-        return self.pen.theme.background
+    def background(self) -> Colour | None:
+        """The colour under everything; None where it is left open."""
+        return self.pen.theme.background if self.ground else None
 
     @property
     def title(self) -> str:
@@ -98,8 +102,9 @@ class ConstructionPage:
 
     def surface(self) -> pygame.Surface:
         """Return the figure drawn."""
-        surface = offscreen(self.size)
-        surface.fill(self.background)
+        surface = offscreen(self.size, alpha=not self.ground)
+        if self.ground:
+            surface.fill(self.pen.theme.background)
         printed(surface, self.groups(), self.pen.type)
         return surface
 

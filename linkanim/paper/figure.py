@@ -46,7 +46,7 @@ class Figured:
     @cached_property
     def shown_phase(self) -> float:
         """The phase that it shows."""
-        return still_phase(self.scene, self.size) if self.phase is None else self.phase
+        return still_phase(self.scene, self.size, self.look.type_scale) if self.phase is None else self.phase
 
     @property
     def caption(self) -> str:

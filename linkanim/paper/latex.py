@@ -1,13 +1,14 @@
 """A PDF whose words LaTeX sets: the picture without them, and a file beside it that puts them over it.
 
 The file's name ends in `.pdf_tex`, as Inkscape's does, and is read in the same way: \\def\\svgwidth{80mm}
-before \\input{NAME.pdf_tex} says how wide the picture is. The words are in the fonts of the text around them,
-and as large as the picture has them: none comes to lie on another.
+before \\input{NAME.pdf_tex} says how wide the picture is. The words are in the fonts of the text around them
+and of the size of its footnotes, for which a picture of 80 mm has room; symbols are set as mathematics.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+import re
+from collections.abc import Iterable
 
 from linkanim.errors import BadInput
 from linkanim.manifest import Output
@@ -21,18 +22,35 @@ from linkanim.units import shown
 _ANCHORS = {"left": "l", "centre": "c", "right": "r"}
 _READ_OTHERWISE = set("#$%&\\{}~^\"'")
 """In a file's name LaTeX takes these for something else."""
-_HEAD = r"""%% The words of {name}, by linkanim. In LaTeX, with graphicx, xcolor and lmodern:
-%%   \def\svgwidth{{80mm}}  \input{{{name}_tex}}
+_HEAD = r"""%% The words of {name}, by linkanim. In LaTeX, with graphicx, color and lmodern:
+%%   \def\svgwidth{{{wide:g}mm}}  \input{{{name}_tex}}
+%% They are set in \footnotesize, the names of joints in \small, as wide as the picture may be; to change it:
+%%   \def\linkanimsize{{\scriptsize}}\def\linkanimlarger{{\footnotesize}}
 \begingroup
   \providecommand\color[2][]{{}}%
-  \ifx\svgwidth\undefined\setlength{{\unitlength}}{{{width:.2f}bp}}\else\setlength{{\unitlength}}{{\svgwidth}}\fi
+  \providecommand\linkanimsize{{\footnotesize}}%
+  \providecommand\linkanimlarger{{\small}}%
+  \providecommand\linkanimpdf[2]{{\ifdefined\pdfliteral\pdfliteral #1{{#2}}\else
+    \ifdefined\pdfextension\pdfextension literal #1{{#2}}\fi\fi}}%
+  %% a rim about the words, which is drawn and not read
+  \providecommand\linkanimhalo[3]{{\ifdefined\XeTeXversion\else
+    \rlap{{\linkanimpdf{{page}}{{/Span <</ActualText <FEFF>>> BDC}}%
+    \linkanimpdf{{direct}}{{#1 RG 1 j #2 w 1 Tr}}#3\linkanimpdf{{direct}}{{0 Tr}}%
+    \linkanimpdf{{page}}{{EMC}}}}\fi #3}}%
+  \ifx\svgwidth\undefined\setlength{{\unitlength}}{{{wide:.2f}mm}}\else\setlength{{\unitlength}}{{\svgwidth}}\fi
   \global\let\svgwidth\undefined
   \begin{{picture}}(1,{height:.5f})%
     \put(0,0){{\includegraphics[width=\unitlength]{{{name}}}}}%
 """
 _FOOT = "  \\end{picture}%\n\\endgroup\n"
-_ALIKE = 0.82
-"""LaTeX's letters are so much wider than those of the picture's face, and are set so much smaller."""
+_FOOTNOTE = 8.0
+"""The size of \\footnotesize in points, in a document of 10 pt."""
+_LETTERS = 2
+"""A subscript of more is a word."""
+WIDER = 1.3
+"""How many times wider than the face's LaTeX's letters of one size are: words need so much more room."""
+_LARGER = 1.1
+"""Words that are larger than the smallest by more are set in \\small."""
 _POINTS = 0.75
 """A pixel is 3/4 of a PDF's point."""
 
@@ -55,37 +73,104 @@ def labels_of(target: Output) -> Output:
 
 
 def write_for_latex(
-    target: Output, size: tuple[int, int], background: Colour | None, groups: Iterable[Group], *, title: str
+    target: Output,
+    size: tuple[int, int],
+    background: Colour | None,
+    groups: Iterable[Group],
+    *,
+    title: str,
+    wide: float | None = None,
 ) -> None:
-    """Write a picture as PDF without its words, and those beside it; both appear whole, or neither does."""
+    """Write a picture as PDF without its words, and those beside it; both appear whole, or neither does.
+
+    It is so many mm `wide`, where that is said; else a pixel is 3/4 pt.
+    """
     items = list(flat(groups))
     with target.replacing() as part, labels_of(target).replacing() as labels:
         shapes: list[Item | Group] = [item for item in items if isinstance(item, Layer)]
-        part.write_bytes(pdf(size, background, shapes, title=title))
-        labels.write_text(words(size, items, target.path.name), encoding="utf-8")
+        part.write_bytes(pdf(size, background, shapes, title=title, wide=wide))
+        labels.write_text(words(size, items, target.path.name, wide), encoding="utf-8")
 
 
-def words(size: tuple[int, int], items: Iterable[Item], name: str) -> str:
+def words(size: tuple[int, int], items: Iterable[Item], name: str, wide: float | None = None) -> str:
     """Return what puts the captions of a picture of so many pixels over the PDF of that name."""
-    head = _HEAD.format(name=name, width=_POINTS * size[0], height=size[1] / size[0])
-    lines = (line for item in items if isinstance(item, Caption) for line in _put(size, item))
-    return head + "".join(lines) + _FOOT
+    across = wide or _POINTS * size[0] * 25.4 / 72
+    lines = [item for item in items if isinstance(item, Caption) and item.text and item.strength]
+    smallest = min((line.size for line in lines), default=1)
+    head = _HEAD.format(name=name, wide=across, height=size[1] / size[0])
+    return head + "".join(_put(size, line, smallest) for line in lines) + _FOOT
 
 
-def _put(size: tuple[int, int], line: Caption) -> Iterator[str]:
-    """Yield what puts a line of text: its baseline where the picture has it."""
-    from linkanim.explain.formula import plain_latex  # not needed before words are set
-
-    if not line.text or not line.strength:
-        return
+def _put(size: tuple[int, int], line: Caption, smallest: int) -> str:
+    """Return what puts a line of text: its baseline where the picture has it."""
     width, height = size
     x, y = line.at[0] / width, (height - line.at[1] - typesetting(line.size).baseline) / width
-    set_ = "".join(
-        rf"\textsubscript{{{plain_latex(run.text)}}}" if run.lowered else plain_latex(run.text)
-        for run in runs(line.text)
-    )
-    size_ = f"{_ALIKE * typesetting(line.size).em / width:.5f}\\unitlength"
-    text = rf"\fontsize{{{size_}}}{{{size_}}}\selectfont " + (rf"\textbf{{{set_}}}" if line.strong else set_)
-    colour = ",".join(f"{part / 255:.3f}" for part in line.colour)
-    box = rf"\makebox[0pt][{_ANCHORS[line.anchor]}]{{{text}}}"
-    yield f"    \\put({x:.5f},{y:.5f}){{\\color[rgb]{{{colour}}}{box}}}%\n"
+    set_ = latex_of(line.text)
+    text = rf"\textbf{{\boldmath {set_}}}" if line.strong and not line.halo else set_
+    if line.halo:
+        # the rim keeps its width in letters' sizes, whatever size the document gives them
+        rim = 2 * line.halo.width / typesetting(line.size).em * _FOOTNOTE
+        text = rf"\linkanimhalo{{{_shares(line.halo.colour, ' ')}}}{{{rim:.2f}}}{{{text}}}"
+    larger = r"\linkanimlarger" if line.size > _LARGER * smallest else r"\linkanimsize"
+    box = rf"\makebox[0pt][{_ANCHORS[line.anchor]}]{{{larger} {text}}}"
+    return f"    \\put({x:.5f},{y:.5f}){{\\color[rgb]{{{_shares(line.colour, ',')}}}{box}}}%\n"
+
+
+def _shares(colour: Colour, between: str) -> str:
+    return between.join(f"{part / 255:.3f}" for part in colour)
+
+
+# Words as LaTeX sets them: symbols with their subscripts as mathematics, units and numbers upright.
+
+_SYMBOL = re.compile(r"(?<![^\W\d_])([^\W\d_])([′″]*)([ⁿᵗᶜʳ]*)$")
+"""A letter that stands alone at the end of a run, and what is raised at it: it takes the subscript."""
+_ALONE = re.compile(
+    r"(?<!\d )(?<![\w(/·])(?!^A [a-z])(?:([A-Z])|^([^\W\d_])(?=$| =|, [^\W\d_]$))([′″]*)([ⁿᵗᶜʳ]*)(?![\w)])"
+)
+"""A capital that is a name, or a letter that is all, or that an equation is of; no unit."""
+_RAISED = {"ⁿ": "n", "ᵗ": "t", "ᶜ": "c", "ʳ": "r"}
+
+
+def latex_of(text: str) -> str:
+    """Return a line as LaTeX sets it: r₃ and v_{BA} as mathematics, words and units upright."""
+    from linkanim.explain.formula import plain_latex  # not needed before words are set
+
+    parts, found = list(runs(text)), list[str]()
+    for n, run in enumerate(parts):
+        before = parts[n - 1].text if n and not parts[n - 1].lowered else ""
+        if not run.lowered:
+            base = _SYMBOL.search(run.text) if n + 1 < len(parts) else None
+            found.append(_words(run.text[: base.start()] if base else run.text, first=not n))
+        elif base := _SYMBOL.search(before):
+            found.append(_symbol(base[1], base[2], base[3], run.text))
+        else:
+            found.append(rf"\textsubscript{{{plain_latex(run.text)}}}")
+    return "".join(found)
+
+
+def _words(text: str, *, first: bool) -> str:
+    """Return words, and names that are one capital among them as mathematics; those of a line's beginning."""
+    from linkanim.explain.formula import plain_latex
+
+    found, done = list[str](), 0
+    for alone in _ALONE.finditer(text):
+        if alone[1] or first:
+            letter = alone[1] or alone[2]
+            found += [plain_latex(text[done : alone.start()]), _symbol(letter, alone[3], alone[4], "")]
+            done = alone.end()
+    return "".join([*found, plain_latex(text[done:])])
+
+
+def _symbol(letter: str, primes: str, raised: str, index: str) -> str:
+    """Return a letter with its primes, what is raised at it and its subscript, as mathematics."""
+    from linkanim.explain.formula import plain_latex
+
+    high = primes.replace("″", "′′").replace("′", "'")
+    if raised:
+        high = f"^{{{high}{''.join(_RAISED[char] for char in raised)}}}"
+    base, low = plain_latex(letter).strip("$") + high, plain_latex(index).replace("$", "")
+    if not index:
+        return f"${base}$"
+    # the subscript of a joint is its name, that of a link may be a word
+    is_word = len(re.sub(r"[\d′]", "", index)) > _LETTERS or (len(index) > 1 and index.islower())
+    return rf"${base}_{{\mathrm{{{low}}}}}$" if is_word else f"${base}_{{{low}}}$"

@@ -5,7 +5,7 @@ A pixel is 3/4 pt, as in a browser. Needs fpdf2, which the extra `pdf` installs.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from datetime import UTC, datetime
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
@@ -13,14 +13,16 @@ from unicodedata import normalize
 
 from linkanim.errors import BadInput
 from linkanim.paper.svg import flat, hexadecimal
-from linkanim.picture.items import Caption, Group, Item
+from linkanim.picture.items import Caption, Group, Halo, Item
 from linkanim.picture.raster import Colour, Layer
 from linkanim.picture.text import REGULAR, SEMIBOLD, file_of, runs, typesetting
 
 if TYPE_CHECKING:
     from fpdf import FPDF
+    from fpdf.drawing import PaintedPath
 
 _POINTS = 0.75
+_POINTS_A_MM = 72 / 25.4
 _FACE = "face"
 _STYLES = {"": REGULAR, "B": SEMIBOLD}
 _THEN = datetime(2000, 1, 1, tzinfo=UTC)
@@ -43,12 +45,14 @@ def pdf(
     *,
     title: str,
     words: str = "",
+    wide: float | None = None,
 ) -> bytes:
     """Return a picture of so many pixels as a PDF document; None leaves the background open.
 
+    Its page is so many mm `wide`, where that is said.
     It has a language, a title and, as its subject, the words that say what is seen in it.
     """
-    return pages(size, background, [items], title=title, words=words)
+    return pages(size, background, [items], title=title, words=words, wide=wide)
 
 
 def pages(
@@ -58,9 +62,11 @@ def pages(
     *,
     title: str,
     words: str = "",
+    wide: float | None = None,
 ) -> bytes:
     """Return pictures of one size, each a page of a PDF document, as `pdf` does one."""
-    document = _document(size, title, words)
+    point = wide * _POINTS_A_MM / size[0] if wide else _POINTS
+    document = _document(size, title, words, point)
     for items in pictures:
         document.add_page()
         if background is not None:
@@ -70,15 +76,16 @@ def pages(
             if isinstance(item, Layer):
                 _fill(document, item)
             else:
-                _write(document, item)
+                _write(document, item, point)
     return bytes(document.output())
 
 
-def _document(size: tuple[float, float], title: str, words: str) -> FPDF:
+def _document(size: tuple[float, float], title: str, words: str, point: float) -> FPDF:
+    """Return an empty document; a pixel is so many points."""
     from fpdf import FPDF
     from fpdf.prefs import ViewerPreferences
 
-    page = FPDF(unit=_POINTS, format=size)
+    page = FPDF(unit=point, format=size)
     page.set_auto_page_break(False)
     page.set_creation_date(_THEN)
     page.set_title(title)
@@ -113,26 +120,72 @@ def _fill(page: FPDF, layer: Layer) -> None:
         drawn.add_item(path, False)  # no copy, which would take most of the time
 
 
-def _write(page: FPDF, line: Caption) -> None:
-    """Write a line of text, its subscripts smaller and lower, in its halo."""
+def _write(page: FPDF, line: Caption, point: float) -> None:
+    """Write a line of text, its subscripts smaller and lower, in its halo; a pixel is so many points.
+
+    The halo is a line along the letters, and no text: who copies the words has each once.
+    """
     how, style = typesetting(line.size), "B" if line.strong else ""
     set_ = [
         (_known(page, run.text, style), how.small if run.lowered else how.em, run.lowered * how.lower)
         for run in runs(line.text)
     ]
-    widths = [_width(page, text, style, em) for text, em, _ in set_]
+    widths = [_width(page, text, style, em * point) for text, em, _ in set_]
     x = line.at[0] - {"left": 0.0, "centre": 0.5, "right": 1.0}[line.anchor] * sum(widths)
     page.set_text_color(*line.colour)
-    for (text, em, lower), width in zip(set_, widths, strict=True):
-        page.set_font(_FACE, style, em * _POINTS)
-        place = x, line.at[1] + how.baseline + lower
-        if line.halo:
-            # what fpdf2 writes of a text's outline are points, whatever the page's unit
-            wide = 2 * line.halo.width * _POINTS
-            with page.local_context(text_mode="STROKE", line_width=wide, draw_color=line.halo.colour):
-                page.text(*place, text)
+    starts = (x + sum(widths[:n]) for n in range(len(widths)))
+    placed = [
+        (text, em, (at, line.at[1] + how.baseline + lower))
+        for at, (text, em, lower) in zip(starts, set_, strict=True)
+    ]
+    if line.halo:
+        for text, em, place in placed:
+            _outline(page, text, style, em, place, line.halo)
+    for text, em, place in placed:
+        page.set_font(_FACE, style, em * point)
         page.text(*place, text)
-        x += width
+
+
+def _outline(page: FPDF, text: str, style: str, em: float, place: tuple[float, float], halo: Halo) -> None:
+    """Draw a line along the edges of letters, which lie on the middle of it."""
+    from fontTools.pens.recordingPen import DecomposingRecordingPen
+    from fontTools.pens.transformPen import TransformPen
+    from fpdf.drawing import PaintedPath
+
+    font: Any = page.fonts[_FACE + style]
+    glyphs, names = font.ttfont.getGlyphSet(), font.ttfont.getBestCmap()
+    scale, x = em / font.ttfont["head"].unitsPerEm, place[0]
+    path, pen = PaintedPath(), DecomposingRecordingPen(glyphs)
+    for char in text:
+        glyph = glyphs[names[ord(char)]]
+        glyph.draw(TransformPen(pen, (scale, 0, 0, -scale, x, place[1])))
+        x += scale * glyph.width
+    for step, points in pen.value:
+        _step(path, step, points)
+    path.style.fill_color = None
+    path.style.stroke_color = hexadecimal(halo.colour)
+    path.style.stroke_width = 2 * halo.width
+    path.style.stroke_join_style = "round"
+    with page.drawing_context() as drawn:
+        drawn.add_item(path, False)
+
+
+def _step(path: PaintedPath, step: str, points: Sequence[tuple[float, float]]) -> None:
+    """Add a step of a glyph's outline to a path: those of its curves that are of the second order."""
+    from fontTools.pens.basePen import decomposeQuadraticSegment
+
+    match step:
+        case "moveTo":
+            path.move_to(*points[0])
+        case "lineTo":
+            path.line_to(*points[0])
+        case "qCurveTo":
+            for bend, to in decomposeQuadraticSegment(points):
+                path.quadratic_curve_to(*bend, *to)
+        case "curveTo":
+            path.curve_to(*(part for at in points for part in at))
+        case _:
+            path.close()
 
 
 def _known(page: FPDF, text: str, style: str) -> str:
@@ -143,6 +196,6 @@ def _known(page: FPDF, text: str, style: str) -> str:
     return "".join(char for part in alike for char in part if ord(char) in cmap)
 
 
-def _width(page: FPDF, text: str, style: str, em: float) -> float:
-    page.set_font(_FACE, style, em * _POINTS)
+def _width(page: FPDF, text: str, style: str, size: float) -> float:
+    page.set_font(_FACE, style, size)
     return float(page.get_string_width(text))

@@ -28,9 +28,11 @@ def svg(
     *,
     title: str,
     words: str = "",
+    wide: float | None = None,
 ) -> str:
     """Return a picture of so many pixels as an SVG document; None leaves the background open.
 
+    It is so many mm `wide`, where that is said.
     Its title, and the words that say what is seen in it, are read aloud. A group is a `<g>` whose id is its
     name, numbered where a group before has it.
     """
@@ -44,7 +46,10 @@ def svg(
             body += drawn([item])
         elif inside := drawn(flat([item])):
             body += [f"<g id={quoteattr(_unused(item.name, ids))}>", *inside, "</g>"]
-    head = f'width="{width}" height="{height}" viewBox="0 0 {width} {height}" font-family={quoteattr(FACES)}'
+    across, down = (f"{width}", f"{height}")
+    if wide:
+        across, down = f"{wide:g}mm", f"{wide * height / width:.2f}mm"
+    head = f'width="{across}" height="{down}" viewBox="0 0 {width} {height}" font-family={quoteattr(FACES)}'
     lines = "\n".join(body)
     return f'<svg xmlns="http://www.w3.org/2000/svg" {head}>\n{lines}\n</svg>\n'
 

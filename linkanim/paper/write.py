@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import struct
+import zlib
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
@@ -52,9 +54,10 @@ class Tabled(Written, Protocol):
         """Return the table as CSV."""
 
 
-def write(shown: Written, target: Output, *, latex: bool = False) -> None:
+def write(shown: Written, target: Output, *, latex: bool = False, wide: float | None = None) -> None:
     """Write a figure or a chart as SVG, PNG or PDF, a chart also as CSV; a file appears whole or not at all.
 
+    It is so many mm `wide` on paper, where that is said; else a pixel is 3/4 pt.
     The words of a PDF are left to `latex` in a file beside it. `WorkFailed` where disk or folder refuse;
     `BadInput` for a PDF without what writes it.
     """
@@ -64,20 +67,33 @@ def write(shown: Written, target: Output, *, latex: bool = False) -> None:
     if latex:
         from linkanim.paper.latex import write_for_latex
 
-        write_for_latex(target, shown.size, shown.background, shown.groups(), title=shown.title)
+        write_for_latex(target, shown.size, shown.background, shown.groups(), title=shown.title, wide=wide)
         return
     with target.replacing() as part:
-        part.write_bytes(data(shown, suffix))
+        part.write_bytes(data(shown, suffix, wide))
 
 
-def data(shown: Written, suffix: str) -> bytes:
-    """Return a figure or a chart as a kind of file."""
+def data(shown: Written, suffix: str, wide: float | None = None) -> bytes:
+    """Return a figure or a chart as a kind of file, so many mm `wide` on paper."""
+    picture = shown.size, shown.background, shown.groups()
     match suffix:
         case ".csv" if isinstance(shown, Tabled):
             return shown.csv().encode()
         case ".png":
-            return png_bytes(shown.surface())
+            drawn = png_bytes(shown.surface())
+            return _as_wide(drawn, shown.size[0], wide) if wide else drawn
         case ".pdf":
-            return pdf(shown.size, shown.background, shown.groups(), title=shown.title, words=shown.words)
-    drawn = svg(shown.size, shown.background, shown.groups(), title=shown.title, words=shown.words)
-    return drawn.encode()
+            return pdf(*picture, title=shown.title, words=shown.words, wide=wide)
+    return svg(*picture, title=shown.title, words=shown.words, wide=wide).encode()
+
+
+_HEAD_OF_PNG = 33
+"""A PNG's signature and its first chunk, in bytes."""
+
+
+def _as_wide(png: bytes, pixels: int, wide: float) -> bytes:
+    """Return a PNG that says how many of its pixels lie in a metre of paper."""
+    each = round(1000 * pixels / wide)
+    chunk = b"pHYs" + struct.pack(">IIB", each, each, 1)
+    framed = struct.pack(">I", len(chunk) - 4) + chunk + struct.pack(">I", zlib.crc32(chunk))
+    return png[:_HEAD_OF_PNG] + framed + png[_HEAD_OF_PNG:]

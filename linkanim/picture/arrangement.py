@@ -477,6 +477,7 @@ class FitRequest(NamedTuple):
     """Whether the bar of commands has room at the foot."""
     held: tuple[complex, ...] = ()
     """Further places, in the scene's unit, that the view has to hold."""
+    type_scale: float = 1.0
 
 
 def request_of(
@@ -493,7 +494,8 @@ def request_of(
     keys, polygons = key_lines(look), look.polygons_shown
     captioned = look.caption and not listed
     request = FitRequest(size, charts, keys, look.hud, listed, polygons, row, caption=captioned)
-    return request._replace(bar=bar, still=still, lined=still and (look.names > 1 or bool(look.vectors)))
+    lined = still and (look.names > 1 or bool(look.vectors))
+    return request._replace(bar=bar, still=still, lined=lined, type_scale=look.type_scale)
 
 
 @frozen
@@ -607,6 +609,7 @@ def _with_chart(subject: Subject, request: FitRequest, type_: Type, *, beside: b
         polygons=request.polygons,
         row=request.row,
         bar=request.bar,
+        type_scale=request.type_scale,
     )
     head = 1.4 * parts.text_size if request.hud else 0.0
     parts = with_table(parts, *request.table, head) if request.table[0] else parts

@@ -556,7 +556,7 @@ def _reread(labels: Iterable[Label], values: Mapping[str, str]) -> tuple[Label, 
 
 def _joint_size(layout: Layout) -> int:
     """Return the height of a joint's name."""
-    return max(round(20 * layout.unit), 12)
+    return max(round(20 * layout.unit * layout.type_scale), 12)
 
 
 def _halo(setting: DrawSetting) -> Halo:

@@ -10,6 +10,8 @@ from linkanim.frozen import frozen
 from linkanim.picture.view import Rect
 
 _DRAWN_FOR = (1280, 720)
+TEXT, SMALL = 21.0, 17.0
+"""The heights of text and of small text, in units."""
 _EDGE = 10.8
 """From the window's edge to the edit list, in units."""
 _SHARES_BELOW, _SHARE_BESIDE = (0.27, 0.41, 0.52), 0.45
@@ -83,6 +85,8 @@ class Layout:
     """Where it may stand for a while, on nothing that is drawn; None where there is no such place."""
     words: tuple[Rect, ...] = ()
     """What of the HUD and the key holds words: names stay off these."""
+    type_scale: float = 1.0
+    """How many times larger words are than in a window of that size."""
 
     @cached_property
     def above_bar(self) -> float:
@@ -104,12 +108,12 @@ class Layout:
     @property
     def text_size(self) -> int:
         """The height of text that must read from the back row."""
-        return max(round(21 * self.unit), 13)
+        return max(round(TEXT * self.unit * self.type_scale), 13)
 
     @property
     def small_size(self) -> int:
         """The height of tick labels and hints."""
-        return max(round(17 * self.unit), 11)
+        return max(round(SMALL * self.unit * self.type_scale), 11)
 
     @property
     def button(self) -> float:
@@ -132,6 +136,7 @@ def layout(
     polygons: int = 0,
     row: bool = False,
     bar: bool = False,
+    type_scale: float = 1.0,
 ) -> Layout:
     """Divide a window: so many charts along the bottom, or `beside` the scene; the stage is what is left.
 
@@ -139,8 +144,12 @@ def layout(
     the right or below, for 2 more of it, and a `row` for small pictures at the foot, with the bar of
     commands below it. The `bar` has room at the foot without a row, too, where that takes little of it. The
     HUD has no place yet: that depends on the scene.
+    Words are `type_scale` times as large as usual.
     """
-    parts = _charted(size, chart=chart, beside=beside, listed=listed, row=row, bar=bar)
+    unit = min(max(size) / _DRAWN_FOR[0], min(size) / _DRAWN_FOR[1])
+    whole = Rect(0, 0, *size)
+    empty = Layout(size, unit, whole, None, None, None, whole, whole, type_scale=type_scale)
+    parts = _charted(empty, chart=chart, beside=beside, listed=listed, row=row, bar=bar)
     if not polygons:
         return parts
     stage, edge, share = parts.stage, 20 * parts.unit, _SHARES_OF_POLYGONS[polygons - 1]
@@ -192,13 +201,9 @@ def with_caption(parts: Layout, lines: int) -> Layout:
     return replace(parts, caption=place, stage=stage._replace(height=place.y - stage.y))
 
 
-def _charted(
-    size: tuple[int, int], *, chart: int, beside: bool, listed: bool, row: bool, bar: bool
-) -> Layout:
-    """Return the layout with its chart and without polygons."""
-    unit = min(max(size) / _DRAWN_FOR[0], min(size) / _DRAWN_FOR[1])
-    whole, edge = Rect(0, 0, *size), 20 * unit
-    empty = Layout(size, unit, whole, None, None, None, whole, whole)
+def _charted(empty: Layout, *, chart: int, beside: bool, listed: bool, row: bool, bar: bool) -> Layout:
+    """Return an empty layout with its chart and without polygons."""
+    unit, whole, edge = empty.unit, empty.stage, 20 * empty.unit
     empty = replace(empty, lists=_lists(empty))
     room = _beside(empty.lists, whole) if listed else whole
     deep = min(_BAR * max(_BUTTON * unit, _LEAST_BUTTON), _SHARE_OF_BAR * room.height)

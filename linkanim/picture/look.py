@@ -80,6 +80,7 @@ class Look:
     polygons beside the linkage; `large_polygon` 1 draws the first of them alone, 2 the second. `chain`
     colours the links in the order in which they are solved. `centres` is 0 for none, 1 for the instant
     centres with Kennedy's lines, 2 for the coupler's centrodes as well.
+    Words are `type_scale` times as large as usual.
     """
 
     trace: bool = _toggle(
@@ -216,6 +217,7 @@ class Look:
     dead_centres: bool = True
     zoom: float = 1.0
     pan: tuple[float, float] = (0.0, 0.0)
+    type_scale: float = 1.0
 
     @property
     def framed(self) -> bool:

@@ -38,7 +38,7 @@ from linkanim.picture.quantities import chart_tokens
 from linkanim.picture.shapes import Part
 from linkanim.picture.slider import slider
 from linkanim.picture.text import Type
-from linkanim.picture.theme import Theme, theme_of
+from linkanim.picture.theme import Theme, on_paper, theme_of
 from linkanim.picture.view import Box, Rect, View, moved
 from linkanim.scenes.editing import ghost_of, in_unit
 from linkanim.scenes.scene import Scene
@@ -118,7 +118,8 @@ class Picture:
         self.scene, self.size, self.look = in_unit(scene, look.unit), size, look
         self._goal = self.scene.towards or self.scene
         self.type: Type = before.type if before else Type()
-        self.theme: Theme = theme_of(look.theme)
+        theme = theme_of(look.theme)
+        self.theme: Theme = theme if look.background else on_paper(theme)
         self._beside = self._other_closure(before) if look.ghost else None
         self._apart, self._moment = apart, moment
         follows = held or self.scene.towards is not None

@@ -29,8 +29,10 @@ _HIDDEN = 0.02
 
 
 @lru_cache(maxsize=16)
-def still_phase(scene: Scene, size: tuple[int, int]) -> float:
+def still_phase(scene: Scene, size: tuple[int, int], type_scale: float = 1.0) -> float:
     """Return the phase, within one turn, of the pose that reads best in a picture of so many pixels.
+
+    Its words are `type_scale` times as large as usual.
 
     That is the one in which most names and dimensions stand at what they name; of several such poses the one
     whose input is nearest to 60°, or to the middle of a range without that angle. A pose in which joints hide
@@ -39,7 +41,8 @@ def still_phase(scene: Scene, size: tuple[int, int]) -> float:
     shown, tried = figure(scene), _tried(figure(scene))
     if len(scene.linkage.joints) > _MOST_NAMED:
         return tried[0]
-    picture = Picture(scene, size, Look(names=2), later=Deferral(names="in steps"), moment=tried[0])
+    look = Look(names=2, type_scale=type_scale)
+    picture = Picture(scene, size, look, later=Deferral(names="in steps"), moment=tried[0])
     left = dict[float, tuple[int, int]]()
     # the poses at the usual input are looked at closely, then all, then the best of these closely
     for more, poses in ((True, tried[:_USUAL_POSES]), (False, tried[_USUAL_POSES:]), (True, None)):

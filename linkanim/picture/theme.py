@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from linkanim.frozen import frozen
 from linkanim.picture.raster import Colour
 
@@ -85,6 +87,15 @@ DARK = Theme(
 )
 
 _THEMES = {"light": LIGHT, "dark": DARK}
+
+
+_PAPER = (255, 255, 255)
+"""What a light figure without a ground of its own lies on."""
+
+
+def on_paper(theme: Theme) -> Theme:
+    """Return the theme of what has no ground of its own: the light one's rims are as white as paper."""
+    return replace(theme, background=_PAPER, pin=_PAPER) if theme == LIGHT else theme
 
 
 def theme_of(name: str) -> Theme:

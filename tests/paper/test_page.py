@@ -220,7 +220,7 @@ def test_the_svg_is_the_picture_of_the_png() -> None:
     page = _page("press", "5.travel_velocity", "5.travel_acceleration", speeds=(5.0, 20.0))
     shapes = [item for item in page.items() if isinstance(item, Layer)]
     ours = offscreen(SIZE)
-    ours.fill(page.background)
+    ours.fill(page.pen.theme.background)
     printed(ours, [Group("shapes", shapes)], page.pen.type)
     # drawn by SDL_image's own SVG reader, which knows paths and no text
     theirs = pygame.image.load(io.BytesIO(svg(SIZE, page.background, shapes, title="t").encode()), "t.svg")

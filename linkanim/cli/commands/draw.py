@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import re
 from argparse import Namespace
+from dataclasses import replace
 from math import prod
 
 from linkanim.bounds import MOST_DRAWN, MOST_DRAWN_PIXELS
 from linkanim.cli.alternative import alternative
 from linkanim.cli.commands.solve import phase_at
-from linkanim.cli.picture_options import look_of, scene_size_target
+from linkanim.cli.picture_options import Sheet, look_of, scene_sheet_target
 from linkanim.errors import BadInput
 from linkanim.manifest import Output
 from linkanim.paper.figure import Figured
@@ -19,8 +20,10 @@ from linkanim.scenes.scene import Scene
 
 def run(options: Namespace) -> None:
     """Write the figure that was asked for, and print its path; of a pose of our choice where the input is."""
-    scene, size, target = scene_size_target(options, OF_A_FIGURE, ".svg")
+    scene, sheet, target = scene_sheet_target(options, OF_A_FIGURE, ".svg")
     look, told = look_of(scene, options), alternative(options)
+    look = replace(look, type_scale=sheet.type_scale, background=look.background and sheet.ground)
+    size = sheet.size
     is_raster = target.path.suffix.lower() == ".png"
     _refuse_many(scene, options.poses or 0, size if is_raster else (0, 0))
     if options.construction is not None:
@@ -28,23 +31,25 @@ def run(options: Namespace) -> None:
 
         kind, steps = options.construction
         phase = options.phase if options.angle is None else phase_at(scene, options.angle)
-        page = ConstructionPage(scene, size, look.theme, steps, kind, phase)
-        _write(page, target, latex=bool(options.text))
+        page = ConstructionPage(
+            scene, size, look.theme, steps, kind, phase, sheet.type_scale, ground=sheet.ground
+        )
+        _write(page, target, sheet, latex=bool(options.text))
         told(page.title)
         return
     phase = options.phase if options.angle is None else phase_at(scene, options.angle)
     phase = None if phase is None else float(phase)
     shown = Figured(scene, size, look, phase, options.poses or 0, options.speed)
-    _write(shown, target, latex=bool(options.text))
+    _write(shown, target, sheet, latex=bool(options.text))
     told(shown.words)
     if shown.phase is None:
         where = re.sub(r"_\{([^{}]*)\}", r" of \1", shown.caption)  # a terminal has no subscripts of words
         print(f"{where}: the pose that reads best; --angle or --phase for another")
 
 
-def _write(shown: Written, target: Output, *, latex: bool) -> None:
+def _write(shown: Written, target: Output, sheet: Sheet, *, latex: bool) -> None:
     """Write a picture, and print the path of each file that came of it."""
-    write(shown, target, latex=latex)
+    write(shown, target, latex=latex, wide=sheet.wide)
     print(target.path)
     if latex:
         from linkanim.paper.latex import labels_of
