@@ -71,7 +71,7 @@ THIRD_PARTIES = {
     "build": {"numpy"},
     "picture": {"numpy", "pygame", "PIL"},
     "explain": {"numpy"},
-    "paper": {"numpy", "pygame", "fpdf"},
+    "paper": {"numpy", "pygame", "fpdf", "fontTools"},  # fpdf2 brings fontTools
     "share": {"numpy"},
     "player": {"numpy", "pygame"},
     "play": {"numpy"},

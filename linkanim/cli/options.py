@@ -19,8 +19,8 @@ from linkanim import units
 from linkanim.bounds import LARGEST_SIDE, MOST_LISTED, MOST_POSES
 from linkanim.errors import BadInput
 from linkanim.frozen import NamedTuple, frozen
-from linkanim.paper.purpose import PURPOSES
 from linkanim.picture.look import TOGGLES, ConstructionKind, Look, Option, Toggle
+from linkanim.picture.purpose import PURPOSES
 from linkanim.units import shown
 from linkanim.workshop.media import PAGES, WAYS
 

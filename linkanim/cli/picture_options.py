@@ -11,9 +11,9 @@ from linkanim.errors import BadInput
 from linkanim.frozen import NamedTuple
 from linkanim.manifest import Output, checked_output
 from linkanim.mechanics.measures import coupler_body
-from linkanim.paper.purpose import PURPOSES
 from linkanim.picture.layout import SMALL, layout
 from linkanim.picture.look import TOGGLES, Look
+from linkanim.picture.purpose import PURPOSES
 from linkanim.recorder.plan import refuse_size
 from linkanim.scenes import load
 from linkanim.scenes.editing import in_unit, other_closure
@@ -22,7 +22,7 @@ from linkanim.scenes.scene import Scene
 _SIZE = (1280, 720)
 
 
-class Sheet(NamedTuple):
+class Canvas(NamedTuple):
     """What a picture is drawn on: so many pixels, so many mm wide on paper, with a ground or none.
 
     Without a width a pixel is 3/4 pt. Words are `type_scale` times as large as usual.
@@ -34,11 +34,11 @@ class Sheet(NamedTuple):
     ground: bool = True
 
 
-def _sheet(options: Namespace) -> Sheet:
-    """Return the sheet for the purpose that the options name; of words that LaTeX sets that is a book."""
+def _canvas(options: Namespace) -> Canvas:
+    """Return the canvas for the purpose that the options name; of words that LaTeX sets that is a book."""
     name = options.purpose or ("book" if options.text else None)
     if name is None:
-        return Sheet(options.size or _SIZE)
+        return Canvas(options.size or _SIZE)
     purpose = PURPOSES[name]
     size = purpose.size(options.size)
     scale = purpose.type_scale(SMALL * layout(size).unit)
@@ -46,12 +46,12 @@ def _sheet(options: Namespace) -> Sheet:
         from linkanim.paper.latex import WIDER
 
         scale *= WIDER
-    return Sheet(size, purpose.wide, scale, purpose.ground)
+    return Canvas(size, purpose.wide, scale, purpose.ground)
 
 
-def scene_sheet_target(
+def scene_canvas_target(
     options: Namespace, suffixes: tuple[str, ...], usual: str
-) -> tuple[Scene, Sheet, Output]:
+) -> tuple[Scene, Canvas, Output]:
     """Return the scene, what it is drawn on, and the file, by default named after the scene.
 
     `BadInput` for a size or a file that cannot be.
@@ -63,11 +63,11 @@ def scene_sheet_target(
         from linkanim.paper.latex import refuse_latex
 
         refuse_latex(target)
-    sheet = _sheet(options)
-    refuse_size(sheet.size, painted=target.path.suffix.lower() == ".png")
+    canvas = _canvas(options)
+    refuse_size(canvas.size, painted=target.path.suffix.lower() == ".png")
     scene = load(options.scene)
     refuse_photograph(scene, target.path)
-    return in_unit(scene, getattr(options, "unit", None)), sheet, target
+    return in_unit(scene, getattr(options, "unit", None)), canvas, target
 
 
 def refuse_photograph(scene: Scene, target: Path) -> None:

@@ -9,6 +9,7 @@ From the ground up; a module imports from those before it only:
     view          the only conversion between the scene's lengths and pixels
     items         what pictures are made of: shapes and captions, in groups
     layout        where things stand in the window, and how large they are for its size
+    purpose       sizes for a book's column, a page, a slide
     look          what is shown of a scene, and how users change it
     figure        what of a linkage is drawn
     fittings      sliders and guides, springs, dampers, the ground

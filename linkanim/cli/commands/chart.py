@@ -6,7 +6,7 @@ import sys
 from argparse import Namespace
 
 from linkanim.cli.alternative import alternative
-from linkanim.cli.picture_options import scene_sheet_target
+from linkanim.cli.picture_options import scene_canvas_target
 from linkanim.errors import BadInput
 from linkanim.paper.chart import Page
 from linkanim.paper.curves import Curves, MeasuredCurve, Pace, beside, curves_of, read_table, usual_over
@@ -30,14 +30,14 @@ def run(options: Namespace) -> None:
     if options.quantity.strip() == _LIST:
         print(_listed(in_unit(load(options.scene), options.unit)))
         return
-    scene, sheet, target = scene_sheet_target(options, OF_A_CHART, ".png")
+    scene, canvas, target = scene_canvas_target(options, OF_A_CHART, ".png")
     tokens = tuple(part.strip() for part in options.quantity.split(",") if part.strip())
     curves = curves_of(scene, tokens, paces(scene, options), options.over)
     measured = _measured(curves, options)
-    drawn_for = {"type_scale": sheet.type_scale, "ground": sheet.ground}
-    page = Page(curves, sheet.size, options.theme, measured, **drawn_for)
+    drawn_for = {"type_scale": canvas.type_scale, "ground": canvas.ground}
+    page = Page(curves, canvas.size, options.theme, measured, **drawn_for)
     told = alternative(options)
-    write(page, target, latex=bool(options.text), wide=sheet.wide)
+    write(page, target, latex=bool(options.text), wide=canvas.wide)
     if measured:
         print(_difference(curves, measured), file=sys.stderr)
     print(target.path)

@@ -10,7 +10,7 @@ from math import prod
 from linkanim.bounds import MOST_DRAWN, MOST_DRAWN_PIXELS
 from linkanim.cli.alternative import alternative
 from linkanim.cli.commands.solve import phase_at
-from linkanim.cli.picture_options import Sheet, look_of, scene_sheet_target
+from linkanim.cli.picture_options import Canvas, look_of, scene_canvas_target
 from linkanim.errors import BadInput
 from linkanim.manifest import Output
 from linkanim.paper.figure import Figured
@@ -20,10 +20,10 @@ from linkanim.scenes.scene import Scene
 
 def run(options: Namespace) -> None:
     """Write the figure that was asked for, and print its path; of a pose of our choice where the input is."""
-    scene, sheet, target = scene_sheet_target(options, OF_A_FIGURE, ".svg")
+    scene, canvas, target = scene_canvas_target(options, OF_A_FIGURE, ".svg")
     look, told = look_of(scene, options), alternative(options)
-    look = replace(look, type_scale=sheet.type_scale, background=look.background and sheet.ground)
-    size = sheet.size
+    look = replace(look, type_scale=canvas.type_scale, background=look.background and canvas.ground)
+    size = canvas.size
     is_raster = target.path.suffix.lower() == ".png"
     _refuse_many(scene, options.poses or 0, size if is_raster else (0, 0))
     if options.construction is not None:
@@ -32,24 +32,24 @@ def run(options: Namespace) -> None:
         kind, steps = options.construction
         phase = options.phase if options.angle is None else phase_at(scene, options.angle)
         page = ConstructionPage(
-            scene, size, look.theme, steps, kind, phase, sheet.type_scale, ground=sheet.ground
+            scene, size, look.theme, steps, kind, phase, canvas.type_scale, ground=canvas.ground
         )
-        _write(page, target, sheet, latex=bool(options.text))
+        _write(page, target, canvas, latex=bool(options.text))
         told(page.title)
         return
     phase = options.phase if options.angle is None else phase_at(scene, options.angle)
     phase = None if phase is None else float(phase)
     shown = Figured(scene, size, look, phase, options.poses or 0, options.speed)
-    _write(shown, target, sheet, latex=bool(options.text))
+    _write(shown, target, canvas, latex=bool(options.text))
     told(shown.words)
     if shown.phase is None:
         where = re.sub(r"_\{([^{}]*)\}", r" of \1", shown.caption)  # a terminal has no subscripts of words
         print(f"{where}: the pose that reads best; --angle or --phase for another")
 
 
-def _write(shown: Written, target: Output, sheet: Sheet, *, latex: bool) -> None:
+def _write(shown: Written, target: Output, canvas: Canvas, *, latex: bool) -> None:
     """Write a picture, and print the path of each file that came of it."""
-    write(shown, target, latex=latex, wide=sheet.wide)
+    write(shown, target, latex=latex, wide=canvas.wide)
     print(target.path)
     if latex:
         from linkanim.paper.latex import labels_of
