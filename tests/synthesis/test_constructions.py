@@ -120,10 +120,9 @@ def test_freudenstein_s_numbers_lead_to_the_lengths() -> None:
 
 
 # Precision points that lie so close that their numbers find no room at them.
-@pytest.mark.parametrize("asked", [("log10(x)", 1, 10, "four-bar"), ("1/x", 1, 2, "slider-crank")])
-def test_numbers_of_close_precision_points_stand_free(asked: tuple[str, float, float, str]) -> None:
-    *given, kind = asked
-    page = ConstructionPage(linkanim.function(*given, kind=kind, count=1)[0].scene, (960, 640))
+@pytest.mark.parametrize(("text", "last", "kind"), [("log10(x)", 10, "four-bar"), ("1/x", 2, "slider-crank")])
+def test_numbers_of_close_precision_points_stand_free(text: str, last: float, kind: str) -> None:
+    page = ConstructionPage(linkanim.function(text, 1, last, kind=kind, count=1)[0].scene, (960, 640))
     words = [item for item in page.items() if isinstance(item, Caption)]
     boxes = boxes_of(page, words)
     assert len(boxes) > 10
