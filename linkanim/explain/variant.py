@@ -4,15 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
-from math import floor, log10
+from math import degrees, floor, log10, radians
 from random import Random
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from linkanim.errors import LinkanimError
 from linkanim.scenes.editing import dimensions, with_dimensions
 from linkanim.scenes.form import LENGTHS, Key
-from linkanim.scenes.scene import Scene
+from linkanim.scenes.scene import PosesPurpose, Purpose, Scene, TimeRatioPurpose
+from linkanim.synthesis.constructions import is_synthesised
 
 _TRIES, _FEW = 60, 20
 """How often lengths are drawn for a scene of few joints; those of one of more hardly ever keep its motion."""
@@ -21,6 +24,9 @@ _PLACES = 48
 """Of a path that are looked at."""
 _NOTHING = 1e-9
 """Of the linkage's size, or of a radian: less is rounding."""
+_TRIES_ANEW, _FREE = 12, 4
+_NEAR, _TURN = 0.15, 12.0
+"""How far other poses are from those of before, in their size, and in degrees."""
 _SIMILAR = (0.5, 0.6, 0.8, 1.2, 1.5, 2.0)
 
 
@@ -31,8 +37,16 @@ def variant(scene: Scene, seed: int, fits: Callable[[Scene], bool]) -> Scene:
     joints run along straight lines or circles and which bodies never turn; it `fits` what else is wanted. Its
     title says that the lengths are others. Lengths are round, and those that are equal stay so. Where no such
     lengths are found all are larger or smaller alike.
+
+    Of a scene that was made for poses or a time ratio these are others, in round numbers, and the linkage is
+    the one that is made for them.
     """
-    random, kind, shapes = Random(seed), _kind(scene), _shapes(scene)
+    random = Random(seed)
+    if scene.purpose is not None and is_synthesised(scene):
+        for made in _made_anew(scene, scene.purpose, random):
+            if fits(made):
+                return made
+    kind, shapes = _kind(scene), _shapes(scene)
     for values in _choices(scene, random):
         try:
             found = with_dimensions(scene, values)
@@ -41,6 +55,56 @@ def variant(scene: Scene, seed: int, fits: Callable[[Scene], bool]) -> Scene:
         except LinkanimError:
             continue
     return scene
+
+
+def _made_anew(scene: Scene, purpose: Purpose, random: Random) -> Iterator[Scene]:
+    """Yield linkages for other poses, or for other time ratios."""
+    # the theory is imported where it is needed: most scenes have other lengths
+    from linkanim.synthesis.guidance import guide
+    from linkanim.synthesis.quick_returns import quick_return
+
+    sliding = "O4" not in {pin.name for pin in scene.linkage.pins}
+    stated: dict[str, Any] = {"unit": scene.length_unit, "name": scene.name, "source": scene.source}
+    for _ in range(_TRIES_ANEW):
+        try:
+            if isinstance(purpose, PosesPurpose):
+                kind = "slider-crank" if sliding else "four-bar"
+                poses = _other_poses(np.array(purpose.poses), random)
+                title = f"{scene.title}, with other poses"
+                # five leave no choice: the few linkages that there are have defects as a rule
+                made = [
+                    replace(one.scene, title=title)
+                    for one in guide(poses, kind=kind, count=1, **stated)
+                    if not one.defects or len(poses) > _FREE
+                ]
+            elif isinstance(purpose, TimeRatioPurpose):
+                made = [one.scene for one in quick_return(**_other_ratio(purpose, random), count=1, **stated)]
+            else:
+                return
+        except LinkanimError:
+            continue
+        yield from made
+
+
+def _other_poses(poses: NDArray[np.float64], random: Random) -> NDArray[np.float64]:
+    """Return poses that are near by, places in two digits of their size and angles in whole degrees."""
+    size = float(np.ptp(poses[:, :2], axis=0).max()) or 1.0
+    step = 10.0 ** (floor(log10(size)) - 1)
+    rows = []
+    for x, y, angle in poses.tolist():
+        place = [round((at + random.uniform(-_NEAR, _NEAR) * size) / step) * step for at in (x, y)]
+        turned = round(degrees(angle) + random.uniform(-_TURN, _TURN))
+        rows.append((*(float(f"{at:.12g}") for at in place), radians(turned)))
+    return np.array(rows)
+
+
+def _other_ratio(purpose: TimeRatioPurpose, random: Random) -> dict[str, float]:
+    """Return a time ratio in hundredths, with a stroke in two digits or a swing in whole degrees."""
+    factors = [random.uniform(_LEAST, _MOST) for _ in range(2)]
+    found = {"ratio": round(1 + (purpose.ratio - 1) * factors[0], 2)}
+    if purpose.swing is not None:
+        return found | {"swing": radians(round(degrees(purpose.swing) * factors[1]))}
+    return found | {"stroke": _round((purpose.stroke or 1.0) * factors[1])}
 
 
 def _choices(scene: Scene, random: Random) -> Iterator[Mapping[Key, float]]:

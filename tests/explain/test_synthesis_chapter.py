@@ -6,6 +6,7 @@ import shutil
 import subprocess
 from pathlib import Path
 
+import numpy as np
 import pytest
 from made_scenes import FEW, MADE
 from printed import checks_of, of_html, of_latex, of_markdown
@@ -16,9 +17,12 @@ from linkanim.explain.documents import HTML, MARKDOWN, TEX, document
 from linkanim.explain.solution import PoseRequest, solution
 from linkanim.explain.steps import names_of
 from linkanim.explain.synthesis import _Chapter, synthesis
+from linkanim.explain.variant import variant
 from linkanim.picture.figure import figure
+from linkanim.scenes.scene import PosesPurpose, TimeRatioPurpose
 from linkanim.scenes.toml import text
 
+ANEW = ("guide-2", "guide-4", "guide-5", "guide-slider-3", "swing")
 FORMS = {"Markdown": (MARKDOWN, of_markdown), "LaTeX": (TEX, of_latex), "HTML": (HTML, of_html)}
 
 
@@ -68,6 +72,30 @@ def test_an_exercise_leaves_the_numbers_open_and_the_page_has_the_construction(
     assert "class='blank'" in asked
     assert crank[:6] in page[page.index("<h2>Synthesis") :]
     assert "<h2>Synthesis" in key
+
+
+@pytest.mark.parametrize(
+    "name", ["guide-3", "stroke", *(pytest.param(name, marks=pytest.mark.long) for name in ANEW)]
+)
+def test_an_exercise_with_a_seed_is_made_for_other_poses_and_ratios(name: str) -> None:
+    scene = MADE[name]()
+    found = [variant(scene, seed, lambda _: True) for seed in (1, 2, 2)]
+    assert found[0].purpose != found[1].purpose == found[2].purpose
+    for one in found[:2]:
+        assert synthesis(one, names_of(figure(one))) != ()
+        assert one.purpose != scene.purpose
+        if isinstance(one.purpose, PosesPurpose):
+            angles = np.degrees([angle for _, _, angle in one.purpose.poses])
+            assert np.abs(angles - angles.round()).max() < 1e-9
+            assert one.title == f"{scene.title}, with other poses"
+        else:
+            assert isinstance(one.purpose, TimeRatioPurpose)
+            assert f"{one.purpose.ratio:g}" in one.title
+
+
+def test_a_function_s_exercise_with_a_seed_has_other_lengths() -> None:
+    scene = MADE["function-3"]()
+    assert variant(scene, 1, lambda _: True).title == f"{scene.title}, with other lengths"
 
 
 @pytest.mark.long
