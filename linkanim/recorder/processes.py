@@ -51,18 +51,21 @@ def drawing(
     """Give a function like `draw`, to be called for the frames 0, 1, 2, ... in turn, that shares the work.
 
     A frame's bytes, `size` of them, have to be let go before the next is asked for. When the block ends,
-    however it does, the processes are gone.
+    however it does, the processes are gone. Where the system starts none it is `draw` itself.
     """
     if not processes:
         yield draw
         return
     with ExitStack() as gone:
         drawers: list[_Drawer] = []
-        for number in range(processes):
-            drawers.append(_Drawer(draw, range(number, frames, processes), size, drawers))
-            gone.callback(drawers[-1].end)
-
-        yield lambda frame: drawers[frame % processes].frame(frame)
+        try:
+            for number in range(processes):
+                drawers.append(_Drawer(draw, range(number, frames, processes), size, drawers))
+                gone.callback(drawers[-1].end)
+        except OSError:  # no more processes, or no memory to share
+            gone.close()
+            drawers.clear()
+        yield (lambda frame: drawers[frame % processes].frame(frame)) if drawers else draw
 
 
 class _Drawer:
@@ -75,7 +78,12 @@ class _Drawer:
         self._memory = memoryview(mmap(-1, _AHEAD * size))
         self._ready, ready = os.pipe()
         room, self._room = os.pipe()
-        self._process = _copy()
+        try:
+            self._process = _copy()
+        except OSError:
+            for end in (self._ready, ready, room, self._room):
+                os.close(end)
+            raise
         if not self._process:
             try:
                 _end_with_parent(self._ready, self._room, *(end for other in others for end in other._ends))

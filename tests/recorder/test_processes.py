@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import select
 import signal
@@ -59,6 +60,26 @@ def test_what_a_process_that_was_killed_had_to_draw_is_drawn_all_the_same(fatal:
         return numbered(frame)
 
     assert drawn(killing, 2) == [numbered(frame) for frame in range(FRAMES)]
+
+
+# No process at all, one and no other, no memory to share.
+@pytest.mark.parametrize(("name", "started"), [("_copy", 0), ("_copy", 1), ("mmap", 0), ("mmap", 1)])
+def test_where_the_system_starts_none_ours_draws_all(
+    name: str, started: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    there, usual, left = os.listdir("/proc/self/fd"), getattr(processes, name), [None] * started  # noqa: PTH208
+
+    def refused(*given: int) -> object:
+        if not left:
+            raise OSError(errno.EAGAIN, "Resource temporarily unavailable")
+        left.pop()
+        return usual(*given)
+
+    monkeypatch.setattr(processes, name, refused)
+    assert drawn(numbered, 3) == [numbered(frame) for frame in range(FRAMES)]
+    assert len(os.listdir("/proc/self/fd")) == len(there)  # noqa: PTH208
+    with pytest.raises(ChildProcessError):
+        os.waitpid(-1, os.WNOHANG)
 
 
 def test_what_goes_wrong_is_raised_where_the_frame_is_asked_for_and_no_process_stays() -> None:
