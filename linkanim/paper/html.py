@@ -29,7 +29,7 @@ thead th {{ font-weight: 600; vertical-align: bottom; }}
 thead tr:last-child > * {{ border-bottom: 1px solid #8c959f; }}
 th[scope=colgroup] {{ text-align: center; }} .n {{ text-align: right; white-space: nowrap; }}
 table.facts td {{ white-space: nowrap; }} table.values .n {{ padding-left: .9rem; padding-right: 0; }}
-table.values {{ width: 100%; }} tbody th[scope=rowgroup] {{ font-weight: 600; padding: .4rem 0 .12rem; }}
+table.values {{ width: 100%; }} tbody th[scope=rowgroup] {{ font-weight: 600; padding: .4rem 0 .05rem; }}
 caption, figcaption {{ text-align: left; color: #424a53; font-size: .92em; padding: .1rem 0 .25rem; }}
 sub {{ font-size: .75em; line-height: 0; }}
 p.note {{ color: #57606a; font-size: .92em; margin-top: 0; }}

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import field, replace
 from functools import cached_property
+from html import unescape
 from itertools import chain, groupby
 from math import pi
 
@@ -59,7 +60,7 @@ _POSES = {2: (400, 270), 3: (272, 184)}
 _TALL_POSE = (264, 372)
 """A pose's size in pixels, of so many in a row: letters are as large as the figure's."""
 _NAMES = 60
-"""Room for names above and below a figure that stands, in pixels."""
+"""Room for names about a figure that stands, in pixels."""
 _HIGH = 1.1
 """How high for its width a scene is whose figure stands so."""
 _POLYGONS = 820, 300
@@ -71,6 +72,11 @@ _PRINTED = 6
 _UNSAFE = re.compile(r"[^\w.-]+")
 _WORD = re.compile(r"\w+")
 _DECIMALS = re.compile(r"\d+\.\d+")
+_TAG, _UNSEEN = re.compile(r"<[^>]*>"), re.compile(r"[\s\u2061-\u2064]")
+_WIDTH = 115
+"""Letters of a table as wide as the page."""
+_HALF_A_PAGE = 50
+"""Letters and signs of the longest equation that stands beside the figure."""
 _BRACES = {ord("{"): None, ord("}"): None}
 _LONGEST = 60
 """Letters of a chart's file name that come from its quantities."""
@@ -128,7 +134,8 @@ class Report:
         if not self._tall:
             return _WIDE
         box, (wide, high) = figure(self.scene).box, _TALL
-        return wide, min(round(wide * (box.high - box.low) / (box.right - box.left)) + _NAMES, high)
+        within = (wide - _NAMES) * (box.high - box.low) / (box.right - box.left)
+        return wide, min(round(within) + _NAMES, high)
 
     @cached_property
     def _tall(self) -> bool:
@@ -219,10 +226,10 @@ class Report:
         stated = (
             (self._indexed(item.label), self._stated(item.value, item.unit)) for item in dimensions(scene)
         )
-        known = ((label, self._told(value)) for label, value in scene.info.lines)
-        facts, lengths = ("Facts", tuple(known)), ("Dimensions", tuple(stated))
+        known = tuple((label, self._told(value)) for label, value in scene.info.lines)
+        facts, lengths = ("Facts", known), ("Dimensions", tuple(stated))
         if self._tall:
-            yield html.facts(*facts, 3)
+            yield html.facts(*facts, 3 if _widest(known, 3) <= _WIDTH else 2)
             told = html.facts(*lengths, 1 if len(lengths[1]) <= _MOST_LINES else 2)
             yield Beside((replace(drawn, highest=_HIGHEST), told))
         else:
@@ -249,7 +256,14 @@ class Report:
         alone = replace(self._worked, chapters=(replace(given, steps=()), loops))
         # behind the headings of both and the figure
         _, _, _, *equations = chapters(alone, replace(HTML, steps="\n".join))
-        yield Beside((FigurePart(vectors_svg(alone), caption, _HIGHEST_BESIDE), tuple(equations)))
+        drawn = FigurePart(vectors_svg(alone), caption, _HIGHEST_BESIDE)
+        rows = (row for one in equations for row in one.split("</mtr>"))
+        longest = max(len(_UNSEEN.sub("", unescape(_TAG.sub("", row)))) for row in rows)
+        if longest <= _HALF_A_PAGE:
+            yield Beside((drawn, tuple(equations)))
+        else:
+            yield drawn
+            yield from equations
 
     def _beside(self) -> Iterator[Part]:
         """Yield a chart and a table of each quantity that was measured: both values and their difference."""
@@ -333,6 +347,13 @@ class Report:
                 shown = Figured(self.scene, _POLYGONS, look, instant.phase, speed=speed, acceleration=second)
                 where = f"at {place_of(self.scene, instant)}, {pace.words}"
                 yield FigurePart(polygons_svg(shown), f"Velocity and acceleration polygon {where}")
+
+
+def _widest(lines: Sequence[tuple[str, str]], columns: int) -> int:
+    """Return how many letters wide labels and values are in so many columns."""
+    high = -(-len(lines) // columns)
+    some = (lines[n : n + high] for n in range(0, len(lines), high))
+    return sum(max(map(len, part)) for one in some for part in zip(*one, strict=True))
 
 
 def _shorter(text: str, digits: int) -> str:

@@ -190,7 +190,7 @@ def _zeros(curves: Curves, curve: Curve) -> list[str]:
     shifted = np.linspace(phases[0], phases[-1], len(phases)) + 0.5 * (phases[1] - phases[0])
     found = sign_changes(lambda near: curve.solved(curves.scene, near), shifted)
     if curves.in_time:
-        return [_seconds(time) for time in sorted(_times(curve, found))]
+        return [_seconds(curves, time) for time in sorted(_times(curve, found))]
     return _input_places(curves, found)
 
 
@@ -222,12 +222,12 @@ def _listed(places: list[str]) -> str:
 def _at(curves: Curves, peak: Peak) -> str:
     """Return a place of the input in words: "at θ₂ = 71.0°"; of one that swings the time, "at t = 2 s"."""
     if curves.in_time:
-        return f"at t = {_seconds(peak.x)}"
+        return f"at t = {_seconds(curves, peak.x)}"
     return f"at {input_symbol(curves.scene.linkage)} = {_place(curves, peak.angle)}"
 
 
-def _seconds(time: float) -> str:
-    return f"{rounded(0.0 if abs(time) < _NOTHING else time, _DIGITS - 1)} s"
+def _seconds(curves: Curves, time: float) -> str:
+    return curves.place_words(0.0 if abs(time) < _NOTHING else time)
 
 
 def _place(curves: Curves, angle: float) -> str:

@@ -181,7 +181,7 @@ def test_its_pictures_are_well_formed_and_as_large_as_each_other(press: Path) ->
         sizes.setdefault(path.stem.partition("-")[0], set()).add((root.get("width"), root.get("height")))
     assert sizes.pop("loops")
     # an odd chart of a topic has a row of its own
-    assert sizes == {"figure": {("360", "640")}, "chart": {("400", "225"), ("820", "225")}}
+    assert sizes == {"figure": {("360", "618")}, "chart": {("400", "225"), ("820", "225")}}
 
 
 def test_its_figure_names_the_dimensions_and_has_no_other_words(press: Path) -> None:
@@ -212,6 +212,16 @@ def test_facts_and_the_end_have_the_tables_digits_and_set_symbols(press: Path) -
     assert "67.2126" not in text
     # the list of figures stands on one page with the end
     assert re.search(r"<div class='keep'>\n<section id='chapter-12'>", text)
+
+
+@pytest.mark.parametrize(("name", "beside"), [("jansen", True), ("scissor-lift", False)])
+def test_equations_too_long_for_half_a_page_stand_below_the_loops(
+    name: str, beside: bool, tmp_path: Path
+) -> None:
+    assert main(["report", name, "-o", str(tmp_path / "out")]) == 0
+    text = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+    loops = text.partition("Vector loops</h2>")[2].partition("</section>")[0]
+    assert ("<div class='beside'" in loops) == beside
 
 
 def test_its_charts_say_of_what_they_are(press: Path) -> None:
