@@ -14,7 +14,7 @@ from linkanim.errors import BadInput
 from linkanim.frozen import NamedTuple
 from linkanim.scenes import file_form
 from linkanim.scenes.editing import Dimension, dimension_of, written
-from linkanim.scenes.form import LENGTHS, NAME, OFFSET, Context, Field, Form, Key, Table
+from linkanim.scenes.form import LENGTH, LENGTHS, NAME, OFFSET, Context, Field, Form, Key, Table
 from linkanim.units import shown
 
 _FORMS: Mapping[str, Form] = {
@@ -122,6 +122,13 @@ def next_option(building: Building) -> Building:
     follows = dict(zip(("", *row.options), (*row.options, _NOTHING[0]), strict=True))
     place, taken = building.row, take(replace(building, typed=follows.get(row.words, row.options[0])))
     return replace(choose_number(replace(taken, row=place), 0), is_refusal=taken.is_refusal)
+
+
+def typed_length(building: Building, now: float) -> float:
+    """Return the length that was typed in place of another one, in the draft's unit; BadInput for none."""
+    unit = building.draft.unit
+    value = written(building.typed, Dimension((), "distance", now, unit, "length", bare=True))
+    return float(LENGTH.read(Table("photograph", {"distance": value}, (), Context(unit)), "distance"))
 
 
 def _chosen_row(building: Building) -> PropertyRow | None:

@@ -221,6 +221,14 @@ def fit_photo(building: Building, *points: float) -> Building:
     return _fitted(building, scale, there - scale * one)
 
 
+def scale_photo(building: Building, one: complex, other: complex, length: float) -> Building:
+    """Return the building with its photograph scaled about a place, so that another one is so far from it."""
+    if one == other:
+        return refused(building, "Two points of a photograph have a distance: take them apart")
+    scale = length / abs(other - one)
+    return _fitted(building, complex(scale), one - scale * one)
+
+
 def _fitted(building: Building, scale: complex, shift: complex) -> Building:
     """Return the building with its photograph's places z, as x + yi, brought to scale·z + shift."""
     photo = building.draft.photo

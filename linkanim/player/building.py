@@ -9,7 +9,7 @@ from typing import Any
 
 from linkanim.build import building as built
 from linkanim.build import dimensions, gestures
-from linkanim.build.building import Building, building_of
+from linkanim.build.building import Building, building_of, choosing
 from linkanim.build.draft import JOINT
 from linkanim.build.meanings import Meaning, drag, meanings
 from linkanim.build.storing import restored, stored
@@ -219,7 +219,7 @@ def tool(state: State, name: str) -> State:
     sheet = state.sheet
     if sheet and sheet.open and sheet.building.made.scene and not state.clock.paused:
         state = replace(state, clock=state.clock.go(state.frame, sheet.building.draft.phase, paused=True))
-    return _with(state, tool=name, grip=None, anchor=None)
+    return _with(state, tool=name, grip=None, anchor=None, span=None)
 
 
 def photo(state: State, file: str) -> State:
@@ -283,6 +283,8 @@ def up(state: State, _: None) -> State:
     grip = sheet.grip
     state = _with(state, grip=None, clicked=(state.frame, grip.begin) if grip.is_click else None)
     offers: tuple[Meaning, ...] = ()
+    if grip.is_click and sheet.tool == "photo" and grip.base.draft.photo:
+        return _spanned(state, sheet, grip)
     if grip.is_click:
         building = _clicked(state, sheet, grip)
     elif sheet.tool in LIVE:
@@ -296,7 +298,7 @@ def up(state: State, _: None) -> State:
         return _running(_shown(state, kept), ran=grip.ran)
     state = _shown(state, building)
     if sheet.tool == "photo":
-        return _with(state, anchor=sheet.anchor or grip.at)
+        return _with(state, anchor=sheet.anchor or grip.at, span=None)
     moved = sheet.tool == "move" and building.made.scene is not None
     return _once(state) if moved else state
 
@@ -333,6 +335,46 @@ def _drawn(sheet: BuildSheet, grip: Grip) -> Building:
         held = sheet.anchor and (*sheet.anchor, *sheet.anchor)
         return gestures.fit_photo(grip.base, *held, *ends) if held else gestures.move_photo(grip.base, *ends)
     return drag(grip.base, sheet.tool, *ends, reach=grip.reach, snap=grip.snap)
+
+
+def _spanned(state: State, sheet: BuildSheet, grip: Grip) -> State:
+    """Take a point of the photograph, or another one, whose distance from the first is typed then."""
+    second = sheet.anchor is not None and sheet.span is None and dist(sheet.anchor, grip.begin) > grip.reach
+    how = (
+        "Type how far it is from there in truth, then Enter"
+        if second
+        else "Now click a point at a known distance"
+    )
+    building = replace(choosing(grip.base, None), sentence=how, is_refusal=False)
+    places = {"span": grip.begin} if second else {"anchor": grip.begin, "span": None}
+    return _with(_running(state, ran=grip.ran), building=building, **places)
+
+
+def _scaled(state: State, sheet: BuildSheet, one: complex, other: complex) -> State:
+    """Return the state with the photograph scaled, so that two points of it are as far apart as was typed."""
+    building = sheet.building
+    try:
+        length = dimensions.typed_length(building, abs(other - one))
+    except BadInput as error:
+        return _with(state, building=replace(building, sentence=str(error), is_refusal=True))
+    after = gestures.scale_photo(building, one, other, length)
+    there = one + (other - one) * length / abs(other - one)
+    return _with(_shown(state, replace(after, typed="")), span=(there.real, there.imag))
+
+
+def take(state: State, _: None) -> State:
+    """Take what was typed: for the distance of two points of a photograph, or what is chosen."""
+    sheet = state.sheet
+    if (
+        sheet
+        and sheet.open
+        and sheet.tool == "photo"
+        and sheet.anchor
+        and sheet.span
+        and sheet.building.typed
+    ):
+        return _scaled(state, sheet, complex(*sheet.anchor), complex(*sheet.span))
+    return _taken(state, None)
 
 
 def offer(state: State, place: int) -> State:
@@ -385,12 +427,20 @@ number = _changed(dimensions.choose_number)
 option = _changed(dimensions.next_option)
 write = _changed(dimensions.write)
 erase = _changed(dimensions.erase)
-take = _changed(dimensions.take)
+_taken = _changed(dimensions.take)
 remove = _changed(gestures.delete)
 trace = _changed(gestures.trace)
 drive = _changed(gestures.drive)
-undo = _changed(built.undo)
-redo = _changed(built.redo)
+
+
+def undo(state: State, _: None) -> State:
+    """Go back a change; points of a photograph that were measured are let go of."""
+    return _changed(built.undo)(_with(state, span=None), None)
+
+
+def redo(state: State, _: None) -> State:
+    """Go on again."""
+    return _changed(built.redo)(_with(state, span=None), None)
 
 
 def let_go(state: State) -> State | None:

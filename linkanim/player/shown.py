@@ -6,7 +6,7 @@ import cmath
 import re
 from collections.abc import Iterator
 from dataclasses import replace
-from math import atan2, degrees, hypot, isfinite, isnan
+from math import atan2, degrees, dist, hypot, isfinite, isnan
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -104,7 +104,7 @@ def built(state: State, sheet: BuildSheet, hover: Hover | None = None) -> BuildS
         chosen=next((one for one in shapes if one.thing == building.chosen), None),
         number=_number(sheet, moves=moves and not state.clock.paused),
         measures=_measures(building),
-        rubber=_rubber(seen, sheet, sheet.grip) if sheet.grip and not sheet.grip.is_click else None,
+        rubber=_rubber(seen, sheet, sheet.grip) if sheet.grip and not sheet.grip.is_click else _span(sheet),
         snap=_snap(seen, sheet, hover),
         cursor=sheet.cursor,
         hand=sheet.grip.at if sheet.grip else None,
@@ -220,6 +220,15 @@ def _rubber(seen: Draft, sheet: BuildSheet, grip: Grip) -> Rubber | None:
     long, angle = hypot(across, up), degrees(atan2(up, across))
     digits = f"{short(long)} {seen.unit} · {significant(angle, 3)}°"
     return Rubber(sheet.tool, begin, end, typeset(digits))
+
+
+def _span(sheet: BuildSheet) -> Rubber | None:
+    """Return the distance of two points of the photograph, as it is or is typed."""
+    if not (sheet.tool == "photo" and sheet.anchor and sheet.span):
+        return None
+    typed, unit = sheet.building.typed, sheet.building.draft.unit
+    words = f"{typed}_" if typed else f"{short(dist(sheet.anchor, sheet.span))} {unit}"
+    return Rubber("photo", sheet.anchor, sheet.span, typeset(f"distance {words}"))
 
 
 def _met(seen: Draft, thing: Thing | None, at: Point) -> Point | None:

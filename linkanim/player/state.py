@@ -336,7 +336,8 @@ class BuildSheet:
 
     `home` is the part of the plane that is seen unless it is zoomed. `tool` is what is in hand, `grip` what
     the hand does, `clicked` the frame and place of its last click; `cursor` is the place of the keys' own,
-    `anchor` the point of a photograph that is put where it belongs. `offers` are what the last drag can
+    `anchor` the point of a photograph that is put where it belongs, `span` another one whose distance from
+    it can be typed. `offers` are what the last drag can
     mean, which ended at `offered`. `rests` is the frame at which a linkage
     that runs by itself has shown one period. `written` is the draft as the scene file `saved` has it;
     `warned` tells that the next asking lets go of what is in none, `closes` that the next one closes the
@@ -354,6 +355,7 @@ class BuildSheet:
     clicked: tuple[int, Point] | None = None
     cursor: Point | None = None
     anchor: Point | None = None
+    span: Point | None = None
     offers: tuple[Meaning, ...] = ()
     offered: Point = (0.0, 0.0)
     rests: int | None = None

@@ -502,6 +502,47 @@ def test_a_recording_that_is_to_have_a_photograph_is_refused_without_it(
     assert (here / "a.gif").read_bytes() != with_it
 
 
+def test_a_distance_on_a_photograph_can_be_typed(builder: Builder, photograph: Path) -> None:
+    pygame.event.post(pygame.event.Event(pygame.DROPFILE, file=str(photograph)))
+    builder.tick(2)
+    before = photo_of(builder)
+    one, other = (20.0, 20.0), (60.0, 20.0)
+    builder.click(*one)
+    builder.tick(30)
+    builder.click(*other)
+    shown = builder.window.screen.over.build
+    assert shown
+    assert shown.rubber
+    assert shown.rubber.words == "distance 40 mm"
+    builder.type("8cm")
+    shown = builder.window.screen.over.build
+    assert shown
+    assert shown.rubber
+    assert shown.rubber.words == "distance 8cm_"
+    builder.press(pygame.K_RETURN)
+    after = photo_of(builder)
+    assert after.width == pytest.approx(2 * before.width)
+    assert after.place == pytest.approx([2 * at - 20 for at in before.place])
+    assert builder.sheet.span == pytest.approx((100.0, 20.0))
+    builder.press(pygame.K_z, CTRL)
+    assert photo_of(builder) == before
+    assert builder.sheet.span is None
+
+
+@pytest.mark.parametrize("typed", ["-3", "0"])
+def test_a_distance_that_is_none_is_refused(builder: Builder, photograph: Path, typed: str) -> None:
+    pygame.event.post(pygame.event.Event(pygame.DROPFILE, file=str(photograph)))
+    builder.tick(2)
+    before = photo_of(builder)
+    builder.click(20, 20)
+    builder.tick(30)
+    builder.click(60, 20)
+    builder.window.state = carried(builder.state, Action("digits", typed))
+    builder.press(pygame.K_RETURN)
+    assert photo_of(builder) == before
+    assert builder.sheet.building.is_refusal
+
+
 @pytest.mark.parametrize(
     ("name", "reason"),
     [
