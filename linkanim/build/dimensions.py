@@ -66,11 +66,6 @@ def rows_of(draft: Draft, thing: Thing | None) -> tuple[PropertyRow, ...]:
     return tuple(_row(draft, key, one) for key, one in _fields(draft, thing))
 
 
-def numbers_of(draft: Draft, thing: Thing | None) -> tuple[Dimension, ...]:
-    """Return those that are numbers."""
-    return tuple(row.number for row in rows_of(draft, thing) if row.number)
-
-
 def _row(draft: Draft, key: Key, one: Field) -> PropertyRow:
     assert one.plain
     if one.plain.measure:

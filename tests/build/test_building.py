@@ -12,7 +12,7 @@ from hand import drawn, gesture
 
 from linkanim.build import places as shapes
 from linkanim.build.building import Building, draft_of, posed, redo, undo
-from linkanim.build.dimensions import numbers_of
+from linkanim.build.dimensions import rows_of
 from linkanim.build.draft import Photo
 from linkanim.build.gestures import choose_thing, fit_photo, lay_photo, move_photo
 from linkanim.build.storing import restored, stored
@@ -66,7 +66,9 @@ def test_a_bar_within_a_body_that_was_stored_is_as_long_as_its_ends_are_apart() 
         scene = step.made.scene
         assert scene
         apart = math.dist(*(scene.pose(0.3).position[name] for name in "BP"))
-        assert numbers_of(step.draft, ("bars", "B–P"))[0].value == pytest.approx(apart, abs=1e-8)
+        length = rows_of(step.draft, ("bars", "B–P"))[0].number
+        assert length
+        assert length.value == pytest.approx(apart, abs=1e-8)
     typed = gesture(choose_thing(building, "bars", "B–P"), "type 90")
     assert typed.sentence == "B–P: B and P are points of one body: move one to set their distance"
     assert typed.draft == building.draft
