@@ -98,10 +98,10 @@ def _other_poses(poses: NDArray[np.float64], random: Random) -> NDArray[np.float
     return np.array(rows)
 
 
-def _other_ratio(purpose: TimeRatioPurpose, random: Random) -> dict[str, float]:
+def _other_ratio(purpose: TimeRatioPurpose, random: Random) -> dict[str, Any]:
     """Return a time ratio in hundredths, with a stroke in two digits or a swing in whole degrees."""
     factors = [random.uniform(_LEAST, _MOST) for _ in range(2)]
-    found = {"ratio": round(1 + (purpose.ratio - 1) * factors[0], 2)}
+    found: dict[str, Any] = {"ratio": round(1 + (purpose.ratio - 1) * factors[0], 2)}
     if purpose.swing is not None:
         return found | {"swing": radians(round(degrees(purpose.swing) * factors[1]))}
     return found | {"stroke": _round((purpose.stroke or 1.0) * factors[1])}
