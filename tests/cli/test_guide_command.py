@@ -48,6 +48,7 @@ def test_each_answer_is_a_scene_that_carries_its_coupler_through_the_poses(
         assert row["defects"] == []
         assert row["class"] == scene.info.class_name
         assert row["full_turn"] == scene.info.full_turn
+        assert row["limits"] == ([] if row["full_turn"] else pytest.approx(scene.info.input_range))
         assert scene.source == "linkanim guide for lid.csv"
 
 
@@ -55,8 +56,11 @@ def test_the_table_and_its_pivots(here: Path, capsys: pytest.CaptureFixture[str]
     assert main(["guide", "lid.csv", "--pivots", "80,-50", "10,-60"]) == 0
     printed = capsys.readouterr()
     titles, *rows = printed.out.splitlines()
-    assert " ".join(titles.split()) == "file defects off mm transmission longest link mm sizes class"
+    assert " ".join(titles.split()) == "file defects off mm transmission longest link mm sizes crank class"
     assert [row.split()[:2] for row in rows] == [["lid.toml", "none"]]
+    info = linkanim.load("lid.toml").info
+    first, last = (f"{math.degrees(angle):.4g}" for angle in info.input_range)
+    assert ("turns" if info.full_turn else f"{first}…{last} deg") in rows[0]
     pins = {pin.position for pin in linkanim.load("lid.toml").linkage.pins}
     assert pins == {(80.0, -50.0), (10.0, -60.0)}
     assert printed.err == ""
@@ -78,6 +82,20 @@ def test_answers_that_all_have_a_defect_are_said_to(here: Path, capsys: pytest.C
     printed = capsys.readouterr()
     assert "circuit" in printed.out
     assert printed.err.startswith("every answer has a defect")
+
+
+def test_linkages_of_five_poses_that_are_longer_than_allowed_are_told(
+    here: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (here / "five.csv").write_text("0,0,0\n40,10,35\n70,-5,80\n90,-40,120\n60,-80,170\n")
+    assert main(["guide", "five.csv"]) == 0
+    printed = capsys.readouterr()
+    assert len(printed.out.splitlines()) == 4
+    assert "3 more linkages have links of up to 24 sizes of the poses (--largest 24)" in printed.err
+    assert main(["guide", "five.csv", "--largest", "24"]) == 0
+    printed = capsys.readouterr()
+    assert len(printed.out.splitlines()) == 7
+    assert "--largest" not in printed.err
 
 
 @pytest.mark.parametrize(

@@ -7,15 +7,17 @@ import sys
 from argparse import Namespace
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from linkanim.cli.answers import deliver, target_of
 from linkanim.errors import BadInput
 from linkanim.intake import named
+from linkanim.synthesis.burmester import MOST
 from linkanim.synthesis.curve_files import read_curve
 from linkanim.synthesis.guidance import GuidedLinkage, guide
-from linkanim.synthesis.linkages import Real
+from linkanim.synthesis.linkages import MOST_ANSWERS, Real
 from linkanim.units import significant
 
 _UNIT = "mm"
@@ -28,14 +30,12 @@ def run(options: Namespace) -> None:
     """Find the linkages, write their files, and print the table or JSON; what is worth a remark on stderr."""
     poses = _poses(options.poses)
     target = target_of(options.output, f"{options.poses.stem}.toml")
-    found = guide(
-        poses,
-        **{name: getattr(options, name) for name in _HANDED_ON},
-        name=target.stem,
-        source=f"linkanim guide for {named(options.poses.name)}",
-    )
+    handed: dict[str, Any] = {name: getattr(options, name) for name in _HANDED_ON}
+    found = guide(poses, **handed, name=target.stem, source=f"linkanim guide for {named(options.poses.name)}")
     deliver(found, target, options, _TITLES, _cells, _object)
     _remark(found)
+    if len(poses) == MOST and len(found) < options.count:
+        _tell_longer(found, guide(poses, **{**handed, "count": MOST_ANSWERS, "largest": 1e9}))
 
 
 def _poses(path: Path) -> Real:
@@ -79,6 +79,18 @@ def _object(one: GuidedLinkage) -> dict[str, object]:
         "phases": one.phases.tolist(),
         "parameters": {"kind": one.task.kind.name, **one.parameters, "closure": one.closure},
     }
+
+
+def _tell_longer(found: Sequence[GuidedLinkage], every: Sequence[GuidedLinkage]) -> None:
+    """Say on stderr that of the few linkages of five poses some are longer than is allowed."""
+    if len(every) > len(found):
+        more, longest = len(every) - len(found), max(one.size / one.task.poses.size for one in every)
+        linkages = "linkage has" if more == 1 else "linkages have"
+        most = significant(math.ceil(longest), 12)
+        print(
+            f"{more} more {linkages} links of up to {most} sizes of the poses (--largest {most})",
+            file=sys.stderr,
+        )
 
 
 def _remark(found: Sequence[GuidedLinkage]) -> None:
