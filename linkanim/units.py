@@ -209,7 +209,7 @@ def length(value: object, *, unit: str) -> float:
 
 
 def unit_of(metres: float) -> str:
-    """Return the unit of length that is so many metres; "" where there is none."""
+    """Return the unit of length whose size in metres this is; "" where there is none."""
     return next((unit for unit in LENGTH_UNITS if metre(unit) == metres), "")
 
 

@@ -148,7 +148,7 @@ def _dot(one: Any, other: Any) -> Any:
 
 
 def newton(iterations: int) -> Callable[[Question], Places]:
-    """Return Newton's method on each dyad's equations, so many iterations from the previous pose."""
+    """Return Newton's method on each dyad's equations: `iterations` of it, from the previous pose on."""
 
     def poses(question: Question) -> Iterator[dict[str, complex]]:
         at = dict(question.start)
@@ -365,7 +365,7 @@ def _part(step: Any, made: dict[str, Any], question: Question, rate: float, guid
 
 
 def pylinkage_fast(substeps: int) -> Callable[[Question], Orders]:
-    """Return step_fast from pose to pose, with so many of its own equal steps from one input to the next.
+    """Return step_fast from pose to pose, in `substeps` equal steps from one input to the next.
 
     Inputs at unequal distances are one step apart. The first pose is given; the next ones lie nearest to
     their predecessor, as its solver decides.

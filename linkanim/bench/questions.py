@@ -235,7 +235,7 @@ def beside(inputs: Floats, *places: float) -> Floats:
 
 
 def turned(turns: float) -> Floats:
-    """Return every whole degree of one turn after so many turns."""
+    """Return every whole degree of one turn, in radians, that begins after `turns` turns."""
     return turns * TURN + degrees(0, 360)
 
 

@@ -321,7 +321,7 @@ _WORDS = {JOINT: "joint", "drive": "drive"}
 
 
 def choose(building: Building, further: int) -> Building:
-    """Return the building with the next thing chosen, or one so many further: joints, bars, guides, ..."""
+    """Return the building with the thing chosen that comes `further` places on: joints, bars, guides, ..."""
     things = list(building.draft.things())
     if not things:
         return refused(building, "Nothing is drawn yet: a click sets a ground pin")

@@ -38,7 +38,7 @@ def stored(draft: Draft) -> dict[str, Any]:
 
 
 def restored(tables: Mapping[str, Any], where: str = "draft") -> Building:
-    """Return a building with the draft that was stored; BadInput for what is none, or damaged.
+    """Return a building with the draft that was stored; BadInput for tables that are no draft, or damaged.
 
     All that a sheet asks of a draft is asked of it here, so that it fails here and not under the hand.
     """

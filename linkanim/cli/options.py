@@ -155,7 +155,7 @@ def _several(text: str, read: Callable[[str], float]) -> dict[str, float]:
 
 
 def poses(text: str) -> int:
-    """Read how many poses a figure has behind its own."""
+    """Read how many faint poses a figure has behind the one that it shows."""
     found = count(text)
     if found > MOST_POSES:
         raise BadInput(

@@ -242,7 +242,7 @@ ANGLE = Powers(angle=True)
 
 @frozen
 class Scale:
-    """How numbers are shown: to so many digits of a typical length, and of what it is at a typical rate.
+    """How numbers are shown: to some digits of a typical length, and of its rate at a typical speed.
 
     A rate is `per` something: s for time; the input's own unit for kinematic coefficients, "" for radians.
     """
@@ -424,12 +424,12 @@ class GuideLine(NamedTuple):
 
 
 def decimals(value: float, digits: int) -> int:
-    """Return with how many decimals a number has so many significant digits at the least."""
+    """Return how many decimals a number needs to have at least `digits` significant digits."""
     return max(digits - 1 - math.floor(math.log10(abs(value))), 0) if value else 0
 
 
 def rounded(value: float, places: int) -> str:
-    """Return a number in so many decimals, as far as a float has them, without the sign of a zero."""
+    """Return a number to `places` decimals, as far as a float has them; a zero has no sign."""
     text = f"{value:.{min(places, decimals(value, _FLOAT_DIGITS)) if value else places}f}"
     return text if float(text) else text.lstrip("-")
 

@@ -369,7 +369,7 @@ def _crossings(ways: Array) -> NDArray[np.intp]:
 
 
 def link_names(mechanism: Mechanism, turning: Collection[str]) -> dict[str, str]:
-    """Return what each body is called: one that a scene names crank, rocker or coupler by what it does.
+    """Return what each body is called; one that the scene calls crank, rocker or coupler, by what it does.
 
     `turning` are those that turn fully. A crank turns fully about a fixed pin, a rocker swings about one, a
     coupler has none. Of cranks the input is the crank, others are driven cranks; of rockers the input is the

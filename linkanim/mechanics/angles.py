@@ -72,7 +72,7 @@ def reduced(angle: Value, rest: Value, turns: float) -> Pair:
 
 
 def sharply_reduced(angle: Value, rest: Value) -> Pair:
-    """Return n and angle + rest - n half turns, right to its own last digit however small it is."""
+    """Return n, and angle + rest less n half turns: right to the last digit, however small that is."""
     first, second, third, fourth = PI_PARTS
     n = rint(angle * (1.0 / math.pi))
     near, step = (angle - n * first) - n * second, n * third

@@ -202,7 +202,7 @@ ORDER: Mapping[str, int] = {**DERIVATIVE_OF, **dict(zip(COORDINATE, range(3), st
 
 
 class Variant(NamedTuple):
-    """One way of asking: by phase or by angle, whether the input accelerates, each instant on its own.
+    """One way of asking: by phase or by angle; whether the input accelerates; whether its rate varies.
 
     `per_input`: at phases, with rates by the input's angle, or travel, instead of those in time.
     """

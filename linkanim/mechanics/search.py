@@ -32,12 +32,12 @@ _DEEPEST = 4
 
 
 def samples_a_turn(quickest: float) -> int:
-    """Return at how many phases of a drive period is looked where a crank turns so many times as fast."""
+    """Return at how many phases of a drive period to look where a crank turns `quickest` times in it."""
     return max(SAMPLES_A_TURN, math.ceil(SAMPLES_A_GEARED_TURN * quickest))
 
 
 def in_blocks(places: Array) -> list[Array]:
-    """Return places in as many parts as bounds what working them out takes."""
+    """Return places in parts that are small enough to be worked out one at a time."""
     return np.array_split(places, max(math.ceil(len(places) / AT_ONCE), 1))
 
 

@@ -257,7 +257,7 @@ _LINE, _LIFT = 1.5, 0.2
 
 @frozen
 class Page:
-    """A chart of so many pixels."""
+    """A chart on a page of its size in pixels."""
 
     curves: Curves
     size: tuple[int, int]

@@ -49,7 +49,7 @@ class Finding(NamedTuple):
 
 
 def instants_at(scene: Scene, angles: tuple[float, ...]) -> tuple[Instant, ...]:
-    """Return the instants at angles of the input (rad); OutOfRange for one that it does not come to."""
+    """Return the instants at angles of the input (rad); OutOfRange for an angle that it does not reach."""
     mechanism = scene.mechanism
     if angles:
         scene.linkage.drive.check_angle(scene.name, "leave --angles out")
@@ -241,7 +241,7 @@ class ValueTable:
 def value_tables(
     values: Values, instants: tuple[Instant, ...], paces: tuple[Pace, ...], digits: int
 ) -> Iterator[ValueTable]:
-    """Yield the tables of a scene, to so many significant digits, each with all instants."""
+    """Yield the tables of a scene's values to `digits` significant digits, each with all instants."""
     for family in _families(values):
         for start in range(0, len(paces), _MOST_SPEEDS):
             some = paces[start : start + _MOST_SPEEDS]

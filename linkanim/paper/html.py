@@ -225,7 +225,7 @@ def paragraph(text: str, kind: str = "") -> str:
 
 
 def facts(caption: str, lines: Sequence[tuple[str, str]], columns: Literal[1, 2, 3]) -> TablePart:
-    """Return labels and values as a table, so many of them side by side."""
+    """Return labels and values as a table, in one, two or three pairs of columns."""
     high = -(-len(lines) // columns)
     cells = [
         f"<th scope='row'>{symbol(label)}</th><td>{symbol(_minus(value))}</td>" for label, value in lines

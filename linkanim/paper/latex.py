@@ -93,7 +93,7 @@ def write_for_latex(
 
 
 def words(size: tuple[int, int], items: Iterable[Item], name: str, wide: float | None = None) -> str:
-    """Return what puts the captions of a picture of so many pixels over the PDF of that name."""
+    """Return the LaTeX that sets the captions of a picture, `size` in pixels, over the PDF of that name."""
     across = wide or _POINTS * size[0] * 25.4 / 72
     lines = [item for item in items if isinstance(item, Caption) and item.text and item.strength]
     smallest = min((line.size for line in lines), default=1)

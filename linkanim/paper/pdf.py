@@ -47,7 +47,7 @@ def pdf(
     words: str = "",
     wide: float | None = None,
 ) -> bytes:
-    """Return a picture of so many pixels as a PDF document; None leaves the background open.
+    """Return a picture, `size` in pixels, as a PDF document; None leaves the background open.
 
     Its page is so many mm `wide`, where that is said.
     It has a language, a title and, as its subject, the words that say what is seen in it.

@@ -30,7 +30,7 @@ def svg(
     words: str = "",
     wide: float | None = None,
 ) -> str:
-    """Return a picture of so many pixels as an SVG document; None leaves the background open.
+    """Return a picture, `size` in pixels, as an SVG document; None leaves the background open.
 
     It is so many mm `wide`, where that is said.
     Its title, and the words that say what is seen in it, are read aloud. A group is a `<g>` whose id is its

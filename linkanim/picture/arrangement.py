@@ -490,7 +490,7 @@ def request_of(
     still: bool = False,
     bar: bool = False,
 ) -> FitRequest:
-    """Return what an arrangement for a look with so many charts depends on."""
+    """Return what an arrangement depends on, for a look with that number of charts."""
     keys, polygons = key_lines(look), look.polygons_shown
     captioned = look.caption and not listed
     request = FitRequest(size, charts, keys, look.hud, listed, polygons, row, caption=captioned)
@@ -566,7 +566,7 @@ def fitted(
     held: bool = False,
     late: bool = False,
 ) -> SceneFit:
-    """Return how a scene fits, and one that must fit into its view too.
+    """Return how a scene fits its picture, together with the scene beside it where there is one.
 
     What `before` has of the same scenes is taken over, all of it where the same is requested. What the hand
     changes while it is `held` stays in its place, as long as it has room there, and for a `late` frame.

@@ -129,7 +129,7 @@ class Rows(NamedTuple):
 
 
 def around(count: int, chosen: int, room: int) -> range:
-    """Return which of `count` rows to show where there is room for so many, and at least one.
+    """Return which of `count` rows to show where there is room for `room` of them, and at least one.
 
     The chosen one stands in their middle, where it can.
     """

@@ -78,7 +78,7 @@ def bar_place(layout: Layout, bar: CommandBar | None) -> Rect | None:
 
 
 def share_at(layout: Layout, buttons: Sequence[Button], number: int, x: float) -> float:
-    """Return how far along a slider a pixel is, 0 to 1; one that is gone, or has no room, ends at once."""
+    """Return how far along a slider a pixel is, 0 to 1, also where the slider is gone or has no room."""
     cells = bar_cells(layout, buttons)
     cell = cells[number] if number < len(cells) else None
     begin, end = _rail(cell) if cell else (0.0, 1.0)

@@ -55,7 +55,7 @@ _SHORT = 0.3
 
 
 class ConstructionShown(NamedTuple):
-    """The first steps of a construction, as many as are shown, and how many it has in all."""
+    """Those steps of a construction that are shown, from its first on, and how many it has in all."""
 
     kind: ConstructionKind
     steps: tuple[ConstructionStep, ...]

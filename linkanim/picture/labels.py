@@ -112,7 +112,7 @@ class Spots(NamedTuple):
 
 
 def stacked(spots: Sequence[Spots]) -> Spots:
-    """Return single spots in one, each of its own joints."""
+    """Return the spots of several labels in one value, each with its joints."""
     return Spots("", "", *(np.array(part) for part in list(zip(*spots, strict=True))[2:]))
 
 

@@ -138,7 +138,7 @@ def layout(
     bar: bool = False,
     type_scale: float = 1.0,
 ) -> Layout:
-    """Divide a window: so many charts along the bottom, or `beside` the scene; the stage is what is left.
+    """Divide a window: `chart` charts along the bottom, or `beside` the scene; the stage is what is left.
 
     `listed` leaves room for a list, on the left or in a narrow window at the foot, `polygons` for those, on
     the right or below, for 2 more of it, and a `row` for small pictures at the foot, with the bar of
@@ -186,7 +186,7 @@ def with_table(parts: Layout, rows: int, wide: float, head: float = 0.0) -> Layo
 
 
 def with_caption(parts: Layout, lines: int) -> Layout:
-    """Return a layout with room for so many lines where the bar comes and goes, or at the stage's foot.
+    """Return a layout with room for `lines` of text where the bar comes and goes, or at the stage's foot.
 
     There it has room only where it takes little of it.
     """

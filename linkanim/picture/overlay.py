@@ -48,7 +48,7 @@ class Rubber(NamedTuple):
 
 @frozen
 class ToolBar:
-    """The bar of tools: the number of the one in hand, and of the one that the mouse is over."""
+    """The bar of tools: the number of the tool in hand, and of the tool that the mouse is over."""
 
     chosen: int = 0
     pointed: int | None = None
@@ -393,7 +393,7 @@ class AnswerRow:
 
 @frozen
 class Fading:
-    """Words that come and go: shown as strongly as so many eighths say."""
+    """Words that come and go, and how strongly they are shown, in eighths."""
 
     text: str
     eighths: int = 8

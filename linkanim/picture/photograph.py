@@ -44,7 +44,7 @@ SUFFIXES = (".png", ".jpg", ".jpeg", ".webp", ".bmp")
 
 
 def lack(file: str) -> str | None:
-    """Return in a sentence why a photograph is left out; None of one that shows."""
+    """Return in a sentence why a photograph is left out; None where it can be shown."""
     found = _read(file, _stamp(file))
     return f"{found}; the sheet goes on without the photograph" if isinstance(found, str) else None
 

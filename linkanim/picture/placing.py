@@ -70,7 +70,7 @@ class Solid(NamedTuple):
 
 
 class Solids(NamedTuple):
-    """Solids with as many corners each: those (n or 1 moments, m, c), and `half` (m,)."""
+    """Solids of one number of corners: the corners (n or 1 moments, m, c), and `half` (m,)."""
 
     corners: Loop
     half: _Floats

@@ -172,7 +172,7 @@ class Axis:
 
 
 def linear(low: float, high: float, *, most: int = 5, unit: str = "", least: int = 0) -> Axis:
-    """Return an axis from `low` to `high` with at most so many ticks, at 1, 2 or 5 times a power of ten.
+    """Return an axis from `low` to `high` with at most `most` ticks, at 1, 2 or 5 times a power of ten.
 
     In degrees (`unit` "°") ticks lie at parts of a turn; no other unit stands with their numbers. Where they
     are fewer than `least` they lie closer, even if that is more than `most`.
@@ -260,7 +260,7 @@ def unbounded_places(x: ArrayLike, values: ArrayLike) -> Floats:
 
 
 def round_step(span: float, most: int) -> float:
-    """Return the least of 1, 2 and 5 times a power of ten that goes at most so many times into a span."""
+    """Return the least of 1, 2 and 5 times a power of ten that goes at most `most` times into a span."""
     rough = span / most
     power = 10.0 ** floor(log10(rough))
     return next(power * factor for factor in (1, 2, 5, 10) if power * factor >= rough * (1 - 1e-9))

@@ -72,7 +72,7 @@ class Room(NamedTuple):
 
 
 def room(top: Ints, high: Ints, end: Ints, width: int) -> Room:
-    """Return where layers may lie on a surface so many pixels wide."""
+    """Return where layers may lie on a surface `width` pixels wide."""
     first = np.concatenate(([0], np.cumsum(high)))
     rows = np.arange(first[-1]) + np.repeat(top - first[:-1], high)
     return Room(top, high, end, first, rows * width)
@@ -246,7 +246,7 @@ def shares(cover: Counts | Floats) -> Shares:
 
 
 def mixed_in(place: Ints, share: Shares, ink: Words) -> Mix:
-    """Return what mixing in so much of a colour does, for each pixel its own."""
+    """Return what mixing in the share of a colour does to each pixel."""
     of_bytes = (share.astype(np.uint64) * _ALIKE).view(np.uint16).astype(np.float32)
     of_bytes *= np.float32(1 / WHOLE)
     add = ink.view(np.uint8) * of_bytes

@@ -212,7 +212,7 @@ class Typesetting(NamedTuple):
 
 
 def typesetting(size: int) -> Typesetting:
-    """Return how lines of a height are set, for what draws with fonts of its own."""
+    """Return how lines of a height are set, for a printer that has other fonts."""
     small = max(round(_SUB * size), min(size, _LEAST))
     return Typesetting(_em(size) / _FINE, _em(small) / _FINE, round(_BASE * size), round(_LOWER * size))
 
@@ -227,7 +227,7 @@ _Place = tuple[str, int, int, int]
 
 
 class Inked(NamedTuple):
-    """Letters on nothing, cut to their ink, so many pixels right and down of where they are set."""
+    """Letters on nothing, cut to their ink, and how far right and down of their place that is, in pixels."""
 
     sprite: pygame.Surface
     right: int

@@ -94,7 +94,7 @@ _PAPER = (255, 255, 255)
 
 
 def on_paper(theme: Theme) -> Theme:
-    """Return the theme of what has no ground of its own: the light one's rims are as white as paper."""
+    """Return the theme for a figure without a ground: the light theme's rims are as white as paper."""
     return replace(theme, background=_PAPER, pin=_PAPER) if theme == LIGHT else theme
 
 

@@ -134,7 +134,7 @@ class Chosen(NamedTuple):
 
 
 def chosen_by(action: Action, row: int, count: int) -> Chosen | None:
-    """Return what an action chooses of so many rows where one is chosen; None where it chooses nothing."""
+    """Return what an action chooses of `count` rows, `row` being chosen; None where it chooses nothing."""
     match action:
         case Action("option", int() as place) if 0 <= place < count:
             return Chosen(place, taken=True)

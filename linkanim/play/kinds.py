@@ -438,7 +438,7 @@ def _why_turning(puzzle: Puzzle, body: Body, rate: float) -> str:
 
 
 def fastest(puzzle: Puzzle) -> QuizQuestion | None:
-    """Return which of some joints is fastest; taken wrongly, the input's or the one that is farthest out."""
+    """Ask which joint is fastest; wrong answers take the input's, or the joint that is farthest out."""
     speeds = {name: puzzle.value(f"{name}.velocity") for name in puzzle.joints}
     greatest = max((value for value in speeds.values() if isfinite(value)), default=0.0)
     chosen: list[str] = []

@@ -34,7 +34,7 @@ _DECIMALS = 4
 def questions(
     scenes: Sequence[Scene], count: int, seed: int, progress: Callable[[int, int], None] = lambda *_: None
 ) -> tuple[QuizQuestion, ...]:
-    """Return so many questions, the scenes one after the other.
+    """Return `count` questions, from the scenes one after the other.
 
     Kinds come in turn, as far as the scene has something to ask of each; none is asked twice of one subject
     before a scene has nothing else. `progress` is called with (questions made, in all). WorkFailed where a

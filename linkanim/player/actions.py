@@ -59,7 +59,7 @@ _PLACES = 9
 
 
 def chart(state: State, further: int) -> State:
-    """Show the telling quantity so many further; none follows the last, and any that is not telling."""
+    """Chart the telling quantity `further` places on: no chart follows the last, and any other quantity."""
     charts = (None, *state.scene.telling)
     if state.look.chart not in charts:
         return replace(state, look=replace(state.look, chart=None))
@@ -118,13 +118,13 @@ def theme(state: State, _: None) -> State:
 
 
 def zoom(state: State, about: tuple[float, float, float]) -> State:
-    """Go so many notches nearer to a point."""
+    """Zoom by notches of the wheel about a point."""
     notches, x, y = about
     return replace(state, look=zoomed(state.look, notches, (x, y)))
 
 
 def pan(state: State, by: tuple[float, float]) -> State:
-    """Shift the picture by so many window heights, right and down."""
+    """Shift the picture right and down, in heights of the window."""
     (across, down), look = by, state.look
     return replace(state, look=replace(look, pan=_rounded(look.pan[0] + across, look.pan[1] + down)))
 
@@ -135,7 +135,7 @@ def fit(state: State, _: None) -> State:
 
 
 def zoomed(look: Look, notches: float, about: tuple[float, float]) -> Look:
-    """Return the look so many notches nearer, the point `about` staying where it is.
+    """Return the look zoomed by `notches`, the point `about` staying where it is.
 
     `about` is in window heights from the middle of the picture, right and down. So many notches
     out again give the same look, unless the end of the range was met.
@@ -696,7 +696,7 @@ def is_known(action: Action) -> bool:
 
 
 def is_taped(action: Action) -> bool:
-    """Tell whether a tape keeps the action: one that is known and shows in the picture."""
+    """Tell whether a tape keeps the action: it is known, and what it does is seen in the picture."""
     return is_known(action) and ACTIONS[action.name].taped
 
 
@@ -756,7 +756,7 @@ def aged(state: State) -> State:
 
 
 def carried(state: State, action: Action) -> State:
-    """Return the state with one action carried out; one that a solver fails at changes nothing."""
+    """Return the state with one action carried out; as it was where the solver fails at that."""
     rule = ACTIONS[action.name]
     if action.name not in _NOT_BY_HAND:
         state = replace(state, touched=state.frame)

@@ -104,7 +104,7 @@ def left(state: State) -> State:
 
 
 def draft(state: State, text: str) -> State:
-    """Open a sheet as it was stored, seen as it is zoomed; BadInput for what is none."""
+    """Open a sheet from the text that it was stored as; BadInput for any other text."""
     look, sheet = state.look, restored_sheet(state, text)
     opened = _opened(replace(state, sheet=sheet), sheet.building)
     return replace(opened, look=replace(look, unit=None, chart=None))
@@ -126,7 +126,7 @@ def stored_text(sheet: BuildSheet) -> str:
 
 
 def restored_sheet(state: State, text: str, where: str = "the draft") -> BuildSheet:
-    """Return a sheet as it was stored, over a state; BadInput for what is none, OtherVersion as it says."""
+    """Return a sheet from the text that it was stored as; BadInput, OtherVersion as for any document."""
     document = DRAFT.parsed(text, where, _DAMAGED)
     # that of an older tape has no mark
     known = {_MARK: VERSION, **document} if isinstance(document, dict) and "draft" in document else document

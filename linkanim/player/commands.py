@@ -120,14 +120,14 @@ def bar(state: State, pointed: int | None = None) -> CommandBar | None:
 
 
 def pressed(state: State, number: int) -> tuple[Action, ...]:
-    """Return what a button asks for; one that cannot be done says why."""
+    """Return what a button asks for; where that cannot be done, a sentence that says why."""
     handle = _HANDLES[state.mode][number]
     reason = lack(state, handle.action)
     return (Action("note", reason),) if reason else (_meant(state, handle.action),)
 
 
 def slid(state: State, number: int, share: float) -> tuple[Action, ...]:
-    """Return what brings a slider's knob so far along, 0 to 1; one that cannot be moved says why."""
+    """Return what brings a slider's knob to a share of its way, 0 to 1; where it is fixed, a sentence why."""
     reason = lack(state, _HANDLES[state.mode][number].action)
     if reason:
         return (Action("note", reason),)

@@ -77,7 +77,7 @@ def dial(state: State, share: float) -> State:
 
 
 def dial_on(state: State, steps: int) -> State:
-    """Put the knob so many answers further, towards the compact end."""
+    """Move the knob by `steps` answers towards the compact end."""
     sketch = state.drawing
     if sketch is None or len(sketch.way) < 2 or sketch.held is not None:
         return state

@@ -60,7 +60,7 @@ _LONGEST = 40
 
 
 def mechanism(state: State, further: int) -> State:
-    """Put on the scene so many places further on the shelf."""
+    """Put on the scene that is `further` places on along the shelf."""
     return put_on(state, (state.place + further) % len(state.shelf))
 
 
@@ -106,7 +106,7 @@ def exchanged(state: State, scene: Scene) -> State:
 
 
 def followed(state: State, scene: Scene) -> State:
-    """Show a changed scene, the one that is shown gliding to it."""
+    """Let the scene that is shown glide to a changed one."""
     way = glide(state.shown, scene, state.frame)
     return replace(exchanged(state, scene), glide=way)
 
@@ -162,7 +162,7 @@ def open_shelf(state: State, _: None) -> State:
 
 
 def move(state: State, further: int) -> State:
-    """Choose so many further of what is found; the list has ends, the shelf goes round."""
+    """Choose the row `further` places on among those found; the list has ends, the shelf goes round."""
     if state.browsing:
         found = state.browsing.found
         if state.browsing.chosen not in found:
@@ -282,14 +282,14 @@ def edit(state: State, _: None) -> State:
 
 
 def choose(state: State, further: int) -> State:
-    """Go so many rows further, a value begun let go."""
+    """Choose the row `further` places on; a value that was begun is let go."""
     count = len(dimensions(state.scene))
     at = (state.editing.chosen + further) % count if count else 0
     return replace(state, editing=cleared(state.editing, chosen=at))
 
 
 def pass_on(state: State, further: int) -> State:
-    """Go so many rows further, a value begun kept as a draft, to be judged with the others."""
+    """Choose the row `further` places on; a value that was begun is kept, to be judged with the others."""
     return choose(replace(state, editing=replace(state.editing, drafts=_drafts(state))), further)
 
 
@@ -316,7 +316,7 @@ def take(state: State, _: None) -> State:
 
 
 def nudge(state: State, steps: int) -> State:
-    """Make the chosen value so many small steps larger, or say why not.
+    """Make the chosen value larger by small steps, or say why not.
 
     A step depends on the unit that is shown alone, so that as many steps back end on the same value.
     """
@@ -443,7 +443,7 @@ def grab_row(state: State, row: int) -> State:
 
 
 def pull(state: State, steps: int) -> State:
-    """Change the value that is held by so many small steps, of the unit that is shown, from what it was."""
+    """Set the value that is held to what it was and `steps` small steps of the unit that is shown."""
     held = state.held
     if held is None or held.joint:
         return state

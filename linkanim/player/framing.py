@@ -35,7 +35,7 @@ _NAMES = 2
 
 @frozen
 class Approach:
-    """A view that was left at a frame for the one that fits now."""
+    """The view that was shown when another came to fit, and the frame at which it was left."""
 
     left: View
     since: int

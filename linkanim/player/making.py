@@ -65,18 +65,18 @@ def found(state: State, text: str) -> State:
 
 
 def lift(state: State, by: int) -> State:
-    """Lift the layers off each other by so many steps more."""
+    """Lift the layers further off each other, by a number of steps."""
     return lift_to(state, state.layers.lifted + by) if state.layers else state
 
 
 def lift_to(state: State, step: int) -> State:
-    """Lift the layers off each other by so many steps."""
+    """Lift the layers off each other to a step of the slider."""
     lifted = min(max(step, 0), LIFTED)
     return replace(state, layers=state.layers and state.layers._replace(lifted=lifted))
 
 
 def construct(state: State, further: int) -> State:
-    """Draw so many steps more of how the scene was found, then of its centres and its dead centres.
+    """Draw `further` steps more of how the scene was found, then of its centres and its dead centres.
 
     None follows the last. BadInput for a scene that has no construction.
     """
@@ -101,7 +101,7 @@ def slide(state: State, step: int) -> State:
 
 
 def along(state: State, by: int) -> State:
-    """Go so many steps further along the family of a time ratio, while its construction is drawn."""
+    """Go by a number of steps along the family of a time ratio, while its construction is drawn."""
     from linkanim.synthesis.quick_returns import member_of
 
     member = member_of(state.scene) if state.constructed else None

@@ -295,7 +295,7 @@ def dial(state: State, share: float) -> State:
 
 
 def dial_on(state: State, by: int) -> State:
-    """Turn the dial so many steps towards a large transmission angle."""
+    """Turn the dial by a number of steps towards a large transmission angle."""
     sketch = state.posing
     return dial(state, (sketch.dial + by + LARGEST_DIAL) / (2 * LARGEST_DIAL)) if sketch else state
 

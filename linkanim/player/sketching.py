@@ -38,7 +38,7 @@ def keep(state: State, _: None) -> State:
 
 
 def follow(state: State, numbers: tuple[float, ...]) -> State:
-    """Show an answer that has come, in the place of the one that is shown."""
+    """Show an answer that has come instead of the answer that is shown."""
     sketch = state.sketch
     if sketch is None or not sketch.is_asked or (len(numbers) == POSED) != isinstance(sketch, PoseSketch):
         return state

@@ -1008,7 +1008,7 @@ def report(scene: Scene, error: Exception, **context: object) -> str:
 
 
 def recovered(state: State, good: State, error: Exception) -> State:
-    """Return a state that can be painted instead of one that cannot; `good` is the last that was.
+    """Return a state that can be painted where one cannot be; `good` is the last that was painted.
 
     A glide is left out; another scene than the last good one is taken off again; where the scene itself
     fails at this phase, it stands still at the last good one.

@@ -46,7 +46,7 @@ def write(tape: Tape, path: Path) -> None:
 
 
 def read(path: Path, games: Callable[[str], Game] | None = None) -> Tape:
-    """Read a tape; BadInput, naming the place, for what is none, or of another version.
+    """Read a tape; BadInput, naming the place, for a file that is no tape, or one of another version.
 
     `games` reads the games that are on it from their words.
     """

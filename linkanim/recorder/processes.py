@@ -31,7 +31,7 @@ _DONE = b"."
 
 
 def processes_for(frames: int, size: int) -> int:
-    """Return how many processes draw so many frames of `size` bytes; 0 where ours does.
+    """Return how many processes draw the frames, of `size` bytes each; 0 where this process draws them.
 
     Only Linux copies a process in which libraries have been at work; and a copy has none of our threads, but
     what they hold is held for ever.

@@ -456,7 +456,7 @@ class Handle:
 
 
 def handles(scene: Scene, joint: str) -> tuple[Handle, ...]:
-    """Return the dimensions that follow a joint; none for one that is found from others alone."""
+    """Return the dimensions that follow a joint; none where it is found from other joints alone."""
     found = scene.linkage.joint(joint)
     dragged = [number for number in numbers(scene.document) if number.field.drag]
     return tuple(handle for number in dragged for handle in _handles(number, found, scene))

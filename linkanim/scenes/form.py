@@ -212,7 +212,7 @@ def _length(value: object, unit: str) -> float:
 
 
 def listed(of: ValueType, count: int) -> ValueType:
-    """Return the type of a list of so many values of a type; errors then say `length[1]`."""
+    """Return the type of a list of `count` values; errors then say `length[1]`."""
     example = list(range(10, 10 * count + 1, 10))
 
     def read(table: Table, key: str) -> tuple[Any, ...] | None:

@@ -58,7 +58,7 @@ _ENDS = r"[\]}]|\"{3}|'{3}"
 
 
 def line_numbers(text: str) -> dict[Keys, int]:
-    """Return the line, from 1, of every table and key of a TOML text; few of one that is very long."""
+    """Return the line, from 1, of every table and key of a TOML text; of a very long text, of the first."""
     found: dict[Keys, int] = {}
     table: Keys = ()
     for at, statement, document in _statements(text):

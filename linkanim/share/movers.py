@@ -294,7 +294,7 @@ Mover = dict[str, Any]
 
 @frozen
 class Movable:
-    """A group as SVG, and what moves it; None for one that stands still."""
+    """A group as SVG, and what moves it; None where it stands still."""
 
     shapes: str
     mover: Mover | None = None

@@ -132,7 +132,7 @@ def _merged(mine: Any, other: Any, where: NDArray[np.bool_]) -> Any:
 def refined(
     problem: PathTask, candidates: Candidates, steps: int, *, guarded: bool = True
 ) -> tuple[Candidates, Real]:
-    """Return the candidates after so many steps at the most, and each one's merit: its mean square error.
+    """Return the candidates after at most `steps` steps, and the merit of each: its mean square error.
 
     Infinite where a candidate cannot be closed; limits that are broken weigh on it, and where it is
     `guarded` ways that stray between points: good answers may lie behind such ways.

@@ -120,7 +120,7 @@ def differing(fits: Iterable[Fit], count: int) -> list[Fit]:
 
 
 def cards(front: Sequence[Fit], shown: Fit, count: int) -> tuple[Fit, ...]:
-    """Return at most so many of the front that differ to the eye, the most exact first.
+    """Return at most `count` of the front that differ to the eye, the most exact first.
 
     Among them are the one that is shown, the ends of the front and, between, those that are farthest from
     the others in their figures.

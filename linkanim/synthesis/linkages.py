@@ -416,7 +416,7 @@ class Requirements:
 
 
 def refuse_count(count: int) -> None:
-    """Refuse to make so many answers: BadInput for none, for too many, and for what is no whole number."""
+    """Raise BadInput for a number of answers that is none, too large, or not whole."""
     if not isinstance(count, int | np.integer) or not 1 <= count <= MOST_ANSWERS:
         raise BadInput(f"count={shown(count)}: give a whole number from 1 to {MOST_ANSWERS}")
 

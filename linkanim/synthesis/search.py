@@ -257,7 +257,7 @@ def with_round_lengths(fits: tuple[Fit, ...], step: float) -> tuple[Fit, ...]:
 
 
 def rounded_to(fit: Fit, step: float) -> Fit | None:
-    """Return an answer in round lengths; None where none is left, as of one that goes through its limits."""
+    """Return an answer in round lengths; None where no linkage of such lengths runs through."""
     now: Fit | None = fit
     for name in fit.task.kind.parameters:
         if name == "line_angle" or now is None:
