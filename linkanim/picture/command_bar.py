@@ -23,6 +23,8 @@ _GAP, _BETWEEN = 0.06, 0.3
 _FRAME = 0.14
 _ABOVE = 0.3
 """How far the buttons of a chart stand out of it."""
+_TITLE_OF_CHART, _READING = 12.0, 5.5
+"""The room of a chart's title and of what is read there, in heights of text."""
 _SLIDER = 3.0
 _WITHIN = 0.35
 """From a slider's end to where its knob can go."""
@@ -40,8 +42,20 @@ def bar_cells(layout: Layout, buttons: Sequence[Button]) -> tuple[Rect | None, .
     top = foot.bottom - _edge(layout) - (1 + _FRAME) * side
     cells = _row(buttons, _numbers(buttons, on_chart=False), foot, top, layout)
     if chart:
-        cells |= _row(buttons, _numbers(buttons, on_chart=True), chart, chart.y - _ABOVE * side, layout)
+        on_chart = _numbers(buttons, on_chart=True)
+        room = _beside_title(chart, _wide(buttons, on_chart) * side, layout)
+        cells |= _row(buttons, on_chart, room, chart.y - _ABOVE * side, layout)
     return tuple(cells.get(n) for n in range(len(buttons)))
+
+
+def _beside_title(chart: Rect, wide: float, layout: Layout) -> Rect:
+    """Return the room of a chart's buttons: all its width, or, where its title is there, before a reading."""
+    title, reading = _TITLE_OF_CHART * layout.text_size, _READING * layout.text_size
+    if (chart.width - wide) / 2 >= title:
+        return chart
+    needed = 1.01 * (wide + 2 * _FRAME * layout.button + 2 * _edge(layout))
+    left = max(chart.width - reading - needed, 0.0)
+    return chart._replace(x=chart.x + left, width=min(needed, chart.width))
 
 
 def _numbers(buttons: Sequence[Button], *, on_chart: bool) -> list[int]:

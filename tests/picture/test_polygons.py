@@ -24,7 +24,7 @@ WINDOW: Layout = layout((1280, 720), polygons=True)
 FEW = ("crank-rocker", "press", "inverted-slider-crank", "scotch-yoke", "jansen")
 
 
-def panels(name: str, window: Layout = WINDOW) -> tuple[Polygon, Polygon]:
+def panels(name: str, window: Layout = WINDOW) -> tuple[Polygon, ...]:
     assert window.polygons is not None
     return polygons_of(figure(load(name)), window.polygons, pen_for(window, Type(), LIGHT))
 

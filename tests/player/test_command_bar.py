@@ -273,6 +273,22 @@ def test_the_chart_has_buttons_of_its_own_at_its_head(player: Player) -> None:
     assert player.state.look.chart is None
 
 
+@pytest.mark.parametrize("size", [(640, 360), (1280, 720), (3840, 2160)], ids=str)
+@pytest.mark.parametrize("beside", [False, True])
+def test_the_buttons_of_a_chart_leave_its_reading_and_where_there_is_room_its_title(
+    rocker: State, size: tuple[int, int], beside: bool
+) -> None:
+    shown, place = bar(after(rocker, Action("chart", 1), "stir")), layout(size, chart=2, beside=beside)
+    assert shown
+    assert place.chart
+    cells = bar_cells(place, shown.buttons)
+    seen = [cell for cell, one in zip(cells, shown.buttons, strict=True) if cell and one.on_chart]
+    assert len(seen) == 4
+    assert max(cell.right for cell in seen) < place.chart.right - 5 * place.text_size
+    if size[0] > 1000:
+        assert min(cell.x for cell in seen) > place.chart.x + 9 * place.text_size
+
+
 # What a lecture needs, by mouse alone: the buttons and rows that are clicked, three at the most.
 GESTURES: dict[str, tuple[tuple[str, ...], Callable[[State], object]]] = {
     "run and pause": (("play / pause",), lambda state: not state.clock.paused),
