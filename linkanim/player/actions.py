@@ -22,6 +22,7 @@ from linkanim.picture.quantities import axes_of, axis_of, chart_tokens, driven_w
 from linkanim.player import building, dial, edits, making, pencil, posing, sketching
 from linkanim.player.action import Action
 from linkanim.player.clock import Clock
+from linkanim.player.commands import size_words
 from linkanim.player.edits import drop, edit
 from linkanim.player.keys import BESIDE_GAMES
 from linkanim.player.sketching import come, keep, left
@@ -307,6 +308,27 @@ def record(state: State, form: Literal["gif", "mp4"]) -> State:
     return replace(with_effect(state, "render", state.recording.format), recording=None)
 
 
+TAKE_SIZES: tuple[tuple[int, int] | None, ...] = (None, (800, 450), (1280, 720), (1920, 1080), (3840, 2160))
+"""The sizes of recordings that are chosen from; None for the window's shape."""
+
+
+def take_size(state: State, _: None) -> State:
+    """Have recordings in the next size, the window's shape among them."""
+    return replace(state, take_size=TAKE_SIZES[(TAKE_SIZES.index(state.take_size) + 1) % len(TAKE_SIZES)])
+
+
+def _take_size(_: State, after: State) -> str:
+    """Say how large recordings are."""
+    return f"recordings: {size_words(after)}"
+
+
+def period(state: State, form: Literal["gif", "mp4"]) -> State:
+    """Record one period as it runs: a recording in which nothing is done."""
+    if state.recording:
+        return with_toast(state, "a recording runs; G or M ends it")
+    return with_effect(state, "period", form)
+
+
 def shot(name: str) -> Callable[[State, None], State]:
     """Return the handler of what keeps the picture: the shutter is seen to go."""
     return lambda state, _: replace(with_effect(state, name), shot=state.frame)
@@ -348,7 +370,7 @@ def leave(state: State) -> State:
     clock = under.clock.go(state.frame, under.phase)
     kept = replace(under, frame=state.frame, clock=clock, look=look, touched=state.touched)
     kept = replace(kept, sounds=state.sounds, pad=state.pad, from_title=state.from_title)
-    kept = replace(kept, kiosk=state.kiosk)
+    kept = replace(kept, kiosk=state.kiosk, take_size=state.take_size)
     return replace(kept, recording=state.recording, effects=state.effects, faded=state.frame)
 
 
@@ -670,6 +692,8 @@ ACTIONS: Mapping[str, Rule] = {
     "sift": Rule(_text, edits.sift, taped=False),
     "unsift": Rule(_nothing, edits.unsift, taped=False),
     "record": Rule(_one_of("gif", "mp4"), record, taped=False),
+    "period": Rule(_one_of("gif", "mp4"), period, taped=False),
+    "take_size": Rule(_nothing, take_size, taped=False, answer=_take_size),
     "screenshot": Rule(_nothing, shot("screenshot"), taped=False),
     "svg": Rule(_nothing, shot("svg"), taped=False),
     "share": Rule(_nothing, effect("share"), taped=False),

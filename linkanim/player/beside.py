@@ -226,10 +226,11 @@ class Rendering:
 
 
 class Kept(NamedTuple):
-    """A tape that is written, and the file it is to be rendered into."""
+    """A tape that is written, the file it is to be rendered into, and how large, "" for its own shape."""
 
     tape: Path
     target: Path
+    size: str = ""
 
 
 class Queue:
@@ -239,9 +240,12 @@ class Queue:
         self._running: Rendering | None = None
         self._waiting: list[Kept] = []
 
-    def add(self, tape: Tape, form: str) -> None:
-        """Write a tape into recordings/ and have it rendered in its turn; WorkFailed where that cannot be."""
-        self._waiting.append(keep(tape, form))
+    def add(self, tape: Tape, form: str, size: tuple[int, int] | None = None) -> None:
+        """Write a tape into recordings/ and have it rendered in its turn; WorkFailed where that cannot be.
+
+        Without a size it is of the window's shape.
+        """
+        self._waiting.append(keep(tape, form)._replace(size="x".join(map(str, size or ()))))
         self._go_on()
 
     def news(self) -> tuple[str, ...]:
@@ -284,7 +288,8 @@ def keep(tape: Tape, form: str) -> Kept:
 def render(kept: Kept) -> Rendering:
     """Start rendering a tape beside; WorkFailed where that cannot be."""
     target = kept.target
-    command = child.module("linkanim", "record", str(kept.tape), "-o", str(target), "--progress")
+    size = ("--size", kept.size) if kept.size else ()
+    command = child.module("linkanim", "record", str(kept.tape), *size, "-o", str(target), "--progress")
     number, name = tempfile.mkstemp()
     # it stays open as long as the rendering
     log = Path(name).open("rb", buffering=0)  # noqa: SIM115

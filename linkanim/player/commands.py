@@ -211,6 +211,11 @@ def line_asks(mode: Mode, keys: str) -> Action | None:
     return Action("menu", f"keys {keys}") if len(actions) > 1 else next(iter(actions), None)
 
 
+def size_words(state: State) -> str:
+    """Say how large recordings are."""
+    return "{} × {}".format(*state.take_size) if state.take_size else "the window's shape"
+
+
 def _of_mode(state: State, usual: Mapping[Action, ListRow], group: str | None) -> Entries:
     found = [row for action, row in usual.items() if action.name != "menu"]
     if state.game:
@@ -219,7 +224,10 @@ def _of_mode(state: State, usual: Mapping[Action, ListRow], group: str | None) -
     if group is None:
         return Entries("Commands", tuple(found))
     title, members = GROUPS[group]
-    return Entries(title, tuple(row for row in found if row.action in members))
+    told = {Action("take_size"): f": {size_words(state)}"}
+    rows = (row._replace(words=row.words + told.get(row.action, "")) for row in found)
+    rows = (row for row in rows if row.action in members)
+    return Entries(title, tuple(sorted(rows, key=lambda row: members.index(row.action))))
 
 
 _CHOSEN: Mapping[str, tuple[Action, ...]] = {

@@ -150,7 +150,10 @@ def _aims() -> tuple[Bind, ...]:
     return (*lines, *fine)
 
 
-_RECORD = _on("g", "record", "gif") + _on("m", "record", "mp4")
+_RECORD = (
+    *(_on("g", "record", "gif") + _on("m", "record", "mp4")),
+    *(_on("ctrl+g", "period", "gif") + _on("ctrl+m", "period", "mp4") + _on("ctrl+shift+g", "take_size")),
+)
 _BUILD = _on("f2", "build") + _on("shift+f2", "build_on")
 _DIAL = _both(",", ".", "dial_on")
 _POSED = _on("return kp_enter", "enter")
@@ -225,7 +228,7 @@ KEYS: Table = {
     ),
     "keep": (
         KeyRow("S, F12 (Shift+S: SVG)", "screenshot", _on("s f12", "screenshot") + _on("shift+s", "svg")),
-        KeyRow("G, M", "record GIF, MP4: start, stop", _RECORD),
+        KeyRow("G, M (Ctrl: a period)", "record GIF, MP4: start, stop", _RECORD),
         KeyRow("Shift+G", "hand on: one page that moves", _on("shift+g", "share")),
         KeyRow("F6 (Shift: write them)", "its parts in layers, to be made", _MAKE),
         KeyRow(
@@ -447,7 +450,7 @@ MENU_IN: frozenset[Mode] = frozenset(get_args(Mode)) - {"name"}
 BESIDE_GAMES = frozenset(
     {
         *("play", "help", "theme", "zoom", "fit", "fullscreen", "sounds"),
-        *("pan", "record", "screenshot", "svg", "quit"),
+        *("pan", "record", "take_size", "screenshot", "svg", "quit"),
     }
 )
 """The commands that are the window's own while a game is on; all others are handed to the game."""
@@ -503,6 +506,9 @@ _APART: Mapping[Action, str] = {
     Action("svg"): "figure (SVG)",
     Action("record", "gif"): "record a GIF: start, stop",
     Action("record", "mp4"): "record an MP4: start, stop",
+    Action("period", "gif"): "one period as a GIF",
+    Action("period", "mp4"): "one period as an MP4",
+    Action("take_size"): "the size of recordings",
     Action("lift", 1): "lift the layers farther off each other",
     Action("lift", -1): "lay the layers nearer together",
     Action("further", 1): "the next one",
@@ -584,7 +590,8 @@ GROUPS: Mapping[str, CommandGroup] = {
     "record": CommandGroup(
         "Record and save",
         (
-            *(Action("record", "gif"), Action("record", "mp4"), Action("screenshot"), Action("svg")),
+            *(Action("record", "gif"), Action("record", "mp4"), Action("period", "gif")),
+            *(Action("period", "mp4"), Action("take_size"), Action("screenshot"), Action("svg")),
             *(Action("share"), Action("save"), Action("save_as")),
         ),
     ),

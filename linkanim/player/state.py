@@ -744,6 +744,7 @@ class State:
     `place_typed` is the input's angle, or travel, that is being typed while paused, `naming` the name under
     which the scene is to be saved, while that is asked for.
     `game` is the game that is on, over the state `beneath`, and `games` reads one from its words.
+    Recordings are as large as `take_size`, or of the window's shape.
     `held` is the joint whose lengths are being dragged, `grasp` the one that leads the input, `pad` whether a
     gamepad is plugged in.
     `home` is what of the scene's plane a game keeps in sight, where that is not the scene as it fits.
@@ -792,6 +793,7 @@ class State:
     faded: int | None = None
     shot: int | None = None
     recording: Take | None = None
+    take_size: tuple[int, int] | None = None
     from_title: bool = False
     kiosk: bool = False
     by_itself: bool = False

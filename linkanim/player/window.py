@@ -458,6 +458,9 @@ class Window:
         match effect.name:
             case "record":
                 self._taping = Taping(self.state, pygame.display.get_window_size())
+            case "period":
+                taping = Taping(self.state, pygame.display.get_window_size())
+                self._render("mp4" if effect.value == "mp4" else "gif", taping)
             case "render":
                 self._stop("mp4" if effect.value == "mp4" else "gif")
             case "screenshot":
@@ -589,13 +592,15 @@ class Window:
             self.state = replace(self.state, recording=Take(form, self._taping.since))
             self._notes.append(f"{error}; the recording runs on")
 
-    def _render(self, form: str) -> None:
-        if self._taping:
+    def _render(self, form: str, period: Taping | None = None) -> None:
+        """Have the recording that runs rendered, or one of a `period`, in which nothing is done."""
+        if taping := period or self._taping:
             from linkanim.player.beside import Queue
 
             self._renderings = self._renderings or Queue()
-            self._renderings.add(self._taping.tape(self.state.frame), form)
-            self._taping = None
+            tape = taping.tape(self.state.frame + (taping is period))
+            self._renderings.add(tape, form, self.state.take_size)
+            self._taping = self._taping if period else None
 
     def _meant(self, event: Event) -> tuple[Action, ...]:
         """Return what an event asks for in the state as it is."""

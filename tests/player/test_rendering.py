@@ -131,11 +131,12 @@ def test_what_waits_when_the_window_closes_is_left_to_one_process(
     tape: Tape, here: Path, monkeypatch: pytest.MonkeyPatch, started: list[tuple[list[str], Running]]
 ) -> None:
     queue = beside.Queue()
-    for _ in range(3):
-        queue.add(tape, "gif")
+    for size in (None, None, (640, 360)):
+        queue.add(tape, "gif", size)
     queue.close()
     (_, (command, _)) = started
-    rest = [str(Path("recordings", f"kite-{n}{end}")) for n in (2, 3) for end in (".tape.json", ".gif")]
+    pairs = [[str(Path("recordings", f"kite-{n}{end}")) for end in (".tape.json", ".gif")] for n in (2, 3)]
+    rest = [*pairs[0], "", *pairs[1], "640x360"]
     assert command[2:] == ["-m", "linkanim.cli.commands.record", *rest]
     recorded: list[list[str]] = []
 
@@ -144,8 +145,10 @@ def test_what_waits_when_the_window_closes_is_left_to_one_process(
         return len(recorded)
 
     monkeypatch.setattr(tapes, "main", main)
-    assert tapes.record_all([*rest, "c", "d"]) == 3
-    assert recorded == [["record", one, "-o", other] for one, other in (rest[:2], rest[2:], ["c", "d"])]
+    assert tapes.record_all([*rest, "c", "d", ""]) == 3
+    sizes: tuple[list[str], ...] = ([], ["--size", "640x360"], [])
+    jobs = zip((*pairs, ["c", "d"]), sizes, strict=True)
+    assert recorded == [["record", one, "-o", other, *size] for (one, other), size in jobs]
 
 
 def test_a_signal_ends_all_that_is_left_to_do(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -156,5 +159,5 @@ def test_a_signal_ends_all_that_is_left_to_do(monkeypatch: pytest.MonkeyPatch) -
         return 143
 
     monkeypatch.setattr(tapes, "main", main)
-    assert tapes.record_all(["a", "b", "c", "d"]) == 143
+    assert tapes.record_all(["a", "b", "", "c", "d", ""]) == 143
     assert recorded == [["record", "a", "-o", "b"]]

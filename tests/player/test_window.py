@@ -24,6 +24,7 @@ from linkanim.player import screen as display
 from linkanim.player.action import Action
 from linkanim.player.actions import carried
 from linkanim.player.clock import STEP
+from linkanim.player.commands import menu_of
 from linkanim.player.framing import Framing
 from linkanim.player.shown import overlay
 from linkanim.player.state import FRAMES, TOAST_FRAMES, State, begin
@@ -626,6 +627,34 @@ def test_a_recording_is_taped_and_rendered_beside(
     assert "crank-rocker-1.gif saved" in player.state.toast.text
     player.tick(TOAST_FRAMES)
     assert player.state.toast is None
+
+
+def test_one_period_is_recorded_at_once_in_the_size_that_is_chosen(
+    player: Player, here: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    started: list[list[str]] = []
+    monkeypatch.setattr("linkanim.player.beside._start", fake_start(started))
+    player.press(pygame.K_g, CTRL)
+    player.tick()
+    tape = read(here / "recordings" / "crank-rocker-1.tape.json")
+    assert (tape.is_loop, player.state.recording) == (True, None)
+    assert "--size" not in started[0]
+    player.press(pygame.K_g, CTRL | SHIFT)
+    assert player.state.chip
+    assert player.state.chip.text == "recordings: 800 × 450"
+    entries = menu_of(player.state, "record")
+    assert entries
+    assert "the size of recordings: 800 × 450" in [row.words for row in entries.entries]
+    player.tick(60)
+    player.press(pygame.K_m, CTRL)
+    player.tick(60)
+    assert started[-1][started[-1].index("--size") + 1] == "800x450"
+    assert started[-1][-2].endswith("crank-rocker-2.mp4")
+    player.press(*plain("g"))
+    player.press(pygame.K_g, CTRL)
+    assert player.state.toast
+    assert "a recording runs" in player.state.toast.text
+    assert player.state.recording
 
 
 def test_closing_the_window_finishes_a_recording(

@@ -132,13 +132,14 @@ def advance(drawn: tqdm[NoReturn], done: int, total: int) -> None:
 
 
 def record_all(words: list[str]) -> int:
-    """Record TAPE TARGET TAPE TARGET ... in turn, what a window that closes leaves to be done.
+    """Record TAPE TARGET SIZE TAPE TARGET SIZE ... in turn, what a window that closes leaves to be done.
 
-    A tape that cannot be recorded does not keep the others from it; a signal does. Returns the last code.
+    An empty size is that of the tape. A tape that cannot be recorded does not keep the others from it; a
+    signal does. Returns the last code.
     """
     code = DONE
-    for tape, target in zip(words[::2], words[1::2], strict=True):
-        code = main(["record", tape, "-o", target])
+    for tape, target, size in zip(words[::3], words[1::3], words[2::3], strict=True):
+        code = main(["record", tape, "-o", target, *(["--size", size] if size else [])])
         if code not in (DONE, FAILED, BadInput.exit_code):
             break
     return code
