@@ -10,7 +10,7 @@ import pygame
 import pytest
 
 from linkanim.cli import main
-from linkanim.cli.options import PURPOSES
+from linkanim.picture.purpose import PURPOSES
 
 DRAW = ("draw", "crank-rocker", "--phase", "60 deg", "--names", "--names")
 CHART = ("chart", "crank-rocker", "--quantity", "rocker.angle,rocker.angular_velocity")

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 
 import numpy as np
 import pytest
 
 from linkanim.paper.chart import Page
-from linkanim.paper.curves import Pace, curves_of
+from linkanim.paper.curves import Pace, curves_of, extremes
 from linkanim.picture.chart import Pen, Plot, asymptotes, axes, curve_layer, dot, paths, right_axis
 from linkanim.picture.items import Caption
 from linkanim.picture.quantities import linear, range_around, unbounded_places
@@ -16,7 +17,7 @@ from linkanim.picture.raster import Layer
 from linkanim.picture.text import Type
 from linkanim.picture.theme import LIGHT
 from linkanim.picture.view import Rect
-from linkanim.scenes import load
+from linkanim.scenes import load, names
 
 
 def _pen(line: float = 1.8) -> Pen:
@@ -109,3 +110,37 @@ def test_an_axis_has_four_ticks_at_least(span: tuple[float, float], most: int, u
     ticks = linear(*span, most=most, unit=unit, least=4).ticks
     assert 4 <= len(ticks) <= 9
     assert len({label for _, label in ticks}) == len(ticks)
+
+
+def chart_faults(name: str) -> Iterator[str]:
+    """Yield what is wrong with charts of a scene's quantities: strokes through infinities, words there."""
+    scene = load(name)
+    pace = (Pace(scene.linkage.drive.speed, ""),)
+    for curve in curves_of(scene, tuple(scene.quantities), pace).curves:
+        token = f"{curve.quantity.token} {curve.label}"
+        peaks, finite = extremes(scene, curve), np.isfinite(curve.values)
+        if not all(math.isfinite(part) for peak in peaks for part in peak):
+            yield f"{token}: {peaks}"
+        if peaks and not finite.all() and np.isinf(curve.values).any():
+            yield f"{token} has words, and goes to infinity"
+        if not finite.any():
+            continue
+        low, high = range_around(curve.values)
+        plot = Plot(Rect(0, 0, 1000, 500), linear(curve.x.min(), curve.x.max()), linear(low, high))
+        drawn = list(paths(plot, curve.x, curve.values))
+        if not drawn:
+            yield f"{token} lies outside of its chart"
+        for place in plot.x.share(unbounded_places(curve.x, curve.values)) * 1000:
+            through = [path for path in drawn if path.real.min() < place - 1e-6 < path.real.max() - 2e-6]
+            if through:
+                yield f"{token} is drawn through its infinity at {place:.1f} px"
+        for path in drawn:
+            steps = np.abs(np.diff(path.imag))
+            if steps.size and steps.max() > 450 and np.ptp(curve.values[finite]) > high - low:
+                yield f"{token} has a stroke from edge to edge"
+
+
+@pytest.mark.parametrize("name", names())
+@pytest.mark.sampled
+def test_no_chart_has_a_stroke_or_words_at_an_infinity(name: str) -> None:
+    assert list(chart_faults(name)) == []

@@ -34,8 +34,9 @@ def run(options: Namespace) -> None:
     tokens = tuple(part.strip() for part in options.quantity.split(",") if part.strip())
     curves = curves_of(scene, tokens, paces(scene, options), options.over)
     measured = _measured(curves, options)
-    drawn_for = {"type_scale": canvas.type_scale, "ground": canvas.ground}
-    page = Page(curves, canvas.size, options.theme, measured, **drawn_for)
+    page = Page(
+        curves, canvas.size, options.theme, measured, type_scale=canvas.type_scale, ground=canvas.ground
+    )
     told = alternative(options)
     write(page, target, latex=bool(options.text), wide=canvas.wide)
     if measured:
