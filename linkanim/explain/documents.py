@@ -266,7 +266,9 @@ def _results(found: Solution, form: DocumentForm) -> Iterator[str]:
 
 
 def _where(found: Solution, form: DocumentForm) -> str:
-    return form.paragraph(form.text(found.where))
+    called, place = found.where
+    symbol = form.text(called) if isinstance(called, str) else form.inline(form.how.symbol(called))
+    return form.paragraph(f"{form.text('At')} {symbol} = {form.text(place)}.")
 
 
 def chapters(found: Solution, form: DocumentForm, *, blank: bool = False) -> Iterator[str]:

@@ -388,12 +388,13 @@ class Solution:
         return self.request.scene.title
 
     @property
-    def where(self) -> str:
-        """Where the input is, in a sentence."""
+    def where(self) -> tuple[Symbol | str, str]:
+        """What the input is called, as a symbol where its index is a word, and where it is."""
         scene = self.request.scene
         place = float(self.request.motion().coordinate)
+        letter, _, index = input_symbol(scene.linkage).partition("_{")
         words = scene.linkage.drive.coordinate.text(place, scene.length_unit, 0.01)
-        return f"At {input_symbol(scene.linkage)} = {words}."
+        return Symbol(letter, index[:-1]) if index else letter, words
 
 
 def solution(request: PoseRequest) -> Solution:

@@ -21,6 +21,7 @@ from linkanim.mechanics.measures import TRAVELLING, TURNING, coefficients_of, ou
 from linkanim.mechanics.quantities import Quantity, bodies_in_chain, called, input_symbol, phrase
 from linkanim.mechanics.search import sign_changes
 from linkanim.paper.curves import SAMPLES, Pace, curves_of, extremes
+from linkanim.picture.figure import figure
 from linkanim.scenes.scene import Scene
 from linkanim.units import rounded
 
@@ -136,6 +137,13 @@ def sheet(values: Values, instant: Instant, paces: tuple[Pace, ...], digits: int
 def rests(scene: Scene, instant: Instant) -> bool:
     """Whether the input rests at an instant: at an end of its swing."""
     return not scene.info.full_turn and abs(sin(instant.phase)) < _SAME
+
+
+def telling_phase(scene: Scene) -> float:
+    """Return the phase of the pose that reads best; where its input rests, of one where everything moves."""
+    clearest = figure(scene).clearest
+    # at an end of its swing the input rests, and nothing has a rate
+    return pi / 2 if rests(scene, Instant(clearest, "")) else clearest
 
 
 def place_of(scene: Scene, instant: Instant) -> str:

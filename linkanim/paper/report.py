@@ -8,7 +8,6 @@ from dataclasses import field, replace
 from functools import cached_property
 from html import unescape
 from itertools import chain, groupby
-from math import pi
 
 import numpy as np
 
@@ -32,6 +31,7 @@ from linkanim.paper.findings import (
     rests,
     sheet,
     table,
+    telling_phase,
     topics,
     value_tables,
 )
@@ -123,10 +123,7 @@ class Report:
 
     @cached_property
     def _figure(self) -> Figured:
-        clearest = figure(self.scene).clearest
-        # at an end of its swing the input rests, and nothing has a rate
-        phase = pi / 2 if rests(self.scene, Instant(clearest, "")) else clearest
-        return Figured(self.scene, self._size, Look(names=2, hud=False), phase)
+        return Figured(self.scene, self._size, Look(names=2, hud=False), telling_phase(self.scene))
 
     @cached_property
     def _size(self) -> tuple[int, int]:

@@ -589,6 +589,17 @@ def test_versions_have_letters_other_lengths_and_their_keys(capsys: pytest.Captu
     assert alone.partition("# Key:")[0].partition("\n")[2].strip() in text
 
 
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [("jansen", r"At $\theta_{m}$ = 248.50°."), ("excavator", r"At $\theta_{\mathrm{boom}}$ = 35.12°.")],
+)
+def test_the_pose_is_one_that_moves_and_its_angle_is_set(
+    name: str, said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["explain", name]) == 0
+    assert capsys.readouterr().out.splitlines()[2] == said
+
+
 def test_figures_of_versions_share_no_id(tmp_path: Path) -> None:
     out = tmp_path / "sheet.html"
     assert main(["explain", "crank-rocker", "--exercise", "--versions", "2", "-o", str(out)]) == 0

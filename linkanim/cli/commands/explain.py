@@ -16,10 +16,10 @@ from linkanim.explain.documents import HTML, MARKDOWN, TEX, document, exercise
 from linkanim.explain.solution import PoseRequest, Solution, solution
 from linkanim.explain.variant import variant
 from linkanim.paper.construction import ConstructionPage
+from linkanim.paper.findings import telling_phase
 from linkanim.paper.html import embedded
 from linkanim.paper.svg import svg
 from linkanim.paper.vectors import vectors_svg
-from linkanim.picture.figure import figure
 from linkanim.scenes import load
 from linkanim.scenes.editing import in_unit
 from linkanim.scenes.scene import Scene
@@ -102,7 +102,7 @@ def _rounded(request: PoseRequest) -> PoseRequest:
 def _pose(scene: Scene, options: Namespace) -> PoseRequest:
     speed = scene.linkage.drive.speed if options.speed is None else options.speed
     if options.angle is None:
-        phase = figure(scene).clearest if options.phase is None else options.phase
+        phase = telling_phase(scene) if options.phase is None else options.phase
         request = PoseRequest(scene, "phase", float(phase), speed, options.acceleration)
         if options.acceleration and request.swings:
             raise BadInput("--acceleration is the input's own; of an input that swings give --angle with it")
