@@ -39,3 +39,13 @@ def test_a_shorthand_stays_one_whose_bar_is_drawn_anew_from_its_other_end() -> N
     assert scene
     assert "[four-bar]" in text(scene)
     assert 'assembly = "open"' in text(scene)
+
+
+def test_a_shorthand_stays_one_whose_ground_is_turned_away_from_the_origin() -> None:
+    building = building_of(linkanim.load("crank-rocker"))
+    moves = ("choose joints O2", "move 10 20", "choose joints O4", "move 70 80")
+    scene = drawn([*moves], building).made.scene
+    assert scene
+    assert scene.document["ground"] == {"O2": [10, 20]}
+    assert scene.document["four-bar"]["ground"] == pytest.approx(60 * 2**0.5)
+    assert scene.document["four-bar"]["ground_angle"] == "45 deg"

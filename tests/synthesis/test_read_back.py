@@ -71,6 +71,7 @@ def asked(random: np.random.Generator, kind: str, count: int, *, closed: bool) -
         ("box", 0.3, (*random.uniform(50, 200, 2), *random.uniform(150, 400, 2))),
         ("round", 0.3, float(random.choice([0.1, 0.5, 1, 5]))),
         ("cognates", 0.5 if kind == "four-bar" else 0.0, True),
+        ("prefer", 0.3, str(random.choice(["compact", "angle"]))),
     ):
         if random.random() < share:
             found[name] = value
@@ -88,6 +89,7 @@ def words(options: dict[str, Any]) -> list[str]:
             "least_angle": f"{value!r} rad",
             "box": ",".join(repr(float(one)) for one in value) if name == "box" else "",
             "round": f"{value} mm",
+            "prefer": f"{value}",
         }.get(name, repr(value))
         option = {"step": "--timing", "column": "--timing"}.get(name, f"--{name.replace('_', '-')}")
         found += [option] if value is True else [option, text]
@@ -188,7 +190,11 @@ def test_every_answer_is_what_it_says(
         code = main([*command, *how, *words(options)])
         printed = capsys.readouterr()
         assert "unexpected" not in printed.err
-        for row in json.loads(printed.out) if code == 0 else ():
+        rows = json.loads(printed.out) if code == 0 else ()
+        angles = [row["transmission_angle"] for row in rows]
+        if options.get("prefer") == "angle" and "cognates" not in options and angles != sorted(angles)[::-1]:
+            found.append((command, options, angles))
+        for row in rows:
             answers += 1
             if bad := wrong(row, kind, points, options):
                 found.append((command, options, row["file"], row["class"], bad))
