@@ -25,7 +25,6 @@ HOLD = 2
 _CENTISECONDS = 100
 _SHORTEST_DELAY = 2
 """Browsers show a delay of 1 cs as 10 cs."""
-_LONGEST_DELAY = 65_535
 _FINEST = 10_000
 """Largest denominator of a clip's length in seconds; with `MOST_FRAMES` it keeps a rate within 32 bits."""
 
@@ -163,7 +162,7 @@ def _cut(length: Fraction, fps: Fraction, clip: Clip, form: Format) -> tuple[int
 def _centiseconds(length: Fraction, fps: Fraction) -> tuple[int, Fraction]:
     """Return (frames, rate) of a GIF `length` hundredths of a second long."""
     ideal = _CENTISECONDS / fps
-    delays = {min(max(round_(ideal), _SHORTEST_DELAY), _LONGEST_DELAY) for round_ in (math.floor, math.ceil)}
+    delays = {max(round_(ideal), _SHORTEST_DELAY) for round_ in (math.floor, math.ceil)}
 
     def misses(delay: int) -> tuple[Fraction, Fraction]:
         return abs(round(length / delay) * delay - length), abs(delay - ideal)
