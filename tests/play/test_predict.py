@@ -102,6 +102,19 @@ def test_from_the_title_enter_alone_begins_a_round_and_a_key_answers(player: Pla
     assert load_scores(tmp_path / "scores.json").door == "play"
 
 
+def test_a_right_answer_tells_the_points_by_which_the_score_grows() -> None:
+    state = playing(BEGUN)
+    for well in (True, True, False, True):
+        before = round_of(state).score
+        right = right_of(state)
+        state = advance(state, [Action("option", right if well else (right + 1) % 2)])
+        gained = round_of(state).score - before
+        assert well == (gained > 0)
+        if well:
+            assert panel_of(state).verdict == f"Right: {gained} points"
+        state = advance(state, [Action("next")])
+
+
 def test_what_is_missed_is_kept_and_comes_first_the_next_time(player: Player, tmp_path: Path) -> None:
     player.window.state = playing(BEGUN)
     player.tick()
