@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import replace
 from functools import cached_property
 from itertools import count
@@ -27,6 +28,8 @@ _CHORD = 0.05
 """How far a drawn outline stays within its arcs, in mm."""
 _TRUE = 1e-12
 """By so much a scale of 1 may be off."""
+SLENDER = 14.0
+"""A usual bar's length over its width."""
 _THINNER = (0.7, 0.5, 0.25)
 """Shares of the width of bars and holes that are tried where these cannot be laid in layers."""
 
@@ -234,7 +237,9 @@ def _why_not(why: Unstackable, cycle: Cycle, sizes: Sizes) -> str:
     ]
     clashes = f"{', '.join(met[:-1])} and {met[-1]}" if met[1:] else met[0]
     order = "whichever of the two lies higher" if len(met) == 1 else "in whatever order they lie"
-    thinner = (replace(sizes, bar=sizes.bar * share, hole=sizes.hole * share) for share in _THINNER)
+    thinner = (
+        replace(sizes, bar=sizes.bar * share, hole=sizes.hole * share) for share in _shares(cycle, sizes)
+    )
     narrow = next((some.bar for some in thinner if _is_stackable(cycle, some)), None)
     if narrow is not None:
         ways_out = f"narrower bars can, such as --bar {narrow:.3g}"
@@ -246,6 +251,15 @@ def _why_not(why: Unstackable, cycle: Cycle, sizes: Sizes) -> str:
             "that it carries the other pin, too"
         )
     return f"{cycle.scene.name} cannot be made flat: {clashes}, {order}; {ways_out}"
+
+
+def _shares(cycle: Cycle, sizes: Sizes) -> Iterator[float]:
+    """Yield shares of a bar's width to try: a few, and of wide ones so many as lead to a usual one."""
+    yield from _THINNER
+    share, usual = _THINNER[-1], cycle.scene.linkage.longest * sizes.scale / SLENDER
+    while sizes.bar * share > usual:
+        share /= 2
+        yield share
 
 
 def _is_stackable(cycle: Cycle, sizes: Sizes) -> bool:

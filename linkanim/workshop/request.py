@@ -14,7 +14,7 @@ from linkanim.frozen import NamedTuple
 from linkanim.scenes.scene import Scene
 from linkanim.units import shown
 from linkanim.workshop.gears import NotFlat
-from linkanim.workshop.made import MadeLinkage, laid, true_scale
+from linkanim.workshop.made import SLENDER, MadeLinkage, laid, true_scale
 from linkanim.workshop.media import PAGES, WAYS, Size, Way
 from linkanim.workshop.nesting import FOOT, MARGIN
 from linkanim.workshop.parts import Plate, Sizes, kit
@@ -26,8 +26,8 @@ _SHEETS: dict[str, Size] = {"laser": (600.0, 400.0), "print": (math.inf, math.in
 _USUAL = {"cardboard": (1.5, 0.0), "laser": (3.0, 0.2), "print": (4.0, 0.4)}
 """The usual thickness and clearance of each way, in mm."""
 _GAP = 0.5
-_SLENDER, _HOLED, _WIDEST_HOLE = 14.0, 0.4, 6.0
-"""A usual bar's length over its width, its hole's share of that, and the widest usual hole, in mm."""
+_HOLED, _WIDEST_HOLE = 0.4, 6.0
+"""A usual hole's share of its bar's width, and the widest usual hole, in mm."""
 _SMALLEST, _LARGEST = 1e-3, 1e5
 """Between which all lengths that are asked for lie, in mm."""
 _STEPS = 12
@@ -111,7 +111,7 @@ class _Asked(NamedTuple):
                 f"{scene.name} has parts of {shortest:.3g} to {longest:.3g} mm, which nobody can make; scale "
                 "it to a page (--fit A4)"
             )
-        usual = _rounded(min(longest / _SLENDER, 0.9 * shortest))
+        usual = _rounded(min(longest / SLENDER, 0.9 * shortest))
         bar = self.bar or max(usual, (self.hole or 0.0) / _HOLED)
         hole = self.hole or min(_rounded(_HOLED * bar), max(_WIDEST_HOLE, _rounded(bar / 10)))
         if hole >= bar:

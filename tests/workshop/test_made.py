@@ -239,6 +239,10 @@ def test_what_only_wide_bars_stop_is_made_with_narrower_ones() -> None:
     assert wide.refused is not None
     assert wide.refused.endswith("narrower bars can, such as --bar 42")
     assert make(load("crank-rocker"), bar=42.0).refused is None
+    widest = make(load("crank-rocker"), bar=500.0)
+    assert widest.refused is not None
+    assert widest.refused.endswith("narrower bars can, such as --bar 62.5")
+    assert make(load("crank-rocker"), bar=62.5).refused is None
 
 
 def test_a_scene_of_a_thousand_kilometres_is_scaled_to_a_page_or_refused() -> None:
