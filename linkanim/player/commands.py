@@ -60,10 +60,13 @@ _SCENE = (
     BarEntry("add", Action("list", "below"), 4, on_chart=True),
     BarEntry("close", Action("plot", ""), 1, on_chart=True),
 )
+_BUILD_ON = BarEntry("build", Action("build_on"), 4)
+"""From the list of dimensions the tools are for the linkage that is there."""
 _SHEET = (
     _BACK,
     _HOME,
     *_RUNNING,
+    BarEntry("edit", Action("edit"), 7, leads=True),
     BarEntry("undo", Action("unbuild"), 5, leads=True),
     BarEntry("redo", Action("rebuild"), 9),
     BarEntry("new", Action("sheet"), 6, leads=True),
@@ -89,9 +92,9 @@ _POSES = (
     *_LAST,
 )
 _HANDLES: Mapping[Mode, tuple[BarEntry, ...]] = {
-    "play": _SCENE,
-    "paused": _SCENE,
-    "edit": (_BACK, _HOME, *_SCENE),
+    "play": (_HOME._replace(rank=15), *_SCENE),
+    "paused": (_HOME._replace(rank=15), *_SCENE),
+    "edit": (_BACK, _HOME, *(_BUILD_ON if one.icon == "build" else one for one in _SCENE)),
     "list": (_BACK, _HOME, *_SCENE),
     "shelf": (_BACK, _HOME, *_LAST),
     "pencil": _PENCIL,
@@ -321,6 +324,7 @@ _LACKS: Mapping[Action, Callable[[State], str]] = {
     Action("rebuild"): lambda state: (
         "" if state.building and state.building.building.future else "there is nothing to redo"
     ),
+    Action("edit"): _nothing_moves,
     Action("pause"): _nothing_moves,
     Action("step", -1): _nothing_moves,
     Action("step", 1): _nothing_moves,

@@ -25,6 +25,7 @@ from linkanim.player.keys import GROUPS, MODES, commands
 from linkanim.player.shown import kept, overlay
 from linkanim.player.state import STIR_FRAMES, State, begin
 from linkanim.scenes import load
+from linkanim.scenes.editing import dimensions
 
 
 def after(state: State, *actions: Action | str) -> State:
@@ -287,6 +288,34 @@ def test_the_buttons_of_a_chart_leave_its_reading_and_where_there_is_room_its_ti
     assert max(cell.right for cell in seen) < place.chart.right - 5 * place.text_size
     if size[0] > 1000:
         assert min(cell.x for cell in seen) > place.chart.x + 9 * place.text_size
+
+
+def test_from_the_list_of_dimensions_one_click_leads_to_the_tools_and_one_back(player: Player) -> None:
+    pygame.display.set_mode((1280, 720), pygame.RESIZABLE)
+    before = {one.key: one.value for one in dimensions(player.state.scene)}
+    click(player, "edit dimensions")
+    click(player, "build on with this linkage")
+    assert player.state.mode == "build"
+    assert player.state.sheet
+    assert {"A", "B"} <= {*player.state.sheet.building.draft.places}
+    click(player, "edit dimensions")
+    assert player.state.mode == "edit"
+    assert sorted(round(one.value, 6) for one in dimensions(player.state.scene) if one.kind == "length") == (
+        sorted(
+            round(one, 6)
+            for key, one in before.items()
+            if key[-1] in ("ground", "crank", "coupler", "rocker")
+        )
+    )
+
+
+def test_on_an_empty_sheet_there_is_nothing_to_edit(player: Player) -> None:
+    pygame.display.set_mode((1280, 720), pygame.RESIZABLE)
+    player.press(pygame.K_F2)
+    shown = bar(after(player.state, "stir"))
+    assert shown
+    (edit,) = (one for one in shown.buttons if one.icon == "edit")
+    assert edit.lack
 
 
 # What a lecture needs, by mouse alone: the buttons and rows that are clicked, three at the most.
