@@ -137,7 +137,10 @@ class Polygon:
     @property
     def _barred(self) -> bool:
         """Whether the bar of the scale stands beside the title; else it stands at the foot."""
-        return self._title.around(self.pen.type).width <= _TITLE * self.rect.width
+        pen, (_, _, per) = self.pen, _TITLES[self.order]
+        title = self._title.around(pen.type).width
+        usual = pen.type.width(f"1000 {self.figure.scene.length_unit}{per}", pen.small) + 0.5 * pen.small
+        return title <= min(_TITLE * self.rect.width, self.rect.width - usual)
 
     def scale(self, speed: float) -> float:
         """Return pixels for one unit of length and second at this input speed; 0 where nothing moves.

@@ -244,3 +244,14 @@ def test_one_polygon_alone_is_larger_and_one_that_stands_fills_its_place_and_say
         assert sum(text.endswith("at this pose") for text in words) == 1
         assert not any("at this pose" in caption.text for caption in large.group(pose).captions)
         assert window.polygons.y >= window.marks.y + window.text_size
+
+
+@pytest.mark.parametrize("size", [(640, 360), (800, 450), (1280, 720), (360, 640)], ids=str)
+@pytest.mark.parametrize("chart", [0, 1])
+def test_the_title_of_a_polygon_and_what_its_bar_means_are_apart(size: tuple[int, int], chart: int) -> None:
+    window = layout(size, polygons=1, chart=chart, bar=True)
+    pose = load("crank-rocker").pose(2.7)
+    for panel in panels("crank-rocker", window):
+        captions = (one for one in panel.group(pose).captions if not one.halo)
+        title, *rest = (one.around(Type()) for one in captions)
+        assert not any(title.meets(one) for one in rest)
