@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import signal
 import sys
@@ -15,10 +16,13 @@ from linkanim.errors import LinkanimError
 
 DONE = 0
 FAILED = 1
+BAD = 2
 INTERRUPTED = 130
 HUNG_UP = 129
 
 _ENDING = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name))
+_BAD_NAMES = (errno.ENAMETOOLONG,)
+"""What the system says of names that cannot be: those who chose them can mend that."""
 _NO_MEMORY = ("failed to map segment", "cannot allocate memory")
 _ONE_AND_THE_SAME = 3.0
 """Seconds in which further signals say what the first did: a terminal that closes sends several."""
@@ -56,12 +60,14 @@ def _code_of(error: BaseException) -> int:
         case RuntimeError(__cause__=(Ended() | KeyboardInterrupt()) as cause):
             return _code_of(cause)  # so Python 3.11 wraps what arrives while a class is made
         case LinkanimError():
-            return _say(str(error), error.exit_code)
+            cause = error.__cause__
+            is_name = isinstance(cause, OSError) and cause.errno in _BAD_NAMES
+            return _say(str(error), BAD if is_name else error.exit_code)
         case MemoryError() | ImportError() if _lacks_memory(error):
             return _say("there is not enough memory for this", FAILED)
         case OSError():
             _forget_stdout()
-            return _say(_reason(error), FAILED)
+            return _say(_reason(error), BAD if error.errno in _BAD_NAMES else FAILED)
         case _:
             return _say(f"unexpected {type(error).__name__} in {_place(error)}: {error}", FAILED)
 

@@ -30,6 +30,14 @@ def printed_json(capsys: pytest.CaptureFixture[str], *words: str) -> list[dict[s
 LOGARITHM = ("function", "y = log10(x)", "--from", "1", "--to", "10")
 
 
+def test_an_expression_longer_than_any_file_s_name_is_an_expression(
+    here: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["function", "y = " + "+".join("x" * 150), "--from", "1", "--to", "2"]) == 2
+    assert "the expression has 303 characters; write 200 at the most" in capsys.readouterr().err
+    assert not [*here.iterdir()]
+
+
 def test_a_function_s_scene_is_off_by_what_is_printed(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     words = ("--input", "60 deg", "--output", "-60 deg", "-o", "log.toml", "--chart", "error.svg")
     found = printed_json(capsys, *LOGARITHM, *words)

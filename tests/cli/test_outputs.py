@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Callable
 from pathlib import Path
 
@@ -145,6 +146,28 @@ def test_the_words_beside_a_pdf_take_nobody_s_place(folder: Path, capsys: pytest
     assert main(words) == 0
     assert (folder / "fig.pdf").read_bytes().startswith(b"%PDF")
     assert (folder / "fig.pdf_tex").read_text(encoding="utf-8").startswith("%% The words of fig.pdf")
+
+
+LONG = "n" * 256
+TOO_LONG = [
+    ("draw", "my.toml", "-o", f"{LONG}.svg"),
+    ("draw", "my.toml", "-o", "my.svg", "--alt", f"{LONG}.txt"),
+    ("report", "my.toml", "-o", LONG),
+    ("make", "my.toml", "--fit", "A4", "-o", LONG),
+    ("quick-return", "--stroke", "80", "--ratio", "1.4", "--count", "2", "-o", f"{LONG[:250]}.toml"),
+    ("play", "--counts", f"{LONG}.csv"),
+]
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows has other bounds")
+@pytest.mark.parametrize("words", TOO_LONG, ids=lambda words: words[0])
+def test_a_name_that_is_too_long_is_its_user_s_to_mend(
+    words: tuple[str, ...], folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    before = contents(folder)
+    assert main(words) == 2
+    assert re.fullmatch(r"linkanim: n+[\w./ :-]*: file name too long\n", capsys.readouterr().err.lower())
+    assert contents(folder) == before
 
 
 @pytest.mark.skipif(os.name == "nt", reason="asks for a folder that nothing can be written to")

@@ -47,7 +47,10 @@ def run(options: Namespace) -> None:
 
 
 def _names_a_file(text: str) -> bool:
-    return Path(text).suffix.lower() in _SUFFIXES or Path(text).is_file()
+    try:
+        return Path(text).suffix.lower() in _SUFFIXES or Path(text).is_file()
+    except OSError:  # what is too long for a file's name is none
+        return False
 
 
 def _table(path: Path) -> list[tuple[float, float]]:
