@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import sys
 
-from fontTools import subset  # type: ignore[import-untyped]
+from fontTools import subset
 
 _LEFT_OUT = set(map(ord, '~^_`{}|\\@#$%&*"!?;<>:'))
 _SIGNS = set(

@@ -14,12 +14,12 @@ from linkanim.bench.result import this_machine
 from linkanim.bounds import MOST_NAMES
 from linkanim.errors import WorkFailed
 from linkanim.export import columns
-from linkanim.scenes import names
+from linkanim.scenes import load, names
 
 COMMANDS = {
     "solve": ("solve", "{scene}", "--sweep", "0:360:1", "--phase", "--json"),
     "draw": ("draw", "{scene}", "-o", "out.svg", "--names", "--names"),
-    "chart": ("chart", "{scene}", "--quantity", "input.angular_velocity", "-o", "out.png"),
+    "chart": ("chart", "{scene}", "--quantity", "{joint}.velocity", "-o", "out.png"),
     "record": ("record", "{scene}", "-o", "out.gif", "--size", "1280x720"),
     "report": ("report", "{scene}", "-o", "out"),
     "share": ("share", "{scene}", "-o", "out.html"),
@@ -62,7 +62,8 @@ def largest(folder: Path) -> Path:
 def rows(folder: Path) -> Iterator[tuple[str, ...]]:
     """Yield a scene's name and what each command, then its window, takes at most, in MB."""
     for scene in (*names(), str(largest(folder))):
-        filled = ([part.format(scene=scene) for part in words] for words in COMMANDS.values())
+        joint = next(joint.name for joint in load(scene).linkage.joints if not joint.fixed)
+        filled = ([part.format(scene=scene, joint=joint) for part in words] for words in COMMANDS.values())
         commands = [child.module("linkanim", *words) for words in filled]
         found = [_peak(command, folder) for command in (*commands, [sys.executable, "-c", WINDOW, scene])]
         yield (Path(scene).stem, *(f"{peak:.0f}" for peak in found))
