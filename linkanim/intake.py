@@ -85,7 +85,7 @@ class Intake:
             raise self.refusal(f"{where}: is not UTF-8 text (line {line}); save it as UTF-8") from None
 
     def json(self, path: Path, where: str, otherwise: str) -> Any:
-        """Return what a file of JSON holds; one that is none, or has a NaN, is refused as `otherwise`."""
+        """Return what a file of JSON holds; any other file, or one with a NaN, is refused as `otherwise`."""
         return self.parsed(self.read(path, where), where, otherwise)
 
     def parsed(self, text: str, where: str, otherwise: str) -> Any:

@@ -58,7 +58,7 @@ class FileSet:
         return self.folder / f".linkanim-{self.name}.json"
 
     def sums(self) -> Sums:
-        """Return what we wrote; nothing where there is no list, `BadInput` for one that is none."""
+        """Return what we wrote; nothing where there is no list, `BadInput` for a file that is no list."""
         path = self.list_path
         if not os.path.lexists(path):
             return {}

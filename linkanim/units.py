@@ -29,14 +29,14 @@ _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def significant(value: float, digits: int) -> str:
-    """Return at most so many significant digits in ASCII: "unbounded" for an infinity, "-" for NaN."""
+    """Return at most `digits` significant digits in ASCII: "unbounded" for an infinity, "-" for NaN."""
     if not isfinite(value):
         return "unbounded" if isinf(value) else "-"
     return f"{value + 0.0:.{digits}g}"  # -0.0 + 0.0 is 0.0
 
 
 def rounded(value: float, digits: int) -> str:
-    """Return so many significant digits, set, with the noughts that they end in: 1.200, 24560, 3.456×10⁸.
+    """Return `digits` significant digits, typeset, the noughts at their end kept: 1.200, 24560, 3.456×10⁸.
 
     "∞" or "−∞" for an infinity, "–" for NaN, "0" for nothing.
     """

@@ -171,7 +171,7 @@ def _gathered(poses: Iterator[dict[str, complex]]) -> Places:
 
 
 def _improved(dyad: Dyad, at: Places, here: complex, iterations: int) -> complex:
-    """Return a dyad's joint after so many iterations; a singular Jacobian gives NaN."""
+    """Return a dyad's joint after `iterations` iterations; a singular Jacobian gives NaN."""
     try:
         if isinstance(dyad, RRR):
             p, q = (at[end] for end in dyad.ends)
@@ -485,7 +485,7 @@ def entries(mechanism: CaseSet) -> tuple[Entry, ...]:
 
 
 def _one_turn(first: Question, count: int) -> Question:
-    """Return one turn of the easy cycle in so many poses."""
+    """Return one turn of the easy cycle in `count` poses."""
     angles = np.arange(count, dtype=np.float64) * (TURN / count)
     sides = {name: np.full(count, side[0]) for name, side in first.sides.items()}
     rates = (np.ones(count), np.zeros(count))

@@ -35,7 +35,7 @@ class Undoable(Generic[Kept]):
     future: tuple[Kept, ...] = ()
 
     def remembering(self, now: Kept, most: int) -> tuple[Kept, ...]:
-        """Return the past with `now`, and no more than so many of it; a change has no future."""
+        """Return the past with `now`, and at most `most` values of it; a change has no future."""
         return (*self.past, now)[-most:]
 
     def back(self, now: Kept) -> Step[Kept] | None:

@@ -210,7 +210,7 @@ def _alike(one: Any, other: Any, unit: str) -> bool:
 
 
 def _number(value: Any, unit: str) -> float:
-    """Return a length or an angle as a number; NaN of what is none."""
+    """Return a length or an angle as a number; NaN where it is neither."""
     for read in (partial(units.length, unit=unit), units.angle):
         try:
             return read(value)

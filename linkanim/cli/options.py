@@ -176,7 +176,7 @@ def pair(text: str) -> tuple[float, float]:
 
 
 def _numbers(text: str, count: int, form: str) -> tuple[float, ...]:
-    """Read so many finite numbers; `BadInput` says the form in which they are written."""
+    """Read `count` finite numbers; `BadInput` says the form in which they are written."""
     try:
         found = tuple(map(float, text.split(",")))
     except ValueError:

@@ -104,7 +104,7 @@ def kennedy(linkage: Linkage, links: Mapping[str, Link]) -> tuple[KennedyStep, .
 def _next(
     links: Mapping[str, Link], pairs: list[tuple[str, str]], known: set[tuple[str, str]], least: int
 ) -> Iterator[KennedyStep]:
-    """Yield the centres that so many links at the least lead to."""
+    """Yield the centres that at least `least` links lead to."""
     both = known | {(other, one) for one, other in known}
     for one, other in pairs:
         by = tuple(third for third in links if (one, third) in both and (third, other) in both)

@@ -462,7 +462,7 @@ class Motion(Derived[Array, Array]):
         return Motion(self.mechanism, 1.0, 0.0, instants)
 
     def paced(self, factor: float) -> Motion:
-        """Return the same motion run so many times as fast; backwards where the factor is negative.
+        """Return the same motion run `factor` times as fast; backwards where that is negative.
 
         Nothing is solved: first derivatives in time grow with the factor, second ones with its square.
         """
@@ -493,7 +493,7 @@ class Motion(Derived[Array, Array]):
 
 
 class _Paced(Motion):
-    """A motion run so many times as fast: its quantities, each times its power of the factor."""
+    """A motion run some times as fast: its quantities, each times its power of the factor."""
 
     def __init__(self, motion: Motion, factor: float) -> None:
         speed, acceleration = motion.input_speed * factor, motion.input_acceleration * factor**2

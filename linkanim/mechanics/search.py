@@ -86,7 +86,7 @@ def ends_of(holds: Callable[[Array], Bools], inside: Array, outside: Array, shar
 
 
 def _middles(inside: Array, outside: Array, deep: int) -> Array:
-    """Return the middles of so many halvings, a row for each way that those before may have gone."""
+    """Return the middles of `deep` halvings, a row for each way that the halvings before may have gone."""
     rows: list[Array] = []
     halves = [(inside, outside)]
     for _ in range(deep):

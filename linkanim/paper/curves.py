@@ -104,7 +104,7 @@ class Curves:
         return course(self.scene, curve.pace.speed, self.over).x_of(motion.phase)
 
     def axis(self, most: int, least: int = 0) -> Axis:
-        """Return the axis that the curves share, with at most so many ticks, and `least` all the same."""
+        """Return the axis that the curves share, with at most `most` ticks, and at least `least`."""
         return linear(self.low, self.high, most=most, unit=self.unit, least=least)
 
     def place_words(self, x: float) -> str:

@@ -101,7 +101,7 @@ class TablePart:
 
 @frozen
 class Beside:
-    """Parts side by side, so many in a row, each one part or several below each other.
+    """Parts side by side, several in a row, each one part or several below each other.
 
     Their `shares` of the width are the same for all where none are given.
     """

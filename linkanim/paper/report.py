@@ -347,14 +347,14 @@ class Report:
 
 
 def _widest(lines: Sequence[tuple[str, str]], columns: int) -> int:
-    """Return how many letters wide labels and values are in so many columns."""
+    """Return how many letters wide labels and values are in that number of columns."""
     high = -(-len(lines) // columns)
     some = (lines[n : n + high] for n in range(0, len(lines), high))
     return sum(max(map(len, part)) for one in some for part in zip(*one, strict=True))
 
 
 def _shorter(text: str, digits: int) -> str:
-    """Return words with every number in so many significant digits at the most, as the tables have them."""
+    """Return words with every number to at most `digits` significant digits, as the tables have them."""
 
     def shorter(found: re.Match[str]) -> str:
         return min(found[0], rounded(float(found[0]), digits), key=len)
@@ -363,7 +363,7 @@ def _shorter(text: str, digits: int) -> str:
 
 
 def _in_rows(parts: list[FigurePart], across: int = 2) -> Iterator[Part]:
-    """Yield figures side by side, so many in a row; one that is broad has a row of its own."""
+    """Yield figures side by side, `across` in a row; a broad figure has a row of its own."""
     for broad, some in groupby(parts, key=lambda part: part.broad):
         row = [*some]
         for n in range(0, len(row), across):

@@ -21,7 +21,7 @@ OF_A_CHART = (*OF_A_FIGURE, ".csv")
 
 
 class Written(Protocol):
-    """What can be written: a picture of so many pixels, and what it shows in words."""
+    """What can be written: a picture of a size in pixels, and what it shows in words."""
 
     @property
     def size(self) -> tuple[int, int]:
@@ -74,7 +74,7 @@ def write(shown: Written, target: Output, *, latex: bool = False, wide: float | 
 
 
 def data(shown: Written, suffix: str, wide: float | None = None) -> bytes:
-    """Return a figure or a chart as a kind of file, so many mm `wide` on paper."""
+    """Return a figure or a chart as a kind of file, `wide` mm on paper."""
     picture = shown.size, shown.background, shown.groups()
     match suffix:
         case ".csv" if isinstance(shown, Tabled):

@@ -78,7 +78,7 @@ class Board:
         self.type.draw(sheet, text, at, size=size, colour=ink, anchor=anchor, strong=strong)
 
     def bar(self, sheet: pygame.Surface, y: float, size: int, colour: Colour, *, lines: float = 1.0) -> None:
-        """Draw a bar across a sheet behind so many lines of text, the first with its top at `y`."""
+        """Draw a bar across a sheet behind a number of lines of text, the first with its top at `y`."""
         key = sheet.get_size(), y, size, colour, lines
         if key not in self._bars:
             middle = complex(sheet.get_width() / 2, y + (0.5 + (lines - 1.0) * STEP / 2) * size)

@@ -619,7 +619,7 @@ class _Setter:
         return WordLine(text, y, size, strong, self._type.width(text, size, strong=strong))
 
     def _broken(self, count: int, big: int) -> tuple[str, ...]:
-        """Return the title in at most so many lines, between its words, as narrow as they can be."""
+        """Return the title in at most `count` lines, between its words, as narrow as they can be."""
         words, room = self._title.split(), self._layout.stage.width - 2 * self._layout.margin
 
         def lines(width: float) -> list[str]:

@@ -617,7 +617,7 @@ Attempt = tuple[Placer, tuple[Label, ...], tuple[Label, ...]]
 def _attempts(
     every: Iterable[tuple[Form, ...]], clutter: Clutter, tries: int
 ) -> Generator[None, None, Attempt]:
-    """Return the best of some attempts to place labels, in so many orders after the best one before.
+    """Return the best of some attempts to place labels, in `tries` orders after the best one before.
 
     What was left over has the first choice the next time.
     """

@@ -149,7 +149,7 @@ class Picture:
             self.place_names()
 
     def place_names(self, most: int | None = None) -> bool:
-        """Place so many more names, all of them without a number; return whether all have their places."""
+        """Place `most` more names, or all that are left; return whether all have their places."""
         return not any(step == most for step, _ in enumerate(islice(self._steps, most), start=1))
 
     def _named(self, before: Picture | None, earlier: Earlier | None, *, held: bool) -> Iterator[None]:

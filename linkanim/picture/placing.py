@@ -457,6 +457,6 @@ def _eased(forbidden: _Bools, gone: int = _GONE) -> _Floats:
 
 
 def _around(flags: _Bools, reach: int) -> NDArray[np.int64]:
-    """Return how many flags are set in so many moments either way of each, the last beside the first."""
+    """Return how many flags are set within `reach` moments of each, the last beside the first."""
     wrapped = np.concatenate((flags[-reach:], flags, flags[:reach]))
     return np.asarray(sliding_window_view(wrapped, 2 * reach + 1).sum(axis=1))

@@ -274,7 +274,7 @@ class Polygon:
     def _corner(
         self, rows: list[tuple[str, Colour]], wide: float, found: list[Arrow], named: list[Caption]
     ) -> tuple[Rect, bool]:
-        """Return the corner for so many rows in which least is drawn, and whether it is free."""
+        """Return the corner for these rows in which least is drawn, and whether it is free."""
         rect, high = self.rect, _ROW * self.pen.small * len(rows)
         low, top = rect.bottom - high, rect.y + 2.4 * self.pen.text
         corners = [Rect(x, y, wide, high) for y in (low, top) for x in (rect.right - wide, rect.x)]

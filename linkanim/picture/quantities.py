@@ -311,7 +311,7 @@ class Course:
         return phase
 
     def axis(self, most: int) -> Axis:
-        """Return the axis with at most so many ticks."""
+        """Return the axis with at most `most` ticks."""
         return linear(0.0, self.span, most=most, unit=self.unit)
 
     def laid(self, series: Series) -> tuple[Floats, Floats]:

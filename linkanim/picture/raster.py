@@ -575,7 +575,7 @@ def _spread(first: _Pixels, length: Ints, chosen: NDArray[np.bool_]) -> _Pixels:
 
 
 def _places(begin: Ints, counts: Ints) -> Ints:
-    """Return the numbers from each beginning on, so many of them."""
+    """Return the numbers from each beginning on, as many as its count says."""
     after = np.cumsum(counts)
     steps = np.ones(int(counts.sum()), np.int64)
     steps[:1] = begin[:1]

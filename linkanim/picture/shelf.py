@@ -73,7 +73,7 @@ class Grid(NamedTuple):
         return next((n for n, cell in self.cells.items() if inside and cell.holds(x, y)), None)
 
     def beside(self, place: int, rows: int) -> int:
-        """Return the mechanism nearest to one, so many rows further down; the first row follows the last.
+        """Return the mechanism nearest to a place, `rows` further down; the first row follows the last.
 
         The same one where there are none.
         """

@@ -30,7 +30,7 @@ _HIDDEN = 0.02
 
 @lru_cache(maxsize=16)
 def still_phase(scene: Scene, size: tuple[int, int], type_scale: float = 1.0) -> float:
-    """Return the phase, within one turn, of the pose that reads best in a picture of so many pixels.
+    """Return the phase, within one turn, of the pose that reads best in a picture of that size in pixels.
 
     Its words are `type_scale` times as large as usual.
 

@@ -300,7 +300,7 @@ class Type:
         return self._inked[key]
 
     def _make_room(self, further: int) -> None:
-        """Forget the lines not drawn since this was last done where so many bytes more are too many."""
+        """Forget the lines not drawn since this was last done where `further` bytes more are too many."""
         self._inked_bytes += further
         if self._inked_bytes > _INKED_BYTES or len(self._inked) >= _KEPT:
             self._inked = {key: line for key, line in self._inked.items() if key in self._drawn}
@@ -500,7 +500,7 @@ class Lettering:
         return -1 - wide / 2 < x < size[0] + 1 + wide / 2 and -1 - high / 2 < y < size[1] + 1 + high / 2
 
     def _sprite(self, right: int, down: int) -> pygame.Surface:
-        """Return the words so many parts of a pixel further right and down."""
+        """Return the words moved right and down by so many parts of a pixel."""
         if (right, down) not in self._drawn:
             wide, high = self.size
             size = ceil(wide + right / _FINE), ceil(high + down / _FINE)

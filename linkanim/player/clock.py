@@ -80,7 +80,7 @@ class Clock:
         return replace(self._anchored(frame), direction=-self.direction)
 
     def faster(self, frame: int, levels: int) -> Self:
-        """Return the clock so many rungs up the ladder (negative: down), phase continuous."""
+        """Return the clock `levels` rungs up the ladder of speeds (negative: down), its phase as it was."""
         return self.at_level(frame, self.level + levels)
 
     def at_level(self, frame: int, level: int) -> Self:
@@ -88,7 +88,7 @@ class Clock:
         return replace(self._anchored(frame), level=min(max(level, SLOWEST), FASTEST))
 
     def step(self, frame: int, degrees: int) -> Self:
-        """Return the clock paused, the crank moved so many degrees along the way it runs."""
+        """Return the clock paused, the crank moved by `degrees` in the direction in which it runs."""
         along = degrees if self.speed > 0 else -degrees
         still = self.pause(frame, True)
         if still.coast:

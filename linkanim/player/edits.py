@@ -525,7 +525,7 @@ def _values_at(held: Held, point: tuple[float, float], share: float) -> dict[Key
 
 
 def _nudged(item: Dimension, steps: int) -> str:
-    """Return a dimension's value so many small steps larger, as it would be typed."""
+    """Return a dimension's value larger by small steps, as it would be typed."""
     value = Decimal(repr(item.value)) + steps * _step_of(item.unit)
     return f"{value.normalize():f}"
 

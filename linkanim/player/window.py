@@ -124,7 +124,7 @@ class Window:
             self._notes.append(_WAITS)
 
     def tick(self, frames: int = 1) -> bool:
-        """Go so many frames on, paint and flip; False when the window is to be closed.
+        """Go `frames` frames on, paint and flip; False when the window is to be closed.
 
         What happened since the last tick comes at its first frame.
         """
@@ -251,7 +251,7 @@ class Window:
         yield from self._in_sight()
 
     def _row(self, rows: Value) -> Iterator[Action]:
-        """Yield what chooses the mechanism so many rows further down on the shelf."""
+        """Yield what chooses the mechanism that is `rows` rows further down on the shelf."""
         browsing = self.state.browsing
         if browsing and isinstance(rows, int):
             yield Action("point", self.screen.shelf_grid(browsing).beside(browsing.chosen, rows))
@@ -311,7 +311,7 @@ class Window:
             yield Action("top", self.screen.shelf_grid(self.state.browsing).top)
 
     def _scroll(self, rows: Value) -> Iterator[Action]:
-        """Yield what scrolls the shelf by so many rows; one that goes out of sight is chosen no more."""
+        """Yield what scrolls the shelf by `rows`; a mechanism that goes out of sight is chosen no more."""
         browsing = self.state.browsing
         if browsing is None or not isinstance(rows, int):
             return

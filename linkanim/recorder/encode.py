@@ -343,7 +343,7 @@ def _gif(stream: Stream) -> list[str]:
 
 
 def _numbered(folder: Path) -> str:
-    """Return the pattern of numbered files in a folder, whose own name is none."""
+    """Return the pattern of numbered files in a folder; the folder's name is kept literal."""
     return "file:" + str(folder).replace("%", "%%") + "/%04d.png"
 
 

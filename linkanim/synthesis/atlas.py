@@ -53,7 +53,7 @@ class Atlas(NamedTuple):
     scale: Real
 
     def first(self, count: int) -> Atlas:
-        """Return the first so many of its curves."""
+        """Return the first `count` of its curves."""
         parts: list[Any] = [part[:count] for part in self[1:]]
         return Atlas(self.kind, *parts)
 
@@ -72,7 +72,7 @@ def atlas(kind: LinkageKind, count: int = CURVES) -> Atlas:
 
 
 def _sampled(kind: LinkageKind, count: int) -> Real:
-    """Return linkages whose crank turns fully, the first so many of a row of random ones."""
+    """Return linkages whose crank turns fully, the first `count` of a row of random ones."""
     random = np.random.default_rng(_SEED)
     found: list[Real] = []
     while sum(map(len, found)) < count:

@@ -400,12 +400,12 @@ class CentreCurve:
         return place
 
     def sampled(self, count: int) -> Complex:
-        """Return points of all circuits, so many of each."""
+        """Return points of all circuits, `count` of each."""
         phases = _around(count)
         return np.concatenate([self.at(circuit, phases) for circuit in range(len(self.circuits))])
 
     def bars(self, count: int) -> Bars:
-        """Return circle points with their centre points, so many of each circuit at the most, all finite."""
+        """Return circle points with their centre points, at most `count` of each circuit, all finite."""
         centres = self.sampled(count)
         near = np.abs(centres - self.poses.centre) <= _FAR * self.poses.size
         centres = centres[near]

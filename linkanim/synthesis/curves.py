@@ -66,7 +66,7 @@ class DrawnCurve:
         return np.interp(places, own, self.polyline.real) + 1j * np.interp(places, own, self.polyline.imag)
 
     def thinned(self, count: int) -> Indices:
-        """Return which points to take so that at most so many are about equally far along the curve."""
+        """Return which points to take so that at most `count` are about equally far along the curve."""
         if len(self.points) <= count:
             return np.arange(len(self.points))
         even = np.linspace(0.0, self.places[-1], count)
@@ -204,7 +204,7 @@ def _piece(part: Complex) -> Complex:
 
 
 def _resampled(points: Complex, steps: int) -> Complex:
-    """Return points at so many equal steps along a polyline, its ends among them."""
+    """Return points at `steps` equal steps along a polyline, its ends among them."""
     return DrawnCurve(points, closed=False).at(np.linspace(0.0, 1.0, steps + 1))
 
 

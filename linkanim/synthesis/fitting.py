@@ -54,7 +54,7 @@ class PathTask:
         return DrawnCurve((self.curve.points - self.curve.centre) / self.curve.size, self.curve.closed)
 
     def thinned(self, count: int) -> Indices:
-        """Return which points to take: about so many equally far along, and those to be passed exactly."""
+        """Return which points to take: about `count` equally far along, and those to be passed exactly."""
         return np.union1d(self.normal.thinned(count), np.flatnonzero(self.weights >= EXACTLY))
 
     @property

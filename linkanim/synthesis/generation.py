@@ -132,7 +132,7 @@ class GivenFunction:
         return np.asarray((self(x) - self.start) / self.span)
 
     def chebyshev(self, count: int) -> Real:
-        """Return so many x as Chebyshev spaces them: where a polynomial of that degree swings least."""
+        """Return `count` x as Chebyshev spaces them: where a polynomial of that degree swings least."""
         middle, half = (self.first + self.last) / 2, (self.last - self.first) / 2
         return np.asarray(middle - half * np.cos((2 * np.arange(count) + 1) * math.pi / (2 * count)))
 
@@ -930,7 +930,7 @@ def _errors(task: FunctionTask, design: _Design, x: Real) -> Real:
 
 
 def _alternating(task: FunctionTask, design: _Design, x: Real, count: int) -> Real | None:
-    """Return so many places at which the error is greatest to either side in turn; None of fewer."""
+    """Return `count` places at which the error is greatest to either side in turn; None if fewer."""
     places = _extremes(lambda at: _errors(task, design, at), x)
     error = _errors(task, design, places)
     kept: list[int] = []

@@ -210,7 +210,7 @@ def _boxes(
     given: tuple[complex, ...],
     free: int,
 ) -> tuple[Box, ...]:
-    """Return the boxes for so many pins that are free; BadInput for more, and if nothing can lie in them."""
+    """Return the boxes for the `free` pins; BadInput for more boxes, and if nothing can lie in them."""
     if box is None or not len(box):
         return ()
     rows = [box] if np.ndim(box[0]) == 0 else list(box)
@@ -690,7 +690,7 @@ def _seeds(task: GuideTask, ends: tuple[_EndChoice, _EndChoice], count: int, wei
 
 
 def _apart_ones(places: Complex, order: Indices, least: float, count: int) -> list[int]:
-    """Return of linkages in their order so many whose joints lie farther from all before than that."""
+    """Return `count` linkages in their order, each with joints farther than `least` from all before."""
     found: list[int] = []
     left = order
     while len(left) and len(found) < count:

@@ -29,7 +29,7 @@ Progress = Callable[[int, int], None]
 
 
 class _Stage(NamedTuple):
-    """So many candidates, over so many points, for so many steps."""
+    """How many candidates are refined, over how many points, in how many steps."""
 
     candidates: int
     points: int
@@ -127,7 +127,7 @@ def _through(
 
 
 def _enough(fits: Iterator[Fit], count: int) -> Iterator[Fit]:
-    """Yield answers, the best first, until so many differ and one more follows."""
+    """Yield answers, the best first, until `count` differ and one more follows."""
     seen: list[Fit] = []
     for fit in fits:
         yield fit

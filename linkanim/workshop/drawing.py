@@ -265,7 +265,7 @@ def preview(made: MadeLinkage, size: tuple[int, int] = (1280, 640)) -> Illustrat
 
 
 def _moved(item: Item, right: float) -> Item:
-    """Return an item so many pixels farther right."""
+    """Return an item moved right by pixels."""
     if isinstance(item, Layer):
         return item._replace(loops=[loop + right for loop in item.loops])
     return item._replace(at=(item.at[0] + right, item.at[1]))

@@ -91,7 +91,7 @@ class _Asked(NamedTuple):
     kerf: float
 
     def check(self) -> None:
-        """Raise BadInput for what is no length."""
+        """Raise BadInput for a size that is not a length."""
         for name, value in self._asdict().items():
             least = 0.0 if name in ("clearance", "gap", "kerf") else _SMALLEST
             if isinstance(value, int | float) and not least <= value <= _LARGEST:
