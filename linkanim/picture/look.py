@@ -172,7 +172,7 @@ class Look:
         None,
         Option(
             "chart",
-            "add the chart of a quantity, such as rocker.angle",
+            "add the chart of a quantity, such as rocker.angle; record takes three, with commas between",
             metavar="QTY",
             commands=("record", "share"),
         ),

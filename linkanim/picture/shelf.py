@@ -50,6 +50,7 @@ _AT_ONCE = 5
 _PER_SECOND = 60
 _NONE = "no title or chapter contains that"
 _TITLE = "Mechanisms"
+_UNREAD = "cannot be read"
 
 
 class Grid(NamedTuple):
@@ -205,6 +206,11 @@ class ShelfPrinter:
             live = self._live.get(n)
             if live and live.printed:
                 surface.blit(live.printed, (round(cell.x), round(cell.y)))
+            elif n in self._unread:
+                at = (cell.middle.real, cell.middle.imag - 0.5 * found.line)
+                board.write(
+                    surface, _UNREAD, at, size=found.text, colour=board.theme.warning, anchor="centre"
+                )
             _mark(surface, board, cell, chosen=n == shelf.browsing.chosen, edited=n in shelf.edited)
         surface.set_clip(None)
         _foot(surface, board, found, shelf, self._live.get(shelf.browsing.chosen))
