@@ -400,6 +400,8 @@ def driven_bar(draft: Draft) -> Thing | None:
 
 PIVOTS = ("O2", "O4")
 """Of every answer."""
+_LARGEST_COGNATE = 2.5
+"""Of the stroke's size: larger ones are not shown beside an answer that is smaller."""
 DIAL = "dial"
 """What of a sketch is held while its dial is dragged."""
 
@@ -500,13 +502,17 @@ class PathSketch(Sketch):
 
     @cached_property
     def cognates(self) -> tuple[PathAnswer | None, ...]:
-        """The cognates of the answer that is shown at rest, None for one that does not turn; else nothing."""
+        """The cognates of the answer that is shown at rest, else nothing.
+
+        None for one that does not turn fully, or that is far larger than the answer and the stroke.
+        """
         answer = self.answer
         if not self.follows or self.held is not None or answer is None or isinstance(answer, Scene):
             return ()
         from linkanim.synthesis.answers import turning_cognates
 
-        return turning_cognates(answer)
+        most = max(_LARGEST_COGNATE, answer.size)
+        return tuple(one if one and one.size <= most else None for one in turning_cognates(answer))
 
     @property
     def off(self) -> float | None:

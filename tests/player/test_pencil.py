@@ -495,6 +495,18 @@ def test_a_cognate_leaves_the_dial_where_it_is(fronted: State) -> None:
     assert row.dial.value == 0.5
 
 
+def test_a_cognate_that_is_far_larger_is_not_shown(answered: State) -> None:
+    large = replace(answered, sketch=replace(sketch_of(answered), answers=(_sized(3.0), _sized(0.5))))
+    assert [*map(bool, sketch_of(large).cognates)] == [True, False]
+    many = PathAnswer(0.12, 1.0, 0.3, 1.0, (0.0, 0.0, 10.0, 40.0, 300.0, 20.0, 42.0, 0.0, 30.0), 3.0, 0.5)
+    shown = sketch_of(replace(answered, sketch=replace(sketch_of(answered), answers=(many,))))
+    assert all(one is None or one.size <= 3.0 for one in shown.cognates)
+
+
+def _sized(size: float) -> PathAnswer:
+    return PathAnswer(0.12, 1.0, 0.3, 1.0, WIDER, size, 0.5)
+
+
 def test_without_an_answer_there_is_no_cognate(plain: State, stroke: State) -> None:
     for state in (plain, stroke):
         assert after(state, Action("cognate", 0)).sketch == state.sketch
