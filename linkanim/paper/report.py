@@ -41,6 +41,7 @@ from linkanim.paper.svg import svg
 from linkanim.paper.vectors import polygons_svg, vectors_svg
 from linkanim.picture.figure import figure
 from linkanim.picture.look import Look
+from linkanim.picture.quantities import speed_words
 from linkanim.picture.text import subscripted
 from linkanim.scenes.editing import dimensions
 from linkanim.scenes.files import PublishedTable
@@ -224,7 +225,9 @@ class Report:
             (self._indexed(item.label), self._stated(item.value, item.unit)) for item in dimensions(scene)
         )
         known = tuple((label, self._told(value)) for label, value in scene.info.lines)
-        facts, lengths = ("Facts", known), ("Dimensions", tuple(stated))
+        own = scene.linkage.drive.speed
+        at = "" if [pace.speed for pace in self.paces] == [own] else f" at {speed_words(scene, own)}"
+        facts, lengths = (f"Facts{at}", known), ("Dimensions", tuple(stated))
         if self._tall:
             yield html.facts(*facts, 3 if _widest(known, 3) <= _WIDTH else 2)
             told = html.facts(*lengths, 1 if len(lengths[1]) <= _MOST_LINES else 2)

@@ -17,7 +17,7 @@ from linkanim.mechanics.search import sign_changes
 from linkanim.paper.curves import Curve, Curves, Pace, Peak, curves_of, extremes, within_a_turn
 from linkanim.picture.quantities import Floats, driven_words, unbounded_places
 from linkanim.scenes.scene import Scene
-from linkanim.units import rounded, typeset
+from linkanim.units import rounded, short, typeset
 
 _CLOSING = ("input", "stroke", "time ratio", "transmission angle", "true period")
 """What of a scene's facts a report ends with."""
@@ -33,6 +33,7 @@ _ROUNDING = 1e-7
 """Of what a curve comes to at the most: a speed is as near to nothing as its place is found."""
 _MOST_TOLD = 8
 """So many links of a pose are told of."""
+_LASTS = re.compile(r"[\d.]+ s$")
 _LOWERED = re.compile(r"_\{([^}]*)\}")
 
 
@@ -47,7 +48,13 @@ def about(curves: Curves) -> str:
 
 def closing(scene: Scene, pace: Pace) -> Iterator[str]:
     """Yield what a report comes to: the class, what the output does, its velocity and acceleration."""
-    facts = [f"{label}: {value}" for label, value in scene.info.lines if label in _CLOSING]
+    lasts = f"{short(scene.period / abs(pace.speed))} s"
+    facts = [
+        # the scene's own say how long it lasts at its own speed
+        f"{label}: {_LASTS.sub(lasts, value) if label == 'true period' else value}"
+        for label, value in scene.info.lines
+        if label in _CLOSING
+    ]
     yield " ".join(_sentence(text) for text in (scene.info.class_name, *facts))
     output = output_slider(scene.linkage) or output_body(scene.linkage)
     if output is None:

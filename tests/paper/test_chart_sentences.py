@@ -105,6 +105,7 @@ def test_of_what_is_unbounded_it_is_said_where_and_of_the_level_nothing(
 def test_a_report_ends_with_what_the_output_does() -> None:
     first, *others = closing(load("press"), PACE)
     assert first.startswith("Geared five-bar with slider. Input: turns fully.")
+    assert first.endswith("True period: one drive period, 0.6283 s.")  # at 10 rad/s, not at its own 20 rpm
     assert len(others) == 3
 
 

@@ -212,6 +212,7 @@ def test_facts_and_the_end_have_the_tables_digits_and_set_symbols(press: Path) -
     end = text.partition("In short</h2>")[2]
     assert "Stroke: 67.21 mm. Time ratio: 2.153." in end
     assert "67.2126" not in text
+    assert "Table 1. Facts at 20 rpm" in text  # a torque and a period are at some speed
     # the list of figures stands on one page with the end
     assert re.search(r"<div class='keep'>\n<section id='chapter-12'>", text)
 
