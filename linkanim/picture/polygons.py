@@ -32,6 +32,8 @@ _SHARES = (0.5, 0.35, 0.65)
 """Where along it."""
 _LED = 1.0
 """From so far off on a thin line leads to the vector."""
+_BEYOND = 5.0
+"""How far beyond its place symbols may stand, in widths of a thin line."""
 _TITLE = 0.6
 """So much of the width has a title beside the bar of the scale."""
 _BARS = 5
@@ -227,7 +229,8 @@ class Polygon:
         ends = [np.array([[arrow.foot, arrow.foot + arrow.reach]]) for arrow in found]
         solids = tuple(Solid(end, pen.line) for end in ends)
         words = tuple(self._words)
-        clutter = Clutter(self.rect.inset(-1.0 * pen.text), words, solids=solids)
+        # the place ends 11 thin lines before the picture does: no symbol is cut there
+        clutter = Clutter(self.rect.inset(-min(pen.text, _BEYOND * pen.line)), words, solids=solids)
         (named, *placed) = place(to_place, clutter)
         at = complex(to_place[0].places[0, named.which])
         captions = [self._written(origin, at, pen.theme.ink)]

@@ -22,6 +22,8 @@ _POSES = 24
 """So many poses of one turn are looked at."""
 _USUAL_POSES, _LOOKED_AT_AGAIN = 3, 9
 """In so many of them, those nearest to the usual input and the best, names are tried in several orders."""
+_NEAR_USUAL = 4
+"""So many poses nearest to the usual input are looked at where words are large: few have room in any pose."""
 _MOST_NAMED = 30
 """Of more joints and pins no pose has room for all names: the usual one is as good as any."""
 _HIDDEN = 0.02
@@ -39,6 +41,7 @@ def still_phase(scene: Scene, size: tuple[int, int], type_scale: float = 1.0) ->
     each other is taken where there is no other. The same pose is chosen whatever else the figure shows.
     """
     shown, tried = figure(scene), _tried(figure(scene))
+    tried = tried[:_NEAR_USUAL] if type_scale > 1 else tried
     if len(scene.linkage.joints) > _MOST_NAMED:
         return tried[0]
     look = Look(names=2, type_scale=type_scale)

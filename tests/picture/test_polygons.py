@@ -15,6 +15,7 @@ from linkanim.picture.figure import figure
 from linkanim.picture.items import Group
 from linkanim.picture.layout import Layout, layout
 from linkanim.picture.look import Look
+from linkanim.picture.picture import Picture
 from linkanim.picture.polygons import Polygon, polygons_of
 from linkanim.picture.text import Type
 from linkanim.picture.theme import LIGHT
@@ -255,3 +256,16 @@ def test_the_title_of_a_polygon_and_what_its_bar_means_are_apart(size: tuple[int
         captions = (one for one in panel.group(pose).captions if not one.halo)
         title, *rest = (one.around(Type()) for one in captions)
         assert not any(title.meets(one) for one in rest)
+
+
+@pytest.mark.parametrize("name", ["hoecken", "pumpjack", "whitworth"])
+@pytest.mark.parametrize("size", [(640, 360), (1280, 720)])
+def test_no_symbol_of_a_figure_is_cut_at_its_edge(name: str, size: tuple[int, int]) -> None:
+    scene, phase = load(name), 1.0
+    picture = Picture(scene, size, Look(polygons=True, hud=False), moment=phase)
+    for group in picture.groups(scene.pose(phase, 2)):
+        for line in group.captions:
+            around = line.around(picture.type)
+            assert around.y >= 0
+            assert around.bottom <= size[1]
+            assert around.right <= size[0]
