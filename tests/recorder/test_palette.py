@@ -5,7 +5,7 @@ import pytest
 from numpy.typing import NDArray
 
 from linkanim.recorder.gallery import reduced
-from linkanim.recorder.palette import make_palette
+from linkanim.recorder.palette import _oklab, make_palette
 
 
 def frame(*colours: tuple[int, int, int], alpha: int = 0) -> NDArray[np.uint8]:
@@ -72,3 +72,20 @@ def test_given_colours_take_their_room_among_thousands() -> None:
 
 def test_equal_samples_give_equal_palettes() -> None:
     assert make_palette([ramps()]).tobytes() == make_palette([ramps()]).tobytes()
+
+
+# Lightness and the two colour axes of red, green and blue, as their author tables them.
+OKLAB = {
+    (255, 255, 255): (1.0, 0.0, 0.0),
+    (255, 0, 0): (0.628, 0.225, 0.126),
+    (0, 255, 0): (0.866, -0.234, 0.179),
+    (0, 0, 255): (0.452, -0.032, -0.312),
+    (10, 10, 10): (0.145, 0.0, 0.0),
+}
+
+
+@pytest.mark.parametrize(("colour", "seen"), OKLAB.items())
+def test_colours_are_as_far_apart_as_they_look(
+    colour: tuple[int, int, int], seen: tuple[float, float, float]
+) -> None:
+    assert _oklab(np.array([colour], np.uint8))[0] == pytest.approx(seen, abs=1e-3)
