@@ -10,7 +10,7 @@ import pytest
 from linkanim.cli import main
 from linkanim.cli.command_table import build
 from linkanim.player import window
-from linkanim.workshop import documents
+from linkanim.workshop import documents, layers
 
 Capture = pytest.CaptureFixture[str]
 
@@ -40,6 +40,15 @@ def test_a_way_of_making_writes_its_files(way: str, tmp_path: Path, capsys: Capt
     after = {path.name: path.read_bytes() for path in folder.iterdir() if path.suffix != ".dxf"}
     del before[".linkanim-make.json"], after[".linkanim-make.json"]
     assert after == before
+
+
+def test_a_search_for_fewer_layers_that_was_given_up_is_told(
+    tmp_path: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(layers, "_MOST_WORK", 0)
+    for scene, told in (("crank-rocker", ""), ("six-bar", "there may be a way with fewer layers")):
+        assert main(["make", scene, "-o", str(tmp_path / scene), "--way", "laser"]) == 0
+        assert capsys.readouterr().err.partition(";")[0].strip() == told
 
 
 def test_another_way_replaces_what_was_ours_and_leaves_the_rest(tmp_path: Path) -> None:
