@@ -60,8 +60,8 @@ def _code_of(error: BaseException) -> int:
         case RuntimeError(__cause__=(Ended() | KeyboardInterrupt()) as cause):
             return _code_of(cause)  # so Python 3.11 wraps what arrives while a class is made
         case LinkanimError():
-            cause = error.__cause__
-            is_name = isinstance(cause, OSError) and cause.errno in _BAD_NAMES
+            reason = error.__cause__
+            is_name = isinstance(reason, OSError) and reason.errno in _BAD_NAMES
             return _say(str(error), BAD if is_name else error.exit_code)
         case MemoryError() | ImportError() if _lacks_memory(error):
             return _say("there is not enough memory for this", FAILED)

@@ -295,11 +295,13 @@ def test_from_the_list_of_dimensions_one_click_leads_to_the_tools_and_one_back(p
     before = {one.key: one.value for one in dimensions(player.state.scene)}
     click(player, "edit dimensions")
     click(player, "build on with this linkage")
-    assert player.state.mode == "build"
+    mode: str = player.state.mode
+    assert mode == "build"
     assert player.state.sheet
     assert {"A", "B"} <= {*player.state.sheet.building.draft.places}
     click(player, "edit dimensions")
-    assert player.state.mode == "edit"
+    mode = player.state.mode
+    assert mode == "edit"
     assert sorted(round(one.value, 6) for one in dimensions(player.state.scene) if one.kind == "length") == (
         sorted(
             round(one, 6)
