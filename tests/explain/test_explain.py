@@ -5,7 +5,6 @@ from __future__ import annotations
 import base64
 import math
 import re
-import shutil
 import subprocess
 from dataclasses import replace
 from pathlib import Path
@@ -14,6 +13,7 @@ from typing import Any, Literal
 import numpy as np
 import pytest
 from printed import checks_of, of_html, of_latex, of_markdown
+from tex import needs_tex
 
 import linkanim.explain.documents
 from linkanim.cli import main
@@ -222,7 +222,7 @@ def _compiles(text: str, tmp_path: Path) -> None:
     assert (tmp_path / "solution.pdf").stat().st_size > 10_000
 
 
-@pytest.mark.skipif(shutil.which("pdflatex") is None, reason="needs pdflatex")
+@needs_tex
 @pytest.mark.slow
 def test_the_latex_compiles(tmp_path: Path) -> None:
     _compiles(document(solution(_request("press", 87.0)), TEX), tmp_path)
@@ -249,7 +249,7 @@ def odd() -> Solution:
     return solution(_request(scene_from(document, name="odd", where="odd.toml"), 60.0))
 
 
-@pytest.mark.skipif(shutil.which("pdflatex") is None, reason="needs pdflatex")
+@needs_tex
 @pytest.mark.slow
 def test_the_latex_of_odd_names_compiles(odd: Solution, tmp_path: Path) -> None:
     _compiles(document(odd, TEX), tmp_path)

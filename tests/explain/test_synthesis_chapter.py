@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 import subprocess
 from pathlib import Path
 
@@ -10,6 +9,7 @@ import numpy as np
 import pytest
 from made_scenes import FEW, MADE
 from printed import checks_of, of_html, of_latex, of_markdown
+from tex import needs_tex
 
 import linkanim
 from linkanim.cli import main
@@ -99,7 +99,7 @@ def test_a_function_s_exercise_with_a_seed_has_other_lengths() -> None:
 
 
 @pytest.mark.long
-@pytest.mark.skipif(shutil.which("pdflatex") is None, reason="needs pdflatex")
+@needs_tex
 @pytest.mark.parametrize("name", MADE)
 def test_the_latex_compiles(name: str, tmp_path: Path) -> None:
     found = solution(PoseRequest(MADE[name](), "phase", 0.5, 2.0))

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 from test_pdf import content
+from tex import needs_tex
 
 from linkanim.cli import main
 from linkanim.paper.figure import Figured
@@ -111,7 +112,8 @@ def test_another_file_is_refused_before_anything_is_written(
 
 
 @pytest.mark.slow
-@pytest.mark.skipif(not shutil.which("pdflatex"), reason="needs LaTeX")
+@needs_tex
+@pytest.mark.skipif(not shutil.which("pdftotext"), reason="needs poppler")
 def test_latex_sets_it(tmp_path: Path) -> None:
     pytest.importorskip("fpdf")
     assert main([*FIGURE, "-o", str(tmp_path / "figure.pdf"), "--text", "latex"]) == 0
