@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+import re
 from argparse import Namespace
 from collections.abc import Callable
 from pathlib import Path
 
 from linkanim.atomic_files import checked_target, write_text
 from linkanim.cli.options import inputs_of
+
+
+def plain(words: str) -> str:
+    """Return words that are typeset as plain text, which has no subscripts of words: θ of rod for θ_{rod}."""
+    return re.sub(r"_\{([^{}]*)\}", r" of \1", words)
 
 
 def alternative(options: Namespace) -> Callable[[str], None]:
@@ -20,7 +26,7 @@ def alternative(options: Namespace) -> Callable[[str], None]:
     target: Path = checked_target(options.alt, (".txt",), inputs_of(options))
 
     def written(words: str) -> None:
-        write_text(target, f"{words}\n")
+        write_text(target, f"{plain(words)}\n")
         print(target)
 
     return written

@@ -46,6 +46,13 @@ def test_figures_and_charts_carry_their_words_and_write_them_beside(
     assert "_{" not in words
 
 
+def test_the_words_of_a_construction_have_no_marks_of_subscripts(tmp_path: Path) -> None:
+    made, told = tmp_path / "made.svg", tmp_path / "made.txt"
+    asked = ["draw", "geared-five-bar-2-1", "--construction", "centres", "-o", str(made)]
+    assert main([*asked, "--alt", str(told)]) == 0
+    assert " at θ of large = " in told.read_text(encoding="utf-8")
+
+
 def test_a_pose_is_told_by_its_links() -> None:
     text, pose = of_pose(load("crank-rocker"), 1.0), load("crank-rocker").pose(1.0, 0)
     for name in ("crank", "coupler", "rocker"):

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import re
 from argparse import Namespace
 from dataclasses import replace
 from math import prod
 
 from linkanim.bounds import MOST_DRAWN, MOST_DRAWN_PIXELS
-from linkanim.cli.alternative import alternative
+from linkanim.cli.alternative import alternative, plain
 from linkanim.cli.commands.solve import phase_at
 from linkanim.cli.picture_options import Canvas, look_of, scene_canvas_target
 from linkanim.errors import BadInput
@@ -43,8 +42,7 @@ def run(options: Namespace) -> None:
     _write(shown, target, canvas, latex=bool(options.text))
     told(shown.words)
     if shown.phase is None:
-        where = re.sub(r"_\{([^{}]*)\}", r" of \1", shown.caption)  # a terminal has no subscripts of words
-        print(f"{where}: the pose that reads best; --angle or --phase for another")
+        print(f"{plain(shown.caption)}: the pose that reads best; --angle or --phase for another")
 
 
 def _write(shown: Written, target: Output, canvas: Canvas, *, latex: bool) -> None:
