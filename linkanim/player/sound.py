@@ -12,8 +12,7 @@ import os
 import sys
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from threading import Thread
-from typing import Literal, get_args
+from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
 import pygame
@@ -22,6 +21,9 @@ from numpy.typing import NDArray
 from linkanim.frozen import NamedTuple
 from linkanim.player.state import State
 from linkanim.scenes.scene import Scene
+
+if TYPE_CHECKING:
+    from threading import Thread
 
 # Which sounds the motion makes from one frame to a later one: at dead centres, and at the input's limits.
 
@@ -119,6 +121,8 @@ class Speaker:
     def play(self, cue: str) -> None:
         """Play a sound; the first call only begins to open the device, which may take longer than a frame."""
         if self._opening is None:
+            from threading import Thread
+
             self._opening = Thread(target=self._open, daemon=True)
             self._opening.start()
         elif sound := self._sounds.get(cue):
