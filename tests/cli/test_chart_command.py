@@ -87,7 +87,7 @@ def test_a_table_beside_it_is_told_by_its_largest_difference(
 
 # options beside `chart crank-rocker`, what the one line says
 REFUSED = [
-    (["--quantity", "rocker.angel"], "did you mean rocker.angle"),
+    (["--quantity", "rocker.angel"], "nearest are rocker.angle, "),
     (["--quantity", ","], "--quantity names none"),
     (["--quantity", "rocker.angle", "-o", "out.eps"], ".svg, .png, .pdf, .csv"),
     (["--quantity", "rocker.angle", "-o", "missing/out.png"], "there is no folder"),
