@@ -10,6 +10,7 @@ Its parts, in reading order:
 from __future__ import annotations
 
 import math
+from contextlib import suppress
 from dataclasses import replace
 from functools import cached_property
 from typing import Any
@@ -260,7 +261,7 @@ def _solved(normal: Real, right: Real, equations: Real, targets: Real) -> Real:
     equations, targets = equations[:, used], targets[:, used]
     count, extra = normal.shape[1], equations.shape[1]
     if not extra:
-        return np.asarray(np.linalg.solve(normal, right[..., None])[..., 0])
+        return _solutions(normal, right)
     whole = np.zeros((len(right), count + extra, count + extra))
     whole[:, :count, :count] = normal
     whole[:, count:, :count] = equations
@@ -270,7 +271,19 @@ def _solved(normal: Real, right: Real, equations: Real, targets: Real) -> Real:
     own = np.arange(count, count + extra)
     whole[:, own, own] = np.where(none, -1.0, -1e-12 / size[:, None])
     both = np.concatenate([right, np.where(none, 0.0, targets)], axis=1)
-    return np.asarray(np.linalg.solve(whole, both[..., None])[:, :count, 0])
+    return _solutions(whole, both)[:, :count]
+
+
+def _solutions(matrices: Real, right: Real) -> Real:
+    """Return the solutions of linear equations (B, n, n); 0, which changes nothing, of those without one."""
+    try:
+        return np.asarray(np.linalg.solve(matrices, right[..., None])[..., 0])
+    except np.linalg.LinAlgError:
+        found = np.zeros(right.shape)
+        for n, (matrix, side) in enumerate(zip(matrices, right, strict=True)):
+            with suppress(np.linalg.LinAlgError):
+                found[n] = np.linalg.solve(matrix, side)
+        return found
 
 
 def _turned(problem: PathTask, state: _State, change: Real) -> Real:

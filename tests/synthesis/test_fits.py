@@ -19,7 +19,7 @@ from linkanim.mechanics.measures import transmission_angle
 from linkanim.synthesis.answers import Fit, PathAnswer, checked, cognates_of, turning_cognates
 from linkanim.synthesis.atlas import Candidates, atlas, matched
 from linkanim.synthesis.curves import DrawnCurve
-from linkanim.synthesis.fitting import refined
+from linkanim.synthesis.fitting import _solutions, refined
 from linkanim.synthesis.linkages import FOUR_BAR, Complex, Real
 from linkanim.synthesis.path import task_of
 from linkanim.synthesis.search import best_of, ranked
@@ -336,6 +336,11 @@ def test_an_open_curve_of_an_input_that_swings_tells_the_transmission_angle_alon
     assert best.transmission_angle == pytest.approx(least, abs=1e-4)
     assert best.scene.info.transmission is not None
     assert best.scene.info.transmission.least < 1e-6 < least
+
+
+def test_a_candidate_whose_equations_have_no_solution_holds_up_no_other() -> None:
+    found = _solutions(np.array([np.eye(2), np.zeros((2, 2))]), np.array([[1.0, 2.0], [3.0, 4.0]]))
+    assert found.tolist() == [[1.0, 2.0], [0.0, 0.0]]
 
 
 def test_candidates_that_cannot_be_closed_stay_as_they_are() -> None:
