@@ -13,7 +13,7 @@ import collections
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import MISSING, Field, FrozenInstanceError, dataclass, field, fields
 from functools import cache
-from operator import attrgetter
+from operator import attrgetter, itemgetter
 from reprlib import recursive_repr
 from types import CodeType, FunctionType
 from typing import TYPE_CHECKING, Any, NoReturn, TypeVar, dataclass_transform, overload
@@ -296,8 +296,10 @@ _OF_TUPLES: dict[str, object] = {
     "_asdict": lambda self: dict(zip(self._fields, self, strict=True)),
 }
 """What all named tuples have in common, beside what a tuple has."""
-_field_at: Callable[[int, str], object] = collections._tuplegetter  # type: ignore[attr-defined]
-"""Reads one place of a tuple by its name; Python's own named tuples have no other, and none is as quick."""
+_field_at: Callable[[int, str], object] = getattr(
+    collections, "_tuplegetter", lambda place, _: property(itemgetter(place))
+)
+"""Reads one place of a tuple by its name: as Python's own named tuples do, where theirs is to be had."""
 
 
 class _Field(NamedTuple):

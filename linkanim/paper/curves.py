@@ -20,7 +20,7 @@ from linkanim.bounds import MOST_ROWS_READ
 from linkanim.errors import BadInput, OutOfRange
 from linkanim.export import columns
 from linkanim.frozen import NamedTuple, frozen
-from linkanim.intake import Intake, NumberRow, named, read_numbers
+from linkanim.intake import Intake, NumberRow, NumberTable, named, read_numbers
 from linkanim.mechanics.motion import Motion
 from linkanim.mechanics.quantities import Quantity, plain_unit
 from linkanim.mechanics.search import highest
@@ -222,6 +222,10 @@ def _peak(scene: Scene, curve: Curve, sign: int) -> Peak:
     return Peak(x, value, angle % 360 if scene.info.full_turn else angle)
 
 
+_OURS = "angle_deg"
+"""What the first column is headed in a table that `table` gives."""
+
+
 def table(curves: Curves) -> tuple[list[str], list[Floats]]:
     """Return names and columns of a table: the input's angle in degrees, then angle, phase, time, quantities.
 
@@ -233,7 +237,7 @@ def table(curves: Curves) -> tuple[list[str], list[Floats]]:
     phases = np.linspace(0.0, scene.period, SAMPLES // 2 * round(scene.period / tau) + 1)
     motion = scene.solve(phase=phases)
     angle = motion.coordinate
-    names, columns = ["angle_deg", "angle", "phase"], [np.degrees(angle), angle, phases]
+    names, columns = [_OURS, "angle", "phase"], [np.degrees(angle), angle, phases]
     if not scene.linkage.drive.coordinate.is_angle:
         names, columns = [scene.linkage.drive.coordinate.name, "phase"], [angle, phases]
     several = len({curve.pace for curve in curves.curves}) > 1
@@ -331,10 +335,12 @@ _UNITS: dict[Over, str] = {"angle": "deg", "phase": "deg", "time": "s"}
 _WORDS: dict[Over, str] = {"angle": "degrees", "phase": "degrees", "time": "seconds"}
 
 
-def read_table(path: Path, over: Over) -> MeasuredTable:
-    """Return a table's first two columns: what `--over` says, and value.
+def read_table(path: Path, over: Over, one: Quantity) -> MeasuredTable:
+    """Return two columns of a table: its first, which is what `--over` says, and a quantity's.
 
-    BadInput where it cannot be read, a line has not two finite numbers, or a comma may be either mark.
+    Of more than two that is the one that the quantity heads; angles are degrees, radians in a table of ours.
+    BadInput where none is headed so, where it cannot be read, a line has not two finite numbers, or a comma
+    may be either mark.
     """
     where = named(path)
     found = read_numbers(_TABLE_FILE.read(path, where), where, f"{_WORDS[over]}, value")
@@ -344,7 +350,18 @@ def read_table(path: Path, over: Over) -> MeasuredTable:
                 f"{where}: line {line} has {len(numbers)} whole numbers: a comma in it is a decimal mark or "
                 "stands between columns; put semicolons between the columns"
             )
-    return MeasuredTable(where, found.heading[0] if found.heading else "", found.rows)
+    first, n = found.heading[0] if found.heading else "", 1
+    if len(found.heading) > 2:
+        if one.token not in found.heading[1:]:
+            raise BadInput(
+                f"{where}: none of its {len(found.heading)} columns is headed {one.token}; head one so, "
+                "or give two columns"
+            )
+        n = found.heading.index(one.token)
+        _refuse_ragged(found, where)
+    factor = np.degrees(1.0) if first == _OURS and one.unit == "rad" else 1.0
+    rows = (NumberRow(line, (row[0], factor * row[n])) for line, row in found.rows)
+    return MeasuredTable(where, first, tuple(rows))
 
 
 def read_tables(path: Path) -> dict[str, MeasuredTable]:
@@ -357,16 +374,21 @@ def read_tables(path: Path) -> dict[str, MeasuredTable]:
     tokens = found.heading[1:]
     if not tokens:
         raise BadInput(f"{where}: its columns have no names; head them, such as angle, 3.angular_velocity")
-    for line, numbers in found.rows:
-        if len(numbers) != len(found.heading):
-            counts = f"{len(numbers)} numbers under {len(found.heading)} names"
-            raise BadInput(f"{where}: line {line} has {counts}; give a number under each")
+    _refuse_ragged(found, where)
     return {
         token: MeasuredTable(
             where, found.heading[0], tuple(NumberRow(line, (row[0], row[n])) for line, row in found.rows)
         )
         for n, token in enumerate(tokens, 1)
     }
+
+
+def _refuse_ragged(table: NumberTable, where: str) -> None:
+    """Raise BadInput for a row that has not as many numbers as there are names."""
+    for line, numbers in table.rows:
+        if len(numbers) != len(table.heading):
+            counts = f"{len(numbers)} numbers under {len(table.heading)} names"
+            raise BadInput(f"{where}: line {line} has {counts}; give a number under each")
 
 
 def compared(

@@ -9,7 +9,7 @@ import pytest
 from numpy.typing import ArrayLike
 
 from linkanim.errors import BadInput, OutOfRange
-from linkanim.paper.curves import MeasuredCurve, Pace, beside, curves_of, read_table, usual_over
+from linkanim.paper.curves import MeasuredCurve, Pace, beside, curves_of, read_table, table, usual_over
 from linkanim.picture.look import Over
 from linkanim.scenes import load
 
@@ -18,7 +18,7 @@ PACE = Pace(10.0, "10 rad/s")
 
 def laid(path: Path, scene: str, token: str, over: Over | None) -> MeasuredCurve:
     curves = curves_of(load(scene), (token,), (PACE,), over)
-    return beside(curves, read_table(path, usual_over(curves)), "theirs")
+    return beside(curves, read_table(path, usual_over(curves), curves.curves[0].quantity), "theirs")
 
 
 def written(path: Path, first: ArrayLike, values: ArrayLike, heading: str = "") -> Path:
@@ -103,7 +103,29 @@ def test_angles_out_of_reach_name_their_line(tmp_path: Path) -> None:
 def test_a_comma_that_may_be_either_mark_is_refused(tmp_path: Path) -> None:
     (tmp_path / "t.csv").write_text("87,3,3271\n")
     with pytest.raises(BadInput, match="line 1 has 3 whole numbers: a comma in it is a decimal mark or"):
-        read_table(tmp_path / "t.csv", "angle")
+        laid(tmp_path / "t.csv", "press", "3.angle", "angle")
+
+
+# In another order than they are asked for; angles are radians there, rates and lengths as they are shown.
+@pytest.mark.parametrize("token", ["rocker.angle", "rocker.angular_velocity", "B.velocity"])
+def test_a_table_that_was_written_by_chart_is_what_it_says(token: str, tmp_path: Path) -> None:
+    path, tokens = tmp_path / "ours.csv", ("B.velocity", "rocker.angle", "rocker.angular_velocity")
+    quantities = curves_of(load("crank-rocker"), tokens, (PACE,), None)
+    names, values = table(quantities)
+    rows = "\n".join(",".join(map(repr, row)) for row in np.column_stack(values).tolist())
+    path.write_text(f"{','.join(names)}\n{rows}\n")
+    assert abs(laid(path, "crank-rocker", token, None).differences).max() < 1e-9
+
+
+def test_of_more_than_two_columns_one_is_headed_by_the_quantity(tmp_path: Path) -> None:
+    path = tmp_path / "t.csv"
+    path.write_text("deg,speed,3.angle\n10,1.5,2.5\n")
+    assert laid(path, "press", "3.angle", "angle").values == [2.5]
+    with pytest.raises(BadInput, match=r"none of its 3 columns is headed 4\.angle; head one so, or give two"):
+        laid(path, "press", "4.angle", "angle")
+    path.write_text("deg,speed,3.angle\n10,1.5\n")
+    with pytest.raises(BadInput, match="line 2 has 2 numbers under 3 names"):
+        laid(path, "press", "3.angle", "angle")
 
 
 def test_a_long_table_is_printed_by_its_ends(tmp_path: Path) -> None:

@@ -65,7 +65,7 @@ def _measured(curves: Curves, options: Namespace) -> MeasuredCurve | None:
         if options.label is not None:
             raise BadInput("--label names the table of --data; add --data OTHER.csv")
         return None
-    table = read_table(options.data, usual_over(curves))
+    table = read_table(options.data, usual_over(curves), curves.curves[0].quantity)
     return beside(curves, table, options.label or options.data.stem)
 
 
