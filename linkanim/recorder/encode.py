@@ -241,6 +241,8 @@ def _stop(process: subprocess.Popen[bytes], listeners: Iterable[Thread]) -> None
 # changed is looked at (ffmpeg's filter took three times as long), and of each frame it holds what changed.
 # An MP4 is H.264 as slides play it, its colours tagged bt709 so that they come back as they were.
 
+COLOURS = 256
+"""Of a GIF: they follow the indices of each frame, four bytes each."""
 _THREADS = 2
 """Fixed, for H.264's bytes depend on it."""
 _AHEAD = {"gif": 6, "mp4": 20, "png": 6}
@@ -261,24 +263,34 @@ class Stream:
     alpha: bool = False
 
 
-@contextmanager
-def encoding(
-    stream: Stream, form: Format, part: Path, palette: Sequence[Colour]
-) -> Iterator[Callable[[Frame], None]]:
-    """Give a function that takes the frames, one after the other, and have them encoded into `part`.
+def coding(stream: Stream, form: Format, palette: Sequence[Colour]) -> Callable[[Frame], Frame]:
+    """Return what makes of a frame the bytes that `encoding` takes: of a GIF's its palette's indices.
 
-    `part` is a file, for PNG a folder that gets 0001.png, ...; `palette` has a GIF's colours, 255 at most.
-    Of a frame nothing is kept. When the block ends the encoder is done; whatever else ends it, the encoder
-    is gone. `RecordingFailed` where the encoder cannot be started, stops early or reports an error.
+    `palette` has a GIF's colours, 255 at most. What it returns may lie where the next frame's will.
+    """
+    if form != "gif":
+        return lambda frame: frame
+    from linkanim.recorder.palette import Indexing
+
+    return Indexing(palette, math.prod(stream.size), alpha=stream.alpha)
+
+
+def coded_size(stream: Stream, form: Format) -> int:
+    """Return of how many bytes a coded frame is."""
+    pixels = math.prod(stream.size)
+    return pixels + 4 * COLOURS if form == "gif" else 4 * pixels
+
+
+@contextmanager
+def encoding(stream: Stream, form: Format, part: Path) -> Iterator[Callable[[Frame], None]]:
+    """Give a function that takes coded frames, one after the other, and have them encoded into `part`.
+
+    `part` is a file, for PNG a folder that gets 0001.png, .... Of a frame nothing is kept. When the block
+    ends the encoder is done; whatever else ends it, the encoder is gone. `RecordingFailed` where the encoder
+    cannot be started, stops early or reports an error.
     """
     with running(_command(stream, form, part), ahead=_AHEAD[form]) as write:
-        if form == "gif":
-            from linkanim.recorder.palette import Indexing
-
-            indices = Indexing(palette, math.prod(stream.size), alpha=stream.alpha)
-            yield lambda frame: write(indices(frame))
-        else:
-            yield write
+        yield write
 
 
 def count_frames(part: Path, form: Format) -> int:

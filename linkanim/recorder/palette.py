@@ -68,7 +68,18 @@ class Indexing:
 def nearest(colours: Floats, palette: Floats) -> NDArray[np.intp]:
     """Return which colour of a palette (m, 3) each of some (n, 3) is nearest to; of equals the first."""
     # |a - b|² without |a|², the same for every b
-    found: NDArray[np.intp] = ((palette**2).sum(axis=1) - 2.0 * colours @ palette.T).argmin(axis=1)
+    found: NDArray[np.intp] = ((palette**2).sum(axis=1) - 2.0 * _product(colours, palette.T)).argmin(axis=1)
+    return found
+
+
+def _product(rows: Floats, matrix: Floats) -> Floats:
+    """Return rows (n, 3) times a matrix (3, m), each row's to the same bits whichever others there are.
+
+    A library's product has other roundings for other numbers of rows, and with them a GIF would depend on
+    which of its frames were looked at together.
+    """
+    first, second, third = (rows[:, k : k + 1] * matrix[k] for k in range(3))
+    found: Floats = first + second + third
     return found
 
 
@@ -76,8 +87,7 @@ def _oklab(colours: Bytes) -> Floats:
     """Return colours (n, 3) in Oklab, where they are as far apart as they look (Ottosson 2020)."""
     parts = colours / 255.0
     linear = np.where(parts <= 0.04045, parts / 12.92, ((parts + 0.055) / 1.055) ** 2.4)
-    seen: Floats = np.cbrt(linear @ _TO_CONES) @ _TO_OKLAB
-    return seen
+    return _product(np.cbrt(_product(linear, _TO_CONES)), _TO_OKLAB)
 
 
 def rgb(words: Words) -> Bytes:

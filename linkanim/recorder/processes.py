@@ -1,8 +1,9 @@
 """A clip's frames drawn by several processes, in the clip's order: the same bytes, whoever draws them.
 
 Each process is a copy of ours, by `fork`, so that it begins with all that has been worked out and nothing
-has to be sent to it. It draws every n-th frame into memory that it shares with us, a few frames ahead, and
-ends as soon as we do. What one of them cannot draw we draw ourselves: so an error is raised here, and a
+has to be sent to it. It draws every n-th frame, and codes it for the encoder, into memory that it shares with
+us, a few frames ahead, and ends as soon as we do. With two cores it would gain nothing: one draws, the other
+encodes. What one of them cannot draw we draw ourselves: so an error is raised here, and a
 process that the system ends for its memory costs time alone.
 """
 
@@ -40,7 +41,8 @@ def processes_for(frames: int, size: int) -> int:
         return 0
     # those ready, the one that is drawn, and what stands still in it
     fitting = _ROOM // (size * (_AHEAD + 2))
-    number = min(len(os.sched_getaffinity(0)), MOST, frames // _FEWEST, fitting)
+    cores = len(os.sched_getaffinity(0)) - 1  # the encoder has one
+    number = min(cores, MOST, frames // _FEWEST, fitting)
     return number if number > 1 else 0
 
 
@@ -127,11 +129,13 @@ class _Drawer:
 
 
 def _copy() -> int:
-    """Fork: return 0 in the copy, its number in ours."""
-    with warnings.catch_warnings():
-        # of numpy's threads, which it stops and starts anew itself
-        warnings.simplefilter("ignore", DeprecationWarning)
-        return os.fork()
+    """Fork: return 0 in the copy, its number in ours; OSError where the system copies no process."""
+    if sys.platform != "win32":
+        with warnings.catch_warnings():
+            # of numpy's threads, which it stops and starts anew itself
+            warnings.simplefilter("ignore", DeprecationWarning)
+            return os.fork()
+    raise OSError("no process is copied here")
 
 
 def _end_with_parent(*ends: int) -> None:

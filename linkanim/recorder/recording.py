@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import base64
-import math
 import os
 import re
 from collections.abc import Callable, Iterator, Sequence
@@ -25,7 +24,7 @@ from linkanim.picture.picture import Picture
 from linkanim.picture.raster import offscreen, pixel_view
 from linkanim.picture.surface import SurfacePrinter
 from linkanim.picture.theme import theme_of
-from linkanim.recorder.encode import Frame, Stream, count_frames, encoding
+from linkanim.recorder.encode import Frame, Stream, coded_size, coding, count_frames, encoding
 from linkanim.recorder.palette import Colour, make_palette
 from linkanim.recorder.plan import Clip, Format, Plan, make_plan, refuse_size
 from linkanim.recorder.processes import drawing, processes_for
@@ -176,16 +175,17 @@ def _saying_why(target: Path) -> Iterator[None]:
 
 
 def _encode(frames: Frames, plan: Plan, part: Path, form: Format, progress: Progress | None) -> None:
-    stream, size = Stream(frames.size, plan.rate, frames.alpha), 4 * math.prod(frames.size)
-    colours = palette_of(frames, plan.frames) if form == "gif" else []
+    stream = Stream(frames.size, plan.rate, frames.alpha)
+    code = coding(stream, form, palette_of(frames, plan.frames) if form == "gif" else ())
+    size = coded_size(stream, form)
     processes = processes_for(plan.frames, size) if frames.independent else 0
     # before the encoder is there: a copy of ours that held its pipe would keep it waiting for more
     with (
-        drawing(frames.draw, plan.frames, size, processes) as draw,
-        encoding(stream, form, part, colours) as send,
+        drawing(lambda frame: code(frames.draw(frame)), plan.frames, size, processes) as coded,
+        encoding(stream, form, part) as send,
     ):
         for frame in range(plan.frames):
-            send(draw(frame))
+            send(coded(frame))
             if progress is not None:
                 progress(frame + 1, plan.frames)
 

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from linkanim.errors import WorkFailed
 from linkanim.picture.look import Look
-from linkanim.recorder.encode import Stream, encoding, ffmpeg
+from linkanim.recorder.encode import Stream, coding, encoding, ffmpeg
 from linkanim.recorder.plan import Clip, Format, Plan, make_plan
 from linkanim.recorder.recording import SceneFrames, palette_of, write
 from linkanim.scenes import load
@@ -133,9 +133,11 @@ def _stored(file: Path, scene: Scene, plan: Plan) -> NDArray[np.uint8]:
 def _encode(stored: NDArray[np.uint8], scene: Scene, plan: Plan, target: Path) -> None:
     form: Format = "gif" if target.suffix == ".gif" else "mp4"
     palette = palette_of(SceneFrames(scene, plan, SIZE, LOOK), plan.frames) if form == "gif" else []
-    with encoding(Stream(SIZE, plan.rate), form, target, palette) as send:
+    stream = Stream(SIZE, plan.rate)
+    code = coding(stream, form, palette)
+    with encoding(stream, form, target) as send:
         for frame in stored:
-            send(frame.data)
+            send(code(frame.data))
 
 
 def _timed(work: Callable[[], object]) -> tuple[float, Work]:

@@ -159,7 +159,7 @@ def test_a_hud_follows_its_theme_and_its_place(change: dict[str, Any]) -> None:
 
 
 def test_without_a_background_only_what_is_drawn_is_opaque() -> None:
-    scene, look = load("crank-rocker"), Look(hud=False, background=False)
+    scene, look = load("crank-rocker"), Look(hud=False, background=False, theme="dark")
     clear, solid = painted(scene, 1.0, look), painted(scene, 1.0, replace(look, background=True))
     opacity = alphas(clear)
     assert opacity[0, 0] == 0
@@ -167,6 +167,14 @@ def test_without_a_background_only_what_is_drawn_is_opaque() -> None:
     assert 0.01 < inside.mean() < 0.1
     assert 0.03 < plate.mean() < 0.2
     assert pixels(clear)[inside] == pytest.approx(pixels(solid)[inside], abs=2)
+
+
+def test_pins_and_rims_of_a_light_picture_without_a_background_are_as_white_as_paper() -> None:
+    scene, look = load("crank-rocker"), Look(hud=False, background=False)
+    clear, solid = painted(scene, 1.0, look), painted(scene, 1.0, replace(look, background=True))
+    grounded = (alphas(clear) == 255) & (pixels(solid) == theme_of("light").background).all(axis=-1)
+    assert grounded.sum() >= 4
+    assert (pixels(clear)[grounded] == 255).all()
 
 
 @pytest.mark.parametrize(
@@ -215,7 +223,7 @@ def test_the_chart_tells_the_phase_under_a_pixel() -> None:
 
 
 def test_an_unknown_chart_is_answered_with_the_list() -> None:
-    with pytest.raises(BadInput, match=r"rocker\.colour.*crank\.angle, .*B\.velocity"):
+    with pytest.raises(BadInput, match=r"rocker\.colour.*nearest are .*rocker\.angle, .*--quantity list"):
         Picture(load("crank-rocker"), SMALL, Look(chart="rocker.colour"))
 
 

@@ -122,9 +122,10 @@ def test_processes_end_with_the_one_that_they_draw_for_however_it_ends() -> None
 
 
 CASES = {
-    "two cores": (2, 75, 4 * 1280 * 720, 2),
     "many cores: no encoder takes more": (64, 75, 4 * 1280 * 720, 4),
-    "one core: nothing is gained": (1, 75, 4 * 1280 * 720, 0),
+    "three cores, one of them the encoder's": (3, 75, 4 * 1280 * 720, 2),
+    "two cores: one draws and one encodes": (2, 75, 4 * 1280 * 720, 0),
+    "one core": (1, 75, 4 * 1280 * 720, 0),
     "few frames: a copy takes as long": (8, 15, 4 * 1280 * 720, 0),
     "as many as are worth it": (8, 24, 4 * 1280 * 720, 3),
     "4K: as many as memory holds": (8, 75, P4K, 3),
