@@ -23,6 +23,7 @@ from linkanim.picture.hud import (
     WordBlock,
     blocks,
     caption_lines,
+    key_block,
     key_lines,
     shapes_of,
     widest_rows,
@@ -287,7 +288,9 @@ def arranged(
 
 def _lacks(found: Arrangement, keyed: bool) -> bool:
     """Return whether words have no row, or not the key to the arrows that there should be."""
-    return found.block is None or not found.block.rows or (keyed and found.layout.legend is None)
+    if found.block is None or (keyed and found.layout.legend is None):
+        return True
+    return bool(found.block.lines) and not found.block.rows
 
 
 class _WaysToArrange:
@@ -617,7 +620,11 @@ def _with_chart(subject: Subject, request: FitRequest, type_: Type, *, beside: b
     if request.caption:
         parts = with_caption(parts, len(caption_lines(parts, sentence, type_)))
     worded = request.hud and not request.listed
-    words = blocks(subject.scenes, subject.rows, parts, request.keys, type_) if worded else ()
+    words: Iterable[Sequence[WordBlock]] = ()
+    if worded:
+        words = blocks(subject.scenes, subject.rows, parts, request.keys, type_)
+    elif request.still and request.keys:  # a figure says how much its arrows stand for
+        words = [[key_block(subject.figure.scene, parts, request.keys, type_)]]
     shapes = shapes_of(sentence, parts, type_) if worded and not parts.caption else ()
     edge = _EDGE_OF_STILL * parts.unit if request.still else None
     edge = _ROOM_FOR_LINES * parts.small_size if request.lined else edge

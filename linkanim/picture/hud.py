@@ -541,6 +541,17 @@ def blocks(
         yield way.group(smallest, tuple(one for one in rows if one.rank <= rank), rank >= _CLASS_RANK)
 
 
+def key_block(scene: Scene, layout: Layout, keys: int, type_: Type) -> WordBlock:
+    """Return a block of the key to the colours alone, which has so many lines."""
+    size, wide = layout.small_size, _key_width(scene, layout, type_)
+    return WordBlock(size, (), 0, frozenset(), 0.0, 0.0, 0.0, round(wide), wide, KEY_STEP * size * keys)
+
+
+def _key_width(scene: Scene, layout: Layout, type_: Type) -> float:
+    size = layout.small_size
+    return 3.2 * size + type_.width(f"acceleration  00000 {scene.length_unit}/s²", size)
+
+
 def caption_lines(layout: Layout, text: str, type_: Type) -> list[str]:
     """Return a sentence in lines, as it stands below a scene."""
     room = layout.caption.width if layout.caption else layout.stage.width - 2 * layout.margin
@@ -610,9 +621,7 @@ class _Setter:
             width(one.row.label, size) + width(one.row.value, size, strong=True) + _GAP * size for one in rows
         ]
         if rows and self._keys:
-            small = self._layout.small_size
-            unit = f"acceleration  00000 {self._scene.length_unit}/s²"
-            wide.append(3.2 * small + width(unit, small))
+            wide.append(_key_width(self._scene, self._layout, self._type))
         return round(max(wide, default=0.0))
 
     def _line(self, text: str, y: float, size: int, *, strong: bool) -> WordLine:

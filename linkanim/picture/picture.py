@@ -539,7 +539,7 @@ class Picture:
     @cached_property
     def _hud(self) -> Hud | None:
         block, place = self.fit.arrangement.block, self.layout.hud
-        if block is None or place is None:
+        if block is None or place is None or not block.lines:
             return None
         return Hud(self.fit.subject.figure.scene, block, place, self.type, self.theme)
 

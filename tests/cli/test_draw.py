@@ -56,6 +56,19 @@ def test_a_caption_says_what_to_watch_for_where_it_is_asked_for(folder: Path) ->
     assert [load("crank-rocker").look_at in text for text in texts] == [False, True]
 
 
+# The key's arrows stand for round values, those of the pose's own speed.
+@pytest.mark.parametrize(
+    ("kinds", "said"),
+    [("v", ["velocity", "50 mm/s"]), ("v,a", ["velocity", "50 mm/s", "acceleration", "200 mm/s"])],
+)
+def test_a_figure_says_how_much_its_arrows_stand_for(kinds: str, said: list[str], folder: Path) -> None:
+    command = ["draw", "crank-rocker", "--angle", "60 deg", "--size", "640x360", "--vectors", kinds]
+    assert main([*command, "-o", "arrows.svg"]) == 0
+    words = "".join(ElementTree.parse(folder / "arrows.svg").getroot().itertext())
+    assert [one for one in said if one not in words] == []
+    assert ("acceleration" in words) == ("a" in kinds)
+
+
 def test_no_pose_lies_behind_where_none_is_asked_for(folder: Path) -> None:
     assert main(["draw", "kite", "-o", "none.svg", "--size", "320x180"]) == 0
     assert main(["draw", "kite", "-o", "one.svg", "--size", "320x180", "--poses", "1"]) == 0
