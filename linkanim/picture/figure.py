@@ -6,6 +6,7 @@ from dataclasses import replace
 from functools import cached_property, partial, reduce
 from itertools import combinations
 from math import tau
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +14,7 @@ from numpy.typing import NDArray
 from linkanim.frozen import frozen
 from linkanim.mechanics.centres import blocks
 from linkanim.mechanics.linkage import Body, Brace, Damper, Linkage, Spring, holding
-from linkanim.mechanics.motion import Motion
+from linkanim.mechanics.motion import Motion, Pose
 from linkanim.picture.layout import Gauge, Layout
 from linkanim.picture.look import Look
 from linkanim.picture.raster import Loop
@@ -21,6 +22,9 @@ from linkanim.picture.text import Type
 from linkanim.picture.theme import Theme
 from linkanim.picture.view import Box, View
 from linkanim.scenes.scene import FREE_STYLE, Scene
+
+if TYPE_CHECKING:
+    from linkanim.mechanics.polygons import Order, Side
 
 SAMPLES = 720
 _MOST_PERIODS = 4
@@ -206,6 +210,25 @@ class Figure:
         moving = apart[np.ptp(apart, axis=1) > _STILL * self.extent]
         nearest = np.round(np.nan_to_num(moving).min(axis=0, initial=self.extent) / (_STILL * self.extent))
         return np.asarray(_STILL * nearest, np.float64)
+
+    @cached_property
+    def polygon_boxes(self) -> tuple[Box, Box]:
+        """What the cycle's velocity and acceleration polygons take up about the pole, at the own speed."""
+        return self.polygon_box(self.cycle, 1), self.polygon_box(self.cycle, 2)
+
+    def polygon_box(self, motion: Motion | Pose, order: Order) -> Box:
+        """Return what a motion's polygons of an order take up about the pole."""
+        ends = np.concatenate([np.atleast_1d(side.end) for side in self.polygon_sides(motion, order)])
+        ends = np.append(ends[np.isfinite(ends)], 0.0)
+        x, y = ends.real, ends.imag
+        return Box(float(x.min()), float(y.min()), float(x.max()), float(y.max()))
+
+    def polygon_sides(self, motion: Motion | Pose, order: Order) -> list[Side]:
+        """Return the vectors of a motion's polygon, those of the traced coupler points among them."""
+        from linkanim.mechanics.polygons import chains
+
+        found = chains(motion, self.linkage, order, self.scene.trace)
+        return [side for chain in found for side in chain.sides]
 
     @property
     def extent(self) -> float:

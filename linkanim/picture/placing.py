@@ -218,7 +218,10 @@ class Placer:
         if but is not None:
             cost[but[every]] = 0.0
         which = int((label.price + cost.mean(axis=0)).argmin())
-        cost = self._cost(label.at(slice(None), slice(which, which + 1)), slice(None), self.clutter)
+        if len(cost) < len(label.places):  # a choice at some of the moments is looked at in all of them
+            cost = self._cost(label.at(slice(None), slice(which, which + 1)), slice(None), self.clutter)
+        else:
+            cost = cost[:, which : which + 1]
         shown = _eased(cost[:, 0] >= _FORBIDDEN)
         return Placed(which, shown if but is None else shown * _eased(but, 0))
 
@@ -280,10 +283,32 @@ class Placer:
         return np.asarray(np.logical_or.reduceat(barred, starts, axis=1))
 
 
-def place(labels: Sequence[LabelPlaces], clutter: Clutter) -> list[Placed]:
-    """Return a place for each label; the first have the first choice. One without room shows nowhere."""
-    placer = Placer(clutter)
-    return [placer.first([label])[1] for label in labels]
+def placed_among(
+    labels: Sequence[LabelPlaces], room: Rect, rects: Sequence[Rect], lines: Loop, half: float
+) -> list[tuple[int, bool]]:
+    """Return which of its places each label of one moment takes, and whether it has room there.
+
+    All are within the `room`, off the `rects`, off lines (1, m, 2) that are `half` so thick, and off each
+    other; the first have the first choice. What all may stand on is looked at at once.
+    """
+    if not labels:
+        return []
+    counts = [label.places.shape[1] for label in labels]
+    every = np.concatenate([label.places for label in labels], axis=1)
+    size = np.repeat(np.array([label.size for label in labels]).T, counts, axis=1)
+    barred = np.logical_not(_within(every, size, room)) | _cut(every, size, lines, half)
+    taken = np.array([*(rect.middle for rect in rects), *[0j] * len(labels)])
+    sizes = np.array([*((rect.width, rect.height) for rect in rects), *(label.size for label in labels)]).T
+    found, count = list[tuple[int, bool]](), len(rects)
+    for label, forbidden in zip(labels, np.split(barred[0], np.cumsum(counts)[:-1]), strict=True):
+        away = label.places[0][:, None] - taken[:count]
+        forbidden |= _over(away, label.size, sizes[:, :count]).any(axis=1)
+        which = int((label.price + _FORBIDDEN * forbidden).argmin())
+        found.append((which, not forbidden[which]))
+        if not forbidden[which]:
+            taken[count], sizes[:, count] = label.places[0, which], label.size
+            count += 1
+    return found
 
 
 def touching(places: Loop, size: tuple[float, float], solids: Solids, but: _Bools | None = None) -> _Bools:
@@ -437,7 +462,7 @@ def _near(places: Loop, size: tuple[float, float], clutter: Clutter) -> _Bools:
     return np.asarray(near.any(axis=0))
 
 
-def _within(places: Loop, size: tuple[float, float], room: Rect) -> _Bools:
+def _within(places: Loop, size: tuple[float, float] | _Floats, room: Rect) -> _Bools:
     (wide, high), x, y = size, places.real, places.imag
     inside = (x - wide / 2 >= room.x) & (x + wide / 2 <= room.right)
     return np.asarray(inside & (y - high / 2 >= room.y) & (y + high / 2 <= room.bottom))

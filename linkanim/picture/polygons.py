@@ -9,12 +9,12 @@ from functools import cached_property
 import numpy as np
 
 from linkanim.frozen import NamedTuple, frozen
-from linkanim.mechanics.motion import Motion, Pose
-from linkanim.mechanics.polygons import Order, Side, Sort, chains
+from linkanim.mechanics.motion import Pose
+from linkanim.mechanics.polygons import Order, Side, Sort
 from linkanim.picture.chart import Pen
 from linkanim.picture.figure import Figure
 from linkanim.picture.items import Caption, Group, Halo
-from linkanim.picture.placing import Clutter, LabelPlaces, Solid, place
+from linkanim.picture.placing import LabelPlaces, placed_among
 from linkanim.picture.quantities import round_step
 from linkanim.picture.raster import Colour, Layer
 from linkanim.picture.shapes import arrows, disc, segments, unit
@@ -118,7 +118,7 @@ class Polygon:
             layers.append(bar)
             captions.append(meaning)
         if not found:
-            at_rest = np.isfinite([side.end for side in self._sides(pose)]).all()
+            at_rest = np.isfinite([side.end for side in self.figure.polygon_sides(pose, self.order)]).all()
             why = "all at rest" if at_rest else "unbounded here"
             at = (pole.real, pole.imag + 0.6 * self.pen.small)
             captions.append(Caption(why, at, self.pen.small, self.pen.theme.dim, "centre"))
@@ -174,23 +174,16 @@ class Polygon:
     @cached_property
     def _box(self) -> Box:
         """What the polygons of the cycle take up about the pole, at the scene's own speed."""
-        scene = self.figure.scene
-        motion: Motion | Pose = self.shown or self.figure.cycle
-        if self.moment is not None and self.shown is None:
-            motion = scene.pose(self.moment, speed=scene.linkage.drive.speed)
-        ends = np.concatenate([np.atleast_1d(side.end) for side in self._sides(motion)])
-        ends = np.append(ends[np.isfinite(ends)], 0.0)
-        x, y = ends.real, ends.imag
-        return Box(float(x.min()), float(y.min()), float(x.max()), float(y.max()))
-
-    def _sides(self, motion: object) -> list[Side]:
-        """Return the vectors, those of the traced coupler points among them."""
-        found = chains(motion, self.figure.linkage, self.order, self.figure.scene.trace)
-        return [side for chain in found for side in chain.sides]
+        scene, pose = self.figure.scene, self.shown
+        if self.moment is not None and pose is None:
+            pose = scene.pose(self.moment, speed=scene.linkage.drive.speed)
+        if pose:
+            return self.figure.polygon_box(pose, self.order)
+        return self.figure.polygon_boxes[self.order - 1]
 
     def _arrows(self, pose: Pose, pole: complex, scale: float) -> list[Arrow]:
         """Return what is drawn in pixels: all that has a length; nothing where one is unbounded."""
-        sides = self._sides(pose)
+        sides = self.figure.polygon_sides(pose, self.order)
         if not np.isfinite([side.end for side in sides]).all():
             return []
         found = [
@@ -226,23 +219,21 @@ class Polygon:
         origin = "o_{v}" if self.order == 1 else "o_{a}"
         to_place = [_about(pole, pen.type.width(origin, pen.small), pen.small)]
         to_place += [_beside(*known, pen.small, middle) for known in zip(arrows_, wide, strict=True)]
-        ends = [np.array([[arrow.foot, arrow.foot + arrow.reach]]) for arrow in found]
-        solids = tuple(Solid(end, pen.line) for end in ends)
-        words = tuple(self._words)
+        lines = np.array([[(arrow.foot, arrow.foot + arrow.reach) for arrow in found]]).reshape(1, -1, 2)
         # the place ends 11 thin lines before the picture does: no symbol is cut there
-        clutter = Clutter(self.rect.inset(-min(pen.text, _BEYOND * pen.line)), words, solids=solids)
-        (named, *placed) = place(to_place, clutter)
-        at = complex(to_place[0].places[0, named.which])
+        room = self.rect.inset(-min(pen.text, _BEYOND * pen.line))
+        (named, _), *placed = placed_among(to_place, room, [*self._words], lines, pen.line)
+        at = complex(to_place[0].places[0, named])
         captions = [self._written(origin, at, pen.theme.ink)]
         leaders, left = list[Layer](), [arrow for arrow in found if arrow not in long]
-        for arrow, label, one in zip(arrows_, to_place[1:], placed, strict=True):
-            if not one.shown[0]:
+        for arrow, label, (which, has_room) in zip(arrows_, to_place[1:], placed, strict=True):
+            if not has_room:
                 left.append(arrow)
                 continue
-            at, colour = complex(label.places[0, one.which]), self._colour(arrow.side.sort)
+            at, colour = complex(label.places[0, which]), self._colour(arrow.side.sort)
             captions.append(self._written(arrow.side.symbol, at, colour))
-            share = _SHARES[one.which % (2 * len(_SHARES)) // 2]
-            if _ASIDE[one.which // (2 * len(_SHARES))] >= _LED:
+            share = _SHARES[which % (2 * len(_SHARES)) // 2]
+            if _ASIDE[which // (2 * len(_SHARES))] >= _LED:
                 foot = arrow.foot + share * arrow.reach
                 towards = unit(foot - at)
                 half = 0.5 * (abs(towards.real) * label.size[0] + abs(towards.imag) * label.size[1])

@@ -242,6 +242,7 @@ class Type:
         self._glyphs: dict[tuple[str, int, Colour, str, int], Inked] = {}
         self._steps: dict[tuple[str, str, int, str], int] = {}
         self._lines: dict[tuple[str, int, str], tuple[_Place, ...]] = {}
+        self._wrapped: dict[tuple[str, int, float, str, bool], tuple[str, ...]] = {}
         self._inked: dict[tuple[str, int, str, Colour], tuple[int, list[Inked]]] = {}
         self._inked_bytes = 0
         self._drawn: set[Hashable] = set()
@@ -356,7 +357,16 @@ class Type:
         """Return the text in lines no wider than `width`, broken between its words, parted by `gap`.
 
         A word that is wider is broken after a hyphen, else anywhere inside, as are scripts without spaces.
+        The last ones are kept: each look has the words about a scene set once more.
         """
+        key = (text, size, width, gap, strong)
+        if key not in self._wrapped:
+            if len(self._wrapped) >= _KEPT:
+                self._wrapped.clear()
+            self._wrapped[key] = tuple(self._in_lines(*key))
+        return [*self._wrapped[key]]
+
+    def _in_lines(self, text: str, size: int, width: float, gap: str, strong: bool) -> list[str]:
         lines: list[str] = []
         for word in filter(str.strip, text.split(gap)):
             longer = f"{lines[-1]}{gap}{word}" if lines else word

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -16,10 +16,26 @@ from linkanim.picture.labels import Surroundings
 from linkanim.picture.look import Look
 from linkanim.picture.motion_marks import Turning
 from linkanim.picture.picture import Picture
-from linkanim.picture.placing import MOMENTS, Clutter, LabelPlaces, Placed, Solid, Solids, place, touching
+from linkanim.picture.placing import (
+    MOMENTS,
+    Clutter,
+    LabelPlaces,
+    Placed,
+    Placer,
+    Solid,
+    Solids,
+    placed_among,
+    touching,
+)
 from linkanim.picture.shapes import hull
 from linkanim.picture.view import Rect
 from linkanim.scenes import load
+
+
+def place(labels: Sequence[LabelPlaces], clutter: Clutter) -> list[Placed]:
+    """Return a place for each label; the first have the first choice."""
+    placer = Placer(clutter)
+    return [placer.first([label])[1] for label in labels]
 
 
 def _off(point: complex, corners: list[complex]) -> float:
@@ -270,3 +286,20 @@ def test_a_label_takes_the_place_where_nothing_comes_and_is_gone_where_it_must_b
     assert first.shown.all()
     assert not second.shown.any()
     assert (other.which, other.shown.min()) == (1, 1.0)
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_labels_of_one_moment_stand_where_they_would_one_after_the_other(seed: int) -> None:
+    """What all of them are held to at once is what each is held to alone: the room, words, lines, others."""
+    chance, room, half = np.random.default_rng(seed), Rect(0, 0, 300, 200), 1.5
+    ends = chance.uniform(0, 300, (12, 2)) + 1j * chance.uniform(0, 200, (12, 2))
+    rects = [Rect(*corner, 40, 15) for corner in chance.uniform(0, 180, (3, 2))]
+    labels = []
+    for count in chance.integers(1, 40, 15):
+        places = chance.uniform(-10, 310, (1, count)) + 1j * chance.uniform(-10, 210, (1, count))
+        size = (float(chance.uniform(5, 40)), 12.0)
+        labels.append(LabelPlaces(size, places, np.arange(float(count))))
+    clutter = Clutter(room, tuple(rects), tuple(Solid(line[None], half) for line in ends))
+    expected = [(placed.which, placed.shown[0] == 1.0) for placed in place(labels, clutter)]
+    assert placed_among(labels, room, rects, ends[None], half) == expected
+    assert {has_room for _, has_room in expected} == {True, False}
