@@ -295,7 +295,7 @@ def test_labels_of_one_moment_stand_where_they_would_one_after_the_other(seed: i
     ends = chance.uniform(0, 300, (12, 2)) + 1j * chance.uniform(0, 200, (12, 2))
     rects = [Rect(*corner, 40, 15) for corner in chance.uniform(0, 180, (3, 2))]
     labels = []
-    for count in chance.integers(1, 40, 15):
+    for count in chance.integers(1, 12, 30):
         places = chance.uniform(-10, 310, (1, count)) + 1j * chance.uniform(-10, 210, (1, count))
         size = (float(chance.uniform(5, 40)), 12.0)
         labels.append(LabelPlaces(size, places, np.arange(float(count))))
