@@ -129,12 +129,17 @@ def checked_output(
     usual: str,
     suffixes: tuple[str, ...],
     inputs: Iterable[str | os.PathLike[str]] = (),
+    *,
+    ours: bool = False,
 ) -> Output:
     """Return what is to be written: the name that was given, or else the usual one if it is free or ours.
 
-    `BadInput` as `atomic_files.checked_target`, and for a usual name that is a foreign file's.
+    With `ours` the name that was given has to be so, too. `BadInput` as `atomic_files.checked_target`, and
+    for such a name that is a foreign file's.
     """
-    found = Output(checked_target(named or usual, suffixes, inputs), named is not None)
+    way_out = "move it away, or give another name" if ours and named is not None else ""
+    is_given = named is not None and not ours
+    found = Output(checked_target(named or usual, suffixes, inputs), is_given, way_out)
     found.refuse_foreign()
     return found
 

@@ -521,6 +521,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _CONSTRUCTION,
         _flag("--noted", "note nearby limits and change points"),
         _flag("--photo", "show the photograph of a tape on which something is built"),
+        _flag("--no-clobber", "write over the file of -o only where linkanim wrote it and nobody changed it"),
         _flag("--progress", "show the progress even if stderr is not a terminal"),
     ),
     "solve": (

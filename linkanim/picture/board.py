@@ -110,6 +110,13 @@ class Board:
         kept = (f"{name[: n - n // 2]}…{name[-(n // 2) :]}" for n in range(len(name) - 1, 1, -1))
         return next((text for text in kept if self.type.width(text, size) <= room), "")
 
+    def ending(self, text: str, size: int, room: float) -> str:
+        """Return a strong line, or as much of its end as has room."""
+        if self.type.width(text, size, strong=True) <= room:
+            return text
+        kept = (f"…{text[n:]}" for n in range(1, len(text)))
+        return next((one for one in kept if self.type.width(one, size, strong=True) <= room), "")
+
     def widest(self, lines: Iterable[str], size: int, *, strong: bool = False) -> int:
         """Return the width of the widest of some lines, 0 where there is none."""
         return max((self.type.width(line, size, strong=strong) for line in lines), default=0)

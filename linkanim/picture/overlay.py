@@ -222,7 +222,7 @@ class Panel:
     """The edit list; `error` is the reason, in words, why the chosen value is refused.
 
     `facts` are what the lengths make of the linkage; they stand out while `flash` (0 to 1) is above 0. The
-    mouse is over the row `pointed`.
+    mouse is over the row `pointed`. Where rows are `counted` the head says which is the chosen one.
     """
 
     rows: tuple[EditRow, ...]
@@ -232,6 +232,7 @@ class Panel:
     error: str | None = None
     hint: str = ""
     pointed: int | None = None
+    counted: bool = True
 
 
 @frozen

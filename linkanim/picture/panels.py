@@ -115,6 +115,8 @@ _FRAME = 2.7
 """How many lines high the list is without its rows and what stands above and below them."""
 _FEWEST = 4
 """As many rows are shown before hints and facts give way."""
+_NAME = 4.5
+"""So much of a row's name is seen where its value is too long, in heights of the text."""
 _FLASH = 0.45
 """How much of the flash's colour is in the bar behind the facts at its brightest."""
 
@@ -203,7 +205,7 @@ def _chosen(panel: Panel) -> int | None:
 def _head(board: Board, sheet: pygame.Surface, panel: Panel, parts: _Division) -> None:
     """Draw the title, which of the rows is the chosen one, and the facts, lit up while they flash."""
     size, chosen = parts.size, _chosen(panel)
-    count = "" if chosen is None else f"{chosen + 1} of {len(panel.rows)}"
+    count = "" if chosen is None or not panel.counted else f"{chosen + 1} of {len(panel.rows)}"
     board.head(sheet, size, panel.title, count, board.theme.ink)
     if panel.flash > 0.0 and parts.facts:
         lit = mixed(board.theme.panel, ORANGE, _FLASH * panel.flash)
@@ -217,10 +219,12 @@ def _row(board: Board, sheet: pygame.Surface, panel: Panel, n: int, y: float, si
     if behind:
         board.bar(sheet, y, size, behind)
     at, colour = (sheet.get_width() - 1.2 * size, y), board.theme.velocity if row.draft else board.theme.ink
-    room = at[0] - board.type.width(row.value, size, strong=True) - 2.0 * size
+    name = min(board.type.width(row.label, size), _NAME * size)
+    value = board.ending(row.value, size, at[0] - name - 2.0 * size)
+    room = at[0] - board.type.width(value, size, strong=True) - 2.0 * size
     label = board.fitting((row.label,), size, room)
     board.write(sheet, label, (1.2 * size, y), size=size, colour=board.theme.dim)
-    board.write(sheet, row.value, at, size=size, colour=colour, anchor="right", strong=True)
+    board.write(sheet, value, at, size=size, colour=colour, anchor="right", strong=True)
 
 
 # The help: every key and what it does, by subject, in as many columns as the window has room for.

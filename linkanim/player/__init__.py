@@ -14,6 +14,7 @@ From the ground up; a module imports from those before it only:
     posing     poses are set down
     building   a linkage is built on the sheet
     making     how a linkage was found, step by step, and the layers in which it can be made
+    taking     how a recording is made, and where it goes
     actions    the table of actions, and `advance(state, actions)`
     tape       what was done, frame by frame
     tape_file  a tape as a file

@@ -11,7 +11,7 @@ import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from math import isfinite, radians
-from typing import Any, Literal, TypeVar, cast
+from typing import Any, TypeVar, cast
 
 from linkanim.errors import LinkanimError
 from linkanim.frozen import NamedTuple
@@ -19,10 +19,9 @@ from linkanim.intake import control_in
 from linkanim.mechanics.quantities import input_symbol
 from linkanim.picture.look import TOGGLES, Look, answer, toggled
 from linkanim.picture.quantities import axes_of, axis_of, chart_tokens, driven_words, quantity, speed_words
-from linkanim.player import building, dial, edits, making, pencil, posing, sketching
+from linkanim.player import building, dial, edits, making, pencil, posing, sketching, taking
 from linkanim.player.action import Action
 from linkanim.player.clock import Clock
-from linkanim.player.commands import size_words
 from linkanim.player.edits import drop, edit
 from linkanim.player.keys import BESIDE_GAMES
 from linkanim.player.sketching import come, keep, left
@@ -35,7 +34,6 @@ from linkanim.player.state import (
     Editing,
     Game,
     State,
-    Take,
     Toast,
     followed,
     fresh,
@@ -221,6 +219,8 @@ def back(state: State, _: None) -> State:
     """
     if state.naming:
         return replace(state, naming=None)
+    if state.taking:
+        return replace(state, taking=None)
     if state.help:
         return replace(state, help=False)
     if state.listing or state.browsing:
@@ -301,34 +301,6 @@ def take_toast(state: State, _: None) -> State:
     return with_effect(replace(state, toast=None), "folder", told) if told else state
 
 
-def record(state: State, form: Literal["gif", "mp4"]) -> State:
-    """Start a recording, or stop the one that runs, whichever its format is."""
-    if state.recording is None:
-        return replace(with_effect(state, "record", form), recording=Take(form, state.frame))
-    return replace(with_effect(state, "render", state.recording.format), recording=None)
-
-
-TAKE_SIZES: tuple[tuple[int, int] | None, ...] = (None, (800, 450), (1280, 720), (1920, 1080), (3840, 2160))
-"""The sizes of recordings that are chosen from; None for the window's shape."""
-
-
-def take_size(state: State, _: None) -> State:
-    """Have recordings in the next size, the window's shape among them."""
-    return replace(state, take_size=TAKE_SIZES[(TAKE_SIZES.index(state.take_size) + 1) % len(TAKE_SIZES)])
-
-
-def _take_size(_: State, after: State) -> str:
-    """Say how large recordings are."""
-    return f"recordings: {size_words(after)}"
-
-
-def period(state: State, form: Literal["gif", "mp4"]) -> State:
-    """Record one period as it runs: a recording in which nothing is done."""
-    if state.recording:
-        return with_toast(state, "a recording runs; G or M ends it")
-    return with_effect(state, "period", form)
-
-
 def shot(name: str) -> Callable[[State, None], State]:
     """Return the handler of what keeps the picture: the shutter is seen to go."""
     return lambda state, _: replace(with_effect(state, name), shot=state.frame)
@@ -341,10 +313,11 @@ def effect(name: str) -> Callable[[State, str | None], State]:
 
 # Games come over the state and go again; what was there before stands beneath, and comes back.
 
-BESIDE = BESIDE_GAMES | {"take_toast", "stir", "menu", "note", "pad", "close"}
+_OF_A_TAKE = {f"take_{name}" for name in ("places", "row", "turn", "type", "untype", "refused", "into")}
+BESIDE = BESIDE_GAMES | {"take_toast", "stir", "menu", "note", "pad", "close"} | _OF_A_TAKE
 """Actions that are the window's own while a game is on; all others are handed to the game."""
 _ON_A_LIST = frozenset({"move", "sift", "unsift", "back"})
-"""What is the list's own while one is open over a game."""
+"""What is the list's, or the dialog's, own while one is open over a game."""
 
 
 def play(state: State, words: str) -> State:
@@ -370,7 +343,7 @@ def leave(state: State) -> State:
     clock = under.clock.go(state.frame, under.phase)
     kept = replace(under, frame=state.frame, clock=clock, look=look, touched=state.touched)
     kept = replace(kept, sounds=state.sounds, pad=state.pad, from_title=state.from_title)
-    kept = replace(kept, kiosk=state.kiosk, take_size=state.take_size)
+    kept = replace(kept, kiosk=state.kiosk, take=state.take, taking=state.taking)
     return replace(kept, recording=state.recording, effects=state.effects, faded=state.frame)
 
 
@@ -691,9 +664,16 @@ ACTIONS: Mapping[str, Rule] = {
     "top": Rule(_whole, edits.top, taped=False),  # the shelf's row that is the first in sight
     "sift": Rule(_text, edits.sift, taped=False),
     "unsift": Rule(_nothing, edits.unsift, taped=False),
-    "record": Rule(_one_of("gif", "mp4"), record, taped=False),
-    "period": Rule(_one_of("gif", "mp4"), period, taped=False),
-    "take_size": Rule(_nothing, take_size, taped=False, answer=_take_size),
+    "record": Rule(_one_of(*taking.FORMATS), taking.record, taped=False),
+    "period": Rule(_one_of(*taking.FORMATS), taking.period, taped=False),
+    "taking": Rule(_nothing, taking.dialog),
+    "take_places": Rule(_text, taking.places),  # the current folder and places to write to, one a line
+    "take_row": Rule(_whole, taking.row),  # rows further down
+    "take_turn": Rule(_whole, taking.turn),  # values further on
+    "take_type": Rule(_text, taking.write),
+    "take_untype": Rule(_nothing, taking.erase),
+    "take_refused": Rule(_text, taking.refused),  # why it cannot be written there
+    "take_into": Rule(_text, taking.into, taped=False),  # the file
     "screenshot": Rule(_nothing, shot("screenshot"), taped=False),
     "svg": Rule(_nothing, shot("svg"), taped=False),
     "share": Rule(_nothing, effect("share"), taped=False),
@@ -786,7 +766,7 @@ def carried(state: State, action: Action) -> State:
         state = replace(state, touched=state.frame)
         if state.by_itself:
             return leave(state)
-    listed = action.name in _ON_A_LIST and state.listing is not None
+    listed = action.name in _ON_A_LIST and (state.listing or state.taking) is not None
     if state.game and not listed and action.name not in BESIDE | _SHEETS:
         return _in_a_game(state, state.game, action)
     if (state.sketch or state.building) and action.name in _WITHOUT_PENCIL:

@@ -16,19 +16,21 @@ from contextlib import suppress
 from pathlib import Path
 from typing import BinaryIO, TextIO, cast
 
-from linkanim import child
-from linkanim.atomic_files import made_folder
-from linkanim.errors import WorkFailed
+from linkanim import child, intake
+from linkanim.atomic_files import checked_folder, checked_target, made_folder
+from linkanim.errors import BadInput, WorkFailed
 from linkanim.frozen import NamedTuple
+from linkanim.manifest import Output
 from linkanim.player import tape_file
 from linkanim.player.action import Action
-from linkanim.player.files import FOLDER, free_stem, where
+from linkanim.player.files import FOLDER, free_stem, typed_path, where
 from linkanim.player.state import PIVOTS, PathSketch, PoseSketch, Sketch
 from linkanim.player.tape import Tape
 from linkanim.scenes.scene import Scene
 from linkanim.scenes.toml import content
 from linkanim.synthesis.follower import Follow, FollowPoses, Reply, Request, lines_of
 from linkanim.synthesis.guidance import USUAL_WEIGHT
+from linkanim.units import shown
 
 # The search for linkages along a stroke: a process beside the window, and what it replies as actions.
 
@@ -233,6 +235,26 @@ class Kept(NamedTuple):
     size: str = ""
 
 
+def kept_at(place: str) -> Kept:
+    """Return where a recording, and its tape, goes that is to be written into a file as it is typed.
+
+    BadInput where a file has one of the names that is not ours, or none can be written there.
+    """
+    target = typed_path(place)
+    if reason := intake.unnameable(target.name):
+        raise BadInput(f"{shown(target.name)}: {reason}; type another name")
+    found = Kept(target.with_name(f"{target.stem}{tape_file.SUFFIX}"), target)
+    if checked_folder(target.parent).is_dir():
+        for path in (found.target, found.tape):
+            _ours(checked_target(path, (path.suffix,))).refuse_foreign()
+    return found
+
+
+def _ours(path: Path) -> Output:
+    """Return a file that is written over only where it is still as we wrote it."""
+    return Output(path, named=False, way_out="type another name")
+
+
 class Queue:
     """Recordings rendered one after the other: the rest wait, and are not lost when the window closes."""
 
@@ -240,13 +262,21 @@ class Queue:
         self._running: Rendering | None = None
         self._waiting: list[Kept] = []
 
-    def add(self, tape: Tape, form: str, size: tuple[int, int] | None = None) -> None:
-        """Write a tape into recordings/ and have it rendered in its turn; WorkFailed where that cannot be.
+    def add(self, tape: Tape, form: str, size: tuple[int, int] | None = None, place: str = "") -> None:
+        """Write a tape and have it rendered in its turn into a place, by itself into recordings/.
 
-        Without a size it is of the window's shape.
+        Without a size it is of the window's shape. Errors as `refuse`; WorkFailed where it cannot be written.
         """
-        self._waiting.append(keep(tape, form)._replace(size="x".join(map(str, size or ()))))
+        if place:
+            self.refuse(place)
+        self._waiting.append(keep(tape, form, place)._replace(size="x".join(map(str, size or ()))))
         self._go_on()
+
+    def refuse(self, place: str) -> None:
+        """Refuse, as BadInput, a place where a recording cannot be written, or one is on its way to."""
+        found = kept_at(place).target.absolute()
+        if found in (one.target.absolute() for one in (self._running, *self._waiting) if one):
+            raise BadInput(f"{found} is being written; type another name")
 
     def news(self) -> tuple[str, ...]:
         """Say how far the one rendered is, and how many wait; go on with the next where it is done."""
@@ -276,20 +306,23 @@ class Queue:
             self._running = render(self._waiting.pop(0))
 
 
-def keep(tape: Tape, form: str) -> Kept:
-    """Write the tape into recordings/, under a name that is free for it and for what it is rendered into."""
-    into = made_folder(FOLDER)
-    stem = free_stem(into, tape.start.scene.name, (tape_file.SUFFIX, f".{form}"))
-    kept, target = into / f"{stem}{tape_file.SUFFIX}", into / f"{stem}.{form}"
-    tape_file.write(tape, kept)
-    return Kept(kept, target)
+def keep(tape: Tape, form: str, place: str = "") -> Kept:
+    """Write the tape beside what it is rendered into: a place that was typed, else one that is free."""
+    if not place:
+        stem = free_stem(FOLDER, tape.start.scene.name, (tape_file.SUFFIX, f".{form}"))
+        place = str(FOLDER / f"{stem}.{form}")
+    kept = kept_at(place)
+    made_folder(kept.target.parent)
+    tape_file.write(tape, _ours(kept.tape))
+    return kept
 
 
 def render(kept: Kept) -> Rendering:
     """Start rendering a tape beside; WorkFailed where that cannot be."""
     target = kept.target
     size = ("--size", kept.size) if kept.size else ()
-    command = child.module("linkanim", "record", str(kept.tape), *size, "-o", str(target), "--progress")
+    where_to = ("--no-clobber", "-o", str(target))
+    command = child.module("linkanim", "record", str(kept.tape), *size, *where_to, "--progress")
     number, name = tempfile.mkstemp()
     # it stays open as long as the rendering
     log = Path(name).open("rb", buffering=0)  # noqa: SIM115

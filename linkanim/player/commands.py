@@ -53,7 +53,7 @@ _SCENE = (
     BarEntry("edit", Action("edit"), 3, leads=True),
     BarEntry("build", Action("build"), 12),
     BarEntry("pencil", Action("pencil"), 13),
-    BarEntry("record", Action("menu", "record"), 6, leads=True),
+    BarEntry("record", Action("taking"), 6, leads=True),
     *_LAST,
     BarEntry("chart", Action("chart", 1), 2, on_chart=True),
     BarEntry("axis", Action("over"), 3, on_chart=True),
@@ -106,6 +106,7 @@ _HANDLES: Mapping[Mode, tuple[BarEntry, ...]] = {
     ),
     "game": (_BACK, _HOME, *_LAST),
     "name": (_BACK, BarEntry("done", Action("take_name"), 1)),
+    "record": (_BACK, BarEntry("done", Action("take_start"), 1)),
 }
 
 
@@ -169,7 +170,7 @@ def _called(mode: Mode, action: Action) -> tuple[str, str]:
 
 def _meant(state: State, action: Action) -> Action:
     """Return what a button asks for just now: what is recorded is stopped by the button that began it."""
-    if action == Action("menu", "record") and state.recording:
+    if action == Action("taking") and state.recording:
         return Action("record", state.recording.format)
     return action
 
@@ -214,11 +215,6 @@ def line_asks(mode: Mode, keys: str) -> Action | None:
     return Action("menu", f"keys {keys}") if len(actions) > 1 else next(iter(actions), None)
 
 
-def size_words(state: State) -> str:
-    """Say how large recordings are."""
-    return "{} × {}".format(*state.take_size) if state.take_size else "the window's shape"
-
-
 def _of_mode(state: State, usual: Mapping[Action, ListRow], group: str | None) -> Entries:
     found = [row for action, row in usual.items() if action.name != "menu"]
     if state.game:
@@ -227,9 +223,7 @@ def _of_mode(state: State, usual: Mapping[Action, ListRow], group: str | None) -
     if group is None:
         return Entries("Commands", tuple(found))
     title, members = GROUPS[group]
-    told = {Action("take_size"): f": {size_words(state)}"}
-    rows = (row._replace(words=row.words + told.get(row.action, "")) for row in found)
-    rows = (row for row in rows if row.action in members)
+    rows = (row for row in found if row.action in members)
     return Entries(title, tuple(sorted(rows, key=lambda row: members.index(row.action))))
 
 
@@ -299,7 +293,7 @@ _ON: Mapping[Action, Callable[[State], bool]] = {
     Action("menu", "arrows"): lambda state: bool(state.look.vectors) or _shows(GROUPS["arrows"].title)(state),
     Action("list"): lambda state: state.look.chart is not None,
     Action("menu", "construction"): lambda state: state.look.polygons_shown > 0 or state.look.centres > 0,
-    Action("menu", "record"): lambda state: state.recording is not None,
+    Action("taking"): lambda state: state.recording is not None,
     Action("menu"): _shows("Commands"),
     Action("edit"): lambda state: state.editing.open,
     Action("help"): lambda state: state.help,

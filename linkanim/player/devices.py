@@ -17,6 +17,7 @@ from pygame.event import Event
 
 from linkanim.build.tools import TOOLS
 from linkanim.frozen import NamedTuple
+from linkanim.player import taking
 from linkanim.player.action import Action, Mode
 from linkanim.player.commands import line_asks, pressed, slid, slides
 from linkanim.player.keys import MENU_IN, Bind, Press, bind_of, button_name, hat_name, key_names, key_of
@@ -397,6 +398,7 @@ class Mouse:
             "build": self._of_the_sheet,
             "pencil": self._of_the_pencil,
             "game": self._in_a_game,
+            "record": self._on_the_dialog,
         }
         mode = modes.get(screen.state.mode)
         found = mode(gesture, screen) if mode else None
@@ -523,6 +525,20 @@ class Mouse:
             return (Action("tick" if screen.on_box(self._at[0]) else "pick", row),)
         self._drag, self._steps = "row", 0
         return (Action("grab_row", row),)
+
+    def _on_the_dialog(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
+        """Take the next value of the row under the mouse, or do what it says; None beside the dialog."""
+        row, dialog = screen.row_at(*self._at) if self._drag is None else None, screen.state.taking
+        if row is None or dialog is None or gesture.kind not in ("wheel", "down"):
+            return None
+        if row < 0:
+            return ()
+        does = taking.rows(screen.state)[row].action
+        to = Action("take_row", row - dialog.row)
+        if gesture.kind == "wheel":
+            return () if does else (to, Action("take_turn", gesture.notches))
+        self._drag = "bar"
+        return (to, Action("take_start") if does else Action("take_turn", 1))
 
     def _scrolled(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
         """Return what is asked of the scroll bar of the open list; None beside it."""

@@ -39,6 +39,26 @@ def free_stem(folder: Path, name: str, suffixes: tuple[str, ...]) -> str:
     return next(stem for stem in stems if not any((folder / (stem + suffix)).exists() for suffix in suffixes))
 
 
+def places(name: str, last: str | None = None) -> tuple[str, ...]:
+    """Return places for a recording, without endings and all free: in the `last` folder, if there is one.
+
+    The others are in recordings/, in the current folder and in that of the user's films.
+    """
+    from linkanim.player.tape_file import SUFFIX
+
+    films = (one for one in ("~/Videos", "~/Movies") if typed_path(one).is_dir())
+    folders = dict.fromkeys((*([] if last is None else [last]), str(FOLDER), "", *films))
+    taken = (SUFFIX, ".gif", ".mp4")
+    return tuple(str(Path(one) / free_stem(typed_path(one), name, taken)) for one in folders)
+
+
+def typed_path(text: str) -> Path:
+    """Return a path as it is typed, in which ~ is the user's own folder."""
+    with suppress(RuntimeError):  # nobody knows where that is
+        return Path(text).expanduser()
+    return Path(text)
+
+
 def screenshot(surface: pygame.Surface, name: str) -> Path:
     """Write the picture as a PNG under a free name; errors as `_added`."""
     return _added(png_bytes(surface), name, ".png")
@@ -91,6 +111,13 @@ def from_anywhere(file: str) -> str:
     with suppress(OSError):
         return str(Path(file).absolute())
     return file
+
+
+def current_folder() -> str:
+    """Return the current folder's path; nothing where it is there no more."""
+    with suppress(OSError):
+        return str(Path.cwd())
+    return ""
 
 
 class SceneFile:

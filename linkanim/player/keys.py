@@ -152,7 +152,8 @@ def _aims() -> tuple[Bind, ...]:
 
 _RECORD = (
     *(_on("g", "record", "gif") + _on("m", "record", "mp4")),
-    *(_on("ctrl+g", "period", "gif") + _on("ctrl+m", "period", "mp4") + _on("ctrl+shift+g", "take_size")),
+    *(_on("ctrl+g", "period", "gif") + _on("ctrl+m", "period", "mp4")),
+    *_on("ctrl+shift+g ctrl+shift+m", "taking"),
 )
 _BUILD = _on("f2", "build") + _on("shift+f2", "build_on")
 _DIAL = _both(",", ".", "dial_on")
@@ -228,7 +229,7 @@ KEYS: Table = {
     ),
     "keep": (
         KeyRow("S, F12 (Shift+S: SVG)", "screenshot", _on("s f12", "screenshot") + _on("shift+s", "svg")),
-        KeyRow("G, M (Ctrl: a period)", "record GIF, MP4: start, stop", _RECORD),
+        KeyRow("G, M (Ctrl: a period)", "record GIF, MP4; Ctrl+Shift: how, where", _RECORD),
         KeyRow("Shift+G", "hand on: one page that moves", _on("shift+g", "share")),
         KeyRow("F6 (Shift: write them)", "its parts in layers, to be made", _MAKE),
         KeyRow(
@@ -289,6 +290,16 @@ _IN_A_MODE: Table = {
     "saving": (
         KeyRow("type", "the name of the scene file"),
         KeyRow("Enter", "write it; Esc does not", _enter("take_name", "erase_name") + _on("escape", "back")),
+    ),
+    "recording": (
+        KeyRow("↑ ↓, Tab", "choose a row", _both("up", "down", "take_row") + _tabs("take_row")),
+        KeyRow(
+            "← →, click",
+            "format, size, length; another place that is proposed",
+            _both("left", "right", "take_turn"),
+        ),
+        KeyRow("type", "the folder and name to write to; .gif or .mp4 chooses the format"),
+        KeyRow("Enter", "record; Esc does not", _enter("take_start", "take_untype") + _on("escape", "back")),
     ),
     "in W": (
         KeyRow("mouse", "draw a path in one stroke; drag its points and the fixed pins"),
@@ -362,6 +373,7 @@ _SUBJECTS: Mapping[Mode, str] = {
         "build": "in F2",
         "layers": "in F6",
         "name": "saving",
+        "record": "recording",
     },
 }
 MODES: Mapping[Mode, Table] = {mode: {subject: _IN_A_MODE[subject]} for mode, subject in _SUBJECTS.items()}
@@ -375,11 +387,14 @@ _TYPED: Mapping[Mode, tuple[str, frozenset[str]]] = {
     "play": ("type_place", frozenset()),
     "paused": ("type_place", frozenset()),
     "name": ("write_name", frozenset()),
+    "record": ("take_type", frozenset()),
     "build": ("digits", frozenset()),
 }
 """Where what can be printed is typed: the action, and the keys that keep their meaning until it is begun."""
 
 
+_ALONE = ("name", "record")
+"""The modes of one line or dialog, in which no other keys mean anything."""
 _RUNS = ("play", "paused")
 """The modes in which digits are an input angle."""
 
@@ -401,7 +416,7 @@ def bind_of(press: Press, mode: Mode = "play", *, typing: bool = False) -> Bind 
     """
     if _is_typed(press, mode, typing):
         return Bind(press.key, Action(_TYPED[mode][0], press.text), repeats=True)
-    tables = (MODES.get(mode, {}), {} if mode == "name" else KEYS)
+    tables = (MODES.get(mode, {}), {} if mode in _ALONE else KEYS)
     found = (bind for table in tables for name in _names(press) for bind in _binds(table) if bind.key == name)
     # any other letter goes on in a game, as a title's "any key" has it
     others = Bind(press.key, Action("next")) if mode == "game" and press.text and not press.ctrl else None
@@ -445,19 +460,19 @@ def _names(press: Press) -> tuple[str, ...]:
     return ("shift+" + press.key, *symbol, press.key) if press.shift else (press.key, *symbol)
 
 
-MENU_IN: frozenset[Mode] = frozenset(get_args(Mode)) - {"name"}
+MENU_IN: frozenset[Mode] = frozenset(get_args(Mode)) - {*_ALONE}
 """The modes in which the list of commands can be opened, or is."""
 BESIDE_GAMES = frozenset(
     {
         *("play", "help", "theme", "zoom", "fit", "fullscreen", "sounds"),
-        *("pan", "record", "take_size", "screenshot", "svg", "quit"),
+        *("pan", "record", "taking", "screenshot", "svg", "quit"),
     }
 )
 """The commands that are the window's own while a game is on; all others are handed to the game."""
 _NEEDS_KEYS = frozenset(
     {
         *("aim", "enter", "type_place", "erase_place", "go"),
-        *("erase", "undigit", "unsift", "erase_name"),
+        *("erase", "undigit", "unsift", "erase_name", "take_untype"),
     }
 )
 """What makes no sense in a list: it moves what only keys move, or takes back what is typed."""
@@ -508,7 +523,12 @@ _APART: Mapping[Action, str] = {
     Action("record", "mp4"): "record an MP4: start, stop",
     Action("period", "gif"): "one period as a GIF",
     Action("period", "mp4"): "one period as an MP4",
-    Action("take_size"): "the size of recordings",
+    Action("taking"): "record and save",
+    Action("take_row", -1): "the row above",
+    Action("take_row", 1): "the row below",
+    Action("take_turn", -1): "the value before",
+    Action("take_turn", 1): "the next value",
+    Action("take_start"): "record",
     Action("lift", 1): "lift the layers farther off each other",
     Action("lift", -1): "lay the layers nearer together",
     Action("further", 1): "the next one",
@@ -523,7 +543,7 @@ _APART: Mapping[Action, str] = {
     Action("layers"): "the layers in which it can be made",
     Action("make"): "write its parts, to be cut and pinned together",
     Action("save"): "save the scene",
-    Action("save_as"): "save the scene under another name",
+    Action("save_as"): "save under another name",
     Action("files_here"): "open a scene file of this folder",
     Action("unbuild"): "undo",
     Action("rebuild"): "redo",
@@ -587,14 +607,6 @@ GROUPS: Mapping[str, CommandGroup] = {
             Action("ghost"),
         ),
     ),
-    "record": CommandGroup(
-        "Record and save",
-        (
-            *(Action("record", "gif"), Action("record", "mp4"), Action("period", "gif")),
-            *(Action("period", "mp4"), Action("take_size"), Action("screenshot"), Action("svg")),
-            *(Action("share"), Action("save"), Action("save_as")),
-        ),
-    ),
 }
 """What one button of the bar has, by its name."""
 
@@ -616,7 +628,7 @@ def commands(mode: Mode) -> tuple[tuple[str, str, Action], ...]:
 
     One whose keys all mean something else in the mode has none.
     """
-    first, usual = MODES.get(mode, {}), {} if mode == "name" else KEYS
+    first, usual = MODES.get(mode, {}), {} if mode in _ALONE else KEYS
     own = {bind.key for bind in _binds(first)}
     found: dict[Action, tuple[str, str, Action]] = {}
     tables = (first, usual)

@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import replace
 from math import atan2, degrees, dist, hypot, isfinite, isnan
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -44,6 +45,7 @@ from linkanim.picture.overlay import (
 )
 from linkanim.picture.quantities import chart_tokens, quantity
 from linkanim.picture.text import subscripted
+from linkanim.player import taking
 from linkanim.player.clock import FRAMES_PER_SECOND
 from linkanim.player.commands import bar
 from linkanim.player.dial import place_of
@@ -66,8 +68,10 @@ from linkanim.player.state import (
     PoseSketch,
     Sketch,
     State,
+    TakeDialog,
     driven_bar,
 )
+from linkanim.player.taking import PLACE
 from linkanim.scenes.editing import Dimension, dimensions, in_unit, stretches
 from linkanim.scenes.scene import Scene, TimeRatioPurpose
 from linkanim.units import short, significant, stepped, three_digits, typeset
@@ -277,6 +281,7 @@ _FREE = {
     5: "nothing is free: Burmester's points (B)",
 }
 """What can be chosen, by how many poses there are."""
+_TAKE_HINT = "↑ ↓ choose   ← → change   type a folder and name   Enter records   Esc closes"
 _MAKE_HINT = "Enter writes the parts"
 _BAR_FRAMES = 6 * FRAMES_PER_SECOND
 _WATCH_FRAMES = 6 * FRAMES_PER_SECOND
@@ -346,7 +351,7 @@ def _kept(state: State, items: tuple[Dimension, ...], over: Hover | None = None)
         noted=True,
         recording=_recording(state),
         help=help_groups(state.mode, pad=state.pad) if state.help else None,
-        panel=_panel(state, items) if state.editing.open and not state.listing else None,
+        panel=_listed(state, items),
         quantities=_quantities(state, state.listing) if state.listing else None,
         shelf=_shelf(state, state.browsing) if state.browsing else None,
         path=_path(state.drawing) if state.drawing else None,
@@ -358,7 +363,7 @@ def _kept(state: State, items: tuple[Dimension, ...], over: Hover | None = None)
         slider=_slider(state),
     )
     shown = state.game.shown(state, found) if state.game else found
-    return replace(shown, game=None, spots=(), handles=()) if state.listing else shown
+    return replace(shown, game=None, spots=(), handles=()) if state.listing or state.taking else shown
 
 
 def _stands(state: State) -> bool:
@@ -611,6 +616,24 @@ def _recording(state: State) -> str | None:
         return None
     seconds = (state.frame - state.recording.since) // FRAMES_PER_SECOND
     return f"REC {state.recording.format.upper()} {seconds // 60}:{seconds % 60:02d}"
+
+
+def _listed(state: State, items: tuple[Dimension, ...]) -> Panel | None:
+    """Return the list of dimensions, or the dialog of a recording, while it is open and nothing over it."""
+    if state.taking:
+        return _dialog(state, state.taking)
+    return _panel(state, items) if state.editing.open and not state.listing else None
+
+
+def _dialog(state: State, dialog: TakeDialog) -> Panel:
+    """Return the dialog of a recording."""
+    rows = tuple(
+        EditRow(one.label, one.value, n == dialog.row, draft=n == PLACE and dialog.typed != "")
+        for n, one in enumerate(taking.rows(state))
+    )
+    is_whole = dialog.place.startswith("~") or Path(dialog.place).is_absolute()
+    facts = () if is_whole or not dialog.folder else (f"in {dialog.folder}",)
+    return Panel(rows, "Record and save", facts, error=dialog.refusal or None, hint=_TAKE_HINT, counted=False)
 
 
 def _panel(state: State, items: tuple[Dimension, ...]) -> Panel:

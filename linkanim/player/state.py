@@ -678,12 +678,47 @@ class Toast:
     until: int
 
 
+Format = Literal["gif", "mp4"]
+
+
 @frozen
 class Take:
-    """A recording that runs since frame `since`."""
+    """A recording that runs since frame `since`, to be written to `target`; "" is a free name."""
 
-    format: Literal["gif", "mp4"]
+    format: Format
     since: int
+    target: str = ""
+
+
+class TakeChoice(NamedTuple):
+    """How recordings are made: their format, their size (None: the window's shape), whether of one period."""
+
+    format: Format = "gif"
+    size: tuple[int, int] | None = None
+    whole: bool = False
+
+
+class TakeDialog(NamedTuple):
+    """The open dialog of a recording: the row that is chosen, and where it is to be written.
+
+    That is what was `typed`, else the one of the `places` that are proposed that has the number `at`. They
+    are files without their endings, from the current `folder`. The `refusal` says why it cannot be written.
+    """
+
+    row: int = 0
+    typed: str = ""
+    places: tuple[str, ...] = ()
+    at: int = 0
+    folder: str = ""
+    refusal: str = ""
+
+    @property
+    def place(self) -> str:
+        """Where it is to be written, without its ending; a folder alone has the name that is proposed."""
+        proposed = next(iter(self.places[self.at :]), "")
+        if self.typed.endswith(("/", "\\")):
+            return self.typed + proposed.replace("\\", "/").rpartition("/")[2]
+        return self.typed or proposed
 
 
 class Naming(NamedTuple):
@@ -750,7 +785,7 @@ class State:
     `place_typed` is the input's angle, or travel, that is being typed while paused, `naming` the name under
     which the scene is to be saved, while that is asked for.
     `game` is the game that is on, over the state `beneath`, and `games` reads one from its words.
-    Recordings are as large as `take_size`, or of the window's shape.
+    Recordings are made as the `take` says; `taking` is the open dialog in which that is chosen.
     `held` is the joint whose lengths are being dragged, `grasp` the one that leads the input, `pad` whether a
     gamepad is plugged in.
     `home` is what of the scene's plane a game keeps in sight, where that is not the scene as it fits.
@@ -799,7 +834,8 @@ class State:
     faded: int | None = None
     shot: int | None = None
     recording: Take | None = None
-    take_size: tuple[int, int] | None = None
+    take: TakeChoice = TakeChoice()
+    taking: TakeDialog | None = None
     from_title: bool = False
     kiosk: bool = False
     by_itself: bool = False
@@ -825,6 +861,8 @@ class State:
         """What the keys are for."""
         if self.naming:
             return "name"
+        if self.taking:
+            return "record"
         if self.listing:
             return "list"
         if self.game:
@@ -877,7 +915,7 @@ class State:
     def leads(self) -> bool:
         """Whether a hand on a joint leads the input: while a mechanism is on, and on the title."""
         on_title = self.mode == "game" and self.game is not None and not self.game.covers
-        return on_title or self.mode in ("play", "paused", "list")
+        return on_title or self.mode in ("play", "paused", "list", "record")
 
     @property
     def saved_as(self) -> str | None:
@@ -895,19 +933,20 @@ class State:
     @property
     def is_covered(self) -> bool:
         """Whether something is open that Esc closes."""
-        if self.game and not (self.help or self.listing):
+        if self.game and not (self.help or self.listing or self.taking):
             return self.game.covers
         return self.help or self.mode not in ("play", "paused")
 
     @property
     def listed(self) -> bool:
         """Whether a list is open, beside which the scene has less room."""
-        return self.editing.open or self.listing is not None or self.game is not None
+        is_list = self.editing.open or self.listing is not None or self.taking is not None
+        return is_list or self.game is not None
 
     @property
     def typing(self) -> bool:
         """Whether something has been begun in the open list."""
-        if self.naming:
+        if self.naming or self.taking:
             return True
         if self.listing:
             return bool(self.listing.sieve)

@@ -18,6 +18,7 @@ from linkanim.bounds import LARGEST_SIDE, MOST_ACTIONS, MOST_AT_ONCE
 from linkanim.errors import BadInput, LinkanimError
 from linkanim.frozen import NamedTuple
 from linkanim.intake import Intake, Section, refuse_controls
+from linkanim.manifest import Output
 from linkanim.picture.look import TOGGLES, Look
 from linkanim.player.action import Action
 from linkanim.player.actions import is_taped
@@ -39,10 +40,14 @@ _MARK = "linkanim_tape"
 _MOST_FRAMES = 24 * 3600 * FRAMES_PER_SECOND
 
 
-def write(tape: Tape, path: Path) -> None:
-    """Write the tape as a file that was not there before; WorkFailed where that cannot be."""
+def write(tape: Tape, path: Path | Output) -> None:
+    """Write the tape as a file that was not there, or as an output; WorkFailed where that cannot be."""
     text = json.dumps(to_document(tape), ensure_ascii=False, allow_nan=False, indent=1)
-    atomic_files.add(f"{text}\n".encode(), path)
+    if isinstance(path, Path):
+        atomic_files.add(f"{text}\n".encode(), path)
+        return
+    with path.replacing() as part:
+        part.write_bytes(f"{text}\n".encode())
 
 
 def read(path: Path, games: Callable[[str], Game] | None = None) -> Tape:

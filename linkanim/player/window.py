@@ -23,7 +23,7 @@ from linkanim.errors import BadInput, LinkanimError
 from linkanim.picture.look import Look
 from linkanim.picture.overlay import OwnFile
 from linkanim.picture.photograph import SUFFIXES, lack
-from linkanim.player import files, screen
+from linkanim.player import files, screen, taking
 from linkanim.player.action import Action, Value
 from linkanim.player.actions import aged, carried, leave, settled
 from linkanim.player.building import left, written
@@ -115,6 +115,8 @@ class Window:
         self._open = True
         self._now = state.frame
         self._good: State | None = None
+        self._target = ""
+        self._last_place: str | None = None
         self._reported: set[str] = set()
         self._unkept: str | None = None
         self._warned: str | None = None
@@ -244,6 +246,32 @@ class Window:
         yield Action("shelf")
         files = scene_files() if self.state.browsing else ()
         yield from (Action("files", _listed(files)) for _ in files[:1])
+
+    def _taking(self, _: Value) -> Iterator[Action]:
+        """Yield what opens the dialog of a recording with places that are free, or closes it."""
+        yield Action("taking")
+        if self.state.taking:
+            found = files.places(self.state.scene.name, self._last_place)
+            yield Action("take_places", "\n".join([files.current_folder(), *found]))
+
+    def _take_start(self, _: Value) -> Iterator[Action]:
+        """Yield what Enter means in the dialog of a recording: it begins, or another command is done."""
+        if self.state.taking is None:
+            return
+        row = taking.rows(self.state)[self.state.taking.row].action
+        if row and row.name != "take_start":
+            yield Action("back")
+            yield from self._resolved(row)
+            return
+        file = taking.target(self.state)
+        try:
+            self._queue.refuse(file)
+        except LinkanimError as error:
+            yield Action("take_refused", str(error))
+            return
+        self._last_place = str(Path(file).parent)
+        yield Action("back")
+        yield Action("take_into", file)
 
     def _move(self, further: Value) -> Iterator[Action]:
         """Yield a step in the list or along the shelf, which scrolls with it."""
@@ -458,9 +486,9 @@ class Window:
         match effect.name:
             case "record":
                 self._taping = Taping(self.state, pygame.display.get_window_size())
+                self._target = self.state.recording.target if self.state.recording else ""
             case "period":
-                taping = Taping(self.state, pygame.display.get_window_size())
-                self._render("mp4" if effect.value == "mp4" else "gif", taping)
+                self._render_period(str(effect.value))
             case "render":
                 self._stop("mp4" if effect.value == "mp4" else "gif")
             case "screenshot":
@@ -590,17 +618,28 @@ class Window:
         except LinkanimError as error:
             assert self._taping
             self.state = replace(self.state, recording=Take(form, self._taping.since))
+            self._target = ""  # the next time it takes a name that is free
             self._notes.append(f"{error}; the recording runs on")
 
-    def _render(self, form: str, period: Taping | None = None) -> None:
-        """Have the recording that runs rendered, or one of a `period`, in which nothing is done."""
-        if taping := period or self._taping:
-            from linkanim.player.beside import Queue
+    def _render(self, form: str) -> None:
+        """Have the recording that runs rendered, into the file that was chosen when it began."""
+        if self._taping:
+            self._queue.add(self._taping.tape(self.state.frame), form, self.state.take.size, self._target)
+            self._taping = None
 
-            self._renderings = self._renderings or Queue()
-            tape = taping.tape(self.state.frame + (taping is period))
-            self._renderings.add(tape, form, self.state.take_size)
-            self._taping = self._taping if period else None
+    def _render_period(self, file: str) -> None:
+        """Have a period rendered, in which nothing is done, into a file, or a free one of a format."""
+        tape = Taping(self.state, pygame.display.get_window_size()).tape(self.state.frame + 1)
+        form, place = (file, "") if file in taking.FORMATS else (file.rpartition(".")[2], file)
+        self._queue.add(tape, form, self.state.take.size, place)
+
+    @property
+    def _queue(self) -> Queue:
+        """The recordings that are rendered, one after the other."""
+        from linkanim.player.beside import Queue
+
+        self._renderings = self._renderings or Queue()
+        return self._renderings
 
     def _meant(self, event: Event) -> tuple[Action, ...]:
         """Return what an event asks for in the state as it is."""
@@ -637,6 +676,8 @@ MEANINGS: Mapping[str, Callable[[Window, Value], Iterator[Action]]] = {
     "put": Window._put,
     "put_chosen": Window._put_chosen,
     "shelf": Window._shelf,
+    "taking": Window._taking,
+    "take_start": Window._take_start,
     "move": Window._move,
     "row": Window._row,
     "scroll": Window._scroll,

@@ -16,7 +16,7 @@ from linkanim.picture.command_bar import bar_cells, bar_place, button_at, share_
 from linkanim.picture.command_icons import COMMAND_ICONS
 from linkanim.picture.layout import layout
 from linkanim.play.games import game_of
-from linkanim.player import screen
+from linkanim.player import screen, taking
 from linkanim.player.action import Action, Mode
 from linkanim.player.actions import advance, is_taped
 from linkanim.player.commands import bar, pressed, slid, slides
@@ -101,7 +101,7 @@ def test_every_button_is_a_command_of_the_table_of_its_mode(mode: Mode) -> None:
 
 
 def test_a_bar_is_told_for_every_mode_of_the_table() -> None:
-    assert {*ENTERED, "name"} == {*MODES, "play", "paused"}
+    assert {*ENTERED, "name", "record"} == {*MODES, "play", "paused"}
 
 
 def rows(state: State) -> list[str]:
@@ -332,7 +332,7 @@ GESTURES: dict[str, tuple[tuple[str, ...], Callable[[State], object]]] = {
     "polygons": (("construction", "velocity and acceleration"), lambda state: state.look.polygons),
     "build": (("build a linkage",), lambda state: state.building is not None),
     "save under a name": (("record and save", "save the scene"), lambda state: state.naming is not None),
-    "record": (("record and save", "record a GIF"), lambda state: state.recording is not None),
+    "record": (("record and save", "Record"), lambda state: state.recording is not None),
     "the title": (("all commands", "the title"), lambda state: state.game is not None),
 }
 
@@ -346,9 +346,10 @@ def test_what_a_lecture_needs_is_three_gestures_of_the_mouse_away(here: Path, ta
         player.tick(20)
         player.press(pygame.K_SPACE)
         for name in names:
-            if player.state.listing:
-                listing = player.state.listing
-                words = [*listing.found(player.state.scene)]
+            listing = player.state.listing
+            if listing or player.state.taking:
+                labels = [one.label for one in taking.rows(player.state)]
+                words = [*listing.found(player.state.scene)] if listing else labels
                 found = (n for n, one in enumerate(words) if one.startswith(name))
                 row = int(name[4:]) if name.startswith("row ") else next(found)
                 y = next(y for y in range(2, 718) if player.window.screen.row_at(60, y) == row)

@@ -25,7 +25,7 @@ from linkanim.picture.tools import tool_cells
 from linkanim.play.arcade import Arcade
 from linkanim.play.games import game_of
 from linkanim.play.menus import DOORS as TITLE_DOORS
-from linkanim.player import beside, screen
+from linkanim.player import beside, screen, taking
 from linkanim.player.action import Action
 from linkanim.player.actions import carried
 from linkanim.player.state import State, begin
@@ -114,6 +114,13 @@ class Pointing(Hand):
             self.drag((x, y), (x, track[0] + share * (track[-1] - track[0])))
         self.drag((60.0, rows()[number] + 3))
 
+    def dialog(self, label: str) -> None:
+        """Take the row of the dialog of a recording that begins so."""
+        found = [one.label for one in taking.rows(self.state)]
+        number = next(n for n, one in enumerate(found) if one.startswith(label))
+        row_at = self.player.window.screen.row_at
+        self.drag((60.0, next(y + 3.0 for y in range(2, 718) if row_at(60, y) == number)))
+
     def tool(self, name: str) -> None:
         number = next(n for n, one in enumerate(TOOLS) if one.name == name)
         cell = tool_cells(self.player.window.screen._framing.last.layout)[number]
@@ -196,12 +203,12 @@ class Pointing(Hand):
 
     def save(self) -> None:
         self.press("record and save")
-        self.row("save the scene")
+        self.dialog("save the scene")
         self.press("write it")
 
     def record(self) -> None:
         self.press("record and save")
-        self.row("record a GIF")
+        self.dialog("Record")
 
     def stop(self) -> None:
         self.press("record and save")

@@ -148,7 +148,7 @@ def test_what_waits_when_the_window_closes_is_left_to_one_process(
     assert tapes.record_all([*rest, "c", "d", ""]) == 3
     sizes: tuple[list[str], ...] = ([], ["--size", "640x360"], [])
     jobs = zip((*pairs, ["c", "d"]), sizes, strict=True)
-    assert recorded == [["record", one, "-o", other, *size] for (one, other), size in jobs]
+    assert recorded == [["record", one, "--no-clobber", "-o", other, *size] for (one, other), size in jobs]
 
 
 def test_a_signal_ends_all_that_is_left_to_do(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -160,4 +160,4 @@ def test_a_signal_ends_all_that_is_left_to_do(monkeypatch: pytest.MonkeyPatch) -
 
     monkeypatch.setattr(tapes, "main", main)
     assert tapes.record_all(["a", "b", "", "c", "d", ""]) == 143
-    assert recorded == [["record", "a", "-o", "b"]]
+    assert recorded == [["record", "a", "--no-clobber", "-o", "b"]]

@@ -35,7 +35,7 @@ def run(options: Namespace) -> None:
     preset = PRESETS.get(options.preset, DEFAULT)
     is_tape = options.scene.lower().endswith(".json")
     usual = f"{_stem(options.scene)}{preset.suffix}"
-    target = checked_output(options.output, usual, SUFFIXES, inputs_of(options))
+    target = checked_output(options.output, usual, SUFFIXES, inputs_of(options), ours=options.no_clobber)
     if is_tape and options.alt:
         raise BadInput("--alt is for a scene; what a tape shows is what was done in it")
     told = alternative(options)
@@ -139,7 +139,7 @@ def record_all(words: list[str]) -> int:
     """
     code = DONE
     for tape, target, size in zip(words[::3], words[1::3], words[2::3], strict=True):
-        code = main(["record", tape, "-o", target, *(["--size", size] if size else [])])
+        code = main(["record", tape, "--no-clobber", "-o", target, *(["--size", size] if size else [])])
         if code not in (DONE, FAILED, BadInput.exit_code):
             break
     return code
