@@ -10,6 +10,7 @@ From the ground up; a module imports from those before it only:
     gestures    what a hand draws, what is done to the chosen thing, what lies under the pointer
     meanings    what a drag can mean, by what lies at its start and at its end
     dimensions  the numbers of the chosen thing, and digits typed for one of them
+    numbers     the numbers of a scene on the sheet that makes it: their things, a scene with others
     storing     a draft as plain data, and back
     tools       the tools of a sheet, as data
 

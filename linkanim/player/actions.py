@@ -628,6 +628,7 @@ ACTIONS: Mapping[str, Rule] = {
     "sheet": Rule(_nothing, building.new),
     "draft": Rule(_text, building.draft),  # a draft as it is stored
     "tool": Rule(_text, building.tool),
+    "tool_on": Rule(_whole, building.tool_on),  # tools further
     "photo": Rule(_text, building.photo),  # a picture's file, "" for none
     # (x, y) of the sheet, how near counts as on it, the step of what is drawn
     "hand_down": Rule(_hand, _either(building.down, posing.down)),
@@ -641,6 +642,7 @@ ACTIONS: Mapping[str, Rule] = {
     "digits": Rule(_text, building.write),
     "undigit": Rule(_nothing, building.erase),
     "take_number": Rule(_nothing, building.take),
+    "reassemble": Rule(_nothing, building.reassemble, answer=_closure),  # as "closure", and the sheet stays
     "remove": Rule(_nothing, _either(building.remove, posing.remove)),
     "trace_on": Rule(_nothing, building.trace),
     "drive_by": Rule(_nothing, building.drive),

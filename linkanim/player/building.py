@@ -12,6 +12,7 @@ from linkanim.build import dimensions, gestures
 from linkanim.build.building import Building, building_of, choosing
 from linkanim.build.draft import JOINT
 from linkanim.build.meanings import Meaning, drag, meanings
+from linkanim.build.numbers import renumbered
 from linkanim.build.storing import restored, stored
 from linkanim.build.tools import TOOLS
 from linkanim.errors import BadInput
@@ -24,6 +25,7 @@ from linkanim.player.edits import drop, exchanged
 from linkanim.player.edits import put as put_on
 from linkanim.player.sketching import left as abandoned
 from linkanim.player.state import HOME, LIVE, BuildSheet, Grip, State, nothing_begun, with_toast, with_undo
+from linkanim.scenes.editing import other_closure
 from linkanim.units import shown
 
 Handler = Callable[[State, Any], State]
@@ -220,6 +222,17 @@ def tool(state: State, name: str) -> State:
     if sheet and sheet.open and sheet.building.made.scene and not state.clock.paused:
         state = replace(state, clock=state.clock.go(state.frame, sheet.building.draft.phase, paused=True))
     return _with(state, tool=name, grip=None, anchor=None, span=None)
+
+
+def tool_on(state: State, by: int) -> State:
+    """Take the next tool of the bar; where the last drag can mean several things, do the next of them."""
+    sheet = state.sheet
+    if sheet is None or not sheet.open:
+        return state
+    if sheet.meant is not None:
+        return offer(state, sheet.meant + by)
+    known = tuple(one.value for one in TOOLS if one.action == "tool" and one.value)
+    return tool(state, known[(known.index(sheet.tool) + by) % len(known)])
 
 
 def photo(state: State, file: str) -> State:
@@ -431,6 +444,17 @@ _taken = _changed(dimensions.take)
 remove = _changed(gestures.delete)
 trace = _changed(gestures.trace)
 drive = _changed(gestures.drive)
+
+
+def reassemble(state: State, _: None) -> State:
+    """Put the first loop together the other way."""
+    sheet = state.sheet
+    if sheet is None or not sheet.open or sheet.grip:
+        return state
+    scene = sheet.building.made.scene
+    if scene is None:
+        return with_toast(state, sheet.building.made.missing)
+    return _shown(state, renumbered(sheet.building, other_closure(scene)))
 
 
 def undo(state: State, _: None) -> State:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import get_args
 
-from linkanim.build.tools import TOOLS
+from linkanim.build.tools import TOOLS, Tool
 from linkanim.frozen import NamedTuple
 from linkanim.picture.look import TOGGLES
 from linkanim.player.action import Action, Mode, Value
@@ -242,11 +242,15 @@ KEYS: Table = {
 }
 """Every key of the window, by subject, in the order in which the help shows them."""
 
-_TOOLS = (
-    KeyRow(tool.key, tool.name, _on(tool.key.lower(), tool.action, tool.value))
-    for tool in TOOLS
-    if len(tool.key) == 1
-)
+
+def _of_tool(tool: Tool) -> KeyRow:
+    """Return the line of a tool; that of a number is taken with Ctrl where the number alone is typed."""
+    key = tool.key.lower()
+    keys = f"{key} kp{key} ctrl+{key} ctrl+kp{key}" if key.isdigit() else key
+    return KeyRow(tool.key, tool.name, _on(keys, tool.action, tool.value))
+
+
+_TOOLS = tuple(_of_tool(tool) for tool in TOOLS if tool.action in ("tool", "trace_on", "drive_by"))
 _IN_A_MODE: Table = {
     "in E": (
         KeyRow("↑ ↓", "choose a dimension", _both("up", "down", "choose")),
@@ -348,14 +352,20 @@ _IN_A_MODE: Table = {
         *_TOOLS,
         KeyRow(
             "digits, Enter",
-            "type the value of what is chosen; Ctrl+↑ ↓: its other rows, name and colour too",
+            "type the value of what is chosen, if anything is; Ctrl+↑ ↓: its other rows, name and colour too",
             _both("ctrl+up", "ctrl+down", "number") + _on("backspace", "undigit", held=True),
         ),
         KeyRow(
             "arrows (Shift: fine), Enter", "move a cursor; press and release there", _aims() + _enter("enter")
         ),
-        KeyRow("I", "a point of the body at the cursor", _on("i insert", "enter", 2)),
-        KeyRow("Tab, Shift+Tab", "choose", _tabs("further")),
+        KeyRow(
+            "Shift+Enter",
+            "a point of the body at the cursor",
+            _on("shift+return shift+kp_enter insert", "enter", 2),
+        ),
+        KeyRow("Tab, Shift+Tab", "the next tool; another of what a drag can mean", _tabs("tool_on")),
+        KeyRow("Ctrl+← →", "choose", _both("ctrl+left", "ctrl+right", "further")),
+        KeyRow("B", "the other closure", _on("b", "reassemble")),
         KeyRow("Del", "remove it and what depends on it", _on("delete", "remove")),
         KeyRow("Ctrl+Z, Ctrl+Y", "undo, redo", _undo("unbuild", "rebuild")),
         KeyRow("Ctrl+N", "an empty sheet", _on("ctrl+n", "sheet")),
@@ -408,13 +418,14 @@ class Press(NamedTuple):
     ctrl: bool = False
 
 
-def bind_of(press: Press, mode: Mode = "play", *, typing: bool = False) -> Bind | None:
+def bind_of(press: Press, mode: Mode = "play", *, typing: bool = False, valued: bool = True) -> Bind | None:
     """Return what a key asks for; None where it is not bound.
 
     In an open list what can be printed is typed there; but for the few keys that keep their meaning while
-    nothing has been begun (`typing`).
+    nothing has been begun (`typing`). On a sheet digits are typed where something has a value (`valued`), and
+    else are the numbers of tools.
     """
-    if _is_typed(press, mode, typing):
+    if _is_typed(press, mode, typing, valued=valued):
         return Bind(press.key, Action(_TYPED[mode][0], press.text), repeats=True)
     tables = (MODES.get(mode, {}), {} if mode in _ALONE else KEYS)
     found = (bind for table in tables for name in _names(press) for bind in _binds(table) if bind.key == name)
@@ -423,11 +434,11 @@ def bind_of(press: Press, mode: Mode = "play", *, typing: bool = False) -> Bind 
     return next(found, others)
 
 
-def _is_typed(press: Press, mode: Mode, typing: bool) -> bool:
+def _is_typed(press: Press, mode: Mode, typing: bool, *, valued: bool) -> bool:
     if mode not in _TYPED or press.ctrl or not press.text or not press.text.isprintable():
         return False
     if mode == "build":
-        return typing or press.text in "123456789.-"
+        return typing or (valued and press.text in "123456789.-")
     if mode in _RUNS:
         return press.text in "123456789" or (typing and press.text in "0.")
     return typing or press.key not in _TYPED[mode][1]
@@ -533,6 +544,8 @@ _APART: Mapping[Action, str] = {
     Action("lift", -1): "lay the layers nearer together",
     Action("further", 1): "the next one",
     Action("further", -1): "the one before",
+    Action("tool_on", 1): "the next tool, or what the drag can mean else",
+    Action("tool_on", -1): "the tool before",
     Action("remove"): "remove what is chosen",
     Action("keep"): "keep the linkage as the scene",
     **{Action("answer", n): f"answer {n + 1}" for n in range(9)},

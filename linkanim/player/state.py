@@ -958,6 +958,12 @@ class State:
         return bool(browsed)
 
     @property
+    def valued(self) -> bool:
+        """Whether digits typed on the sheet are a value: of what is chosen, or a photograph's distance."""
+        sheet = self.building
+        return bool(sheet and (sheet.building.chosen or (sheet.tool == "photo" and sheet.span)))
+
+    @property
     def phase(self) -> float:
         """The phase (rad) at this frame."""
         return self.clock.at(self.frame)

@@ -659,7 +659,8 @@ class Window:
         if event.type != pygame.KEYDOWN:
             return ()
         press = self._keyboard.press(event)
-        bind = bind_of(press, self.state.mode, typing=self.state.typing) if press else None
+        on = self.state
+        bind = bind_of(press, on.mode, typing=on.typing, valued=on.valued) if press else None
         self._keyboard.hold(event, bind, self._now)
         return (bind.action,) if bind else ()
 

@@ -27,12 +27,14 @@ from linkanim.player import beside, screen
 from linkanim.player.action import Action
 from linkanim.player.actions import advance, carried
 from linkanim.player.files import DraftFile
+from linkanim.player.keys import Press, bind_of
 from linkanim.player.shown import overlay
 from linkanim.player.state import TOAST_FRAMES, BuildSheet, Grip, begin
 from linkanim.player.tape import Tape, Taping
 from linkanim.player.tape_file import read, write
 from linkanim.recorder.tape_frames import _lasting, record_tape
 from linkanim.scenes import load
+from linkanim.scenes.editing import other_closure
 from linkanim.scenes.toml import parse, save
 from linkanim.synthesis.answers import PathAnswer
 
@@ -290,10 +292,10 @@ def test_a_double_click_on_a_bar_is_a_point_of_it_drawn_as_plate(builder: Builde
 
 
 def test_a_tool_draws_what_it_is_called(builder: Builder) -> None:
-    builder.press(pygame.K_l, text="l")
+    builder.press(pygame.K_3, CTRL)
     builder.draw((-60, 40), (60, 40))
     assert len(builder.sheet.building.draft.of("guides")) == 1
-    builder.press(pygame.K_b, text="b")
+    builder.press(pygame.K_1, CTRL)
     builder.click(0, 0)
     builder.draw((0, 0), (20, 0))
     builder.draw((20, 0), (80, 40))
@@ -302,11 +304,68 @@ def test_a_tool_draws_what_it_is_called(builder: Builder) -> None:
     assert scene.info.class_name == "offset slider-crank"
 
 
+def test_a_number_takes_a_tool_while_nothing_is_chosen_and_with_ctrl_always(builder: Builder) -> None:
+    builder.press(pygame.K_7, text="7")
+    assert builder.sheet.tool == "spring"
+    builder.press(pygame.K_1, text="1")
+    builder.click(0, 0)
+    builder.draw((0, 0), (30, 0))
+    builder.type("25")
+    assert (builder.sheet.tool, builder.sheet.building.typed) == ("bar", "25")
+    builder.press(pygame.K_RETURN)
+    assert builder.sheet.building.draft.of("bars")["O2–A"]["length"] == 25
+    builder.press(pygame.K_7, CTRL)
+    assert builder.sheet.tool == "spring"
+    builder.press(pygame.K_ESCAPE)
+    builder.press(pygame.K_2, text="2")
+    assert builder.sheet.tool == "move"
+
+
+def test_tab_walks_the_tools_both_ways(builder: Builder) -> None:
+    walked = []
+    for _ in range(10):
+        builder.press(pygame.K_TAB)
+        walked.append(builder.sheet.tool)
+    tools = [one.value for one in TOOLS if one.action == "tool"]
+    assert walked == [*tools[1:], "bar"]
+    builder.press(pygame.K_TAB, SHIFT)
+    assert builder.sheet.tool == "photo"
+
+
+SCENE_LETTERS = {
+    **{"v": "vectors", "a": "vectors", "p": "polygons", "l": "theme", "y": "ink", "i": "centres"},
+    **{"t": "trace", "s": "screenshot", "d": "direction", "k": "list", "w": "pencil"},
+}
+
+
+@pytest.mark.parametrize("letter", SCENE_LETTERS)
+def test_a_letter_asks_on_the_sheet_for_what_it_does_on_the_scene(letter: str) -> None:
+    on_sheet, on_scene = (bind_of(Press(letter, letter), mode) for mode in ("build", "play"))
+    assert on_sheet == on_scene
+    assert on_sheet
+    assert on_sheet.action.name == SCENE_LETTERS[letter]
+
+
+def test_b_puts_a_linkage_together_the_other_way_and_the_sheet_stays(builder: Builder) -> None:
+    builder.press(pygame.K_b, text="b")
+    assert builder.state.toast
+    assert builder.state.toast.text == builder.sheet.building.made.missing
+    builder.four_bar()
+    builder.draw((-60, 120), (0, 0))
+    drawn = builder.sheet.building.draft
+    crossed = other_closure(builder.state.scene).linkage
+    builder.press(pygame.K_b, text="b")
+    assert builder.state.scene.linkage == crossed
+    assert builder.sheet.building.draft.of("bars") == drawn.of("bars")
+    builder.press(pygame.K_z, CTRL)
+    assert builder.sheet.building.draft.of("sides") == drawn.of("sides")
+
+
 def test_a_joint_is_moved_live_and_that_is_one_undo(builder: Builder) -> None:
     builder.four_bar()
     builder.tick(200)
     before = builder.sheet.building.draft
-    builder.press(pygame.K_v, text="v")
+    builder.press(pygame.K_2, CTRL)
     builder.mouse(pygame.MOUSEBUTTONDOWN, builder.at(60, 80), button=1)
     lengths = []
     for x in (64, 70, 80):
@@ -319,16 +378,16 @@ def test_a_joint_is_moved_live_and_that_is_one_undo(builder: Builder) -> None:
     assert builder.sheet.building.draft.of("bars") == before.of("bars")
 
 
-def test_what_is_chosen_goes_round_with_tab_and_the_drive_and_traces_by_their_keys(builder: Builder) -> None:
+def test_what_is_chosen_goes_round_and_the_drive_and_traces_by_their_keys(builder: Builder) -> None:
     builder.four_bar()
     builder.tick(200)
     for _ in range(8):
-        builder.press(pygame.K_TAB)
+        builder.press(pygame.K_RIGHT, CTRL)
         if builder.sheet.building.chosen == ("joints", "B"):
             break
-    builder.press(pygame.K_t, text="t")
+    builder.press(pygame.K_t, SHIFT, "T")
     assert builder.state.scene.trace == ("B",)
-    builder.press(pygame.K_d, text="d")
+    builder.press(pygame.K_d, SHIFT, "D")
     assert builder.sheet.building.draft.driven == "B"
 
 
@@ -462,7 +521,7 @@ def saved_over(builder: Builder, photograph: Path, here: Path) -> Path:
     """A four-bar built over a photograph, and written."""
     pygame.event.post(pygame.event.Event(pygame.DROPFILE, file=str(photograph)))
     builder.tick()
-    builder.press(pygame.K_b, text="b")
+    builder.press(pygame.K_1, CTRL)
     builder.four_bar()
     builder.press(pygame.K_s, CTRL)
     builder.press(pygame.K_RETURN)
@@ -560,7 +619,7 @@ def test_a_photograph_that_is_gone_or_none_is_a_sentence_and_does_no_harm(
     builder.tick(2)
     assert builder.state.toast
     assert builder.state.toast.text == f"{name}: {reason}; the sheet goes on without the photograph"
-    builder.press(pygame.K_b, text="b")
+    builder.press(pygame.K_1, CTRL)
     builder.tick(TOAST_FRAMES)
     assert builder.pixels == bare
 
@@ -595,7 +654,7 @@ def test_a_photograph_can_be_dropped_once_the_current_folder_is_gone(
     builder.tick(2)
     assert photo_of(builder).file == str(picture)
     DraftFile(picture.with_name("draft.json")).keep(builder.sheet)
-    builder.press(pygame.K_b, text="b")
+    builder.press(pygame.K_1, CTRL)
     builder.four_bar()
     builder.press(pygame.K_s, CTRL)
     builder.press(pygame.K_RETURN)
@@ -624,7 +683,7 @@ def test_a_photograph_whose_name_no_file_can_hold_is_refused_and_a_tape_can_be_r
 def test_what_is_asked_in_the_frame_that_opens_a_sheet_does_no_harm(builder: Builder) -> None:
     builder.press(pygame.K_UP)
     builder.press(pygame.K_F2)
-    for key in (pygame.K_F2, pygame.K_UP, pygame.K_RETURN, pygame.K_i):
+    for key in (pygame.K_F2, pygame.K_UP, pygame.K_RETURN, pygame.K_INSERT):
         pygame.event.post(pygame.event.Event(pygame.KEYDOWN, key=key, mod=0, unicode=""))
     assert builder.tick()
     assert builder.state.mode == "build"
@@ -763,7 +822,7 @@ def test_what_moved_away_is_picked_where_it_is_seen(builder: Builder) -> None:
 def test_a_tool_that_is_taken_puts_what_runs_back_where_it_was_drawn(builder: Builder) -> None:
     builder.four_bar()
     builder.tick(20)
-    builder.press(pygame.K_a)
+    builder.press(pygame.K_8, CTRL)
     assert (builder.state.clock.paused, builder.state.phase) == (True, builder.sheet.building.draft.phase)
     builder.draw((60, 80), (90, 90))
     assert builder.sheet.building.draft.of("dampers")["damper"]["between"][0] == "B"
@@ -816,7 +875,7 @@ def test_letters_are_typed_in_a_row_of_words_that_was_asked_for_and_tools_before
     builder.four_bar()
     builder.tick(200)
     builder.click(45, 40)
-    builder.press(pygame.K_v, text="v")
+    builder.press(pygame.K_2, CTRL)
     assert builder.sheet.tool == "move"
     builder.drag(row_of(builder, "link's name"))
     builder.type("rod")
@@ -824,7 +883,7 @@ def test_letters_are_typed_in_a_row_of_words_that_was_asked_for_and_tools_before
     builder.press(pygame.K_RETURN)
     assert builder.sheet.tool == "move"
     assert "rod" in [body.name for body in builder.state.scene.linkage.bodies]
-    builder.press(pygame.K_b, text="b")
+    builder.press(pygame.K_1, CTRL)
     assert builder.sheet.tool == "bar"
 
 
@@ -848,7 +907,7 @@ def test_what_is_no_length_stands_on_no_dimension_line(builder: Builder) -> None
     shown = builder.window.screen.over.build
     assert shown
     assert (shown.number, shown.measures) == ("length 124 mm", True)
-    builder.press(pygame.K_y, text="y")
+    builder.press(pygame.K_9, CTRL)
     builder.draw((60, -20), (72, 18))
     builder.tick(200)
     shown = builder.window.screen.over.build
@@ -889,7 +948,7 @@ def test_a_cylinder_s_pin_has_one_pedestal(builder: Builder) -> None:
     builder.tick(30)
     builder.click(60, 0)
     builder.draw((0, 0), (60, 60))
-    builder.press(pygame.K_y)
+    builder.press(pygame.K_9, CTRL)
     builder.draw((60, 0), (60, 60))
     shown = builder.window.screen.over.build
     assert builder.sheet.building.made.scene

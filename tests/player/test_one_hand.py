@@ -333,7 +333,7 @@ class ByKeys(Hand):
 
     def quick_return(self) -> None:
         step = self.player.window.screen.grid_step
-        self.word("l")
+        self.word("3")
         self.key(pygame.K_UP)  # the cursor comes
         sheet = self.state.building
         assert sheet
@@ -341,7 +341,7 @@ class ByKeys(Hand):
         x, y = sheet.cursor
         self.to(x - step, y + step)
         self.to(x + 5 * step, y + step)
-        self.word("b")
+        self.key(pygame.K_1, CTRL)  # a number alone is the value of the line
         self.to(x, y)
         self.to(x, y)
         self.to(x + step, y)

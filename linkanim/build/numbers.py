@@ -1,0 +1,171 @@
+"""The numbers of a scene on the sheet that makes it: the thing that each belongs to, and a scene with others.
+
+The panel of all numbers changes a scene as it does anywhere. The draft follows: whatever in it the scene does
+not tell, such as a guide that nothing slides on, stays.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from math import isnan
+from typing import Any
+
+from linkanim.build.building import Building, draft_of, grown
+from linkanim.build.dimensions import PropertyRow, rows_of
+from linkanim.build.draft import DRIVE, JOINT, Draft, Thing, numbered
+from linkanim.build.scene_form import made
+from linkanim.errors import BadInput
+from linkanim.frozen import NamedTuple
+from linkanim.scenes.editing import numbers
+from linkanim.scenes.form import Key
+from linkanim.scenes.scene import Scene
+
+_PHASES = (0.5, 1.5, 3.0, 4.5)
+"""Phases at which a drawing may tell the closure that it does not where it was drawn."""
+
+
+def renumbered(building: Building, scene: Scene, *, grows: bool = True) -> Building:
+    """Return the building whose linkage has become `scene`: the same one with other numbers, or closures.
+
+    Undo goes back to where it was, unless it `grows` by no step, as while a hand goes on. BadInput for a
+    scene whose closure no drawing of it tells.
+    """
+    draft = building.draft
+    made_before = building.made.scene
+    assert made_before
+    new = draft_of(scene)
+    drafts = _patched(draft, draft_of(made_before), new), _with_guides(new, draft)
+    phases = draft.phase, new.phase, *_PHASES
+    posed = (_posed(one, scene, phase) for one in drafts if one for phase in phases)
+    after = next((one for one in posed if _makes(one, scene)), None)
+    if after is None:
+        raise BadInput("the sheet cannot tell this closure from the other: leave it first")
+    chosen = building.chosen if building.chosen in {*after.things()} else None
+    past = grown(building) if grows else building.past
+    return Building(after, chosen, building.row if chosen else 0, past=past)
+
+
+def _posed(draft: Draft, scene: Scene, phase: float) -> Draft:
+    """Return the draft with its joints where they stand in its scene at a phase."""
+    return replace(draft, places={**draft.places, **scene.pose(phase, 0).position}, phase=phase)
+
+
+def _makes(draft: Draft, scene: Scene) -> bool:
+    found = made(draft).scene
+    return found is not None and found.linkage == scene.linkage and found.trace == scene.trace
+
+
+def _patched(draft: Draft, before: Draft, after: Draft) -> Draft | None:
+    """Return the draft with what two drafts of its scene differ in; None where it has no place for that."""
+    for kind, every in after.tables.items():
+        for name, table in every.items():
+            old = before.of(kind).get(name)
+            if table == old:
+                continue
+            own = _own_name(draft, after, kind, name)
+            if own is None:
+                return None
+            draft = draft.having(kind, own, _told(draft.of(kind).get(own), old, table))
+    rest = {key: value for key, value in after.rest.items() if value != before.rest.get(key)}
+    return replace(draft, rest={**draft.rest, **rest}, short=after.short if draft.short else draft.short)
+
+
+def _told(own: Any, old: Any, new: Any) -> Any:
+    """Return a table of one's own with what differs in two others."""
+    if not (isinstance(own, Mapping) and isinstance(new, Mapping)):
+        return new
+    known = old if isinstance(old, Mapping) else {}
+    return {**own, **{key: value for key, value in new.items() if value != known.get(key)}}
+
+
+def _own_name(draft: Draft, other: Draft, kind: str, name: str) -> str | None:
+    """Return what a thing of another draft of the same linkage is called; None where there is none."""
+    if kind == "bars":
+        return draft.bar(*other.ends(name))
+    if kind == "guides":
+        on = (joint for joint, table in other.of("sliders").items() if table["guide"] == name)
+        return next((draft.of("sliders")[one]["guide"] for one in on if one in draft.of("sliders")), None)
+    if kind == "slots":
+        slot = _slot(other, other.of("slots")[name])
+        return next((key for key, one in draft.of("slots").items() if _slot(draft, one) == slot), None)
+    if kind in ("sides", "bodies", "drive"):
+        return name
+    return name if name in draft.of(kind) else None
+
+
+def _slot(draft: Draft, table: Mapping[str, Any]) -> tuple[str, frozenset[str]]:
+    """Return what runs in a slot, and the joints of its bar."""
+    return str(table["through"]), frozenset(draft.ends(table["bar"]))
+
+
+def _with_guides(after: Draft, draft: Draft) -> Draft:
+    """Return a draft with the photograph of another, and the guides of that on which nothing slides."""
+    after = replace(after, photo=draft.photo)
+    held = {table["guide"] for table in draft.of("sliders").values()}
+    for name, table in draft.of("guides").items():
+        joints = {table["through"], *table.get("on", ())}
+        if name not in held and joints <= after.places.keys():
+            after = after.having("guides", numbered(after, "guides", "guide"), table)
+    return after
+
+
+def thing_at(draft: Draft, scene: Scene, key: Key) -> Thing | None:
+    """Return what of a draft a number of its scene belongs to; None where that is nothing to be seen."""
+    number = next((one for one in numbers(scene.document) if one.key == key), None)
+    section, name = key[0], str(key[1]) if len(key) > 1 else ""
+    if number is None or section in ("springs", "dampers"):
+        return (str(section), name) if number and name in draft.of(str(section)) else None
+    if section == "drive":
+        return DRIVE
+    if section == "bodies":
+        return _of_body(draft, name)
+    if "line" in key or "line_angle" in key or key[-1] == "offset":
+        guide = _guide_of(draft, name)
+        if guide:
+            return "guides", guide
+    start, end = number.ends(scene) if number.field.drag or number.field.spans else (None, name)
+    bar = draft.bar(start, end) if start else None
+    if bar:
+        return "bars", bar
+    return (JOINT, end) if end in draft.places else None
+
+
+def _of_body(draft: Draft, name: str) -> Thing | None:
+    body = draft.of("bodies").get(name, {})
+    if "slider" in body:
+        return JOINT, str(body["slider"])
+    bar = draft.bar(*body["joints"][:2]) if len(body.get("joints", ())) > 1 else None
+    return ("bars", bar) if bar else None
+
+
+def _guide_of(draft: Draft, joint: str) -> str | None:
+    """Return the guide of a joint; of a shorthand, whose numbers name no joint, the only one."""
+    sliders = draft.of("sliders")
+    if joint in sliders:
+        return str(sliders[joint]["guide"])
+    guides = {str(table["guide"]) for table in sliders.values()}
+    return next(iter(guides)) if len(guides) == 1 and joint not in draft.places else None
+
+
+class PlacedRow(NamedTuple):
+    """A number of a draft: the thing that has it, its place among that one's rows, and the row."""
+
+    thing: Thing
+    place: int
+    row: PropertyRow
+
+
+def rows_of_all(draft: Draft) -> tuple[PlacedRow, ...]:
+    """Return all numbers that are stated of a draft, each but once, at the thing that it is drawn as."""
+    found: dict[Key, PlacedRow] = {}
+    for one in _every_row(draft):
+        found.setdefault(one.row.key, one)
+    return tuple(found.values())
+
+
+def _every_row(draft: Draft) -> Iterator[PlacedRow]:
+    for thing in draft.things():
+        for place, row in enumerate(rows_of(draft, thing)):
+            if row.number and not isnan(row.number.value):
+                yield PlacedRow(thing, place, row)
