@@ -39,8 +39,8 @@ _REFUSED: dict[ConstructionKind, str] = {
     ),
     "centres": "has more than five links; instant centres are constructed of up to five",
     "dead-centres": (
-        "is neither a slider-crank nor a crank-rocker, driven by its crank; of those dead centres are "
-        "constructed"
+        "is neither a slider-crank, its rod longer than its crank, nor a crank-rocker, driven by its "
+        "crank; of those dead centres are constructed"
     ),
 }
 _LOWERED = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
@@ -211,7 +211,11 @@ def _given_words(shown: Figure, found: dict[tuple[str, str], Centre], given: lis
         if pair not in joined and slide_between(linkage, *(links[number] for number in pair))
     ]
     geared = [pair for pair in given if pair not in joined and pair not in slid]
-    words = [f"The joints of adjacent links are their instant centres: {_listed(map(_named, joined))}."]
+    words = list[str]()
+    if joined:
+        words.append(
+            f"The joints of adjacent links are their instant centres: {_listed(map(_named, joined))}."
+        )
     if slid:
         words.append(
             f"Across a guide the centre of what slides is infinitely far: {_listed(map(_named, slid))}."

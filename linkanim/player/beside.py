@@ -152,17 +152,21 @@ class Making:
         return self._process.poll() is not None
 
     def found(self) -> str:
-        """Return what the layers are, as JSON on one line; why there are none where it has failed."""
-        if self._process.poll() == 0:
-            return json.dumps(json.loads(self._said(self._out)), ensure_ascii=False)
+        """Return what the layers are, as JSON on one line; why there are none where it has failed.
+
+        An answer that is cut off, as on a full disk, is a failure.
+        """
+        with suppress(ValueError):
+            if self._process.poll() == 0:
+                return json.dumps(json.loads(self._said(self._out)), ensure_ascii=False)
         return json.dumps({"refused": self._reason()}, ensure_ascii=False)
 
     def words(self) -> str:
         """Say where the parts went and what they are, or why there are none."""
         if self._process.poll() != 0 or self._folder is None:
             return self._reason()
-        first, *_, last = self._said(self._out).splitlines() or ["", ""]
-        return f"{where(Path(first))}: {last}"
+        lines = self._said(self._out).splitlines() or [str(self._folder)]
+        return f"{where(Path(lines[0]))}: {lines[-1]}"
 
     def close(self) -> None:
         """End it, and forget what it said."""

@@ -33,6 +33,8 @@ _SWING = 0.35
 """How far an arc runs to each side of a dead centre (rad)."""
 _CURVE = 1600
 _ARC = 64
+_ALIKE = 1e-6
+"""A rod that differs from its crank by less than this part is as long."""
 _SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 
 
@@ -395,7 +397,8 @@ class InLineParts(NamedTuple):
 def in_line_parts(scene: Scene) -> InLineParts | None:
     """Return the joints of a slider-crank or a crank-rocker whose crank is the input; None of others.
 
-    Of a longer chain it is the first loop. A coupler whose end does not swing has no dead centres.
+    Of a longer chain it is the first loop. A coupler whose end does not swing has no dead centres; nor has a
+    rod as long as its crank, whose end may rest in the crank's pivot.
     """
     linkage = scene.linkage
     crank = linkage.driven.joint
@@ -403,7 +406,8 @@ def in_line_parts(scene: Scene) -> InLineParts | None:
         return None
     for joint in linkage.joints:
         if isinstance(joint, RRP) and joint.end == crank.name and joint.line.on is None:
-            return InLineParts(crank.pivot, crank.name, joint.name, None)
+            rests = math.isclose(joint.length, crank.length, rel_tol=_ALIKE)
+            return None if rests else InLineParts(crank.pivot, crank.name, joint.name, None)
         if isinstance(joint, RRR) and crank.name in joint.ends:
             own = joint.ends.index(crank.name)
             held, coupler, rocker = joint.ends[1 - own], joint.lengths[own], joint.lengths[1 - own]

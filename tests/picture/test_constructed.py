@@ -55,6 +55,13 @@ def test_the_constructions_of_a_scene(name: str, kinds: list[str]) -> None:
             all_steps(scene)
 
 
+def test_a_rod_as_long_as_its_crank_has_no_dead_centres() -> None:
+    scene = scene_from({"slider-crank": {"crank": 5, "rod": 5}}, name="alike", where="alike.toml")
+    assert [*kinds_of(scene)] == ["centres"]
+    with pytest.raises(BadInput, match="its rod longer than its crank"):
+        steps_of(scene, "dead-centres")
+
+
 def test_a_chain_has_no_pose_for_centres_that_are_not_constructed() -> None:
     scene = scene_from(chain(5), name="chain", where="chain.toml")
     with pytest.raises(BadInput, match="chain: has more than five links"):

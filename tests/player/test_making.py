@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import time
 from collections.abc import Iterator
 from dataclasses import replace
@@ -12,7 +13,7 @@ from typing import ClassVar
 import numpy as np
 import pygame
 import pytest
-from playing import SHIFT, Player
+from playing import SHIFT, Player, fake_start
 
 from linkanim.export import json_text
 from linkanim.picture.constructed import all_steps
@@ -288,6 +289,20 @@ def test_parts_of_what_is_on_are_found_and_written_by_a_process_beside(here: Pat
     assert "assembly.html" in refused.words()
     assert "saved" not in refused.words()
     for making in (found, written, refused):
+        making.close()
+
+
+@pytest.mark.parametrize("said", [b"", b'{"layers": 2, "pla'])
+def test_an_answer_that_is_cut_off_is_no_layers(said: bytes, monkeypatch: pytest.MonkeyPatch) -> None:
+    def start(command: list[str], message: int, out: int) -> object:
+        os.write(out, said)
+        return fake_start([])(command, message)
+
+    monkeypatch.setattr(beside, "_start", start)
+    found, written = Making(load("kite"), ()), Making(load("kite"), (), Path("kite-parts"))
+    assert json.loads(found.found()) == {"refused": "the search for layers has ended"}
+    assert " saved: " in written.words()
+    for making in (found, written):
         making.close()
 
 

@@ -14,10 +14,10 @@ from collections.abc import Iterator
 from itertools import count, islice
 from pathlib import Path
 from random import Random
-from typing import Any
 
 from limits import Limits
 from outputs import MEGABYTES, OUTPUTS, SECONDS, Case, Output, is_good, written
+from playing import fake_start
 from random_scenes import scene
 from typed_linkages import Document
 
@@ -56,16 +56,8 @@ SHARES = {
 ROTATION = tuple(name for name, share in SHARES.items() for _ in range(share))
 
 
-class _Ended:
-    """What a recording begun in a window starts here: a process that has ended well."""
-
-    def poll(self) -> int:
-        return 0
-
-
-def start_nothing(command: list[str], log: int, out: int = 0) -> Any:
-    """Return a process that has ended, in place of one that renders."""
-    return _Ended()
+start_nothing = fake_start([])
+"""What a window starts here for a process: a recording has ended well, a search for layers has failed."""
 
 
 def made(seed: int, number: int) -> Document:

@@ -368,8 +368,9 @@ def described(case: Case) -> None:
     alt = case.made("told.txt")
     kind = case.rng.choice(("draw", "draw", "chart", "record"))
     tokens = sorted(load(case.path).quantities)
+    phases = ((), ("--phase", "1 rad"), ("--phase", "4 rad"), ("--phase", "-3 rad"))
     more: tuple[str, ...] = {
-        "draw": (*case.rng.choice(case.ways), "-o", str(case.made("out.svg"))),
+        "draw": (*case.rng.choice(case.ways), *case.rng.choice(phases), "-o", str(case.made("out.svg"))),
         "chart": ("--quantity", case.rng.choice(tokens), "--over", "time", "-o", str(case.made("out.svg"))),
         "record": ("--seconds", "0.08", *case.rng.choice(((), ("--ink",))), "-o", str(case.made("out.gif"))),
     }[kind]
@@ -387,7 +388,7 @@ def told(path: Path) -> None:
 
 def examined(case: Case) -> None:
     """Write it as an exercise, of either level, in versions."""
-    path, count = case.made(f"exam.{case.rng.choice(FORMS)}"), case.rng.choice(("1", "2", "3"))
+    path, count = case.made(f"exam.{case.rng.choice(FORMS)}"), case.rng.choice(("1", "1", "1", "2", "3"))
     level = case.rng.choice(("formulas", "drawing"))
     words = ("--exercise", "--level", level, "--versions", count, "--seed", "2")
     if case.asked("explain", str(case.path), *words, "-o", str(path)) is not None and path.suffix == ".html":

@@ -64,6 +64,8 @@ def test_twenty_thousand_good_scenes_are_made_into_everything(part: int, tmp_pat
     ("seed", "number", "output"),
     [
         pytest.param(20, 770, "crowded", id="labels that are alike, of a still"),
+        pytest.param(300, 149, "constructed", id="instant centres of which none is at a joint"),
+        pytest.param(300, 371, "constructed", id="dead centres of a rod as long as its crank"),
         pytest.param(21, 10953, "recorded", id="the curvature of a path where its rates are unbounded"),
     ],
 )
