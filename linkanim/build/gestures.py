@@ -517,6 +517,16 @@ def double_click(building: Building, x: float, y: float, *, reach: float, snap: 
     return point(building, thing[1], snapped(complex(x, y), snap), snap=snap)
 
 
+def on_body(draft: Draft, name: str, at: complex) -> complex:
+    """Return the point nearest to a place on a bar or, of a plate, on one of its sides."""
+    feet = (
+        at - from_span(place_of(draft, one), place_of(draft, other), at)
+        for thing, (one, other) in _spans(draft)
+        if thing == ("bars", name)
+    )
+    return min(feet, key=lambda foot: abs(foot - at))
+
+
 def _spans(draft: Draft) -> Iterator[tuple[Thing, tuple[str, str]]]:
     """Yield the straight edges of what lies between joints: bars, their plates, springs and dampers."""
     for name, table in draft.of("bars").items():

@@ -18,6 +18,7 @@ from linkanim.build.gestures import (
     gear,
     guide,
     move,
+    on_body,
     pin,
     point,
     slider,
@@ -108,7 +109,10 @@ def _one(building: Building, drag: Drag) -> Iterator[Meaning]:
 
 
 def _bars(building: Building, drag: Drag) -> Iterator[Meaning]:
-    """Yield what a drag with the bar can mean; from a crank's pin onto a lever it may be a slot."""
+    """Yield what a drag with the bar can mean; from a crank's pin onto a lever it may be a slot.
+
+    On the side of a plate, where no slot is, the bar is pinned.
+    """
     draft, start, end, snap = building.draft, drag.start, drag.end, drag.snap
     if start and start[0] == "bars":
         yield Meaning("point", point(building, start[1], snapped(drag.to, snap), snap=snap))
@@ -128,12 +132,18 @@ def _bars(building: Building, drag: Drag) -> Iterator[Meaning]:
     is_stub = crank is not None and away < _STUB * abs(place_of(draft, joint) - place_of(draft, crank))
     if slotted and is_stub:
         yield slotted
-    yield rod
-    if joint not in draft.ends(lever):
+    one, other = (place_of(draft, name) for name in draft.ends(lever))
+    on_side = abs(from_span(one, other, drag.to)) > drag.reach
+    if not on_side:
+        yield rod
+    if on_side or joint not in draft.ends(lever):
         pinned, name = _with_point(building, lever, drag.to, snap)
-        if name:
-            on_point = bar(pinned, joint, (JOINT, name), drag.to, snap=snap)
-            yield Meaning("bar pinned to the bar", _as_one(building, on_point))
+        made = bar(pinned, joint, (JOINT, name), drag.to, snap=snap) if name else pinned
+        if made.draft is not pinned.draft:
+            words = "bar pinned to the plate" if on_side else "bar pinned to the bar"
+            yield Meaning(words, _as_one(building, made))
+        elif on_side:
+            yield Meaning("", refused(building, made.sentence))
     if slotted and not is_stub:
         yield slotted
 
@@ -252,9 +262,8 @@ _READ = {
 
 
 def _with_point(building: Building, lever: str, at: complex, snap: float) -> tuple[Building, str]:
-    """Return the building with a point on the line of a bar, and its name; "" where it is no new point."""
-    one, other = (place_of(building.draft, end) for end in building.draft.ends(lever))
-    after = point(building, lever, at - from_span(one, other, at), snap=snap)
+    """Return the building with a point of a bar, or on a plate's side, and its name; "" where it is none."""
+    after = point(building, lever, on_body(building.draft, lever, at), snap=snap)
     return after, after.chosen[1] if after.draft is not building.draft and after.chosen else ""
 
 

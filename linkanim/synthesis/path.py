@@ -16,7 +16,7 @@ from linkanim.synthesis.curves import DrawnCurve, drawn
 from linkanim.synthesis.fitting import EXACTLY, PathTask
 from linkanim.synthesis.front import PREFERENCES, Preference, differing, preferred, searched_front
 from linkanim.synthesis.linkages import KINDS, LinkageKind, Real, Requirements, refuse_count
-from linkanim.synthesis.search import Progress, found, rounded_to, with_round_lengths
+from linkanim.synthesis.search import SAME, Progress, found, rounded_to, with_round_lengths
 from linkanim.units import shown
 
 LARGEST = 8.0
@@ -44,7 +44,8 @@ def path(
     size and least transmission angle: the smallest first ("compact"), or those with the best transmission
     angle ("angle"), all within 3 % of the curve's size, or thrice the best deviation.
 
-    `cognates` adds the two Roberts cognates of each four-bar, as far as they keep to the same options.
+    `cognates` adds the two Roberts cognates of each four-bar, as far as they keep to the same options; an
+    answer that is a cognate of one before it is not listed again.
     `rounding` rounds the lengths to that step one by one, each time fitting the rest again. Other options are
     described below. BadInput for points or limits that make no sense, and if no linkage was found that keeps
     to the limits.
@@ -64,7 +65,16 @@ def path(
     if rounding is not None:
         fits = with_round_lengths(fits, rounding)
         fits = fits if prefer == "exact" else tuple(preferred(fits, prefer))
-    return tuple(one for fit in fits for one in (fit, *_cognates(fit, rounding))) if cognates else fits
+    return _with_cognates(fits, rounding) if cognates else fits
+
+
+def _with_cognates(fits: Sequence[Fit], rounding: float | None) -> tuple[Fit, ...]:
+    """Return each answer with its cognates after it; one that is a cognate of another stands once."""
+    listed: list[Fit] = []
+    for fit in fits:
+        if all(fit.apart(one) > SAME for one in listed):
+            listed += [fit, *_cognates(fit, rounding)]
+    return tuple(listed)
 
 
 def _cognates(fit: Fit, rounding: float | None) -> Iterator[Fit]:

@@ -52,7 +52,7 @@ _FOLLOWED, _FOREIGN = 1e-4, 1e-2
 
 Below, the curve is followed; above, it is none of this kind's, and a few more candidates help a little.
 """
-_SAME = 1e-4
+SAME = 1e-4
 """Of the curve's size: answers whose joints are apart by less are one."""
 ALIKE = 0.05
 """Of the curve's size: answers whose joints are apart by no more look the same."""
@@ -197,7 +197,7 @@ def verified(task: PathTask, normal: Candidates, chosen: Indices) -> Iterator[Fi
     joints = task.kind.joints(scaled.rows, scaled.closure, scaled.angles[:, [0, middle]])
     known: list[Complex] = []
     for (row, closure, angles, _), places in zip(zip(*scaled, strict=True), joints, strict=True):
-        if any(np.abs(places - other).max() <= _SAME * task.curve.size for other in known):
+        if any(np.abs(places - other).max() <= SAME * task.curve.size for other in known):
             continue
         if fit := checked(task, rounded(task, row), float(closure), angles):
             known.append(places)
@@ -239,7 +239,7 @@ def _ranked(fits: Sequence[tuple[tuple[float, ...], Fit]], figure: int = 0) -> l
 
 
 def _same(one: Fit, other: Fit) -> bool:
-    return one.apart(other) <= _SAME
+    return one.apart(other) <= SAME
 
 
 # Answers in round lengths: one length after the other is rounded and held, and the rest is fitted again.

@@ -22,6 +22,9 @@ BOOM = "click 0 0; click 60 -40; drag 0 0 200 0"
 """A boom, and the pin on which its cylinder stands."""
 ROCKER = "click 0 0; click 100 0; drag 0 0 30 0; drag 30 0 90 80; drag 90 80 100 0"
 
+PLATE = f"{ROCKER}; drag 60 40 40 90; click 200 100"
+"""The coupler is a plate of A, B and P."""
+
 
 class Gesture(NamedTuple):
     """A gesture on a drawing, and what it adds there, by kind and name; `others` is what else it can mean."""
@@ -63,6 +66,9 @@ GESTURES = [
     # the bar from the crank's pin onto a lever: near by it is a slot; further away it may be a bar
     Gesture(LEVER, "drag bar 50 0 40 0", SLOT, others=2),
     Gesture(LEVER, "drag bar 50 0 20 -60", {"bars": {"A–C": None}, "slots": {"C in O4–B": "C"}}, others=2),
+    # on the side of a plate, between its point and its bar, there is no slot: the bar is pinned there
+    Gesture(PLATE, "drag bar 200 100 65 85", {"points": {"Q": None}, "bars": {"O6–Q": None}}),
+    Gesture(PLATE, "drag spring 200 100 65 85", {"points": {"Q": None}, "springs": {"spring": None}}),
     # a cylinder, a spring, a damper from and to a bar: the point is made there; on paper a ground pin is
     Gesture(BOOM, "drag cylinder 60 -40 120 0", {"points": {"P": None}, "drive": {"input": None}}),
     Gesture(BOOM, "drag cylinder 120 0 60 -40", {"points": {"P": None}, "drive": {"input": None}}),
@@ -136,6 +142,18 @@ def test_a_gesture_is_on_a_tape(one: Gesture) -> None:
     assert last.building
     assert last.building.building.draft == hand.building.draft
     assert last.building.building.draft.tables == drawn([*lines(one.begin), one.line]).draft.tables
+
+
+@pytest.mark.parametrize("tool", ["bar", "spring", "damper"])
+def test_what_is_let_go_on_the_side_of_a_plate_is_pinned_there(tool: str) -> None:
+    after = gesture(drawn(lines(PLATE)), f"drag {tool} 200 100 65 85")
+    assert after.draft.places["Q"] == pytest.approx((65, 85), abs=0.5)
+    back = gesture(drawn(lines(PLATE)), "drag bar 40 90 65 85")
+    assert (back.sentence, back.is_refusal) == (
+        "P and Q are points of one body: move one to set their distance",
+        True,
+    )
+    assert back.draft.tables == drawn(lines(PLATE)).draft.tables
 
 
 QUICK_RETURNS = (

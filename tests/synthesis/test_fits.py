@@ -6,7 +6,7 @@ import math
 import subprocess
 import sys
 from dataclasses import replace
-from itertools import pairwise
+from itertools import combinations, pairwise
 from pathlib import Path
 from typing import Any
 
@@ -246,6 +246,17 @@ def test_cognates_trace_the_same_curve() -> None:
             rate = motion.velocity["P"] @ np.array([1.0, 1j])
             start = start + (np.conj(rate) * left).real / np.abs(rate) ** 2
         assert np.abs(traced(other, phase=start) - way[::40]).max() <= 1e-13 * first.task.curve.size
+
+
+@pytest.mark.slow
+def test_an_answer_that_is_a_cognate_of_another_is_listed_once() -> None:
+    row, turn = np.array([[0, 0, 30, 90, 45, 30, 100, 0, 80]]), np.linspace(0, 2 * math.pi, 21)[None, :-1]
+    points = FOUR_BAR.points(row, np.ones(1), turn)[0]
+    alone = linkanim.path(points, count=2)
+    listed = linkanim.path(points, count=2, cognates=True)
+    assert any(other.apart(alone[1]) < 1e-6 for other in cognates_of(alone[0]))  # so that there is one
+    assert [one.cognate for one in listed] == [False, True, True]
+    assert min(one.apart(other) for one, other in combinations(listed, 2)) > 1e-3
 
 
 def order(fit: Fit, points: Complex) -> Real:
