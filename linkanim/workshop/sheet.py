@@ -161,7 +161,8 @@ class Sheet:
             words.append(f"put {_named(standing)} up through it")
         for number in plates[1:]:
             pins = [pin for pin in made.pins if number in pin.plates]
-            words.append(f"lay {made.label(number)} into its slot, {_named(pins)} up through it")
+            through = f", {_named(pins)} up through it" if pins else ""
+            words.append(f"lay {made.label(number)} into its slot{through}")
         return "; ".join(words) + "."
 
     def _laid_on(self, number: int) -> str:

@@ -16,6 +16,7 @@ from linkanim.picture.text import Type
 from linkanim.picture.theme import LIGHT
 from linkanim.picture.view import Rect
 from linkanim.scenes import load
+from linkanim.scenes.reading import scene_from
 from linkanim.workshop.drawing import Drawn, preview
 from linkanim.workshop.request import make
 from linkanim.workshop.sheet import Sheet
@@ -35,6 +36,16 @@ def test_every_part_is_listed_and_put_on_once_in_the_order_of_layers(name: str) 
         written = pin.name if pin.stuck else pin.name[0]
         assert sum(written in step for step in steps) >= 1
     assert text.count("<tr><td>1</td>") >= 1
+
+
+def test_a_slider_that_nothing_hangs_on_is_laid_into_its_slot() -> None:
+    document = {
+        "ground": {"O": [0, 0]},
+        "joints": {"B": {"line": {"through": "O"}}},
+        "drive": {"slider": {"joint": "B", "from": 0, "to": 100}},
+    }
+    made = make(scene_from(document, name="alone", where="alone.toml"))
+    assert "Lay down 1 ground; lay 2 slider B into its slot." in Sheet(made).document()
 
 
 def test_the_key_stands_on_a_page_of_its_own_and_the_tasks_do_not_tell_it() -> None:
