@@ -50,16 +50,21 @@ _TOPS = 8
 
 
 class _Way(NamedTuple):
-    """Under which names a motion holds how everything moves."""
+    """Under which names a motion holds how everything moves, and of which derivative that is."""
 
     points: str
     centres: str
     turning: str
     input: str
+    order: int
+
+    def rounding(self, motion: Any, unit: str) -> Any:
+        """Return the rounding errors of how something moves that is measured in a unit, as `rounding_of`."""
+        return rounding_of(motion, f"{unit}/s{'²' if self.order == 2 else ''}", self.order)
 
 
-_MOVING = _Way("velocity", "com_velocity", "angular_velocity", "coordinate_rate")
-_STARTING = _Way("acceleration", "com_acceleration", "angular_acceleration", "coordinate_second")
+_MOVING = _Way("velocity", "com_velocity", "angular_velocity", "coordinate_rate", 1)
+_STARTING = _Way("acceleration", "com_acceleration", "angular_acceleration", "coordinate_second", 2)
 
 
 def effort_token(linkage: Linkage) -> str:
@@ -143,6 +148,7 @@ def _strut_power(motion: Any, way: _Way, struts: Iterable[Spring | Damper]) -> I
     """Yield what each spring and damper takes, its weight, and its rounding errors."""
     linkage, points = motion.mechanism.linkage, getattr(motion, way.points)
     metre, usual = linkage.metre, linkage.extent * abs(motion.input_speed)
+    blur = way.rounding(motion, "{}")
     for strut in struts:
         # what keeps its length takes nothing
         if strut.forceful and holding(linkage.rigid_bodies, strut.between) is None:
@@ -150,7 +156,7 @@ def _strut_power(motion: Any, way: _Way, struts: Iterable[Spring | Damper]) -> I
             force, moving = kind[strut.name].force, between(points, strut.between)
             rate = growth(between(motion.position, strut.between), moving)
             speeds = sum(size(components(points[end])) for end in strut.between)
-            noise = ROUNDING * abs(force) * speeds + force_rounding(motion, strut) * abs(rate)
+            noise = abs(force) * (ROUNDING * speeds + blur) + force_rounding(motion, strut) * abs(rate)
             yield force * metre * rate, abs(force) * metre * (size(moving) + usual), noise * metre
 
 
@@ -159,6 +165,7 @@ def _body_power(motion: Any, way: _Way) -> Iterator[tuple[Any, Any, Any]]:
     linkage = motion.mechanism.linkage
     metre = linkage.metre
     jolt, jerk = rounding_of(motion, "{}/s²", 2) * metre, rounding_of(motion, "rad/s²", 2)
+    blur, twist = way.rounding(motion, "{}") * metre, way.rounding(motion, "rad")
     usual = abs(motion.input_speed)
     for body in linkage.bodies:
         prefix, centre = ("com_", body.name) if body.slider is None else ("", body.slider)
@@ -168,12 +175,13 @@ def _body_power(motion: Any, way: _Way) -> Iterator[tuple[Any, Any, Any]]:
             pull, moved = size((a, b)) * metre + abs(linkage.gravity), body.mass * metre * size((u, v))
             power = body.mass * metre * ((a * u + b * v) * metre + linkage.gravity * v)
             weight = (moved + body.mass * metre * linkage.extent * usual) * pull
-            yield power, weight, moved * (ROUNDING * pull + jolt)
+            yield power, weight, moved * (ROUNDING * pull + jolt) + body.mass * blur * pull
         if body.inertia is not None:
             turning = body.inertia * getattr(motion, way.turning)[body.name]
             gained = motion.angular_acceleration[body.name]
             weight = (abs(turning) + body.inertia * usual) * abs(gained)
-            yield turning * gained, weight, ROUNDING * abs(turning * gained) + abs(turning) * jerk
+            noise = ROUNDING * abs(turning * gained) + abs(turning) * jerk + body.inertia * twist * abs(gained)
+            yield turning * gained, weight, noise
 
 
 def _pace(motion: Any, way: _Way) -> Any:

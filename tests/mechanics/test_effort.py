@@ -66,6 +66,28 @@ def test_a_massive_piston_asks_for_the_torque_of_the_closed_formula(speed: float
     assert effort(scene_of(ENGINE), speed=speed) == pytest.approx(mass * bend * slope * speed**2, rel=1e-12)
 
 
+# What stands at a dead centre takes nothing, whatever it weighs, and whoever pulls at it.
+IDLE = {
+    "a mass": ENGINE,
+    "a spring": ENGINE.replace('mass = "600 g"', "")
+    + '[ground]\nG = [200, 0]\n[springs.s]\nbetween = ["B", "G"]\nstiffness = "9 N/mm"\nfree_length = 90\n',
+    "a damper": ENGINE.replace('mass = "600 g"', "")
+    + '[ground]\nG = [200, 0]\n[dampers.d]\nbetween = ["B", "G"]\ncoefficient = "90 N s/m"\n',
+    "an input that swings": ENGINE.replace("rod = 120", "rod = 30"),
+}
+
+
+@pytest.mark.parametrize("text", IDLE.values(), ids=IDLE)
+@pytest.mark.parametrize("angle", [0.0, math.pi, 2 * math.pi])
+def test_at_a_dead_centre_the_effort_is_exactly_0(text: str, angle: float) -> None:
+    scene = scene_of(text)
+    if not scene.info.full_turn:
+        angle = 0.0
+    motion = scene.solve(angle=np.array([angle]))
+    assert np.asarray(input_effort(motion)).tolist() == [0.0]
+    assert input_effort(scene.pose(float(motion.phase[0]))) == 0.0
+
+
 def test_a_flywheel_out_of_balance_is_turned_against_gravity_and_its_inertia() -> None:
     gravity = 3.0 * 9.81 * 0.12 * np.cos(PHASES)
     assert effort(scene_of(FLYWHEEL), speed=4.0) == pytest.approx(gravity, rel=1e-12)
