@@ -641,6 +641,10 @@ class Counts(NamedTuple):
     mobility: int
 
 
+_AT_END = 1e-4
+"""Of an end of the input in phase: what turns back so near to it turns back with it."""
+
+
 class _ToAndFro(NamedTuple):
     """How a slider or rocker goes to and fro: its time ratio and the phases of its dead centres.
 
@@ -661,23 +665,37 @@ def _to_and_fro(mechanism: Mechanism, name: str, place: str, rate: str) -> _ToAn
     samples = mechanism.sampled
     if _rests(mechanism, name, rate, samples):
         return _ToAndFro(0.0, None, None)
-    reversals = sign_changes(
-        lambda phase: getattr(mechanism.solve(phase=phase, speed=1.0, derivatives=1), rate)[name], samples
-    )
+    turning = reversals(mechanism, name, rate, samples)
     # Among the samples, along which an angle is continuous.
-    order = np.argsort(np.concatenate((reversals, samples)))
-    phases = np.concatenate((reversals, samples))[order]
+    order = np.argsort(np.concatenate((turning, samples)))
+    phases = np.concatenate((turning, samples))[order]
     along = getattr(mechanism.solve(phase=phases, speed=1.0, derivatives=0), place)[name]
-    travel = along[np.argsort(order)[: len(reversals)]]
+    travel = along[np.argsort(order)[: len(turning)]]
     if not len(travel):
         return _ToAndFro(0.0, None, None)
     span = float(np.ptp(travel))
     near = SAME_ANGLE * span
-    backs, forwards = (reversals[np.abs(travel - end) <= near] for end in (travel.min(), travel.max()))
+    backs, forwards = (turning[np.abs(travel - end) <= near] for end in (travel.min(), travel.max()))
     forth = (forwards - backs[:, None]) % whole
     row, column = np.unravel_index(int(forth.argmin()), forth.shape)
     ways = float(forth.min()), float(((backs - forwards[:, None]) % whole).min())
     return _ToAndFro(span, max(ways) / min(ways), (float(backs[row]), float(forwards[column])))
+
+
+def reversals(mechanism: Mechanism, name: str, rate: str, phases: Array) -> Array:
+    """Return the phases between others at which a body turns back, by a motion's name for its rate.
+
+    Where the input turns back and everything with it, that is at a multiple of π. A search alone finds it
+    by no more digits than the rate has there, of a toggle that is straight at its end half as many.
+    """
+    found = sign_changes(
+        lambda near: np.asarray(getattr(mechanism.solve(phase=near, speed=1.0, derivatives=1), rate)[name]),
+        phases,
+    )
+    if mechanism.full_turn or (any(mechanism.stops) and not mechanism.retraced):
+        return found
+    ends = math.pi * np.rint(found / math.pi)
+    return np.where(np.abs(found - ends) < _AT_END, ends, found)
 
 
 def _rests(mechanism: Mechanism, name: str, rate: str, phases: Array) -> bool:

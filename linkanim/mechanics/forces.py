@@ -180,7 +180,7 @@ def _body_power(motion: Any, way: _Way) -> Iterator[tuple[Any, Any, Any]]:
             turning = body.inertia * getattr(motion, way.turning)[body.name]
             gained = motion.angular_acceleration[body.name]
             weight = (abs(turning) + body.inertia * usual) * abs(gained)
-            noise = ROUNDING * abs(turning * gained) + abs(turning) * jerk + body.inertia * twist * abs(gained)
+            noise = abs(turning) * jerk + (ROUNDING * abs(turning) + body.inertia * twist) * abs(gained)
             yield turning * gained, weight, noise
 
 

@@ -9,17 +9,17 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from functools import cache
 from itertools import chain
-from math import degrees, isinf, isnan, nan, pi, sin, tau
+from math import degrees, isinf, isnan, nan, pi, remainder, sin, tau
 
 import numpy as np
 
 from linkanim.errors import OutOfRange
 from linkanim.frozen import NamedTuple, frozen
+from linkanim.mechanics.analysis import reversals
 from linkanim.mechanics.forces import effort_token
 from linkanim.mechanics.linkage import Linkage
 from linkanim.mechanics.measures import TRAVELLING, TURNING, coefficients_of, output_body, output_slider
 from linkanim.mechanics.quantities import Quantity, bodies_in_chain, called, input_symbol, phrase
-from linkanim.mechanics.search import sign_changes
 from linkanim.paper.curves import SAMPLES, Pace, curves_of, extremes
 from linkanim.picture.figure import figure
 from linkanim.scenes.scene import Scene
@@ -84,7 +84,7 @@ def usual_instants(scene: Scene) -> tuple[Instant, ...]:
 def _together(found: list[Instant], period: float) -> Iterator[Instant]:
     """Yield instants, those after the first that are at its phase along with it."""
     start, *others = found
-    same = [one for one in others if min(one.phase % period, -one.phase % period) < _SAME]
+    same = [one for one in others if abs(remainder(one.phase - start.phase, period)) < _SAME]
     yield start._replace(words=", ".join(one.words for one in (start, *same)))
     yield from (one for one in others if one not in same)
 
@@ -95,11 +95,7 @@ def _at_rest(scene: Scene, rate: tuple[str, str], near: float) -> float:
     `rate` is that of a part, under a motion's name for it.
     """
     kind, part = rate
-
-    def speed(phases: np.ndarray) -> np.ndarray:
-        return np.asarray(getattr(scene.solve(phase=phases), kind)[part])
-
-    found = sign_changes(speed, near + _BESIDE * np.array([-1.0, 1.0]))
+    found = reversals(scene.mechanism, part, kind, near + _BESIDE * np.array([-1.0, 1.0]))
     return float(found[0]) if len(found) else near
 
 

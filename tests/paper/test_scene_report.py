@@ -19,6 +19,7 @@ from PIL import Image
 
 from linkanim.cli import main
 from linkanim.explain.solution import PoseRequest, solution
+from linkanim.mechanics.measures import output_body, output_slider
 from linkanim.mechanics.quantities import register
 from linkanim.paper.curves import Pace
 from linkanim.paper.findings import (
@@ -389,8 +390,37 @@ def test_of_joints_that_are_not_traced_and_of_poles_the_tables_tell() -> None:
 
 
 def test_an_extreme_at_the_start_is_looked_at_once() -> None:
-    words = [instant.words for instant in usual_instants(load("toggle-press"))]
-    assert words == ["half-way, least travel of the ram", "greatest travel of the ram"]
+    words = [instant.words for instant in usual_instants(load("scissor-lift"))]
+    assert words == ["start, greatest travel of the foot", "least travel of the foot"]
+
+
+@pytest.mark.parametrize("name", names())
+def test_what_is_told_to_be_greatest_or_least_at_an_instant_is(name: str) -> None:
+    scene = load(name)
+    _, *extremes = usual_instants(scene)
+    output = output_slider(scene.linkage) or output_body(scene.linkage)
+    for instant in extremes:
+        assert output
+        place, rate = ("travel", "travel_velocity") if output.slider else ("angle", "angular_velocity")
+        here = scene.pose(instant.phase)
+        assert scene.quantities[f"{output.name}.{rate}"].read(here) == pytest.approx(0.0, abs=1e-12)
+        told = float(getattr(here, place)[output.name])
+        along = np.asarray(getattr(scene.cycle(720), place)[output.name])
+        if not output.slider:
+            told += math.tau * round((float(along.mean()) - told) / math.tau)
+        end = along.max() if "greatest" in instant.words else along.min()
+        assert told == pytest.approx(end, abs=1e-3 * np.ptp(along))
+
+
+def test_at_the_end_of_its_stroke_a_straight_toggle_stands() -> None:
+    """Beside it the ram's rate has no digits: there it goes with the third power of the phase."""
+    scene = load("toggle-press")
+    at = {instant.words: scene.pose(instant.phase) for instant in usual_instants(scene)}
+    for words, phase in (("greatest travel of the ram", math.pi), ("least travel of the ram", 0.0)):
+        assert at[words].phase == phase
+        for part in ("C.velocity", "K.velocity", "R.velocity", "upper.angular_velocity"):
+            assert scene.quantities[part].read(at[words]) == 0.0
+    assert scene.info.dead_centres == (0.0, math.pi)
 
 
 def test_angles_choose_the_phase_also_of_a_swing() -> None:
