@@ -283,6 +283,12 @@ class Placer:
         return np.asarray(np.logical_or.reduceat(barred, starts, axis=1))
 
 
+def place(labels: Sequence[LabelPlaces], clutter: Clutter) -> list[Placed]:
+    """Return a place for each label; the first have the first choice. One without room shows nowhere."""
+    placer = Placer(clutter)
+    return [placer.first([label])[1] for label in labels]
+
+
 def placed_among(
     labels: Sequence[LabelPlaces], room: Rect, rects: Sequence[Rect], lines: Loop, half: float
 ) -> list[tuple[int, bool]]:
