@@ -314,7 +314,7 @@ def effect(name: str) -> Callable[[State, str | None], State]:
 # Games come over the state and go again; what was there before stands beneath, and comes back.
 
 _OF_A_TAKE = {f"take_{name}" for name in ("places", "row", "turn", "type", "untype", "refused", "into")}
-BESIDE = BESIDE_GAMES | {"take_toast", "stir", "menu", "note", "pad", "close"} | _OF_A_TAKE
+BESIDE = BESIDE_GAMES | {"take_toast", "stir", "menu", "note", "hint", "pad", "close"} | _OF_A_TAKE
 """Actions that are the window's own while a game is on; all others are handed to the game."""
 _ON_A_LIST = frozenset({"move", "sift", "unsift", "back"})
 """What is the list's, or the dialog's, own while one is open over a game."""
@@ -691,6 +691,7 @@ ACTIONS: Mapping[str, Rule] = {
     "close": Rule(_nothing, close, taped=False),  # the window's own button
     "sounds": Rule(_nothing, sounds, taped=False, answer=_sounds),
     "pad": Rule(_text, pad, taped=False),  # what is plugged in is called; empty for nothing
+    "hint": Rule(_text, with_chip, taped=False),  # what letting go would do, as a chip
     "note": Rule(_text, with_toast, taped=False),  # something the window has to say, as a toast
 }
 
@@ -726,7 +727,7 @@ Change = Callable[[State], State]
 
 _SHEETS = frozenset({"build", "sheet", "draft", "photo"})
 """What opens a sheet, out of a game too."""
-_NOT_BY_HAND = frozenset({"note", "pad", "stir"})
+_NOT_BY_HAND = frozenset({"note", "hint", "pad", "stir"})
 """What nobody at the window does, and what does nothing but bring the bar of commands."""
 _LIVES = {"stirred": STIR_FRAMES, "turned": FLASH_FRAMES, "faded": FADE_FRAMES, "shot": SHUTTER_FRAMES}
 """For how many frames after the one that the state holds something is to be seen."""

@@ -291,8 +291,9 @@ _TOLD = 180
 """So many frames after the mouse has moved last, what passes below it tells itself no more."""
 _RIGHT = 3
 """The number of the right button, which opens the list of commands."""
-_LONG, _LONG_STILL = 36, 0.012
-"""A button held for so many frames, as still as this in heights of the window, is a long press."""
+_LONG, _TOO_LONG, _LONG_STILL = 36, 150, 0.012
+"""A button let go after so many frames, as still as this in heights of the window, was a long press."""
+_LET_GO_FOR = "let go: commands"
 _THINGS_IN = frozenset[Mode]({"play", "paused", "edit"})
 """Where joints and links have commands of their own."""
 _TENTHS = 0.1
@@ -360,6 +361,7 @@ class Mouse:
         self._cognate: int | None = None
         self._seen, self._moved_in = False, 0
         self._down_in = 0
+        self._is_long = self._draws = False
 
     def actions(self, event: Event, screen: Screen) -> tuple[Action, ...]:
         """Return what a mouse event asks for."""
@@ -374,7 +376,10 @@ class Mouse:
         self._at = getattr(event, "pos", self._at)
         if kind == "down":
             self._begun, self._far, self._down_in = self._at, 0.0, screen.state.frame
+            self._draws = False
         self._far = max(self._far, math.dist(self._begun, self._at))
+        if kind == "up" and self._presses_long(screen):
+            return self._pressed_long(screen)
         height = screen.size[1]
         gesture = Gesture(kind, notches, ((self._at[0] - x) / height, (self._at[1] - y) / height))
         found = self._on_the_bar(gesture, screen)
@@ -424,11 +429,19 @@ class Mouse:
         return (Action("menu", "chart" if screen.charted(*self._at) is not None else None),)
 
     def held(self, screen: Screen) -> tuple[Action, ...]:
-        """Return what a button or a finger asks for that is held still for long: what a right click does."""
+        """Return what says that a button or a finger is held still for so long that commands come of it."""
+        is_new, self._is_long = not self._is_long, self._presses_long(screen)
+        return (Action("hint", _LET_GO_FOR),) if self._is_long and is_new else ()
+
+    def _presses_long(self, screen: Screen) -> bool:
+        """Return whether letting go now ends a long press: what may still be a drag is none."""
+        long = _LONG <= screen.state.frame - self._down_in < _TOO_LONG
         still = self._far <= _LONG_STILL * screen.size[1]
-        if self._drag not in _LET_GO or not still or screen.state.frame - self._down_in < _LONG:
-            return ()
-        ended, self._drag = _LET_GO[self._drag], "bar"
+        return long and still and self._drag in _LET_GO and not self._draws
+
+    def _pressed_long(self, screen: Screen) -> tuple[Action, ...]:
+        """Return what a long press asks for: what a right click does, and nothing of what it began."""
+        ended, self._drag = _LET_GO[self._drag], None
         return (*((Action(ended),) if ended else ()), *self._menu(screen))
 
     def _on_the_help(self, screen: Screen) -> tuple[Action, ...]:
@@ -654,6 +667,7 @@ class Mouse:
                 self._drag = "dial"
                 return (Action("dial", screen.dialled(self._at[0])),)
             self._drag = "hand" if screen.posed_at(*self._at) else "pan"
+            self._draws = self._drag == "hand" and not screen.on_pose(*self._at)
             return (self._handed("hand_down", screen),) if self._drag == "hand" else ()
         if self._drag not in ("hand", "dial") or gesture.kind not in ("move", "up"):
             return None

@@ -375,9 +375,12 @@ class Screen:
     def posed_at(self, x: float, y: float) -> bool:
         """Return whether the hand holds or sets down something at a pixel, among poses."""
         sketch = self.state.posing
-        return sketch is not None and (
-            has_room(sketch) or posed_under(sketch, self.world(x, y), self._near) is not None
-        )
+        return sketch is not None and (has_room(sketch) or self.on_pose(x, y))
+
+    def on_pose(self, x: float, y: float) -> bool:
+        """Return whether something that was set down is at a pixel, among poses."""
+        sketch = self.state.posing
+        return sketch is not None and posed_under(sketch, self.world(x, y), self._near) is not None
 
     def pencil_at(self, x: float, y: float, reach: float) -> Action:
         """Return what the pencil begins at a pixel: it takes an answer, a pin or a point, or it draws."""

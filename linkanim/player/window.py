@@ -75,7 +75,7 @@ _WAITS = "unsaved work of another sheet is kept as well; `linkanim new` without 
 _TAKEN_UP = "this is the unsaved work that was kept; Ctrl+N begins an empty sheet"
 _NO_FILES = "there is no scene file in the current folder; Ctrl+S writes one"
 _BESIDE_A_TAPE = frozenset(
-    {"stir", "take_toast", "screenshot", "svg", "share", "fullscreen", "quit", "close", "back"}
+    {"stir", "hint", "take_toast", "screenshot", "svg", "share", "fullscreen", "quit", "close", "back"}
 )
 
 

@@ -8,10 +8,10 @@ from typing import Any, get_args
 
 import pygame
 import pytest
-from playing import Player
+from playing import NoSearch, Player
 
 from linkanim.play.games import game_of
-from linkanim.player import screen
+from linkanim.player import beside, screen
 from linkanim.player.action import Action, Mode
 from linkanim.player.actions import advance, carried, is_known
 from linkanim.player.commands import menu_of
@@ -247,26 +247,66 @@ def test_a_long_press_does_what_a_right_click_does(player: Player, by: str) -> N
         player.tick()
     for _ in range(34):
         player.tick()
-    assert player.state.listing is None
+    assert player.state.chip is None
     for _ in range(4):
         player.tick()
-    assert opened(player) == "Joint A"
-    assert player.state.held is None
+    assert player.state.chip
+    assert player.state.chip.text == "let go: commands"
+    assert player.state.listing is None
     if by == "mouse":
         player.mouse(pygame.MOUSEBUTTONUP, at, button=1)
     else:
         pygame.event.post(pygame.event.Event(pygame.FINGERUP, **share))
         player.tick()
     assert opened(player) == "Joint A"
+    assert (player.state.held, player.state.grasp) == (None, None)
 
 
-def test_a_hand_that_moves_is_no_long_press(player: Player) -> None:
+@pytest.mark.parametrize("waits", [0, 60], ids=["at once", "after a while"])
+def test_a_hand_that_moves_is_no_long_press(player: Player, waits: int) -> None:
     x, y = place(player, "A")
+    before = player.state.phase
     player.mouse(pygame.MOUSEBUTTONDOWN, (x, y), button=1)
+    for _ in range(waits):
+        player.tick()
     player.mouse(pygame.MOUSEMOTION, (x + 20, y), rel=(0, 0), buttons=(1, 0, 0))
+    assert player.state.phase != before
     for _ in range(60):
         player.tick()
+    player.mouse(pygame.MOUSEBUTTONUP, (x + 20, y), button=1)
     assert player.state.listing is None
+
+
+def test_a_joint_that_is_held_on_and_on_is_only_held(player: Player) -> None:
+    at = place(player, "A")
+    player.mouse(pygame.MOUSEBUTTONDOWN, at, button=1)
+    for _ in range(160):
+        player.tick()
+    player.mouse(pygame.MOUSEBUTTONUP, at, button=1)
+    assert player.state.listing is None
+
+
+def test_a_pose_that_is_set_down_slowly_is_a_pose(player: Player, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(beside, "Following", NoSearch)
+    player.window.state = carried(player.state, Action("poses"))
+    player.tick(2)
+    for x in (300, 420):
+        player.mouse(pygame.MOUSEBUTTONDOWN, (x, 180), button=1)
+        for _ in range(60):
+            player.tick()
+        assert player.state.chip is None or player.state.chip.text != "let go: commands"
+        if x == 420:
+            player.mouse(pygame.MOUSEMOTION, (x + 60, 160), rel=(0, 0), buttons=(1, 0, 0))
+        player.mouse(pygame.MOUSEBUTTONUP, (x, 180), button=1)
+        assert player.state.listing is None
+    assert player.state.posing
+    assert len(player.state.posing.poses) == 2
+    player.mouse(pygame.MOUSEBUTTONDOWN, (300, 180), button=1)
+    for _ in range(60):
+        player.tick()
+    player.mouse(pygame.MOUSEBUTTONUP, (300, 180), button=1)
+    assert player.state.listing
+    assert len(player.state.posing.poses) == 2
 
 
 def test_a_right_click_on_the_sheet_chooses_what_is_there_and_lists_what_is_done_with_it(
