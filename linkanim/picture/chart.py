@@ -250,6 +250,8 @@ _TITLE = 1.35
 """From the plot up to the line above it, in heights of its text."""
 _GAP = 1.2
 """Between two things in that line, in heights of its text."""
+_LEAST_PLOT = 2.0
+"""The least height of a plot among others, in heights of small text."""
 _BETWEEN = 0.7
 """Below a plot that has another one below it, in heights of small text."""
 
@@ -259,7 +261,8 @@ class ChartPanel:
     """A quantity of a motion that runs at `speed` (rad/s, negative: the phase runs back), `over` an axis.
 
     Among others at the same axis `left` is the room that the widest of their tick labels takes; one that is
-    not the `lowest` leaves it to that to tell what they run over.
+    not the `lowest` leaves it to that to tell what they run over. `counted` says of how many it is which,
+    where not all have room.
     """
 
     figure: Figure
@@ -270,6 +273,7 @@ class ChartPanel:
     over: Over | None = None
     left: float = 0.0
     lowest: bool = True
+    counted: str = ""
 
     def at(self, speed: float) -> ChartPanel:
         """Return the chart of the same motion at another speed; nothing is solved for it."""
@@ -350,8 +354,10 @@ class ChartPanel:
         room = area.width - self._widest_reading - _GAP * pen.text
         full = self.quantity.title(self.figure.scene.length_unit)
         short = full.removeprefix(f"{self.quantity.words} ")
-        words = full if pen.type.width(full, pen.text) <= room else short
-        return Caption(words, (area.x, area.y - _TITLE * pen.text), pen.text, pen.theme.ink)
+        words = next(
+            (one for one in (full, short) if pen.type.width(one + self.counted, pen.text) <= room), short
+        )
+        return Caption(words + self.counted, (area.x, area.y - _TITLE * pen.text), pen.text, pen.theme.ink)
 
     @cached_property
     def _widest_reading(self) -> float:
@@ -481,25 +487,35 @@ def chart_strips(
 ) -> ChartStrips:
     """Return the charts of quantities as `chart_panel` returns one, in strips of equal plots.
 
-    BadInput where the scene has no such quantity, and for more than have room.
+    Where not all can be read below each other it has the last ones, which say so. BadInput where the scene
+    has no such quantity, and for more than there are at once.
     """
     if len(tokens) > MOST_CHARTS:
         raise BadInput(f"{len(tokens)} quantities in charts: there is room for {MOST_CHARTS}")
     whole = chart_panel(figure, tokens[0], layout, pen, over)
     if len(tokens) == 1:
         return ChartStrips((whole,))
-    rect, last = whole.rect, len(tokens) - 1
-    # of the lowest one's room its plot has as much as the others have of theirs
-    rests = [(low - _BETWEEN) * pen.small for low in (_FOOT + _WITH_FOOT, _NO_FOOT)]
-    highs = [((rect.height - rest) / len(tokens), rest) for rest in rests]
-    high, _ = highs[0] if sum(highs[0]) >= _FOR_FOOT * pen.small else highs[1]
+    rect, most, least = whole.rect, len(tokens), 1.5 * pen.text + (_BETWEEN + _LEAST_PLOT) * pen.small
+    count = next((n for n in range(most, 1, -1) if _high(rect, n, pen) >= least), 1)
+    high, last = _high(rect, count, pen), count - 1
     panels = [
         replace(
             chart_panel(figure, token, layout, pen, over),
             rect=Rect(rect.x, rect.y + n * high, rect.width, rect.height - n * high if n == last else high),
             lowest=n == last,
+            counted=f", {most - last + n} of {most}" if count < most else "",
         )
-        for n, token in enumerate(tokens)
+        for n, token in enumerate(tokens[most - count :])
     ]
     left = max(room_for_ticks(panel.y_axis, pen) for panel in panels)
     return ChartStrips(tuple(replace(panel, left=left) for panel in panels))
+
+
+def _high(rect: Rect, count: int, pen: Pen) -> float:
+    """Return how high each of so many strips is in a rectangle but for the lowest one's foot.
+
+    Of the lowest one's room its plot has as much as the others have of theirs.
+    """
+    rests = [(low - _BETWEEN) * pen.small for low in (_FOOT + _WITH_FOOT, _NO_FOOT)]
+    highs = [((rect.height - rest) / count, rest) for rest in rests]
+    return (highs[0] if sum(highs[0]) >= _FOR_FOOT * pen.small else highs[1])[0]

@@ -10,7 +10,7 @@ import pygame
 from linkanim.frozen import NamedTuple
 from linkanim.picture.board import Board
 from linkanim.picture.command_icons import COMMAND_ICONS
-from linkanim.picture.layout import Gauge, Layout
+from linkanim.picture.layout import HEAD_OF_CHART, Gauge, Layout
 from linkanim.picture.overlay import Button, CommandBar
 from linkanim.picture.raster import Layer, Loop, paint
 from linkanim.picture.shapes import box, disc
@@ -21,10 +21,10 @@ from linkanim.picture.view import Rect
 _GAP, _BETWEEN = 0.06, 0.3
 """Between buttons and between their groups, in sides, as what follows."""
 _FRAME = 0.14
-_ABOVE = 0.3
-"""How far the buttons of a chart stand out of it."""
-_TITLE_OF_CHART, _READING = 12.0, 5.5
-"""The room of a chart's title and of what is read there, in heights of text."""
+_ABOVE, _BELOW = 0.3, 0.2
+"""How far the buttons of a chart stand out of it, and how far off its foot they are below it."""
+_READING = 5.5
+"""The room of what is read at a chart's head, in heights of text."""
 _SLIDER = 3.0
 _WITHIN = 0.35
 """From a slider's end to where its knob can go."""
@@ -43,19 +43,28 @@ def bar_cells(layout: Layout, buttons: Sequence[Button]) -> tuple[Rect | None, .
     cells = _row(buttons, _numbers(buttons, on_chart=False), foot, top, layout)
     if chart:
         on_chart = _numbers(buttons, on_chart=True)
-        room = _beside_title(chart, _wide(buttons, on_chart) * side, layout)
-        cells |= _row(buttons, on_chart, room, chart.y - _ABOVE * side, layout)
+        room, top = _at_chart(chart, _wide(buttons, on_chart) * side, layout)
+        cells |= _row(buttons, on_chart, room, top, layout)
     return tuple(cells.get(n) for n in range(len(buttons)))
 
 
-def _beside_title(chart: Rect, wide: float, layout: Layout) -> Rect:
-    """Return the room of a chart's buttons: all its width, or, where its title is there, before a reading."""
-    title, reading = _TITLE_OF_CHART * layout.text_size, _READING * layout.text_size
+def _at_chart(chart: Rect, wide: float, layout: Layout) -> tuple[Rect, float]:
+    """Return the room of a chart's buttons across, and its top.
+
+    At the chart's head that is all its width, or what its title leaves before a reading; in a chart too
+    narrow for that it is below its foot, where there is room.
+    """
+    side, head = layout.button, chart.y - _ABOVE * layout.button
+    reading = _READING * layout.text_size
+    title = HEAD_OF_CHART * layout.text_size - reading
     if (chart.width - wide) / 2 >= title:
-        return chart
-    needed = 1.01 * (wide + 2 * _FRAME * layout.button + 2 * _edge(layout))
+        return chart, head
+    needed = 1.01 * (wide + 2 * _FRAME * side + 2 * _edge(layout))
+    foot = chart.bottom + _BELOW * side
+    if title + needed + reading > chart.width and foot + (1 + _FRAME) * side <= layout.above_bar:
+        return chart, foot
     left = max(chart.width - reading - needed, 0.0)
-    return chart._replace(x=chart.x + left, width=min(needed, chart.width))
+    return chart._replace(x=chart.x + left, width=min(needed, chart.width)), head
 
 
 def _numbers(buttons: Sequence[Button], *, on_chart: bool) -> list[int]:
@@ -197,7 +206,9 @@ class BarPrinter:
         free = surface.get_width() - drawn.get_width() - 2
         x = min(max(cell.middle.real - drawn.get_width() / 2, 2), max(free, 2))
         gap = (_FRAME + 0.15) * cell.height
-        y = cell.bottom + gap if button.on_chart else cell.y - gap - drawn.get_height()
+        chart = board.layout.chart
+        hangs = button.on_chart and chart is not None and cell.y < chart.middle.imag
+        y = cell.bottom + gap if hangs else cell.y - gap - drawn.get_height()
         surface.blit(drawn, (round(x), round(max(y, 2))))
 
 

@@ -36,6 +36,10 @@ _HEAD_OF_MARKS = 1.5
 """The height of the marks of recording and pause, in heights of their text: a chart begins below them."""
 _TALLEST = 0.42
 """The height of a chart beside the scene, in widths of the window; of several below each other twice that."""
+HEAD_OF_CHART = 23.5
+"""The room of a chart's title and of what is read there, in heights of text."""
+_BUTTONS, _ROW_OF_BUTTONS = 5.2, 1.5
+"""The room of a chart's buttons across, and below its foot where its head has none, in sides of one."""
 _ROW = 1.3
 """From row to row of a table, in heights of its text."""
 _SMALLEST_ROW = 8
@@ -221,8 +225,12 @@ def _charted(empty: Layout, *, chart: int, beside: bool, listed: bool, row: bool
     if beside:
         head = edge + _HEAD_OF_MARKS * empty.text_size
         tallest = _TALLEST * room.width * min(chart, 2)
-        wide, high = _SHARE_BESIDE * room.width, min(room.height - head - edge, tallest)
-        chart_place = Rect(room.right - wide, max((room.height - high) / 2, head), wide - edge, high)
+        wide, foot = _SHARE_BESIDE * room.width, edge
+        if bar and wide - edge < HEAD_OF_CHART * empty.text_size + _BUTTONS * empty.button:
+            foot = max(edge, _ROW_OF_BUTTONS * empty.button)
+        high = min(room.height - head - foot, tallest)
+        top = max(min((room.height - high) / 2, room.height - foot - high), head)
+        chart_place = Rect(room.right - wide, top, wide - edge, high)
         return replace(empty, stage=room._replace(width=room.width - wide - 0.6 * edge), chart=chart_place)
     tall = _SHARES_BELOW[min(chart, len(_SHARES_BELOW)) - 1] * room.height
     chart_place = Rect(room.x + edge, room.bottom - edge - tall, room.width - 2 * edge, tall)

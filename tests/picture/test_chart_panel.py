@@ -335,6 +335,19 @@ def test_strips_share_their_axis_and_have_equal_plots(
         assert strips.titled_at(title.x + 2, title.y + 2) == panel.quantity.token
 
 
+@pytest.mark.parametrize(("size", "shown"), [((320, 180), 1), ((480, 270), 2), ((640, 360), 3)])
+def test_as_many_strips_as_can_be_read_are_shown_and_the_others_are_counted(
+    size: tuple[int, int], shown: int
+) -> None:
+    window, scene = layout(size, chart=3), load("press")
+    pen = pen_for(window, Type(), LIGHT)
+    panels = chart_strips(figure(scene), scene.telling[:3], window, pen).panels
+    assert [panel.quantity.token for panel in panels] == [*scene.telling[3 - shown : 3]]
+    assert [panel.plot.area.height > 1.9 * pen.small for panel in panels] == [True] * shown
+    counted = [f"{n} of 3" if shown < 3 else "" for n in range(4 - shown, 4)]
+    assert [panel.title.text.rpartition(", ")[2] if shown < 3 else "" for panel in panels] == counted
+
+
 def test_more_strips_than_have_room_are_refused() -> None:
     scene = load("press")
     with pytest.raises(BadInput, match="4 quantities in charts: there is room for 3"):

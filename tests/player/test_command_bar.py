@@ -276,18 +276,22 @@ def test_the_chart_has_buttons_of_its_own_at_its_head(player: Player) -> None:
 
 @pytest.mark.parametrize("size", [(640, 360), (1280, 720), (3840, 2160)], ids=str)
 @pytest.mark.parametrize("beside", [False, True])
-def test_the_buttons_of_a_chart_leave_its_reading_and_where_there_is_room_its_title(
+def test_the_buttons_of_a_chart_leave_its_reading_and_its_title(
     rocker: State, size: tuple[int, int], beside: bool
 ) -> None:
-    shown, place = bar(after(rocker, Action("chart", 1), "stir")), layout(size, chart=2, beside=beside)
+    place = layout(size, chart=2, beside=beside, bar=True)
+    shown = bar(after(rocker, Action("chart", 1), "stir"))
     assert shown
     assert place.chart
     cells = bar_cells(place, shown.buttons)
     seen = [cell for cell, one in zip(cells, shown.buttons, strict=True) if cell and one.on_chart]
     assert len(seen) == 4
-    assert max(cell.right for cell in seen) < place.chart.right - 5 * place.text_size
-    if size[0] > 1000:
-        assert min(cell.x for cell in seen) > place.chart.x + 9 * place.text_size
+    if seen[0].y > place.chart.bottom:
+        assert place.bar
+        assert max(cell.bottom for cell in seen) < place.bar.y
+    else:
+        assert max(cell.right for cell in seen) < place.chart.right - 5 * place.text_size
+        assert min(cell.x for cell in seen) > place.chart.x + 16 * place.text_size
 
 
 def test_from_the_list_of_dimensions_one_click_leads_to_the_tools_and_one_back(player: Player) -> None:
