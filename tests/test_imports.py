@@ -10,6 +10,7 @@ import sys
 from collections.abc import Iterator
 from functools import cache
 from graphlib import TopologicalSorter
+from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -161,6 +162,13 @@ def test_a_third_party_stays_in_its_rooms() -> None:
         used = {name.split(".")[0] for name in imported(path) if is_third_party(name)}
         astray += [(path, name) for name in used - THIRD_PARTIES[room_of(path)]]
     assert astray == []
+
+
+def test_every_module_finds_what_it_imports() -> None:
+    for path in SOURCES:
+        if path.stem != "__main__":
+            parts = path.relative_to(PACKAGE.parent).with_suffix("").parts
+            import_module(".".join(parts[:-1] if parts[-1] == "__init__" else parts))
 
 
 def test_every_room_is_read() -> None:
