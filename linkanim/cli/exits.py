@@ -6,7 +6,6 @@ import errno
 import os
 import signal
 import sys
-import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
@@ -151,7 +150,8 @@ def _signals_raise() -> Iterator[None]:
 
     What is ignored, as SIGHUP under nohup, stays so; other threads than the main one cannot, and do not.
     """
-    if threading.current_thread() is not threading.main_thread():
+    threading = sys.modules.get("threading")  # where nobody has loaded it there is one thread
+    if threading is not None and threading.current_thread() is not threading.main_thread():
         yield
         return
     raised = [-_ONE_AND_THE_SAME]

@@ -71,6 +71,28 @@ def test_arrays_of_any_length_agree_with_single_values(count: int, uniform: bool
         assert rows[:, index] == pytest.approx(expected, rel=1e-15, abs=1e-16)
 
 
+@pytest.mark.parametrize("uniform", [True, False])
+def test_a_program_gives_the_same_bits_before_it_is_compiled_and_after(uniform: bool) -> None:
+    x = np.array(POINTS)
+    w = 1.7 if uniform else np.full(len(x), 1.7)
+    program = batch({"x": True, "w": not uniform}, noted(uniform=uniform))
+    found = [program(x, w).tobytes() for _ in range(4)]
+    assert "block" in vars(program.passes)
+    assert len(set(found)) == 1
+
+
+def test_a_pose_is_worked_out_without_compiling_and_a_cycle_is_compiled() -> None:
+    graph = Graph()
+    value: Value = graph.input("x")
+    for _ in range(17):  # which no other test compiles
+        value = sqrt(value + 3.0)
+    program = batch({"x": True}, [value])
+    program(np.array([0.3]))
+    assert "block" not in vars(program.passes)
+    program(np.linspace(0, 1, 720))
+    assert "block" in vars(program.passes)
+
+
 def test_an_operation_is_noted_once_however_often_it_is_written() -> None:
     graph = Graph()
     x, y = graph.input("x"), graph.input("y")
@@ -102,7 +124,7 @@ def test_buffers_are_reused_not_one_for_each_operation() -> None:
     for _ in range(50):
         value = sqrt(value * value + 1.0)
     program = batch({"x": True}, [value])
-    assert program.buffers <= 2
+    assert program.passes.buffers <= 2
     assert program(np.array([0.0]))[0, 0] == pytest.approx(math.sqrt(50.0))
 
 
@@ -113,7 +135,7 @@ def test_result_rows_serve_as_scratch_until_they_are_filled() -> None:
     outputs = [roots[n] * roots[(n + 3) % 8] for n in range(8)]
     program = batch({"x": True}, outputs)
     # Eight roots wait at once; as many places as rows are there for them.
-    assert program.buffers <= 3
+    assert program.passes.buffers <= 3
     at = 0.75
     found = program(np.array([at]))[:, 0]
     true = [math.sqrt((at * at + n) * (at * at + (n + 2) % 8 + 1)) for n in range(1, 9)]
@@ -139,9 +161,9 @@ def test_a_value_is_handed_down_to_its_result_in_one_place() -> None:
     # The first result is filled while `square` waits, which would strand what it is made of in that row.
     first, second = square + 1.0, square - sqrt(square + 2.0)
     program = batch({"x": True}, [first, sqrt(second * second + first)])
-    rows, work = ([np.empty(4).view(Watched) for _ in range(n)] for n in (2, program.buffers))
+    rows, work = ([np.empty(4).view(Watched) for _ in range(n)] for n in (2, program.passes.buffers))
     Watched.seen.clear()
-    program.block(np.ones(4), *program.constants, *rows, *work)
+    program.passes.block(np.ones(4), *program.constants, *rows, *work)
     # Only x², the first result and the second's first sum have no argument to be written over.
     assert Watched.seen.count(False) == 3
     assert rows[1][0] == math.sqrt((1 - math.sqrt(3)) ** 2 + 2)
@@ -150,7 +172,7 @@ def test_a_value_is_handed_down_to_its_result_in_one_place() -> None:
 @pytest.mark.parametrize("dyads", [2, 30])
 def test_a_longer_chain_needs_no_more_buffers(dyads: int) -> None:
     variant, kinds = Variant(by_phase=True, accelerates=False), ("position", "velocity", "acceleration")
-    assert mechanism(chain(dyads)).program(variant, kinds)[0].buffers <= 6
+    assert mechanism(chain(dyads)).program(variant, kinds)[0].passes.buffers <= 6
 
 
 @pytest.mark.parametrize("count", [1, 7, BLOCK, BLOCK + 3, 3 * BLOCK + 17])
