@@ -8,6 +8,7 @@ import os
 import shutil
 import signal
 import tempfile
+from collections import Counter
 from functools import cache
 
 import pytest
@@ -79,12 +80,19 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 
 def _leave_to_long_runs(items: list[pytest.Item]) -> None:
-    """Mark the cases of sampled tests about scenes beside the sample as long."""
+    """Mark as long what sampled tests have about other scenes, then what thinned ones leave out."""
+    seen = Counter[str]()
     for item in items:
         if item.get_closest_marker("sampled") and isinstance(item, pytest.Function):
             about = item.callspec.params
             if about.get("name", about.get("scene")) not in SAMPLE:
                 item.add_marker(pytest.mark.long)
+        thinned = item.get_closest_marker("thinned")
+        if thinned and not item.get_closest_marker("long"):
+            test = item.nodeid.split("[")[0]
+            if seen[test] % thinned.args[0]:
+                item.add_marker(pytest.mark.long)
+            seen[test] += 1
 
 
 def _mark_quick(items: list[pytest.Item]) -> None:

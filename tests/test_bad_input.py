@@ -1,6 +1,6 @@
 """Whatever is thrown at it, it answers in one line, or it has a scene that plays; in a second and 200 MB.
 
-800 cases as a rule, 20,000 with `pytest -m long`. Each is read in this process: what a command adds,
+320 cases as a rule, 20,000 with `pytest -m long`. Each is read in this process: what a command adds,
 its exit code and its one line, is tested in cli/test_exits.py, and has some 40 MB by then.
 """
 
@@ -32,8 +32,8 @@ from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
 from linkanim.scenes.toml import parse
 
-FEW, MANY = 200, 5_000
-"""Cases of each of the four tests: together 800, or 20,000 on request."""
+FEW, MANY = 80, 5_000
+"""Cases of each of the four tests: together 320, or 20,000 on request."""
 SECONDS, MEGABYTES = 1.0, 150
 """What each may take: processor time, and memory beside what was there before."""
 
@@ -307,6 +307,7 @@ MUCH_ALIKE = {
 """Those that another is much like."""
 
 
+@pytest.mark.thinned(2)
 @pytest.mark.withstands("bad inputs tried")
 @pytest.mark.parametrize(
     "text",

@@ -93,6 +93,7 @@ def test_the_search_answers(words: str) -> None:
     assert SOUGHT[words] in [one.chapter for one in manual.search([words])[:3]]
 
 
+@pytest.mark.thinned(3)
 @pytest.mark.slow
 @pytest.mark.skipif(shutil.which("chromium") is None, reason="needs a browser")
 @pytest.mark.parametrize("words", ["toggle", "GIF size", "six-bar"])

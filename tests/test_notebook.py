@@ -45,6 +45,7 @@ def texts(page: ElementTree.Element, tag: str) -> list[str]:
     return ["".join(cell.itertext()) for cell in page.iter(tag)]
 
 
+@pytest.mark.thinned(3)
 @pytest.mark.parametrize("name", ["press", "double-rocker", "scotch-yoke"])
 @pytest.mark.slow
 def test_a_scene_shows_the_page_that_moves_beside_its_facts(name: str, shown: Shown) -> None:

@@ -93,6 +93,7 @@ def _strips(name: str) -> tuple[Figure, dict[str, ChartPanel]]:
     return shown, {token: chart_panel(shown, token, window, pen) for token in _tokens(name)}
 
 
+@pytest.mark.thinned(3)
 @pytest.mark.parametrize("name", names())
 @pytest.mark.sampled
 def test_the_chart_shows_what_solve_prints(name: str, solved: Callable[..., str]) -> None:
@@ -117,6 +118,7 @@ def test_the_chart_shows_what_solve_prints(name: str, solved: Callable[..., str]
     assert compared >= 4 * len(MOTIONS)
 
 
+@pytest.mark.thinned(3)
 @pytest.mark.parametrize("name", names())
 @pytest.mark.sampled
 def test_the_hud_says_what_solve_prints_and_where_the_cursor_stands(
@@ -209,6 +211,7 @@ def _at(node: Any, path: tuple[str | int, ...]) -> float:
     return math.inf if node is None else float(node)
 
 
+@pytest.mark.thinned(3)
 @pytest.mark.parametrize("name", names())
 @pytest.mark.sampled
 def test_every_quantity_is_the_same_in_json_csv_chart_hud_and_api(name: str) -> None:

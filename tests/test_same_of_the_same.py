@@ -389,6 +389,7 @@ def asked_of_nothing(scene: Scene, phase: float, rng: Random) -> Iterator[str]:
 # --- the tests --------------------------------------------------------------------------------------
 
 
+@pytest.mark.thinned(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", FEW)
 def test_all_outputs_say_what_a_pose_says_beside_what_is_singular(name: str) -> None:

@@ -68,6 +68,7 @@ def _numbers(words: str) -> list[float]:
     return [float(found) for found in re.findall(r"-?\d+(?:\.\d+)?", words.replace("−", "-"))]
 
 
+@pytest.mark.thinned(3)
 @pytest.mark.parametrize(("name", "unit"), SHOWN)
 def test_hud_chart_arrows_names_table_and_json_agree(
     name: str, unit: str, capsys: pytest.CaptureFixture[str]

@@ -127,6 +127,22 @@ class Clutter:
         """The same at the moments at which places are chosen."""
         return self.at(slice(None, None, _STEP))
 
+    def of_label(self, label: LabelPlaces) -> tuple[_Bools, _Floats]:
+        """Return which places of a label have something on them, and what each costs (1, k).
+
+        That is for a picture of one moment, whose labels are tried in several orders.
+        """
+        if id(label) not in self._of_labels:
+            forbidden = ~_within(label.places, label.size, self.inside)
+            cost = _covering(label, self, forbidden)
+            self._of_labels[id(label)] = label, forbidden, cost
+        return self._of_labels[id(label)][1:]
+
+    @cached_property
+    def _of_labels(self) -> dict[int, tuple[LabelPlaces, _Bools, _Floats]]:
+        """The same by the label's identity; it is kept, so that no other one has that."""
+        return {}
+
     def at(self, moments: Moments) -> Clutter:
         """Return it at some of the moments."""
         return replace(self, solids=tuple(solid.at(moments) for solid in self.solids))
@@ -213,6 +229,8 @@ class Placer:
         return placed
 
     def _found(self, label: LabelPlaces, but: _Bools | None) -> Placed:
+        if len(label.places) == 1:
+            return self._found_at_once(label, but)
         every = slice(None, None, _STEP)
         cost = self._cost(label.at(every), every, self.clutter.some)
         if but is not None:
@@ -223,6 +241,14 @@ class Placer:
         else:
             cost = cost[:, which : which + 1]
         shown = _eased(cost[:, 0] >= _FORBIDDEN)
+        return Placed(which, shown if but is None else shown * _eased(but, 0))
+
+    def _found_at_once(self, label: LabelPlaces, but: _Bools | None) -> Placed:
+        """Return the place of a label on a picture of one moment."""
+        cost = self._cost(label, slice(None), self.clutter)
+        wanted = label.price + (cost[0] if but is None or not but[0] else 0.0)
+        which = int(wanted.argmin())
+        shown = _eased(cost[:, which] >= _FORBIDDEN)
         return Placed(which, shown if but is None else shown * _eased(but, 0))
 
     def _take(self, label: LabelPlaces, placed: Placed) -> None:
@@ -238,22 +264,15 @@ class Placer:
     def _cost(self, label: LabelPlaces, moments: Moments, clutter: Clutter) -> _Floats:
         """Return what each place costs at each moment: `_FORBIDDEN` for touching what it must not."""
         places, size = label.places, label.size
-        forbidden: _Bools = np.logical_not(_within(places, size, clutter.inside))
-        cost = np.zeros(places.shape)
         taken, placed_lines, measures = (
             all_[moments] if len(all_) > 1 else all_ for all_ in (self._taken, self._lines, self._measures)
         )
+        still = len(places) == 1
+        forbidden = (clutter.of_label(label)[0] if still else ~_within(places, size, clutter.inside)).copy()
         forbidden |= _over(places[:, :, None] - taken[:, None], size, self._sizes).any(axis=2)
         forbidden |= _cut(places, size, placed_lines, _THICK)
         forbidden |= _cut(places, size, measures, max(label.gap, _THICK))
-        minor = clutter.little.copy()
-        minor[[*label.beside]] = True
-        near = _near(places, size, clutter)
-        near[[*label.own]] = False
-        for touched in _touched(places, size, clutter, near & minor):
-            cost += _BESIDE * touched.sum(axis=2)
-        for touched in _touched(places, size, clutter, near & ~minor, but=forbidden):
-            forbidden |= touched.any(axis=2)
+        cost = clutter.of_label(label)[1].copy() if still else _covering(label, clutter, forbidden)
         free = ~forbidden.all(axis=0)
         lined = np.flatnonzero((label.drawn >= 0) & free) if label.drawn is not None else ()
         if label.drawn is not None and len(lined):
@@ -281,6 +300,21 @@ class Placer:
         barred |= _hits(taken, self._sizes, lines, _THICK).any(axis=1)
         starts = np.cumsum([0, *(group.shape[1] for group in groups[:-1])])
         return np.asarray(np.logical_or.reduceat(barred, starts, axis=1))
+
+
+def _covering(label: LabelPlaces, clutter: Clutter, forbidden: _Bools) -> _Floats:
+    """Return what places cost for solids below them (n, k); what they must not lie on is `forbidden`, too."""
+    places, size = label.places, label.size
+    cost = np.zeros(places.shape)
+    minor = clutter.little.copy()
+    minor[[*label.beside]] = True
+    near = _near(places, size, clutter)
+    near[[*label.own]] = False
+    for touched in _touched(places, size, clutter, near & minor):
+        cost += _BESIDE * touched.sum(axis=2)
+    for touched in _touched(places, size, clutter, near & ~minor, but=forbidden):
+        forbidden |= touched.any(axis=2)
+    return cost
 
 
 def place(labels: Sequence[LabelPlaces], clutter: Clutter) -> list[Placed]:

@@ -67,6 +67,7 @@ def _moments(name: str, count: int) -> Iterator[float]:
     yield from np.linspace(0.0, load(name).period, count, endpoint=False)
 
 
+@pytest.mark.thinned(3)
 @pytest.mark.parametrize(
     ("name", "size"), [(name, [(480, 270), (320, 180)][k % 2]) for k, name in enumerate(names())]
 )
@@ -83,6 +84,7 @@ def test_words_lie_on_nothing_that_ever_moves_there(name: str, size: tuple[int, 
             assert (_part(surface, rect) == BACKGROUND).all(), phase
 
 
+@pytest.mark.thinned(3)
 @pytest.mark.parametrize("name", names())
 @pytest.mark.sampled
 def test_all_that_is_drawn_lies_in_the_window(name: str) -> None:
@@ -190,6 +192,7 @@ PASSING = Overlay(
 
 
 # A chart beside the scene, or one below, leaves it little room; the key to the arrows is the lowest row.
+@pytest.mark.thinned(5)
 @pytest.mark.parametrize("size", [(640, 360), (720, 1280)])
 @pytest.mark.parametrize(
     ("name", "chart"), [("press", None), ("press", "H.velocity"), ("watt-1", "E.velocity")]
@@ -348,6 +351,7 @@ def test_what_has_no_extent_is_still_in_the_middle(points: list[complex], scale:
     assert arrangement.view.to_pixel(middle.real, middle.imag) == pytest.approx((640, 360))
 
 
+@pytest.mark.thinned(3)
 @pytest.mark.parametrize("size", [(320, 180), (640, 360), (720, 1280)])
 @pytest.mark.parametrize("name", ["press", "dwell-six-bar", "double-rocker"])
 def test_the_strip_lies_on_nothing_that_moves_or_is_said(name: str, size: tuple[int, int]) -> None:

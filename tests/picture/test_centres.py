@@ -49,6 +49,7 @@ def words_of(picture: Picture, phase: float) -> list[str]:
     return [line.text for group in picture.groups(pose) for line in group.captions]
 
 
+@pytest.mark.thinned(5)
 @pytest.mark.parametrize(("name", "labels"), MARKED)
 @pytest.mark.parametrize("phase", [0.0, 0.7, 2.1, 4.0])
 @pytest.mark.parametrize("names", [0, 1])
@@ -125,6 +126,7 @@ def test_the_curves_touch_in_the_coupler_s_centre(phase: float) -> None:
     assert np.ptp(moving.real) == pytest.approx(np.ptp(fixed.real) / 2, rel=0.02)
 
 
+@pytest.mark.thinned(3)
 @pytest.mark.parametrize("name", names())
 @pytest.mark.sampled
 def test_no_curve_runs_across_the_picture(name: str) -> None:

@@ -140,6 +140,7 @@ def chart_faults(name: str) -> Iterator[str]:
                 yield f"{token} has a stroke from edge to edge"
 
 
+@pytest.mark.thinned(3)
 @pytest.mark.parametrize("name", names())
 @pytest.mark.sampled
 def test_no_chart_has_a_stroke_or_words_at_an_infinity(name: str) -> None:

@@ -57,6 +57,7 @@ def test_a_figure_is_of_that_pose_unless_told_otherwise_and_its_caption_says_whe
     assert chosen.document() == Figured(scene, (320, 180), Look(), chosen.shown_phase).document()
 
 
+@pytest.mark.thinned(2)
 @pytest.mark.parametrize(
     "name", ["crank-rocker", "slider-crank", "kite", "crank-rocker-link3", "double-rocker"]
 )

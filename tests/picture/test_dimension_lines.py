@@ -191,6 +191,7 @@ def faults(name: str, size: tuple[int, int], theme: ThemeName, phase: float) -> 
     return [*misread(picture, pose), *covered(picture, pose), *twice(picture)]
 
 
+@pytest.mark.thinned(3)
 @pytest.mark.parametrize("name", names())
 @pytest.mark.sampled
 def test_no_dimension_line_is_misread(name: str) -> None:

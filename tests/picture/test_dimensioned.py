@@ -163,6 +163,7 @@ def _faults(picture: Picture, phase: float) -> Iterator[tuple[float, str]]:
     yield from ((round(phase, 2), words) for words in (*wrong(picture, pose), *touched(picture, pose)))
 
 
+@pytest.mark.thinned(3)
 @pytest.mark.parametrize("name", names())
 @pytest.mark.sampled
 def test_dimensions_and_words_are_in_their_places(name: str) -> None:

@@ -28,6 +28,7 @@ def looks(scene: Scene) -> dict[str, Look]:
     }
 
 
+@pytest.mark.thinned(6)
 @pytest.mark.parametrize("size", SIZES)
 @pytest.mark.parametrize("name", ["crank-rocker", "press", "driven-piston", "six-bar", "jansen"])
 def test_words_and_sign_stand_in_their_corners_in_every_look(name: str, size: tuple[int, int]) -> None:

@@ -156,6 +156,7 @@ SIZES = [(320, 180), (480, 270), (640, 360), (1280, 720), (400, 800)]
 
 
 # every scene at two sizes, one of them small, all sizes by many scenes
+@pytest.mark.thinned(4)
 @pytest.mark.parametrize(
     ("name", "size"),
     [(name, size) for k, name in enumerate(names()) for size in (SIZES[k % 2], SIZES[2 + k % 3])],

@@ -143,6 +143,7 @@ def test_gears_roll_on_each_other_and_their_teeth_mesh_at_every_angle(ratio: Fra
         assert reach == pytest.approx(abs(places["Q"] - places["O"]), abs=0.35 * 2 * 5 * _module(pair))
 
 
+@pytest.mark.thinned(2)
 @pytest.mark.parametrize("ratio", [Fraction(-1), Fraction(-1, 3), Fraction(-5, 2), Fraction(-9)])
 def test_teeth_touch_and_never_cut_into_each_other(ratio: Fraction) -> None:
     scene = geared(ratio)
@@ -391,6 +392,7 @@ def test_another_speed_keeps_the_arrows_length_and_only_velocity_turns_with_it(
     assert reaches[1] == pytest.approx(-reaches[0] if flips else reaches[0])
 
 
+@pytest.mark.thinned(5)
 @pytest.mark.parametrize("name", names())
 def test_every_moving_joint_has_its_arrow_and_its_name(name: str) -> None:
     """The slider, too; joints that lie on each other have one arrow."""

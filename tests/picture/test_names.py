@@ -34,6 +34,7 @@ def _gap(one: Rect, other: Rect) -> float:
     return max(across, one.y - other.bottom, other.y - one.bottom)
 
 
+@pytest.mark.thinned(4)
 @pytest.mark.parametrize(
     ("name", "size"),
     [(name, SIZES[1]) for name in names()]
@@ -78,6 +79,7 @@ def test_the_angle_s_arc_runs_as_far_as_the_hud_says(name: str) -> None:
             assert label.text not in ("θ₂", "θ₄") or not shown or away < turning.arc + 1.5 * label.size[1]
 
 
+@pytest.mark.thinned(3)
 @pytest.mark.parametrize("name", ["crank-rocker", "press", "double-rocker", "kite"])
 def test_no_name_jumps_from_frame_to_frame(name: str) -> None:
     """It goes along with what it names, and comes and goes in some frames."""
@@ -362,6 +364,7 @@ def test_words_at_an_edge_are_drawn_as_far_as_they_are_seen() -> None:
         assert pixels(surface).tobytes() != bare
 
 
+@pytest.mark.thinned(7)
 @pytest.mark.parametrize("size", [(640, 360), (1280, 720)])
 @pytest.mark.parametrize("level", [1, 2])
 @pytest.mark.parametrize("name", names())

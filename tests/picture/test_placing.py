@@ -63,6 +63,7 @@ def _links(painter: Picture, pose: Pose) -> Iterator[tuple[str, tuple[str, ...],
 SCENES = ("wiper", "roberts-line", "triple-rocker", "pumpjack", "hoecken", "jansen", "watt-1", "klann")
 
 
+@pytest.mark.thinned(3)
 @pytest.mark.parametrize("name", SCENES)
 def test_no_link_s_name_stands_on_another_link(name: str) -> None:
     """Where its middle is, nothing lies that is drawn over its own; off its own, no other link at all."""
@@ -234,6 +235,7 @@ def test_a_label_keeps_off_the_solids_that_it_shuns(corners: tuple[complex, ...]
     assert _one(heedful._replace(beside=frozenset([0])), clutter).which == which
 
 
+@pytest.mark.thinned(2)
 @pytest.mark.parametrize("turn", [1, np.exp(2.2j)])
 @pytest.mark.parametrize("corners", [1, 2, 5])
 def test_boxes_touch_what_reaches_into_them(corners: int, turn: complex) -> None:

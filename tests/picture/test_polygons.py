@@ -38,6 +38,7 @@ def words(group: Group) -> list[str]:
     return [caption.text for caption in group.captions]
 
 
+@pytest.mark.thinned(3)
 @pytest.mark.parametrize("size", [(720, 1280), (480, 270)])
 @pytest.mark.parametrize("name", FEW)
 def test_all_of_it_stays_in_its_place_whichever_way_it_runs(name: str, size: tuple[int, int]) -> None:
@@ -118,6 +119,7 @@ def test_a_symbol_stands_beside_the_vector_that_it_names(name: str, phase: float
                     assert min(abs(foot - middle) for foot in foots) < 0.5 * away + wide
 
 
+@pytest.mark.thinned(5)
 @pytest.mark.parametrize("name", ["whitworth", "crank-shaper", "six-bar", "press", "crank-rocker"])
 @pytest.mark.parametrize("phase", [0.4, 1.5, 3.1, 5.0])
 def test_in_a_figure_every_vector_is_named_once_and_the_pole_too(name: str, phase: float) -> None:
@@ -206,6 +208,7 @@ def test_what_rests_says_so() -> None:
         assert not any("mm/s" in text for text in words(group))
 
 
+@pytest.mark.thinned(3)
 @pytest.mark.parametrize("name", names())
 @pytest.mark.sampled
 def test_every_scene_has_both_at_any_pose(name: str) -> None:

@@ -39,6 +39,7 @@ def _bytes(surface: pygame.Surface) -> bytes:
     return bytes(surface.get_buffer().raw)
 
 
+@pytest.mark.thinned(3)
 @pytest.mark.parametrize(
     ("name", "theme"), [(name, ("light", "dark")[k % 2]) for k, name in enumerate(names())]
 )
@@ -449,7 +450,11 @@ def test_beside_an_open_list_no_words_are_measured(monkeypatch: pytest.MonkeyPat
 
 
 @pytest.mark.parametrize(
-    "name", ["epicyclic-hypocycloid", "six-bar", pytest.param("press", marks=pytest.mark.long)]
+    "name",
+    [
+        "epicyclic-hypocycloid",
+        *(pytest.param(name, marks=pytest.mark.long) for name in ("six-bar", "press")),
+    ],
 )
 @pytest.mark.slow
 def test_frames_in_any_order_are_those_that_a_fresh_printer_prints(name: str) -> None:

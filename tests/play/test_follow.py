@@ -67,6 +67,7 @@ def followed(state: State, frames: int) -> Iterator[tuple[State, Action]]:
         yield state, action
 
 
+@pytest.mark.thinned(3)
 @pytest.mark.parametrize("name", tracks())
 def test_every_slider_scene_is_a_track_that_its_ram_can_follow(name: str) -> None:
     scene = load(name)

@@ -76,6 +76,7 @@ def test_the_arrow_keys_go_to_the_level_above_and_below(steps: int, further: int
     assert str(begun.value).startswith(f"match level={known[3 + further]}")
 
 
+@pytest.mark.thinned(4)
 @pytest.mark.parametrize("name", LEVELS)
 def test_every_level_is_solved_by_its_tape_with_full_score(name: str) -> None:
     tape = read(TAPES / f"{name}.tape.json", game_of)

@@ -264,7 +264,7 @@ def test_a_dot_keeps_its_letter_where_answers_are_shuffled() -> None:
     assert [one.text for one in top.iter("shuffleanswers")] == ["false", "true"]
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_question_on_every_scene_is_written_for_both(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -63,6 +63,7 @@ def about_random(part: int, parts: int, scenes: int, count: int) -> list[str]:
     return [fault for scene in mine for fault in about(scene, count)]
 
 
+@pytest.mark.thinned(3)
 @pytest.mark.parametrize("name", names())
 @pytest.mark.sampled
 @pytest.mark.slow

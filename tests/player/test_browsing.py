@@ -329,6 +329,7 @@ MOVES = {
 on_the_shelf = pytest.mark.parametrize("event", MOVES.values(), ids=MOVES)
 
 
+@pytest.mark.thinned(3)
 @on_the_shelf
 def test_where_nothing_is_found_nothing_is_moved_to(
     player: Player, event: tuple[int, dict[str, Any]]
@@ -341,6 +342,7 @@ def test_where_nothing_is_found_nothing_is_moved_to(
     assert player.state.browsing == before
 
 
+@pytest.mark.thinned(7)
 @on_the_shelf
 @pytest.mark.parametrize("size", [(320, 120), (320, 60), (700, 2), (2, 700)])
 def test_a_window_too_low_for_a_whole_picture_is_scrolled(

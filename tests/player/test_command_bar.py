@@ -341,6 +341,7 @@ GESTURES: dict[str, tuple[tuple[str, ...], Callable[[State], object]]] = {
 }
 
 
+@pytest.mark.thinned(3)
 @pytest.mark.parametrize("task", GESTURES)
 def test_what_a_lecture_needs_is_three_gestures_of_the_mouse_away(here: Path, task: str) -> None:
     del here
@@ -480,6 +481,7 @@ def test_a_slider_that_goes_while_it_is_dragged_gives_a_share_all_the_same(rocke
     assert all(0.0 <= share_at(layout(SIZE), shown.buttons, number, 640.0) <= 1.0 for number in numbers)
 
 
+@pytest.mark.thinned(5)
 @pytest.mark.parametrize("size", [(640, 360), (1280, 720), (3840, 2160), (720, 1280)], ids=str)
 @pytest.mark.parametrize("name", ["crank-rocker", "press", "jansen"])
 def test_nothing_that_is_shown_for_long_is_under_the_bar(size: tuple[int, int], name: str) -> None:

@@ -27,6 +27,7 @@ def test_there_are_ten() -> None:
     assert len(STROKES) == 10
 
 
+@pytest.mark.thinned(3)
 @pytest.mark.parametrize("path", STROKES, ids=lambda path: path.name.partition(".")[0])
 def test_what_is_shown_of_a_stroke_is_compact_and_no_card_beats_it(path: Path) -> None:
     sketch, answers, shown = drawn(path)
@@ -44,6 +45,7 @@ def test_what_is_shown_of_a_stroke_is_compact_and_no_card_beats_it(path: Path) -
     assert all(max(one.off, 0.3) > 1.49 * shown.off for one in halves)
 
 
+@pytest.mark.thinned(3)
 @pytest.mark.parametrize("path", STROKES, ids=lambda path: path.name.partition(".")[0])
 def test_cards_differ_in_their_figures(path: Path) -> None:
     sketch, _, _ = drawn(path)

@@ -24,7 +24,8 @@ SCENES = (
     "crank-rocker", "slider-crank", "watt-1", "double-rocker", "jansen", "press", "whitworth", "scotch-yoke",
     "scissor-lift", "cardan-gears", "geared-five-bar-2-1",
 )  # fmt: skip
-EACH = 40
+EACH, QUICKLY = 40, 5
+"""So many sets of lengths of each scene, and in a quick run."""
 CLOSE = 1e-9
 """Of a linkage's longest link."""
 
@@ -159,14 +160,15 @@ def page(tmp_path_factory: pytest.TempPathFactory) -> Any:
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("sets", [QUICKLY, pytest.param(EACH, marks=pytest.mark.long)])
 @pytest.mark.parametrize("name", SCENES)
-def test_sliders_solve_as_solving_does(name: str, page: Page, tmp_path: Path) -> None:
+def test_sliders_solve_as_solving_does(name: str, sets: int, page: Page, tmp_path: Path) -> None:
     scene = load(name)
     found = model(scene)
     assert found
     page.go(put(tmp_path, Shared(scene)))
     random = Random(7)
-    wrong = [(n, fault) for n in range(EACH) for fault in faults(page, found, changed(found, random))]
+    wrong = [(n, fault) for n in range(sets) for fault in faults(page, found, changed(found, random))]
     assert wrong == []
     assert page.messages == []
     assert not any(one.startswith("http") for one in page.requests)

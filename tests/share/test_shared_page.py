@@ -237,6 +237,7 @@ def test_a_torque_that_is_not_bounded_is_told_to_be_so_and_only_there() -> None:
         assert found == pytest.approx(torque, rel=1e-2)
 
 
+@pytest.mark.thinned(2)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "token"),

@@ -219,6 +219,7 @@ FOUND: dict[str, tuple[Document, str]] = {
 }
 
 
+@pytest.mark.thinned(3)
 @pytest.mark.parametrize("name", FOUND)
 @pytest.mark.slow
 def test_what_could_once_not_be_made(name: str, tmp_path: Path) -> None:

@@ -129,6 +129,7 @@ FOUND = {
 }
 
 
+@pytest.mark.thinned(3)
 @pytest.mark.parametrize("name", FOUND)
 def test_what_sweeps_have_found_is_refused_or_runs(name: str) -> None:
     assert outcome(FOUND[name]).faults == ()

@@ -123,6 +123,7 @@ def test_every_answer_of_a_thousand_is_what_it_says() -> None:
             verify(fit, points)
 
 
+@pytest.mark.thinned(2)
 @pytest.mark.parametrize(("count", "noise"), [(64, 0.01), (2000, 0.001)])
 @pytest.mark.slow
 def test_points_that_are_not_exact_are_as_far_off_as_the_curve_is(count: int, noise: float) -> None:
@@ -140,8 +141,8 @@ def test_points_that_are_not_exact_are_as_far_off_as_the_curve_is(count: int, no
     assert np.ptp(best.angles) <= 2 * math.pi
 
 
+@pytest.mark.long
 @pytest.mark.skipif(sys.platform != "linux", reason="memory as Linux tells it")
-@pytest.mark.slow
 def test_a_curve_of_twenty_thousand_points_takes_no_more_memory_than_one_of_sixty(tmp_path: Path) -> None:
     points = curves("four-bar", 1, seed=11, points=20_000)[0]
     np.savetxt(tmp_path / "long.csv", as_pairs(points), delimiter=",")
@@ -156,7 +157,7 @@ def test_a_curve_of_twenty_thousand_points_takes_no_more_memory_than_one_of_sixt
     assert int(done.stdout.partition("VmHWM:")[2].split()[0]) < 300_000
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_point_to_be_passed_exactly_is_so_among_hundreds() -> None:
     points = curves("four-bar", 1, seed=11, points=420)[0]
     size = np.hypot(np.ptp(points.real), np.ptp(points.imag))
@@ -315,6 +316,7 @@ COGNATES: tuple[tuple[dict[str, Any], int], ...] = (
 )
 
 
+@pytest.mark.thinned(4)
 @pytest.mark.parametrize(("options", "count"), COGNATES, ids=[next(iter(one), "free") for one, _ in COGNATES])
 def test_cognates_keep_to_what_is_asked_for_and_run_the_way_that_was_drawn(
     options: dict[str, Any], count: int
@@ -396,6 +398,7 @@ LIMITS: dict[str, tuple[Any, Any]] = {
 
 
 # Limits that hold answers to the square back at once: they stand at the longest link, the angle and the box.
+@pytest.mark.thinned(2)
 @pytest.mark.parametrize("names", [("largest", "least_angle", "box"), ("pivots", "lengths")])
 @pytest.mark.slow
 def test_limits_are_kept(names: tuple[str, ...]) -> None:

@@ -27,7 +27,10 @@ SHAPES: dict[str, Complex] = {
 RUNS_WELL = math.radians(40)
 
 
-@pytest.fixture(scope="module", params=SHAPES)
+@pytest.fixture(
+    scope="module",
+    params=["D", *(pytest.param(name, marks=pytest.mark.long) for name in ("eight", "ellipse"))],
+)
 def front(request: pytest.FixtureRequest) -> tuple[Fit, ...]:
     """A shape's front, with the most exact answers known."""
     curve = stroke_of(SHAPES[request.param])
@@ -122,7 +125,7 @@ def test_the_way_along_a_front_has_small_steps(front: tuple[Fit, ...]) -> None:
     assert np.median(steps) < 0.25
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_preferred_answer_is_the_first_of_its_kind() -> None:
     points = curves("four-bar", 1, seed=61)[0]
     exact, compact, angle = (path(points, prefer=prefer) for prefer in ("exact", "compact", "angle"))

@@ -350,6 +350,7 @@ ODD = {
 }
 
 
+@pytest.mark.thinned(3)
 @pytest.mark.parametrize("name", ODD)
 def test_odd_sets_that_can_be_met_are_met(name: str) -> None:
     for one in linkanim.guide(ODD[name], count=1):
@@ -368,6 +369,7 @@ def test_a_pivot_whose_images_lie_in_line_is_refused() -> None:
 DRAGGED = [*((count, "four-bar") for count in (2, 3, 4, 5)), (3, "slider-crank")]
 
 
+@pytest.mark.thinned(3)
 @pytest.mark.parametrize(("count", "kind"), DRAGGED)
 def test_a_pose_that_is_dragged_takes_the_linkage_with_it(count: int, kind: str) -> None:
     rows = np.array(FIVE[:count])

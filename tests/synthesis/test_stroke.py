@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import cache
 from itertools import combinations
 from typing import Any
 
@@ -98,9 +99,16 @@ def told(numbers: Sequence[float]) -> list[PathAnswer]:
     return [answer_from(tuple(numbers[n:][:NUMBERS])) for n in range(0, len(numbers), NUMBERS)]
 
 
+@cache
+def replies() -> tuple[DrawnCurve, list[Reply]]:
+    """Return a stroke and what is told of it."""
+    curve = stroke_of(curves("four-bar", 1, seed=54)[0])
+    return curve, followed(curve)[1]
+
+
 @pytest.mark.slow
 def test_replies_to_a_stroke_are_one_answer_and_then_several_that_differ() -> None:
-    _, (first, early, whole) = followed(stroke_of(curves("four-bar", 1, seed=54)[0]))
+    _, (first, early, whole) = replies()
     assert (first.whole, len(first.numbers), early.whole, whole.whole) == (False, NUMBERS, True, True)
     answers = told(whole.numbers)
     assert 1 < len(answers) <= COUNT
@@ -112,8 +120,7 @@ def test_replies_to_a_stroke_are_one_answer_and_then_several_that_differ() -> No
 
 @pytest.mark.slow
 def test_the_answer_that_is_shown_stays_when_more_come_and_the_way_goes_from_exact_to_compact() -> None:
-    curve = stroke_of(curves("four-bar", 1, seed=54)[0])
-    _, (_, early, whole) = followed(curve)
+    curve, (_, early, whole) = replies()
     before, shown = told(early.numbers)[early.chosen], told(whole.numbers)[whole.chosen]
     assert np.abs(np.subtract(before.row, shown.row)).max() < 0.05 * curve.size
     way = told(whole.way)
@@ -138,7 +145,7 @@ def test_what_is_dragged_is_followed_and_stays_shown_among_the_others() -> None:
     assert np.abs(np.subtract(shown.row, told(again.numbers)[0].row)).max() < 0.05 * moved.size
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_an_answer_that_is_dragged_to_where_it_is_poor_gives_way_to_a_good_one() -> None:
     """A quarter of the size off beside cards of three percent is nobody's choice."""
     curve = stroke_of(curves("four-bar", 1, seed=55)[0])

@@ -175,6 +175,7 @@ def test_crosses_of_neighbouring_pages_lie_over_each_other() -> None:
     assert set(places.values()) == {2}
 
 
+@pytest.mark.thinned(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["crank-rocker", "press", "scotch-yoke", "cardan-gears"])
 def test_every_body_is_watertight_and_as_thick_as_the_material(name: str) -> None:

@@ -68,6 +68,7 @@ CASES = [
 ]
 
 
+@pytest.mark.thinned(5)
 @pytest.mark.parametrize("scene", CASES)
 def test_teeth_touch_over_a_pitch_without_overlap(scene: Scene) -> None:
     _, (one, other), play = toothed(scene, bar=12.0, hole=3.0) if scene.name == "train" else toothed(scene)

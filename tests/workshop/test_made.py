@@ -274,6 +274,7 @@ def test_the_public_name_makes_a_value_that_refuses_to_be_written(tmp_path: Any)
 FEW = ("crank-rocker", "drag-link", "press", "scotch-yoke")
 
 
+@pytest.mark.thinned(2)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     "name", [*FEW, *(pytest.param(name, marks=pytest.mark.long) for name in names() if name not in FEW)]
@@ -302,6 +303,7 @@ def test_nothing_that_is_made_meets_anything_else_of_its_layer(name: str) -> Non
         assert list(Solids(scene, made, 720).overlaps()) == []
 
 
+@pytest.mark.thinned(2)
 @pytest.mark.parametrize("name", ["press", "cardan-gears", "scotch-yoke", "drag-link", "jansen"])
 def test_what_is_held_apart_covers_the_whole_plate(name: str) -> None:
     for plate in make(load(name), bridge=True).plates:

@@ -22,6 +22,7 @@ from linkanim.workshop.request import make
 from linkanim.workshop.sheet import Sheet
 
 
+@pytest.mark.thinned(3)
 @pytest.mark.parametrize("name", ["press", "crank-shaper", "drag-link", "cardan-gears"])
 def test_every_part_is_listed_and_put_on_once_in_the_order_of_layers(name: str) -> None:
     made = make(load(name), fit="A4", bridge=True)
