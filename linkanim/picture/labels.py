@@ -600,16 +600,6 @@ def names_of(
     return Names(placed, *found, table, () if table else rows, setting.view.scale, _lacking(left))
 
 
-def placed_at_once(steps: Generator[None, None, Names]) -> Names:
-    """Return the names, all of their steps taken."""
-    while True:
-        try:
-            next(steps)
-        except StopIteration as done:
-            found: Names = done.value
-            return found
-
-
 Attempt = tuple[Placer, tuple[Label, ...], tuple[Label, ...]]
 """What has been placed, where, and what is left over for some of the time or for all of it."""
 

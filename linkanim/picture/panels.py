@@ -5,7 +5,7 @@ The help has as many columns as the window has room for. Chips are words that co
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
 from itertools import chain, product
 from math import ceil, floor
 from typing import Any
@@ -23,6 +23,7 @@ from linkanim.picture.raster import Colour, Layer, Loop, paint
 from linkanim.picture.shapes import box, disc, stroke
 from linkanim.picture.theme import ORANGE, mixed
 from linkanim.picture.view import Rect
+from linkanim.steps import at_once
 
 # Words that come and go: a chip that answers a key, what there is to press, sentences; and where.
 
@@ -236,6 +237,8 @@ _WIDEST = 0.97
 """The most of its room that the help takes."""
 _LEAST = 9
 """The smallest text that can be read, in pixels."""
+_LINES_IN_STEP = 12
+"""So many lines are drawn in a step where it is drawn beforehand."""
 
 
 class _Line(NamedTuple):
@@ -267,16 +270,23 @@ def help_sheet(board: Board, shown: tuple[Help, int]) -> pygame.Surface:
 
     Where not all of it can be read there, it has the window's height; what has no room there is left out.
     """
-    laid = _help_laid(board, shown)
+    return at_once(_help_in_steps(board, shown))
+
+
+def _help_in_steps(board: Board, shown: tuple[Help, int]) -> Generator[None, None, pygame.Surface]:
+    laid = yield from _help_laid(board, shown)
     sheet = board.sheet(laid.wide, laid.high)
     for column, x in _help_columns(laid):
-        _draw(board, sheet, column, x, laid.size)
+        for n, line in enumerate(column.lines):
+            if n % _LINES_IN_STEP == 0:
+                yield
+            _draw(board, sheet, column, line, (x, (0.9 + _STEP * n) * laid.size), laid.size)
     return sheet
 
 
 def help_line_at(board: Board, shown: tuple[Help, int], x: float, y: float) -> str | None:
     """Return the keys of the line at a place of the help's sheet; None where there is none."""
-    laid = _help_laid(board, shown)
+    laid = at_once(_help_laid(board, shown))
     number = floor((y / laid.size - 0.9) / _STEP + 0.12)
     for column, left in _help_columns(laid):
         inside = left <= x <= left + column.keys + column.does + _HELP_GAP * laid.size
@@ -287,7 +297,7 @@ def help_line_at(board: Board, shown: tuple[Help, int], x: float, y: float) -> s
     return None
 
 
-def _help_laid(board: Board, shown: tuple[Help, int]) -> _Laid:
+def _help_laid(board: Board, shown: tuple[Help, int]) -> Generator[None, None, _Laid]:
     groups, room = shown
     wide, (above, whole) = _WIDEST * room, (board.layout.above_bar, board.layout.size[1])
     ways = [(above, _ways(board, groups, wide)), (whole, _ways(board, groups, wide))]
@@ -296,6 +306,7 @@ def _help_laid(board: Board, shown: tuple[Help, int]) -> _Laid:
         for laid in every:
             if laid.wide <= wide + 1 and laid.high <= _WIDEST * high:
                 return laid
+            yield
     return laid
 
 
@@ -358,13 +369,18 @@ def _broken(board: Board, line: _Line, size: int, room: float) -> Iterator[_Line
     yield from (_Line("", more) for more in rest)
 
 
-def _draw(board: Board, sheet: pygame.Surface, column: _Column, x: float, size: int) -> None:
-    for n, line in enumerate(column.lines):
-        y = (0.9 + _STEP * n) * size
-        colour = board.theme.velocity if line.heading else board.theme.ink
-        board.write(sheet, line.keys, (x, y), size=size, colour=colour, strong=True)
-        at = (x + column.keys + _HELP_GAP * size, y)
-        board.write(sheet, line.does, at, size=size, colour=board.theme.dim)
+def _draw(
+    board: Board,
+    sheet: pygame.Surface,
+    column: _Column,
+    line: _Line,
+    at: tuple[float, float],
+    size: int,
+) -> None:
+    colour = board.theme.velocity if line.heading else board.theme.ink
+    board.write(sheet, line.keys, at, size=size, colour=colour, strong=True)
+    beside = at[0] + column.keys + _HELP_GAP * size, at[1]
+    board.write(sheet, line.does, beside, size=size, colour=board.theme.dim)
 
 
 # The list of quantities: their words and symbols, what has been typed to sift them, the chosen one.
@@ -384,8 +400,14 @@ def quantity_list(board: Board, shown: Quantities) -> pygame.Surface:
     count = f"{shown.chosen + 1} of {len(shown.rows)}" if shown.rows else "0"
     typed = (f"{shown.sieve}_", board.theme.velocity) if shown.sieve else (shown.title, board.theme.ink)
     board.head(sheet, size, typed[0], count, typed[1])
-    for n, row in enumerate(rows):
-        _quantity_row(board, sheet, shown, row, size, (0.9 + STEP * (n + 1)) * size)
+    places = [(row, (0.9 + STEP * (n + 1)) * size) for n, row in enumerate(rows)]
+    for row, y in places:
+        if behind := board.behind(row, shown.chosen, shown.pointed):
+            board.bar(sheet, y, size, behind)
+    if shown.boxes:
+        _boxes(board, sheet, [(y, shown.boxes[row]) for row, y in places], size)
+    for row, y in places:
+        _quantity_row(board, sheet, shown, row, size, y)
     if not shown.rows:
         at = (1.2 * size, (0.9 + STEP) * size)
         board.write(sheet, "no name contains that", at, size=size, colour=board.theme.warning)
@@ -436,13 +458,8 @@ def _rows_and_hint(board: Board, shown: Quantities) -> tuple[range, list[str]]:
 def _quantity_row(
     board: Board, sheet: pygame.Surface, shown: Quantities, row: int, size: int, y: float
 ) -> None:
-    behind = board.behind(row, shown.chosen, shown.pointed)
-    if behind:
-        board.bar(sheet, y, size, behind)
     begin = (_BOX if shown.boxes else 1.2) * size
     (words, symbol), room = shown.rows[row], sheet.get_width() - begin - 1.2 * size
-    if shown.boxes:
-        _box(board, sheet, complex(1.6 * size, y + 0.55 * size), size, ticked=shown.boxes[row])
     left = room - board.type.width(words, size) - size
     ways = (symbol, symbol.rpartition(" = ")[2])
     symbol = next((text for text in ways if board.type.width(text, size) <= left), "")
@@ -452,17 +469,23 @@ def _quantity_row(
     board.write(sheet, board.fitting((words,), size, room), (begin, y), size=size)
 
 
-def _box(board: Board, sheet: pygame.Surface, at: complex, size: int, *, ticked: bool) -> None:
-    """Draw a box about a place, ticked or empty."""
+def _boxes(board: Board, sheet: pygame.Surface, rows: Sequence[tuple[float, bool]], size: int) -> None:
+    """Draw a box in each row, ticked or empty, all of them at once."""
     line = max(0.09 * size, 1.0)
-    edge, inside = (at + box(wide, wide, 0.15 * size) for wide in (0.86 * size, 0.86 * size - 2 * line))
-    layers = [Layer(board.theme.velocity if ticked else board.theme.dim, [edge])]
-    if ticked:
-        tick = at + size * np.array([-0.24 + 0.02j, -0.07 + 0.2j, 0.26 - 0.2j])
-        layers.append(Layer(board.theme.panel, stroke(tick, 0.14 * size)))
-    else:
-        layers.append(Layer(board.theme.panel, [inside]))
-    paint(sheet, layers)
+    edge, inside = (box(wide, wide, 0.15 * size) for wide in (0.86 * size, 0.86 * size - 2 * line))
+    tick = size * np.array([-0.24 + 0.02j, -0.07 + 0.2j, 0.26 - 0.2j])
+    ticked, empty = (
+        [complex(1.6 * size, y + 0.55 * size) for y, is_ticked in rows if is_ticked is wanted]
+        for wanted in (True, False)
+    )
+    theme, ticks = board.theme, (stroke(at + tick, 0.14 * size) for at in ticked)
+    layers = [
+        Layer(theme.velocity, [at + edge for at in ticked]),
+        Layer(theme.panel, [loop for one in ticks for loop in one]),
+        Layer(theme.dim, [at + edge for at in empty]),
+        Layer(theme.panel, [at + inside for at in empty]),
+    ]
+    paint(sheet, [layer for layer in layers if layer.loops])
 
 
 # What lies over the picture: the help, the edit list, a toast, the marks of pause and recording.
@@ -527,6 +550,13 @@ class Panels:
             return None
         room = self.board.layout.size[0] - left
         return help_line_at(self.board, (overlay.help, room), x - place.x, y - place.y) or ""
+
+    def prepared(self, shown: Help) -> Iterator[None]:
+        """Draw the help in steps, to be there when it is asked for."""
+        wanted = shown, self.board.layout.size[0]
+        if self._kept.get((help_sheet, None), (None,))[0] != wanted:
+            drawn = yield from _help_in_steps(self.board, wanted)
+            self._kept[help_sheet, None] = wanted, drawn
 
     def _list(self, surface: pygame.Surface, make: Any, shown: object) -> int:
         """Draw a list, if one is open; return how much of the window's left it takes at the top."""

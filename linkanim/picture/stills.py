@@ -10,11 +10,12 @@ from numpy.typing import NDArray
 
 from linkanim.mechanics.linkage import DrivenSlider
 from linkanim.picture.figure import Figure, figure
-from linkanim.picture.labels import TRIES, Surroundings, names_of, placed_at_once
+from linkanim.picture.labels import TRIES, Surroundings, names_of
 from linkanim.picture.look import Look
 from linkanim.picture.motion_marks import motion_of
 from linkanim.picture.picture import Deferral, Picture
 from linkanim.scenes.scene import Scene
+from linkanim.steps import at_once
 
 _USUAL = 60.0
 """The input's angle that textbooks draw, in degrees."""
@@ -64,7 +65,7 @@ def _left_over(picture: Picture, phase: float, *, more: bool) -> tuple[int, int]
     centres = picture.drawing.dead_centres_in(setting.view)
     ground = Surroundings(setting, motion_of(setting), phase, centres.ticks if centres else (), angled=True)
     steps = names_of(ground, picture.drawing.symbols, centres, TRIES if more else 0)
-    return placed_at_once(steps).lacking
+    return at_once(steps).lacking
 
 
 def _tried(shown: Figure) -> list[float]:

@@ -13,7 +13,7 @@ from linkanim.mechanics.motion import Pose
 from linkanim.picture.board import Board
 from linkanim.picture.build_sheet import SHEET
 from linkanim.picture.items import Caption, Group, flat
-from linkanim.picture.overlay import Overlay
+from linkanim.picture.overlay import Help, Overlay
 from linkanim.picture.panels import Panels
 from linkanim.picture.picture import Picture
 from linkanim.picture.raster import Cover, Shapes, covers, in_turn, is_clear, keep_memory, paints
@@ -80,6 +80,10 @@ class SurfacePrinter:
         self._panels_of(picture).draw(canvas, overlay)
         if canvas is not surface:
             surface.blit(canvas, (0, 0))
+
+    def prepared(self, picture: Picture, shown: Help) -> Iterator[None]:
+        """Have the help of a picture there when it is asked for, in steps."""
+        yield from self._panels_of(picture).prepared(shown)
 
     def row_at(self, picture: Picture, overlay: Overlay, x: float, y: float) -> int | None:
         """Return the row of the open list under a pixel, -1 on the list beside them; None off it."""

@@ -40,12 +40,13 @@ from linkanim.picture.tools import ToolPrinter, tool_at
 from linkanim.picture.view import Rect
 from linkanim.player.action import Action
 from linkanim.player.framing import Fade, Framing
+from linkanim.player.keys import help_groups
 from linkanim.player.pointing import Pointed, PointedThing, thing_at
 from linkanim.player.posing import has_room
 from linkanim.player.posing import under as posed_under
 from linkanim.player.shown import Hover
-from linkanim.player.state import PIVOTS, State, driven_bar
-from linkanim.scenes.editing import handles
+from linkanim.player.state import PIVOTS, State, driven_bar, proved
+from linkanim.scenes.editing import ghost_of, handles
 
 # The display: a window on a screen that is really there.
 
@@ -268,6 +269,8 @@ class Screen:
         self.over = Overlay()
         self._row, self._tools, self._bar = RowPrinter(), ToolPrinter(), BarPrinter()
         self._pointer: object = None
+        self._prepared: Picture | None = None
+        self._preparing: Iterator[None] = iter(())
 
     def show(self, state: State, over: Overlay, *, late: bool = False) -> None:
         """Paint the state into the window and flip, where it differs from what is there.
@@ -290,6 +293,32 @@ class Screen:
             self._fade.draw(surface, veiled, over.shutter)
             pygame.display.flip()
             self._shown = shown
+
+    def prepare(self, state: State) -> None:
+        """Do a step of what the next key may ask for, in a frame in which nothing happens.
+
+        What is found is kept where it would be looked up; the picture of a key is the same without it.
+        """
+        if state.mode not in ("play", "paused") or state.held or state.grasp or state.glide:
+            return
+        picture, before = self._framing.last, self._prepared
+        if picture is not before:
+            self._prepared, self._preparing = picture, self._ahead(state, picture)
+            return
+        with suppress(Exception):  # the key itself meets it again, and tells it
+            next(self._preparing, None)
+
+    def _ahead(self, state: State, picture: Picture) -> Iterator[None]:
+        """Find what the keys will ask for: the other closure, quantities to chart, polygons, help."""
+        other = ghost_of(state.scene)
+        yield
+        if other:
+            proved(other, 0.0)
+            yield
+        yield from state.scene.finding_telling()
+        _ = picture.fit.subject.figure.polygon_boxes
+        yield
+        yield from self._printer.prepared(picture, help_groups(state.mode, pad=state.pad))
 
     def _paint(self, surface: pygame.Surface, picture: Picture, state: State, over: Overlay) -> None:
         if over.shelf:

@@ -140,6 +140,8 @@ class Window:
             self._speaker.play(cue)
         self._show()
         self._halving.end()
+        if not events:
+            self.screen.prepare(self.state)
         return self._open
 
     def fill(self) -> None:

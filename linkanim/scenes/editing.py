@@ -343,6 +343,9 @@ def _read_in(scene: Scene, unit: str) -> Scene:
 # The other closure: the same lengths, put together the other way.
 
 
+_OTHER_CLOSURE = "other closure"
+
+
 class _Choice(NamedTuple):
     """Where a document says which closure holds, which it is, and which is the other."""
 
@@ -357,6 +360,8 @@ def other_closure(scene: Scene) -> Scene:
     Of several loops it is the one nearest the input. AssemblyError where there is no second closure,
     or where it cannot be assembled further down the chain.
     """
+    if kept := scene.elsewhere.pop(_OTHER_CLOSURE, None):
+        return kept
     choice = _choice(scene)
     if choice is None:
         raise AssemblyError(f"{scene.name} has no second closure: no loop of it can be put together two ways")
@@ -383,11 +388,15 @@ def closure_name(scene: Scene) -> str | None:
 
 
 def ghost_of(scene: Scene) -> Scene | None:
-    """Return the other closure, to be drawn behind this one; None where there is none."""
+    """Return the other closure, to be drawn behind this one; None where there is none.
+
+    It is kept until it is asked for as a scene of its own.
+    """
     try:
-        return other_closure(scene)
+        scene.elsewhere[_OTHER_CLOSURE] = other_closure(scene)
     except LinkanimError:
         return None
+    return scene.elsewhere[_OTHER_CLOSURE]
 
 
 def _choice(scene: Scene) -> _Choice | None:

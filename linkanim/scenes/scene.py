@@ -9,7 +9,7 @@ Its parts, in reading order:
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
@@ -149,6 +149,14 @@ class Scene:
 
         return key_quantities(self.cycle(self.mechanism.count(96)), self.trace)
 
+    def finding_telling(self) -> Iterator[None]:
+        """Find what is `telling` in small steps."""
+        from linkanim.mechanics.quantities import finding_key_quantities
+
+        if "telling" not in vars(self):
+            found = yield from finding_key_quantities(self.cycle(self.mechanism.count(96)), self.trace)
+            vars(self)["telling"] = found
+
     @cached_property
     def length_step(self) -> float:
         """The step in which its lengths are told: a power of ten, some three thousandth of the longest."""
@@ -156,7 +164,7 @@ class Scene:
 
     @cached_property
     def elsewhere(self) -> dict[str, Scene]:
-        """The scene in other units of length, as far as `in_unit` was asked for them."""
+        """The scene in other units of length, and on its "other closure", as far as they were asked for."""
         return {}
 
     @cached_property

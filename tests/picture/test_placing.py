@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -21,21 +21,15 @@ from linkanim.picture.placing import (
     Clutter,
     LabelPlaces,
     Placed,
-    Placer,
     Solid,
     Solids,
+    place,
     placed_among,
     touching,
 )
 from linkanim.picture.shapes import hull
 from linkanim.picture.view import Rect
 from linkanim.scenes import load
-
-
-def place(labels: Sequence[LabelPlaces], clutter: Clutter) -> list[Placed]:
-    """Return a place for each label; the first have the first choice."""
-    placer = Placer(clutter)
-    return [placer.first([label])[1] for label in labels]
 
 
 def _off(point: complex, corners: list[complex]) -> float:
@@ -295,7 +289,7 @@ def test_labels_of_one_moment_stand_where_they_would_one_after_the_other(seed: i
     """What all of them are held to at once is what each is held to alone: the room, words, lines, others."""
     chance, room, half = np.random.default_rng(seed), Rect(0, 0, 300, 200), 1.5
     ends = chance.uniform(0, 300, (12, 2)) + 1j * chance.uniform(0, 200, (12, 2))
-    rects = [Rect(*corner, 40, 15) for corner in chance.uniform(0, 180, (3, 2))]
+    rects = [Rect(x, y, 40, 15) for x, y in chance.uniform(0, 180, (3, 2)).tolist()]
     labels = []
     for count in chance.integers(1, 12, 30):
         places = chance.uniform(-10, 310, (1, count)) + 1j * chance.uniform(-10, 210, (1, count))

@@ -1,0 +1,104 @@
+"""What the next key may ask for is prepared while nothing happens, and changes no picture."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import pygame
+import pytest
+from playing import SIZE, Player
+
+from linkanim.player import screen
+from linkanim.player.state import begin
+from linkanim.scenes import load
+from linkanim.scenes.editing import other_closure
+from linkanim.scenes.scene import Scene
+
+LONG = 400
+"""So many frames in which nothing happens are enough to prepare everything."""
+
+
+def fresh(name: str) -> Scene:
+    """A scene of which nothing is worked out yet."""
+    return replace(load(name))
+
+
+def quiet(player: Player, frames: int = LONG) -> None:
+    for _ in range(frames):
+        player.tick()
+
+
+@pytest.fixture
+def rested(here: object) -> Iterator[Player]:
+    """A window that was left alone for a while."""
+    del here
+    with screen.opened(SIZE):
+        player = Player(begin(fresh("crank-rocker")))
+        quiet(player)
+        yield player
+        player.window.close()
+
+
+def test_what_keys_ask_for_is_there_after_a_while(rested: Player) -> None:
+    scene, picture = rested.state.scene, rested.window.screen._framing.last
+    assert vars(scene)["telling"] == fresh("crank-rocker").telling
+    assert "polygon_boxes" in vars(picture.fit.subject.figure)
+    kept = scene.elsewhere["other closure"]
+    assert kept == other_closure(fresh("crank-rocker"))
+    rested.type("b")
+    assert rested.state.scene is kept
+    assert "other closure" not in scene.elsewhere  # or undo would hold on to a chain of them
+
+
+def test_the_help_is_drawn_before_it_is_asked_for(rested: Player) -> None:
+    panels = rested.window.screen._printer._panels
+    assert panels is not None
+    (drawn,) = [sheet for (make, _), (_, sheet) in panels._kept.items() if make.__name__ == "help_sheet"]
+    rested.type("h")
+    shown = [sheet for (make, _), (_, sheet) in panels._kept.items() if make.__name__ == "help_sheet"]
+    assert shown == [drawn]
+
+
+@pytest.mark.parametrize("key", "bckph")
+def test_a_picture_is_the_same_where_nothing_was_prepared(
+    here: object, key: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    del here
+    found = []
+    for prepares in (True, False):
+        with screen.opened(SIZE):
+            if not prepares:
+                monkeypatch.setattr(screen.Screen, "prepare", lambda *_: None)
+            player = Player(begin(fresh("six-bar")))
+            quiet(player)
+            player.type(key)
+            found.append(player.pixels)
+            player.window.close()
+    assert found[0] == found[1]
+
+
+def test_a_fault_in_what_is_prepared_is_met_by_the_key_alone(
+    here: object, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    del here
+
+    def broken(*_: object) -> None:
+        raise ZeroDivisionError("a hole in the solver")
+
+    with screen.opened(SIZE):
+        player = Player(begin(fresh("crank-rocker")))
+        monkeypatch.setattr(screen, "ghost_of", broken)
+        quiet(player, 5)
+        assert not player.window._reported
+        player.window.close()
+
+
+def test_a_moving_mouse_leaves_no_time_to_prepare(here: object) -> None:
+    del here
+    with screen.opened(SIZE):
+        player = Player(begin(fresh("crank-rocker")))
+        for step in range(30):
+            player.mouse(pygame.MOUSEMOTION, (20 + step, 20), rel=(1, 0), buttons=(0, 0, 0))
+        assert "telling" not in vars(player.state.scene)
+        player.window.close()
