@@ -44,6 +44,8 @@ _LINES = 2
 """The most lines of a title, and of the sentence at the foot."""
 _HEADING = 1.2
 """The size of a heading, in that of a title."""
+_TRACK = 1.6
+"""The width of what the shelf is scrolled on, in heights of a title."""
 _CHOSEN_TURNS = 2
 _AT_ONCE = 5
 """The chosen picture moves at every second frame; of the others so many at each, in turns."""
@@ -57,7 +59,7 @@ class Grid(NamedTuple):
     """Where what is in sight of a shelf stands: places by the numbers of their mechanisms, headings, words.
 
     `rows` are all rows of numbers, from top to bottom; the first in sight is that numbered `top`. What
-    reaches below the `room` is cut off there.
+    reaches below the `room` is cut off there. On the `track` it is scrolled, if not all is in sight.
     """
 
     cells: dict[int, Rect]
@@ -67,6 +69,7 @@ class Grid(NamedTuple):
     room: Rect
     line: float
     text: int
+    track: Rect | None = None
 
     def at(self, x: float, y: float) -> int | None:
         """Return the mechanism under a pixel; None between the pictures."""
@@ -83,6 +86,24 @@ class Grid(NamedTuple):
         here = next((n for n, row in enumerate(self.rows) if place in row), 0)
         row = self.rows[(here + rows) % len(self.rows)]
         return row[min(self.rows[here].index(place), len(row) - 1)] if place in self.rows[here] else row[0]
+
+    @property
+    def seen(self) -> range:
+        """The rows that are in sight, at least one of them from top to bottom."""
+        last = next((n for n in range(self.top, len(self.rows)) if not self.whole(self.rows[n][0])), None)
+        return range(self.top, max(len(self.rows) if last is None else last, self.top + 1))
+
+    @property
+    def step(self) -> float:
+        """From row to row, in pixels."""
+        tops = sorted({cell.y for cell in self.cells.values()})
+        return max(tops[1] - tops[0] if len(tops) > 1 else self.room.height, 1.0)
+
+    def led_to(self, y: float) -> int:
+        """Return which row is the first in sight where the knob's middle is led down to a pixel."""
+        track, count = self.track or self.room, len(self.rows)
+        share = (y - track.y) / max(track.height, 1.0)
+        return min(max(round(share * count - len(self.seen) / 2), 0), max(count - 1, 0))
 
     def whole(self, place: int) -> bool:
         """Whether a mechanism's place is in sight from top to bottom."""
@@ -111,10 +132,12 @@ class _Shape:
         unit = parts.unit
         self.text = max(round(15.0 * unit), 11)
         edge = max(14.0 * unit, 4.0)
-        wide, high = (max(side, 1.0) for side in (size[0] - 2 * edge, parts.above_bar - 5.4 * self.text))
+        strip = _TRACK * self.text
+        wide, high = (max(side, 1.0) for side in (size[0] - edge - strip, parts.above_bar - 5.4 * self.text))
         self._room = Rect(edge, 2.4 * self.text, wide, high)
+        self._track = Rect(self._room.right, self._room.y, strip, high)
         self._gap, least = max(12.0 * unit, 4.0), max(_WIDE[0] * unit, _WIDE[1])
-        columns = max(int((self._room.width + self._gap) / (least + self._gap)), 1)
+        columns = max(int((size[0] - 2 * edge + self._gap) / (least + self._gap)), 1)
         self._wide = (self._room.width - (columns - 1) * self._gap) / columns
         self.line = (1.2 * _LINES + 0.3) * self.text
         groups = [
@@ -141,7 +164,8 @@ class _Shape:
                 cells[place] = Rect(x, y, self._wide, high)
             y += high + self._gap
         seen = tuple(one for one in heads if one[1].bottom <= self._room.bottom)
-        return Grid(cells, seen, self.rows, top, self._room, self.line, self.text)
+        found = Grid(cells, seen, self.rows, top, self._room, self.line, self.text)
+        return found if len(found.seen) >= len(self.rows) else found._replace(track=self._track)
 
 
 def _chapter(browsing: Browsing, place: int) -> str:
@@ -282,7 +306,20 @@ def _still(size: tuple[int, int], board: Board, found: Grid, browsing: Browsing)
         entry = browsing.entries[n]
         _title(still, board, named[entry] if isinstance(entry, str) else entry.title, cell, found)
     still.fill(board.theme.background, pygame.Rect(0, int(found.room.bottom), *size))
+    if found.track:
+        paint(still, _scroll_bar(board, found, found.track))
     return still
+
+
+def _scroll_bar(board: Board, found: Grid, track: Rect) -> list[Layer]:
+    """Return which of the rows are in sight, on their track."""
+    wide, count, x = 0.34 * found.text, len(found.rows), track.middle.real
+    begin, end = (track.y + track.height * row / count for row in (found.seen.start, found.seen.stop))
+    whole, part = (
+        complex(x, (top + foot) / 2) + box(wide, foot - top, wide / 2)
+        for top, foot in ((track.y, track.bottom), (begin, max(end, begin + 2 * wide)))
+    )
+    return [Layer(board.theme.rule, [whole]), Layer(board.theme.dim, [part])]
 
 
 def _plus(cell: Rect, line: float, unit: float) -> list[Loop]:

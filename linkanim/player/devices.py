@@ -315,6 +315,7 @@ Drag = Literal[
     "bar",
     "speed",
     "scroll",
+    "shelf",
     "pace",
 ]
 _KINDS: Mapping[int, Literal["wheel", "down", "up", "move"]] = {
@@ -625,14 +626,37 @@ class Mouse:
         return max(abs(self._at[0] - pin[0]), abs(self._at[1] - pin[1])) <= _REACH * screen.size[1]
 
     def _on_the_shelf(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...]:
-        """Choose the mechanism under the mouse; a click puts it on, and one beside closes the shelf."""
-        self._drag = None
-        if gesture.kind == "wheel":
-            return (Action("scroll", -gesture.notches),)
-        place = screen.shelf_at(*self._at)
-        if gesture.kind == "down":
-            return (Action("shelf") if place is None else Action("put", place),)
-        return () if place is None or gesture.kind == "up" else (Action("point", place),)
+        """Choose the mechanism under the mouse; a click puts it on, and one beside closes the shelf.
+
+        A drag scrolls: on the pictures they follow the hand, beside them the bar does.
+        """
+        browsing, (x, y), drag = screen.state.browsing, self._at, self._drag
+        assert browsing
+        grid = screen.shelf_grid(browsing)
+        moves = self._far > _STILL * screen.size[1]
+        match gesture.kind:
+            case "wheel":
+                return (Action("scroll", -gesture.notches),)
+            case "down":
+                on_track = grid.track is not None and grid.track.holds(x, y)
+                self._drag, self._steps = "scroll" if on_track else "shelf", grid.top
+                return self._scrolled_to(grid.led_to(y), grid.top) if on_track else ()
+            case "up":
+                self._drag, place = None, grid.at(x, y)
+                if drag != "shelf" or moves:
+                    return ()
+                return (Action("shelf") if place is None else Action("put", place),)
+        if drag == "scroll":
+            return self._scrolled_to(grid.led_to(y), grid.top)
+        if drag == "shelf":
+            to = self._steps + round((self._begun[1] - y) / grid.step)
+            return self._scrolled_to(to, grid.top) if moves else ()
+        place = grid.at(x, y)
+        return () if place is None else (Action("point", place),)
+
+    @staticmethod
+    def _scrolled_to(row: int, top: int) -> tuple[Action, ...]:
+        return (Action("scroll", row - top),) if row != top else ()
 
     def _of_the_pencil(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
         """Draw, or drag what is under the pencil; None for what the mouse does without one."""

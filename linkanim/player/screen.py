@@ -586,11 +586,6 @@ class Screen:
         """Return where the mechanisms of a shelf stand; it need not be painted yet."""
         return grid(self.size, browsing)
 
-    def shelf_at(self, x: float, y: float) -> int | None:
-        """Return the place on the open shelf under a pixel; None between its pictures."""
-        assert self.state.browsing is not None
-        return self.shelf_grid(self.state.browsing).at(x, y)
-
     def row_at(self, x: float, y: float) -> int | None:
         """Return the row of the open list under a pixel, -1 on the list beside them; None off it."""
         return self._printer.row_at(self._framing.last, self.over, x, y) if self.state.listed else None

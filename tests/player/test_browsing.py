@@ -248,7 +248,7 @@ def test_the_shelf_is_browsed_with_the_mouse(player: Player) -> None:
     player.mouse(pygame.MOUSEMOTION, middle, rel=(0, 0), buttons=(0, 0, 0))
     assert player.state.browsing is not None
     assert player.state.browsing.chosen == 1
-    player.mouse(pygame.MOUSEBUTTONDOWN, middle, button=1)
+    player.drag(middle)
     assert player.state.scene.name == names()[1]
     assert not player.state.is_covered
 
@@ -362,8 +362,49 @@ def test_a_window_too_low_for_a_whole_picture_is_scrolled(
 
 def test_a_click_beside_the_pictures_closes_the_shelf(player: Player) -> None:
     player.type("o")
-    player.mouse(pygame.MOUSEBUTTONDOWN, (1, 1), button=1)
+    player.drag((1, 1))
     assert (player.state.browsing, player.state.scene.name) == (None, "crank-rocker")
+
+
+def fingers(player: Player, *places: tuple[float, float]) -> None:
+    """Touch the first place, go to the others, and let go."""
+    wide, high = player.window.screen.size
+    kinds = [pygame.FINGERDOWN, *[pygame.FINGERMOTION] * (len(places) - 1), pygame.FINGERUP]
+    for kind, (x, y) in zip(kinds, (*places, places[-1]), strict=True):
+        share = {"x": x / wide, "y": y / high}
+        pygame.event.post(pygame.event.Event(kind, finger_id=1, touch_id=1, dx=0.0, dy=0.0, **share))
+        player.tick()
+
+
+@pytest.mark.parametrize("by", ["mouse", "finger"])
+@pytest.mark.parametrize("size", [(320, 180), (640, 360), (1280, 720)], ids=str)
+def test_the_shelf_is_scrolled_by_its_bar_and_by_a_drag(
+    player: Player, size: tuple[int, int], by: str
+) -> None:
+    pygame.display.set_mode(size, pygame.RESIZABLE)
+    player.type("o")
+    drag = player.drag if by == "mouse" else lambda *places: fingers(player, *places)
+    track = _grid(player).track
+    assert track
+    x = track.middle.real
+    drag((x, track.y + 2), (x, track.bottom - 2))
+    bottom = _grid(player)
+    assert bottom.whole(len(names()) - 1)
+    assert player.state.browsing
+    assert bottom.seen.stop == len(bottom.rows)
+    drag((x, track.bottom - 2), (x, track.y + 2))
+    assert _grid(player).top == 0
+    cell = _grid(player).cells[1].middle
+    far = (cell.real, cell.imag - 1.1 * _grid(player).step)
+    drag((cell.real, cell.imag), (cell.real, 0.5 * (cell.imag + far[1])), far)
+    assert _grid(player).top == 1
+    assert player.state.scene.name == "crank-rocker"
+
+
+def test_a_shelf_that_is_all_in_sight_has_no_bar(player: Player) -> None:
+    player.type("o")
+    player.type("peaucellier")
+    assert _grid(player).track is None
 
 
 @pytest.mark.slow

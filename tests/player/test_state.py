@@ -231,6 +231,16 @@ LEFT: dict[str, tuple[Action | str, ...]] = {
     "match": (Action("play", "match"),),
     "follow": (Action("play", "follow"),),
     "recording": (Action("record", "gif"),),
+    "dialog of a recording": ("taking",),
+    "dialog of a recording, a place typed": ("pause", "taking", Action("take_type", "films/one")),
+    "all commands": ("menu",),
+    "commands of a joint": ("pause", Action("menu", "joint A")),
+    "poses": ("poses",),
+    "poses, two set down": ("poses", Action("set_poses", (0.0, 0.0, 0.0, 0.0, 40.0, 10.0, 0.6))),
+    "layers": ("layers",),
+    "construction": ("pause", Action("construct", 1)),
+    "three charts": (Action("plot", "crank.angle"), Action("strip", "A.velocity"), "pause"),
+    "one large polygon": ("pause", "polygons", "large_polygon"),
 }
 RUNNING: dict[str, tuple[Action | str, ...]] = {
     "a mechanism": (),
