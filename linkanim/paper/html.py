@@ -227,9 +227,7 @@ def paragraph(text: str, kind: str = "") -> str:
 def facts(caption: str, lines: Sequence[tuple[str, str]], columns: Literal[1, 2, 3]) -> TablePart:
     """Return labels and values as a table, in one, two or three pairs of columns."""
     high = -(-len(lines) // columns)
-    cells = [
-        f"<th scope='row'>{symbol(label)}</th><td>{symbol(_minus(value))}</td>" for label, value in lines
-    ]
+    cells = [f"<th scope='row'>{symbol(label)}</th><td>{symbol(value)}</td>" for label, value in lines]
     rows = "".join(f"<tr>{''.join(cells[n::high])}</tr>" for n in range(high))
     return TablePart(caption, f"<tbody>{rows}</tbody>", high, "facts")
 
@@ -237,13 +235,8 @@ def facts(caption: str, lines: Sequence[tuple[str, str]], columns: Literal[1, 2,
 def table(caption: str, heads: Sequence[str], rows: Sequence[Sequence[str]]) -> TablePart:
     """Return rows of text under their heads."""
     head = "".join(f"<th scope='col'>{symbol(one)}</th>" for one in heads)
-    lines = "".join(f"<tr>{''.join(f'<td>{symbol(_minus(cell))}</td>' for cell in row)}</tr>" for row in rows)
+    lines = "".join(f"<tr>{''.join(f'<td>{symbol(cell)}</td>' for cell in row)}</tr>" for row in rows)
     return TablePart(caption, f"<thead><tr>{head}</tr></thead><tbody>{lines}</tbody>", len(rows))
-
-
-def _minus(text: str) -> str:
-    """Return text with true minus signs before its numbers."""
-    return _HYPHEN.sub("−", text)
 
 
 def sheet_parts(
@@ -302,7 +295,7 @@ def _head(first: str, columns: tuple[Column, ...]) -> str:
         for some in across.values()
     )
     below = "".join(
-        f"<th class='n' scope='col'>{escape(one.pace.words)}</th>" if one.pace else "<td></td>"
+        f"<th class='n' scope='col'>{symbol(one.pace.words)}</th>" if one.pace else "<td></td>"
         for one in columns
     )
     title = f"<th scope='col'>{escape(first)}</th>" if first else "<td></td>"
@@ -311,5 +304,5 @@ def _head(first: str, columns: tuple[Column, ...]) -> str:
 
 
 def symbol(text: str) -> str:
-    """Return text with its subscripts, written _{B}, set as such."""
-    return _LOWERED.sub(r"<sub>\1</sub>", escape(text))
+    """Return text with its subscripts, written _{B}, set as such, and true minus signs before its numbers."""
+    return _LOWERED.sub(r"<sub>\1</sub>", escape(_HYPHEN.sub("−", text)))

@@ -26,8 +26,10 @@ _MOST = 3
 _MOST_ZEROS = 4
 """So many places at which a curve is zero are listed; of more there is the number."""
 _DIGITS = 4
-_EVEN = 0.005
-"""Two ways whose times differ by less of the period are equally quick."""
+_EVEN = 2e-4
+"""A way off half the period by no more takes as long as the other: so exactly a flat extreme is known."""
+_NEARLY_EVEN = 1.1
+"""A time ratio below has a third decimal."""
 _NOTHING = 1e-9
 _ROUNDING = 1e-7
 """Of what a curve comes to at the most: a speed is as near to nothing as its place is found."""
@@ -163,7 +165,9 @@ def _to_and_fro(curves: Curves, curve: Curve, name: str, ends: tuple[Peak, Peak]
     turned = ""
     if curves.scene.info.full_turn and abs(curves.scene.period - tau) < _NOTHING:
         turned = f" ({360 * share:.1f}° of the input)"
-    return f"{between}; the {slow} is the slow one{turned}, time ratio {share / (1 - share):.2f}."
+    ratio = share / (1 - share)
+    told = f"{ratio:.{3 if ratio < _NEARLY_EVEN else 2}f}"
+    return f"{between}; the {slow} is the slow one{turned}, time ratio {told}."
 
 
 def _way_up(curves: Curves, curve: Curve) -> float | None:

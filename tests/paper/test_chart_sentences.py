@@ -10,9 +10,10 @@ import numpy as np
 import pytest
 
 from linkanim.cli import main
+from linkanim.mechanics.measures import output_body, output_slider
 from linkanim.paper.curves import Pace, curves_of, within_a_turn
 from linkanim.paper.sentences import about, closing, plain
-from linkanim.scenes import load
+from linkanim.scenes import load, names
 
 PACE = Pace(10.0, "10 rad/s")
 
@@ -32,6 +33,20 @@ def test_the_ram_falls_slowly() -> None:
         "the way down is the slow one (245.8° of the input), time ratio 2.15."
     )
     assert f"time ratio {load('press').info.time_ratio:.2f}" in text
+
+
+@pytest.mark.parametrize("name", names())
+def test_the_time_ratio_of_the_output_is_that_of_the_scene(name: str) -> None:
+    scene = load(name)
+    output = output_slider(scene.linkage) or output_body(scene.linkage)
+    if output is None or scene.info.time_ratio is None:
+        return
+    text = said(name, f"{output.name}.{'travel' if output.slider else 'angle'}")
+    if told := re.search(r"time ratio ([\d.]+)\.$", text):
+        digits = len(told[1].partition(".")[2])
+        assert float(told[1]) == pytest.approx(scene.info.time_ratio, abs=0.6 * 10**-digits)
+    elif "same time" in text:
+        assert scene.info.time_ratio == pytest.approx(1.0, abs=1e-9)
 
 
 def test_of_several_curves_each_has_a_short_sentence() -> None:

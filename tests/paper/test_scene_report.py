@@ -389,6 +389,17 @@ def test_of_joints_that_are_not_traced_and_of_poles_the_tables_tell() -> None:
     assert not any(".pole" in token for token in charted(Values(press)))
 
 
+def test_numbers_on_the_page_have_true_minus_signs(tmp_path: Path) -> None:
+    into = tmp_path / "report"
+    options = ["--angles=-60 deg", "--speeds=-20 rpm"]
+    assert main(["report", "triple-rocker", "-o", str(into), *options]) == 0
+    page = (into / "report.html").read_text(encoding="utf-8")
+    seen = re.sub(r"<style.*?</style>|<script.*?</script>|<svg.*?</svg>", "", page, flags=re.DOTALL)
+    seen = html.unescape(re.sub(r"<[^>]+>", " ", seen))
+    assert "−20 rpm" in seen
+    assert re.findall(r"(?<![\w-])-\d.{9}", seen) == []
+
+
 def test_an_extreme_at_the_start_is_looked_at_once() -> None:
     words = [instant.words for instant in usual_instants(load("scissor-lift"))]
     assert words == ["start, greatest travel of the foot", "least travel of the foot"]
