@@ -13,13 +13,11 @@ from linkanim.manifest import Output, checked_output
 from linkanim.mechanics.measures import coupler_body
 from linkanim.picture.layout import SMALL, layout
 from linkanim.picture.look import TOGGLES, Look
-from linkanim.picture.purpose import PURPOSES
+from linkanim.picture.purpose import PURPOSES, USUAL_SIZE
 from linkanim.recorder.plan import refuse_size
 from linkanim.scenes import load
 from linkanim.scenes.editing import in_unit, other_closure
 from linkanim.scenes.scene import Scene
-
-_SIZE = (1280, 720)
 
 
 class Canvas(NamedTuple):
@@ -38,7 +36,7 @@ def _canvas(options: Namespace) -> Canvas:
     """Return the canvas for the purpose that the options name; of words that LaTeX sets that is a book."""
     name = options.purpose or ("book" if options.text else None)
     if name is None:
-        return Canvas(options.size or _SIZE)
+        return Canvas(options.size or USUAL_SIZE)
     purpose = PURPOSES[name]
     size = purpose.size(options.size)
     scale = purpose.type_scale(SMALL * layout(size).unit)

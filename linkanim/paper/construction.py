@@ -19,6 +19,7 @@ from linkanim.picture.construction import box_of, construction_items, view_of
 from linkanim.picture.items import Caption, Group, Item, grouped
 from linkanim.picture.layout import layout
 from linkanim.picture.look import ConstructionKind, ThemeName
+from linkanim.picture.purpose import USUAL_SIZE
 from linkanim.picture.quantities import driven_words, linear, range_around
 from linkanim.picture.raster import Colour, Layer, offscreen
 from linkanim.picture.shapes import segments
@@ -47,7 +48,7 @@ class ConstructionPage:
     """
 
     scene: Scene
-    size: tuple[int, int] = (1280, 720)
+    size: tuple[int, int] = USUAL_SIZE
     theme: ThemeName = "light"
     steps: int | None = None
     kind: ConstructionKind | None = None
@@ -163,7 +164,7 @@ class ErrorChart:
     """The structural error of a linkage over x, in so many pixels."""
 
     shown: Generated
-    size: tuple[int, int] = (1280, 720)
+    size: tuple[int, int] = USUAL_SIZE
     theme: ThemeName = "light"
 
     @cached_property

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from functools import cache
 from itertools import chain
-from math import degrees, isinf, isnan, nan, pi, remainder, sin, tau
+from math import degrees, isinf, isnan, nan, pi, remainder, tau
 
 import numpy as np
 
@@ -21,7 +21,6 @@ from linkanim.mechanics.linkage import Linkage
 from linkanim.mechanics.measures import TRAVELLING, TURNING, coefficients_of, output_body, output_slider
 from linkanim.mechanics.quantities import Quantity, bodies_in_chain, called, input_symbol, phrase
 from linkanim.paper.curves import SAMPLES, Pace, curves_of, extremes
-from linkanim.picture.figure import figure
 from linkanim.scenes.scene import Scene
 from linkanim.units import rounded
 
@@ -128,18 +127,6 @@ def sheet(values: Values, instant: Instant, paces: tuple[Pace, ...], digits: int
             found = tuple(rounded(values.of(quantity, instant, pace), digits) for pace in paces)
             rows.append(Finding(quantity, quantity.shown_unit(values.scene.length_unit), found))
     return sections
-
-
-def rests(scene: Scene, instant: Instant) -> bool:
-    """Whether the input rests at an instant: at an end of its swing."""
-    return not scene.info.full_turn and abs(sin(instant.phase)) < _SAME
-
-
-def telling_phase(scene: Scene) -> float:
-    """Return the phase of the pose that reads best; where its input rests, of one where everything moves."""
-    clearest = figure(scene).clearest
-    # at an end of its swing the input rests, and nothing has a rate
-    return pi / 2 if rests(scene, Instant(clearest, "")) else clearest
 
 
 def place_of(scene: Scene, instant: Instant) -> str:

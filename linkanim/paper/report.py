@@ -28,10 +28,8 @@ from linkanim.paper.findings import (
     charted,
     paces_of,
     place_of,
-    rests,
     sheet,
     table,
-    telling_phase,
     topics,
     value_tables,
 )
@@ -42,6 +40,7 @@ from linkanim.paper.vectors import polygons_svg, vectors_svg
 from linkanim.picture.figure import figure
 from linkanim.picture.look import Look
 from linkanim.picture.quantities import speed_words
+from linkanim.picture.stills import default_phase, input_rests
 from linkanim.picture.text import subscripted
 from linkanim.scenes.editing import dimensions
 from linkanim.scenes.files import PublishedTable
@@ -124,7 +123,7 @@ class Report:
 
     @cached_property
     def _figure(self) -> Figured:
-        return Figured(self.scene, self._size, Look(names=2, hud=False), telling_phase(self.scene))
+        return Figured(self.scene, self._size, Look(names=2, hud=False), default_phase(self.scene))
 
     @cached_property
     def _size(self) -> tuple[int, int]:
@@ -342,7 +341,7 @@ class Report:
     def _polygons(self) -> Iterator[Part]:
         pace, look = self.paces[0], Look(trace=False, hud=False)
         for instant in self.instants:
-            if not rests(self.scene, instant):
+            if not input_rests(self.scene, instant.phase):
                 speed, second = pace.speed, pace.acceleration
                 shown = Figured(self.scene, _POLYGONS, look, instant.phase, speed=speed, acceleration=second)
                 where = f"at {place_of(self.scene, instant)}, {pace.words}"

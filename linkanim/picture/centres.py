@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from functools import cached_property
 from itertools import combinations, pairwise
+from math import inf
 
 import numpy as np
 
@@ -36,6 +37,10 @@ _FAINT = 0.45
 """How much of the background is in Kennedy's lines."""
 _ARROW = 2.2
 """The length of an arrow at the edge, in heights of the text."""
+_CROSS, _BLOCK = 0.8, 2.4
+"""How far a centre's cross reaches, and what keeps names off a slider's block, in half widths of a bar."""
+_MARGIN = 6.0
+"""How far names stay off the picture's edge, in its unit."""
 _AROUND = np.exp(-0.25j * np.pi * np.array([1, -1, 3, -3, 0, 4, 2, -2]))
 """The ways from a centre to its name, the best first."""
 
@@ -128,8 +133,8 @@ class Centres:
             faint = mixed(theme.warning, theme.background, _FAINT)
             width = 0.8 * gauge.line
             yield Layer(faint, [loop for ends in lines for loop in dashes(*ends, 9 * width, width)])
-        reach, marks, width = 0.8 * gauge.bar, list[Loop](), 1.4 * gauge.line
-        for seen in self._seen(found):
+        reach, marks, width = _CROSS * gauge.bar, list[Loop](), 1.4 * gauge.line
+        for seen in self.seen(pose):
             if seen.way:
                 long = _ARROW * self.setting.layout.small_size
                 marks += arrows([seen.at - long * seen.way], [long * seen.way], width)
@@ -140,18 +145,47 @@ class Centres:
 
     def captions(self, pose: Pose, places: Places, taken: Iterable[Rect]) -> Iterator[Caption]:
         """Yield the names of the centres that are no joints, off what is `taken`, each other and bars."""
-        bars = self._bars(places)
+        bars, solid, words = self._bars(places), [*self._solid(places)], list(taken)
         theme, size = self.setting.theme, self.setting.layout.small_size
-        halo, busy = Halo(theme.background, max(1.4 * self.setting.gauge.line, 1.5)), list(taken)
-        for seen in self._seen(self.known.of(pose)):
-            if seen.jointed:
-                continue
+        halo = Halo(theme.background, max(1.4 * self.setting.gauge.line, 1.5))
+        named = [seen for seen in self.seen(pose) if not seen.jointed]
+        marks = [self._mark(seen) for seen in named]
+        for n, seen in enumerate(named):
             wide = self.setting.type.width(seen.label, size, strong=True)
-            rects = [self._about(place, wide, size) for place in self._around(seen, wide)]
-            best = min(rects, key=lambda rect: (_meeting(rect, busy), _crossing(rect, bars)))
-            busy.append(best)
-            at = (best.x, best.y)
-            yield Caption(seen.label, at, size, theme.warning, strong=True, halo=halo)
+            busy = [*words, *marks[:n], *marks[n + 1 :]]
+            best, least = None, (inf, inf)
+            for place in self._around(seen, wide):
+                rect = self._about(place, wide, size)
+                met = _meeting(rect, busy), _crossing(rect, bars) + _meeting(rect, solid)
+                if met < least:
+                    best, least = rect, met
+                if not any(met):
+                    break
+            assert best
+            words.append(best)
+            yield Caption(seen.label, (best.x, best.y), size, theme.warning, strong=True, halo=halo)
+
+    def crosses(self, pose: Pose) -> tuple[tuple[complex, complex], ...]:
+        """Return the lines of the crosses of a pose, from end to end."""
+        seen = (one for one in self.seen(pose) if not one.jointed and not one.way)
+        reach = _CROSS * self.setting.gauge.bar
+        return tuple((one.at - way, one.at + way) for one in seen for way in (reach, 1j * reach))
+
+    def _mark(self, seen: Seen) -> Rect:
+        """Return what a centre's cross covers, or its arrow."""
+        reach, long = _CROSS * self.setting.gauge.bar, _ARROW * self.setting.layout.small_size
+        foot = seen.at - long * seen.way
+        (left, right), (top, bottom) = (
+            sorted(ends) for ends in zip(*((end.real, end.imag) for end in (foot, seen.at)), strict=True)
+        )
+        return Rect(left, top, right - left, bottom - top).inset(-0.5 * reach if seen.way else -reach)
+
+    def _solid(self, places: Places) -> Iterator[Rect]:
+        """Yield what pins and blocks cover."""
+        for joint in self.setting.figure.shown:
+            travels = self.setting.figure.linkage.joint(joint).travels
+            half, at = (_BLOCK if travels else 1.0) * self.setting.gauge.bar, places[joint]
+            yield Rect(at.real - half, at.imag - half, 2 * half, 2 * half)
 
     def _bars(self, places: Places) -> list[tuple[complex, complex]]:
         """Return the ends of the bars."""
@@ -175,11 +209,13 @@ class Centres:
 
     def _about(self, middle: complex, wide: float, high: float) -> Rect:
         """Return a name's rectangle about a place, in the picture."""
-        inside = self.setting.layout.reach.inset(2).nearest(middle, complex(wide, high) / 2)
+        room = self.setting.layout.reach.inset(_MARGIN * self.setting.layout.unit)
+        inside = room.nearest(middle, complex(wide, high) / 2)
         return Rect(inside.real - wide / 2, inside.imag - high / 2, wide, high)
 
-    def _seen(self, found: dict[tuple[str, str], Centre]) -> Iterator[Seen]:
+    def seen(self, pose: Pose) -> Iterator[Seen]:
         """Yield the centres as they show: those in the picture, then the ways to the others from a pin."""
+        found = self.known.of(pose)
         view, room, (named, pin) = self.setting.view, self.setting.layout.reach, self._pin
         inner, far = room.inset(6 * self.setting.layout.unit), list[Seen]()
         foot, unit_ = room.inset(1).nearest(pin), self.setting.figure.scene.length_unit

@@ -69,8 +69,10 @@ _TEXT_OFF, _GAP = 0.2, 0.55
 """How far a dimension's text is from its line, and other lines from that line, in heights of its text."""
 _RINGS = (3, 6)
 """In so many rings a name may stand round a joint, and round a slider's block."""
-_EVERY_CORNER = 4
-"""Of the corners round a body that reaches beyond its joints so many count as one."""
+_AROUND_PLATE = (0.5, 0.3, 0.7)
+"""Where along a plate's side its name may stand outside it."""
+_ONE_CORNER = 0.8
+"""Corners round a body that are nearer to each other count as one, in half widths of a bar."""
 _ARC_RINGS = 2
 """In so many rings the input's angle may stand outside its arc."""
 _ROOMY = (1.0, 1.7, 2.6, 3.6)
@@ -187,10 +189,14 @@ class Surroundings:
         beside = self._numbers(set() if slider else {name})
         return self._spots((name, name), size, price, beside=beside, off=np.concatenate(rounds))
 
+    def is_plate(self, body: Body) -> bool:
+        """Tell whether a body's joints lie in no line."""
+        return len(self._corners(body)) > 2
+
     def on(self, body: Body, size: Size) -> LabelSpots:
         """Return places on a link: along a bar and beside it, or inside a plate."""
         own = self._numbers(set(body.joints))
-        if len(self._corners(body)) > 2:
+        if self.is_plate(body):
             inside, price = self._inside(body)
             return self._spots(body.joints, size, price, own=own, begin=inside, end=inside)
         return self._line(body.joints, (0, 1), size, product(_SIDES, _ALONG), own)
@@ -204,6 +210,19 @@ class Surroundings:
         towards = [(share, end) for share in _INSIDE for end in (*corners, *sides)]
         inside = np.array([middle, *((1 - share) * middle + share * end for share, end in towards)])
         return inside, np.array([0.0, *(share for share, _ in towards)])
+
+    def outside(self, body: Body, size: Size) -> LabelSpots:
+        """Return places along the sides of a plate, outside it."""
+        places = np.array([complex(self._paths[name][0]) for name in self._corners(body)])
+        first, second = (complex(self._paths[name][0]) for name in body.joints[:2])
+        corners = (places - first) / (second - first)
+        ends, middle = np.roll(corners, -1), corners.mean()
+        inwards = np.sign(((middle - corners) * (ends - corners).conj()).imag)
+        side, share = np.array([*product(range(len(corners)), _AROUND_PLATE)]).T
+        which = side.astype(int)
+        where: dict[str, Any] = {"begin": corners[which], "end": ends[which], "aside": -inwards[which]}
+        own, price = self._numbers(set(body.joints)), np.abs(share - 0.5)
+        return self._spots(body.joints, size, price, own=own, share=share, **where)
 
     def dimension(self, about: Measurement, size: Size) -> Iterator[LabelSpots]:
         """Yield places for a length by its own bar if that has room, and by dimension lines beside it."""
@@ -319,7 +338,8 @@ class Surroundings:
         parts = {part.name: part for part in body_parts(self.setting)} if shaped else {}
         for body in shaped:
             outline = np.concatenate([loop for layer in parts[body.name].layers for loop in layer.loops])
-            solid = self._moving(parts[body.name], np.array(hull(outline.tolist()))[::_EVERY_CORNER])
+            far = _thinned(hull(outline.tolist()), _ONE_CORNER * self.setting.gauge.bar)
+            solid = self._moving(parts[body.name], far)
             yield Thing(frozenset(body.joints), solid, True)
         links = [
             (body.joints, self._corners(body), bar + 0.5) for body in figure.bodies if body not in shaped
@@ -344,8 +364,13 @@ class Surroundings:
         """Yield blocks, slotted bars, cylinders, and the guides on the ground."""
         for fitting in fittings(self.setting):
             for part in (*fitting.behind, *fitting.before):
-                solid = self._moving(part, framed(np.concatenate(part.layers[0].loops)))
-                yield Thing(frozenset((part.at, part.tail, part.head)), solid, part.tail != part.head)
+                joints, linked = frozenset((part.at, part.tail, part.head)), part.tail != part.head
+                block = framed(np.concatenate(part.layers[0].loops))
+                yield Thing(joints, self._moving(part, block), linked)
+                # a yoke's bar reaches beyond its block
+                whole = framed(np.concatenate([loop for layer in part.layers for loop in layer.loops]))
+                if np.ptp(whole.real) + np.ptp(whole.imag) > 1.5 * (np.ptp(block.real) + np.ptp(block.imag)):
+                    yield Thing(joints, self._moving(part, whole), linked)
         for loops in (*rails_of(self.setting), *rails_under(self.setting)):
             yield Thing(frozenset(), Solid(framed(np.concatenate(loops))[None], 0.0))
 
@@ -373,6 +398,15 @@ class Surroundings:
         """Return the joints at the corners of a body's outline, in their order round it."""
         starts = {complex(self._paths[name][0]): name for name in reversed(body.joints)}
         return [starts[corner] for corner in hull(list(starts))]
+
+
+def _thinned(corners: Sequence[complex], apart: float) -> Loop:
+    """Return the corners of a hull, one of those that are nearer to each other."""
+    kept = list[complex]()
+    for corner in corners:
+        if all(abs(corner - other) >= apart for other in kept[-1:]):
+            kept.append(corner)
+    return np.array(kept)
 
 
 def _off(turns: Loop, size: tuple[float, float], radius: float | NDArray[np.float64]) -> Loop:
@@ -773,7 +807,10 @@ def _links(ground: Surroundings) -> Forms:
         if body.slider:
             yield tuple((label, ground.around(body.slider, label.size, slider=True)) for label in labels)
         elif len(body.joints) > 1:
-            yield tuple((label, ground.on(body, label.size)) for label in labels)
+            inside = tuple((label, ground.on(body, label.size)) for label in labels)
+            last = labels[-1]
+            beside = ((last, ground.outside(body, last.size)),) if ground.is_plate(body) else ()
+            yield (*inside, *beside)
 
 
 def _called(ground: Surroundings, body: Body) -> tuple[str, ...]:

@@ -590,6 +590,10 @@ class Picture:
         known, setting = self.drawing.symbols, replace(self.drawing.setting, view=self.fitted)
         centres = self.drawing.dead_centres_in(self.fitted) if self.look.names else None
         marks = centres.ticks if centres else ()
+        if self._moment is not None and self.look.centres:
+            from linkanim.picture.centres import Centres
+
+            marks = (*marks, *Centres(setting).crosses(self.scene.pose(self._moment, 2)))
         turning = motion_of(setting) if self.look.names else None
         around = Surroundings(setting, turning, self._moment, marks, known is not None)
         names = yield from names_of(around, known, centres)

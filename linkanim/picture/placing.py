@@ -40,6 +40,8 @@ _THICK = 1.0
 """Half as thick as lines that go with labels are taken to be, in pixels."""
 _MOST_CROSSED = 1
 """A line crosses no more links than this."""
+_OFF_PINS = 2.0
+"""How far a dimension's arrowheads stay off pins, in radii of these."""
 _CHAINED = 0.5
 """Lines whose ends are so near to each other, in pixels, follow each other."""
 _GONE = 3
@@ -282,7 +284,7 @@ class Placer:
             barred = self._barred(groups, taken, clutter)
             if label.gap:
                 barred |= _hits(taken, self._sizes, firsts, label.gap).any(axis=1)
-                barred |= _too_near(firsts, measures, label.gap)
+                barred |= _too_near(firsts, measures, label.gap) | _ends_at_pins(firsts, clutter)
             open_ = np.flatnonzero(~barred.all(axis=0))
             crossed, links = _crossings(firsts[:, open_], clutter)
             if label.gap:
@@ -483,6 +485,16 @@ def _too_near(lines: Loop, others: Loop, gap: float) -> _Bools:
     near |= crossing[0] & crossing[1]
     near &= ~(level[0] & level[1] & beyond[0])
     return np.asarray(near.any(axis=2))
+
+
+def _ends_at_pins(lines: Loop, clutter: Clutter) -> _Bools:
+    """Return which lines (n, k, 2) end at a pin, to which they would seem to measure (n, k)."""
+    found = np.zeros(lines.shape[:2], np.bool_)
+    for _, solids in clutter.alike:
+        if solids.corners.shape[2] == 1:
+            away = np.abs(lines[:, :, None] - solids.corners[:, None])
+            found |= (away < _OFF_PINS * solids.half[:, None]).any(axis=(2, 3))
+    return found
 
 
 def _straddles(corners: _Floats, middle: _Floats, reach: _Floats | float) -> _Bools:

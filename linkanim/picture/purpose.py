@@ -7,6 +7,8 @@ from __future__ import annotations
 
 from linkanim.frozen import NamedTuple
 
+USUAL_SIZE = (1280, 720)
+"""The size in pixels of what is for no purpose of these."""
 _INCH, _POINTS = 25.4, 72.0
 _EM = 1.08
 """The face's size in heights of a line of its text, about."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import lru_cache
-from math import tau
+from math import sin, tau
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +14,7 @@ from linkanim.picture.labels import TRIES, Surroundings, names_of
 from linkanim.picture.look import Look
 from linkanim.picture.motion_marks import motion_of
 from linkanim.picture.picture import Deferral, Picture
+from linkanim.picture.purpose import USUAL_SIZE
 from linkanim.scenes.scene import Scene
 from linkanim.steps import at_once
 
@@ -29,6 +30,13 @@ _MOST_NAMED = 30
 """Of more joints and pins no pose has room for all names: the usual one is as good as any."""
 _HIDDEN = 0.02
 """Joints nearer to each other than this part of the figure's extent hide each other."""
+_RESTS = 1e-9
+"""Phases of a swing that are nearer to its end, in radians, are at its end."""
+
+
+def default_phase(scene: Scene) -> float:
+    """Return the phase of what is drawn or worked out without one: that of a still of usual size."""
+    return still_phase(scene, USUAL_SIZE)
 
 
 @lru_cache(maxsize=16)
@@ -39,7 +47,8 @@ def still_phase(scene: Scene, size: tuple[int, int], type_scale: float = 1.0) ->
 
     That is the one in which most names and dimensions stand at what they name; of several such poses the one
     whose input is nearest to 60°, or to the middle of a range without that angle. A pose in which joints hide
-    each other is taken where there is no other. The same pose is chosen whatever else the figure shows.
+    each other is taken where there is no other, one in which the input rests never: nothing has a rate there.
+    The same pose is chosen whatever else the figure shows.
     """
     shown, tried = figure(scene), _tried(figure(scene))
     tried = tried[:_NEAR_USUAL] if type_scale > 1 else tried
@@ -68,6 +77,11 @@ def _left_over(picture: Picture, phase: float, *, more: bool) -> tuple[int, int]
     return at_once(steps).lacking
 
 
+def input_rests(scene: Scene, phase: float) -> bool:
+    """Tell whether a phase is at an end of the input's swing."""
+    return not scene.info.full_turn and abs(sin(phase)) < _RESTS
+
+
 def _tried(shown: Figure) -> list[float]:
     """Return phases of one turn, those near the usual input first."""
     phase, value = shown.cycle.phase, np.broadcast_to(shown.cycle.coordinate, shown.cycle.phase.shape)
@@ -75,7 +89,8 @@ def _tried(shown: Figure) -> list[float]:
     off = _off(shown, value)[turn]
     taken = {int(off.argmin()), *np.linspace(0, len(turn), _POSES, endpoint=False).astype(int).tolist()}
     order = sorted(taken, key=lambda n: (round(float(off[n]), 6), n))
-    return [float(phase[turn[n]]) for n in order]
+    tried = [float(phase[turn[n]]) for n in order]
+    return [one for one in tried if not input_rests(shown.scene, one)]
 
 
 def _off(shown: Figure, value: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -591,7 +591,7 @@ def test_versions_have_letters_other_lengths_and_their_keys(capsys: pytest.Captu
 
 @pytest.mark.parametrize(
     ("name", "said"),
-    [("jansen", r"At $\theta_{m}$ = 248.50°."), ("excavator", r"At $\theta_{\mathrm{boom}}$ = 35.12°.")],
+    [("jansen", r"At $\theta_{m}$ = 90.00°."), ("excavator", r"At $\theta_{\mathrm{boom}}$ = 8.57°.")],
 )
 def test_the_pose_is_one_that_moves_and_its_angle_is_set(
     name: str, said: str, capsys: pytest.CaptureFixture[str]

@@ -36,9 +36,34 @@ from linkanim.paper.findings import (
 from linkanim.paper.html import Beside
 from linkanim.paper.report import Report
 from linkanim.paper.vectors import vectors_svg
+from linkanim.picture.stills import default_phase
 from linkanim.scenes import load, names
 from linkanim.scenes.toml import text as written
 from linkanim.units import rounded, significant, typeset
+
+# turns fully; its joints are farthest apart within its second turn; swings, and rests at its start
+POSED = ["crank-rocker", "dwell-six-bar", "double-rocker"]
+
+
+@pytest.mark.parametrize("name", POSED)
+def test_a_figure_a_solution_and_a_report_are_of_one_pose(
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(["draw", name]) == 0
+    (drawn,) = re.findall(r"= (\S+)°: the pose that reads best", capsys.readouterr().out)
+    assert main(["explain", name]) == 0
+    (worked,) = re.findall(r"^At .* = (\S+)°\.$", capsys.readouterr().out, re.MULTILINE)
+    scene = load(name)
+    pose = scene.pose(default_phase(scene), 1)
+    assert float(drawn) == pytest.approx(float(worked), abs=0.06)
+    assert float(worked) == pytest.approx(math.degrees(pose.coordinate) % 360, abs=0.006)
+    assert 0 < float(worked) < 360
+    assert pose.coordinate_rate
+    report = Report(scene, (), (Pace(1.0, ""),))
+    worked_out = solution(PoseRequest(scene, "phase", default_phase(scene), 1.0))
+    assert dict(report.files())["loops.svg"] == vectors_svg(worked_out)
+
 
 PACES = tuple(Pace(speed, f"{speed:g} rad/s") for speed in (5.0, 10.0, 20.0))
 PRESS = ("report", "press", "--angles", "87 deg,306 deg", "--speeds", "5 rad/s,10 rad/s,20 rad/s")

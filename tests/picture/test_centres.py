@@ -12,6 +12,7 @@ from linkanim.picture.drawing import Drawing
 from linkanim.picture.figure import figure
 from linkanim.picture.look import Look
 from linkanim.picture.picture import Picture
+from linkanim.picture.stills import default_phase
 from linkanim.picture.text import subscripted
 from linkanim.picture.view import Rect
 from linkanim.scenes import load, names
@@ -87,6 +88,28 @@ def test_a_centre_out_of_sight_is_told_with_its_distance_and_an_arrow_along_the_
     assert place is not None
     (told,) = [line for line in words_of(picture, phase) if line.startswith("P_{13} ")]
     assert told == f"P_{{13}} {three_digits(abs(place))} mm from O₂"
+
+
+# a cross beside a pin, one beside a dead centre's words, one at the edge beside an arrow, three at a block
+CROWDED = ["stephenson-3", "umbrella", "pumpjack", "elliptic-trammel"]
+
+
+@pytest.mark.parametrize("name", CROWDED)
+def test_no_word_of_a_still_lies_on_a_centre(name: str) -> None:
+    scene = load(name)
+    phase = default_phase(scene)
+    picture = Picture(scene, (1280, 720), Look(hud=False, centres=1, names=1), moment=phase)
+    pose = scene.pose(phase, 2)
+    assert picture.drawing.parts.centres
+    crosses = picture.drawing.parts.centres.crosses(pose)
+    arrows = [seen.at - 10 * seen.way for seen in picture.drawing.parts.centres.seen(pose) if seen.way]
+    said = [line for group in picture.groups(pose) for line in group.captions]
+    for line in said:
+        box = line.around(picture.type)
+        assert not any(box.crossed(*ends) for ends in crosses), line.text
+        assert not any(box.holds(at.real, at.imag) for at in arrows), line.text
+    boxes = [line.around(picture.type) for line in said]
+    assert not any(one.inset(1).meets(other.inset(1)) for one, other in combinations(boxes, 2))
 
 
 def test_kennedy_s_lines_run_through_their_three_centres() -> None:

@@ -128,6 +128,9 @@ def misread(picture: Picture, pose: Pose) -> Iterator[str]:
         share = ((middle - one.begin) * one.along.conjugate()).real / abs(one.end - one.begin)
         if not 0 <= share <= 1:
             yield f"{one.text} stands beyond its arrowheads"
+        pins = [picture.drawing.places(pose)[name] for name in picture.figure.pins]
+        if min(abs(end - pin) for end in (one.begin, one.end) for pin in pins) < picture.gauge.pin:
+            yield f"{one.text} seems to go to a pin beside it"
     for one, other in combinations(lines, 2):
         apart = _apart(one, other)
         if {one.begin, one.end} == {other.begin, other.end} or (

@@ -17,6 +17,7 @@ from linkanim.picture.look import Look
 from linkanim.picture.motion_marks import Sliding, Turning
 from linkanim.picture.picture import Deferral, Picture
 from linkanim.picture.raster import offscreen
+from linkanim.picture.stills import default_phase
 from linkanim.picture.surface import SurfacePrinter
 from linkanim.picture.text import Lettering, Type, subscripted
 from linkanim.picture.view import Rect, View
@@ -59,6 +60,32 @@ def test_no_name_ever_lies_on_another_or_on_a_pin_or_in_the_hud(name: str, size:
             for pin in pins:
                 x, y = min(max(pin.real, box.x), box.right), min(max(pin.imag, box.y), box.bottom)
                 assert abs(pin - complex(x, y)) > gauge.pin - 1.0, (text, phase)
+
+
+# what reaches beyond its joints: a yoke's bar, an arm that bends in a joint and ends in a pad
+BEYOND = [("scotch-yoke", "r₂ = 80 mm", "fitting-Y"), ("toggle-clamp", "O₆", "body-arm")]
+
+
+@pytest.mark.parametrize(("name", "text", "part"), BEYOND)
+def test_words_of_a_still_lie_on_nothing_that_reaches_beyond_its_joints(
+    name: str, text: str, part: str
+) -> None:
+    scene = load(name)
+    phase = default_phase(scene)
+    painter, pose = Picture(scene, (1280, 720), Look(names=2), moment=phase), scene.pose(phase)
+    (box,) = (box for said, box in standing(painter, pose) if subscripted(said) == subscripted(text))
+    ((layers),) = (group.layers for group in painter.drawing.moving(pose) if group.name == part)
+    for loop in (loop for layer in layers for loop in layer.loops):
+        sides = zip(loop, np.roll(loop, -1), strict=True)
+        assert not any(box.crossed(complex(one), complex(other)) for one, other in sides)
+
+
+def test_a_plate_too_slender_for_its_name_has_it_outside() -> None:
+    scene = load("excavator")
+    phase = default_phase(scene)
+    painter = Picture(scene, (1280, 720), Look(names=1), moment=phase)
+    said = {text for text, _ in standing(painter, scene.pose(phase))}
+    assert {"boom", "stick", "bucket"} <= said
 
 
 @pytest.mark.parametrize("name", ["watt-line", "roberts-line", "rocker-driven", "crank-rocker"])

@@ -5,7 +5,7 @@ from __future__ import annotations
 from argparse import Namespace
 from collections.abc import Iterator
 from dataclasses import replace
-from math import degrees, isnan, radians
+from math import degrees, isnan, radians, tau
 
 from linkanim.atomic_files import checked_target, write_text
 from linkanim.bounds import MOST_VERSIONS
@@ -16,10 +16,10 @@ from linkanim.explain.documents import HTML, MARKDOWN, TEX, document, exercise
 from linkanim.explain.solution import PoseRequest, Solution, solution
 from linkanim.explain.variant import variant
 from linkanim.paper.construction import ConstructionPage
-from linkanim.paper.findings import telling_phase
 from linkanim.paper.html import embedded
 from linkanim.paper.svg import svg
 from linkanim.paper.vectors import vectors_svg
+from linkanim.picture.stills import default_phase
 from linkanim.scenes import load
 from linkanim.scenes.editing import in_unit
 from linkanim.scenes.scene import Scene
@@ -73,8 +73,7 @@ def _construction(found: Solution) -> str:
 def _requests(scene: Scene, options: Namespace) -> Iterator[PoseRequest]:
     """Yield the pose that is asked for, or of an exercise so many versions, of other lengths with a seed.
 
-    Without a pose it is that at which the scene's own joints are farthest apart. What an exercise gives is
-    round.
+    Without a pose it is the one that a figure of the scene shows. What an exercise gives is round.
     """
     request = _rounded(_pose(scene, options)) if options.exercise else _pose(scene, options)
     count = 1 if options.versions is None else options.versions
@@ -101,11 +100,16 @@ def _rounded(request: PoseRequest) -> PoseRequest:
 
 def _pose(scene: Scene, options: Namespace) -> PoseRequest:
     speed = scene.linkage.drive.speed if options.speed is None else options.speed
-    if options.angle is None:
-        phase = telling_phase(scene) if options.phase is None else options.phase
-        request = PoseRequest(scene, "phase", float(phase), speed, options.acceleration)
-        if options.acceleration and request.swings:
-            raise BadInput("--acceleration is the input's own; of an input that swings give --angle with it")
-        return request
-    phase_at(scene, options.angle)  # which says why where it is not reached
-    return PoseRequest(scene, "angle", float(options.angle), speed, options.acceleration)
+    angle, phase = options.angle, options.phase
+    if angle is not None:
+        phase_at(scene, angle)  # which says why where it is not reached
+    elif phase is None:
+        phase = default_phase(scene)
+        # what turns has no other pose at that angle within its first turn; what swings comes to it twice
+        angle = scene.pose(phase, 0).coordinate % tau if scene.info.full_turn else None
+    if angle is not None:
+        return PoseRequest(scene, "angle", float(angle), speed, options.acceleration)
+    request = PoseRequest(scene, "phase", float(phase), speed, options.acceleration)
+    if options.acceleration and request.swings:
+        raise BadInput("--acceleration is the input's own; of an input that swings give --angle with it")
+    return request
