@@ -453,7 +453,7 @@ class ChartStrips:
         """Return the charts of the same motion at another speed; nothing is solved for them."""
         moved = tuple(panel.at(speed) for panel in self.panels)
         same = all(one is other for one, other in zip(moved, self.panels, strict=True))
-        return self if same else ChartStrips(moved)
+        return self if same else ChartStrips(_aligned(moved))
 
     def still(self) -> Iterator[Item]:
         """Yield what stands still, back to front."""
@@ -507,8 +507,15 @@ def chart_strips(
         )
         for n, token in enumerate(tokens[most - count :])
     ]
-    left = max(room_for_ticks(panel.y_axis, pen) for panel in panels)
-    return ChartStrips(tuple(replace(panel, left=left) for panel in panels))
+    return ChartStrips(_aligned(panels))
+
+
+def _aligned(panels: Sequence[ChartPanel]) -> tuple[ChartPanel, ...]:
+    """Return charts with plots that begin below each other, beside the widest of all tick labels."""
+    if len(panels) == 1:
+        return tuple(panels)
+    left = max(room_for_ticks(panel.y_axis, panel.pen) for panel in panels)
+    return tuple(replace(panel, left=left) for panel in panels)
 
 
 def _high(rect: Rect, count: int, pen: Pen) -> float:

@@ -23,7 +23,7 @@ _GAP, _BETWEEN = 0.06, 0.3
 _FRAME = 0.14
 _ABOVE, _BELOW = 0.3, 0.2
 """How far the buttons of a chart stand out of it, and how far off its foot they are below it."""
-_READING = 5.5
+_READING = 7.5
 """The room of what is read at a chart's head, in heights of text."""
 _SLIDER = 3.0
 _WITHIN = 0.35

@@ -36,7 +36,7 @@ _HEAD_OF_MARKS = 1.5
 """The height of the marks of recording and pause, in heights of their text: a chart begins below them."""
 _TALLEST = 0.42
 """The height of a chart beside the scene, in widths of the window; of several below each other twice that."""
-HEAD_OF_CHART = 23.5
+HEAD_OF_CHART = 25.5
 """The room of a chart's title and of what is read there, in heights of text."""
 _BUTTONS, _ROW_OF_BUTTONS = 5.2, 1.5
 """The room of a chart's buttons across, and below its foot where its head has none, in sides of one."""

@@ -81,7 +81,8 @@ def dialog(state: State, _: None) -> State:
     """Open the dialog, or close it."""
     if state.recording:
         return with_toast(state, RUNS)
-    return replace(state, taking=None if state.taking else TakeDialog(row=_START), help=False)
+    opened = None if state.taking else TakeDialog(row=_START)
+    return replace(state, taking=opened, help=False, listing=None, browsing=None)
 
 
 def places(state: State, lines: str) -> State:

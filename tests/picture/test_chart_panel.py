@@ -17,7 +17,7 @@ from pictures import pixels
 from linkanim.errors import BadInput
 from linkanim.mechanics.motion import Mechanism, Motion, Pose
 from linkanim.mechanics.quantities import input_symbol
-from linkanim.picture.chart import ChartPanel, chart_panel, chart_strips, pen_for
+from linkanim.picture.chart import ChartPanel, chart_panel, chart_strips, pen_for, room_for_ticks
 from linkanim.picture.figure import figure
 from linkanim.picture.items import Caption
 from linkanim.picture.layout import Layout, layout
@@ -333,6 +333,16 @@ def test_strips_share_their_axis_and_have_equal_plots(
     assert len({round(panel.foot(pose).real, 9) for panel in strips.panels}) == 1
     for panel, title in zip(strips.panels, titles, strict=True):
         assert strips.titled_at(title.x + 2, title.y + 2) == panel.quantity.token
+
+
+def test_strips_share_their_axis_at_every_speed() -> None:
+    window, scene = layout((1280, 720), chart=2), load("crank-rocker")
+    tokens = ("coupler.angular_velocity", "P.velocity")
+    strips = chart_strips(figure(scene), tokens, window, pen_for(window, Type(), LIGHT))
+    for rpm in (1.0, 20.0, 3000.0):
+        panels = strips.at(rpm * math.pi / 30).panels
+        assert len({(panel.plot.area.x, panel.plot.area.width) for panel in panels}) == 1, rpm
+        assert all(room_for_ticks(panel.y_axis, panel.pen) <= panel.left for panel in panels)
 
 
 @pytest.mark.parametrize(("size", "shown"), [((320, 180), 1), ((480, 270), 2), ((640, 360), 3)])

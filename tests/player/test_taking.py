@@ -271,6 +271,20 @@ def test_what_else_is_kept_is_done_from_there(player: Player) -> None:
     assert [path.suffix for path in Path("recordings").iterdir()] == [".svg"]
 
 
+@pytest.mark.parametrize("before", ["list", "shelf", "help", "edit"])
+def test_it_takes_the_place_of_what_is_open(player: Player, before: str) -> None:
+    player.window.state = advance(player.state, [Action(before)])
+    player.tick(2)
+    player.window.state = advance(player.state, [Action("taking")])
+    player.tick(2)
+    over = player.window.screen.over
+    assert over.panel
+    assert over.panel.title == "Record and save"
+    assert (over.quantities, over.shelf, over.help) == (None, None, None)
+    player.press(pygame.K_ESCAPE)
+    assert player.state.mode == ("edit" if before == "edit" else "play")
+
+
 def test_in_a_game_there_is_no_period(player: Player) -> None:
     player.window.state = replace(player.state, take=TakeChoice(whole=True))
     player.press(pygame.K_F3)
