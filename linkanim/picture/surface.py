@@ -19,8 +19,8 @@ from linkanim.picture.picture import Picture
 from linkanim.picture.raster import Cover, Shapes, covers, in_turn, is_clear, keep_memory, paints
 from linkanim.picture.text import Lettering, Type
 
-_MOST_PICTURES = 8
-"""What is kept of shapes that come again takes no more memory than so many pictures."""
+_MOST_PICTURES, _MOST_BYTES = 8, 100_000_000
+"""What is kept of shapes that come again takes no more memory than so many pictures, nor than so much."""
 _SPARE_LABELS = 8
 """So many labels are kept that the last frame had not."""
 
@@ -148,7 +148,7 @@ class SurfacePrinter:
         if key not in self._covers:
             found = _cover(canvas, groups)
             taken = sum(kept.nbytes for _, kept in self._covers.values()) + found.nbytes
-            if taken > _MOST_PICTURES * canvas.get_buffer().length:
+            if taken > min(_MOST_PICTURES * canvas.get_buffer().length, _MOST_BYTES):
                 self._covers.clear()
             self._covers[key] = groups, found
         return self._covers[key][1]

@@ -247,6 +247,8 @@ _THREADS = 2
 """Fixed, for H.264's bytes depend on it."""
 _AHEAD = {"gif": 6, "mp4": 20, "png": 6}
 """How many frames may be on their way; H.264 looks seventeen ahead."""
+_LARGE, _AHEAD_OF_LARGE = 1920 * 1200, 2
+"""Of more pixels fewer frames are, and H.264 looks at none ahead: one of 3840×2160 takes it some 30 MB."""
 
 _BT709 = "setparams=color_primaries=bt709:color_trc=bt709:colorspace=bt709"
 _TELLING = ("-stats_enc_post", "pipe:1", "-stats_enc_post_fmt", "{n}")
@@ -289,7 +291,8 @@ def encoding(stream: Stream, form: Format, part: Path) -> Iterator[Callable[[Fra
     ends the encoder is done; whatever else ends it, the encoder is gone. `RecordingFailed` where the encoder
     cannot be started, stops early or reports an error.
     """
-    with running(_command(stream, form, part), ahead=_AHEAD[form]) as write:
+    ahead = _AHEAD_OF_LARGE if _is_large(stream) else _AHEAD[form]
+    with running(_command(stream, form, part), ahead=ahead) as write:
         yield write
 
 
@@ -329,6 +332,10 @@ def ffmpeg_version() -> str:
     except (RecordingFailed, OSError):
         return ""
     return found[1].decode(errors="replace") if found else ""
+
+
+def _is_large(stream: Stream) -> bool:
+    return math.prod(stream.size) > _LARGE
 
 
 def _command(stream: Stream, form: Format, part: Path) -> list[str]:
@@ -371,6 +378,7 @@ def _mp4(stream: Stream) -> list[str]:
             *filters,
         ]
     h264 = ["-c:v", "libx264", "-preset", "veryfast", "-crf", "18", "-threads", str(_THREADS)]
+    h264 += ["-tune", "zerolatency"] if _is_large(stream) else []
     return ["-vf", ",".join(filters), *h264, "-movflags", "+faststart", "-f", "mp4"]
 
 

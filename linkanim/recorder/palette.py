@@ -29,6 +29,9 @@ _TO_OKLAB = np.array([[0.2105, 0.7936, -0.0041], [1.9780, -2.4286, 0.4506], [0.0
 _AT_ONCE = 4096
 """Colours that are looked up together; for all of a photograph it took hundreds of megabytes."""
 
+_BLOCK = 1 << 20
+"""Pixels that are looked at together; of a whole large frame their numbers alone took 200 MB."""
+
 
 class Indexing:
     """Frames as a palette's indices, from 1 on, and 0 for what is transparent; each ends with the palette.
@@ -48,10 +51,12 @@ class Indexing:
     def __call__(self, frame: bytes | bytearray | memoryview) -> memoryview:
         """Return a frame's bytes, which the next one's take the place of."""
         now = np.frombuffer(frame, "<u4")
-        place = np.flatnonzero(now != self._before)
-        words = now.take(place)
-        self._before[place] = words
-        self._bytes[place] = self._indices(words)
+        for begin in range(0, len(now), _BLOCK):
+            part = slice(begin, min(begin + _BLOCK, len(now)))
+            place = np.flatnonzero(now[part] != self._before[part])
+            words = now[part].take(place)
+            self._before[part][place] = words
+            self._bytes[part][place] = self._indices(words)
         return self._bytes.data
 
     def _indices(self, words: Words) -> Bytes:

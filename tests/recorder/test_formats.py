@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import tracemalloc
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +16,7 @@ from PIL import Image
 from reading import Pixels, about, durations, frames_of, loops_for_ever, video
 
 from linkanim.errors import BadInput
+from linkanim.recorder import encode
 from linkanim.recorder.plan import Clip, Format
 from linkanim.recorder.recording import write
 
@@ -205,3 +209,21 @@ def test_transparency_in_an_mp4_is_refused_before_any_frame_is_drawn(tmp_path: P
     with pytest.raises(BadInput, match="transparency"):
         write(frames, frames.plan, tmp_path / "disc.mp4")
     assert not any(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(("size", "ahead"), [((1920, 1200), 20), ((2560, 1440), 2)])
+def test_few_large_frames_are_on_their_way(
+    size: tuple[int, int], ahead: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked = list[tuple[str, int]]()
+
+    @contextmanager
+    def running(command: Sequence[str], *, ahead: int) -> Iterator[object]:
+        asked.append((" ".join(command), ahead))
+        yield None
+
+    monkeypatch.setattr(encode, "running", running)
+    with encode.encoding(encode.Stream(size, Fraction(25)), "mp4", Path("a.mp4")):
+        pass
+    [(command, taken)] = asked
+    assert (taken, "-tune zerolatency" in command) == (ahead, ahead < 20)

@@ -1,11 +1,13 @@
 from __future__ import annotations
 
+import tracemalloc
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
 from linkanim.recorder.gallery import reduced
-from linkanim.recorder.palette import _oklab, make_palette
+from linkanim.recorder.palette import Indexing, _oklab, make_palette
 
 
 def frame(*colours: tuple[int, int, int], alpha: int = 0) -> NDArray[np.uint8]:
@@ -89,3 +91,19 @@ def test_colours_are_as_far_apart_as_they_look(
     colour: tuple[int, int, int], seen: tuple[float, float, float]
 ) -> None:
     assert _oklab(np.array([colour], np.uint8))[0] == pytest.approx(seen, abs=1e-3)
+
+
+def test_indices_of_a_large_frame_take_little_memory_and_are_those_of_its_parts() -> None:
+    pixels, random = 3840 * 2160, np.random.default_rng(1)
+    frame = np.repeat(random.integers(0, 1 << 24, 3840, dtype=np.uint32), 2160)
+    palette = [(12 * n, 255 - 12 * n, 7 * n) for n in range(20)]
+    indexing = Indexing(palette, pixels, alpha=False)
+    tracemalloc.start()
+    found = bytes(indexing(frame.tobytes()))
+    most = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert most < 90_000_000  # the frame, its indices, and what is worked out in between
+    half = Indexing(palette, pixels // 2, alpha=False)
+    for part in (0, 1):
+        rows = slice(part * pixels // 2, (part + 1) * pixels // 2)
+        assert bytes(half(frame[rows].tobytes()))[: pixels // 2] == found[rows]
