@@ -6,7 +6,6 @@ much the longest arrow stands for. The blocks of words are what an arrangement h
 
 from __future__ import annotations
 
-from bisect import bisect_left
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import cached_property
 from itertools import groupby, zip_longest
@@ -629,15 +628,7 @@ class _Setter:
 
     def _broken(self, count: int, big: int) -> tuple[str, ...]:
         """Return the title in at most `count` lines, between its words, as narrow as they can be."""
-        words, room = self._title.split(), self._layout.stage.width - 2 * self._layout.margin
-
-        def lines(width: float) -> list[str]:
-            return self._type.wrapped(self._title, big, width, strong=True)
-
-        def fits(width: int) -> bool:
-            found = lines(width)
-            return len(found) <= count and " ".join(found).split() == words
-
-        widths = range(max(int(room), 0))
-        narrowest = bisect_left(widths, True, key=fits)
-        return tuple(lines(narrowest if narrowest < len(widths) else room)) or ("",)
+        room = self._layout.stage.width - 2 * self._layout.margin
+        narrowest = self._type.narrowest(self._title, big, count)
+        width = narrowest if narrowest < int(room) else room
+        return tuple(self._type.wrapped(self._title, big, width, strong=True)) or ("",)

@@ -71,10 +71,12 @@ def toast(board: Board, text: str) -> tuple[pygame.Surface, tuple[float, float]]
         sheet = _lines(board, text, small, hint.width)
         return sheet, (hint.x + (hint.width - sheet.get_width()) / 2, hint.bottom - sheet.get_height())
     ways = (layout.text_size, 0.9), (small, 0.9), (small, 0.6), (small, 0.4)
-    sheets = [_lines(board, text, size, share * layout.stage.width) for size, share in ways]
-    found = ((sheet, off_words(layout, sheet, edges(board, sheet))) for sheet in sheets)
-    free = next(((sheet, at) for sheet, at in found if at), None)
-    return free or (sheets[0], next(edges(board, sheets[0])))
+    sheets: list[pygame.Surface] = []
+    for size, share in ways:
+        sheets.append(_lines(board, text, size, share * layout.stage.width))
+        if at := off_words(layout, sheets[-1], edges(board, sheets[-1])):
+            return sheets[-1], at
+    return sheets[0], next(edges(board, sheets[0]))
 
 
 def _lines(board: Board, text: str, size: int, room: float, colour: Colour | None = None) -> pygame.Surface:
@@ -118,6 +120,8 @@ _FEWEST = 4
 """As many rows are shown before hints and facts give way."""
 _NAME = 4.5
 """So much of a row's name is seen where its value is too long, in heights of the text."""
+_ROWS_IN_STEP = 6
+"""So many rows are drawn in a step where a list is drawn beforehand."""
 _FLASH = 0.45
 """How much of the flash's colour is in the bar behind the facts at its brightest."""
 
@@ -145,12 +149,19 @@ class _Division:
 
 def edit_list(board: Board, panel: Panel) -> pygame.Surface:
     """Return the list; where it would not fit at a size that reads, the rows around the chosen one."""
+    return at_once(_edit_list_in_steps(board, panel))
+
+
+def _edit_list_in_steps(board: Board, panel: Panel) -> Generator[None, None, pygame.Surface]:
     parts = _fitting(board, panel)
+    yield
     size = parts.size
     sheet = board.sheet(parts.wide, STEP * size * parts.lines)
     _head(board, sheet, panel, parts)
     top = parts.top
     for k, n in enumerate(parts.rows):
+        if k % _ROWS_IN_STEP == 0:
+            yield
         _row(board, sheet, panel, n, (top + STEP * k) * size, size)
     for n, (line, colour) in enumerate(parts.foot, start=len(parts.rows)):
         board.write(sheet, line, (1.2 * size, (top + 0.3 + STEP * n) * size), size=size, colour=colour)
@@ -237,7 +248,7 @@ _WIDEST = 0.97
 """The most of its room that the help takes."""
 _LEAST = 9
 """The smallest text that can be read, in pixels."""
-_LINES_IN_STEP = 12
+_LINES_IN_STEP = 8
 """So many lines are drawn in a step where it is drawn beforehand."""
 
 
@@ -393,6 +404,10 @@ _BOX = 2.5
 
 def quantity_list(board: Board, shown: Quantities) -> pygame.Surface:
     """Return the list, as many rows around the chosen one as the window has room for."""
+    return at_once(_quantity_list_in_steps(board, shown))
+
+
+def _quantity_list_in_steps(board: Board, shown: Quantities) -> Generator[None, None, pygame.Surface]:
     size, wide = board.layout.small_size, board.layout.lists.width
     rows, hint = _rows_and_hint(board, shown)
     lines = max(len(rows), 1) + len(hint) + _QUANTITY_FRAME
@@ -406,7 +421,9 @@ def quantity_list(board: Board, shown: Quantities) -> pygame.Surface:
             board.bar(sheet, y, size, behind)
     if shown.boxes:
         _boxes(board, sheet, [(y, shown.boxes[row]) for row, y in places], size)
-    for row, y in places:
+    for k, (row, y) in enumerate(places):
+        if k % _ROWS_IN_STEP == 0:
+            yield
         _quantity_row(board, sheet, shown, row, size, y)
     if not shown.rows:
         at = (1.2 * size, (0.9 + STEP) * size)
@@ -551,12 +568,19 @@ class Panels:
         room = self.board.layout.size[0] - left
         return help_line_at(self.board, (overlay.help, room), x - place.x, y - place.y) or ""
 
-    def prepared(self, shown: Help) -> Iterator[None]:
-        """Draw the help in steps, to be there when it is asked for."""
-        wanted = shown, self.board.layout.size[0]
-        if self._kept.get((help_sheet, None), (None,))[0] != wanted:
-            drawn = yield from _help_in_steps(self.board, wanted)
-            self._kept[help_sheet, None] = wanted, drawn
+    def prepared(self, overlay: Overlay) -> Iterator[None]:
+        """Draw the help and the lists of an overlay in steps, so that they take less when they are shown."""
+        if overlay.help:
+            yield from self._ahead(help_sheet, (overlay.help, self.board.layout.size[0]), _help_in_steps)
+        if overlay.panel:
+            yield from self._ahead(edit_list, overlay.panel, _edit_list_in_steps)
+        if overlay.quantities:
+            yield from self._ahead(quantity_list, overlay.quantities, _quantity_list_in_steps)
+
+    def _ahead(self, make: Any, shown: Any, steps: Any) -> Iterator[None]:
+        """Draw a panel in steps, and keep it as it is kept when it is shown."""
+        drawn = yield from steps(self.board, shown)
+        self._kept[make, None] = shown, drawn
 
     def _list(self, surface: pygame.Surface, make: Any, shown: object) -> int:
         """Draw a list, if one is open; return how much of the window's left it takes at the top."""

@@ -238,10 +238,7 @@ class Placer:
         if but is not None:
             cost[but[every]] = 0.0
         which = int((label.price + cost.mean(axis=0)).argmin())
-        if len(cost) < len(label.places):  # a choice at some of the moments is looked at in all of them
-            cost = self._cost(label.at(slice(None), slice(which, which + 1)), slice(None), self.clutter)
-        else:
-            cost = cost[:, which : which + 1]
+        cost = self._cost(label.at(slice(None), slice(which, which + 1)), slice(None), self.clutter)
         shown = _eased(cost[:, 0] >= _FORBIDDEN)
         return Placed(which, shown if but is None else shown * _eased(but, 0))
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
 from itertools import groupby
 from math import ceil
 from pathlib import Path
@@ -27,6 +27,7 @@ from linkanim.picture.theme import ORANGE, theme_of
 from linkanim.picture.view import Rect
 from linkanim.scenes import chapter_of, load, titles
 from linkanim.scenes.scene import Scene
+from linkanim.steps import at_once
 
 if TYPE_CHECKING:
     from linkanim.synthesis.answers import PathAnswer
@@ -202,12 +203,17 @@ class ShelfPrinter:
         self._still: tuple[object, pygame.Surface] | None = None
         self._live: dict[int, Live] = {}
         self._unread: set[int] = set()
-        self._type: Type | None = None
+        self._type = Type()
 
     def close(self) -> None:
         """Forget what was drawn for a shelf that is no longer open."""
-        self._made_for = self._still = self._type = None
+        self._made_for = self._still = None
         self._live, self._unread = {}, set()
+
+    def prepared(self, size: tuple[int, int], shelf: Shelf) -> Iterator[None]:
+        """Draw the frames and titles of a shelf in steps, so that they take less when it is opened."""
+        board = Board(layout(size), self._type, theme_of(shelf.theme))
+        yield from _still(size, board, grid(size, shelf.browsing), shelf.browsing)
 
     def draw(self, surface: pygame.Surface, shelf: Shelf) -> None:
         """Draw the shelf instead of the picture, with one mechanism more than before."""
@@ -216,11 +222,10 @@ class ShelfPrinter:
         if self._made_for != made_for:
             self.close()
             self._made_for = made_for
-        self._type = self._type or Type()
         board, found = Board(layout(size), self._type, theme_of(shelf.theme)), grid(size, shelf.browsing)
         shown = (found.top, shelf.browsing.found, shelf.browsing.sieve)
         if self._still is None or self._still[0] != shown:
-            self._still = shown, _still(size, board, found, shelf.browsing)
+            self._still = shown, at_once(_still(size, board, found, shelf.browsing))
         surface.blit(self._still[1], (0, 0))
         self._join(found, shelf)
         for n in _due(self._live, found, shelf):
@@ -272,8 +277,10 @@ def _turn(shelf: Shelf, n: int, count: int) -> int:
     return 0 if shelf.still else max((shelf.frame - n) // turns * turns, 0)
 
 
-def _still(size: tuple[int, int], board: Board, found: Grid, browsing: Browsing) -> pygame.Surface:
-    """Return what of a shelf keeps still: frames, titles, headings, and what has been typed."""
+def _still(
+    size: tuple[int, int], board: Board, found: Grid, browsing: Browsing
+) -> Generator[None, None, pygame.Surface]:
+    """Return what of a shelf keeps still: frames, titles, headings, and what has been typed; in steps."""
     still = pygame.Surface(size, 0, 32)
     still.fill(board.theme.background)
     typed = f"{browsing.sieve}_" if browsing.sieve else ""
@@ -296,6 +303,7 @@ def _still(size: tuple[int, int], board: Board, found: Grid, browsing: Browsing)
     paint(still, [Layer(board.theme.rule, outer), Layer(board.theme.panel, inner)])
     named = titles()
     for n, cell in found.cells.items():
+        yield
         if n == NEW:
             paint(still, [Layer(board.theme.dim, _plus(cell, found.line, board.layout.unit))])
             _title(still, board, NEW_TITLE, cell, found)

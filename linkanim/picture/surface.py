@@ -13,7 +13,7 @@ from linkanim.mechanics.motion import Pose
 from linkanim.picture.board import Board
 from linkanim.picture.build_sheet import SHEET
 from linkanim.picture.items import Caption, Group, flat
-from linkanim.picture.overlay import Help, Overlay
+from linkanim.picture.overlay import Overlay
 from linkanim.picture.panels import Panels
 from linkanim.picture.picture import Picture
 from linkanim.picture.raster import Cover, Shapes, covers, in_turn, is_clear, keep_memory, paints
@@ -81,9 +81,9 @@ class SurfacePrinter:
         if canvas is not surface:
             surface.blit(canvas, (0, 0))
 
-    def prepared(self, picture: Picture, shown: Help) -> Iterator[None]:
-        """Have the help of a picture there when it is asked for, in steps."""
-        yield from self._panels_of(picture).prepared(shown)
+    def prepared(self, picture: Picture, overlay: Overlay) -> Iterator[None]:
+        """Draw the panels of an overlay in steps, so that they take less when they are shown."""
+        yield from self._panels_of(picture).prepared(overlay)
 
     def row_at(self, picture: Picture, overlay: Overlay, x: float, y: float) -> int | None:
         """Return the row of the open list under a pixel, -1 on the list beside them; None off it."""

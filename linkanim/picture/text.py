@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 import unicodedata
 import warnings
+from bisect import bisect_left
 from collections.abc import Hashable, Iterable, Iterator
 from functools import cached_property
 from io import BytesIO
@@ -243,6 +244,7 @@ class Type:
         self._steps: dict[tuple[str, str, int, str], int] = {}
         self._lines: dict[tuple[str, int, str], tuple[_Place, ...]] = {}
         self._wrapped: dict[tuple[str, int, float, str, bool], tuple[str, ...]] = {}
+        self._narrowest: dict[tuple[str, int, int], int] = {}
         self._inked: dict[tuple[str, int, str, Colour], tuple[int, list[Inked]]] = {}
         self._inked_bytes = 0
         self._drawn: set[Hashable] = set()
@@ -363,10 +365,10 @@ class Type:
         if key not in self._wrapped:
             if len(self._wrapped) >= _KEPT:
                 self._wrapped.clear()
-            self._wrapped[key] = tuple(self._in_lines(*key))
+            self._wrapped[key] = tuple(self._in_lines(*key[:4], strong=strong))
         return [*self._wrapped[key]]
 
-    def _in_lines(self, text: str, size: int, width: float, gap: str, strong: bool) -> list[str]:
+    def _in_lines(self, text: str, size: int, width: float, gap: str, *, strong: bool) -> list[str]:
         lines: list[str] = []
         for word in filter(str.strip, text.split(gap)):
             longer = f"{lines[-1]}{gap}{word}" if lines else word
@@ -375,6 +377,22 @@ class Type:
             else:
                 lines += self._broken(word, size, width, strong=strong)
         return lines
+
+    def narrowest(self, text: str, size: int, count: int) -> int:
+        """Return the least width in which a strong text has at most `count` lines, broken between words."""
+        key = (text, size, count)
+        if key not in self._narrowest:
+            words = text.split()
+
+            def fits(width: int) -> bool:
+                found = self._in_lines(text, size, width, " ", strong=True)
+                return len(found) <= count and " ".join(found).split() == words
+
+            if len(self._narrowest) >= _KEPT:
+                self._narrowest.clear()
+            widths = range(self.width(text, size, strong=True) + 1)
+            self._narrowest[key] = bisect_left(widths, True, key=fits)
+        return self._narrowest[key]
 
     def _broken(self, word: str, size: int, width: float, *, strong: bool) -> list[str]:
         """Return a word in pieces no wider than `width`, but of at least one character each."""

@@ -39,13 +39,14 @@ from linkanim.picture.theme import theme_of
 from linkanim.picture.tools import ToolPrinter, tool_at
 from linkanim.picture.view import Rect
 from linkanim.player.action import Action
+from linkanim.player.actions import carried
 from linkanim.player.framing import Fade, Framing
-from linkanim.player.keys import help_groups
 from linkanim.player.pointing import Pointed, PointedThing, thing_at
 from linkanim.player.posing import has_room
 from linkanim.player.posing import under as posed_under
-from linkanim.player.shown import Hover
+from linkanim.player.shown import Hover, kept
 from linkanim.player.state import PIVOTS, State, driven_bar, proved
+from linkanim.scenes import names, title_of
 from linkanim.scenes.editing import ghost_of, handles
 
 # The display: a window on a screen that is really there.
@@ -309,7 +310,7 @@ class Screen:
             next(self._preparing, None)
 
     def _ahead(self, state: State, picture: Picture) -> Iterator[None]:
-        """Find what the keys will ask for: the other closure, quantities to chart, polygons, help."""
+        """Find what keys will ask for: the other closure, quantities to chart, polygons, help and lists."""
         other = ghost_of(state.scene)
         yield
         if other:
@@ -318,7 +319,15 @@ class Screen:
         yield from state.scene.finding_telling()
         _ = picture.fit.subject.figure.polygon_boxes
         yield
-        yield from self._printer.prepared(picture, help_groups(state.mode, pad=state.pad))
+        for name in names():
+            title_of(name)
+            yield
+        for key in ("help", "edit", "list", "shelf"):
+            over = kept(carried(state, Action(key)))
+            yield
+            yield from self._printer.prepared(picture, over)
+            if over.shelf:
+                yield from self._shelf.prepared(self.size, over.shelf)
 
     def _paint(self, surface: pygame.Surface, picture: Picture, state: State, over: Overlay) -> None:
         if over.shelf:

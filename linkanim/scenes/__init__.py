@@ -12,7 +12,7 @@ From the ground up; a module imports from those before it only:
     editing    a scene with other dimensions, unit, assembly, input
 """
 
-from linkanim.scenes.files import chapter_of, chapters, load, names, titles
+from linkanim.scenes.files import chapter_of, chapters, load, names, title_of, titles
 from linkanim.scenes.scene import Scene
 
-__all__ = ["Scene", "chapter_of", "chapters", "load", "names", "titles"]
+__all__ = ["Scene", "chapter_of", "chapters", "load", "names", "title_of", "titles"]

@@ -43,7 +43,13 @@ def names() -> tuple[str, ...]:
 @cache
 def titles() -> Mapping[str, str]:
     """Return each catalogue scene's title by its name, without checking the linkage in it."""
-    return MappingProxyType({name: str(parse(_catalogue_text(name), name)["title"]) for name in names()})
+    return MappingProxyType({name: title_of(name) for name in names()})
+
+
+@cache
+def title_of(name: str) -> str:
+    """Return the title of a catalogue scene."""
+    return str(parse(_catalogue_text(name), name)["title"])
 
 
 class PublishedTable(NamedTuple):
