@@ -71,6 +71,12 @@ class Building(Undoable[Draft]):
         return made(self.draft)
 
 
+def knowing(building: Building, made: Made) -> Building:
+    """Return the building, of whose draft it is known already what it makes."""
+    vars(building).setdefault("made", made)
+    return building
+
+
 def changed(building: Building, draft: Draft, chosen: Thing | None, sentence: str = "") -> Building:
     """Return the building with another draft, which undo takes back."""
     settled = draft.having_all("sides", sides(draft))

@@ -11,10 +11,10 @@ from dataclasses import replace
 from math import isnan
 from typing import Any
 
-from linkanim.build.building import Building, draft_of, grown
+from linkanim.build.building import Building, draft_of, grown, knowing
 from linkanim.build.dimensions import PropertyRow, rows_of
 from linkanim.build.draft import DRIVE, JOINT, Draft, Thing, numbered
-from linkanim.build.scene_form import made
+from linkanim.build.scene_form import Made, made
 from linkanim.errors import BadInput
 from linkanim.frozen import NamedTuple
 from linkanim.scenes.editing import numbers
@@ -43,7 +43,8 @@ def renumbered(building: Building, scene: Scene, *, grows: bool = True) -> Build
         raise BadInput("the sheet cannot tell this closure from the other: leave it first")
     chosen = building.chosen if building.chosen in {*after.things()} else None
     past = grown(building) if grows else building.past
-    return Building(after, chosen, building.row if chosen else 0, past=past)
+    # what it makes is this scene, of which some is worked out already
+    return knowing(Building(after, chosen, building.row if chosen else 0, past=past), Made(scene, ""))
 
 
 def _posed(draft: Draft, scene: Scene, phase: float) -> Draft:
@@ -162,6 +163,13 @@ def rows_of_all(draft: Draft) -> tuple[PlacedRow, ...]:
     for one in _every_row(draft):
         found.setdefault(one.row.key, one)
     return tuple(found.values())
+
+
+def chosen_row(building: Building) -> int | None:
+    """Return the place among all numbers of the one that is typed of what is chosen; None without any."""
+    own = rows_of(building.draft, building.chosen)
+    key = own[building.row % len(own)].key if own else None
+    return next((n for n, one in enumerate(rows_of_all(building.draft)) if one.row.key == key), None)
 
 
 def _every_row(draft: Draft) -> Iterator[PlacedRow]:

@@ -464,7 +464,7 @@ class FitRequest(NamedTuple):
     keys: int
     """How many lines the key to the colours has."""
     hud: bool
-    listed: bool
+    listed: int
     """Whether it leaves room for the edit list."""
     polygons: int = 0
     """1 for both polygons, 2 for a large one."""
@@ -488,7 +488,7 @@ def request_of(
     look: Look,
     charts: int,
     *,
-    listed: bool,
+    listed: int,
     row: bool,
     still: bool = False,
     bar: bool = False,

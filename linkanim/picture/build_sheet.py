@@ -22,7 +22,7 @@ from linkanim.picture.bodies import mark_stamp, pin_stamp
 from linkanim.picture.figure import DrawSetting
 from linkanim.picture.fittings import Coil, Damping, StrutSpan, block_layers, damping, hatched, pedestal
 from linkanim.picture.items import Caption, Group, Halo
-from linkanim.picture.layout import Gauge, Layout, gauge
+from linkanim.picture.layout import Gauge, Layout, gauge, tool_cells
 from linkanim.picture.marks import beside, measure
 from linkanim.picture.motion_marks import turning_arrow
 from linkanim.picture.overlay import BuildShown, DimensionLine, DraftShown, PathShown, Rubber, Snap
@@ -33,7 +33,6 @@ from linkanim.picture.shapes import box, dashes, disc, glazed, hull, lined, segm
 from linkanim.picture.sheet_rows import rows
 from linkanim.picture.text import subscripted
 from linkanim.picture.theme import ORANGE, Theme, mixed
-from linkanim.picture.tools import tool_cells
 from linkanim.picture.view import Box, Rect, View, view_of
 from linkanim.units import significant
 
@@ -427,7 +426,8 @@ def worded(
     They take that share of the stage's width at the most.
     """
     layout, theme = setting.layout, setting.theme
-    beside = max((cell.right for cell in cells), default=0) if layout.size[0] >= layout.size[1] else 0
+    is_wide = layout.size[0] >= layout.size[1]
+    beside = max((cell.right for cell in cells), default=layout.stage.x) if is_wide else layout.stage.x
     left, y, captions = beside + layout.margin, layout.margin, []
     wide = room * (layout.stage.right - layout.margin - left)
     first = sentence, layout.text_size, theme.warning if is_warning else theme.ink

@@ -6,6 +6,7 @@ from dataclasses import replace
 from functools import cached_property
 from math import ceil
 
+from linkanim.build.tools import TOOLS
 from linkanim.frozen import frozen
 from linkanim.picture.view import Rect
 
@@ -87,6 +88,8 @@ class Layout:
     """Where the sentence on what to watch for stands, if it is given room."""
     passing: Rect | None = None
     """Where it may stand for a while, on nothing that is drawn; None where there is no such place."""
+    room: Rect | None = None
+    """What an open list leaves of the window; None where none is open."""
     words: tuple[Rect, ...] = ()
     """What of the HUD and the key holds words: names stay off these."""
     type_scale: float = 1.0
@@ -136,7 +139,7 @@ def layout(
     *,
     chart: int = 0,
     beside: bool = False,
-    listed: bool = False,
+    listed: int = 0,
     polygons: int = 0,
     row: bool = False,
     bar: bool = False,
@@ -144,7 +147,8 @@ def layout(
 ) -> Layout:
     """Divide a window: `chart` charts along the bottom, or `beside` the scene; the stage is what is left.
 
-    `listed` leaves room for a list, on the left or in a narrow window at the foot, `polygons` for those, on
+    `listed` leaves room for a list, on the left or in a narrow window at the foot, where it is 2 for tools
+    beside it, too, `polygons` for those, on
     the right or below, for 2 more of it, and a `row` for small pictures at the foot, with the bar of
     commands below it. The `bar` has room at the foot without a row, too, where that takes little of it. The
     HUD has no place yet: that depends on the scene.
@@ -205,11 +209,13 @@ def with_caption(parts: Layout, lines: int) -> Layout:
     return replace(parts, caption=place, stage=stage._replace(height=place.y - stage.y))
 
 
-def _charted(empty: Layout, *, chart: int, beside: bool, listed: bool, row: bool, bar: bool) -> Layout:
+def _charted(empty: Layout, *, chart: int, beside: bool, listed: int, row: bool, bar: bool) -> Layout:
     """Return an empty layout with its chart and without polygons."""
     unit, whole, edge = empty.unit, empty.stage, 20 * empty.unit
     empty = replace(empty, lists=_lists(empty))
     room = _beside(empty.lists, whole) if listed else whole
+    empty = replace(empty, room=room if listed else None)
+    room = _beside_tools(empty, room) if listed > 1 else room
     deep = min(_BAR * max(_BUTTON * unit, _LEAST_BUTTON), _SHARE_OF_BAR * room.height)
     foot = Rect(room.x, room.bottom - deep, room.width, deep)
     if row:
@@ -235,6 +241,43 @@ def _charted(empty: Layout, *, chart: int, beside: bool, listed: bool, row: bool
     tall = _SHARES_BELOW[min(chart, len(_SHARES_BELOW)) - 1] * room.height
     chart_place = Rect(room.x + edge, room.bottom - edge - tall, room.width - 2 * edge, tall)
     return replace(empty, stage=room._replace(height=chart_place.y - 0.6 * edge), chart=chart_place)
+
+
+# The tools beside a list of dimensions, and on a sheet.
+
+_SIDE, _LEAST, _FEWEST = 40.0, 22.0, 12.0
+"""The side of an icon in units; the least in pixels, and where they are more than one row can hold."""
+_GAP = 0.12
+"""Between icons, in their sides."""
+
+
+def tool_cells(layout: Layout) -> tuple[Rect, ...]:
+    """Return where the tools stand: in columns at the left, in rows at the foot if it is upright.
+
+    Beside an open list it is the left, or the foot, of what that leaves.
+    """
+    edge, count, upright = 10.8 * layout.unit, len(TOOLS), layout.size[0] < layout.size[1]
+    x, y, width, height = layout.room or Rect(0, 0, *layout.size)
+    long = width - 2 * edge if upright else height - 2 * edge
+    side = max(min(_SIDE * layout.unit, long / count / (1 + _GAP)), min(_LEAST, long / 4), 1.0)
+    step = (1 + _GAP) * side
+    each = max(int((long + _GAP * side) / step), 1)
+    lines = ceil(count / each)
+    places = [divmod(n, ceil(count / lines)) for n in range(count)]
+    if not upright:
+        top = y + (height - ceil(count / lines) * step) / 2
+        return tuple(Rect(x + edge + line * step, top + n * step, side, side) for line, n in places)
+    left, foot = x + (width - ceil(count / lines) * step) / 2, y + height - edge - lines * step
+    return tuple(Rect(left + n * step, foot + line * step, side, side) for line, n in places)
+
+
+def _beside_tools(parts: Layout, room: Rect) -> Rect:
+    """Return what the tools leave of the room that a list leaves."""
+    cells = tool_cells(replace(parts, room=room))
+    if parts.size[0] < parts.size[1]:
+        return room._replace(height=min(cell.y for cell in cells) - room.y)
+    right = max(cell.right for cell in cells)
+    return Rect(right, room.y, room.right - right, room.height)
 
 
 def _lists(parts: Layout) -> Rect:

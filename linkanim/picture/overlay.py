@@ -513,7 +513,8 @@ class Overlay:
     `chip` answers a key, `hint` says what there is to press, `watch` what to watch for. `measured` is
     what the chosen dimension and those beside it measure, `glow` the joint under the mouse, `told` what
     is there, `instant` the phase that the mouse points at on a curve; with `grip` the chart's cursor has
-    one. `shutter` is how white the picture is, in eighths. The `bar` has the commands.
+    one. `shutter` is how white the picture is, in eighths. The `bar` has the commands, and beside a list
+    of dimensions there are the `tools` of a sheet.
     """
 
     paused: bool = False
@@ -545,6 +546,12 @@ class Overlay:
     shutter: int = 0
     noted: bool = False
     bar: CommandBar | None = None
+    tools: ToolBar | None = None
+
+    @property
+    def tool_bar(self) -> ToolBar | None:
+        """The tools, of a sheet or beside a list of dimensions; None where there are none."""
+        return self.build.tools if self.build else self.tools
 
     @property
     def hides_chart(self) -> bool:

@@ -6,7 +6,6 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import partial
 from itertools import chain
-from math import ceil
 
 import numpy as np
 import pygame
@@ -15,7 +14,7 @@ from linkanim.build.tools import TOOLS, Tool
 from linkanim.picture.board import Board
 from linkanim.picture.bodies import pin_stamp
 from linkanim.picture.fittings import Coil, barrel, block_layers, hatched
-from linkanim.picture.layout import Gauge, Layout
+from linkanim.picture.layout import Gauge, Layout, tool_cells
 from linkanim.picture.motion_marks import turning_arrow
 from linkanim.picture.overlay import ToolBar
 from linkanim.picture.raster import Layer, paint
@@ -24,29 +23,8 @@ from linkanim.picture.text import Type
 from linkanim.picture.theme import Theme, mixed
 from linkanim.picture.view import Rect
 
-_SIDE, _LEAST, _FEWEST = 40.0, 22.0, 12.0
-"""The side of an icon in units; the least in pixels, and where they are more than one row can hold."""
-_GAP = 0.12
-"""Between icons, in their sides."""
-
 Icon = Callable[[Gauge, Theme], list[Layer]]
 """Draws an icon about 0, within 10 thin lines each way."""
-
-
-def tool_cells(layout: Layout) -> tuple[Rect, ...]:
-    """Return where the tools stand: in columns at the left, in rows at the foot if it is upright."""
-    (width, height), edge, count = layout.size, 10.8 * layout.unit, len(TOOLS)
-    long = height - 2 * edge if width >= height else width - 2 * edge
-    side = max(min(_SIDE * layout.unit, long / count / (1 + _GAP)), min(_LEAST, long / 4), 1.0)
-    step = (1 + _GAP) * side
-    each = max(int((long + _GAP * side) / step), 1)
-    lines = ceil(count / each)
-    places = [divmod(n, ceil(count / lines)) for n in range(count)]
-    if width >= height:
-        top = (height - ceil(count / lines) * step) / 2
-        return tuple(Rect(edge + line * step, top + n * step, side, side) for line, n in places)
-    left, foot = (width - ceil(count / lines) * step) / 2, height - edge - lines * step
-    return tuple(Rect(left + n * step, foot + line * step, side, side) for line, n in places)
 
 
 def tool_at(layout: Layout, x: float, y: float) -> int | None:
@@ -67,7 +45,7 @@ class ToolPrinter:
             self._kept = None
             return
         board, cells = Board(layout, self._type, theme), tool_cells(layout)
-        made_for = layout.size, theme, replace(bar, pointed=None)
+        made_for = layout.size, cells, theme, replace(bar, pointed=None)
         if self._kept is None or self._kept[0] != made_for:
             self._kept = made_for, _bar(board, cells, bar)
         surface.blit(self._kept[1], (0, 0))

@@ -570,6 +570,7 @@ ACTIONS: Mapping[str, Rule] = {
     "pan": Rule(_numbers(2), pan),  # window heights, right and down
     "fit": Rule(_nothing, fit, answer=_zoom),
     "edit": Rule(_nothing, edits.edit),
+    "numbers": Rule(_nothing, building.numbers),
     "edit_at": Rule(_text, edits.edit_at),  # a joint
     "trace_joint": Rule(_text, edits.trace_joint),
     "drive_joint": Rule(_text, edits.drive_joint),
@@ -719,6 +720,8 @@ _LEAVES = frozenset({"mechanism", "select", "put", "closure", "reset", "returns"
 """What keeps the answer that the pencil has, and what goes back to the scene before."""
 _OFF_THE_SHEET = _KEEPS | _LEAVES | {"pencil", "own_trace", "poses"}
 """What is not done on a sheet, which is left for it."""
+_IN_THE_LIST = frozenset({"closure", "reset", "returns"})
+"""What is done on a sheet all the same while the list of dimensions is open on it."""
 _OFF_THE_LAYERS = frozenset(
     {"edit", "pencil", "own_trace", "poses", "build", "build_on", "sheet", "draft", "photo"}
 )
@@ -778,15 +781,18 @@ def carried(state: State, action: Action) -> State:
         state = leave(state)
         if state.building and action.name == "build":
             return state  # the sheet that was open beneath
-    if action.name in _OFF_THE_SHEET:
+    numbers = state.mode == "numbers"
+    if action.name in _OFF_THE_SHEET and not (numbers and action.name in _IN_THE_LIST):
         state = building.left(state)
     if action.name in _OFF_THE_LAYERS:
         state = making.closed(state)
     if action.name in _KEEPS | _LEAVES:
         state = keep(state, None) if action.name in _KEEPS else left(state)
 
+    handle = building.in_list(state, action.name, rule.handle)
+
     def handled(before: State) -> State:
-        after = rule.handle(before, action.value)
+        after = building.agreed(before, handle(before, action.value))
         return with_chip(after, rule.answer(before, after)) if rule.answer else after
 
     return _tried(state, action, handled)

@@ -2,29 +2,44 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from math import ceil, dist, radians, tau
 from typing import Any
 
 from linkanim.build import building as built
 from linkanim.build import dimensions, gestures
-from linkanim.build.building import Building, building_of, choosing
+from linkanim.build.building import Building, building_of, choosing, draft_of, knowing
 from linkanim.build.draft import JOINT
 from linkanim.build.meanings import Meaning, drag, meanings
-from linkanim.build.numbers import renumbered
+from linkanim.build.numbers import chosen_row, renumbered, rows_of_all, thing_at
 from linkanim.build.storing import restored, stored
 from linkanim.build.tools import TOOLS
 from linkanim.errors import BadInput
 from linkanim.intake import Intake, Section, unnameable
 from linkanim.picture.figure import figure
+from linkanim.picture.look import Look
 from linkanim.picture.overlay import NEW
+from linkanim.picture.quantities import chart_tokens
 from linkanim.picture.view import Box
 from linkanim.player.clock import FRAMES_PER_SECOND
-from linkanim.player.edits import drop, exchanged
+from linkanim.player.edits import drop, exchanged, nudged
 from linkanim.player.edits import put as put_on
 from linkanim.player.sketching import left as abandoned
-from linkanim.player.state import HOME, LIVE, BuildSheet, Grip, State, nothing_begun, with_toast, with_undo
+from linkanim.player.state import (
+    BLANK,
+    HOME,
+    LIVE,
+    BuildSheet,
+    Editing,
+    Grip,
+    State,
+    cleared,
+    nothing_begun,
+    with_toast,
+    with_undo,
+)
+from linkanim.scenes.editing import dimensions as dimensions_of
 from linkanim.scenes.editing import other_closure
 from linkanim.units import shown
 
@@ -54,10 +69,34 @@ def build(state: State, _: None) -> State:
 
 
 def build_on(state: State, _: None) -> State:
-    """Open a sheet with the scene that is on; once more where a draft would be lost."""
-    if state.sheet and state.sheet.open:
+    """Open a sheet with the scene that is on; once more where a draft would be lost.
+
+    Its undo goes on to what was edited before. A sheet that the scene has come from is gone on with.
+    """
+    sheet, editing = state.sheet, state.editing
+    if sheet and sheet.open:
         return left(state)
-    return _anew(state, lambda: building_of(state.scene))
+    if sheet and sheet.building.made.scene is state.scene:
+        return _opened(state, sheet.building)
+    past, future = (tuple(map(draft_of, scenes)) for scenes in (editing.past, editing.future))
+    building = replace(building_of(state.scene), past=past, future=future)
+    original, saved = editing.original or state.scene, state.saved_as or ""
+    opened = _anew(state, lambda: building)
+    if opened.sheet is None or opened.sheet.building is not building:
+        return opened
+    opened = replace(opened, editing=replace(Editing(), chosen=editing.chosen, original=original))
+    return _with(opened, saved=saved)
+
+
+def numbers(state: State, _: None) -> State:
+    """Open or close the list of all dimensions on a sheet; values begun are let go of."""
+    sheet = state.building
+    if sheet is None:
+        return state
+    if not rows_of_all(sheet.building.draft):
+        return with_toast(state, BLANK)
+    editing = cleared(replace(state.editing, drafts=()), open=not state.editing.open)
+    return replace(state, editing=editing, listing=None, browsing=None, held=None)
 
 
 def new(state: State, _: None) -> State:
@@ -68,10 +107,16 @@ def new(state: State, _: None) -> State:
 def _anew(state: State, make: Callable[[], Building]) -> State:
     """Return the state with another sheet; where a draft is in no file, only by asking once more."""
     sheet = state.sheet
-    if sheet and not (sheet.is_written or sheet.warned):
+    if sheet and not (sheet.is_written or sheet.warned or _is_undone_to(state, sheet)):
         return with_toast(replace(state, sheet=replace(sheet, warned=True)), LOST)
     building = make()
     return _opened(replace(left(state), sheet=None), building, known=True)
+
+
+def _is_undone_to(state: State, sheet: BuildSheet) -> bool:
+    """Whether the linkage of a sheet is on, or undo goes back to it."""
+    made = sheet.building.made.scene
+    return made is not None and any(one is made for one in (state.scene, *state.editing.past))
 
 
 def _opened(state: State, building: Building, *, known: bool = False) -> State:
@@ -79,12 +124,13 @@ def _opened(state: State, building: Building, *, known: bool = False) -> State:
     state, last = abandoned(drop(state, None)), state.sheet
     editing = nothing_begun(replace(state.editing, open=False))
     sheet = BuildSheet(state.scene, state.clock, editing, building, HOME, written=building.draft)
+    sheet = replace(sheet, look=state.look)
     if last and not known:
         sheet = replace(sheet, written=last.written, saved=last.saved, tool=last.tool, home=last.home)
     elif building.draft.places:
         sheet = replace(sheet, home=figure(state.scene).box)
     look = replace(state.look, unit=None, zoom=1.0, pan=(0.0, 0.0), chart=None)
-    bare = replace(state, editing=editing, listing=None, browsing=None, glide=None, toast=None, look=look)
+    bare = replace(state, editing=Editing(), listing=None, browsing=None, glide=None, toast=None, look=look)
     return _shown(replace(bare, sheet=sheet, faded=state.frame), building)
 
 
@@ -94,15 +140,22 @@ def left(state: State) -> State:
     if sheet is None or not sheet.open:
         return state
     kept = replace(state, sheet=replace(sheet, open=False, grip=None, cursor=None, warned=False))
-    kept = replace(kept, faded=state.frame, look=replace(state.look, zoom=1.0, pan=(0.0, 0.0)))
+    kept = replace(kept, faded=state.frame, look=_look_after(state, sheet), held=None)
     if sheet.building.made.scene is None:
         return replace(kept, scene=sheet.before, clock=sheet.clock, editing=sheet.editing)
-    if not sheet.clock.paused:
-        kept = replace(kept, clock=state.clock.pause(state.frame, False))
+    kept = replace(kept, clock=state.clock.pause(state.frame, sheet.clock.paused))
     editing = with_undo(sheet.editing, sheet.before)
     if sheet.saved:
         editing = replace(editing, saved=(state.scene.name, sheet.saved))
     return replace(kept, editing=replace(editing, original=state.scene) if sheet.is_written else editing)
+
+
+def _look_after(state: State, sheet: BuildSheet) -> Look:
+    """Return the look once a sheet is left: the unit and the charts of before, as far as they are there."""
+    scene = sheet.before if sheet.building.made.scene is None else state.scene
+    tokens = chart_tokens(sheet.before, sheet.look.chart)
+    charts = state.look.chart or ",".join(token for token in tokens if token in scene.quantities) or None
+    return replace(state.look, zoom=1.0, pan=(0.0, 0.0), unit=sheet.look.unit, chart=charts)
 
 
 def draft(state: State, text: str) -> State:
@@ -176,6 +229,7 @@ def _shown(state: State, building: Building, *, live: bool = False) -> State:
     """
     sheet = sheet_of(state)
     same = building.draft is sheet.building.draft
+    building = knowing(building, sheet.building.made) if same else building
     warned, closes = sheet.warned and same, sheet.closes and same
     drawn = replace(state, sheet=replace(sheet, building=building, warned=warned, closes=closes))
     scene = building.made.scene
@@ -436,7 +490,11 @@ def _changed(work: Callable[..., Building]) -> Handler:
     return handle
 
 
-number = _changed(dimensions.choose_number)
+def number(state: State, further: int) -> State:
+    """Choose another number of what is chosen, to be typed."""
+    return _with(_changed(dimensions.choose_number)(state, further), rowed=True)
+
+
 option = _changed(dimensions.next_option)
 write = _changed(dimensions.write)
 erase = _changed(dimensions.erase)
@@ -458,7 +516,12 @@ def reassemble(state: State, _: None) -> State:
 
 
 def undo(state: State, _: None) -> State:
-    """Go back a change; points of a photograph that were measured are let go of."""
+    """Go back a change; points of a photograph that were measured are let go of.
+
+    Values begun in the list of dimensions are let go of first.
+    """
+    if state.editing.begun:
+        return replace(state, editing=nothing_begun(state.editing))
     return _changed(built.undo)(_with(state, span=None), None)
 
 
@@ -467,12 +530,130 @@ def redo(state: State, _: None) -> State:
     return _changed(built.redo)(_with(state, span=None), None)
 
 
+# The list of all dimensions on the sheet: it edits the linkage as it does anywhere, and the draft follows.
+
+
+def agreed(before: State, after: State) -> State:
+    """Return the state after an action with what is built and the open list of dimensions in agreement.
+
+    A scene that the list has changed is what the draft makes from now on, by one undo of the sheet; what is
+    chosen on the sheet has its row chosen in the list, and the other way round. What has none there has its
+    own rows to be typed in.
+    """
+    sheet, was = after.building, before.building
+    if sheet is None or not after.editing.open:
+        return after
+    if was is None or not before.editing.open:
+        return _rowed(after) if sheet.building.chosen else _chosen_by_row(after)
+    if sheet.building is was.building and after.scene is not before.scene:
+        grows = after.editing.past is not before.editing.past
+        building = renumbered(sheet.building, after.scene, grows=grows)
+        editing = replace(after.editing, past=before.editing.past, future=before.editing.future)
+        after = replace(_with(after, building=building, rests=None, warned=False), editing=editing)
+        return _chosen_by_row(after)
+    if sheet.building is not was.building:
+        same = sheet.building.draft is was.building.draft
+        if same and sheet.building.chosen == was.building.chosen:
+            return after
+        return _rowed(after if same else replace(after, editing=cleared(after.editing, drafts=())))
+    return after if after.editing.chosen == before.editing.chosen else _chosen_by_row(after)
+
+
+def _rowed(state: State) -> State:
+    """Return the state with the first row of what is chosen on the sheet as the chosen row of the list."""
+    sheet = sheet_of(state)
+    thing, scene = sheet.building.chosen, sheet.building.made.scene
+    if thing is None or scene is None:
+        return state
+    things = [thing_at(sheet.building.draft, scene, item.key) for item in dimensions_of(scene)]
+    state = _with(state, rowed=thing not in things)
+    if thing not in things or things[state.editing.chosen % len(things)] == thing:
+        return state
+    return replace(state, editing=cleared(state.editing, chosen=things.index(thing)))
+
+
+def _chosen_by_row(state: State) -> State:
+    """Return the state with what the chosen row of the list belongs to chosen on the sheet."""
+    sheet = sheet_of(state)
+    scene, items = sheet.building.made.scene, dimensions_of(state.scene)
+    if scene is None or not items:
+        return state
+    key = items[state.editing.chosen % len(items)].key
+    building = choosing(sheet.building, thing_at(sheet.building.draft, scene, key))
+    return _with(state, building=building, rowed=False)
+
+
+def _in_rows(work: Callable[[State, BuildSheet, Any], State]) -> Handler:
+    """Make a handler of what is done in the list while what is drawn does not move."""
+
+    def handle(state: State, value: Any) -> State:
+        sheet = state.building
+        return state if sheet is None or sheet.grip else work(state, sheet, value)
+
+    return handle
+
+
+def _row_chosen(state: State, sheet: BuildSheet, place: int) -> State:
+    rows = rows_of_all(sheet.building.draft)
+    if not rows:
+        return state
+    one = rows[place % len(rows)]
+    return _with(state, building=replace(choosing(sheet.building, one.thing), row=one.place))
+
+
+def _row_further(state: State, sheet: BuildSheet, by: int) -> State:
+    at = chosen_row(sheet.building)
+    return _row_chosen(state, sheet, 0 if at is None else at + by)
+
+
+def _row_nudged(state: State, sheet: BuildSheet, steps: int) -> State:
+    at, rows = chosen_row(sheet.building), rows_of_all(sheet.building.draft)
+    if at is None:
+        return state
+    one = rows[at]
+    assert one.row.number
+    typed = replace(sheet.building, row=one.place, typed=nudged(one.row.number, steps))
+    return _shown(state, replace(dimensions.take(typed), row=one.place))
+
+
+def _unused(state: State, _: object) -> State:
+    return state
+
+
+_OWN_ROWS: Mapping[str, Handler] = {"type": write, "erase": erase, "take": _taken}
+_WHILE_IT_STANDS: Mapping[str, Handler] = {
+    "choose": _in_rows(_row_further),
+    "pass_on": _in_rows(_row_further),
+    "grab_row": _in_rows(_row_chosen),
+    "nudge": _in_rows(_row_nudged),
+    **_OWN_ROWS,
+    **dict.fromkeys(("pull", "reset", "returns", "grab", "carry"), _unused),
+}
+"""What the list of dimensions does on a sheet with nothing that moves: its rows are what is drawn."""
+
+
+def in_list(state: State, name: str, usual: Handler) -> Handler:
+    """Return what an action of the list of dimensions does on the sheet, if that is not the usual."""
+    sheet = state.building
+    if sheet is None or not state.editing.open:
+        return usual
+    instead = _WHILE_IT_STANDS if sheet.building.made.scene is None else _OWN_ROWS if sheet.rowed else {}
+    return instead.get(name, usual)
+
+
 def let_go(state: State) -> State | None:
-    """Return the state without what the hand does, what is typed or chosen, or another tool; else None."""
+    """Return the state without what the hand does, what is typed or chosen, or another tool; else None.
+
+    With the list of dimensions open only what is begun in it.
+    """
     sheet = state.sheet
     assert sheet
     if sheet.grip:
         return off(state, None)
+    if state.editing.open:
+        bare = _with(state, building=replace(sheet.building, typed="", sentence=""))
+        begun = state.editing.begun or sheet.building.typed
+        return replace(bare, editing=nothing_begun(state.editing)) if begun else None
     building = sheet.building
     if building.typed or building.chosen:
         kept = building.chosen if building.typed else None
@@ -482,6 +663,9 @@ def let_go(state: State) -> State | None:
 
 def _with(state: State, **changes: Any) -> State:
     """Return the state with these changes of its sheet, if one is open."""
-    if state.sheet is None or not state.sheet.open:
+    sheet, building = state.sheet, changes.get("building")
+    if sheet is None or not sheet.open:
         return state
-    return replace(state, sheet=replace(state.sheet, **changes))
+    if building and building.draft is sheet.building.draft:
+        knowing(building, sheet.building.made)
+    return replace(state, sheet=replace(sheet, **changes))

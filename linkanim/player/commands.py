@@ -8,12 +8,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from functools import lru_cache
 
+from linkanim.build.tools import Tool
 from linkanim.frozen import NamedTuple
 from linkanim.picture.overlay import Button, CommandBar
 from linkanim.player.action import Action, Mode
 from linkanim.player.clock import FASTEST, SLOWEST
 from linkanim.player.keys import BESIDE_GAMES, GROUPS, binds_of, commands, group_key, row_actions
-from linkanim.player.state import STIR_FRAMES, Entries, ListRow, State
+from linkanim.player.state import BLANK, STIR_FRAMES, Entries, ListRow, State
 from linkanim.scenes.editing import drives, handles
 from linkanim.scenes.scene import Scene
 
@@ -66,7 +67,7 @@ _SHEET = (
     _BACK,
     _HOME,
     *_RUNNING,
-    BarEntry("edit", Action("edit"), 7, leads=True),
+    BarEntry("edit", Action("numbers"), 7, leads=True),
     BarEntry("undo", Action("unbuild"), 5, leads=True),
     BarEntry("redo", Action("rebuild"), 9),
     BarEntry("new", Action("sheet"), 6, leads=True),
@@ -99,7 +100,7 @@ _HANDLES: Mapping[Mode, tuple[BarEntry, ...]] = {
     "shelf": (_BACK, _HOME, *_LAST),
     "pencil": _PENCIL,
     "poses": _POSES,
-    "build": _SHEET,
+    **{"build": _SHEET, "numbers": _SHEET},
     "layers": (
         *(_BACK, _HOME, BarEntry("nearer", Action("lift", -1), 4, leads=True)),
         *(BarEntry("farther", Action("lift", 1), 4), BarEntry("save", Action("make"), 3, leads=True), *_LAST),
@@ -128,6 +129,18 @@ def pressed(state: State, number: int) -> tuple[Action, ...]:
     handle = _HANDLES[state.mode][number]
     reason = lack(state, handle.action)
     return (Action("note", reason),) if reason else (_meant(state, handle.action),)
+
+
+def tool_asks(state: State, tool: Tool) -> tuple[Action, ...]:
+    """Return what a click on a tool asks for: from the list of dimensions alone it leads to the sheet.
+
+    There joints are moved already, and undo is that of the list.
+    """
+    asked = Action(tool.action, tool.value)
+    if state.building:
+        return (asked,)
+    of_the_list = {"undo": (Action("undo"),), "redo": (Action("redo"),), "move": ()}
+    return of_the_list.get(tool.icon, (Action("build_on"), Action("numbers"), asked))
 
 
 def slid(state: State, number: int, share: float) -> tuple[Action, ...]:
@@ -295,11 +308,16 @@ _ON: Mapping[Action, Callable[[State], bool]] = {
     Action("menu", "construction"): lambda state: state.look.polygons_shown > 0 or state.look.centres > 0,
     Action("taking"): lambda state: state.recording is not None,
     Action("menu"): _shows("Commands"),
-    Action("edit"): lambda state: state.editing.open,
+    **dict.fromkeys((Action("edit"), Action("numbers")), lambda state: state.editing.open),
     Action("help"): lambda state: state.help,
     Action("theory"): lambda state: state.posing is not None and state.posing.curves,
 }
 """Whether a command is on, where that is to be seen."""
+
+
+def _nothing_drawn(state: State) -> str:
+    sheet = state.building
+    return "" if sheet and sheet.building.draft.places else BLANK
 
 
 def _nothing_moves(state: State) -> str:
@@ -318,7 +336,7 @@ _LACKS: Mapping[Action, Callable[[State], str]] = {
     Action("rebuild"): lambda state: (
         "" if state.building and state.building.building.future else "there is nothing to redo"
     ),
-    Action("edit"): _nothing_moves,
+    Action("numbers"): _nothing_drawn,
     Action("pause"): _nothing_moves,
     Action("step", -1): _nothing_moves,
     Action("step", 1): _nothing_moves,

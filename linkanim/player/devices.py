@@ -19,7 +19,7 @@ from linkanim.build.tools import TOOLS
 from linkanim.frozen import NamedTuple
 from linkanim.player import taking
 from linkanim.player.action import Action, Mode
-from linkanim.player.commands import line_asks, pressed, slid, slides
+from linkanim.player.commands import line_asks, pressed, slid, slides, tool_asks
 from linkanim.player.keys import MENU_IN, Bind, Press, bind_of, button_name, hat_name, key_names, key_of
 from linkanim.player.pointing import SPEED_ROWS, Pointed, row_asks
 from linkanim.player.screen import Screen
@@ -401,7 +401,7 @@ class Mouse:
         modes = {
             "poses": self._of_the_poses,
             "layers": self._of_the_layers,
-            "build": self._of_the_sheet,
+            **{"build": self._of_the_sheet, "numbers": self._of_the_numbers, "edit": self._of_the_tools},
             "pencil": self._of_the_pencil,
             "game": self._in_a_game,
             "record": self._on_the_dialog,
@@ -419,7 +419,7 @@ class Mouse:
             return (Action("back"),)
         if screen.button_at(*self._at) is not None:
             return (Action("menu"),)
-        if screen.state.mode == "build":
+        if screen.state.building:
             chosen = screen.on_sheet(*self._at)
             click = (self._handed("hand_down", screen), Action("hand_up"), Action("menu", "chosen"))
             return click if chosen else (Action("menu"),)
@@ -527,7 +527,7 @@ class Mouse:
         row = screen.row_at(*self._at) if self._drag in (None, "row") else None
         if row is None:
             return None
-        editing = screen.state.mode == "edit"
+        editing = screen.state.mode in ("edit", "numbers")
         if gesture.kind == "wheel":
             # A list that is longer than its room moves on below a mouse that stands still.
             self._turned = row if self._turned is None else self._turned
@@ -608,7 +608,7 @@ class Mouse:
         if not self._seen or screen.state.browsing or self._drag in ("pan", "chart", "row"):
             return None
         on_a_list = self._drag is None and screen.row_at(*self._at) is not None
-        if on_a_list or screen.state.mode in ("pencil", "poses", "build", "layers"):
+        if on_a_list or screen.state.mode in ("pencil", "poses", "build", "numbers", "layers"):
             return None
         at_pin = screen.state.scene.linkage.drive.joint if self._is_at_pin(screen) else None
         return screen.handle_at(*self._at, _REACH * screen.size[1]) or at_pin
@@ -702,6 +702,19 @@ class Mouse:
         self._drag = None
         return (Action("hand_up"),) if drag == "hand" else ()
 
+    def _of_the_tools(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
+        """Take a tool from beside the list of dimensions; None for what else there is."""
+        tool = screen.tool_at(*self._at) if gesture.kind == "down" and self._drag is None else None
+        if tool is None:
+            return None
+        self._drag = "bar"
+        return tool_asks(screen.state, TOOLS[tool])
+
+    def _of_the_numbers(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
+        """Do what the mouse does on the list of dimensions, and beside it what it does on a sheet."""
+        found = self._on_a_list(gesture, screen) if self._drag in (None, "row", "scroll") else None
+        return self._of_the_sheet(gesture, screen) if found is None else found
+
     def _of_the_sheet(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
         """Draw on the sheet, take a tool, turn the crank, or shift the paper; None for what else there is."""
         if gesture.kind == "down" and screen.charted(*self._at) is None:
@@ -711,7 +724,7 @@ class Mouse:
                 return (row,)
             self._drag = screen.sheet_at(*self._at) if tool is None else None
             if tool is not None:
-                return (Action(TOOLS[tool].action, TOOLS[tool].value),)
+                return tool_asks(screen.state, TOOLS[tool])
             return (self._handed("hand_down", screen),) if self._drag == "hand" else ()
         if self._drag not in ("hand", "paper") or gesture.kind not in ("move", "up"):
             return None
@@ -733,7 +746,8 @@ class Mouse:
 
     def over_sheet(self, screen: Screen) -> tuple[float, float] | None:
         """Return where the mouse is over an open sheet, in pixels; None elsewhere, and before it was seen."""
-        shown = self._seen and screen.state.mode == "build" and self._drag in (None, "hand")
+        modes = ("build", "numbers", "edit")
+        shown = self._seen and screen.state.mode in modes and self._drag in (None, "hand")
         return self._at if shown else None
 
     def _on_the_slider(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...]:

@@ -323,7 +323,7 @@ def nudge(state: State, steps: int) -> State:
     item = chosen(state.editing, in_unit(state.scene, state.look.unit))
     if item is None:
         return state
-    text = _nudged(item, steps)
+    text = nudged(item, steps)
     return _tried(replace(state, editing=cleared(state.editing)), {item.key: text}, text)
 
 
@@ -449,7 +449,7 @@ def pull(state: State, steps: int) -> State:
         return state
     shown = in_unit(held.scene, state.look.unit)
     item = chosen(state.editing, shown)
-    values = {item.key: _nudged(item, steps)} if item else {}
+    values = {item.key: nudged(item, steps)} if item else {}
     return _dragged(state, held, values if shown is held.scene else _united(shown, values))
 
 
@@ -524,7 +524,7 @@ def _values_at(held: Held, point: tuple[float, float], share: float) -> dict[Key
     return found
 
 
-def _nudged(item: Dimension, steps: int) -> str:
+def nudged(item: Dimension, steps: int) -> str:
     """Return a dimension's value larger by small steps, as it would be typed."""
     value = Decimal(repr(item.value)) + steps * _step_of(item.unit)
     return f"{value.normalize():f}"

@@ -106,7 +106,7 @@ class Framing:
         before, sketch, look = self._fitting, state.sketch, self._look(state)
         hurried = hurried and self._captioned
         held = bool(state.held or (sketch and sketch.held is not None) or state.building or state.home)
-        row, listed = sketch is not None and bool(sketch.answers), state.listed
+        row, listed = sketch is not None and bool(sketch.answers), self._listed(state)
         home = state.building.home if state.building else state.home
         fits = before and before.fits(state.shown, size, look, listed=listed, held=held, row=row, sheet=home)
         if before and fits and not before.hurried:
@@ -147,6 +147,11 @@ class Framing:
         self._fitting = made
         return made
 
+    def _listed(self, state: State) -> int:
+        """Return 1 where a list is open, 2 for one with tools beside it, which a window alone has."""
+        has_tools = self._captioned and state.editing.open and not (state.listing or state.game)
+        return 2 if has_tools else int(state.listed)
+
     def _of_the_stroke(self, before: Picture, made: Picture, sketch: Sketch) -> View:
         """Return the view of what is drawn and the linkage for it; as it is where there is none yet."""
         if not sketch.is_asked or sketch.is_blank:
@@ -186,7 +191,7 @@ class Framing:
             size,
             look,
             goal,
-            listed=state.listed,
+            listed=self._listed(state),
             row=goal.row,
             kept=kept,
             sheet=goal.sheet,

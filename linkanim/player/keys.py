@@ -250,7 +250,23 @@ def _of_tool(tool: Tool) -> KeyRow:
     return KeyRow(tool.key, tool.name, _on(keys, tool.action, tool.value))
 
 
-_TOOLS = tuple(_of_tool(tool) for tool in TOOLS if tool.action in ("tool", "trace_on", "drive_by"))
+def _of_tool_with_ctrl(tool: Tool) -> KeyRow:
+    """Return the same where letters and digits are typed."""
+    keys = f"ctrl+{tool.key.lower()}"
+    return KeyRow(f"Ctrl+{tool.key}", tool.name, _on(keys, tool.action, tool.value))
+
+
+_TAKEN = tuple(tool for tool in TOOLS if tool.action in ("tool", "trace_on", "drive_by"))
+_SHEET_KEYS = (
+    KeyRow("Ctrl+← →", "choose", _both("ctrl+left", "ctrl+right", "further")),
+    KeyRow("Del", "remove it and what depends on it", _on("delete", "remove")),
+    KeyRow("Ctrl+Z, Ctrl+Y", "undo, redo", _undo("unbuild", "rebuild")),
+    KeyRow("E", "the list of all dimensions; E again: without it", _on("e", "numbers")),
+    KeyRow("Ctrl+N", "an empty sheet", _on("ctrl+n", "sheet")),
+    KeyRow("F2", "done: leave the sheet and keep the linkage; F2 returns to it", _on("f2", "build")),
+    KeyRow("Esc", "let go; leave the sheet", _on("escape", "back")),
+)
+"""What keys do on a sheet, with the list of dimensions on it or not."""
 _IN_A_MODE: Table = {
     "in E": (
         KeyRow("↑ ↓", "choose a dimension", _both("up", "down", "choose")),
@@ -261,9 +277,10 @@ _IN_A_MODE: Table = {
             "type a value, with or without a unit; take all typed values",
             _enter("take", "erase"),
         ),
+        KeyRow("F2", "the tools, for this linkage; E shows the list again", _on("f2", "build_on")),
         KeyRow("Ctrl+B", "let an input that swings return on the same closure", _on("ctrl+b", "returns")),
         KeyRow("Ctrl+R", "reset: the file's dimensions again", _on("ctrl+r", "reset")),
-        KeyRow("click, wheel, drag (Shift: ×10)", "choose a row, nudge its value"),
+        KeyRow("click, wheel, drag (Shift: ×10)", "choose a row, nudge its value; take a tool, to add parts"),
         KeyRow("drag joints (Shift: tenths)", "set lengths on the picture, in whole units"),
     ),
     "in K": (
@@ -349,7 +366,7 @@ _IN_A_MODE: Table = {
         ),
         KeyRow("let go on a joint, line, bar", "join the bar there; make a slider; make a slot"),
         KeyRow("drag the crank", "turn it; Shift: tenths, Alt: free of the grid, while drawing"),
-        *_TOOLS,
+        *map(_of_tool, _TAKEN),
         KeyRow(
             "digits, Enter",
             "type the value of what is chosen, if anything is; Ctrl+↑ ↓: its other rows, name and colour too",
@@ -364,13 +381,18 @@ _IN_A_MODE: Table = {
             _on("shift+return shift+kp_enter insert", "enter", 2),
         ),
         KeyRow("Tab, Shift+Tab", "the next tool; another of what a drag can mean", _tabs("tool_on")),
-        KeyRow("Ctrl+← →", "choose", _both("ctrl+left", "ctrl+right", "further")),
         KeyRow("B", "the other closure", _on("b", "reassemble")),
-        KeyRow("Del", "remove it and what depends on it", _on("delete", "remove")),
-        KeyRow("Ctrl+Z, Ctrl+Y", "undo, redo", _undo("unbuild", "rebuild")),
-        KeyRow("Ctrl+N", "an empty sheet", _on("ctrl+n", "sheet")),
-        KeyRow("F2", "done: leave the sheet and keep the linkage; F2 returns to it", _on("f2", "build")),
-        KeyRow("Esc", "let go; leave the sheet", _on("escape", "back")),
+        *_SHEET_KEYS,
+    ),
+    "in E, F2": (
+        KeyRow("click, drag", "what they do on the sheet; beside it, what they do in the list"),
+        *map(_of_tool_with_ctrl, _TAKEN),
+        KeyRow(
+            "Ctrl+↑ ↓",
+            "a row of what is chosen, to be typed: name and colour too",
+            _both("ctrl+up", "ctrl+down", "number"),
+        ),
+        *_SHEET_KEYS,
     ),
 }
 """What the keys do in a mode, before what they do else, by its subject."""
@@ -386,12 +408,19 @@ _SUBJECTS: Mapping[Mode, str] = {
         "record": "recording",
     },
 }
-MODES: Mapping[Mode, Table] = {mode: {subject: _IN_A_MODE[subject]} for mode, subject in _SUBJECTS.items()}
-"""The same by mode."""
+MODES: Mapping[Mode, Table] = {
+    **{mode: {subject: _IN_A_MODE[subject]} for mode, subject in _SUBJECTS.items()},
+    "numbers": {
+        "in E": tuple(row for row in _IN_A_MODE["in E"] if row.keys != "F2"),
+        "in E, F2": _IN_A_MODE["in E, F2"],
+    },
+}
+"""The same by mode; with the list of dimensions on the sheet that is first what the list has."""
 PAD_KEYS: Table = {"gamepad": tuple(KeyRow(row.written, row.words) for row in PAD)}
 """What the buttons of a gamepad do."""
 _TYPED: Mapping[Mode, tuple[str, frozenset[str]]] = {
     "edit": ("type", frozenset({"space", "h", "e"})),
+    "numbers": ("type", frozenset({"space", "h", "e"})),
     "list": ("sift", frozenset({"space", "h", "k"})),
     "shelf": ("sift", frozenset({"space", "h", "o", *"123456789"})),
     "play": ("type_place", frozenset()),
@@ -509,6 +538,7 @@ _APART: Mapping[Action, str] = {
     Action("zoom", (-1.0, 0.0, 0.0)): "farther",
     Action("fit"): "fit",
     Action("edit"): "edit dimensions",
+    Action("numbers"): "edit dimensions",
     Action("shelf"): "the shelf",
     Action("help"): "help",
     Action("menu"): "all commands",
@@ -641,17 +671,18 @@ def commands(mode: Mode) -> tuple[tuple[str, str, Action], ...]:
 
     One whose keys all mean something else in the mode has none.
     """
-    first, usual = MODES.get(mode, {}), {} if mode in _ALONE else KEYS
-    own = {bind.key for bind in _binds(first)}
+    above: set[str] = set()
     found: dict[Action, tuple[str, str, Action]] = {}
-    tables = (first, usual)
-    every = [(row, bind, table is usual) for table in tables for row in _rows(table) for bind in row.binds]
-    for row, bind, below in every:
-        if bind.action.name not in _NEEDS_KEYS:
-            key = "" if below and (bind.key in own or _types(bind.key, mode)) else _as_written(bind.key)
-            apart = _IN_ONE_MODE.get((mode, bind.action), _APART.get(bind.action, row.words))
-            words, known, _ = found.get(bind.action, (apart, "", bind.action))
-            found[bind.action] = (words, known or key, bind.action)
+    usual = () if mode in _ALONE else tuple(_rows(KEYS))
+    for n, rows in enumerate((*MODES.get(mode, {}).values(), usual)):
+        for one, bind in ((row, bind) for row in rows for bind in row.binds):
+            if bind.action.name not in _NEEDS_KEYS:
+                below = bind.key in above or (n > 0 and _types(bind.key, mode))
+                key = "" if below else _as_written(bind.key)
+                apart = _IN_ONE_MODE.get((mode, bind.action), _APART.get(bind.action, one.words))
+                words, known, _ = found.get(bind.action, (apart, "", bind.action))
+                found[bind.action] = (words, known or key, bind.action)
+        above |= {bind.key for row in rows for bind in row.binds}
     # what a mode has by a name stands for what there is by the same name else
     by_name = {words: action for words, _, action in reversed(found.values())}
     return tuple(one for one in found.values() if by_name[one[0]] == one[-1])

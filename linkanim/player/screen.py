@@ -336,7 +336,7 @@ class Screen:
             self._shelf.close()
             self._printer.print(surface, picture, state.phase, state.clock.speed, over)
             self._row.draw(surface, picture.layout, over.row)
-            self._tools.draw(surface, picture.layout, picture.theme, over.build.tools if over.build else None)
+            self._tools.draw(surface, picture.layout, picture.theme, over.tool_bar)
         self._bar.draw(surface, self._bar_layout(over), theme_of(state.look.theme), over.bar)
 
     def _bar_layout(self, over: Overlay) -> Layout:
@@ -536,8 +536,8 @@ class Screen:
         return None
 
     def tool_at(self, x: float, y: float) -> int | None:
-        """Return the number of the tool of the sheet under a pixel; None beside them."""
-        return tool_at(self._framing.last.layout, x, y)
+        """Return the number of the tool under a pixel, where there are tools; None beside them."""
+        return tool_at(self._framing.last.layout, x, y) if self.over.tool_bar else None
 
     def handed(self, x: float, y: float, part: float) -> tuple[float, float, float, float]:
         """Return a place of the sheet, how near counts as on it, and the usual step times a part.

@@ -16,6 +16,7 @@ from linkanim.build.building import Building
 from linkanim.build.dimensions import PropertyRow, rows_of
 from linkanim.build.draft import JOINT, Draft, Thing
 from linkanim.build.gestures import under
+from linkanim.build.numbers import chosen_row, rows_of_all
 from linkanim.build.places import Shape, as_point, drawn, foot, from_span, line_of, snapped
 from linkanim.build.tools import TOOLS
 from linkanim.mechanics.linkage import Body, Point
@@ -98,6 +99,7 @@ def built(state: State, sheet: BuildSheet, hover: Hover | None = None) -> BuildS
     building, seen = sheet.building, sheet.seen(state.scene, state.phase)
     shapes = drawn(seen)
     moves = building.made.scene is not None
+    measured = state.editing.open and moves and not sheet.rowed  # as beside the list of dimensions
     sentence, facts = _words(state, sheet)
     tool = next((n for n, one in enumerate(TOOLS) if one.value == sheet.tool), 0)
     return BuildShown(
@@ -106,7 +108,7 @@ def built(state: State, sheet: BuildSheet, hover: Hover | None = None) -> BuildS
         sentence=sentence,
         facts=facts,
         chosen=next((one for one in shapes if one.thing == building.chosen), None),
-        number=_number(sheet, moves=moves and not state.clock.paused),
+        number="" if measured else _number(sheet, moves=moves and not state.clock.paused),
         measures=_measures(building),
         rubber=_rubber(seen, sheet, sheet.grip) if sheet.grip and not sheet.grip.is_click else _span(sheet),
         snap=_snap(seen, sheet, hover),
@@ -129,15 +131,19 @@ def _numbers(building: Building) -> RowsShown | None:
     found = rows_of(draft, thing)
     if thing is None or not found:
         return None
+    row = building.row % len(found)
+    rows = [(one.label, _stated(one, building, n == row)) for n, one in enumerate(found)]
+    title = _subscripted(_called(draft, thing))
+    options = tuple(n for n, one in enumerate(found) if one.options)
+    return RowsShown(title, tuple(rows), row, options=options)
+
+
+def _called(draft: Draft, thing: Thing) -> str:
+    """Return what a thing of a sheet is called: "pin O2", "bar A–B", "input"."""
     kind, name = thing[0].removesuffix("s"), thing[1]
     if thing[0] == JOINT:
         kind = next((word for word in _WORDS if name in draft.of(f"{word}s")), kind)
-    row = building.row % len(found)
-    rows = [(one.label, _stated(one, building, n == row)) for n, one in enumerate(found)]
-    title = "input" if thing[0] == "drive" else name if name.startswith(kind) else f"{kind} {name}"
-    title = re.sub(_NAME, lambda found: subscripted(found[0]), title)
-    options = tuple(n for n, one in enumerate(found) if one.options)
-    return RowsShown(title, tuple(rows), row, options=options)
+    return "input" if thing[0] == "drive" else name if name.startswith(kind) else f"{kind} {name}"
 
 
 def _stated(row: PropertyRow, building: Building, is_chosen: bool) -> str:
@@ -185,6 +191,8 @@ def _words(state: State, sheet: BuildSheet) -> tuple[str, tuple[str, ...]]:
         return building.sentence or missing, (missing,) if building.sentence else ()
     info = state.scene.info
     facts = (*filter(None, [info.grashof]), f"input {info.input_words}")
+    if state.editing.open:
+        return building.sentence, ()  # the list has the rest
     if building.sentence:
         return building.sentence, (info.class_name, *facts)
     return info.class_name[:1].upper() + info.class_name[1:], facts
@@ -282,6 +290,8 @@ _FREE = {
 }
 """What can be chosen, by how many poses there are."""
 _TAKE_HINT = "↑ ↓ choose   ← → change   type a folder and name   Enter records   Esc closes"
+_MOVES = next(n for n, one in enumerate(TOOLS) if one.icon == "move")
+"""The tool that is in hand beside the list of dimensions."""
 _MAKE_HINT = "Enter writes the parts"
 _BAR_FRAMES = 6 * FRAMES_PER_SECOND
 _WATCH_FRAMES = 6 * FRAMES_PER_SECOND
@@ -317,7 +327,8 @@ def overlay(
         chip=_chip(state),
         hint=_hint_bar(state),
         watch=None if state.game else _watch(state),
-        measured=tuple(_measured(state, items)),
+        measured=() if _stands_still(state) or _is_rowed(state) else tuple(_measured(state, items)),
+        tools=ToolBar(_MOVES, over.tool if over else None) if state.mode == "edit" else None,
         glow=_glow(state, hover),
         told=told(state, pointed) if pointed else None,
         instant=pointed.instant if pointed else None,
@@ -364,6 +375,16 @@ def _kept(state: State, items: tuple[Dimension, ...], over: Hover | None = None)
     )
     shown = state.game.shown(state, found) if state.game else found
     return replace(shown, game=None, spots=(), handles=()) if state.listing or state.taking else shown
+
+
+def _stands_still(state: State) -> bool:
+    """Whether a sheet is on with nothing that moves, of which there are no dimensions as of a scene."""
+    return bool(state.building and state.building.building.made.scene is None)
+
+
+def _is_rowed(state: State) -> bool:
+    """Whether what is typed is for rows of what is chosen on a sheet, and not for the list of dimensions."""
+    return bool(state.building and state.building.rowed)
 
 
 def _stands(state: State) -> bool:
@@ -638,9 +659,12 @@ def _dialog(state: State, dialog: TakeDialog) -> Panel:
 
 def _panel(state: State, items: tuple[Dimension, ...]) -> Panel:
     """Return the list of dimensions, the values begun in their places."""
+    if state.building and _stands_still(state):
+        return _panel_of_draft(state.building.building)
     editing, info = state.editing, in_unit(state.scene, state.look.unit).info
     at, begun = editing.chosen % max(len(items), 1), dict(editing.drafts)
-    begun |= {item.key: f"{editing.typed}_" for item in items[at : at + 1] if editing.typed}
+    at = -1 if _is_rowed(state) else at
+    begun |= {item.key: f"{editing.typed}_" for n, item in enumerate(items) if n == at and editing.typed}
     shown = (begun.get(item.key) or _valued(item, _digits(state)) for item in items)
     rows = (
         EditRow(_label(item), value, chosen=n == at, draft=item.key in begun)
@@ -655,8 +679,28 @@ def _panel(state: State, items: tuple[Dimension, ...]) -> Panel:
     )
 
 
+def _panel_of_draft(building: Building) -> Panel:
+    """Return the list of all numbers of what does not move, and what is missing before it does."""
+    draft, at = building.draft, chosen_row(building)
+    rows = (
+        EditRow(
+            _subscripted(f"{_called(draft, one.thing)}, {one.row.label}"),
+            _stated(one.row, building, n == at),
+            chosen=n == at,
+            draft=n == at and building.typed != "",
+        )
+        for n, one in enumerate(rows_of_all(draft))
+    )
+    error = building.sentence if building.is_refusal else None
+    return Panel(tuple(rows), facts=(), error=error, hint=_HINT)
+
+
 def _label(item: Dimension) -> str:
-    return re.sub(_NAME, lambda name: subscripted(name[0]), item.label)
+    return _subscripted(item.label)
+
+
+def _subscripted(words: str) -> str:
+    return re.sub(_NAME, lambda name: subscripted(name[0]), words)
 
 
 def _valued(item: Dimension, digits: int) -> str:

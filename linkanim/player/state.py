@@ -306,6 +306,7 @@ def closes(scene: Scene) -> bool:
 
 HOME = Box(-100.0, -40.0, 200.0, 130.0)
 """What an empty sheet shows, in millimetres."""
+BLANK = "nothing is drawn yet that has a dimension"
 LIVE = ("move", "photo")
 """The tools that change what is built while the hand moves."""
 
@@ -341,7 +342,9 @@ class BuildSheet:
     mean, which ended at `offered`. `rests` is the frame at which a linkage
     that runs by itself has shown one period. `written` is the draft as the scene file `saved` has it;
     `warned` tells that the next asking lets go of what is in none, `closes` that the next one closes the
-    window all the same. While it is not `open` the sheet is kept, to be gone on with.
+    window all the same. With the list of dimensions open, what is typed is for the chosen thing's own row
+    where that is `rowed`. The `look` is that of before: a sheet has no chart of its own, and its unit.
+    While it is not `open` the sheet is kept, to be gone on with.
     """
 
     before: Scene
@@ -363,6 +366,8 @@ class BuildSheet:
     saved: str = ""
     warned: bool = False
     closes: bool = False
+    rowed: bool = False
+    look: Look = field(default_factory=Look)
 
     def seen(self, scene: Scene, phase: float) -> Draft:
         """Return the draft with its joints where they are seen: while it moves, at a phase of its scene."""
@@ -868,7 +873,7 @@ class State:
         if self.game:
             return "game"
         if self.editing.open:
-            return "edit"
+            return "numbers" if self.building else "edit"
         if self.browsing:
             return "shelf"
         if self.sketch:
@@ -903,7 +908,9 @@ class State:
     @property
     def edited(self) -> frozenset[int]:
         """The places of the shelf whose scenes are not as their files have them."""
-        found = (*self.kept, Edited(self.place, self.scene, self.editing))
+        sheet = self.building
+        own = (sheet.before, sheet.editing) if sheet else (self.scene, self.editing)
+        found = (*self.kept, Edited(self.place, *own))
         return frozenset(one.place for one in found if one.editing.original not in (None, one.scene))
 
     @property
@@ -950,9 +957,9 @@ class State:
             return True
         if self.listing:
             return bool(self.listing.sieve)
-        if self.editing.open:
-            return self.editing.typed != ""
         sheet = self.building
+        if self.editing.open:
+            return bool(self.editing.typed or (sheet and sheet.building.typed))
         begun = sheet.building.typed or sheet.building.lettered if sheet else self.place_typed
         browsed = self.browsing.sieve if self.browsing else begun
         return bool(browsed)

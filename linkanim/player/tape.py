@@ -82,6 +82,10 @@ def starting(state: State) -> State:
     state = leave(state) if state.game else state
     clock, sketch = state.clock.go(0, state.phase), state.sketch or state.building
     kept = {name: getattr(state, name) for name in ("shelf", "place", "look", "help", "kept", "games")}
+    if state.building:
+        # a sheet that is opened again has the look of before to come back to
+        before = state.building.look
+        kept["look"] = replace(state.look, unit=before.unit, chart=before.chart)
     if sketch:
         return State(sketch.before, clock.at_rate(0, sketch.clock.rate), editing=sketch.editing, **kept)
     return State(state.scene, clock, editing=state.editing, **kept)
@@ -101,6 +105,8 @@ def resumed(state: State) -> Iterator[Action]:
         yield Action("slide", layers.lifted)
     if state.building:
         yield Action("draft", stored_text(state.building))
+        if state.editing.open:
+            yield from (Action("numbers"), Action("choose", state.editing.chosen))
     if state.posing:
         yield from _resumed_poses(state.posing)
     sketch = state.drawing

@@ -450,9 +450,10 @@ class Window:
         return now.held is not None and (now.scene is not before.scene or refused)
 
     def _over_sheet(self) -> Hover | None:
-        """Return what of an open sheet the mouse is over."""
-        at = self._mouse.over_sheet(self.screen) if self._good and self._good.building else None
-        return self.screen.hover(*at) if at and self.state.building else None
+        """Return what the mouse is over of an open sheet, or of the tools beside the list of dimensions."""
+        has_tools = all(one and (one.building or one.editing.open) for one in (self._good, self.state))
+        at = self._mouse.over_sheet(self.screen) if has_tools else None
+        return self.screen.hover(*at) if at else None
 
     def _news(self) -> tuple[Action, ...]:
         """Return, as notes, what was done outside, and how far recordings are."""

@@ -78,7 +78,7 @@ class TapeFrames:
 def _lasting(over: Overlay, *, photo: bool = False) -> Overlay:
     """Return what of an overlay is about the linkage: lists, help, notes; no marks and no short words."""
     build = over.build and replace(over.build, tools=None, photo=over.build.photo if photo else None)
-    bare = replace(over, build=build, toast=None, chip=None, hint=None, watch=None, bar=None)
+    bare = replace(over, build=build, toast=None, chip=None, hint=None, watch=None, bar=None, tools=None)
     return replace(bare, paused=False, grip=False, shutter=0)
 
 

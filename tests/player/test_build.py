@@ -17,10 +17,11 @@ from linkanim.build.draft import UNTITLED, Photo
 from linkanim.build.tools import TOOLS
 from linkanim.errors import BadInput
 from linkanim.picture.build_sheet import DraftDrawing, draft_gauge
+from linkanim.picture.layout import tool_cells
 from linkanim.picture.overlay import NEW, RowsShown
 from linkanim.picture.photograph import lack
 from linkanim.picture.sheet_rows import row_rects
-from linkanim.picture.tools import ICONS, tool_cells
+from linkanim.picture.tools import ICONS
 from linkanim.picture.view import Rect
 from linkanim.play.arcade import Arcade
 from linkanim.player import beside, screen

@@ -49,6 +49,7 @@ ENTERED: dict[Mode, tuple[Action | str, ...]] = {
     "pencil": ("pencil",),
     "poses": ("poses",),
     "build": ("build",),
+    "numbers": ("build_on", "numbers"),
     "layers": ("layers",),
     "game": (Action("play", "title"),),
 }
@@ -305,7 +306,7 @@ def test_from_the_list_of_dimensions_one_click_leads_to_the_tools_and_one_back(p
     assert {"A", "B"} <= {*player.state.sheet.building.draft.places}
     click(player, "edit dimensions")
     mode = player.state.mode
-    assert mode == "edit"
+    assert mode == "numbers"
     assert sorted(round(one.value, 6) for one in dimensions(player.state.scene) if one.kind == "length") == (
         sorted(
             round(one, 6)

@@ -21,7 +21,7 @@ from playing import CTRL, SHIFT, NoSearch, Player
 
 from linkanim.build.tools import TOOLS
 from linkanim.picture.command_bar import bar_cells
-from linkanim.picture.tools import tool_cells
+from linkanim.picture.layout import tool_cells
 from linkanim.play.arcade import Arcade
 from linkanim.play.games import game_of
 from linkanim.play.menus import DOORS as TITLE_DOORS
