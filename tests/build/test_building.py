@@ -74,6 +74,19 @@ def test_a_bar_within_a_body_that_was_stored_is_as_long_as_its_ends_are_apart() 
     assert typed.draft == building.draft
 
 
+def test_a_body_whose_first_joint_hangs_free_keeps_its_shape() -> None:
+    lines = ("click 0 0", "click 100 0", "drag 100 0 110 80", "drag 110 80 40 110", "drag 75 95 75 60")
+    lines += ("drag 0 0 75 60", "drag 100 0 37 102", "choose bars O4–A", "delete", "choose joints P", "drive")
+    building = drawn(lines)
+    scene = building.made.scene
+    assert scene, building.made.missing
+    drawn_at, pose = building.draft.places, scene.pose(0.7).position
+    for one, other in (("A", "B"), ("A", "P"), ("B", "P")):
+        assert math.dist(pose[one], pose[other]) == pytest.approx(
+            math.dist(drawn_at[one], drawn_at[other]), abs=0.5
+        )
+
+
 def test_what_is_no_draft_is_refused() -> None:
     with pytest.raises(BadInput, match="no draft"):
         restored({"places": {"A": 1}})

@@ -76,6 +76,9 @@ def test_a_mass_is_in_the_middle_until_it_is_said_where() -> None:
     heavy = typed(chosen("bars", "A–B", "mass"), "2")
     labels = [row.label for row in rows_of(heavy.draft, heavy.chosen)]
     assert labels[:5] == ["length", "mass", "mass along", "mass to the left", "inertia"]
+    (body,) = (one for one in heavy.draft.of("bodies").values() if "mass" in one)
+    ends = (complex(*heavy.draft.places[joint]) for joint in body["joints"][:2])
+    assert body["com"] == [pytest.approx(abs(next(ends) - next(ends)) / 2, abs=1e-9), 0]
     off = typed(choose_number(heavy, 2 - heavy.row), "20")
     (body,) = (one for one in off.draft.of("bodies").values() if "mass" in one)
     assert body["com"] == [20, 0]

@@ -17,7 +17,9 @@ import read_tables
 
 from linkanim.cli import main
 from linkanim.errors import BadInput
+from linkanim.paper.svg import hexadecimal
 from linkanim.picture.hud import measured
+from linkanim.picture.theme import DARK, LIGHT
 from linkanim.scenes import load
 from linkanim.scenes.editing import other_return
 from linkanim.scenes.reading import scene_from
@@ -94,6 +96,15 @@ def test_words_of_a_scene_are_words_and_nothing_else() -> None:
 def test_a_stated_theme_is_the_only_one(shared: Any, declared: list[str]) -> None:
     text = document(Shared(load("scotch-yoke"), theme=shared))
     assert [colour for colour in ("#fcfcfa", "#11141a") if f": {colour};" in text] == declared
+
+
+def test_words_and_ground_have_the_colours_of_the_reader_s_theme() -> None:
+    text = document(Shared(load("crank-rocker")))
+    rules = re.findall(r":root[^{]*\{[^}]*\}", text)[:2]
+    light, dark = (dict(re.findall(r"(--c\d+): (#\w+);", rule)) for rule in rules)
+    for name, colours in (("ink", (LIGHT.ink, DARK.ink)), ("back", (LIGHT.background, DARK.background))):
+        (variable,) = re.findall(rf"--{name}: var\((--c\d+)\);", text)
+        assert (light[variable], dark[variable]) == tuple(map(hexadecimal, colours))
 
 
 @pytest.mark.parametrize(("names", "angles"), [(0, []), (1, [False]), (2, [True])])
