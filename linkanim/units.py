@@ -98,6 +98,14 @@ def typeset(text: str) -> str:
     return text.replace("-", "−")
 
 
+_SIGN = re.compile(r"(?<![\w-])-(?=\d)")
+
+
+def signed(text: str) -> str:
+    """Return a sentence with true minus signs before its numbers; hyphens stay."""
+    return _SIGN.sub("−", text)
+
+
 # Quantities as people write them ("60 rpm", "87 deg", "30 mm"), to SI, radians or the scene's unit.
 #
 # A decimal is converted exactly (with `math.pi` for π) and rounded once, so that "0.07 cm" is the same

@@ -37,7 +37,7 @@ from linkanim.picture.quantities import (
     series_of,
 )
 from linkanim.scenes.scene import Scene
-from linkanim.units import short, shown, significant, stepped, typeset
+from linkanim.units import short, shown, signed, significant, stepped, typeset
 
 # Curves of quantities over one true period, at one speed or several: what a chart and its table show.
 
@@ -123,7 +123,9 @@ class Curves:
         several = len({other.quantity.token for other in self.curves}) > 1
         paces = len({other.pace for other in self.curves}) > 1
         words = called if several or not (paces or curve.label) else ""
-        return ", ".join(part for part in (words, curve.label, curve.pace.words if paces else "") if part)
+        return ", ".join(
+            part for part in (words, curve.label, signed(curve.pace.words) if paces else "") if part
+        )
 
 
 def curves_of(

@@ -15,6 +15,7 @@ from typing import Literal
 from linkanim.explain.documents import body_style, math_style
 from linkanim.frozen import frozen
 from linkanim.paper.findings import Column, Finding, ValueTable
+from linkanim.units import signed
 
 _STYLE = f"""
 :root {{ color-scheme: light; }}{body_style("15px/1.45", 60)}\
@@ -56,7 +57,6 @@ _FOOT = (
 )
 """What stands at the foot of every page as it is printed."""
 _LOWERED = re.compile(r"_\{([^}]*)\}")
-_HYPHEN = re.compile(r"(?<![\w-])-(?=\d)")
 _ATTRIBUTES = re.compile(r""" (?:id="[^"]*"|role='[^']*'|aria-label='[^']*')""")
 """Of a picture, which would be twice on the page."""
 _APART = " style='break-before: page'"
@@ -305,4 +305,4 @@ def _head(first: str, columns: tuple[Column, ...]) -> str:
 
 def symbol(text: str) -> str:
     """Return text with its subscripts, written _{B}, set as such, and true minus signs before its numbers."""
-    return _LOWERED.sub(r"<sub>\1</sub>", escape(_HYPHEN.sub("−", text)))
+    return _LOWERED.sub(r"<sub>\1</sub>", escape(signed(text)))

@@ -49,6 +49,12 @@ def test_the_time_ratio_of_the_output_is_that_of_the_scene(name: str) -> None:
         assert scene.info.time_ratio == pytest.approx(1.0, abs=1e-9)
 
 
+def test_a_speed_backwards_has_a_true_minus_sign() -> None:
+    paces = (Pace(1.0, "1 rad/s"), Pace(-2.0, "-2 rad/s"))
+    curves = curves_of(load("crank-rocker"), ("rocker.angular_velocity",), paces)
+    assert [curves.words(curve) for curve in curves.curves] == ["1 rad/s", "−2 rad/s"]
+
+
 def test_of_several_curves_each_has_a_short_sentence() -> None:
     text = said("press", "3.angular_velocity", "4.angular_velocity")
     assert text.startswith(

@@ -72,7 +72,7 @@ def test_a_curve_is_named_by_what_sets_it_off() -> None:
     one = _curves("press", "3.angular_velocity")
     assert [one.words(curve) for curve in one.curves] == ["Link 3: angular velocity ω₃"]
     paced = _curves("press", "3.angular_velocity", paces=(FIVE, TEN))
-    assert [paced.words(curve) for curve in paced.curves] == ["5 rad/s", "-10 rad/s"]
+    assert [paced.words(curve) for curve in paced.curves] == ["5 rad/s", "−10 rad/s"]
     both = _curves("press", "3.angular_velocity", "B.position", paces=(FIVE, TEN))
     assert both.words(both.curves[0]) == "Link 3: angular velocity ω₃, 5 rad/s"
     assert both.words(both.curves[-1]) == "B: position r_{B}, y, -10 rad/s"
