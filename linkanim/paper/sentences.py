@@ -17,7 +17,7 @@ from linkanim.mechanics.search import sign_changes
 from linkanim.paper.curves import Curve, Curves, Pace, Peak, curves_of, extremes, within_a_turn
 from linkanim.picture.quantities import Floats, driven_words, unbounded_places
 from linkanim.scenes.scene import Scene
-from linkanim.units import rounded, short, typeset
+from linkanim.units import rounded, short, stepped, typeset
 
 _CLOSING = ("input", "stroke", "time ratio", "transmission angle", "true period")
 """What of a scene's facts a report ends with."""
@@ -99,6 +99,11 @@ def of_pose(scene: Scene, phase: float) -> str:
             stand.append(f"{name} {travel} {scene.length_unit} along its guide")
         else:
             stand.append(f"{name} at {np.degrees(pose.angle[body.name]) % 360:.1f}°")
+    if not stand:  # no link has a name
+        for joint in scene.linkage.joints:
+            if not joint.fixed:
+                x, y = (stepped(float(value), scene.length_step) for value in pose.position[joint.name])
+                stand.append(f"{joint.name} at ({x}, {y}) {scene.length_unit}")
     more = f", and {len(stand) - _MOST_TOLD} more" if len(stand) > _MOST_TOLD else ""
     return plain(f"{_sentence(scene.title)} At {place}: {', '.join(stand[:_MOST_TOLD])}{more}.")
 

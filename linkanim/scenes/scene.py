@@ -159,8 +159,17 @@ class Scene:
 
     @cached_property
     def length_step(self) -> float:
-        """The step in which its lengths are told: a power of ten, some three thousandth of the longest."""
-        return 10.0 ** round(math.log10(self.linkage.longest / 3000))
+        """The step in which its lengths are told: a power of ten, some three thousandth of the longest.
+
+        How far it stands from the origin counts no more than how far its pins are apart.
+        """
+        joints = self.linkage.joints
+        pins = [self.linkage.pin(joint.name).position for joint in joints if joint.fixed]
+        stated = [abs(length) for joint in joints if not joint.fixed for length in joint.stated_lengths]
+        spans = [max(along) - min(along) for along in zip(*pins, strict=True)]
+        size = max((*stated, *map(abs, self.linkage.drive.actuator.stated_lengths), *spans), default=0.0)
+        longest = self.linkage.longest
+        return 10.0 ** round(math.log10(min(longest, size or longest) / 3000))
 
     @cached_property
     def elsewhere(self) -> dict[str, Scene]:

@@ -203,6 +203,7 @@ def quick_return(
     the family, the others lie evenly along it; `place`, from 0 to 1, takes that one alone. BadInput for
     numbers that make no sense, and if no linkage of the kind does it.
     """
+    named = kind is not None
     kind = kind or ("slider-crank" if swing is None else "crank-rocker")
     if kind not in KINDS:
         raise BadInput(f"kind={shown(kind)}: take {' or '.join(KINDS)}")
@@ -212,7 +213,10 @@ def quick_return(
         raise BadInput(f"a time ratio of {ratio:g}: give the slow way's time over the quick way's, 1 to 10")
     if stroke is not None and not (math.isfinite(stroke) and stroke > 0):
         raise BadInput(f"a stroke of {stroke:g}: give a length above zero")
-    if kind == "slider-crank" and (stroke is None or swing is not None):
+    if kind == "slider-crank" and stroke is None:
+        other = "" if named else ", or the swing of a crank-rocker, such as 60 deg"
+        raise BadInput(f"the stroke is missing: give that of a slider-crank, such as 80{other}")
+    if kind == "slider-crank" and swing is not None:
         raise BadInput("a slider-crank has a stroke, and no swing; give the one and leave out the other")
     if kind == "crank-rocker" and swing is None:
         raise BadInput("a crank-rocker has a swing; give its rocker's, such as 60 deg")

@@ -108,7 +108,7 @@ def test_a_time_ratio_s_scenes_have_it(
         (["function", "none.csv"], "none.csv: no such file"),
         (["function", "three.csv"], "three.csv: line 1 has 3 columns"),
         (["function", "y = x", "--from", "one", "--to", "2"], "is not a finite number"),
-        (["quick-return", "--ratio", "1.4"], "a slider-crank has a stroke"),
+        (["quick-return", "--ratio", "1.4"], "the stroke is missing"),
         (["quick-return", "--stroke", "80"], "required: --ratio"),
         (["quick-return", "--stroke", "-80", "--ratio", "1.4"], "no length above zero"),
         (["quick-return", "--swing", "60", "--ratio", "1.4"], "has no unit"),

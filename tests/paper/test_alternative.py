@@ -13,6 +13,8 @@ from linkanim.cli import main
 from linkanim.paper.curves import Pace
 from linkanim.paper.sentences import of_motion, of_pose
 from linkanim.scenes import load, names
+from linkanim.scenes.editing import in_unit
+from linkanim.scenes.reading import scene_from
 
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -57,6 +59,26 @@ def test_a_pose_is_told_by_its_links() -> None:
     text, pose = of_pose(load("crank-rocker"), 1.0), load("crank-rocker").pose(1.0, 0)
     for name in ("crank", "coupler", "rocker"):
         assert f"{name} at {np.degrees(pose.angle[name]) % 360:.1f}°" in text
+
+
+BARE = {
+    "drive": {"slider": {"joint": "C", "from": 20, "to": 90}},
+    "ground": {"O2": [0, 0]},
+    "joints": {
+        "C": {"line": {"through": "O2", "angle": "10 deg"}},
+        "A": {"from": ["C", "O2"], "length": [90, 80]},
+    },
+}
+
+
+@pytest.mark.parametrize("at", [0, 1_000_000])
+def test_a_pose_without_links_of_a_name_is_told_by_its_joints_as_closely_anywhere(at: int) -> None:
+    scene = scene_from(BARE | {"ground": {"O2": [at, at]}}, name="bare", where="bare.toml")
+    scene = in_unit(scene, "m")
+    text = of_pose(scene, 0.0)
+    assert text.startswith("Bare. At s = 0.02000 m: C at (")
+    assert not text.endswith(": .")
+    assert f"A at ({scene.pose(0.0, 0).position['A'][0]:.5f}, ".replace("-", "−") in text
 
 
 def test_a_pdf_has_a_language_a_title_and_its_words(tmp_path: Path) -> None:
