@@ -75,7 +75,7 @@ def test_a_curve_is_named_by_what_sets_it_off() -> None:
     assert [paced.words(curve) for curve in paced.curves] == ["5 rad/s", "−10 rad/s"]
     both = _curves("press", "3.angular_velocity", "B.position", paces=(FIVE, TEN))
     assert both.words(both.curves[0]) == "Link 3: angular velocity ω₃, 5 rad/s"
-    assert both.words(both.curves[-1]) == "B: position r_{B}, y, -10 rad/s"
+    assert both.words(both.curves[-1]) == "B: position r_{B}, y, −10 rad/s"
 
 
 def test_extremes_are_where_the_motion_has_them() -> None:
