@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import cached_property
-from itertools import groupby, zip_longest
+from itertools import groupby, pairwise, zip_longest
 from math import isfinite
 from typing import TYPE_CHECKING
 
@@ -71,16 +71,17 @@ class Drawing:
     """A scene's linkage at one view and look, at any pose.
 
     With `apart` each joint has a group of its own; else pins of one depth share one, which prints faster.
+    Arrows are to the scale of the cycle, or of a still's one `moment`.
     """
 
-    def __init__(self, setting: DrawSetting, *, apart: bool = False) -> None:
-        self.setting, self._apart = setting, apart
+    def __init__(self, setting: DrawSetting, *, apart: bool = False, moment: float | None = None) -> None:
+        self.setting, self._apart, self._moment = setting, apart, moment
         self._placed: tuple[Pose, Places] | None = None
 
     @cached_property
     def parts(self) -> Parts:
         """All that moves."""
-        return _parts(self.setting, self.symbols)
+        return _parts(self.setting, self.symbols, self._moment)
 
     @cached_property
     def symbols(self) -> Symbols | None:
@@ -169,7 +170,10 @@ class Drawing:
             self.setting.layout.reach.inset(2),
         )
         taken = list(taken) if parts.arrows or parts.centres else []
-        names = arrow_names(*known, letters, inside, taken) if parts.arrows else ()
+        # in motion a name would leap from one side of a bar to the other
+        bodies = self.setting.figure.bodies if parts.arrows and self._moment is not None else ()
+        bars = [(places[one], places[other]) for body in bodies for one, other in pairwise(body.joints)]
+        names = arrow_names(*known, letters, inside, taken, bars) if parts.arrows else ()
         for kind, layers, symbols_ in zip(parts.arrows, arrows, names, strict=True):
             yield Group(kind.words, layers, symbols_, made_of=kind)
             taken += [line.around(self.setting.type) for line in symbols_]
@@ -212,7 +216,7 @@ class Drawing:
         return layers
 
 
-def _parts(setting: DrawSetting, known: Symbols | None) -> Parts:
+def _parts(setting: DrawSetting, known: Symbols | None, moment: float | None) -> Parts:
     figure, view, gauge, theme = setting.known
     look = setting.look
     curves = traces(setting) if look.trace or look.ink else ()
@@ -231,7 +235,7 @@ def _parts(setting: DrawSetting, known: Symbols | None) -> Parts:
         traces=() if look.ink else curves,
         marks={trace.joint: mark_stamp(trace.colour, gauge, theme) for trace in reversed(curves)},
         inks=_inks(setting) if look.ink else (),
-        arrows=tuple(arrows_of(figure, kind, height, gauge, theme) for kind in kinds),
+        arrows=tuple(arrows_of(figure, kind, height, gauge, theme, moment=moment) for kind in kinds),
         turning=motion_of(setting) if look.names else None,
         legs=tuple(leg_part(point, view, gauge, theme.dim) for point in known.points) if known else (),
         centres=_centres(setting) if look.centres else None,

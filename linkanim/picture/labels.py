@@ -615,7 +615,7 @@ Forms = Iterator[tuple[Form, ...]]
 def names_of(
     ground: Surroundings, known: Symbols | None, dead_centres: DeadCentres | None, tries: int = TRIES
 ) -> Generator[None, None, Names]:
-    """Place the names of joints and links; where the symbols are known, dimensions and input's angle, too.
+    """Place the names of joints, and links; where the symbols are known, dimensions and input's angle, too.
 
     Lengths that do not stand on the picture at all times go into a table. Each place that is looked for is a
     step. Of a single moment `tries` other orders are tried for what has no place yet.
@@ -623,7 +623,8 @@ def names_of(
     setting = ground.setting
     fixed, shown = setting.figure.fixed, setting.figure.shown
     moving = [name for name in shown if name not in fixed]
-    planned = [_joints(ground, fixed, always=True), _links(ground)]
+    planned = [_joints(ground, fixed, always=True)]
+    planned += [_links(ground)] if setting.look.names or setting.look.centres else []
     planned += [_dimensions(ground, known), _angle(ground, known)] if known else []
     planned += [_dead_centres(ground, dead_centres)] if dead_centres else []
     every, clutter = chain(*planned, _joints(ground, moving)), ground.clutter()
@@ -772,10 +773,10 @@ def _joints(ground: Surroundings, names: Iterable[str], *, always: bool = False)
     setting = ground.setting
     look, theme, centred = setting.look, setting.theme, _centred(setting)
     for name in names:
-        words = ([subscripted(name)] if look.names else []) + [*centred.get(name, ())]
+        words = ([subscripted(name)] if look.joints_named else []) + [*centred.get(name, ())]
         if words:
-            size = _joint_size(setting.layout) if look.names else setting.layout.small_size
-            label = _label(setting, ", ".join(words), size, theme.ink if look.names else theme.warning)
+            size = _joint_size(setting.layout) if look.joints_named else setting.layout.small_size
+            label = _label(setting, ", ".join(words), size, theme.ink if look.joints_named else theme.warning)
             label = replace(label, always=always)
             yield ((label, ground.around(name, label.size)),)
 

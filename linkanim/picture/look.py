@@ -232,7 +232,12 @@ class Look:
     @property
     def named(self) -> bool:
         """Whether something on the linkage has a name: its parts, or the centres in joints."""
-        return self.names > 0 or self.centres > 0
+        return self.joints_named or self.centres > 0
+
+    @property
+    def joints_named(self) -> bool:
+        """Whether joints have their names: the vectors of polygons go by them, too."""
+        return self.names > 0 or self.polygons_shown == 1
 
     @property
     def overrun(self) -> bool:

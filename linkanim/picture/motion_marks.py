@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property, lru_cache
 from itertools import accumulate, pairwise, product
-from math import ceil, floor, pi, tau
+from math import ceil, floor, inf, pi, tau
 from typing import Any, Literal, TypeVar
 
 import numpy as np
@@ -336,8 +336,9 @@ def turning_arrow(pivot: complex, pin: complex, gauge: Gauge, theme: Theme) -> l
 # Velocity and acceleration arrows at all moving joints and centres of mass, with their names.
 
 Kind = Literal["v", "a"]
-LONGEST = 0.22
-"""The longest arrow of a cycle, as a share of the window's height."""
+LONGEST, _LEAST = 0.22, 0.02
+"""The longest arrow of a cycle, as a share of the window's height; and the least share of it that a still's
+largest value counts for: less is all but rest."""
 ORDER = {"v": 1, "a": 2}
 _ASIDE = complex(directions(1.1))
 """The way to a name beside an arrow's head, where there is none beyond it."""
@@ -417,28 +418,39 @@ def arrow_names(
     letters: tuple[Type, int],
     inside: Rect,
     busy: Iterable[Rect] = (),
+    bars: Sequence[tuple[complex, complex]] = (),
 ) -> list[list[Caption]]:
     """Return the names of the arrows of a pose, kind by kind: each beyond its head, off `busy` places.
 
-    Each is off the names before it, too; an arrow shorter than its name is high has none. Names stay in the
-    picture where their arrows leave it.
+    Each is off the names before it, too, and where it can be off `bars`; an arrow shorter than its name is
+    high has none. Names stay in the picture where their arrows leave it.
     """
     (type_, size), taken, found = letters, list(busy), list[list[Caption]]()
     for kind in kinds:
         halo, names = Halo(kind.halo, max(1.2 * kind.gauge.line, 1.5)), list[Caption]()
         for arrow in kind.seen(pose, view, joints):
+            if abs(arrow.reach) < size:
+                continue
             wide, way = type_.width(arrow.symbol, size, strong=True), unit(arrow.reach)
+            best, least = None, (inf, inf)
             for turn, further in product((1, _ASIDE, _ASIDE.conjugate()), (0.0, 1.0, 2.0)):
                 off = way * turn
                 away = abs(off.real) * wide / 2 + abs(off.imag) * size / 2 + (0.4 + further) * size
                 middle = inside.nearest(arrow.foot + arrow.reach + away * off, complex(wide, size) / 2)
                 place = Rect(middle.real - wide / 2, middle.imag - size / 2, wide, size)
-                if not any(place.meets(other) for other in taken):
+                over = place.inset(-kind.gauge.bar)
+                met = (
+                    sum(place.meets(other) for other in taken),
+                    sum(over.crossed(*ends) is not None for ends in bars),
+                )
+                if met < least:
+                    best, least = place, met
+                if not any(met):
                     break
-            if abs(arrow.reach) >= size:
-                taken.append(place)
-                at = (middle.real, middle.imag - size / 2)
-                names.append(Caption(arrow.symbol, at, size, kind.colour, "centre", strong=True, halo=halo))
+            assert best
+            taken.append(best)
+            at = (best.middle.real, best.y)
+            names.append(Caption(arrow.symbol, at, size, kind.colour, "centre", strong=True, halo=halo))
         found.append(names)
     return found
 
@@ -449,17 +461,24 @@ def _values(pose: Pose, kind: Kind, joints: tuple[str, ...]) -> list[tuple[str, 
     return at_joints + [(f"G {body}", pose.com_position[body], value) for body, value in of_mass.items()]
 
 
-def arrows_of(figure: Figure, kind: Kind, height: int, gauge: Gauge, theme: Theme) -> Arrows:
-    """Return the arrows of one kind, scaled to the largest finite value of the cycle."""
+def arrows_of(
+    figure: Figure, kind: Kind, height: int, gauge: Gauge, theme: Theme, *, moment: float | None = None
+) -> Arrows:
+    """Return the arrows of one kind, scaled to the largest finite value of the cycle.
+
+    Those of one moment are scaled to its largest value, where that is no small part of the cycle's.
+    """
     colour = theme.velocity if kind == "v" else theme.acceleration
     most = _most(figure.cycle, kind, figure.moving)
+    if moment is not None:
+        most = max(_most(figure.scene.pose(moment, 2), kind, figure.moving), _LEAST * most)
     drive = figure.linkage.drive.speed
     words, per = ("velocity", "/s") if kind == "v" else ("acceleration", "/s²")
     unit = figure.scene.length_unit + per
     return Arrows(kind, words, unit, most, LONGEST * height, drive, colour, theme.background, gauge)
 
 
-def _most(cycle: Motion, kind: Kind, joints: tuple[str, ...]) -> float:
+def _most(cycle: Motion | Pose, kind: Kind, joints: tuple[str, ...]) -> float:
     values, of_mass = _rates(cycle, kind)
     rows = [np.atleast_2d(row) for row in (*(values[joint] for joint in joints), *of_mass.values())]
     sizes = np.concatenate([np.zeros(1), *(np.sqrt(row[:, 0] ** 2 + row[:, 1] ** 2) for row in rows)])

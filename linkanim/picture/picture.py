@@ -198,7 +198,7 @@ class Picture:
         if self.sheet:
             self.gauge = gauge(self.layout.unit, self.figure.shortest * self.fitted.scale)
         setting = DrawSetting(self.figure, self.view, self.gauge, self.theme, self.layout, look, self.type)
-        self.drawing = Drawing(setting, apart=self._apart)
+        self.drawing = Drawing(setting, apart=self._apart, moment=self._moment)
         self._chart = self._charted()
 
     @property
@@ -610,7 +610,8 @@ class Picture:
 
     def _named_as(self, other: Picture, *, held: bool) -> bool:
         """Return whether the names on another picture are this one's."""
-        looks = ((one.look.names, one.look.centres > 0, one.size) for one in (self, other))
+        both = (self, other)
+        looks = ((one.look.names, one.look.joints_named, one.look.centres > 0, one.size) for one in both)
         same = (self.scene, self.fitted, self.layout) == (other.scene, other.fitted, other.layout)
         follows = (held or self.scene.towards is not None) and self.figure.shown == other.figure.shown
         whole = other.names is not None and not other.hurried and self._moment is None

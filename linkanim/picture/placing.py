@@ -40,6 +40,8 @@ _THICK = 1.0
 """Half as thick as lines that go with labels are taken to be, in pixels."""
 _MOST_CROSSED = 1
 """A line crosses no more links than this."""
+_NEARER = 1.0
+"""A word is by so much nearer to its own dimension line than to any other, in pixels."""
 _OFF_PINS = 2.0
 """How far a dimension's arrowheads stay off pins, in radii of these."""
 _CHAINED = 0.5
@@ -191,6 +193,8 @@ class Placer:
         self._taken = np.array([[rect.middle for rect in clutter.rects]], np.complex128)
         self._sizes = np.array([(rect.width, rect.height) for rect in clutter.rects]).reshape(-1, 2).T
         self._lines = self._measures = np.zeros((1, 0, 2), np.complex128)
+        self._far = np.zeros((1, len(clutter.rects)))
+        """How far words are from their own dimension lines."""
 
     def first(
         self,
@@ -255,6 +259,14 @@ class Placer:
             self._taken = _joined(self._taken, label.places[:, placed.which : placed.which + 1])
             self._sizes = np.column_stack((self._sizes, label.size))
             number = -1 if label.drawn is None else int(label.drawn[placed.which])
+            far = _from_own(label, slice(placed.which, placed.which + 1)) if label.gap else np.zeros((1, 1))
+            self._far = np.concatenate(
+                [
+                    np.broadcast_to(one, (max(len(self._far), len(far)), one.shape[1]))
+                    for one in (self._far, far)
+                ],
+                axis=1,
+            )
             if number >= 0:
                 self._lines = _joined(self._lines, label.lines[number])
             if number >= 0 and label.gap:
@@ -270,7 +282,9 @@ class Placer:
         forbidden = (clutter.of_label(label)[0] if still else ~_within(places, size, clutter.inside)).copy()
         forbidden |= _over(places[:, :, None] - taken[:, None], size, self._sizes).any(axis=2)
         forbidden |= _cut(places, size, placed_lines, _THICK)
-        forbidden |= _cut(places, size, measures, max(label.gap, _THICK))
+        if measures.shape[1]:
+            nearer = np.maximum(_from_own(label), label.gap)[..., None] if label.gap else _THICK
+            forbidden |= _cut(places, size, measures, nearer)
         cost = clutter.of_label(label)[1].copy() if still else _covering(label, clutter, forbidden)
         free = ~forbidden.all(axis=0)
         lined = np.flatnonzero((label.drawn >= 0) & free) if label.drawn is not None else ()
@@ -280,7 +294,9 @@ class Placer:
             firsts = np.stack([lines[:, 0] for lines in groups], axis=1)
             barred = self._barred(groups, taken, clutter)
             if label.gap:
-                barred |= _hits(taken, self._sizes, firsts, label.gap).any(axis=1)
+                far = self._far[moments] if len(self._far) > 1 else self._far
+                nearer = np.maximum(far, label.gap)[..., None]
+                barred |= _hits(taken, self._sizes, firsts, nearer).any(axis=1)
                 barred |= _too_near(firsts, measures, label.gap) | _ends_at_pins(firsts, clutter)
             open_ = np.flatnonzero(~barred.all(axis=0))
             crossed, links = _crossings(firsts[:, open_], clutter)
@@ -407,7 +423,29 @@ def _touched(
                 yield touching(places, size, solids.picked(some), but)
 
 
-def _cut(places: ArrayLike, size: tuple[float, float] | _Floats, lines: Loop, half: float) -> _Bools:
+def _from_own(label: LabelPlaces, which: slice = slice(None)) -> _Floats:
+    """Return how far a label is from its own dimension line, and a little more; 0 without one (n, k)."""
+    places = label.places[:, which]
+    if label.drawn is None:
+        return np.zeros(places.shape)
+    lines = np.stack([group[:, 0] for group in label.lines], axis=1)[:, label.drawn[which]]
+    wide, high = label.size
+    ends = (
+        np.abs((lines - places[..., None]).real) - wide / 2,
+        np.abs((lines - places[..., None]).imag) - high / 2,
+    )
+    near = np.hypot(np.maximum(ends[0], 0), np.maximum(ends[1], 0)).min(axis=-1)
+    along = lines[..., 1] - lines[..., 0]
+    for corner in (wide + 1j * high, wide - 1j * high, -wide + 1j * high, -wide - 1j * high):
+        away = places + corner / 2 - lines[..., 0]
+        share = np.clip((away * along.conj()).real / np.maximum(np.abs(along) ** 2, 1e-12), 0.0, 1.0)
+        near = np.minimum(near, np.abs(away - share * along))
+    return np.asarray(np.where(label.drawn[which] >= 0, near + _NEARER, 0.0))
+
+
+def _cut(
+    places: ArrayLike, size: tuple[float, float] | _Floats, lines: Loop, half: float | _Floats
+) -> _Bools:
     """Return whether boxes of sizes about places (n, k) touch lines (n, m, 2) that are `half` thick."""
     return np.asarray(_hits(places, size, lines, half).any(axis=2))
 

@@ -257,12 +257,16 @@ class Polygon:
             yield Rect(rect.x, rect.bottom - 2.1 * small, wide, 2.1 * small)
 
     def _rows(self, left: list[Arrow], scale: float, per: str) -> list[tuple[str, Colour]]:
-        """Return symbols and sizes of vectors beside which no symbol stands."""
+        """Return symbols and sizes of vectors beside which no symbol stands: of many the largest."""
         rows, unit_ = list[tuple[str, Colour]](), f"{self.figure.scene.length_unit}{per}"
-        for arrow in left:
+        most = max(int((self.rect.height - 2.4 * self.pen.text) / (_ROW * self.pen.small)), 1)
+        listed = sorted(left, key=lambda arrow: -abs(arrow.reach))[: most - 1] if len(left) > most else left
+        for arrow in listed:
             size = abs(arrow.reach) / scale
             words = f"{arrow.side.symbol} = {three_digits(size) if size >= 1e-3 else '0'} {unit_}"
             rows.append((words, self._colour(arrow.side.sort)))
+        if len(listed) < len(left):
+            rows.append((f"and {len(left) - len(listed)} smaller", self.pen.theme.dim))
         return rows
 
     def _corner(

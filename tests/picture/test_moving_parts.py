@@ -568,3 +568,33 @@ def test_a_direction_is_folded_to_the_same_one_a_part_of_a_turn_further(fold: in
     assert abs(found**fold - turn**fold) < fold * 1e-7
     for part in range(fold):
         assert folded(turn * complex(directions(2 * math.pi * part / fold)), fold) == found
+
+
+# its accelerations at this pose are a tenth of those of its cycle
+def test_arrows_of_a_still_are_to_its_own_scale_and_named_off_the_bars() -> None:
+    scene, phase = load("jansen"), 0.0
+    pose = scene.pose(phase, 2)
+    look = Look(hud=False, vectors=frozenset("a"))
+    still, moving = (Picture(scene, (1280, 720), look, moment=moment) for moment in (phase, None))
+    longest = [
+        max(
+            abs(seen.reach)
+            for seen in picture.drawing.parts.arrows[0].seen(pose, picture.view, picture.figure.moving)
+        )
+        for picture in (still, moving)
+    ]
+    assert longest[0] == pytest.approx(LONGEST * 720)
+    assert longest[1] < 0.5 * longest[0]
+
+
+def test_no_name_of_an_arrow_lies_on_a_bar_in_a_still() -> None:
+    scene, phase = load("crank-rocker"), 1.0
+    look = Look(hud=False, vectors=frozenset("a"))
+    picture, pose = Picture(scene, (1280, 720), look, moment=phase), scene.pose(phase, 2)
+    places = picture.drawing.places(pose)
+    (group,) = (group for group in picture.drawing.moving(pose) if group.name == "acceleration")
+    named = [line.around(picture.type) for line in group.captions]
+    assert len(named) == 3
+    for body in picture.figure.bodies:
+        ends = places[body.joints[0]], places[body.joints[1]]
+        assert not any(box.crossed(*ends) for box in named)

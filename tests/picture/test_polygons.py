@@ -17,7 +17,7 @@ from linkanim.picture.layout import Layout, layout
 from linkanim.picture.look import Look
 from linkanim.picture.picture import Picture
 from linkanim.picture.polygons import Polygon, polygons_of
-from linkanim.picture.text import Type
+from linkanim.picture.text import Type, subscripted
 from linkanim.picture.theme import LIGHT
 from linkanim.scenes import load, names
 
@@ -272,3 +272,17 @@ def test_no_symbol_of_a_figure_is_cut_at_its_edge(name: str, size: tuple[int, in
             assert around.y >= 0
             assert around.bottom <= size[1]
             assert around.right <= size[0]
+
+
+@pytest.mark.parametrize("name", ["crank-rocker", "scissor-lift", "whitworth"])
+def test_the_joints_that_vectors_are_called_by_have_their_names_and_all_words_are_in_the_picture(
+    name: str,
+) -> None:
+    scene = load(name)
+    picture = Picture(scene, (1280, 720), Look(hud=False, polygons=True), moment=1.0)
+    said = [line for group in picture.groups(scene.pose(1.0)) for line in group.captions]
+    assert {subscripted(joint) for joint in picture.figure.moving} <= {line.text for line in said}
+    for line in said:
+        box = line.around(picture.type)
+        assert box.y >= 0, line.text
+        assert box.bottom <= 720, line.text
