@@ -9,6 +9,7 @@ from collections.abc import Iterator, Sequence
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.measures import as_complex
@@ -35,6 +36,8 @@ _PHASES = 48
 """At which it is looked how far parts reach."""
 _NUMBERED = 0.5
 """Numbers stand on plates while they are lifted less than that."""
+_CORNERS, _TOWARDS = 16, (0.25, 0.45, 0.65, 0.8)
+"""A number that is hidden, or on another, stands so far on its way to so many corners of its plate."""
 
 
 class Frame(NamedTuple):
@@ -204,12 +207,56 @@ def lifted(
                 beside = place.real + 4 * pixel, place.imag - 1.1 * text
                 names.append(Caption(subscripted(pin.name), beside, text, theme.ink, halo=halo))
     if view.apart < _NUMBERED:
-        for plate, (origin, turn) in zip(parts.plates, places, strict=True):
-            if plate.layer:
-                place = complex(view.seen(np.array([origin + turn * plate.at]), plate.layer)[0])
-                top = place.real, place.imag - 0.5 * text
-                names.append(Caption(plate.number, top, text, theme.ink, "centre", strong=True, halo=halo))
+        usual = [
+            complex(view.seen(np.array([origin + turn * plate.at]), plate.layer)[0])
+            for plate, (origin, turn) in zip(parts.plates, places, strict=True)
+        ]
+        edges = [view.seen(loops[0], plate.layer) for loops, plate in zip(flat, parts.plates, strict=True)]
+        words = [complex(one.at[0], one.at[1]) + (0.6 + 0.5j) * text for one in names]
+        for n, place in _numbers(parts.plates, edges, usual, words, text):
+            top, number = (place.real, place.imag - 0.5 * text), parts.plates[n].number
+            names.append(Caption(number, top, text, theme.ink, "centre", strong=True, halo=halo))
     yield from names
+
+
+def _numbers(
+    plates: Sequence[LayeredPlate],
+    edges: Sequence[Loop],
+    usual: Sequence[complex],
+    words: Sequence[complex],
+    text: int,
+) -> Iterator[tuple[int, complex]]:
+    """Yield the plates whose numbers are shown, and where: on what of them is seen, off words and each other.
+
+    That is where they stand by themselves, or else as near to it as may be. A plate that lies below others
+    has none.
+    """
+    taken, around = [*words], 0.4 * text * np.array([0, 1, -1, 1j, -1j])
+    for n in sorted(range(len(plates)), key=lambda n: -plates[n].layer):
+        if plates[n].layer == 0:
+            continue
+        corners = edges[n][:: max(len(edges[n]) // _CORNERS, 1)]
+        ways = np.concatenate([[usual[n]], *(usual[n] + share * (corners - usual[n]) for share in _TOWARDS)])
+        free = _inside(edges[n], ways)
+        free[0] = True
+        for edge, plate in zip(edges, plates, strict=True):
+            if plate.layer > plates[n].layer:
+                free &= ~_inside(edge, np.add.outer(ways, around).ravel()).reshape(-1, 5).any(axis=1)
+        for other in taken:
+            free &= np.abs(ways - other) > 1.1 * text
+        if free.any():
+            taken.append(complex(ways[free.argmax()]))
+            yield n, taken[-1]
+
+
+def _inside(edge: Loop, places: Loop) -> NDArray[np.bool_]:
+    """Return which places lie within an edge."""
+    one, other = edge, np.roll(edge, -1)
+    level, upward = other.imag == one.imag, np.where(other.imag == one.imag, 1.0, other.imag - one.imag)
+    across = (places.imag[:, None] - one.imag) / upward
+    right = places.real[:, None] < one.real + across * (other.real - one.real)
+    crossed = ((one.imag > places.imag[:, None]) != (other.imag > places.imag[:, None])) & ~level
+    return np.asarray((crossed & right).sum(axis=1) % 2 == 1)
 
 
 def _plate(
