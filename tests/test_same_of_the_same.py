@@ -21,6 +21,7 @@ import read_tables
 from exact_rates import ExactRates
 from random_scenes import named
 
+from linkanim.cli import main
 from linkanim.cli.commands import solve
 from linkanim.cli.commands.solve import Tree, leaves, tree
 from linkanim.cli.commands.solve import rows as rows_of_tree
@@ -384,6 +385,28 @@ def asked_of_nothing(scene: Scene, phase: float, rng: Random) -> Iterator[str]:
             yield f"{kind}: {question.subject} rests"
         elif kind == "fastest" and not scene.quantities[f"{right}.velocity"].read(pose):
             yield f"{kind}: {right} rests"
+
+
+@pytest.mark.parametrize("name", ["roberts-line", "triple-rocker", "triple-rocker-out-in"])
+def test_where_the_input_is_is_said_like_the_body_s_angle(
+    name: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Half-way it is at 0: a cosine of π/2 in floats is none."""
+    assert main(["solve", name, "--phase", "90 deg", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    driven = scene_of(name).linkage.driven.body
+    assert driven
+    assert found["angle"] == found["bodies"][driven.name]["angle"] == 0.0
+    assert main(["solve", name, "--sweep", "0:180:90", "--phase", "--csv", "-"]) == 0
+    rows = [*csv.DictReader(capsys.readouterr().out.splitlines())]
+    assert float(rows[1]["angle"]) == 0.0
+
+
+def test_the_least_transmission_angle_at_the_start_is_at_the_start() -> None:
+    for name in ("crank-rocker", "double-rocker", "triple-rocker-in-in"):
+        found = scene_of(name).info.transmission
+        assert found
+        assert found.phase == 0.0
 
 
 # --- the tests --------------------------------------------------------------------------------------

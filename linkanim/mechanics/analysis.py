@@ -64,6 +64,10 @@ RIGID = 2.0**-44
 """A rate below this share of its separation is rounding."""
 
 
+_FOUND = 1e-9
+"""To so much of phase a search finds the least angle."""
+
+
 class Transmission(NamedTuple):
     """The least transmission angle over the motion, of which dyad and at which phase, and the greatest."""
 
@@ -100,7 +104,9 @@ def _where_least(mechanism: Mechanism, dyad: str) -> float:
 
     places = mechanism.sampled
     worst = float(places[np.nanargmax(np.concatenate([*map(negative, in_blocks(places))]))])
-    return highest(negative, worst, math.tau / mechanism.assembly.samples) % (math.tau * mechanism.periods)
+    found = highest(negative, worst, math.tau / mechanism.assembly.samples)
+    end = math.pi * round(found / math.pi)  # where bars in one line, or an end of the input, often are
+    return (end if abs(found - end) < _FOUND else found) % (math.tau * mechanism.periods)
 
 
 def _of_loops(mechanism: Mechanism) -> Iterator[tuple[str, Array]]:

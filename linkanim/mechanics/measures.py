@@ -274,6 +274,12 @@ def rate_of(motion: Any, body: Body) -> Any:
     return (motion.travel_velocity if body.slider else motion.angular_velocity)[body.name]
 
 
+def input_place(motion: Any) -> Any:
+    """Return where the input is: the driven angle, or how far a slider that drives has travelled."""
+    unit = "rad" if motion.mechanism.linkage.drive.coordinate.is_angle else "{}"
+    return said(motion, motion.coordinate + 0.0 * motion.phase, unit, 0)
+
+
 def input_rate(motion: Any) -> Any:
     """Return the input's own velocity, one value an instant: of a swing it is not the phase's."""
     return motion.coordinate_rate + 0.0 * motion.phase

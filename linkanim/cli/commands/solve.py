@@ -28,7 +28,16 @@ from linkanim.errors import BadInput, OutOfRange
 from linkanim.export import columns, csv_head, csv_rows, json_text, lines, mapped
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.linkage import Linkage, Pin
-from linkanim.mechanics.measures import DAMPER, POINT, SPRING, TRAVELLING, TURNING, Measure, coefficients_of
+from linkanim.mechanics.measures import (
+    DAMPER,
+    POINT,
+    SPRING,
+    TRAVELLING,
+    TURNING,
+    Measure,
+    coefficients_of,
+    input_place,
+)
 from linkanim.mechanics.motion import Motion
 from linkanim.mechanics.quantities import Path, plain_unit, recorded
 from linkanim.scenes import load
@@ -150,7 +159,7 @@ def blocks(
         inputs = steps.radians(row - shared, stop)
         motion = solve(inputs)
         time = (inputs - start) / speed if speed else np.full(len(inputs), np.nan)
-        where = {input_key(scene): motion.coordinate, "phase": motion.phase, by: inputs, "time": time}
+        where = {input_key(scene): input_place(motion), "phase": motion.phase, by: inputs, "time": time}
         found = _continued({**where, **tree(scene, motion)}, last)
         last = found
         yield RowBlock(steps.degrees(row, stop), _without(found, shared))
@@ -390,8 +399,9 @@ def _blocks(scene: Scene, inputs: Inputs, speed: float, acceleration: float) -> 
     motion = solve(np.array([inputs.value]))
     if any(np.isnan(points).any() for points in motion.every["position"].values()):
         raise _out_of_range(scene, inputs.value)
-    where = {input_key(scene): motion.coordinate, "phase": motion.phase, inputs.by: np.array([inputs.value])}
-    yield RowBlock(np.degrees([inputs.value]), {**where, **tree(scene, motion)})
+    value = np.array([inputs.value])
+    where = {input_key(scene): input_place(motion), "phase": motion.phase, inputs.by: value}
+    yield RowBlock(np.degrees(value), {**where, **tree(scene, motion)})
 
 
 def phase_at(scene: Scene, angle: float) -> float:
