@@ -78,8 +78,9 @@ class Polygon:
     """One polygon of a figure in its place: all poses of the cycle at one scale, about one pole.
 
     With a `moment` they are such as fill the place at that phase. So does a pose that is `shown`; what cannot
-    be named beside its vector is listed, `aside` of them where no corner is free. What the bar of the scale
-    `says` besides stands with it where it has room.
+    be named beside its vector is listed, `aside` of them where no corner is free, the largest of it where not
+    all has room, and nothing where it `lists` none. What the bar of the scale `says` besides stands with it
+    where it has room.
     """
 
     def standing(self, phase: float) -> Polygon:
@@ -94,6 +95,7 @@ class Polygon:
     shown: Pose | None = None
     aside: float = 0.0
     says: str = ""
+    lists: bool = True
 
     def group(self, pose: Pose) -> Group:
         """Return the polygon of a pose with its title and the bar of its scale."""
@@ -106,13 +108,19 @@ class Polygon:
         dot = Layer(self.pen.theme.ink, [pole + disc(1.8 * self.pen.line)])
         symbols = self._symbols(found, pole)
         layers, captions = [*symbols.leaders, *self._drawn(found), dot], [self._title, *symbols.captions]
-        if scale > 0 and symbols.left and self.shown is not None:
-            rows = self._rows(symbols.left, scale, per)
-            wide = max(self.pen.type.width(text, self.pen.small) for text, _ in rows)
-            corner, free = self._corner(rows, wide, found, symbols.captions)
-            if not free and not self.aside:
+        if scale > 0 and symbols.left and self.shown is not None and self.lists:
+            every = self._rows(symbols.left, scale, per)
+            wide = self._widest(every)
+            if not self.aside and not self._corner(every, wide, found, symbols.captions)[1]:
                 return replace(self, aside=min(wide + self.pen.small, 0.5 * self.rect.width)).group(pose)
-            captions += self._listed(rows, corner)
+            for most in range(len(every), min(len(symbols.left), 2) - 1, -1):
+                rows = self._rows(symbols.left, scale, per, most)
+                corner, free = self._corner(rows, self._widest(rows), found, symbols.captions)
+                if free:
+                    captions += self._listed(rows, corner)
+                    break
+            else:
+                return replace(self, aside=0.0, lists=False).group(pose)
         if scale > 0:
             bar, meaning = self._bar(scale, per)
             layers.append(bar)
@@ -256,10 +264,19 @@ class Polygon:
         else:
             yield Rect(rect.x, rect.bottom - 2.1 * small, wide, 2.1 * small)
 
-    def _rows(self, left: list[Arrow], scale: float, per: str) -> list[tuple[str, Colour]]:
-        """Return symbols and sizes of vectors beside which no symbol stands: of many the largest."""
+    def _widest(self, rows: list[tuple[str, Colour]]) -> float:
+        return max(self.pen.type.width(text, self.pen.small) for text, _ in rows)
+
+    def _rows(
+        self, left: list[Arrow], scale: float, per: str, most: int | None = None
+    ) -> list[tuple[str, Colour]]:
+        """Return symbols and sizes of vectors beside which no symbol stands: of more than `most` the largest.
+
+        By itself that is as many as have room below each other.
+        """
         rows, unit_ = list[tuple[str, Colour]](), f"{self.figure.scene.length_unit}{per}"
-        most = max(int((self.rect.height - 2.4 * self.pen.text) / (_ROW * self.pen.small)), 1)
+        room = max(int((self.rect.height - 2.4 * self.pen.text) / (_ROW * self.pen.small)), 1)
+        most = room if most is None else min(most, room)
         listed = sorted(left, key=lambda arrow: -abs(arrow.reach))[: most - 1] if len(left) > most else left
         for arrow in listed:
             size = abs(arrow.reach) / scale

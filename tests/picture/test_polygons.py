@@ -173,6 +173,21 @@ def test_what_is_listed_in_a_figure_lies_on_no_vector(name: str, phase: float) -
     assert listed
 
 
+@pytest.mark.parametrize("size", [(480, 270), (640, 360), (800, 450)], ids=str)
+@pytest.mark.parametrize("name", ["press", "jansen", "six-bar"])
+def test_in_a_small_place_only_what_has_room_is_listed(name: str, size: tuple[int, int]) -> None:
+    window, scene = layout(size, polygons=1, chart=1, bar=True), load(name)
+    for phase in (0.4, 2.1, 4.0):
+        pose = scene.pose(phase)
+        for panel in panels(name, window):
+            captions = panel.standing(phase).group(pose).captions
+            rows = [one for one in captions if " = " in one.text or one.text.endswith("smaller")]
+            boxes = [one.around(Type()) for one in rows]
+            others = [one.around(Type()) for one in captions if one not in rows]
+            assert not any(box.meets(other) for box in boxes for other in others)
+            assert [one.text for one in rows[:1] if one.text.startswith("and")] == []
+
+
 def test_a_pose_with_an_acceleration_fills_its_place_too() -> None:
     assert WINDOW.polygons is not None
     shown, pen = figure(load("crank-rocker")), pen_for(WINDOW, Type(), LIGHT)
