@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from importlib.resources import files
 from pathlib import Path
 
+import imageio.v3 as iio
 import numpy as np
 import pygame
 import pytest
@@ -16,12 +17,13 @@ from numpy.typing import NDArray
 from PIL import Image
 
 import linkanim
+from linkanim.bench import drawing
 from linkanim.cli import main
 from linkanim.cli.command_table import COMMANDS, parse
 from linkanim.cli.commands import manual, new, play
 from linkanim.manual import FOLDER
-from linkanim.recorder.gallery import make_gallery
-from linkanim.scenes import names
+from linkanim.recorder.gallery import contact_sheet, make_gallery
+from linkanim.scenes import load, names
 
 ROOT = Path(__file__).parent.parent
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -226,6 +228,8 @@ RECORDED = {
         "path linkanim/examples/curve.csv --count 1 -o follower.toml",
         f"record follower.toml {_SMALL}",
     ],
+    "building": ["record recordings/building.tape.json --size 576x324 --fps 15"],
+    "play": ["record recordings/play.tape.json --size 640x360 --fps 20"],
 }
 """README's moving pictures that are no part of the gallery: the commands that make them."""
 LARGEST_GIF = 400_000
@@ -243,10 +247,22 @@ def test_a_moving_picture_is_what_its_command_records(name: str, fresh: Path) ->
     with Image.open("made.gif") as made, Image.open(kept_file) as kept:
         assert made.size == kept.size
         assert getattr(made, "n_frames", 1) == getattr(kept, "n_frames", 1)
-        for frame in (0, 12, 25):
+        for frame in {0, 12, 25, getattr(made, "n_frames", 1) - 1}:
             made.seek(frame)
             kept.seek(frame)
             assert psnr(*(np.asarray(one.convert("RGB"), float) for one in (made, kept))) > ALIKE
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("first", [0, 20, 44])
+def test_the_sheet_of_all_scenes_has_each_as_it_is_now(first: int) -> None:
+    """Three of a row each time: a scene that changed its look needs the sheet made anew."""
+    some = [load(name) for name in names()[first : first + 3]]
+    (left, top), (wide, high) = (406 * (first % 4), 231 * (first // 4)), (406 * len(some), 231)
+    with Image.open(ROOT / "recordings" / "contact-sheet.png") as sheet:
+        kept = np.asarray(sheet.convert("RGB").crop((left, top, left + wide, top + high)), float)
+    made = iio.imread(contact_sheet(some))[:high, :wide, :3].astype(float)
+    assert psnr(kept, made) > ALIKE, "make it anew: linkanim gallery"
 
 
 # The gallery's moving pictures in README: a scene that changed its look has to be recorded anew.
@@ -260,6 +276,14 @@ def test_a_picture_of_the_gallery_is_what_the_gallery_records(name: str, fresh: 
     ):
         assert made.size == kept.size
         assert psnr(*(np.asarray(one.convert("RGB"), float) for one in (made, kept))) > ALIKE
+
+
+def test_the_chart_of_speed_and_error_is_that_of_the_manual_s_table() -> None:
+    """The file holds the table that it was drawn from."""
+    shown = PAGES["measurements"].partition("<!-- bench -->\n")[2].partition("<!-- /bench -->")[0]
+    with Image.open(ROOT / "recordings" / "speed-vs-error.png") as chart:
+        assert chart.size == drawing.SIZE
+        assert chart.info[drawing.TABLE] == shown, "make both anew: linkanim bench --markdown"
 
 
 def words_of(page: str) -> str:

@@ -9,12 +9,14 @@ from typing import Any
 
 from linkanim.atomic_files import checked_target
 from linkanim.bench.reference import Score
-from linkanim.bench.result import Measured, Result
+from linkanim.bench.result import Measured, Result, as_markdown
 from linkanim.manifest import replacing, single
 
 SIZE = (1600, 960)
 LEAST, MOST = 1e-17, 10.0
-"""Where an error of nothing is drawn, and one beyond all sense."""
+"""Where an error of nothing is drawn, and one of more than a link, beyond all sense."""
+TABLE = "Table"
+"""Under this name the picture's file holds the table that it shows."""
 OWN = ("batch", "single")
 COLOURS = (
     *("#d55e00", "#0072b2", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#7f7f7f"),
@@ -58,7 +60,7 @@ def _png(result: Result) -> bytes:
     figure.supylabel("worst error in longest links")
     _key(figure, rows, styles)
     buffer = BytesIO()
-    canvas.print_png(buffer)
+    canvas.print_png(buffer, metadata={TABLE: as_markdown(result)})
     return buffer.getvalue()
 
 
@@ -72,7 +74,7 @@ def _plot(panel: Any, row: Measured, score: Score, style: int) -> None:
             continue
         panel.plot(
             nanos,
-            min(max(error, LEAST), MOST),
+            max(error, LEAST) if error <= 1 else MOST,
             MARKS[order],
             color=colour,
             markerfacecolor="none" if lost else colour,

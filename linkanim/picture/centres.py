@@ -201,7 +201,7 @@ class Centres:
                     across = way.real * (off + away + wide / 2) + 1j * way.imag * (off + away + size / 2)
                     yield seen.at + across
             return
-        for back in (0.5 * _ARROW, 1.6 * _ARROW, 2.6 * _ARROW):
+        for back in (0.5 * _ARROW, 1.1 * _ARROW, 1.6 * _ARROW):
             foot = seen.at - back * size * seen.way
             for side in (1j * seen.way, -1j * seen.way):
                 aside = 0.5 * (abs(side.real) * wide + abs(side.imag) * size) + 0.5 * size
