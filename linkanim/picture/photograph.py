@@ -134,7 +134,8 @@ def _read(file: str, stamp: Stamp) -> Pixels | str:
     except UnidentifiedImageError:
         return f"{where}: is no picture; a photograph is one of {', '.join(SUFFIXES)}"
     except Image.DecompressionBombError:
-        return f"{where}: is far too large; {_too_large(max(_MILLIONS.values()))}"
+        form = Path(file).suffix[1:].upper()  # .jpg is the one that is not called as its format
+        return f"{where}: is far too large; {_too_large(_MILLIONS.get(form, _MILLIONS['JPEG']))}"
     except Exception:  # a decoder raises whatever a damaged file brings it to
         return f"{where}: cannot be read to its end; save it again"
 
