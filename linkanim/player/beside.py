@@ -23,7 +23,7 @@ from linkanim.frozen import NamedTuple
 from linkanim.manifest import Output
 from linkanim.player import tape_file
 from linkanim.player.action import Action
-from linkanim.player.files import FOLDER, free_stem, typed_path, where
+from linkanim.player.files import FOLDER, free_stem, from_anywhere, typed_path, where
 from linkanim.player.state import PIVOTS, PathSketch, PoseSketch, Sketch
 from linkanim.player.tape import Tape
 from linkanim.scenes.scene import Scene
@@ -278,8 +278,10 @@ class Queue:
 
     def refuse(self, place: str) -> None:
         """Refuse, as BadInput, a place where a recording cannot be written, or one is on its way to."""
-        found = kept_at(place).target.absolute()
-        if found in (one.target.absolute() for one in (self._running, *self._waiting) if one):
+        found, *under_way = (
+            from_anywhere(str(one.target)) for one in (kept_at(place), self._running, *self._waiting) if one
+        )
+        if found in under_way:
             raise BadInput(f"{found} is being written; type another name")
 
     def news(self) -> tuple[str, ...]:

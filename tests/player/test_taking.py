@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -225,6 +226,17 @@ def test_a_name_on_its_way_is_not_taken_twice(player: Player, asked: Asked) -> N
         player.press(pygame.K_RETURN)
         assert words in (player.state.taking.refusal if player.state.taking else "")
     assert len(asked.commands) == 1
+
+
+def test_where_the_current_folder_is_gone_that_is_said(player: Player, here: Path, asked: Asked) -> None:
+    player.window.state = replace(player.state, take=TakeChoice(whole=True))
+    opened(player)
+    shutil.rmtree(here)
+    player.press(pygame.K_RETURN)
+    player.tick()
+    said = [player.state.toast, player.state.taking.refusal if player.state.taking else ""]
+    assert any("cannot be made" in str(words) for words in said), said
+    assert asked.commands == []
 
 
 def test_places_are_proposed_and_the_last_folder_is_the_first(player: Player, here: Path) -> None:
