@@ -48,10 +48,14 @@ class Rubber(NamedTuple):
 
 @frozen
 class ToolBar:
-    """The bar of tools: the number of the tool in hand, and of the tool that the mouse is over."""
+    """The bar of tools: the number of the tool in hand, and of the tool that the mouse is over.
+
+    Where letters and digits are `typed` their keys take Ctrl.
+    """
 
     chosen: int = 0
     pointed: int | None = None
+    typed: bool = False
 
 
 @frozen

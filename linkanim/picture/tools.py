@@ -23,6 +23,8 @@ from linkanim.picture.text import Type
 from linkanim.picture.theme import Theme, mixed
 from linkanim.picture.view import Rect
 
+_TAKEN = ("tool", "trace_on", "drive_by")
+"""Tools whose keys take Ctrl where letters and digits are typed."""
 Icon = Callable[[Gauge, Theme], list[Layer]]
 """Draws an icon about 0, within 10 thin lines each way."""
 
@@ -50,7 +52,7 @@ class ToolPrinter:
             self._kept = made_for, _bar(board, cells, bar)
         surface.blit(self._kept[1], (0, 0))
         if bar.pointed is not None:
-            _tooltip(surface, board, cells[bar.pointed], TOOLS[bar.pointed])
+            _tooltip(surface, board, cells[bar.pointed], TOOLS[bar.pointed], typed=bar.typed)
 
 
 def _bar(board: Board, cells: tuple[Rect, ...], bar: ToolBar) -> pygame.Surface:
@@ -70,10 +72,11 @@ def _bar(board: Board, cells: tuple[Rect, ...], bar: ToolBar) -> pygame.Surface:
     return sheet
 
 
-def _tooltip(surface: pygame.Surface, board: Board, cell: Rect, tool: Tool) -> None:
+def _tooltip(surface: pygame.Surface, board: Board, cell: Rect, tool: Tool, *, typed: bool) -> None:
     """Write a tool's name and key beside it."""
     size = board.layout.small_size
-    words = f"{tool.name}   {tool.key}".rstrip()
+    key = f"Ctrl+{tool.key}" if typed and tool.action in _TAKEN else tool.key
+    words = f"{tool.name}   {key}".rstrip()
     sheet = board.sheet(board.type.width(words, size) + 1.4 * size, 1.6 * size)
     board.write(sheet, words, (0.7 * size, 0.3 * size), size=size)
     (width, height), gap = board.layout.size, 0.25 * cell.width

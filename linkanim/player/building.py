@@ -537,8 +537,8 @@ def agreed(before: State, after: State) -> State:
     """Return the state after an action with what is built and the open list of dimensions in agreement.
 
     A scene that the list has changed is what the draft makes from now on, by one undo of the sheet; what is
-    chosen on the sheet has its row chosen in the list, and the other way round. What has none there has its
-    own rows to be typed in.
+    chosen on the sheet has its row chosen in the list, and the other way round. What was chosen by hand is
+    typed in its own rows, as without the list.
     """
     sheet, was = after.building, before.building
     if sheet is None or not after.editing.open:
@@ -552,21 +552,22 @@ def agreed(before: State, after: State) -> State:
         after = replace(_with(after, building=building, rests=None, warned=False), editing=editing)
         return _chosen_by_row(after)
     if sheet.building is not was.building:
-        same = sheet.building.draft is was.building.draft
-        if same and sheet.building.chosen == was.building.chosen:
-            return after
-        return _rowed(after if same else replace(after, editing=cleared(after.editing, drafts=())))
+        if sheet.building.draft is not was.building.draft:
+            after = replace(after, editing=cleared(after.editing, drafts=()))
+        if sheet.building.chosen is None:
+            return _with(after, rowed=False)
+        return after if sheet.building.chosen == was.building.chosen else _rowed(after)
     return after if after.editing.chosen == before.editing.chosen else _chosen_by_row(after)
 
 
 def _rowed(state: State) -> State:
     """Return the state with the first row of what is chosen on the sheet as the chosen row of the list."""
+    state = _with(state, rowed=True)
     sheet = sheet_of(state)
     thing, scene = sheet.building.chosen, sheet.building.made.scene
     if thing is None or scene is None:
         return state
     things = [thing_at(sheet.building.draft, scene, item.key) for item in dimensions_of(scene)]
-    state = _with(state, rowed=thing not in things)
     if thing not in things or things[state.editing.chosen % len(things)] == thing:
         return state
     return replace(state, editing=cleared(state.editing, chosen=things.index(thing)))

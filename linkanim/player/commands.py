@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from functools import lru_cache
 
-from linkanim.build.tools import Tool
 from linkanim.frozen import NamedTuple
 from linkanim.picture.overlay import Button, CommandBar
 from linkanim.player.action import Action, Mode
@@ -131,16 +130,19 @@ def pressed(state: State, number: int) -> tuple[Action, ...]:
     return (Action("note", reason),) if reason else (_meant(state, handle.action),)
 
 
-def tool_asks(state: State, tool: Tool) -> tuple[Action, ...]:
-    """Return what a click on a tool asks for: from the list of dimensions alone it leads to the sheet.
+_OF_THE_LIST: Mapping[Action, tuple[Action, ...]] = {
+    Action("unbuild"): (Action("undo"),),
+    Action("rebuild"): (Action("redo"),),
+    Action("tool", "move"): (),
+}
+"""What tools are beside the list of dimensions alone: joints are moved there already."""
 
-    There joints are moved already, and undo is that of the list.
-    """
-    asked = Action(tool.action, tool.value)
-    if state.building:
-        return (asked,)
-    of_the_list = {"undo": (Action("undo"),), "redo": (Action("redo"),), "move": ()}
-    return of_the_list.get(tool.icon, (Action("build_on"), Action("numbers"), asked))
+
+def tool_asks(state: State, action: Action) -> tuple[Action, ...]:
+    """Return what a tool asks for: from the list of dimensions alone it leads to the sheet, with the list."""
+    if state.mode != "edit":
+        return (action,)
+    return _OF_THE_LIST.get(action, (Action("build_on"), Action("numbers"), action))
 
 
 def slid(state: State, number: int, share: float) -> tuple[Action, ...]:

@@ -19,7 +19,7 @@ from linkanim.build.tools import TOOLS
 from linkanim.frozen import NamedTuple
 from linkanim.player import taking
 from linkanim.player.action import Action, Mode
-from linkanim.player.commands import line_asks, pressed, slid, slides, tool_asks
+from linkanim.player.commands import line_asks, pressed, slid, slides
 from linkanim.player.keys import MENU_IN, Bind, Press, bind_of, button_name, hat_name, key_names, key_of
 from linkanim.player.pointing import SPEED_ROWS, Pointed, row_asks
 from linkanim.player.screen import Screen
@@ -708,7 +708,7 @@ class Mouse:
         if tool is None:
             return None
         self._drag = "bar"
-        return tool_asks(screen.state, TOOLS[tool])
+        return (Action(TOOLS[tool].action, TOOLS[tool].value),)
 
     def _of_the_numbers(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
         """Do what the mouse does on the list of dimensions, and beside it what it does on a sheet."""
@@ -724,7 +724,7 @@ class Mouse:
                 return (row,)
             self._drag = screen.sheet_at(*self._at) if tool is None else None
             if tool is not None:
-                return tool_asks(screen.state, TOOLS[tool])
+                return (Action(TOOLS[tool].action, TOOLS[tool].value),)
             return (self._handed("hand_down", screen),) if self._drag == "hand" else ()
         if self._drag not in ("hand", "paper") or gesture.kind not in ("move", "up"):
             return None

@@ -250,13 +250,13 @@ def _of_tool(tool: Tool) -> KeyRow:
     return KeyRow(tool.key, tool.name, _on(keys, tool.action, tool.value))
 
 
-def _of_tool_with_ctrl(tool: Tool) -> KeyRow:
-    """Return the same where letters and digits are typed."""
-    keys = f"ctrl+{tool.key.lower()}"
-    return KeyRow(f"Ctrl+{tool.key}", tool.name, _on(keys, tool.action, tool.value))
-
-
 _TAKEN = tuple(tool for tool in TOOLS if tool.action in ("tool", "trace_on", "drive_by"))
+_WITH_CTRL = KeyRow(
+    "Ctrl+1–9, F, Shift+T, D",
+    "a tool, to add parts; a trace, the drive",
+    tuple(bind for one in _TAKEN for bind in _on(f"ctrl+{one.key.lower()}", one.action, one.value)),
+)
+"""The tools where letters and digits are typed."""
 _SHEET_KEYS = (
     KeyRow("Ctrl+← →", "choose", _both("ctrl+left", "ctrl+right", "further")),
     KeyRow("Del", "remove it and what depends on it", _on("delete", "remove")),
@@ -278,6 +278,7 @@ _IN_A_MODE: Table = {
             _enter("take", "erase"),
         ),
         KeyRow("F2", "the tools, for this linkage; E shows the list again", _on("f2", "build_on")),
+        _WITH_CTRL,
         KeyRow("Ctrl+B", "let an input that swings return on the same closure", _on("ctrl+b", "returns")),
         KeyRow("Ctrl+R", "reset: the file's dimensions again", _on("ctrl+r", "reset")),
         KeyRow("click, wheel, drag (Shift: ×10)", "choose a row, nudge its value; take a tool, to add parts"),
@@ -386,7 +387,6 @@ _IN_A_MODE: Table = {
     ),
     "in E, F2": (
         KeyRow("click, drag", "what they do on the sheet; beside it, what they do in the list"),
-        *map(_of_tool_with_ctrl, _TAKEN),
         KeyRow(
             "Ctrl+↑ ↓",
             "a row of what is chosen, to be typed: name and colour too",
@@ -574,6 +574,7 @@ _APART: Mapping[Action, str] = {
     Action("lift", -1): "lay the layers nearer together",
     Action("further", 1): "the next one",
     Action("further", -1): "the one before",
+    **{Action(one.action, one.value): one.name for one in _TAKEN},
     Action("tool_on", 1): "the next tool, or what the drag can mean else",
     Action("tool_on", -1): "the tool before",
     Action("remove"): "remove what is chosen",

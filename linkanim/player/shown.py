@@ -16,7 +16,7 @@ from linkanim.build.building import Building
 from linkanim.build.dimensions import PropertyRow, rows_of
 from linkanim.build.draft import JOINT, Draft, Thing
 from linkanim.build.gestures import under
-from linkanim.build.numbers import chosen_row, rows_of_all
+from linkanim.build.numbers import chosen_row, rows_of_all, thing_at
 from linkanim.build.places import Shape, as_point, drawn, foot, from_span, line_of, snapped
 from linkanim.build.tools import TOOLS
 from linkanim.mechanics.linkage import Body, Point
@@ -116,9 +116,9 @@ def built(state: State, sheet: BuildSheet, hover: Hover | None = None) -> BuildS
         hand=sheet.grip.at if sheet.grip else None,
         photo=building.draft.photo,
         anchor=sheet.anchor,
-        tools=ToolBar(tool, hover.tool if hover else None),
+        tools=ToolBar(tool, hover.tool if hover else None, typed=state.editing.open),
         is_warning=building.is_refusal and bool(building.sentence),
-        panel=None if sheet.grip else _numbers(building),
+        panel=None if sheet.grip or measured else _numbers(building),
         offers=_offers(sheet),
         dots=tuple(seen.places[name] for name in seen.of("points")) if moves else (),
         unit=building.draft.unit,
@@ -328,7 +328,7 @@ def overlay(
         hint=_hint_bar(state),
         watch=None if state.game else _watch(state),
         measured=() if _stands_still(state) or _is_rowed(state) else tuple(_measured(state, items)),
-        tools=ToolBar(_MOVES, over.tool if over else None) if state.mode == "edit" else None,
+        tools=ToolBar(_MOVES, over.tool if over else None, typed=True) if state.mode == "edit" else None,
         glow=_glow(state, hover),
         told=told(state, pointed) if pointed else None,
         instant=pointed.instant if pointed else None,
@@ -385,6 +385,15 @@ def _stands_still(state: State) -> bool:
 def _is_rowed(state: State) -> bool:
     """Whether what is typed is for rows of what is chosen on a sheet, and not for the list of dimensions."""
     return bool(state.building and state.building.rowed)
+
+
+def _has_row(state: State, items: tuple[Dimension, ...]) -> bool:
+    """Whether what is chosen on a sheet, if by hand, is what the chosen row of the list belongs to."""
+    sheet = state.building
+    if sheet is None or not sheet.rowed:
+        return True
+    things = (thing_at(sheet.building.draft, state.scene, item.key) for item in items)
+    return sheet.building.chosen in things
 
 
 def _stands(state: State) -> bool:
@@ -663,7 +672,7 @@ def _panel(state: State, items: tuple[Dimension, ...]) -> Panel:
         return _panel_of_draft(state.building.building)
     editing, info = state.editing, in_unit(state.scene, state.look.unit).info
     at, begun = editing.chosen % max(len(items), 1), dict(editing.drafts)
-    at = -1 if _is_rowed(state) else at
+    at = at if _has_row(state, items[at : at + 1]) else -1
     begun |= {item.key: f"{editing.typed}_" for n, item in enumerate(items) if n == at and editing.typed}
     shown = (begun.get(item.key) or _valued(item, _digits(state)) for item in items)
     rows = (

@@ -19,6 +19,7 @@ import pygame
 from pygame.event import Event
 
 from linkanim import intake
+from linkanim.build.tools import TOOLS
 from linkanim.errors import BadInput, LinkanimError
 from linkanim.picture.look import Look
 from linkanim.picture.overlay import OwnFile
@@ -28,6 +29,7 @@ from linkanim.player.action import Action, Value
 from linkanim.player.actions import aged, carried, leave, settled
 from linkanim.player.building import left, written
 from linkanim.player.clock import FRAMES_PER_SECOND
+from linkanim.player.commands import tool_asks
 from linkanim.player.devices import MOUSE_EVENTS, PAD_EVENTS, Fingers, Keyboard, Mouse, Pads, latest
 from linkanim.player.edits import renewed
 from linkanim.player.files import DraftFile, SavedScenes, SceneFile, beside, scene_files
@@ -668,6 +670,11 @@ class Window:
         return (bind.action,) if bind else ()
 
 
+def _of_tool(name: str) -> Callable[[Window, Value], Iterator[Action]]:
+    """Return what a tool's key means: beside the list of dimensions alone it leads to the sheet."""
+    return lambda window, value: iter(tool_asks(window.state, Action(name, value)))
+
+
 def _listed(files: Sequence[OwnFile]) -> str:
     """Return files as an action has them."""
     return "\n".join(f"{one.name}\t{one.written}" for one in files)
@@ -688,6 +695,7 @@ MEANINGS: Mapping[str, Callable[[Window, Value], Iterator[Action]]] = {
     "files_here": Window._files_here,
     "aim": Window._aim,
     "enter": Window._enter,
+    **{name: _of_tool(name) for name in {tool.action for tool in TOOLS}},
 }
 """What the table of keys asks for that depends on what is in sight or in the folder: actions of the state."""
 

@@ -294,3 +294,26 @@ def test_a_sheet_that_the_linkage_has_come_from_is_gone_on_with(editor: Editor) 
     editor.tool("damper")
     assert editor.sheet.tool == "damper"  # undo goes back to what is in no file: nothing is lost
     assert of_label(editor.state, "Ground 1") == 101
+
+
+def test_a_tool_s_key_takes_ctrl_where_digits_are_typed_and_leads_to_the_sheet(editor: Editor) -> None:
+    editor.press(pygame.K_2, CTRL)
+    assert editor.mode == "edit"  # joints are moved there already
+    editor.press(pygame.K_RIGHT)
+    editor.tool("undo")
+    assert (editor.mode, of_label(editor.state, "Ground 1")) == ("edit", 100)
+    editor.press(pygame.K_7, CTRL)
+    assert (editor.mode, editor.sheet.tool) == ("numbers", "spring")
+
+
+def test_a_draft_in_no_file_is_let_go_of_only_by_asking_for_a_tool_twice(editor: Editor) -> None:
+    editor.press(pygame.K_ESCAPE)
+    editor.press(pygame.K_F2)
+    editor.draw((0, 0))
+    editor.press(pygame.K_F2)
+    editor.press(pygame.K_e, text="e")
+    editor.tool("spring")
+    assert editor.mode == "edit"
+    assert editor.state.toast
+    editor.tool("spring")
+    assert (editor.mode, editor.sheet.tool) == ("numbers", "spring")
