@@ -56,7 +56,10 @@ def card(setting: DrawSetting, pose: Pose, told: Told, most: Greatest | None) ->
 
 
 def _place(setting: DrawSetting, thing: complex, size: tuple[float, float], busy: Sequence[Rect]) -> complex:
-    """Return the upper left corner of the card: beside the thing, within the picture, off what is `busy`."""
+    """Return the upper left corner of the card: beside the thing, within the picture, off what is `busy`.
+
+    Of one of the words it may stand beside them all.
+    """
     (wide, high), (right, bottom) = size, setting.layout.size
     off, edge = _OFF * setting.layout.text_size, 0.3 * setting.layout.small_size
     places = [
@@ -67,6 +70,9 @@ def _place(setting: DrawSetting, thing: complex, size: tuple[float, float], busy
         for below in (False, True)
         for to_right in (True, False)
     ]
+    beside = max((one.right for one in setting.layout.words), default=0.0) + 0.5 * off
+    if beside + wide <= right - edge:
+        places.append(complex(beside, min(max(thing.imag - high / 2, edge), bottom - edge - high)))
     cards = ((at, Rect(at.real, at.imag, wide, high)) for at in places)
     return next((at for at, card_ in cards if not any(card_.meets(one) for one in busy)), places[0])
 

@@ -257,6 +257,12 @@ def test_the_class_says_why_it_is_that(here: Path) -> None:
         player.mouse(pygame.MOUSEMOTION, at, rel=(0, 0), buttons=(0, 0, 0))
         assert player.window.screen.over.told
         assert "s + l = 150 < p + q = 165" in player.window.screen.over.told.lines
+        picture, state = player.window.screen._framing.last, player.state
+        pose, _ = picture.poses(state.phase)
+        groups = picture.groups(pose, player.window.screen.over)
+        (card,) = (group for group in groups if group.name == "told")
+        left = card.layers[0].loops[0].real.min()
+        assert left >= max(one.right for one in picture.layout.words)
         player.drag(at)
         player.tick()
         assert player.state.toast
