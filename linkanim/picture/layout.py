@@ -231,11 +231,11 @@ def _charted(empty: Layout, *, chart: int, beside: bool, listed: int, row: bool,
     if beside:
         head = edge + _HEAD_OF_MARKS * empty.text_size
         tallest = _TALLEST * room.width * min(chart, 2)
-        wide, foot = _SHARE_BESIDE * room.width, edge
+        wide, below = _SHARE_BESIDE * room.width, edge
         if bar and wide - edge < HEAD_OF_CHART * empty.text_size + _BUTTONS * empty.button:
-            foot = max(edge, _ROW_OF_BUTTONS * empty.button)
-        high = min(room.height - head - foot, tallest)
-        top = max(min((room.height - high) / 2, room.height - foot - high), head)
+            below = max(edge, _ROW_OF_BUTTONS * empty.button)
+        high = min(room.height - head - below, tallest)
+        top = max(min((room.height - high) / 2, room.height - below - high), head)
         chart_place = Rect(room.right - wide, top, wide - edge, high)
         return replace(empty, stage=room._replace(width=room.width - wide - 0.6 * edge), chart=chart_place)
     tall = _SHARES_BELOW[min(chart, len(_SHARES_BELOW)) - 1] * room.height

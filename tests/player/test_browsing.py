@@ -371,7 +371,7 @@ def fingers(player: Player, *places: tuple[float, float]) -> None:
     wide, high = player.window.screen.size
     kinds = [pygame.FINGERDOWN, *[pygame.FINGERMOTION] * (len(places) - 1), pygame.FINGERUP]
     for kind, (x, y) in zip(kinds, (*places, places[-1]), strict=True):
-        share = {"x": x / wide, "y": y / high}
+        share: dict[str, Any] = {"x": x / wide, "y": y / high}
         pygame.event.post(pygame.event.Event(kind, finger_id=1, touch_id=1, dx=0.0, dy=0.0, **share))
         player.tick()
 
