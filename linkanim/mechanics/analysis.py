@@ -647,8 +647,12 @@ class Counts(NamedTuple):
     mobility: int
 
 
-_AT_END = 1e-4
-"""Of an end of the input in phase: what turns back so near to it turns back with it."""
+_BESIDE = 1e-4
+"""In phase: what turns back so near to an end of the input turns back with it."""
+_AWAY, _FLAT = 0.1, 1e-5
+"""A rate that beside a place is so small a share of what it is so far away vanishes there more than once."""
+_ONE_PLACE = 1e-5
+"""In phase: places that are told by so few digits may be one."""
 
 
 class _ToAndFro(NamedTuple):
@@ -691,17 +695,40 @@ def _to_and_fro(mechanism: Mechanism, name: str, place: str, rate: str) -> _ToAn
 def reversals(mechanism: Mechanism, name: str, rate: str, phases: Array) -> Array:
     """Return the phases between others at which a body turns back, by a motion's name for its rate.
 
-    Where the input turns back and everything with it, that is at a multiple of π. A search alone finds it
-    by no more digits than the rate has there, of a toggle that is straight at its end half as many.
+    Where the input turns back and everything with it, that is at a multiple of π. Where a toggle is straight
+    as what drives it turns back, the body's own rate vanishes as a third power, and tells the place by a
+    third of its digits: what drives it tells it by all of them.
     """
-    found = sign_changes(
-        lambda near: np.asarray(getattr(mechanism.solve(phase=near, speed=1.0, derivatives=1), rate)[name]),
-        phases,
+
+    def turning(near: Array) -> Array:
+        return np.asarray(getattr(mechanism.solve(phase=near, speed=1.0, derivatives=1), rate)[name])
+
+    found = sign_changes(turning, phases)
+    if not mechanism.full_turn and (mechanism.retraced or not any(mechanism.stops)):
+        ends = math.pi * np.rint(found / math.pi)
+        found = np.where(np.abs(found - ends) < _BESIDE, ends, found)
+    near, *far = (np.abs(turning(found + way)) for way in (_BESIDE, _AWAY, -_AWAY))
+    flat = near <= _FLAT * np.maximum(*far)
+    return np.array(
+        [_steepest(mechanism, at) if level else at for at, level in zip(found, flat, strict=True)]
     )
-    if mechanism.full_turn or (any(mechanism.stops) and not mechanism.retraced):
-        return found
-    ends = math.pi * np.rint(found / math.pi)
-    return np.where(np.abs(found - ends) < _AT_END, ends, found)
+
+
+def _steepest(mechanism: Mechanism, place: float) -> float:
+    """Return where next to a phase a body turns back, the one whose turning changes most; else the phase."""
+
+    def turning(near: Array) -> Mapping[str, Array]:
+        return mechanism.solve(phase=near, speed=1.0, derivatives=1).angular_velocity
+
+    around = place + _BESIDE * np.array([-1.0, 1.0])
+    steps = {
+        name: float(rate[1] - rate[0]) for name, rate in turning(around).items() if rate[0] * rate[1] < 0
+    }
+    if not steps:
+        return place
+    steepest = max(steps, key=lambda name: abs(steps[name]))
+    at = float(sign_changes(lambda near: turning(near)[steepest], around)[0])
+    return at if abs(at - place) < _ONE_PLACE else place
 
 
 def _rests(mechanism: Mechanism, name: str, rate: str, phases: Array) -> bool:

@@ -459,6 +459,18 @@ def test_at_the_end_of_its_stroke_a_straight_toggle_stands() -> None:
     assert scene.info.dead_centres == (0.0, math.pi)
 
 
+def test_where_a_knuckle_is_straight_at_its_crank_s_dead_centre_all_but_the_crank_stands() -> None:
+    """The crank, its rod and the straight knuckle meet in (0, -130): 55 + 195 is the way there."""
+    scene = load("knuckle-press")
+    (place,) = (one.phase for one in usual_instants(scene) if "greatest" in one.words)
+    assert place == pytest.approx(math.tau - math.atan2(70, 240), abs=1e-14)
+    pose = scene.pose(place)
+    for token in ("upper.angular_velocity", "lower.angular_velocity", "R.velocity", "B.velocity"):
+        assert scene.quantities[token].read(pose) == 0.0
+    assert scene.info.dead_centres
+    assert scene.info.dead_centres[1] == place
+
+
 def test_angles_choose_the_phase_also_of_a_swing() -> None:
     scene = load("double-rocker")
     middle = sum(scene.info.input_range) / 2
