@@ -408,6 +408,8 @@ def _of_strut(strut: Spring | Damper, index: str, words: str, *, every: bool) ->
 
 
 _LEAST, _MOST = 6, 10
+_IN_STEP = 4
+"""So many quantities are looked at in a step."""
 
 
 def key_quantities(cycle: Motion, traced: tuple[str, ...] = ()) -> tuple[str, ...]:
@@ -422,12 +424,13 @@ def key_quantities(cycle: Motion, traced: tuple[str, ...] = ()) -> tuple[str, ..
 def finding_key_quantities(
     cycle: Motion, traced: tuple[str, ...] = ()
 ) -> Generator[None, None, tuple[str, ...]]:
-    """Find these quantities in steps; the longest works out one quantity of the cycle."""
+    """Find these quantities in steps of some milliseconds."""
     linkage, changing = cycle.mechanism.linkage, set[str]()
-    for token, one in register(linkage).items():
+    for n, (token, one) in enumerate(register(linkage).items()):
+        if n % _IN_STEP == 0:
+            yield
         if one.changes(cycle):
             changing.add(token)
-        yield
     point = tuple(name for name in traced if f"{name}.velocity" in changing)[:1]
     candidates = [token for token in _candidates(linkage, point) if token in changing]
     rest = [token for token in register(linkage) if token in changing and token not in candidates]

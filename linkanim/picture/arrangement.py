@@ -5,10 +5,10 @@ What a linkage sweeps in a cycle is measured once. It outlasts pans, zooms and t
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Generator, Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import cached_property
-from itertools import combinations, product
+from itertools import chain, combinations, product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,6 +33,7 @@ from linkanim.picture.look import Look
 from linkanim.picture.text import Type
 from linkanim.picture.view import Box, Rect, View, joined
 from linkanim.scenes.scene import Scene
+from linkanim.steps import at_once
 
 # What a linkage sweeps in a cycle: how far it reaches, and which parts of the plane it leaves free.
 
@@ -273,13 +274,35 @@ def arranged(
     `shapes` are those of the sentence that is shown for a while, the best first. What is drawn keeps `edge`
     pixels from the stage's edge, the usual distance without it.
     """
+    return at_once(_arranging(parts, sweep, shortest, blocks, shapes, edge))
+
+
+def _arranging(
+    parts: Layout,
+    sweep: Sweep,
+    shortest: float,
+    blocks: Iterable[Sequence[WordBlock]],
+    shapes: Iterable[tuple[float, float]],
+    edge: float | None,
+) -> Generator[None, None, Arrangement]:
+    """Return the same in steps: one for each way in which words are set."""
     ways_ = _WaysToArrange(parts, sweep, shortest, _EDGE * parts.unit if edge is None else edge)
-    groups = tuple(blocks)
-    found = next((one for group in groups for one in ways_.placed(group)), None)
-    keyed = bool(groups) and groups[0][0].parts_at((0.0, 0.0))[1] is not None
-    if groups and (found is None or _lacks(found, keyed)):
-        tight = (one for group in groups for one in ways_.placed(group, _TIGHT))
-        found = next((one for one in tight if not _lacks(one, keyed)), found)
+    groups, tried = iter(blocks), list[Sequence[WordBlock]]()
+    found = None
+    for group in groups:  # words are set in further ways only where these find no place
+        tried.append(group)
+        found = next(ways_.placed(group), None)
+        if found:
+            break
+        yield
+    keyed = bool(tried) and tried[0][0].parts_at((0.0, 0.0))[1] is not None
+    if tried and (found is None or _lacks(found, keyed)):
+        for group in chain(tried, groups):
+            yield
+            roomy = next((one for one in ways_.placed(group, _TIGHT) if not _lacks(one, keyed)), None)
+            if roomy:
+                found = roomy
+                break
     arrangement = found or Arrangement(parts, ways_.view(ways_.largest, (0.5, 0.5)), ways_.gauge, None)
     marked = replace(arrangement, layout=replace(arrangement.layout, marks=ways_.marks(arrangement)))
     hinted = replace(marked, layout=replace(marked.layout, hint=ways_.hint(marked)))
@@ -319,8 +342,9 @@ class _WaysToArrange:
         share = min(tight * self.least / self.largest, 1.0)
         shares = [1.0 - (1.0 - share) * step / _STEPS for step in range(_STEPS + 1)]
         scales = [share * self.largest for share in shares]
+        corners = [self._corner(block) for block in group]
         for _, step, turn in _ways_through(shares, group):
-            place, block = self._corner(group[turn]), group[turn]
+            place, block = corners[turn], group[turn]
             if place is None:
                 continue
             if turn not in clear:
@@ -451,6 +475,8 @@ def _ways_through(shares: Sequence[float], group: Sequence[WordBlock]) -> list[t
 
 _BETTER = 1.25
 """So much larger a scene must be with its chart beside it, for the chart to stand there."""
+_MOST_KEPT = 24
+"""So many arrangements of a subject are kept."""
 _WIDE_ENOUGH = 420
 """The least width of a window that has its chart beside the scene, in pixels."""
 
@@ -520,6 +546,16 @@ class Subject:
         """The rows of words about them, at their widest; beside an open list there are none."""
         return widest_rows(self.scenes, self.type)
 
+    @cached_property
+    def arrangements(self) -> dict[FitRequest, Arrangement]:
+        """How they are arranged for the last requests: a look comes back, or was thought of beforehand."""
+        return {}
+
+    @cached_property
+    def expected(self) -> list[Subject]:
+        """Those that a key may put in its place."""
+        return []
+
     @property
     def scenes(self) -> tuple[Scene, ...]:
         """The scene, and the one beside it."""
@@ -576,7 +612,9 @@ def fitted(
     """
     known = before.subject if before else None
     if known is None or known.figure.scene is not scene or known.beside is not beside:
-        subject = Subject(figure(scene), beside, type_)
+        expected = (one for one in (known.expected if known else ()) if one.figure.scene is scene)
+        subject = next((one for one in expected if one.beside is beside), None)
+        subject = subject or Subject(figure(scene), beside, type_)
     elif before and before.request == request and (late or not held or before.has_room):
         return before
     else:
@@ -585,17 +623,30 @@ def fitted(
         stays = SceneFit(subject, request, before.arrangement)
         if late or stays.has_room:
             return stays
-    return SceneFit(subject, request, _arranged(subject, request, type_))
+    return SceneFit(subject, request, at_once(arranging(subject, request)))
 
 
-def _arranged(subject: Subject, request: FitRequest, type_: Type) -> Arrangement:
-    """Return the arrangement with the chart where it leaves the scene larger, and room for most words."""
-    below = _with_chart(subject, request, type_, beside=False)
-    if not request.chart or request.size[0] < _WIDE_ENOUGH:
-        return below
-    aside = _with_chart(subject, request, type_, beside=True)
-    as_many = 2 * _row_count(aside) >= _row_count(below)
-    return aside if as_many and aside.view.scale > _BETTER * below.view.scale else below
+def arranging(subject: Subject, request: FitRequest) -> Generator[None, None, Arrangement]:
+    """Return the arrangement with the chart where it leaves the scene larger, and room for most words.
+
+    It is found in steps of a few milliseconds, and kept with the subject.
+    """
+    known = subject.arrangements
+    if request not in known:
+        _ = subject.sweep
+        yield
+        _ = subject.rows
+        yield
+        found = yield from _with_chart(subject, request, beside=False)
+        if request.chart and request.size[0] >= _WIDE_ENOUGH:
+            yield
+            aside = yield from _with_chart(subject, request, beside=True)
+            as_many = 2 * _row_count(aside) >= _row_count(found)
+            found = aside if as_many and aside.view.scale > _BETTER * found.view.scale else found
+        if len(known) >= _MOST_KEPT:
+            known.clear()
+        known[request] = found
+    return known[request]
 
 
 def _row_count(arrangement: Arrangement) -> int:
@@ -603,7 +654,8 @@ def _row_count(arrangement: Arrangement) -> int:
     return 1 + len(arrangement.block.rows) if arrangement.block else 0
 
 
-def _with_chart(subject: Subject, request: FitRequest, type_: Type, *, beside: bool) -> Arrangement:
+def _with_chart(subject: Subject, request: FitRequest, *, beside: bool) -> Generator[None, None, Arrangement]:
+    type_ = subject.type
     parts = layout(
         request.size,
         chart=request.chart,
@@ -632,4 +684,4 @@ def _with_chart(subject: Subject, request: FitRequest, type_: Type, *, beside: b
     if request.held:
         nothing = np.zeros(0, complex)
         sweep |= Sweep(nothing, nothing, np.array(request.held))
-    return arranged(parts, sweep, subject.figure.shortest, words, shapes, edge)
+    return (yield from _arranging(parts, sweep, subject.figure.shortest, words, shapes, edge))

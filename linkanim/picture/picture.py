@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Literal
 
 from linkanim.frozen import NamedTuple
 from linkanim.mechanics.motion import Pose
-from linkanim.picture.arrangement import FitRequest, SceneFit, fitted, request_of
+from linkanim.picture.arrangement import FitRequest, SceneFit, Subject, arranging, fitted, request_of
 from linkanim.picture.build_sheet import (
     dashed,
     drafted,
@@ -34,7 +34,7 @@ from linkanim.picture.look import Look
 from linkanim.picture.marks import glow, grip, measure, spots
 from linkanim.picture.motion_marks import motion_of
 from linkanim.picture.overlay import Lane, LayersShown, Overlay, PathShown, SliderShown
-from linkanim.picture.quantities import chart_tokens
+from linkanim.picture.quantities import chart_tokens, quantity
 from linkanim.picture.shapes import Part
 from linkanim.picture.slider import slider
 from linkanim.picture.text import Type
@@ -174,6 +174,25 @@ class Picture:
         self.late = earlier is not None and earlier.place == place
         self.earlier: Earlier = earlier if earlier and self.late else Earlier(place, {})
         self._settled = earlier is None or self.fit.has_room
+
+    def preparing(self, look: Look, *, listed: bool) -> Iterator[None]:
+        """Find in steps what a picture of the scene in another look needs to know, and keep it."""
+        tokens = chart_tokens(self.scene, look.chart)
+        for token in tokens:
+            quantity(self.scene, token).read(self.figure.cycle)
+            yield
+        last = self.fit.request
+        request = request_of(self.size, look, len(tokens), listed=listed, row=self.row, bar=last.bar)
+        if look.names == self.look.names:
+            request = request._replace(table=last.table)
+        yield from arranging(self.fit.subject, request)
+
+    def expecting(self, other: Scene) -> Iterator[None]:
+        """Find in steps what a picture of another scene in the same look needs to know, and keep it."""
+        subject = Subject(figure(in_unit(other, self.look.unit)), None, self.type)
+        yield
+        yield from arranging(subject, self.fit.request)
+        self.fit.subject.expected[:] = [subject]
 
     def catch_up(self) -> None:
         """Have what stands still as it is, not as it was in an earlier picture."""

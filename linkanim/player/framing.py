@@ -7,7 +7,7 @@ be drawn in a frame, it is drawn in two.
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import partial
 from math import inf
@@ -163,6 +163,10 @@ class Framing:
         stroke = Box(float(x.min()), float(y.min()), float(x.max()), float(y.max()))
         room = made.layout.stage.inset(2 * made.layout.margin)
         return view_for(self._drawn[1], stroke, made.fit.subject.figure.box, room, made.layout.hud)
+
+    def preparing(self, state: State) -> Iterator[None]:
+        """Find in steps what the picture of a state with the scene of the last one needs to know."""
+        yield from self.last.preparing(self._look(state), listed=state.listed)
 
     def _look(self, state: State) -> Look:
         """Return the look of a state; where it is captioned, names come with what to watch for."""

@@ -247,6 +247,13 @@ def _pointer(capsule: Any) -> int:
 
 # The window's picture: the one that fits the scene, size and look of the moment, and what was shown last.
 
+_AHEAD = (
+    *(Action("chart", 1), Action("polygons"), Action("names"), Action("edit")),
+    *(Action("vectors", kind) for kind in "va"),
+)
+"""What may be asked for next and changes where things stand."""
+_OPENING = (Action("help"), Action("edit"), Action("list"), Action("shelf"))
+"""What opens a panel."""
 _PULLED = 6.0
 """How near to a line of the grid counts as on it, in units."""
 _VISIBLE = 1.0
@@ -295,19 +302,22 @@ class Screen:
             pygame.display.flip()
             self._shown = shown
 
-    def prepare(self, state: State) -> None:
+    def prepare(self, state: State) -> bool:
         """Do a step of what the next key may ask for, in a frame in which nothing happens.
 
         What is found is kept where it would be looked up; the picture of a key is the same without it.
+        Returns whether there is more to do.
         """
         if state.mode not in ("play", "paused") or state.held or state.grasp or state.glide:
-            return
+            return False
         picture, before = self._framing.last, self._prepared
         if picture is not before:
             self._prepared, self._preparing = picture, self._ahead(state, picture)
-            return
-        with suppress(Exception):  # the key itself meets it again, and tells it
-            next(self._preparing, None)
+            return True
+        with suppress(Exception):  # of a fault the key tells, which meets it again
+            for _ in self._preparing:
+                return True
+        return False
 
     def _ahead(self, state: State, picture: Picture) -> Iterator[None]:
         """Find what keys will ask for: the other closure, quantities to chart, polygons, help and lists."""
@@ -316,14 +326,17 @@ class Screen:
         if other:
             proved(other, 0.0)
             yield
+            yield from picture.expecting(other)
         yield from state.scene.finding_telling()
-        _ = picture.fit.subject.figure.polygon_boxes
-        yield
-        for name in names():
-            title_of(name)
+        for action in _AHEAD:
             yield
-        for key in ("help", "edit", "list", "shelf"):
-            over = kept(carried(state, Action(key)))
+            yield from self._framing.preparing(carried(state, action))
+        _ = picture.fit.subject.figure.polygon_boxes
+        for name in names():
+            yield
+            title_of(name)
+        for opening in _OPENING:
+            over = kept(carried(state, opening))
             yield
             yield from self._printer.prepared(picture, over)
             if over.shelf:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import sys
 import time
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
 from statistics import median
 from typing import NamedTuple
 
@@ -23,20 +24,25 @@ from linkanim.scenes import load, names
 
 KEYS = "lnptcvaibjhkoe"
 """The letters measured: those that change what is shown."""
-BEFORE, AFTER = 90, 8
-"""Frames shown before a key, in which what it may ask for is prepared, and after it."""
+BEFORE, AFTER = 12, 8
+"""Frames shown before a key, and after it."""
 BOUNDS_MS = {(1280, 720): 33.0, (1920, 1080): 50.0}
 """For the frame that heeds a key; those after it take no longer than the first of them."""
 TITLES = ("key", "median", "worst", "on", "worst after it", "on")
 
 
 class KeyCost(NamedTuple):
-    """Processor time of the frame that heeds a key, and of the slowest of those after it, in ms."""
+    """Processor time of the frame that heeds a key, and of the slowest of those after it, in ms.
+
+    `step` is the longest of the steps in which was prepared what keys may ask for: one is done in each frame
+    in which nothing happens, those after the key among them.
+    """
 
     key: str
     scene: str
     heeded: float
     after: float
+    step: float
 
 
 def measured(size: tuple[int, int], scenes: Iterable[str], keys: str = KEYS) -> list[KeyCost]:
@@ -45,8 +51,9 @@ def measured(size: tuple[int, int], scenes: Iterable[str], keys: str = KEYS) -> 
 
 
 def _on_scene(size: tuple[int, int], name: str, keys: str) -> list[KeyCost]:
-    begun, costs = begin(load(name)), []
+    costs = []
     for key in keys:
+        begun = begin(replace(load(name)))  # of which nothing is known from the key before
         bind = bind_of(Press(key, key))
         assert bind is not None, f"the key {key} does nothing"
         with display.opened(size):
@@ -54,14 +61,23 @@ def _on_scene(size: tuple[int, int], name: str, keys: str) -> list[KeyCost]:
             state = begun
             for _ in range(BEFORE):
                 state, _ = _frame(screen, state)
-                screen.prepare(state)
+            steps = list(_prepared(screen, state))
             state, heeded = _frame(screen, state, bind.action)
             later = []
             for _ in range(AFTER):
                 state, spent = _frame(screen, state)
-                later.append(spent)
-        costs.append(KeyCost(key, name, heeded, max(later)))
+                later.append(spent + next(_prepared(screen, state), 0.0))
+        costs.append(KeyCost(key, name, heeded, max(later), max(steps)))
     return costs
+
+
+def _prepared(screen: Screen, state: State) -> Iterator[float]:
+    """Prepare what keys may ask for; yield the processor time of each step in ms."""
+    more = True
+    while more:
+        start = time.process_time()
+        more = screen.prepare(state)
+        yield 1e3 * (time.process_time() - start)
 
 
 def _frame(screen: Screen, state: State, *actions: Action) -> tuple[State, float]:
@@ -82,8 +98,9 @@ def as_text(size: tuple[int, int], costs: list[KeyCost]) -> str:
         middle = median(cost.heeded for cost in of_key)
         figures = (f"{middle:.0f} ms", f"{worst.heeded:.0f} ms", worst.scene)
         rows.append((key.upper(), *figures, f"{later.after:.0f} ms", later.scene))
-    width, height = size
-    return f"{width}x{height}, at most {BOUNDS_MS[size]:g} ms wanted\n{columns(rows)}"
+    (width, height), step = size, max(costs, key=lambda cost: cost.step)
+    head = f"{width}x{height}, at most {BOUNDS_MS[size]:g} ms wanted"
+    return f"{head}\n{columns(rows)}\nlongest step beforehand: {step.step:.0f} ms, {step.scene}"
 
 
 if __name__ == "__main__":
