@@ -145,12 +145,18 @@ def _kept_chart(state: State, scene: Scene) -> str | None:
 
 
 def list_(state: State, below: str | None) -> State:
-    """Open the list of quantities, at the one that is charted, or close it; for another chart `below`."""
+    """Open the list of quantities, at the one that is charted, or close it.
+
+    For another chart `below` it opens at the next one that is not.
+    """
     if state.listing:
         return replace(state, listing=None)
     tokens = listed(state.scene, "")
     charted = chart_tokens(state.scene, state.look.chart)
     at = next((tokens.index(token) for token in charted if token in tokens), 0)
+    if below:
+        turned = (n % len(tokens) for n in range(at, at + len(tokens)))
+        at = next((n for n in turned if tokens[n] not in charted), at)
     return replace(state, listing=Listing(at, adds=bool(below)), browsing=None)
 
 

@@ -219,6 +219,15 @@ def test_nothing_is_charted_where_nothing_is_found(player: Player) -> None:
     assert (player.state.look.chart, player.state.listing is not None) == (None, True)
 
 
+def test_the_next_quantity_is_charted_below_by_shift_k_and_enter(player: Player) -> None:
+    player.type("c")
+    for count in (2, 3):
+        player.press(pygame.K_k, pygame.KMOD_LSHIFT, "K")
+        player.press(pygame.K_RETURN)
+        assert player.state.look.chart == ",".join(player.state.scene.telling[:count])
+    assert player.state.listing is None
+
+
 def _grid(player: Player) -> Grid:
     assert player.state.browsing
     return player.window.screen.shelf_grid(player.state.browsing)
