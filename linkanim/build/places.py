@@ -48,9 +48,10 @@ def round_length(value: float, step: float) -> int | float:
     return number or step
 
 
-def round_angle(way: complex, step: float) -> str:
-    """Return a way's direction in the roundest degrees that keep its end within half a step."""
-    return f"{round_degrees(degrees(atan2(way.imag, way.real)), abs(way), step):g} deg"
+def round_angle(vector: complex, step: float) -> str:
+    """Return a vector's direction in the roundest degrees that keep its end within half a step."""
+    angle = degrees(atan2(vector.imag, vector.real))
+    return f"{round_degrees(angle, abs(vector), step):g} deg"
 
 
 def round_degrees(angle: float, reach: float, step: float) -> int | float:
@@ -125,13 +126,13 @@ def lengths_within(draft: Draft) -> dict[str, float]:
 
 def line_of(draft: Draft, guide: Mapping[str, Any]) -> tuple[complex, complex]:
     """Return a point of a guide and its direction, of length 1, where the joints were drawn."""
-    start, way = place_of(draft, guide.get("through") or guide["on"][0]), 1 + 0j
+    start, direction = place_of(draft, guide.get("through") or guide["on"][0]), 1 + 0j
     if "on" in guide:
         first, second = (place_of(draft, name) for name in guide["on"])
-        way = (second - first) / (abs(second - first) or 1.0)
+        direction = (second - first) / (abs(second - first) or 1.0)
     angle = units.angle(guide.get("angle", "0 deg"))
-    way *= complex(cos(angle), sin(angle))
-    return start + 1j * way * units.length(guide.get("offset", 0), unit=draft.unit), way
+    direction *= complex(cos(angle), sin(angle))
+    return start + 1j * direction * units.length(guide.get("offset", 0), unit=draft.unit), direction
 
 
 def place_of(draft: Draft, joint: str) -> complex:
@@ -155,9 +156,9 @@ def _ways(draft: Draft, name: str, known: set[str], plates: list[RigidBody]) -> 
     for body, ends in held:
         bars += [(end, _round(abs(body[end] - body[name]))) for end in ends[:1] if end not in dict(bars)]
         if ends[1:]:
-            way = (body[name] - body[ends[0]]) * (body[ends[1]] - body[ends[0]]).conjugate()
-            way /= abs(body[ends[1]] - body[ends[0]])
-            yield {"on": ends[:2], "at": [_round(way.real), _round(way.imag)]}
+            place = (body[name] - body[ends[0]]) * (body[ends[1]] - body[ends[0]]).conjugate()
+            place /= abs(body[ends[1]] - body[ends[0]])
+            yield {"on": ends[:2], "at": [_round(place.real), _round(place.imag)]}
     yield from _slotted(draft, name, known, bars)
     if yoke and line and yoke["pin"] in known:
         yield {"slide": {"pin": yoke["pin"], "line": line, "slot": yoke["slot"]}}
@@ -209,8 +210,8 @@ def _with_side(draft: Draft, name: str, table: dict[str, Any]) -> dict[str, Any]
         return {**table, "side": known["side"]}
     place, names = place_of(draft, name), ends_of(table)
     if "line" in table:
-        start, way = place_of(draft, names[0]), line_of(draft, table["line"])[1]
-        return {**table, "side": RRP.sides[((place - start) * way.conjugate()).real < 0]}
+        start, direction = place_of(draft, names[0]), line_of(draft, table["line"])[1]
+        return {**table, "side": RRP.sides[((place - start) * direction.conjugate()).real < 0]}
     start, end = (place_of(draft, each) for each in names)
     return {**table, "side": RRR.sides[((place - start) * (end - start).conjugate()).imag < 0]}
 
@@ -249,21 +250,21 @@ def with_number(draft: Draft, key: tuple[str | int, ...], value: object) -> Draf
 def at_on(draft: Draft, on: list[str], place: complex, snap: float) -> list[int | float]:
     """Return where a place lies on a body, along its axis and to the left."""
     start, end = (place_of(draft, name) for name in on)
-    way = (place - start) * (end - start).conjugate() / (abs(end - start) or 1.0)
-    return [round_number(way.real, snap), round_number(way.imag, snap)]
+    share = (place - start) * (end - start).conjugate() / (abs(end - start) or 1.0)
+    return [round_number(share.real, snap), round_number(share.imag, snap)]
 
 
 def foot(draft: Draft, guide: str, place: complex) -> complex:
     """Return the nearest place on a guide."""
-    start, way = line_of(draft, draft.of("guides")[guide])
-    return start + way * ((place - start) * way.conjugate()).real
+    start, direction = line_of(draft, draft.of("guides")[guide])
+    return start + direction * ((place - start) * direction.conjugate()).real
 
 
 def from_span(start: complex, end: complex, place: complex) -> complex:
     """Return the way to a place from the nearest one between two others."""
-    way = end - start
-    share = ((place - start) * way.conjugate()).real / (abs(way) ** 2 or 1.0)
-    return place - start - way * min(max(share, 0.0), 1.0)
+    vector = end - start
+    share = ((place - start) * vector.conjugate()).real / (abs(vector) ** 2 or 1.0)
+    return place - start - vector * min(max(share, 0.0), 1.0)
 
 
 def crank_of(draft: Draft, joint: str) -> str | None:
@@ -322,8 +323,8 @@ def _following(
     driven = draft.driven
     pivot = crank_of(draft, driven) if driven and not draft.drive.keys() & {"cylinder", "slider"} else None
     if driven and pivot and phase is not None and joint in (driven, pivot):
-        way = (place_of(draft, driven) - place_of(draft, pivot)) * rect(1.0, -phase)
-        yield (*DRIVE, "start"), round_angle(way, snap)
+        arm = (place_of(draft, driven) - place_of(draft, pivot)) * rect(1.0, -phase)
+        yield (*DRIVE, "start"), round_angle(arm, snap)
     for name, gear in draft.of("gears").items():
         if {joint} & {name, gear["with"], crank_of(draft, name), crank_of(draft, gear["with"])}:
             yield ("gears", name, "offset"), gear_offset(draft, name, gear, snap)
@@ -348,34 +349,34 @@ def _fitted(draft: Draft, name: str) -> complex:
     if len(bars) > 1 and (met := _meeting(place, *bars[:2])) is not None:
         return met
     for start, reach in bars[:1]:
-        way = place - start
-        return start + way * (reach / (abs(way) or 1.0))
+        vector = place - start
+        return start + vector * (reach / (abs(vector) or 1.0))
     return place
 
 
 def _on_line(draft: Draft, guide: str, place: complex, bars: list[tuple[complex, float]]) -> complex:
     """Return where a slider is: on its guide, as far from its bar's end as that is long, if it can be."""
-    start, way = line_of(draft, draft.of("guides")[guide])
-    along = ((place - start) * way.conjugate()).real
+    start, direction = line_of(draft, draft.of("guides")[guide])
+    along = ((place - start) * direction.conjugate()).real
     for end, reach in bars[:1]:
-        near = (end - start) * way.conjugate()
+        near = (end - start) * direction.conjugate()
         if abs(near.imag) <= reach:
             half = sqrt(reach * reach - near.imag**2)
             along = min((near.real - half, near.real + half), key=lambda one: abs(one - along))
-    return start + way * along
+    return start + direction * along
 
 
 def _meeting(place: complex, one: tuple[complex, float], other: tuple[complex, float]) -> complex | None:
     """Return where two bars meet, of the two places the nearer one; None where they cannot."""
     (a, reach), (b, reach_b) = one, other
-    way = b - a
-    if not way:
+    vector = b - a
+    if not vector:
         return None
-    share = (abs(way) ** 2 + reach**2 - reach_b**2) / (2 * abs(way) ** 2)
-    height = reach**2 / abs(way) ** 2 - share**2
+    share = (abs(vector) ** 2 + reach**2 - reach_b**2) / (2 * abs(vector) ** 2)
+    height = reach**2 / abs(vector) ** 2 - share**2
     if height < 0:
         return None
-    ends = (a + way * complex(share, part * sqrt(height)) for part in (1, -1))
+    ends = (a + vector * complex(share, part * sqrt(height)) for part in (1, -1))
     return min(ends, key=lambda end: abs(end - place))
 
 
@@ -404,9 +405,9 @@ def drawn(draft: Draft) -> tuple[Shape, ...]:
 
 def _shapes(draft: Draft) -> Iterator[Shape]:
     for name, guide in draft.of("guides").items():
-        start, way = line_of(draft, guide)
+        start, direction = line_of(draft, guide)
         on_it = [draft.places[joint] for joint, one in draft.of("sliders").items() if one["guide"] == name]
-        yield Shape(("guides", name), "guides", (as_point(start), as_point(start + way), *on_it), name)
+        yield Shape(("guides", name), "guides", (as_point(start), as_point(start + direction), *on_it), name)
     for name, gear in draft.of("gears").items():
         yield from _wheels(draft, name, gear["with"], float(Fraction(gear["ratio"])))
     for name, table in draft.of("bars").items():
@@ -436,9 +437,12 @@ def _wheels(draft: Draft, joint: str, mate: str, ratio: float) -> Iterator[Shape
 def _blocks(draft: Draft) -> Iterator[Shape]:
     """Yield what slides along guides and in slots."""
     for joint, slider in draft.of("sliders").items():
-        way = line_of(draft, draft.of("guides")[slider["guide"]])[1]
+        direction = line_of(draft, draft.of("guides")[slider["guide"]])[1]
         yield Shape(
-            (JOINT, joint), "sliders", (draft.places[joint], as_point(place_of(draft, joint) + way)), joint
+            (JOINT, joint),
+            "sliders",
+            (draft.places[joint], as_point(place_of(draft, joint) + direction)),
+            joint,
         )
     for name, slot in draft.of("slots").items():
         first, second = (place_of(draft, end) for end in draft.ends(slot["bar"]))

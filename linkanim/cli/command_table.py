@@ -7,7 +7,6 @@ import sys
 from argparse import Action, Namespace
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from importlib import import_module
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Any, cast
 
@@ -150,6 +149,8 @@ def refuse_mixed_pygame() -> None:
 
     Whichever came last works until the other is removed or renewed, which takes files of both.
     """
+    from importlib.util import find_spec
+
     spec = find_spec("pygame")
     if spec is None:
         raise WorkFailed(f"pygame is not installed; `{sys.executable} -m pip install pygame-ce` mends it")

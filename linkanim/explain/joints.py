@@ -179,12 +179,12 @@ def rest(pin: Pin, rates: Rates, order: Order) -> None:
 def place_bars(joint: RRR, work: Work) -> None:
     """Add the cosine rule, with the bars' angles and where they meet."""
     (p, q), name = joint.ends, joint.name
-    way = work.points[q] - work.points[p]
+    span = work.points[q] - work.points[p]
     work.say(
         f"From {marked(p)} to {marked(q)} the distance d and its direction δ, then the triangle of both bars "
         "by the cosine rule:"
     )
-    d = work.let(Symbol("d", name), sqrt(square(way.x) + square(way.y)), LENGTH)
+    d = work.let(Symbol("d", name), sqrt(square(span.x) + square(span.y)), LENGTH)
     symbol = work.angle_symbol(p, name)
     if d.value == 0:
         work.say("Both ends lie in one point, where every direction closes; the motion takes this one:")
@@ -193,15 +193,15 @@ def place_bars(joint: RRR, work: Work) -> None:
             symbol, phase(at), ANGLE, f"from the motion through {marked(p)} = {marked(q)}"
         )
     else:
-        work.angles[p, name] = work.let(symbol, _direction_of_bar(joint, work, way, d), ANGLE)
+        work.angles[p, name] = work.let(symbol, _direction_of_bar(joint, work, span, d), ANGLE)
     work.let_point(name, work.points[p] + work.bar(p, name, joint.lengths[0]))
     work.angle_of(q, name)
 
 
-def _direction_of_bar(joint: RRR, work: Work, way: Components, d: Formula) -> Formula:
+def _direction_of_bar(joint: RRR, work: Work, span: Components, d: Formula) -> Formula:
     """Return the first bar's angle by the cosine rule, to the side on which the joint lies."""
     a, b = (work.length(end, joint.name, length) for end, length in joint.bars)
-    ahead = work.let(Symbol("δ", joint.name), atan2(way.y, way.x), ANGLE)
+    ahead = work.let(Symbol("δ", joint.name), atan2(span.y, span.x), ANGLE)
     corner = _corner((square(a) + square(d) - square(b)) / (TWO * a * d), work, joint.name)
     left = _left(joint, work)
     work.say(_why_left(joint, left))
@@ -241,15 +241,15 @@ def half_angle(joint: RRR, work: Work) -> None:
     """
     (p, q), name = joint.ends, joint.name
     a, b = (work.length(end, name, length) for end, length in joint.bars)
-    way, angle = work.points[q] - work.points[p], work.angles[q, name]
+    span, angle = work.points[q] - work.points[p], work.angles[q, name]
     before = len(work.items)
     work.say(
         f"With the angle of {marked(p)}–{marked(name)} eliminated the loop is A cos θ + B sin θ = C, a "
         f"quadratic for tan(θ/2):"
     )
-    cosine = work.let(Symbol("A", name), TWO * b * way.x, SQUARE)
-    sine = work.let(Symbol("B", name), TWO * b * way.y, SQUARE)
-    right = work.let(Symbol("C", name), square(a) - square(b) - square(way.x) - square(way.y), SQUARE)
+    cosine = work.let(Symbol("A", name), TWO * b * span.x, SQUARE)
+    sine = work.let(Symbol("B", name), TWO * b * span.y, SQUARE)
+    right = work.let(Symbol("C", name), square(a) - square(b) - square(span.x) - square(span.y), SQUARE)
     under = square(cosine) + square(sine) - square(right)
     size = math.hypot(cosine.value, sine.value)
     root = work.let(Symbol("W", name), sqrt(under), SQUARE) if under.value > 0 else ZERO
@@ -294,9 +294,9 @@ def loop_of_bars(joint: RRR, work: Work) -> tuple[Route, Route]:
 
 def beside_guide(work: Work, guide: GuideLine, point: str, joint: str) -> tuple[Formula, Formula]:
     """Add how far a point lies forward along a guide, and to the left of it."""
-    way, u = work.points[point] - work.points[guide.through], guide.direction
-    forward = work.let(Symbol("f", joint), way.x * u.x + way.y * u.y, LENGTH)
-    return forward, work.let(Symbol("n", joint), way.y * u.x - way.x * u.y - guide.offset, LENGTH)
+    arm, u = work.points[point] - work.points[guide.through], guide.direction
+    forward = work.let(Symbol("f", joint), arm.x * u.x + arm.y * u.y, LENGTH)
+    return forward, work.let(Symbol("n", joint), arm.y * u.x - arm.x * u.y - guide.offset, LENGTH)
 
 
 def on_guide(work: Work, guide: GuideLine, slide: Formula) -> Components:
@@ -364,16 +364,16 @@ def loop_of_slider_on_bar(joint: RRP, work: Work) -> tuple[Route, Route]:
 def place_slot(joint: RPR, work: Work) -> None:
     """Add the way along the slot, the slotted bar's angle and where its end is."""
     name, pivot, pin = joint.name, joint.pivot, joint.through
-    way = work.points[pin] - work.points[pivot]
+    arm = work.points[pin] - work.points[pivot]
     offset = work.stated(Symbol("e", name), joint.offset, LENGTH, "the slot's offset to the left")
     work.say(
         f"The slotted bar turns about {marked(pivot)} and its slot passes through {marked(pin)}, "
         "s ahead of it:"
     )
-    root = sqrt(square(way.x) + square(way.y) - square(offset))
+    root = sqrt(square(arm.x) + square(arm.y) - square(offset))
     slide = work.let(work.names.slide(name), root if _pin_ahead(joint, work) else -root, LENGTH)
     work.slides[name] = slide
-    turned = atan2(slide * way.y - offset * way.x, slide * way.x + offset * way.y)
+    turned = atan2(slide * arm.y - offset * arm.x, slide * arm.x + offset * arm.y)
     work.angles[pivot, name] = work.let(work.angle_symbol(pivot, name), turned, ANGLE)
     work.let_point(name, work.points[pivot] + work.bar(pivot, name, joint.length))
 
@@ -481,11 +481,11 @@ def reach_of_slider(joint: RRP, work: Work) -> Reach:
     line, turned = joint.line, rect(1.0, joint.line.angle)
 
     def aside(at: Mapping[str, Places]) -> Lengths:
-        way = (at[joint.name] - at[joint.end]) / turned
+        seen = (at[joint.name] - at[joint.end]) / turned
         if line.on is not None:
             carried = at[line.on[1]] - at[line.on[0]]
-            way = way * abs(carried) / carried
-        return np.abs(way.imag)
+            seen = seen * abs(carried) / carried
+        return np.abs(seen.imag)
 
     length = work.length(joint.end, joint.name, joint.length)
     work.say(
@@ -587,7 +587,7 @@ def _cylinder(length: Formula, work: Work) -> VectorLoop:
     ends = [work.place(name) for name in (pivot, foot, head)]
     tilt = Formula("leaf", symbol=Symbol("θ", CYLINDER.letter), shown="0")
     names = [Symbol(letter, index, bold=True) for letter, index in (("R", "g"), ("L", ""), ("R", "c"))]
-    base, arm, way = (
+    base, arm, axis = (
         work.points[foot] - work.points[pivot],
         work.points[head] - work.points[pivot],
         along(tilt),
@@ -595,8 +595,8 @@ def _cylinder(length: Formula, work: Work) -> VectorLoop:
     bold = [Formula("leaf", symbol=name, shown="0") for name in names]
     equations = (
         Equation(bold[0] + bold[1], bold[2]),
-        Equation(base.x + length * way.x, arm.x),
-        Equation(base.y + length * way.y, arm.y),
+        Equation(base.x + length * axis.x, arm.x),
+        Equation(base.y + length * axis.y, arm.y),
     )
     arrows = tuple(
         LoopArrow(name, ends[begin], ends[end])
@@ -627,13 +627,13 @@ def _loop(joint: Joint, work: Work, found: set[Symbol | None]) -> VectorLoop:
 
 def _ground(work: Work, start: str, end: str) -> tuple[LoopSide, complex]:
     """Return the way between two fixed pins, by length and angle where it is stated so."""
-    index, way = work.names.length(start, end), work.points[end] - work.points[start]
+    index, vector = work.names.length(start, end), work.points[end] - work.points[start]
     length, angle = (work.given.get(Symbol(letter, index)) for letter in "rθ")
     if length and angle:
-        way = along(angle.value).times(length.value)
-    elif length and way.y.constant == 0:
-        way = Components(length.value if way.x.value > 0 else -length.value, ZERO)
-    return LoopSide(Symbol("R", index, bold=True), way), work.place(start)
+        vector = along(angle.value).times(length.value)
+    elif length and vector.y.constant == 0:
+        vector = Components(length.value if vector.x.value > 0 else -length.value, ZERO)
+    return LoopSide(Symbol("R", index, bold=True), vector), work.place(start)
 
 
 def _from_ground(route: Route, work: Work) -> _Chain:

@@ -461,14 +461,14 @@ IN_TIME = Letters((Symbol("ω"), Symbol("α")), (Symbol("s", mark="˙"), Symbol(
 BY_INPUT = Letters((Symbol("h"), Symbol("h", mark="′")), (Symbol("f"), Symbol("f", mark="′")), ("′", "″"))
 
 
-Way = int | str
-"""What has a rate: a rigid body by its number, or what slides by its joint."""
+Coordinate = int | str
+"""What has a rate: the angle of a rigid body, by its number, or the travel of what slides, by its joint."""
 
 
 class UnknownRate(NamedTuple):
     """An unknown of two equations: the rate of what this is, its column, and the letter of what slides."""
 
-    way: Way
+    coordinate: Coordinate
     column: Components
     letter: str = "s"
 
@@ -484,7 +484,9 @@ class Rates:
     work: Work
     letters: Letters
     scale: Scale
-    known: dict[tuple[Way, str], list[Formula]] = field(default_factory=lambda: {(0, "s"): [ZERO, ZERO]})
+    known: dict[tuple[Coordinate, str], list[Formula]] = field(
+        default_factory=lambda: {(0, "s"): [ZERO, ZERO]}
+    )
     moving: dict[str, list[Components]] = field(default_factory=dict)
     struts: dict[Spring | Damper, tuple[Formula, Formula]] = field(default_factory=dict)
     slopes: Rates | None = None
@@ -500,11 +502,11 @@ class Rates:
         """Put the input's rates where those of its body, or of its slider, stand."""
         self.known[self.work.driver, "s"] = [rate, second]
 
-    def let_rate(self, way: Way, formula: Formula, order: Order, letter: str = "s") -> Formula:
+    def let_rate(self, coordinate: Coordinate, formula: Formula, order: Order, letter: str = "s") -> Formula:
         """Add the line that says how a rigid body turns, or how fast something slides."""
-        measure = Powers(int(isinstance(way, str)), order)
-        found = self.let(self.symbol(way, order, letter), formula, measure)
-        self.known.setdefault((way, letter), []).append(found)
+        measure = Powers(int(isinstance(coordinate, str)), order)
+        found = self.let(self.symbol(coordinate, order, letter), formula, measure)
+        self.known.setdefault((coordinate, letter), []).append(found)
         return found
 
     def let_moving(self, joint: str, formula: Components, order: Order) -> None:
@@ -523,20 +525,20 @@ class Rates:
         """Add the lines that say how what a rigid body carries moves, `arm` from the first of two joints."""
         self.let_moving(joint, self.of(on[0], order) + self.carried(self.work.frame(on), arm, order), order)
 
-    def symbol(self, way: Way, order: Order, letter: str = "s") -> Symbol:
+    def symbol(self, coordinate: Coordinate, order: Order, letter: str = "s") -> Symbol:
         """Return the symbol of how a rigid body turns, or of how fast something slides."""
-        if isinstance(way, int):
-            return self.letters.turning[order - 1]._replace(sub=self.work.names.turning(way))
-        symbol = self.letters.sliding[order - 1]._replace(sub=self.work.names.slide(way).sub)
+        if isinstance(coordinate, int):
+            return self.letters.turning[order - 1]._replace(sub=self.work.names.turning(coordinate))
+        symbol = self.letters.sliding[order - 1]._replace(sub=self.work.names.slide(coordinate).sub)
         return symbol._replace(letter=letter) if symbol.letter == "s" else symbol
 
     def of(self, joint: str, order: Order) -> Components:
         """Return how a joint moves."""
         return self.moving[joint][order - 1]
 
-    def rate(self, way: Way, order: Order, letter: str = "s") -> Formula:
+    def rate(self, coordinate: Coordinate, order: Order, letter: str = "s") -> Formula:
         """Return how a rigid body turns, or how fast something slides."""
-        return self.known[way, letter][order - 1]
+        return self.known[coordinate, letter][order - 1]
 
     def carried(self, frame: int, arm: Components, order: Order) -> Components:
         """Return how much more a point of a rigid body moves than another, `arm` before it."""
@@ -556,7 +558,7 @@ class Rates:
         base = self.of(guide.through, order) + self.carried(guide.frame, arm, order)
         if order == 1:
             return base
-        slid = sum((one.column.times(self.rate(one.way, 1, one.letter)) for one in sliding), NOWHERE)
+        slid = sum((one.column.times(self.rate(one.coordinate, 1, one.letter)) for one in sliding), NOWHERE)
         return base + slid.left().times(TWO * self.rate(guide.frame, 1))
 
     def solve(
@@ -567,10 +569,10 @@ class Rates:
         In time each rate follows from its coefficient, and the equations are the check.
         """
         if self.slopes is not None:
-            known = (self.slopes.known[one.way, one.letter] for one in unknowns)
+            known = (self.slopes.known[one.coordinate, one.letter] for one in unknowns)
             chained = [self._chain(slopes, order) for slopes in known]
             found = [
-                self.let_rate(one.way, formula, order, one.letter)
+                self.let_rate(one.coordinate, formula, order, one.letter)
                 for one, formula in zip(unknowns, chained, strict=True)
             ]
             sides = (one.column.times(rate) for one, rate in zip(unknowns, found, strict=True))
@@ -578,8 +580,8 @@ class Rates:
             self.left_over = max(self.left_over, abs(miss.x.value), abs(miss.y.value))
             return
         one, other = (unknown.column for unknown in unknowns)
-        left, beside = (LENGTH if isinstance(unknown.way, int) else RATIO for unknown in unknowns)
-        first, second = (self.symbol(unknown.way, order, unknown.letter) for unknown in unknowns)
+        left, beside = (LENGTH if isinstance(unknown.coordinate, int) else RATIO for unknown in unknowns)
+        first, second = (self.symbol(unknown.coordinate, order, unknown.letter) for unknown in unknowns)
         measures = left, beside, Powers(1, order)
         right = self._right(right, measures[2])
         formulas = (one.x, other.x, right.x), (one.y, other.y, right.y)
@@ -588,7 +590,7 @@ class Rates:
         self.work.items.append(System((first, second), formulas, values))
         det = self.let(Symbol("D", index), a * e - b * d, Powers(left.length + beside.length))
         for unknown, formula in zip(unknowns, (c * e - b * f, a * f - d * c), strict=True):
-            self.let_rate(unknown.way, formula / det, order, unknown.letter)
+            self.let_rate(unknown.coordinate, formula / det, order, unknown.letter)
 
     def _chain(self, slopes: Sequence[Formula], order: Order) -> Formula:
         """Return h·θ̇ of what has these coefficients h and h′, or h′·θ̇² + h·θ̈."""

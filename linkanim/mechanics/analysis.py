@@ -359,16 +359,16 @@ def _windings(mechanism: Mechanism, bodies: list[Body]) -> list[bool]:
     last = first
     for part in in_blocks(mechanism.phases):
         places = mechanism.solve(phase=part, speed=1.0, derivatives=0).position
-        ways = np.stack([places[body.joints[1]] - places[body.joints[0]] for body in bodies])
-        gone += _crossings(np.concatenate([last, ways], axis=1))
-        first, last = first if first.size else ways[:, :1], ways[:, -1:]
+        vectors = np.stack([places[body.joints[1]] - places[body.joints[0]] for body in bodies])
+        gone += _crossings(np.concatenate([last, vectors], axis=1))
+        first, last = first if first.size else vectors[:, :1], vectors[:, -1:]
     gone += _crossings(np.concatenate([last, first], axis=1))
     return [bool(one) for one in gone]
 
 
-def _crossings(ways: Array) -> NDArray[np.intp]:
+def _crossings(vectors: Array) -> NDArray[np.intp]:
     """Return how often directions (D, N, 2) cross the x axis ahead to the left, less how often back."""
-    (x, x1), (y, y1) = ((ways[:, :-1, n], ways[:, 1:, n]) for n in (0, 1))
+    (x, x1), (y, y1) = ((vectors[:, :-1, n], vectors[:, 1:, n]) for n in (0, 1))
     below, left = y < 0, x * y1 > y * x1
     up, down = below & left & (y1 >= 0), ~below & ~left & (y1 < 0)
     return np.asarray(np.count_nonzero(up, axis=1) - np.count_nonzero(down, axis=1))
@@ -688,8 +688,8 @@ def _to_and_fro(mechanism: Mechanism, name: str, place: str, rate: str) -> _ToAn
     backs, forwards = (turning[np.abs(travel - end) <= near] for end in (travel.min(), travel.max()))
     forth = (forwards - backs[:, None]) % whole
     row, column = np.unravel_index(int(forth.argmin()), forth.shape)
-    ways = float(forth.min()), float(((backs - forwards[:, None]) % whole).min())
-    return _ToAndFro(span, max(ways) / min(ways), (float(backs[row]), float(forwards[column])))
+    lasting = float(forth.min()), float(((backs - forwards[:, None]) % whole).min())
+    return _ToAndFro(span, max(lasting) / min(lasting), (float(backs[row]), float(forwards[column])))
 
 
 def reversals(mechanism: Mechanism, name: str, rate: str, phases: Array) -> Array:

@@ -27,10 +27,10 @@ Link = Body | None
 
 
 class Centre(NamedTuple):
-    """Where two links move alike: at a place (x + yi), or infinitely far along a way of length 1."""
+    """Where two links move alike: at a place (x + yi), or infinitely far in a direction, of length 1."""
 
     place: complex | None
-    way: complex = 0j
+    direction: complex = 0j
 
 
 class KennedyStep(NamedTuple):
@@ -64,8 +64,9 @@ def centre(motion: Any, one: Link, other: Link) -> Centre | None:
     if math.isfinite(x) and math.isfinite(y):
         return Centre(complex(x, y))
     rated = motion.per_input if stands(motion) else motion
-    way = complex(*_velocity_between(rated, body, against)[1:])
-    return Centre(None, 1j * way / abs(way)) if math.isfinite(abs(way)) and abs(way) > 0 else None
+    velocity = complex(*_velocity_between(rated, body, against)[1:])
+    speed = abs(velocity)
+    return Centre(None, 1j * velocity / speed) if math.isfinite(speed) and speed > 0 else None
 
 
 def joint_between(linkage: Linkage, one: Link, other: Link) -> str | None:

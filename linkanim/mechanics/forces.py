@@ -49,7 +49,7 @@ _TOPS = 8
 """How many of the highest samples are followed to a peak of their own."""
 
 
-class _Way(NamedTuple):
+class _Rates(NamedTuple):
     """Under which names a motion holds how everything moves, and of which derivative that is."""
 
     points: str
@@ -63,8 +63,8 @@ class _Way(NamedTuple):
         return rounding_of(motion, f"{unit}/s{'²' if self.order == 2 else ''}", self.order)
 
 
-_MOVING = _Way("velocity", "com_velocity", "angular_velocity", "coordinate_rate", 1)
-_STARTING = _Way("acceleration", "com_acceleration", "angular_acceleration", "coordinate_second", 2)
+_MOVING = _Rates("velocity", "com_velocity", "angular_velocity", "coordinate_rate", 1)
+_STARTING = _Rates("acceleration", "com_acceleration", "angular_acceleration", "coordinate_second", 2)
 
 
 def effort_token(linkage: Linkage) -> str:
@@ -134,21 +134,23 @@ class _Power(NamedTuple):
     rounding: Any
 
 
-def _power(motion: Any, way: _Way) -> _Power:
+def _power(motion: Any, rates: _Rates) -> _Power:
     """Return what forces and inertia take, in W; of what starts from rest per second."""
     linkage = motion.mechanism.linkage
-    struts = _strut_power(motion, way, linkage.springs + linkage.dampers)
+    struts = _strut_power(motion, rates, linkage.springs + linkage.dampers)
     nothing = 0.0 * motion.phase
     return _Power(
-        *map(sum, zip((nothing, nothing, nothing), *struts, *_body_power(motion, way), strict=True))
+        *map(sum, zip((nothing, nothing, nothing), *struts, *_body_power(motion, rates), strict=True))
     )
 
 
-def _strut_power(motion: Any, way: _Way, struts: Iterable[Spring | Damper]) -> Iterator[tuple[Any, Any, Any]]:
+def _strut_power(
+    motion: Any, rates: _Rates, struts: Iterable[Spring | Damper]
+) -> Iterator[tuple[Any, Any, Any]]:
     """Yield what each spring and damper takes, its weight, and its rounding errors."""
-    linkage, points = motion.mechanism.linkage, getattr(motion, way.points)
+    linkage, points = motion.mechanism.linkage, getattr(motion, rates.points)
     metre, usual = linkage.metre, linkage.extent * abs(motion.input_speed)
-    blur = way.rounding(motion, "{}")
+    blur = rates.rounding(motion, "{}")
     for strut in struts:
         # what keeps its length takes nothing
         if strut.forceful and holding(linkage.rigid_bodies, strut.between) is None:
@@ -160,38 +162,38 @@ def _strut_power(motion: Any, way: _Way, struts: Iterable[Spring | Damper]) -> I
             yield force * metre * rate, abs(force) * metre * (size(moving) + usual), noise * metre
 
 
-def _body_power(motion: Any, way: _Way) -> Iterator[tuple[Any, Any, Any]]:
+def _body_power(motion: Any, rates: _Rates) -> Iterator[tuple[Any, Any, Any]]:
     """Yield what each mass and each inertia takes, its weight, and its rounding errors."""
     linkage = motion.mechanism.linkage
     metre = linkage.metre
     jolt, jerk = rounding_of(motion, "{}/s²", 2) * metre, rounding_of(motion, "rad/s²", 2)
-    blur, twist = way.rounding(motion, "{}") * metre, way.rounding(motion, "rad")
+    blur, twist = rates.rounding(motion, "{}") * metre, rates.rounding(motion, "rad")
     usual = abs(motion.input_speed)
     for body in linkage.bodies:
         prefix, centre = ("com_", body.name) if body.slider is None else ("", body.slider)
         if body.mass is not None:
-            u, v = components(getattr(motion, way.centres if prefix else way.points)[centre])
+            u, v = components(getattr(motion, rates.centres if prefix else rates.points)[centre])
             a, b = components(getattr(motion, f"{prefix}acceleration")[centre])
             pull, moved = size((a, b)) * metre + abs(linkage.gravity), body.mass * metre * size((u, v))
             power = body.mass * metre * ((a * u + b * v) * metre + linkage.gravity * v)
             weight = (moved + body.mass * metre * linkage.extent * usual) * pull
             yield power, weight, moved * (ROUNDING * pull + jolt) + body.mass * blur * pull
         if body.inertia is not None:
-            turning = body.inertia * getattr(motion, way.turning)[body.name]
+            turning = body.inertia * getattr(motion, rates.turning)[body.name]
             gained = motion.angular_acceleration[body.name]
             weight = (abs(turning) + body.inertia * usual) * abs(gained)
             noise = abs(turning) * jerk + (ROUNDING * abs(turning) + body.inertia * twist) * abs(gained)
             yield turning * gained, weight, noise
 
 
-def _pace(motion: Any, way: _Way) -> Any:
+def _pace(motion: Any, rates: _Rates) -> Any:
     """Return how fast the input moves, in rad/s; a cylinder's length, or a slider, in m/s."""
     linkage = motion.mechanism.linkage
     ends = linkage.drive.actuator.along
     if ends is None:
-        rate = getattr(motion, way.input)
+        rate = getattr(motion, rates.input)
         return rate if linkage.drive.coordinate.is_angle else rate * linkage.metre
-    moving = between(getattr(motion, way.points), ends)
+    moving = between(getattr(motion, rates.points), ends)
     return growth(between(motion.position, ends), moving) * linkage.metre
 
 

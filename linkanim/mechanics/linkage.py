@@ -187,8 +187,8 @@ class Joint(Stated):
         """Return a dyad's transmission angle where its root's factors are U and W; None of other joints."""
         return None
 
-    def transmission_at(self, way: Callable[[str, str], tuple[Any, Any]]) -> Any:
-        """Return a dyad's transmission angle where `way` leads from joint to joint: x, y, floats or arrays.
+    def transmission_at(self, vector: Callable[[str, str], tuple[Any, Any]]) -> Any:
+        """Return a dyad's transmission angle where `vector` gives x, y from joint to joint, floats or arrays.
 
         None of other joints.
         """
@@ -274,12 +274,12 @@ class RRR(Joint):
         """
         return 2 * math.atan2(math.sqrt(min(u, w)), math.sqrt(max(u, w)))
 
-    def transmission_at(self, way: Callable[[str, str], tuple[Any, Any]]) -> Any:
+    def transmission_at(self, vector: Callable[[str, str], tuple[Any, Any]]) -> Any:
         """Return the angle between its bars' lines."""
         # Here, so that reading a scene file loads no arrays.
         import numpy as np
 
-        (x, y), (u, v) = (way(self.name, end) for end in self.ends)
+        (x, y), (u, v) = (vector(self.name, end) for end in self.ends)
         return np.arctan2(abs(x * v - y * u), abs(x * u + y * v))
 
     def why_apart(self, u: float, w: float, unit: str) -> str:
@@ -329,14 +329,14 @@ class RRP(Guided):
         """
         return math.pi / 2 - abs(2 * math.atan2(math.sqrt(w), math.sqrt(u)) - math.pi / 2)
 
-    def transmission_at(self, way: Callable[[str, str], tuple[Any, Any]]) -> Any:
+    def transmission_at(self, vector: Callable[[str, str], tuple[Any, Any]]) -> Any:
         """Return the angle from its bar to the normal of its line, as in `transmission`."""
         # Here, so that reading a scene file loads no arrays.
         import numpy as np
 
-        (x, y), (u, v) = way(self.end, self.name), (math.cos(self.line.angle), math.sin(self.line.angle))
+        (x, y), (u, v) = vector(self.end, self.name), (math.cos(self.line.angle), math.sin(self.line.angle))
         if self.line.on:
-            a, b = way(*self.line.on)
+            a, b = vector(*self.line.on)
             u, v = a * u - b * v, a * v + b * u
         return np.arctan2(abs(x * u + y * v), abs(x * v - y * u))
 
@@ -403,12 +403,12 @@ class RPR(Joint):
         """
         return math.atan2(math.sqrt(w), abs(self.offset))
 
-    def transmission_at(self, way: Callable[[str, str], tuple[Any, Any]]) -> Any:
+    def transmission_at(self, vector: Callable[[str, str], tuple[Any, Any]]) -> Any:
         """Return the angle from the slot's normal to the bar's motion at the pin, as in `transmission`."""
         # Here, so that reading a scene file loads no arrays.
         import numpy as np
 
-        x, y = way(self.pivot, self.through)
+        x, y = vector(self.pivot, self.through)
         arm = np.sqrt(x * x + y * y)
         if not self.offset:
             return np.arccos(0.0 * arm)

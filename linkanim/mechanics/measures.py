@@ -140,37 +140,37 @@ def over(dividend: Any, divisor: Any) -> Any:
         return np.true_divide(dividend, divisor)
 
 
-Way = tuple[Any, Any]
-"""The components of a vector from one joint to another, floats or arrays."""
+Vector = tuple[Any, Any]
+"""The components of a plane vector, floats or arrays."""
 
 
-def between(vectors: Mapping[str, Any], ends: tuple[str, str]) -> Way:
+def between(vectors: Mapping[str, Any], ends: tuple[str, str]) -> Vector:
     """Return how far one joint's vector is from another's: x and y."""
     (x0, y0), (x1, y1) = (components(vectors[joint]) for joint in ends)
     return x1 - x0, y1 - y0
 
 
-def size(way: Way) -> Any:
-    """Return a way's length, by the root that IEEE 754 rounds in one way: the C library has its own hypot."""
-    square = way[0] * way[0] + way[1] * way[1]
+def size(vector: Vector) -> Any:
+    """Return a vector's length, by a root with the same bits everywhere: a C library has its own hypot."""
+    square = vector[0] * vector[0] + vector[1] * vector[1]
     return math.sqrt(square) if isinstance(square, float) else np.sqrt(square)
 
 
-def cross(way: Way, other: Way) -> Any:
-    """Return the signed area that two ways span."""
-    return way[0] * other[1] - way[1] * other[0]
+def cross(vector: Vector, other: Vector) -> Any:
+    """Return the signed area that two vectors span."""
+    return vector[0] * other[1] - vector[1] * other[0]
 
 
-def growth(way: Way, moving: Way) -> Any:
-    """Return how fast the length of a way that moves grows; of one of length 0, how fast it is about to."""
-    length = size(way)
-    rate = over(_dot(way, moving), length)
-    return rate if np.all(length) else np.where(length == 0, size(moving), rate)[()]
+def growth(vector: Vector, rate: Vector) -> Any:
+    """Return how fast a vector's length grows, given its rate; of length 0, how fast it is about to grow."""
+    length = size(vector)
+    found = over(_dot(vector, rate), length)
+    return found if np.all(length) else np.where(length == 0, size(rate), found)[()]
 
 
-def direction(way: Way) -> Any:
-    """Return the angle of a way, -π … π; NaN where it has no length."""
-    dx, dy = way
+def direction(vector: Vector) -> Any:
+    """Return the angle of a vector, -π … π; NaN where it has no length."""
+    dx, dy = vector
     if isinstance(dx, float) and not (dx or dy):
         return math.nan
     # numpy's of floats, too: a C library's has other bits
@@ -197,17 +197,17 @@ def curvature_radius(velocity: Any, acceleration: Any, least: Any) -> Any:
     return over(speed * speed * speed, np.where(straight, 0.0, bend)[()])
 
 
-def _dot(way: Way, other: Way) -> Any:
-    return way[0] * other[0] + way[1] * other[1]
+def _dot(vector: Vector, other: Vector) -> Any:
+    return vector[0] * other[0] + vector[1] * other[1]
 
 
 def transmission_angle(motion: Any, dyad: str) -> Any:
     """Return a dyad's transmission angle, 90° at the most, as its kind of joint defines it."""
 
-    def way(start: str, end: str) -> Way:
+    def vector(start: str, end: str) -> Vector:
         return between(motion.position, (start, end))
 
-    return motion.mechanism.linkage.joint(dyad).transmission_at(way)
+    return motion.mechanism.linkage.joint(dyad).transmission_at(vector)
 
 
 def worst_transmission(motion: Any, dyads: tuple[str, ...]) -> Any:
@@ -430,7 +430,7 @@ def _radius(motion: Any, prefix: str, part: str) -> float | None:
     return float(abs(place - frame[pivot])) or None
 
 
-def _rates(motion: Any, prefix: str, part: str) -> tuple[Way, Way]:
+def _rates(motion: Any, prefix: str, part: str) -> tuple[Vector, Vector]:
     kinds = (getattr(motion, f"{prefix}{kind}") for kind in ("velocity", "acceleration"))
     velocity, acceleration = (components(kind[part]) for kind in kinds)
     return velocity, acceleration
@@ -455,11 +455,11 @@ def _radius_of_curvature(motion: Any, prefix: str, part: str) -> Any:
     return np.where(better, _curved(motion.per_input, others), found)[()]
 
 
-def _curved(motion: Any, rates: tuple[Way, Way]) -> Any:
+def _curved(motion: Any, rates: tuple[Vector, Vector]) -> Any:
     return curvature_radius(*rates, _FLAT * rounding_of(motion, "{}/s²", 2))
 
 
-def _share(velocity: Way, acceleration: Way) -> Any:
+def _share(velocity: Vector, acceleration: Vector) -> Any:
     """Return the sine of the angle between velocity and acceleration; 0 at rest, and of unbounded ones."""
     with np.errstate(invalid="ignore", over="ignore"):
         share = over(abs(cross(velocity, acceleration)), size(velocity) * size(acceleration))

@@ -306,7 +306,7 @@ class Derived(ABC, Generic[Vector, Number]):
 
     @abstractmethod
     def _continuous(self, ends: tuple[str, str]) -> Any:
-        """Return the angle of the way from one joint to another; NaN where they meet."""
+        """Return the direction from one joint to another; NaN where they meet."""
 
     @cached_property
     def coefficient(self) -> Mapping[str, tuple[Any, Any]]:
@@ -423,16 +423,16 @@ class Motion(Derived[Array, Array]):
         instants, path = self.instants, self.mechanism.assembly.path
         program, places = self.mechanism.program(instants.variant, kinds)
         rates = instants.rates if instants.variant.accelerates else instants.rates[:1]
-        ways = instants.distances
+        distances = instants.distances
         with np.errstate(all="ignore"):
-            results = program(*((instants.x,) if ways is None else path.solved_from(ways)), *rates)
+            results = program(*((instants.x,) if distances is None else path.solved_from(distances)), *rates)
             if instants.back is not None and instants.back.any():
                 results[:, instants.back] = program(instants.x[instants.back], *(-rate for rate in rates))
-            if ways is not None:
-                results[:, ways.outside] = np.nan
-                if ways.at_limit.any() and any(map(DERIVATIVE_OF.__getitem__, kinds)):
-                    snapped = program(*path.solved_from(ways.snapped), *rates)
-                    _mark_limits(places, results, snapped, ways.at_limit)
+            if distances is not None:
+                results[:, distances.outside] = np.nan
+                if distances.at_limit.any() and any(map(DERIVATIVE_OF.__getitem__, kinds)):
+                    snapped = program(*path.solved_from(distances.snapped), *rates)
+                    _mark_limits(places, results, snapped, distances.at_limit)
         results.setflags(write=False)
         return places, results
 
@@ -477,8 +477,8 @@ class Motion(Derived[Array, Array]):
         steps = np.diff(principal, axis=0)
         x, at = self.instants.x.reshape(principal.shape), partial(self._direction, ends)
         rows = [(values[:-1].reshape(-1), values[1:].reshape(-1)) for values in (x, principal)]
-        ways = turned(rows[0], rows[1], at, self.mechanism.assembly.quickest)
-        turns = np.rint((ways.reshape(steps.shape) - steps) / math.tau)
+        angles = turned(rows[0], rows[1], at, self.mechanism.assembly.quickest)
+        turns = np.rint((angles.reshape(steps.shape) - steps) / math.tau)
         whole = np.zeros_like(principal)
         np.cumsum(np.nan_to_num(turns), axis=0, out=whole[1:])
         return principal + math.tau * (whole - _before_stretch(whole, np.isnan(principal)))
@@ -850,13 +850,13 @@ def _quantities(walk: Walk, unscale: float) -> Iterator[tuple[str, Mapping[str, 
         yield kind, dict(vectors)
     turnings = {name: (turning.value, turning.rate) for name, turning in walk.bodies.items()}
     sliding = ((body.name, walk.travels[body.slider]) for body in walk.linkage.bodies if body.slider)
-    travels = {name: (way.value, way.rate, way.second) for name, way in sliding}
+    travels = {name: (travel.value, travel.rate, travel.second) for name, travel in sliding}
     for kind in NUMBERS:
         order = DERIVATIVE_OF[kind]
         if kind.startswith("angular"):
             yield kind, {name: (rates[order - 1],) for name, rates in turnings.items()}
         else:
-            yield kind, {name: (ways[order] * unscale,) for name, ways in travels.items()}
+            yield kind, {name: (rates[order] * unscale,) for name, rates in travels.items()}
 
 
 @lru_cache(maxsize=1)

@@ -39,14 +39,14 @@ Complex = NDArray[np.complex128]
 class PointPath:
     """Where a joint is at equal steps of phase over one true period (N,), in the scene's unit.
 
-    `places` are complex, x + yi, and `ways` their derivatives by the phase.
+    `places` are complex, x + yi, and `rates` their derivatives by the phase.
     """
 
     mechanism: Mechanism
     joint: str
     phases: Array
     places: Complex
-    ways: Complex
+    rates: Complex
 
     @property
     def size(self) -> float:
@@ -56,7 +56,7 @@ class PointPath:
     @property
     def moves(self) -> bool:
         """Whether the joint moves at all."""
-        return bool(np.abs(self.ways).max() > 0.0)
+        return bool(np.abs(self.rates).max() > 0.0)
 
     def nearest(self, place: Point, near: float, *, slack: float = 0.0, forward: bool = True) -> float:
         """Return the phase at which the joint is nearest to a place (the scene's unit), in any turn.
@@ -80,10 +80,10 @@ class PointPath:
         """Yield distance and phase of each minimum that may be the least, or farther by the slack."""
         apart = self.places - target
         far = np.abs(apart)
-        slope = (apart * self.ways.conj()).real
+        slope = (apart * self.rates.conj()).real
         after = np.roll(np.arange(len(far)), -1)
-        speed = np.abs(self.ways)
-        cosine = (self.ways * self.ways[after].conj()).real
+        speed = np.abs(self.rates)
+        cosine = (self.rates * self.rates[after].conj()).real
         turning = cosine < _TURNING * speed * speed[after]
         falls = (slope < 0.0) & (slope[after] >= 0.0)
         step = 2 * math.pi * self.mechanism.periods / len(far)
@@ -99,8 +99,8 @@ class PointPath:
         """Yield distance and phase of each minimum between neighbouring phases."""
 
         def slope(phase: float) -> float:
-            apart, way = self._at(phase, target)
-            return apart.real * way.real + apart.imag * way.imag
+            apart, rate = self._at(phase, target)
+            return apart.real * rate.real + apart.imag * rate.imag
 
         slopes = [slope(phase) for phase in phases]
         for n, (first, last) in enumerate(pairwise(slopes)):
@@ -109,7 +109,7 @@ class PointPath:
                 yield abs(self._at(phase, target)[0]), phase
 
     def _at(self, phase: float, target: complex) -> tuple[complex, complex]:
-        """Return the way from a place to the joint, and that joint's derivative by the phase."""
+        """Return the vector from a place to the joint, and that joint's derivative by the phase."""
         pose = self.mechanism.pose(phase, 1.0, 0.0, 1)
         return complex(*pose.position[self.joint]) - target, complex(*pose.velocity[self.joint])
 
@@ -118,8 +118,8 @@ def point_path(mechanism: Mechanism, joint: str) -> PointPath:
     """Return a joint's course over one true period; KeyError for a name that is no joint's."""
     phases = mechanism.phases
     motion = mechanism.solve(phase=phases, speed=1.0, derivatives=1)
-    places, ways = motion.position[joint], motion.velocity[joint]
-    return PointPath(mechanism, joint, phases, _complex(places), _complex(ways))
+    places, rates = motion.position[joint], motion.velocity[joint]
+    return PointPath(mechanism, joint, phases, _complex(places), _complex(rates))
 
 
 def _complex(vectors: Array) -> Complex:

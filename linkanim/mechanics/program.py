@@ -149,8 +149,8 @@ Bools = NDArray[np.bool_]
 BLOCK = 16384
 CACHE_LINE = 64
 """Bytes."""
-_FEW, _NOTED = 16, 2
-"""So many instants are worked out so often without compiling: more are a cycle, which is asked for again."""
+_FEW, _NOTED = 200_000, 2
+"""So many numbers in all are worked out so often without compiling."""
 
 FORMULAS = {
     "add": "{} + {}",
@@ -445,8 +445,8 @@ def _prelude(
 class _Passes:
     """The operations on one block, of its inputs, in their order, and which values are results.
 
-    A few instants are worked out twice as the operations are noted: to compile them takes ten times as long,
-    and one pose, with its rates in time and by the input, is all that many a program is for.
+    What is little is worked out twice as the operations are noted: to compile them takes as long as several
+    hundred poses, and one pose, with its rates in time and by the input, is all that many a program is for.
     """
 
     def __init__(
@@ -457,7 +457,7 @@ class _Passes:
 
     def run_as_noted(self, given: Sequence[Array], results: Array) -> bool:
         """Fill the results (outputs, N) of the inputs, and return whether that was done."""
-        if results.shape[1] > _FEW or self._runs == _NOTED:
+        if self._runs == _NOTED or results.shape[1] * len(self._operations) > _FEW:
             return False
         self._runs += 1
         known: dict[str, Any] = dict(zip(self._inputs, given, strict=True))

@@ -268,7 +268,7 @@ def arranged(
     shapes: Iterable[tuple[float, float]] = (),
     edge: float | None = None,
 ) -> Arrangement:
-    """Return the arrangement of a scene that sweeps this, its `shortest` bar in the scene's unit.
+    """Return the arrangement of a scene with this sweep and `shortest` bar, in the scene's unit.
 
     `blocks` are the words, set in several ways: the first group of which one finds its place is taken.
     `shapes` are those of the sentence that is shown for a while, the best first. What is drawn keeps `edge`
@@ -537,7 +537,7 @@ class Subject:
 
     @cached_property
     def sweep(self) -> Sweep:
-        """What both sweep."""
+        """What the scene and the one beside it sweep."""
         swept = sweep_of(self.figure)
         return swept | sweep_of(figure(self.beside)) if self.beside else swept
 

@@ -102,7 +102,7 @@ class Board:
         self.write(sheet, count, right, size=size, colour=self.theme.dim, anchor="right")
 
     def fitting(self, words: Sequence[str], size: int, room: float) -> str:
-        """Return the first of some words that has room, or as much of the last one's two ends as has."""
+        """Return the first of some texts that fits the room; else the last one without its middle."""
         for text in words:
             if self.type.width(text, size) <= room:
                 return text
@@ -111,7 +111,7 @@ class Board:
         return next((text for text in kept if self.type.width(text, size) <= room), "")
 
     def ending(self, text: str, size: int, room: float) -> str:
-        """Return a strong line, or as much of its end as has room."""
+        """Return a strong line; where it does not fit the room, the end of it."""
         if self.type.width(text, size, strong=True) <= room:
             return text
         kept = (f"…{text[n:]}" for n in range(1, len(text)))
@@ -136,7 +136,7 @@ class Rows(NamedTuple):
 
 
 def around(count: int, chosen: int, room: int) -> range:
-    """Return which of `count` rows to show where there is room for `room` of them, and at least one.
+    """Return which of `count` rows to show where `room` of them fit: at least one.
 
     The chosen one stands in their middle, where it can.
     """

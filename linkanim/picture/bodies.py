@@ -259,7 +259,7 @@ _FADED = 0.8
 
 @frozen
 class CausalChain:
-    """Each joint's step, 0 on the ground, and what the colours are that stand for them.
+    """Each joint's step in the order of solving, 0 on the ground, and the colours that stand for the steps.
 
     One hue that only gets nearer to the background, so that it reads without telling hues apart.
     """

@@ -135,7 +135,7 @@ _WHEELS = 0.55
 
 
 def draft_gauge(layout: Layout, view: View, draft: DraftShown) -> Gauge:
-    """Return how thick a draft is drawn: as the linkage is that it becomes."""
+    """Return how thick a draft is drawn: like the linkage that it becomes."""
     ends = [[*map(view.place, one.places[:2])] for one in draft.shapes if one.kind == "bars"]
     spans = (abs(end - begin) for begin, end in ends)
     return gauge(layout.unit, min(spans, default=200 * layout.unit))
@@ -247,7 +247,7 @@ _ASIDE = tuple(cmath.rect(1.0, n * math.pi / 4) for n in (-1, 0, -2, -3, 1, 4, 3
 
 
 def lit(shape: Shape, view: View, reach: float) -> Iterator[Loop]:
-    """Yield a light on a shape: round its place, along the way from its first place to its second."""
+    """Yield a light on a shape: round its place, or along the line from its first place to its second."""
     places = [view.place(point) for point in shape.places[:2]]
     if shape.kind == "guides":
         along = 300 * reach * unit(places[1] - places[0])

@@ -86,7 +86,7 @@ class CentrePairs:
         return found
 
     def of(self, pose: Pose) -> dict[tuple[str, str], Centre]:
-        """Return the centres of a pose by their links, but for what does not move against each other."""
+        """Return the centres of a pose by their links, without links that do not move against each other."""
         links = self.figure.by_number
         known = {pair: centre(pose, *(links[number] for number in pair)) for pair, _ in self.pairs}
         return {pair: found for pair, found in known.items() if found}
@@ -105,11 +105,11 @@ class CentrePairs:
 
 
 class Seen(NamedTuple):
-    """A centre in pixels: its name, its place and whether it is a joint's, or the way to it from `at`."""
+    """A centre in pixels: its name, its place, whether it is a joint's; or its direction from `at`."""
 
     label: str
     at: complex
-    way: complex = 0j
+    direction: complex = 0j
     jointed: bool = False
 
 
@@ -135,9 +135,9 @@ class Centres:
             yield Layer(faint, [loop for ends in lines for loop in dashes(*ends, 9 * width, width)])
         reach, marks, width = _CROSS * gauge.bar, list[Loop](), 1.4 * gauge.line
         for seen in self.seen(pose):
-            if seen.way:
+            if seen.direction:
                 long = _ARROW * self.setting.layout.small_size
-                marks += arrows([seen.at - long * seen.way], [long * seen.way], width)
+                marks += arrows([seen.at - long * seen.direction], [long * seen.direction], width)
             elif not seen.jointed:
                 ends = np.array([reach, 1j * reach])
                 marks += segments(seen.at - ends, seen.at + ends, width)
@@ -167,18 +167,18 @@ class Centres:
 
     def crosses(self, pose: Pose) -> tuple[tuple[complex, complex], ...]:
         """Return the lines of the crosses of a pose, from end to end."""
-        seen = (one for one in self.seen(pose) if not one.jointed and not one.way)
+        seen = (one for one in self.seen(pose) if not one.jointed and not one.direction)
         reach = _CROSS * self.setting.gauge.bar
         return tuple((one.at - way, one.at + way) for one in seen for way in (reach, 1j * reach))
 
     def _mark(self, seen: Seen) -> Rect:
         """Return what a centre's cross covers, or its arrow."""
         reach, long = _CROSS * self.setting.gauge.bar, _ARROW * self.setting.layout.small_size
-        foot = seen.at - long * seen.way
+        foot = seen.at - long * seen.direction
         (left, right), (top, bottom) = (
             sorted(ends) for ends in zip(*((end.real, end.imag) for end in (foot, seen.at)), strict=True)
         )
-        return Rect(left, top, right - left, bottom - top).inset(-0.5 * reach if seen.way else -reach)
+        return Rect(left, top, right - left, bottom - top).inset(-0.5 * reach if seen.direction else -reach)
 
     def _solid(self, places: Places) -> Iterator[Rect]:
         """Yield what pins and blocks cover."""
@@ -195,15 +195,15 @@ class Centres:
     def _around(self, seen: Seen, wide: float) -> Iterator[complex]:
         """Yield places for the middle of a name: round a cross, or beside and behind an arrow."""
         size, off = self.setting.layout.small_size, 0.8 * self.setting.gauge.bar
-        if not seen.way:
+        if not seen.direction:
             for away in (0.0, 0.7 * size, 1.5 * size):
                 for way in _AROUND:
                     across = way.real * (off + away + wide / 2) + 1j * way.imag * (off + away + size / 2)
                     yield seen.at + across
             return
         for back in (0.5 * _ARROW, 1.1 * _ARROW, 1.6 * _ARROW):
-            foot = seen.at - back * size * seen.way
-            for side in (1j * seen.way, -1j * seen.way):
+            foot = seen.at - back * size * seen.direction
+            for side in (1j * seen.direction, -1j * seen.direction):
                 aside = 0.5 * (abs(side.real) * wide + abs(side.imag) * size) + 0.5 * size
                 yield foot + aside * side
 
@@ -223,19 +223,20 @@ class Centres:
         for pair, label in self.known.pairs:
             if pair not in found:
                 continue
-            place, way = found[pair]
+            place, direction = found[pair]
             if place is None:
-                way = way.conjugate()
-                way = way if (-way.imag, way.real) > (1e-9, 0.0) else -way  # upwards, or to the right
-                far.append(Seen(f"{label} at ∞", foot + inner.ahead(foot, way) * way, way))
+                direction = direction.conjugate()
+                if (-direction.imag, direction.real) <= (1e-9, 0.0):  # it is told upwards, or to the right
+                    direction = -direction
+                far.append(Seen(f"{label} at ∞", foot + inner.ahead(foot, direction) * direction, direction))
                 continue
             at = view.place((place.real, place.imag))
             if room.holds(at.real, at.imag):
                 yield Seen(label, at, jointed=label in jointed)
             elif label not in jointed:
-                way = unit(at - pin)
+                direction = unit(at - pin)
                 told = f"{label} {three_digits(abs(at - pin) / view.scale)} {unit_} from {named}"
-                far.append(Seen(told, foot + inner.ahead(foot, way) * way, way))
+                far.append(Seen(told, foot + inner.ahead(foot, direction) * direction, direction))
         yield from far
 
     @property
@@ -322,19 +323,19 @@ def kennedy_line(
     one, other = pair
     centres = [found.get(key) or found.get(key[::-1]) for key in ((one, third), (third, other), (one, other))]
     places = [each.place for each in centres if each and each.place is not None]
-    ways = [each.way for each in centres if each and each.place is None]
-    if not places or len(places) + len(ways) < len(centres):
+    directions = [each.direction for each in centres if each and each.place is None]
+    if not places or len(places) + len(directions) < len(centres):
         return None
     far = max(places, key=lambda place: abs(place - places[0]))
-    way = ways[0] if ways else far - places[0]
-    if not abs(way) > 1e-9 * reach:
+    direction = directions[0] if directions else far - places[0]
+    if not abs(direction) > 1e-9 * reach:
         return None
-    way /= abs(way)
-    along = [((place - places[0]) * way.conjugate()).real for place in places]
+    direction /= abs(direction)
+    along = [((place - places[0]) * direction.conjugate()).real for place in places]
     low, high = min(along), max(along)
     if centres[2] and centres[2].place is None:
         low, high = low - reach, high + reach
-    return places[0] + low * way, places[0] + high * way
+    return places[0] + low * direction, places[0] + high * direction
 
 
 def clipped(path: Loop, room: Rect) -> Iterator[Loop]:

@@ -44,7 +44,7 @@ class DeadCentres:
     def words(self) -> Iterator[tuple[str, Callable[[tuple[float, float]], Loop]]]:
         """Yield the input's angle at each dead centre, and between them the stroke and the time ratio.
 
-        With each comes where the middle of a line of text of a size may stand.
+        Each comes with the places at which the middle of a line of text of a given size may stand.
         """
         info = self.setting.figure.scene.info
         lines = [*map(self._angle, info.dead_centres or ())]

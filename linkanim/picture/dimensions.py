@@ -31,7 +31,7 @@ _OFF = 1.2
 
 
 class MeasureLine(NamedTuple):
-    """A line of dimension in the frame of two joints, whose way is 1: from `begin` to `end`, y down.
+    """A dimension line from `begin` to `end`, in a frame whose unit reaches from joint to joint, y down.
 
     It lies `reach` pixels aside. In a frame of one joint twice, 1 is the scene's unit to the right.
     """
@@ -101,10 +101,10 @@ _NONE = 1e-9
 
 
 class Measurement(NamedTuple):
-    """A length between two places of a body or of the ground, or with an `angle` that between two ways.
+    """A length between two places of a body or the ground, or the `angle` between two directions.
 
-    `begin` and `end` are in the frame of two joints whose way is 1, y down; of one joint twice, 1 is the
-    scene's unit to the right. A length is in that unit, an angle in degrees. `own` are the joints whose
+    `begin` and `end` are in a frame whose unit reaches from joint to joint, y down; of one joint twice, 1 is
+    the scene's unit to the right. A length is in that unit, an angle in degrees. `own` are the joints whose
     bodies it lies on; of a `bare` one nothing but its own bar runs from end to end.
     """
 

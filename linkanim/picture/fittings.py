@@ -114,8 +114,8 @@ class Coil:
     def _halves(self) -> tuple[Loop, Loop]:
         """A coil's far half and its near one, the spring along the real axis: along it, and about it."""
         along = np.add.outer([0.5, 0.0], np.linspace(0, 0.5, 13))
-        way = directions(2 * pi * along - pi / 2)
-        about = self.radius * (TILT * way.real + 1j * way.imag)
+        facing = directions(2 * pi * along - pi / 2)
+        about = self.radius * (TILT * facing.real + 1j * facing.imag)
         return along.astype(np.complex128), about.astype(np.complex128)
 
 
@@ -249,7 +249,7 @@ class Bar:
 
 
 class GuideRails(NamedTuple):
-    """Two lines on the ground and the joint that travels between them: the way `along`, y down, has length 1.
+    """Two lines on the ground and the joint that travels between them: `along`, y down, has length 1.
 
     They lie `aside` of its line of travel, and begin and end so far `beyond` its ends; with a `head` they
     are a cylinder that is closed at their end.
@@ -314,9 +314,9 @@ def outlines(figure: Figure) -> Iterator[tuple[Loop, Loop, Loop]]:
             np.atleast_2d(figure.cycle.position[name])[::step] @ DOWN.conj()
             for name in (part.at, part.tail, part.head)
         )
-        way = head - tail
-        turn = np.where(way == 0, 1, way / np.where(way == 0, 1, lengths(way)))
-        known = np.isfinite(at + way)
+        arrow = head - tail
+        turn = np.where(arrow == 0, 1, arrow / np.where(arrow == 0, 1, lengths(arrow)))
+        known = np.isfinite(at + arrow)
         for loop in (loop for layer in part.layers for loop in layer.loops):
             yield loop.conj() / scale, at[known], turn[known]
 
@@ -356,9 +356,9 @@ def _cylindered(name: str, far: str, along: complex, context: DrawContext) -> Fi
     gauge, paths = context.gauge, (context.figure.path(end, context.view) for end in (name, far))
     place, end = (path * np.conj(along) for path in paths)
     out = along if np.nanmean((place - end).real) > 0 else -along
-    way, rod = place * np.conj(out / along), (end - place) * np.conj(out / along)
+    slid, rod = place * np.conj(out / along), (end - place) * np.conj(out / along)
     # how far aside the rod is where the cylinder is open
-    share = np.minimum((way.real - np.nanmin(way.real)) / np.maximum(-rod.real, 1e-9), 1.0)
+    share = np.minimum((slid.real - np.nanmin(slid.real)) / np.maximum(-rod.real, 1e-9), 1.0)
     aside = max(_BORE * float(np.nanmax(np.abs(share * rod.imag))), _reach_of_rails(gauge))
     crown, skirt, edge = _CROWN * aside, _SKIRT * aside, gauge.outline
     wide, middle = 2 * (aside - gauge.line), (crown - skirt) / 2
@@ -384,8 +384,8 @@ def _carried_slot(name: str, line: Line, along: complex, context: DrawContext) -
     arm = lined([0j, foot], gauge.bar, gauge.outline, colours) if line.offset else []
     bar = lined([foot, near, far], SLOTTED * gauge.bar, gauge.outline, colours)
     hollow = lined([near, far], SLOT * gauge.bar, gauge.outline, (theme.outline, theme.background))
-    ways = (line.through, *line.on)
-    return Part(*ways, (*arm, *bar), (line.through,)), Part(*ways, tuple(hollow))
+    joints = (line.through, *line.on)
+    return Part(*joints, (*arm, *bar), (line.through,)), Part(*joints, tuple(hollow))
 
 
 def _block(context: DrawContext, turn: complex = 1 + 0j, share: float = 1.0) -> tuple[Layer, ...]:
@@ -444,9 +444,9 @@ class _Channel(NamedTuple):
 def _placed(guide: GuideRails, context: DrawContext) -> _Channel:
     """Return a guide as long as the joint's travel needs."""
     path = context.figure.path(guide.joint, context.view) * np.conj(guide.along)
-    way, across = path.real, 1j * float(np.nanmean(path.imag))
-    begin = guide.along * (float(np.nanmin(way)) - guide.beyond[0] + across)
-    end = guide.along * (float(np.nanmax(way)) + guide.beyond[1] + across)
+    travel, across = path.real, 1j * float(np.nanmean(path.imag))
+    begin = guide.along * (float(np.nanmin(travel)) - guide.beyond[0] + across)
+    end = guide.along * (float(np.nanmax(travel)) + guide.beyond[1] + across)
     off = 1j * guide.along * guide.aside
     lines = [((begin + side * off, end + side * off), side) for side in (1, -1)]
     head = [((end + off, end - off), 1)] if guide.head else []
@@ -482,8 +482,8 @@ def _facing(line: Line, context: DrawContext) -> Loop:
     if line.on is None:
         return np.ones(1, np.complex128)
     start, end = (context.figure.cycle.position[name] for name in line.on)
-    way = (end - start) @ DOWN
-    facing: Loop = way / lengths(way)
+    vector = (end - start) @ DOWN
+    facing: Loop = vector / lengths(vector)
     return facing
 
 
@@ -516,8 +516,8 @@ def _swivelled(slide: Slide, bar: tuple[str, str], collar: Part, context: DrawCo
 def _slot_ends(slide: Slide, context: DrawContext) -> tuple[complex, complex]:
     """Return the ends of a slot in pixels, the pivot at 0 and the bar along the real axis."""
     places, offset = context.figure.cycle.position, slide.line.offset
-    way = np.sum((places[slide.point] - places[slide.line.through]) ** 2, axis=-1)
-    along = np.sqrt(np.maximum(way - offset**2, 0))
+    square = np.sum((places[slide.point] - places[slide.line.through]) ** 2, axis=-1)
+    along = np.sqrt(np.maximum(square - offset**2, 0))
     side = -1j * offset
     return context.view.scale * (np.nanmin(along) + side), context.view.scale * (np.nanmax(along) + side)
 
@@ -528,14 +528,14 @@ def _yoke(guided: Slide, slot: Slide, context: DrawContext) -> Fitting:
     places, line, name = context.figure.cycle.position, guided.line, guided.point
     along, across = (complex(directions(-angle)) for angle in (line.angle, slot.line.angle))
     apart = (places[slot.point] - places[name]) @ DOWN
-    way = np.real(apart * np.conj(across * _facing(line, context)))
-    ends = scale * float(np.nanmin(way)) * across, scale * float(np.nanmax(way)) * across
+    travel = np.real(apart * np.conj(across * _facing(line, context)))
+    ends = scale * float(np.nanmin(travel)) * across, scale * float(np.nanmax(travel)) * across
     colours = theme.outline, theme.metal
     widths = SLOTTED * gauge.bar, SLOT * gauge.bar
     bar = slotted([0j, *ends], ends, widths, gauge.outline, colours)
-    ways = line.on or (name, name)
-    yoke = Part(name, *ways, (*_block(context, along), *bar))
-    collar = Part(slot.point, *ways, _block(context, across, 0.62), (slot.point,))
+    carriers = line.on or (name, name)
+    yoke = Part(name, *carriers, (*_block(context, along), *bar))
+    collar = Part(slot.point, *carriers, _block(context, across, 0.62), (slot.point,))
     if line.on is None:
         return Fitting((yoke,), (collar,), _rails(name, along, gauge))
     behind, before = _carried_slot(name, line, along, context)
@@ -569,7 +569,7 @@ def rails_under(context: DrawContext) -> Iterator[list[Loop]]:
 
 
 def away(figure: Figure, name: str) -> complex:
-    """Return the way a pedestal points: down; away from its pull where it only holds springs and dampers."""
+    """Return a pedestal's direction: down, or away from its pull where it only holds springs and dampers."""
     struts = [strut for strut in figure.struts if name in strut.between]
     jointed = any(name in body.joints for body in figure.bodies)
     if jointed or not struts:
@@ -600,7 +600,7 @@ def pedestal_corners(context: DrawContext, name: str) -> list[complex]:
 
 @lru_cache(maxsize=32)
 def pedestal(pin: complex, away: complex, gauge: Gauge, theme: Theme) -> tuple[Layer, ...]:
-    """Return the foot of a fixed pin, in pixels: it widens from the pin to a hatched line, the way `away`."""
+    """Return a fixed pin's foot, in pixels: it widens from the pin to a hatched line, in a direction."""
     deep, wide, bar = 2.1 * gauge.bar, 1.75 * gauge.bar, gauge.bar
     foot = [0j, complex(-0.85 * wide, deep), complex(0.85 * wide, deep)]
     turn = away / 1j

@@ -184,7 +184,7 @@ class Note(NamedTuple):
 
 
 def note(scene: Scene, pose: Pose) -> Note:
-    """Return what is special here: the nearest limit of the input or change point.
+    """Return what is special at a pose: the nearest limit of the input, or change point.
 
     It is eased in before and out after, in time as in angle, and gives way where another is as near.
     Where they follow each other too fast to be read, none is said.

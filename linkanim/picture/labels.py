@@ -82,7 +82,7 @@ _ON_ARC = (0.5, 0.25, 0.75)
 
 
 class Spots(NamedTuple):
-    """Places (k,) in the frame of the joint `at`, whose direction and unit is the way to `head`.
+    """Places (k,) in the frame of the joint `at`, whose x axis, and its unit, reach to the joint `head`.
 
     A place lies so far along the line from `begin` to `end` in that frame, `aside` of it (+1 or -1: off the
     line and `further` pixels more; 0: on it), and then `off` in pixels. In a frame of one joint twice the
@@ -138,7 +138,7 @@ class Thing(NamedTuple):
 
 @frozen
 class Surroundings:
-    """Where all is that labels stand by or keep off, at the moments for which they are placed.
+    """Where everything is that labels name or keep off, at the moments for which they are placed.
 
     These are all of a cycle, or one `phase`.
     """
@@ -317,7 +317,7 @@ class Surroundings:
         return max(_BLOCK * self.setting.gauge.bar, rail_reach(self.setting, name) + self.setting.gauge.bar)
 
     def clutter(self) -> Clutter:
-        """Return what is in the labels' way."""
+        """Return what labels must keep off."""
         solids = tuple(thing.solid for thing in self.things)
         links = frozenset(n for n, thing in enumerate(self.things) if thing.linked)
         discs = {(name,) for name in self.setting.figure.pins}

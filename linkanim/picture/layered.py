@@ -152,7 +152,7 @@ class LayerView(NamedTuple):
 
 
 def room_of(size: tuple[int, int]) -> Rect:
-    """Return what a page of that size has free for parts that are lifted."""
+    """Return the room for lifted parts on a page of that size."""
     return Rect(_EDGE, _EDGE, size[0] - 2 * _EDGE, size[1] - 2 * _EDGE - _THICK)
 
 

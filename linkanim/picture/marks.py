@@ -126,7 +126,7 @@ _DEEPEST = 0.62
 
 
 def lane(setting: DrawSetting, shown: Lane) -> Group:
-    """Return the paper between the lines, the lines, and the way on which the ram is compared with them."""
+    """Return the paper between the lines, the lines, and the guide for comparing the ram with them."""
     _, view, gauge, theme = setting.known
     back, forward = view.place(shown.back), view.place(shown.forward)
     stage, across, middle = setting.layout.stage, 1j * unit(forward - back), (back + forward) / 2

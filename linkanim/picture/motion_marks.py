@@ -137,7 +137,7 @@ def _cuts(count: int) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
 
 
 def sides_of(path: Loop) -> Loop:
-    """Return at each point of a closed path the way to the left edge of a line 2 wide; 0 where none moves."""
+    """Return the vectors from a closed path to the left edge of a line 2 wide; 0 where nothing moves."""
     moved = path != np.roll(path, 1)
     points = path[moved]
     if not points.size:
@@ -301,7 +301,7 @@ class Sliding:
 
 
 def motion_of(context: DrawContext) -> Turning | Sliding | None:
-    """Return what shows how the input moves: its bar's turning, or its slider's way along the guide.
+    """Return what shows how the input moves: its bar's turning, or its slider's travel along the guide.
 
     None where the input is neither a slider nor a crank on a pivot.
     """

@@ -405,7 +405,7 @@ class Fading:
 
 
 class DimensionLine(NamedTuple):
-    """A length in words, from place to place in the frame of two joints, whose way is 1 and to its left 1j.
+    """A length in words, from place to place in a frame: 1 reaches from joint to joint, 1j to its left.
 
     Of one joint twice, 1 is the scene's unit, level. The `chosen` one is lit.
     """
@@ -496,7 +496,7 @@ class Lane(NamedTuple):
 
 
 class Told(NamedTuple):
-    """What a thing under the mouse says of itself, `at` a place of the scene; a `joint` has its arrows."""
+    """What is told of a thing under the mouse, `at` a place of the scene; a `joint` has its arrows."""
 
     lines: tuple[str, ...]
     at: Point

@@ -41,7 +41,7 @@ def chip(board: Board, text: str) -> pygame.Surface:
 
 
 def hint_bar(board: Board, text: str) -> pygame.Surface | None:
-    """Return the hint bar, the last of its parts that there is room for; None where that is none."""
+    """Return the hint bar with as many of its parts, the last ones, as fit; None where none does."""
     size, parts = board.layout.small_size, text.split(" · ")
     place = board.layout.hint or board.layout.stage
     room = place.width - 2 * size
@@ -277,7 +277,7 @@ class _Laid(NamedTuple):
 
 
 def help_sheet(board: Board, shown: tuple[Help, int]) -> pygame.Surface:
-    """Return the help, its text as large as lets it stand in a room so wide, and above the bar of commands.
+    """Return the help, its text as large as fits so wide a room above the bar of commands.
 
     Where not all of it can be read there, it has the window's height; what has no room there is left out.
     """

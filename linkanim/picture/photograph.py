@@ -50,7 +50,7 @@ def lack(file: str) -> str | None:
 
 
 def refuse_lacking(file: str) -> None:
-    """Raise BadInput, which says why, for a photograph that cannot be shown."""
+    """Raise BadInput with the reason for a photograph that cannot be shown."""
     found = _read(file, _stamp(file))
     if isinstance(found, str):
         raise BadInput(found)

@@ -46,7 +46,7 @@ def directions(angles: ArrayLike) -> Directions:
 
 
 def folded(turn: complex, fold: int) -> complex:
-    """Return the direction nearest to 1 in which looks alike what does so `fold` (3 or more) times a turn.
+    """Return the direction nearest to 1 of those that look alike: `fold` of them (3 or more) a turn.
 
     It is rounded to a step far below what shows, so that a direction that comes again after some such
     parts of a turn is found again to the last digit.
@@ -143,7 +143,7 @@ def strokes(path: ArrayLike, widths: Iterable[float], *, closed: bool = False) -
 
 
 def distinct(path: Loop) -> Loop:
-    """Return a path without the points that are where the ones before them are."""
+    """Return a path without the points that repeat the one before them."""
     moves = path[1:] != path[:-1]
     return path if moves.all() else np.concatenate((path[:1], path[1:][moves]))
 
@@ -320,7 +320,7 @@ def _arc(begin: float, sweep: float, radius: float) -> Loop:
 
 
 def offsets(path: Loop) -> Loop:
-    """Return at each point of paths (..., points) the way to the left edge of a line 2 wide.
+    """Return from each point of paths (..., points) the vector to the left edge of a line 2 wide.
 
     It is mitred up to twice its width.
     """
@@ -403,7 +403,7 @@ def placed(parts: Iterable[Part], places: Places) -> list[Layer]:
 
 
 def by_depth(parts: Sequence[Part], names: Iterable[str]) -> tuple[tuple[str, ...], ...]:
-    """Return which joints' pins are drawn before the first part, and which after each of the parts.
+    """Return which joints' pins are drawn before the first part, and which after each part.
 
     A pin lies on the foremost of the parts that it goes through, so that a part further forward hides it.
     """

@@ -28,7 +28,7 @@ _SPARE_LABELS = 8
 class SurfacePrinter:
     """Prints pictures on surfaces: the same pose of the same picture has the same bytes, whatever was before.
 
-    What of the last picture comes again is kept; nothing of it is needed.
+    It keeps what comes again from picture to picture, which only saves time.
     """
 
     def __init__(self) -> None:

@@ -61,7 +61,7 @@ class Fonts:
         return self._font(REGULAR, em).get_ascent()
 
     def render(self, char: str, em: int, colour: tuple[int, int, int], *, face: str) -> pygame.Surface:
-        """Return a character on nothing, as high as the bundled face's line; of no width if left out.
+        """Return a character on nothing, as high as the bundled face's line; of no width if it is left out.
 
         `em` is the face's size in pixels, `face` REGULAR or SEMIBOLD.
         """

@@ -108,7 +108,7 @@ def _arrows(setting: DrawSetting, pose: Pose, joint: str, most: Greatest) -> Ite
 
 
 def instant(setting: DrawSetting, places: list[complex]) -> Iterator[Layer]:
-    """Yield the light on each curve where its joint is at the instant that is pointed at."""
+    """Yield a light on each curve, where its joint is at the instant under the mouse."""
     for middle in places:
         for reach, alpha in ((2.0, 0.2), (1.3, 0.35), (0.7, 0.9)):
             yield Layer(setting.theme.acceleration, [middle + disc(reach * setting.gauge.bar)], alpha)

@@ -50,13 +50,13 @@ class Rect(NamedTuple):
             x, min(max(place.imag, self.y + half.imag), max(self.bottom - half.imag, self.y + half.imag))
         )
 
-    def ahead(self, at: complex, way: complex) -> float:
-        """Return how far its edge is from a place along a way, in lengths of that; 0 without a way."""
+    def ahead(self, at: complex, vector: complex) -> float:
+        """Return how far its edge is from a place along a vector, in lengths of that; 0 along none."""
         gaps = [
             max(((high if step > 0 else low) - place) / step, 0.0)
             for place, step, low, high in (
-                (at.real, way.real, self.x, self.right),
-                (at.imag, way.imag, self.y, self.bottom),
+                (at.real, vector.real, self.x, self.right),
+                (at.imag, vector.imag, self.y, self.bottom),
             )
             if step
         ]

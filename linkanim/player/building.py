@@ -198,7 +198,7 @@ def restored_sheet(state: State, text: str, where: str = "the draft") -> BuildSh
 
 
 def written(state: State, file: str) -> State:
-    """Return the state with its scene, and the draft that makes it, known to be in a scene file."""
+    """Return the state with a note that its scene, and the draft that makes it, are in a scene file."""
     sheet = state.sheet
     if sheet and sheet.building.made.scene == state.scene:
         sheet = replace(sheet, written=sheet.building.draft, saved=file, warned=False, closes=False)
@@ -445,7 +445,7 @@ def take(state: State, _: None) -> State:
 
 
 def offer(state: State, place: int) -> State:
-    """Do another one of what the last drag can mean."""
+    """Carry out another of the meanings of the last drag."""
     sheet = state.sheet
     if sheet is None or not sheet.open or sheet.grip or sheet.meant is None:
         return state

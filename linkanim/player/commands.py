@@ -146,7 +146,7 @@ def tool_asks(state: State, action: Action) -> tuple[Action, ...]:
 
 
 def slid(state: State, number: int, share: float) -> tuple[Action, ...]:
-    """Return what brings a slider's knob to a share of its way, 0 to 1; where it is fixed, a sentence why."""
+    """Return the action that puts a slider's knob at a share, 0 to 1; where it is fixed, a sentence why."""
     reason = lack(state, _HANDLES[state.mode][number].action)
     if reason:
         return (Action("note", reason),)

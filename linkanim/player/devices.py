@@ -45,7 +45,7 @@ class Repeats:
         self._next = 0
 
     def begin(self, bind: Bind | None, frame: int) -> None:
-        """Go on with what was bound, where holding it does; else with nothing."""
+        """Begin to repeat what a key asks for, if it repeats while it is held; else repeat nothing."""
         self._action = bind.action if bind and bind.repeats else None
         self._next = frame + _WAIT
 
@@ -218,7 +218,7 @@ class Pads:
         self._frames: int | None = _LOOKED_FOR_AFTER
 
     def look(self, frames: int) -> None:
-        """Look for gamepads, once, some frames after the window has opened; events tell of them from then."""
+        """Look once for gamepads, some frames after the window has opened; then events tell of them."""
         if self._frames is None:
             return
         self._frames -= frames
@@ -227,7 +227,7 @@ class Pads:
             pygame.joystick.init()
 
     def actions(self, event: Event, mode: Mode, frame: int) -> tuple[Action, ...]:
-        """Return what an event asks for; of the stick only what is taken note of."""
+        """Return what an event asks for; a stick's position is only remembered, for `turned`."""
         match event.type:
             case pygame.JOYDEVICEADDED:
                 return self._plugged_in(event.device_index)
@@ -430,7 +430,7 @@ class Mouse:
         return (Action("menu", "chart" if screen.charted(*self._at) is not None else None),)
 
     def held(self, screen: Screen) -> tuple[Action, ...]:
-        """Return what says that a button or a finger is held still for so long that commands come of it."""
+        """Return the action of a button or finger that is held still for long: it opens commands."""
         is_new, self._is_long = not self._is_long, self._presses_long(screen)
         return (Action("hint", _LET_GO_FOR),) if self._is_long and is_new else ()
 
@@ -614,7 +614,7 @@ class Mouse:
         return screen.handle_at(*self._at, _REACH * screen.size[1]) or at_pin
 
     def over_scene(self, screen: Screen, frame: int) -> Pointed | None:
-        """Return what of the scene is under the mouse; None where the mouse rests while the scene runs."""
+        """Return the part of the scene under the mouse; None where it rests while the scene runs."""
         shown = self._seen and self._drag is None and screen.state.mode in ("play", "paused")
         rests = frame - self._moved_in > _TOLD and not screen.state.clock.paused
         if not shown or rests or screen.button_at(*self._at) is not None:

@@ -24,7 +24,7 @@ _FAMILY = 0.15
 
 
 def answer_at(way: Sequence[PathAnswer], share: float) -> PathAnswer:
-    """Return the answer at a share of the way, 0 to 1; between neighbours of one family one in between."""
+    """Return the answer at a share of the front, 0 to 1; two of one family have others between."""
     place = min(max(share, 0.0), 1.0) * (len(way) - 1)
     first = min(int(place), max(len(way) - 2, 0))
     one, other, part = way[first], way[min(first + 1, len(way) - 1)], place - first
@@ -48,7 +48,7 @@ def _of_one_family(one: PathAnswer, other: PathAnswer) -> bool:
 
 
 def place_of(sketch: PathSketch) -> float:
-    """Return where the knob stands: where it was put, else at the answer of the way that is most like it."""
+    """Return where the knob stands: where it was put, else at the answer most like the one shown."""
     if sketch.dial is not None:
         return sketch.dial
     answer, way = sketch.answer, sketch.way

@@ -65,7 +65,7 @@ def mechanism(state: State, further: int) -> State:
 
 
 def select(state: State, place: int) -> State:
-    """Choose within the chapter of the scene that is on; beside the catalogue, within its first."""
+    """Choose a place in the chapter of the scene that is on; beside the catalogue, in the first."""
     all_, chapter = chapters(), chapter_of(state.scene.name)
     members = all_[chapter] if chapter else next(iter(all_.values()))
     if place >= len(members) or members[place] not in state.shelf:
@@ -97,7 +97,7 @@ def renewed(state: State, scene: Scene) -> State:
 
 
 def exchanged(state: State, scene: Scene) -> State:
-    """Show a changed scene at the phase the old one stands at; whatever its solver raises."""
+    """Show a changed scene at the phase of the old one; raises whatever its solver raises."""
     clock = state.clock.at_rate(state.frame, scene.linkage.drive.speed)
     proved(scene, clock.at(state.frame))
     look = replace(state.look, chart=_kept_chart(state, scene))
@@ -195,7 +195,7 @@ def top(state: State, row: int) -> State:
 
 
 def sift(state: State, text: str) -> State:
-    """Add letters to the sieve of the list, and go to its top, or to that of the shelf."""
+    """Add letters to what the list, or the shelf, is searched for; the list goes to its top."""
     if state.browsing:
         longer = (state.browsing.sieve + text)[:_LONGEST]
         return replace(state, browsing=state.browsing.sifted(longer))
@@ -203,7 +203,7 @@ def sift(state: State, text: str) -> State:
 
 
 def unsift(state: State, _: None) -> State:
-    """Take the last letter off the sieve of the list, and go to its top, or off that of the shelf."""
+    """Take the last letter off what the list, or the shelf, is searched for; the list goes to its top."""
     if state.browsing:
         return replace(state, browsing=state.browsing.sifted(state.browsing.sieve[:-1]))
     return _relisted(state, state.listing.sieve[:-1]) if state.listing else state
@@ -215,14 +215,14 @@ def _relisted(state: State, sieve: str) -> State:
 
 
 def files(state: State, lines: str) -> State:
-    """Have files of one's own on the shelf, which is opened: name and date a line, a tab between them."""
+    """Put files of one's own on the open shelf: a line for each, its name, a tab and its date."""
     own = tuple(OwnFile(*line.split("\t")[:2]) for line in lines.split("\n") if "\t" in line)
     opened = state if state.browsing else open_shelf(state, None)
     return replace(opened, browsing=opened.browsing and replace(opened.browsing, own=own))
 
 
 def menu(state: State, group: str | None) -> State:
-    """Open the list of all commands that there are in the mode that is on, or of some of them; close it.
+    """Open the list of the mode's commands, all or a group of them; close it where it is open.
 
     Another list than the one that is open takes its place.
     """
@@ -388,7 +388,7 @@ def drive_joint(state: State, joint: str) -> State:
 
 
 def returns(state: State, _: None) -> State:
-    """Let the input come back on the other closure, or on the same."""
+    """Let the input come back on its other closure, or on the same one again."""
     return _remade(state, with_undo(state.editing, state.scene), other_return(state.scene))
 
 
@@ -400,7 +400,7 @@ def start(state: State, _: None) -> State:
 
 
 def way_back(_: State, after: State) -> str | None:
-    """Say how the file's dimensions come back, where others are on."""
+    """Say which key brings the file's dimensions back, where they were changed."""
     return AGAIN if after.place in after.edited else None
 
 

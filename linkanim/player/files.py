@@ -53,7 +53,7 @@ def places(name: str, last: str | None = None) -> tuple[str, ...]:
 
 
 def typed_path(text: str) -> Path:
-    """Return a path as it is typed, in which ~ is the user's own folder."""
+    """Return the path of a typed text, in which ~ is the user's own folder."""
     with suppress(RuntimeError):  # nobody knows where that is
         return Path(text).expanduser()
     return Path(text)
@@ -99,7 +99,7 @@ def _added(data: bytes, name: str, suffix: str) -> Path:
 
 
 def beside(file: str) -> str:
-    """Return a file's path from the current folder, where scene files are written, if it lies in there."""
+    """Return a file's path relative to the current folder if it lies in it, else the path as it is."""
     path = Path(from_anywhere(file))
     with suppress(OSError, ValueError):  # it is gone, or the file lies elsewhere
         return str(path.relative_to(Path.cwd()))
@@ -107,7 +107,7 @@ def beside(file: str) -> str:
 
 
 def from_anywhere(file: str) -> str:
-    """Return a path of a file that holds from any folder; the same one where the current folder is gone."""
+    """Return a file's absolute path; the path as it is where the current folder is gone."""
     with suppress(OSError):
         return str(Path(file).absolute())
     return file
@@ -151,7 +151,7 @@ class SceneFile:
 
 
 class SavedScenes:
-    """The scene files that a window wrote: these, as it left them, are all that it writes over."""
+    """The scene files that a window wrote; it replaces no others, and these only as it left them."""
 
     def __init__(self) -> None:
         self._wrote: dict[Path, bytes] = {}
@@ -215,7 +215,7 @@ _MOST_FILES = 300
 def scene_files() -> tuple[OwnFile, ...]:
     """Return the scene files in the current folder, the newest ones first; none where it is there no more.
 
-    Of very many the newest three hundred are enough to look through.
+    Of very many they are the newest three hundred.
     """
     found: list[tuple[float, str]] = []
     with suppress(OSError), os.scandir() as entries:

@@ -56,7 +56,7 @@ def button_name(number: int, *, hat: bool) -> str:
 
 
 def hat_name(right: int, up: int) -> str:
-    """Return which way a D-pad is pressed; empty where it is let go."""
+    """Return the name of a D-pad's direction; empty where it is let go."""
     if up:
         return "pad up" if up > 0 else "pad down"
     return "" if not right else "pad right" if right > 0 else "pad left"
@@ -474,12 +474,12 @@ def _is_typed(press: Press, mode: Mode, typing: bool, *, valued: bool) -> bool:
 
 
 def binds_of(mode: Mode) -> Iterator[Bind]:
-    """Yield what keys ask for in a mode alone, not what they ask for else."""
+    """Yield what keys ask for in this mode only, without what they ask for in all modes."""
     return _binds(MODES.get(mode, {}))
 
 
 def row_actions(mode: Mode, keys: str) -> tuple[Action, ...]:
-    """Return what a line of the help, known by its keys as they are written, asks for, each but once."""
+    """Return the actions of a line of the help, each once; the line is found by its keys as written."""
     rows = (row for table in (MODES.get(mode, {}), KEYS) for row in _rows(table) if row.keys == keys)
     return tuple(dict.fromkeys(bind.action for bind in next(rows, KeyRow("", "")).binds))
 

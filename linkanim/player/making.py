@@ -119,7 +119,7 @@ def _member(scene: Scene, step: int) -> Scene:
 
 
 def make(state: State, _: None) -> State:
-    """Ask for the parts of what is on to be written into a folder."""
+    """Ask for the parts of the scene that is on to be written into a folder."""
     missing = state.building.building.made.missing if state.building else ""
     if missing:
         return with_toast(state, f"only what can move can be made; the draft is kept. {missing}")

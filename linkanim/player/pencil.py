@@ -85,7 +85,7 @@ def off(state: State, _: None) -> State:
 
 
 def stroke(state: State, numbers: tuple[float, ...]) -> State:
-    """Take a stroke as it is: 1 where it is closed, else 0, and its points x, y, x, y, …"""
+    """Take a stroke that is given: 1 where it is closed, else 0, then its points x, y, x, y, …"""
     from linkanim.synthesis.curves import drawn
 
     points = [complex(x, y) for x, y in zip(numbers[1::2], numbers[2::2], strict=True)]
@@ -102,14 +102,14 @@ def _searched(state: State, curve: DrawnCurve) -> State:
 
 
 def answers(state: State, numbers: tuple[float, ...]) -> State:
-    """Take all answers as they are on older tapes, without sizes and angles."""
+    """Take all answers from an older tape, which has no sizes and angles for them."""
     from linkanim.synthesis.answers import EARLIER
 
     return taken(state, round(numbers[0]), _answers_of(numbers[1:], EARLIER))
 
 
 def cards(state: State, numbers: tuple[float, ...]) -> State:
-    """Take all answers in place of those that are there: which is to be shown, and the numbers of each.
+    """Replace all answers: the number of the one to show, then the numbers of each answer.
 
     One that was chosen meanwhile stays.
     """
@@ -170,7 +170,7 @@ def _held(state: State, sketch: PathSketch, held: int | str) -> State:
 
 
 def lead(state: State, to: tuple[float, float]) -> State:
-    """Drag what is held to a point; what follows is asked for."""
+    """Drag what is held to a point, and ask for the linkage that follows."""
     from linkanim.synthesis.curves import bent
 
     sketch = state.drawing

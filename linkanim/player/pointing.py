@@ -86,7 +86,7 @@ def _from_side(at: complex, begin: complex, end: complex) -> float:
 
 
 def told(state: State, pointed: Pointed) -> Told | None:
-    """Return what the thing says of itself at this instant; None where nothing is under the mouse."""
+    """Return the lines that tell of the thing under the mouse at this instant; None where there is none."""
     scene, thing = state.displayed, pointed.thing
     if pointed.instant is not None:
         return Told(_of_instant(state, scene, pointed.instant), pointed.place)
@@ -136,7 +136,7 @@ def _of_row(state: State, scene: Scene, label: str) -> tuple[str, ...]:
 
 
 def row_asks(state: State, label: str) -> tuple[Action, ...]:
-    """Return what a click on a row of numbers asks for: its chart, or none; of the class why it is that."""
+    """Return what a click on a row of numbers asks for: its chart or none; on the class, its reason."""
     if not label:
         return (Action("note", ": ".join(class_words(state.displayed))),)
     token = charted(state.displayed).get(label)

@@ -50,7 +50,7 @@ def poses(state: State, _: None) -> State:
 
 
 def put(state: State, numbers: tuple[float, ...]) -> State:
-    """Take poses as they are: 1 for linkages that end on a slider, else 0; x, y and angle (rad) of each."""
+    """Take given poses: 1 for linkages that end on a slider, else 0; x, y and angle (rad) of each."""
     sketch = state.posing
     if sketch is None:
         return state
@@ -60,7 +60,7 @@ def put(state: State, numbers: tuple[float, ...]) -> State:
 
 
 def pin(state: State, at: Point) -> State:
-    """Set a pin down where a linkage is to be fixed."""
+    """Set down a pin: a linkage is to have a fixed pin there."""
     sketch = state.posing
     return _with_pin(state, sketch, at) if sketch else state
 
@@ -75,7 +75,7 @@ def _with_pin(state: State, sketch: PoseSketch, at: Point) -> State:
 
 
 def under(sketch: PoseSketch, at: Point, reach: float) -> PoseGrip | None:
-    """Return what of poses, pins and linkage a hand at a point takes hold of; None for nothing."""
+    """Return the pose, pin or joint that a hand at a point takes hold of; None for nothing."""
     near = [(dist(place, at), grip) for grip, place in _handles(sketch, reach)]
     far, found = min(near, key=lambda one: one[0], default=(0.0, None))
     return found if far <= reach else None
@@ -96,7 +96,7 @@ def _handles(sketch: PoseSketch, reach: float) -> Iterator[tuple[PoseGrip, Point
 
 
 def free_joints(sketch: PoseSketch) -> dict[str, Point]:
-    """Return the joints of the linkage that is shown that poses leave some choice of, in the first pose."""
+    """Return the joints that can be moved while the poses are still met, in the first pose."""
     if sketch.answer is None or len(sketch.poses) >= MOST:
         return {}
     joints = sketch.answer.joints
@@ -206,7 +206,7 @@ def _led(state: State, sketch: PoseSketch) -> State:
 
 
 def up(state: State, _: None) -> State:
-    """Lift the hand; all linkages for what is there now are asked for, if that is another."""
+    """Lift the hand; where something was changed, ask for all linkages anew."""
     sketch = state.posing
     if sketch is None or sketch.held is None:
         return state
@@ -281,7 +281,7 @@ def sliding(state: State, _: None) -> State:
 
 
 def curves(state: State, _: None) -> State:
-    """Show or hide what the theory has of the poses: poles, Burmester's curves, his points."""
+    """Show or hide the poses' poles and Burmester's curves and points."""
     return sketching(state, curves=not state.posing.curves) if state.posing else state
 
 
@@ -301,7 +301,7 @@ def dial_on(state: State, by: int) -> State:
 
 
 def cards(state: State, numbers: tuple[float, ...]) -> State:
-    """Take all linkages in place of those that are there: which is to be shown, and the numbers of each."""
+    """Replace all linkages: the number of the one to show, then the numbers of each linkage."""
     from linkanim.synthesis.guidance import POSE_NUMBERS, pose_answer_from
 
     if len(numbers) % POSE_NUMBERS != 1 or state.posing is None:
@@ -320,7 +320,7 @@ def unmet(state: State, reason: str) -> State:
 
 
 def let_go(state: State) -> State | None:
-    """Return the state without what is held, else the cursor, what is lit, pins to be set; None without."""
+    """Return the state without what is held, else the cursor, a highlight or pins; None without."""
     sketch = state.posing
     if sketch is None:
         return None

@@ -121,13 +121,13 @@ def display_surface() -> pygame.Surface:
 
 
 def name(title: str) -> None:
-    """Let the window's frame show a scene's title, without what no frame can show."""
+    """Show a scene's title in the window's frame, without characters that no frame can show."""
     shown = "".join(char for char in title if char.isprintable())
     pygame.display.set_caption(f"{shown} – linkanim")
 
 
 def point_with(pointer: pygame.Surface | None) -> None:
-    """Let the mouse's pointer be a picture, its lower left corner the place; None for the usual one."""
+    """Show a picture as the mouse's pointer, with its tip at the lower left; None for the usual one."""
     # a system without pointers of its own colour keeps what it has
     with suppress(pygame.error):
         if pointer is None:
@@ -532,7 +532,7 @@ class Screen:
         return button_at(self._bar_layout(self.over), bar.buttons, x, y) if bar else None
 
     def share_at(self, number: int, x: float) -> float:
-        """Return how far along a slider of the bar a pixel is, 0 to 1."""
+        """Return the share of a slider on the bar, 0 to 1, at a pixel's x."""
         bar = self.over.bar
         return share_at(self._bar_layout(self.over), bar.buttons, number, x) if bar else 0.0
 
@@ -563,7 +563,7 @@ class Screen:
         return (*place, self._near, part * self.sheet_step)
 
     def hover(self, x: float, y: float) -> Hover:
-        """Return what of the sheet is under a pixel."""
+        """Return the tool or the place of the sheet under a pixel."""
         return Hover(self.world(x, y), self._near, self.tool_at(x, y))
 
     def aimed(self, cursor: Point | None, way: tuple[float, ...]) -> tuple[float, float]:
@@ -588,7 +588,7 @@ class Screen:
 
     @property
     def grid_step(self) -> float:
-        """From line to line of the sheet's grid, in its unit."""
+        """The distance between lines of the sheet's grid, in its unit."""
         return grid_step(self._framing.last.view, self._framing.last.layout)
 
     @property

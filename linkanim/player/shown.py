@@ -347,7 +347,7 @@ def _glow(state: State, hover: str | None) -> str | None:
 
 
 def kept(state: State) -> Overlay:
-    """Return what of it belongs on a screenshot: all that does not come and go."""
+    """Return what of the overlay belongs on a screenshot: all that does not come and go."""
     return _kept(state, _items(state))
 
 

@@ -15,7 +15,7 @@ _SAME = 0.02
 
 
 def sketching(state: State, **changes: object) -> State:
-    """Return the state with these changes of its sketch, if there is one."""
+    """Return the state with its sketch changed, if there is one."""
     return replace(state, sketch=state.sketch and replace(state.sketch, **changes))  # type: ignore[arg-type]
 
 
@@ -55,20 +55,20 @@ def follow(state: State, numbers: tuple[float, ...]) -> State:
 
 
 def ready(scene: Scene, phase: float) -> Scene:
-    """Return a scene with what the next frame asks first worked out: that frame has its picture to make."""
+    """Return a scene with what the next frame asks of it worked out now: that frame has a picture to make."""
     _ = scene.cycle(1, derivatives=0).position
     scene.pose(phase, 0)
     return scene
 
 
 def come(state: State) -> State:
-    """Return the state with the linkage on that was worked out for this frame."""
+    """Return the state showing the linkage that was worked out for this frame."""
     coming = state.sketch and state.sketch.coming
     return replace(sketching(state, coming=None), scene=coming) if coming else state
 
 
 def taken(state: State, first: int, found: tuple[Any, ...]) -> State:
-    """Return the state with answers in place of those that are there, and one of them shown.
+    """Return the state with other answers, one of them shown.
 
     A scene whose own trace was taken stays the first.
     """

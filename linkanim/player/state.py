@@ -156,7 +156,7 @@ def chosen(editing: Editing, scene: Scene) -> Dimension | None:
 
 
 def nothing_begun(editing: Editing) -> Editing:
-    """Return the editing with nothing begun: the value typed here first, then all drafts."""
+    """Return the editing without the value being typed, or where there is none, without all drafts."""
     return cleared(editing) if editing.typed else cleared(editing, drafts=())
 
 
@@ -176,7 +176,7 @@ def loss_of_turning(before: Info, after: Info) -> str | None:
 
 
 def check_of_turning(before: Info) -> Callable[[Scene], None]:
-    """Return what refuses a scene whose input no longer turns fully, before it is worked out whole."""
+    """Return a check that refuses a scene whose input no longer turns fully before all of it is solved."""
 
     def check(scene: Scene) -> None:
         found = stopped(scene.linkage) if before.full_turn else None
@@ -297,7 +297,7 @@ def _on_the_way(way: Glide, after: Scene, part: float) -> Scene | None:
 
 
 def closes(scene: Scene) -> bool:
-    """Tell whether every joint is somewhere at all phases; worked out as its poses are, all in one pass."""
+    """Tell whether all joints have a place at all phases."""
     places = scene.cycle(scene.mechanism.count(_TRIED)).every["position"].values()
     return all(bool(np.isfinite(place).all()) for place in places)
 
@@ -386,12 +386,12 @@ class BuildSheet:
 
     @property
     def lasting(self) -> Building:
-        """What is built, but for what the hand moves just now."""
+        """What is built, without what the hand is moving."""
         return self.grip.base if self.grip and self.tool in LIVE else self.building
 
     @property
     def is_written(self) -> bool:
-        """Whether nothing would be lost with it."""
+        """Whether nothing would be lost if it were closed."""
         return self.building.draft == self.written
 
 

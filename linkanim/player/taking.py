@@ -55,7 +55,7 @@ def rows(state: State) -> tuple[TakeRow, ...]:
 
 
 def of_a_kind(state: State) -> TakeChoice:
-    """Return the choice as it holds now: a game has no period."""
+    """Return the choice as it applies now: a game has no period."""
     return state.take._replace(whole=state.take.whole and state.game is None)
 
 
@@ -164,7 +164,7 @@ def into(state: State, file: str) -> State:
 
 
 def record(state: State, form: Format) -> State:
-    """Start a recording, or stop the one that runs, whichever its format is."""
+    """Start a recording, or stop the one that runs, whatever its format."""
     if state.recording is None:
         return replace(with_effect(state, "record", form), recording=Take(form, state.frame))
     return replace(with_effect(state, "render", state.recording.format), recording=None)

@@ -55,7 +55,7 @@ class Tape:
         return tuple(self._by_frame.get(frame, ()))
 
     def rewound(self, state: State) -> State:
-        """Return the state to go on from where it plays over and over: after the end the start."""
+        """Return the state to go on from in a tape that repeats: at its end that is the start."""
         return self.begun if state.frame >= self.frames else state
 
     def states(self) -> Iterator[State]:

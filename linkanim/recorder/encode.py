@@ -141,7 +141,7 @@ def running(command: Sequence[str], *, ahead: int) -> Iterator[Callable[[Frame],
 
 
 def told(command: Sequence[str]) -> bytes:
-    """Return what a command prints; nothing where it does not end well.
+    """Return what a command prints; nothing where the command fails.
 
     `RecordingFailed` where it cannot be started or stands still.
     """
@@ -266,7 +266,7 @@ class Stream:
 
 
 def coding(stream: Stream, form: Format, palette: Sequence[Colour]) -> Callable[[Frame], Frame]:
-    """Return what makes of a frame the bytes that `encoding` takes: of a GIF's its palette's indices.
+    """Return the function that turns a frame into the bytes that `encoding` takes; a GIF's are indices.
 
     `palette` has a GIF's colours, 255 at most. What it returns may lie where the next frame's will.
     """
@@ -278,7 +278,7 @@ def coding(stream: Stream, form: Format, palette: Sequence[Colour]) -> Callable[
 
 
 def coded_size(stream: Stream, form: Format) -> int:
-    """Return of how many bytes a coded frame is."""
+    """Return how many bytes a coded frame has."""
     pixels = math.prod(stream.size)
     return pixels + 4 * COLOURS if form == "gif" else 4 * pixels
 

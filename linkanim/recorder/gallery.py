@@ -102,7 +102,7 @@ def contact_sheet(scenes: Iterable[Scene]) -> bytes:
 
 
 def reduced(picture: Bytes) -> Bytes:
-    """Return a picture (height, width, 3) in `_COLOURS` at most, its flat areas as they are."""
+    """Return a picture (height, width, 3) with `_COLOURS` colours at most; flat areas keep theirs."""
     pixels = np.insert(picture[..., ::-1], 3, 0, axis=2)
     words, which = np.unique(pixels.view(np.uint32).reshape(-1), return_inverse=True)
     palette = make_palette([pixels], most=_COLOURS)

@@ -71,7 +71,7 @@ class Indexing:
 
 
 def nearest(colours: Floats, palette: Floats) -> NDArray[np.intp]:
-    """Return which colour of a palette (m, 3) each of some (n, 3) is nearest to; of equals the first."""
+    """Return for each colour (n, 3) the number of the nearest in a palette (m, 3), the first of equals."""
     # |a - b|² without |a|², the same for every b
     found: NDArray[np.intp] = ((palette**2).sum(axis=1) - 2.0 * _product(colours, palette.T)).argmin(axis=1)
     return found

@@ -33,8 +33,8 @@ class Clip(NamedTuple):
     """What is asked for: `speed` is dφ/dt (rad/s, signed), `period` the true period (rad of phase).
 
     `periods` true periods, or `seconds` where it is not None; `fps` frames a second; `start` is the
-    first frame's phase (rad). With `steps` it is of so many pictures, a second each, the last one longer:
-    nothing moves.
+    first frame's phase (rad). With `steps` it shows so many steps of a
+    construction instead, a second each and the last one longer; nothing moves.
     """
 
     speed: float
@@ -131,7 +131,7 @@ def make_plan(clip: Clip, form: Format) -> Plan:
 
 
 def refuse_size(size: tuple[int, int], *, painted: bool = True) -> None:
-    """Raise `BadInput` for a picture too small to read or too large to encode, or if `painted` to hold."""
+    """Raise `BadInput` for a picture too small to read, too large to encode or, if `painted`, to hold."""
     low, high = SIDES
     width, height = size
     if not all(low <= side <= high for side in size):

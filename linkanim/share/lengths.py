@@ -19,9 +19,9 @@ _ASIDE = 0.5
 
 
 def model(scene: Scene) -> dict[str, Any] | None:
-    """Return the linkage with its lengths; None where it has what the solver does not know.
+    """Return the linkage with its lengths for the page's own solver; None where that cannot solve it.
 
-    That is an input which is no crank, a line that a body carries, a true period of several turns, and
+    Such are an input which is no crank, a line that a body carries, a true period of several turns, and
     a smooth path through a change point, on which no closure has a name.
     """
     linkage = scene.linkage

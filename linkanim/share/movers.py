@@ -59,7 +59,7 @@ class Pairs:
     def styles(self, themes: tuple[ThemeName, ThemeName], stated: ThemeName | None) -> str:
         """Return the style sheet of the colours, ink and background among them by their names.
 
-        A theme that is stated holds whatever its reader's is.
+        A theme that is `stated` is used whatever the reader's setting is.
         """
         pair = [theme_of(name) for name in themes]
         ink = self.variable(pair[0].ink, pair[1].ink)
@@ -157,7 +157,7 @@ class Track:
 
 
 def tracks(scene: Scene, view: View) -> dict[str, Track]:
-    """Return the tracks of all joints and centres of mass over one true period of phase, or its way there."""
+    """Return the tracks of joints and centres of mass over a true period of phase, or over its way there."""
     joints = scene.linkage.joints
     centres = (centre(body.name) for body in scene.linkage.bodies if body.com is not None)
     names, fixed = (*(one.name for one in joints), *centres), {one.name for one in joints if one.fixed}
@@ -234,7 +234,7 @@ def _pixels(motion: Motion, scene: Scene, view: View) -> Iterator[Loop]:
 
 
 def quintic(begin: Loop, end: Loop, width: float) -> Loop:
-    """Return the coefficients (6, n), lowest first, of what runs from 0 to 1 between two nodes (3, n)."""
+    """Return the coefficients (6, n), lowest first, of polynomials over 0 to 1 between two nodes (3, n)."""
     scale = np.array([1.0, width, 0.5 * width * width])[:, None]
     (p, v, a), (q, w, b) = scale * begin, scale * end
     way = q - p
@@ -251,7 +251,7 @@ def quintic(begin: Loop, end: Loop, width: float) -> Loop:
 
 
 def evaluated(coefficients: Loop, share: Any) -> Any:
-    """Return a polynomial's values (Horner)."""
+    """Return a polynomial's values at shares of its way, 0 to 1 (Horner)."""
     value = coefficients[-1]
     for one in coefficients[-2::-1]:
         value = value * share + one

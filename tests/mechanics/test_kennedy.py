@@ -102,8 +102,8 @@ def test_at_their_centre_two_links_have_one_velocity(number: int) -> None:
                 again = velocity(pose, scene, one, 1 + 1j) - velocity(pose, scene, other, 1 + 1j)
                 fast = abs(pose.coordinate_rate) * scene.linkage.extent
                 assert abs(apart - again) <= EXACT * fast
-                assert abs((apart * found.way.conjugate()).real) <= EXACT * fast
-                assert abs(found.way) == pytest.approx(1.0)
+                assert abs((apart * found.direction.conjugate()).real) <= EXACT * fast
+                assert abs(found.direction) == pytest.approx(1.0)
             else:
                 mine, theirs = (velocity(pose, scene, link, found.place) for link in (one, other))
                 fast = abs(pose.coordinate_rate) * (scene.linkage.extent + abs(found.place))
@@ -124,7 +124,7 @@ def test_kennedy_s_theorem_leads_to_all_centres(number: int) -> None:
             pairs = (step.pair, (step.pair[0], third), (third, step.pair[1]))
             known = [centre(pose, *(links[number] for number in pair)) for pair in pairs]
             at = [one.place for one in known if one and one.place is not None]
-            way = [one.way for one in known if one and one.place is None]
+            way = [one.direction for one in known if one and one.place is None]
             if len(at) == 3:
                 across = ((at[1] - at[0]).conjugate() * (at[2] - at[0])).imag
                 assert abs(across) <= 1e-9 * abs(at[1] - at[0]) * abs(at[2] - at[0])

@@ -102,7 +102,9 @@ def test_no_word_of_a_still_lies_on_a_centre(name: str) -> None:
     pose = scene.pose(phase, 2)
     assert picture.drawing.parts.centres
     crosses = picture.drawing.parts.centres.crosses(pose)
-    arrows = [seen.at - 10 * seen.way for seen in picture.drawing.parts.centres.seen(pose) if seen.way]
+    arrows = [
+        seen.at - 10 * seen.direction for seen in picture.drawing.parts.centres.seen(pose) if seen.direction
+    ]
     said = [line for group in picture.groups(pose) for line in group.captions]
     for line in said:
         box = line.around(picture.type)

@@ -132,7 +132,7 @@ class PolynomialFit(NamedTuple):
         return Moving(value, first * rate, second * (rate * rate * 2.0) + first * bend)
 
 
-class Way(NamedTuple):
+class Approach(NamedTuple):
     """A signed way z to a zero, and the argument of what is fitted there; `share` is z over it.
 
     The argument is the same a turn later, where z is -z.
@@ -175,17 +175,17 @@ class End:
     near: Near | None = None
     stretch: float = 0.0
 
-    def way(self, state: InputState) -> Way:
+    def approach(self, state: InputState) -> Approach:
         """Return the way to the limit."""
         assert state.ends is not None
         ends = state.ends
         z, half = (ends.root_u, ends.u) if self.upper else (ends.root_v, ends.v)
         argument = Moving(half.value, half.rate, (z * z).second)
-        return Way(z * _root(argument, self.stretch) if self.stretch else z, argument)
+        return Approach(z * _root(argument, self.stretch) if self.stretch else z, argument)
 
-    def chosen(self, way: Way, width: float, close: Value, otherwise: Value) -> Value:
+    def chosen(self, approach: Approach, width: float, close: Value, otherwise: Value) -> Value:
         """Return `close` within the width, else the other."""
-        return select(way.argument.value, width, close, otherwise)
+        return select(approach.argument.value, width, close, otherwise)
 
 
 @frozen
@@ -202,11 +202,11 @@ class Stationary:
     amplitude: float | None
     near: Near | None = None
 
-    def way(self, state: InputState) -> Way:
+    def approach(self, state: InputState) -> Approach:
         """Return the way from there."""
         turn = self._on_turn(state) if self.amplitude is None else self._on_swing(state, self.amplitude)
         sine, cosine = turn
-        return Way(sine, _quotient(sine, cosine), cosine.value)
+        return Approach(sine, _quotient(sine, cosine), cosine.value)
 
     def _on_turn(self, state: InputState) -> SineAndCosine:
         share = Fraction(1, self.turns)
@@ -240,9 +240,9 @@ class Stationary:
             gone = nearest_sum(-exactly(amplitude) * cosine(exactly(self.place)))
         return (state.angle - gone.high) + (state.rest - gone.low)
 
-    def chosen(self, way: Way, width: float, close: Value, otherwise: Value) -> Value:
+    def chosen(self, approach: Approach, width: float, close: Value, otherwise: Value) -> Value:
         """Return `close` within the width, else the other."""
-        z = way.z.value
+        z = approach.z.value
         return select(z * z, width * width / (1.0 + width * width), close, otherwise)
 
 
@@ -379,13 +379,13 @@ class ChainRoot:
         self, zero: Fitted, near: Near, closing: Closing, state: InputState, far: SignedRoot
     ) -> SignedRoot:
         """Return the root from its fit next to a zero, else the one from `far` of it."""
-        way, others = zero.way(state), self.side(state, zero)
-        fitted = near.root.at(way.argument)
-        q = near.root_at(way.z, fitted)
+        approach, others = zero.approach(state), self.side(state, zero)
+        fitted = near.root.at(approach.argument)
+        q = near.root_at(approach.z, fitted)
         rho = closing.rates(q)
 
         def chosen(close: Value, otherwise: Value) -> Value:
-            return zero.chosen(way, near.root.width, close, otherwise)
+            return zero.chosen(approach, near.root.width, close, otherwise)
 
         found = SignedRoot(
             chosen(q.value * others, far.q),
@@ -395,12 +395,12 @@ class ChainRoot:
             return found
         if near.across is None:
             return found.with_lift(Reduced(far.lift.across, chosen(q.value * others, far.lift.q)))
-        reduced = _vector(*(fit.at(way.argument) for fit in near.across))
+        reduced = _vector(*(fit.at(approach.argument) for fit in near.across))
         points = [
             Vec(chosen(a.x, b.x), chosen(a.y, b.y)) for a, b in zip(reduced, far.lift.across, strict=True)
         ]
         return found.with_lift(
-            Reduced(MovingPoint(*points), chosen(fitted.value * way.share * others, far.lift.q))
+            Reduced(MovingPoint(*points), chosen(fitted.value * approach.share * others, far.lift.q))
         )
 
     def side(self, state: InputState, other_than: Fitted | None = None) -> Value:
@@ -408,7 +408,7 @@ class ChainRoot:
         sign: Value = self.sign
         for zero in self.zeros:
             if zero is not other_than:
-                sign = sign * _sign(zero.way(state).z.value)
+                sign = sign * _sign(zero.approach(state).z.value)
         return sign
 
 
@@ -914,10 +914,10 @@ def _loop_direction(ground: PinLoop, root: SignedRoot, bar: tuple[float, int], *
     `bar` is the slot's offset and the closure's sign; `swapped` where the bar turns about the crank's pin.
     """
     offset, sign = bar
-    way = -1.0 if swapped else 1.0
+    sense = -1.0 if swapped else 1.0
     if ground.short == 0 and offset == 0:
-        return Vec(-ground.half.sine, ground.half.cosine).times(ground.direction).scaled(way * sign)
-    return _direction(ground.across().scaled(-way), root.q, offset)
+        return Vec(-ground.half.sine, ground.half.cosine).times(ground.direction).scaled(sense * sign)
+    return _direction(ground.across().scaled(-sense), root.q, offset)
 
 
 def _direction(across: Vec, s: Value, offset: float) -> Vec:
