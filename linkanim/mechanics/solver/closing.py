@@ -132,8 +132,8 @@ class PolynomialFit(NamedTuple):
         return Moving(value, first * rate, second * (rate * rate * 2.0) + first * bend)
 
 
-class Approach(NamedTuple):
-    """A signed way z to a zero, and the argument of what is fitted there; `share` is z over it.
+class SignedDistance(NamedTuple):
+    """A signed distance z from a zero, and the argument of what is fitted there; `share` is z over it.
 
     The argument is the same a turn later, where z is -z.
     """
@@ -175,17 +175,17 @@ class End:
     near: Near | None = None
     stretch: float = 0.0
 
-    def approach(self, state: InputState) -> Approach:
+    def distance(self, state: InputState) -> SignedDistance:
         """Return the way to the limit."""
         assert state.ends is not None
         ends = state.ends
         z, half = (ends.root_u, ends.u) if self.upper else (ends.root_v, ends.v)
         argument = Moving(half.value, half.rate, (z * z).second)
-        return Approach(z * _root(argument, self.stretch) if self.stretch else z, argument)
+        return SignedDistance(z * _root(argument, self.stretch) if self.stretch else z, argument)
 
-    def chosen(self, approach: Approach, width: float, close: Value, otherwise: Value) -> Value:
+    def chosen(self, distance: SignedDistance, width: float, close: Value, otherwise: Value) -> Value:
         """Return `close` within the width, else the other."""
-        return select(approach.argument.value, width, close, otherwise)
+        return select(distance.argument.value, width, close, otherwise)
 
 
 @frozen
@@ -202,11 +202,11 @@ class Stationary:
     amplitude: float | None
     near: Near | None = None
 
-    def approach(self, state: InputState) -> Approach:
+    def distance(self, state: InputState) -> SignedDistance:
         """Return the way from there."""
         turn = self._on_turn(state) if self.amplitude is None else self._on_swing(state, self.amplitude)
         sine, cosine = turn
-        return Approach(sine, _quotient(sine, cosine), cosine.value)
+        return SignedDistance(sine, _quotient(sine, cosine), cosine.value)
 
     def _on_turn(self, state: InputState) -> SineAndCosine:
         share = Fraction(1, self.turns)
@@ -240,9 +240,9 @@ class Stationary:
             gone = nearest_sum(-exactly(amplitude) * cosine(exactly(self.place)))
         return (state.angle - gone.high) + (state.rest - gone.low)
 
-    def chosen(self, approach: Approach, width: float, close: Value, otherwise: Value) -> Value:
+    def chosen(self, distance: SignedDistance, width: float, close: Value, otherwise: Value) -> Value:
         """Return `close` within the width, else the other."""
-        z = approach.z.value
+        z = distance.z.value
         return select(z * z, width * width / (1.0 + width * width), close, otherwise)
 
 
@@ -379,13 +379,13 @@ class ChainRoot:
         self, zero: Fitted, near: Near, closing: Closing, state: InputState, far: SignedRoot
     ) -> SignedRoot:
         """Return the root from its fit next to a zero, else the one from `far` of it."""
-        approach, others = zero.approach(state), self.side(state, zero)
-        fitted = near.root.at(approach.argument)
-        q = near.root_at(approach.z, fitted)
+        distance, others = zero.distance(state), self.side(state, zero)
+        fitted = near.root.at(distance.argument)
+        q = near.root_at(distance.z, fitted)
         rho = closing.rates(q)
 
         def chosen(close: Value, otherwise: Value) -> Value:
-            return zero.chosen(approach, near.root.width, close, otherwise)
+            return zero.chosen(distance, near.root.width, close, otherwise)
 
         found = SignedRoot(
             chosen(q.value * others, far.q),
@@ -395,12 +395,12 @@ class ChainRoot:
             return found
         if near.across is None:
             return found.with_lift(Reduced(far.lift.across, chosen(q.value * others, far.lift.q)))
-        reduced = _vector(*(fit.at(approach.argument) for fit in near.across))
+        reduced = _vector(*(fit.at(distance.argument) for fit in near.across))
         points = [
             Vec(chosen(a.x, b.x), chosen(a.y, b.y)) for a, b in zip(reduced, far.lift.across, strict=True)
         ]
         return found.with_lift(
-            Reduced(MovingPoint(*points), chosen(fitted.value * approach.share * others, far.lift.q))
+            Reduced(MovingPoint(*points), chosen(fitted.value * distance.share * others, far.lift.q))
         )
 
     def side(self, state: InputState, other_than: Fitted | None = None) -> Value:
@@ -408,7 +408,7 @@ class ChainRoot:
         sign: Value = self.sign
         for zero in self.zeros:
             if zero is not other_than:
-                sign = sign * _sign(zero.approach(state).z.value)
+                sign = sign * _sign(zero.distance(state).z.value)
         return sign
 
 
