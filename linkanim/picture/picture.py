@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
-from functools import cached_property, partial
-from itertools import chain, islice
+from functools import cached_property
+from itertools import chain, combinations, islice
 from typing import TYPE_CHECKING, Literal
+
+import numpy as np
 
 from linkanim.frozen import NamedTuple
 from linkanim.mechanics.motion import Pose
@@ -56,6 +58,8 @@ _THIN = 0.6
 """The thinnest that parts are drawn, in pixels of a page."""
 _ROOM_BESIDE_SLIDER = 0.52
 """The share of the stage's width that words beside a slider take."""
+_ROOMS_OF_WORDS = (0.93, _ROOM_BESIDE_SLIDER, 0.4, 0.3)
+"""The shares of it that words on a construction may take: the widest that is off the linkage."""
 
 
 class Earlier(NamedTuple):
@@ -313,20 +317,29 @@ class Picture:
         assert overlay.poses
         yield from posed(self.drawing.setting, overlay.poses)
 
-    def _constructed(self, steps: int, phase: float, leading: SliderShown | None) -> Iterator[Group]:
+    def _constructed(self, steps: int, pose: Pose, leading: SliderShown | None) -> Iterator[Group]:
         """Yield the first steps of what is constructed, what is done in the last of them, and a slider."""
         from linkanim.picture.constructed import shown_at
         from linkanim.picture.construction import construction_items
 
-        shown = shown_at(self._goal, steps, phase)
+        shown = shown_at(self._goal, steps, pose.phase)
         pen = pen_for(self.layout, self.type, self.theme)
         marks = [mark for step in shown.steps for mark in step.marks]
         yield grouped("construction", construction_items(marks, self.view, self.layout.stage, pen))
         facts = f"step {len(shown.steps)} of {shown.total}"
-        facts = facts if self._moment is not None else f"{facts}   F7 goes on"
-        said = partial(worded, room=_ROOM_BESIDE_SLIDER) if leading else worded
-        yield said(self.drawing.setting, shown.steps[-1].words, [facts])
+        facts = facts if self._moment is not None else f"{facts} · F7 goes on"
+        rooms = _ROOMS_OF_WORDS[1:] if leading else _ROOMS_OF_WORDS
+        ways = [worded(self.drawing.setting, shown.steps[-1].words, [facts], room=room) for room in rooms]
+        yield next((one for one in ways if not self._covers(one, pose)), ways[0])
         yield from slider(self.drawing.setting, leading) if leading else ()
+
+    def _covers(self, words: Group, pose: Pose) -> bool:
+        """Return whether words on their backing lie on a link at a pose."""
+        places, corners = self.drawing.places(pose), words.layers[0].loops[0]
+        left, top = float(corners.real.min()), float(corners.imag.min())
+        plate = Rect(left, top, float(np.ptp(corners.real)), float(np.ptp(corners.imag)))
+        ends = (pair for body in self.scene.linkage.bodies for pair in combinations(body.joints, 2))
+        return any(plate.crossed(places[one], places[other]) is not None for one, other in ends)
 
     def _layers(self, pose: Pose, shown: LayersShown, parts: Layered) -> Iterator[Group]:
         """Yield the parts in their layers, in the room that is left below the words on them."""
@@ -482,7 +495,7 @@ class Picture:
                 yield from loose(overlay.build.loose, self.drawing.setting)
             yield from hand(overlay.build, self.drawing.setting)
         if overlay.construction:
-            yield from self._constructed(overlay.construction, pose.phase, overlay.slider)
+            yield from self._constructed(overlay.construction, pose, overlay.slider)
         if overlay.layers:
             sentence, warns = overlay.layers.sentence, overlay.layers.is_warning
             yield worded(self.drawing.setting, sentence, is_warning=warns)

@@ -157,6 +157,16 @@ def test_the_picture_says_what_is_done_and_holds_the_centres() -> None:
     assert scene.title not in said  # what stands there else would lie below
 
 
+@pytest.mark.parametrize("size", [(640, 360), (1280, 720)])
+def test_words_on_a_construction_leave_the_linkage_where_they_can(size: tuple[int, int]) -> None:
+    scene = load("crank-rocker")
+    picture, pose = Picture(scene, size, Look()), scene.pose(math.radians(42.0), 2)
+    groups = picture.groups(pose, Overlay(construction=1))
+    words = next(group for group in groups if group.name == "build-words")
+    assert "".join(line.text for line in words.captions).count("P") == 4
+    assert not picture._covers(words, pose)
+
+
 def test_the_linkage_of_a_figure_has_its_links_numbers() -> None:
     scene = load("inverted-slider-crank")
     assert {mark.label for mark in linkage_marks(scene, 0.3)} == {"", "2", "3", "4"}
