@@ -135,8 +135,8 @@ class Polygon:
     @cached_property
     def _title(self) -> Caption:
         """The title, as long and as large as there is room for, beside the bar of the scale if it can be."""
-        pen, (full, brief, _), wide = self.pen, _TITLES[self.order], self.rect.width
-        rooms = (_TITLE * wide, wide)
+        pen, (full, brief, _) = self.pen, _TITLES[self.order]
+        rooms = (self._beside_bar, self.rect.width)
         ways = [
             (room, words, size) for room in rooms for words in (full, brief) for size in (pen.text, pen.small)
         ]
@@ -147,10 +147,18 @@ class Polygon:
     @property
     def _barred(self) -> bool:
         """Whether the bar of the scale stands beside the title; else it stands at the foot."""
-        pen, (_, _, per) = self.pen, _TITLES[self.order]
-        title = self._title.around(pen.type).width
-        usual = pen.type.width(f"1000 {self.figure.scene.length_unit}{per}", pen.small) + 0.5 * pen.small
-        return title <= min(_TITLE * self.rect.width, self.rect.width - usual)
+        return self._title.around(self.pen.type).width <= self._beside_bar
+
+    @property
+    def _beside_bar(self) -> float:
+        """How wide a title may be beside the bar of the scale."""
+        return min(_TITLE * self.rect.width, self.rect.width - self._usual - 0.5 * self.pen.small)
+
+    @property
+    def _usual(self) -> float:
+        """How wide what the bar of the scale stands for is, as a rule."""
+        per = _TITLES[self.order][2]
+        return self.pen.type.width(f"1000 {self.figure.scene.length_unit}{per}", self.pen.small)
 
     def scale(self, speed: float) -> float:
         """Return pixels for one unit of length and second at this input speed; 0 where nothing moves.
@@ -258,7 +266,7 @@ class Polygon:
         """Yield where the title stands, and the bar of the scale with its meaning."""
         title, small, rect = self._title, self.pen.small, self.rect
         yield title.around(self.pen.type)
-        wide = (1 - _TITLE) * rect.width
+        wide = max((1 - _TITLE) * rect.width, self._usual)
         if self._barred:
             yield Rect(rect.right - wide, rect.y, wide, 2.0 * small)
         else:

@@ -36,6 +36,8 @@ _OVERLAP = 10.0
 _MOST_PAGES = 100
 _READABLE = 2.0
 """The least height of words on paper, in mm; those that have less room stand above their part."""
+_LETTER = 0.55
+"""How wide a letter is on the whole, in heights of the words."""
 _SUNK = 1 / 3
 """How deep a printed pin's head and its cap lie in the plates, as a share of their thickness."""
 
@@ -65,9 +67,19 @@ def flat_parts(made: MadeLinkage) -> list[FlatPart]:
         for ring in pin.spacers:
             hole = rounded([0j], made.sizes.hole / 2 - grown)
             edge = rounded([0j], ring.diameter / 2 + grown)
-            middle, room = -0.25j * (ring.diameter + made.sizes.hole), 0.4 * (ring.diameter - made.sizes.hole)
-            found.append(FlatPart(f"{pin.name} {ring.layer}", middle, edge, (hole,), room))
+            label, outer, inner = f"{pin.name} {ring.layer}", ring.diameter / 2, made.sizes.hole / 2
+            room = _room_in_ring(outer, inner, _LETTER * len(label))
+            found.append(FlatPart(label, -0.5j * (outer + inner), edge, (hole,), room))
     return found
+
+
+def _room_in_ring(outer: float, inner: float, wide: float) -> float:
+    """Return how high words may be amid a ring below its hole that are so many times as wide."""
+    middle, rim = (outer + inner) / 2, 0.96 * outer
+    # their lower corners lie on the rim: (wide h / 2)² + (middle + h / 2)² = rim²
+    square = (wide**2 + 1) / 4
+    within = (math.sqrt(middle**2 - 4 * square * (middle**2 - rim**2)) - middle) / (2 * square)
+    return min(within, 0.8 * (outer - inner))
 
 
 class _Sheets(NamedTuple):
@@ -292,13 +304,14 @@ def _drawn(made: MadeLinkage, part: FlatPart, at: complex, turn: complex) -> Ite
                 yield _line(made, middle - way, middle + way, _HAIR / 2)
     if part.label:
         size = min(max(made.sizes.bar / 3, _READABLE), 5.0, max(part.room, _READABLE))
-        place = _on_page(made, at + turn * part.at)
+        # words lie level on the page; a ring's stay below its hole however it is turned
+        place = _on_page(made, at + (part.at if math.isfinite(part.room) else turn * part.at))
         if part.room < _READABLE:
             top = max((at + turn * point).imag for point in polygon(part.edge))
             place = _on_page(made, complex(at.real, top + 0.65 * size))
         yield Caption(
             part.label,
-            (place.real, place.imag - 0.65 * size * _PIXELS),
+            (place.real, place.imag - 0.5 * size * _PIXELS),
             round(size * _PIXELS),
             _INK,
             "centre",

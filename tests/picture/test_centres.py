@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from itertools import combinations
 
 import numpy as np
 import pytest
+from few_links import drawn
 
 from linkanim.picture.centres import CentrePairs, Centres, clipped, kennedy_line
 from linkanim.picture.drawing import Drawing
@@ -78,6 +80,38 @@ def test_a_still_holds_centres_up_to_three_sizes_away_and_tells_of_the_others(na
                 assert Rect(0, 0, 1280, 720).holds(*picture.view.to_pixel(place.real, place.imag))
             else:
                 assert any(f"{label} " in line and "from O" in line for line in said)
+
+
+@pytest.mark.parametrize("number", range(20))
+def test_a_still_of_any_few_links_names_all_their_centres_and_each_at_its_place(number: int) -> None:
+    scene = drawn(number)
+    for phase in (0.3, 3.5):
+        picture, pose = (
+            Picture(scene, (1280, 720), Look(hud=False, centres=1, names=1), moment=phase),
+            scene.pose(phase, 2),
+        )
+        known = CentrePairs(picture.figure)
+        assert len(known.pairs) == math.comb(len(picture.figure.by_number), 2)
+        lines = [line for group in picture.groups(pose) for line in group.captions]
+        boxes = [line.around(picture.type) for line in lines]
+        assert not any(one.inset(1).meets(other.inset(1)) for one, other in combinations(boxes, 2))
+        for pair, label in known.pairs:
+            ((said, box),) = (
+                (line.text, box) for line, box in zip(lines, boxes, strict=True) if label in line.text
+            )
+            assert Rect(0, 0, 1280, 720).holds(box.x, box.y)
+            assert Rect(0, 0, 1280, 720).holds(box.right, box.bottom)
+            place = known.of(pose)[pair].place
+            if place is None:
+                assert said == f"{label} at ∞"
+                continue
+            x, y = picture.view.to_pixel(place.real, place.imag)
+            if Rect(0, 0, 1280, 720).holds(x, y):
+                off = max(box.x - x, x - box.right, 0), max(box.y - y, y - box.bottom, 0)
+                assert np.hypot(*off) < 4 * picture.layout.small_size, label
+            else:
+                far = three_digits(abs(place - complex(*pose.position[picture.figure.fixed[0]])))
+                assert said == f"{label} {far} mm from O₂"
 
 
 def test_a_centre_out_of_sight_is_told_with_its_distance_and_an_arrow_along_the_way() -> None:

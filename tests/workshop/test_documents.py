@@ -231,3 +231,18 @@ def test_labels_stand_clear_of_holes() -> None:
                 assert abs(hole.at - part.at) > hole.diameter / 2, part.label
     assert re.fullmatch(r"\d+", make(load("press")).label(1))
     assert rounded([0j], 1.0)[0][1] == 1.0
+
+
+def test_a_ring_s_name_is_on_the_ring_or_above_it() -> None:
+    """On paper it lies level, however the ring is turned; each of its letters is off the hole and the rim."""
+    made = make(load("jansen"), fit="A4")
+    rings = [part for part in documents.flat_parts(made) if math.isfinite(part.room)]
+    assert rings
+    for part in rings:
+        (outer, inner) = (abs(outline[0][0] - outline[1][0]) / 2 for outline in (part.edge, *part.holes))
+        half = 0.5 * part.room * complex(0.55 * len(part.label), 1)
+        corners = [
+            part.at + x + y for x in (-half.real, half.real) for y in (-1j * half.imag, 1j * half.imag)
+        ]
+        assert all(inner < abs(corner.imag) and abs(corner) < outer for corner in corners)
+        assert abs(part.at.imag) - half.imag > inner
