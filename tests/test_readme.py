@@ -111,7 +111,7 @@ SMALL = {"record": ["--size", "96x54"]}
 """What makes a command quick without making it another."""
 
 
-MINUTES = {"synthesis 1", "synthesis 3", "make 1", "hand-outs 1", "loops 1"}
+MINUTES = {"synthesis 1", "synthesis 3", "make 1", "hand-outs 1", "loops 1", "figures 4", "figures 5"}
 """Blocks whose commands other tests run, too, and that take long."""
 
 

@@ -56,8 +56,10 @@ class ToolPrinter:
 
 
 def _bar(board: Board, cells: tuple[Rect, ...], bar: ToolBar) -> pygame.Surface:
+    """Return the tools on nothing, as large as the window; all are painted together, which is quicker."""
     sheet = pygame.Surface(board.layout.size, pygame.SRCALPHA, 32)
     theme, line = board.theme, max(1.2 * board.layout.unit, 1.0)
+    layers: list[Layer] = []
     for n, (cell, tool) in enumerate(zip(cells, TOOLS, strict=True)):
         chosen, corner = n == bar.chosen, 0.18 * cell.width
         rim = theme.velocity if chosen else theme.rule
@@ -67,8 +69,9 @@ def _bar(board: Board, cells: tuple[Rect, ...], bar: ToolBar) -> pygame.Surface:
         )
         thin = cell.width / 22
         gauge = Gauge(bar=2.1 * thin, outline=0.8 * thin, pin=1.1 * thin, line=thin)
-        drawn = [layer.placed(cell.middle) for layer in ICONS[tool.icon](gauge, theme)]
-        paint(sheet, [Layer(rim, [outer]), Layer(fill, [inner]), *drawn])
+        layers += [Layer(rim, [outer]), Layer(fill, [inner])]
+        layers += [layer.placed(cell.middle) for layer in ICONS[tool.icon](gauge, theme)]
+    paint(sheet, layers)
     return sheet
 
 

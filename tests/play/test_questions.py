@@ -81,6 +81,7 @@ def test_questions_on_how_a_linkage_was_made_hold(name: str) -> None:
     assert [fault for one in asked for fault in faults(one, motion)] == []
 
 
+@pytest.mark.thinned(2)
 @pytest.mark.parametrize("part", range(2))
 @pytest.mark.slow
 def test_questions_about_random_scenes_hold_against_fifty_digits(part: int) -> None:

@@ -139,6 +139,7 @@ def test_a_window_may_have_a_thousand_sizes(here: Path) -> None:
         resized(1_000, (1_600, 1_200))
 
 
+@pytest.mark.thinned(2)
 @fault
 @pytest.mark.parametrize(
     "size",

@@ -236,6 +236,7 @@ def tried(kind: str, count: int, here: Path) -> None:
     assert refused > 0
 
 
+@pytest.mark.thinned(2)
 @pytest.mark.slow
 @pytest.mark.withstands("bad inputs tried", FEW)
 @kinds

@@ -180,6 +180,7 @@ def test_all_joints_and_links_are_listed_for_the_keys(player: Player) -> None:
     assert "chart its speed" in [row.words for row in open_rows(player.state)]
 
 
+@pytest.mark.thinned(4)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", names())
 def test_no_menu_of_a_scene_offers_what_cannot_be_done(name: str) -> None:

@@ -506,6 +506,7 @@ DOORS: dict[str, tuple[Callable[[Any], object], Callable[[Any], object]]] = {
 }
 
 
+@pytest.mark.thinned(3)
 @pytest.mark.parametrize("door", DOORS)
 @pytest.mark.parametrize("kind", [ByMouse, ByTouch], ids=["mouse", "touch"])
 def test_two_gestures_after_the_title_something_moves_or_asks(

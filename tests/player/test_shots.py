@@ -121,6 +121,7 @@ SHOTS = {
 }
 
 
+@pytest.mark.thinned(2)
 @pytest.mark.parametrize("name", SHOTS)
 def test_a_screenshot_of_the_manual_is_what_the_window_shows(name: str, here: Path) -> None:
     scene, play = SHOTS[name]

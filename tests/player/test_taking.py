@@ -85,6 +85,7 @@ CHOICES: dict[str, tuple[str, Callable[[Player], object]]] = {
 }
 
 
+@pytest.mark.thinned(3)
 @pytest.mark.parametrize("by", ["keys", "tab", "mouse", "wheel"])
 @pytest.mark.parametrize("case", CHOICES)
 def test_each_choice_is_taken_by_keys_and_by_mouse(player: Player, case: str, by: str) -> None:
@@ -182,6 +183,7 @@ REFUSED: dict[str, tuple[str, Callable[[Path], object], str]] = {
 }
 
 
+@pytest.mark.thinned(5)
 @pytest.mark.parametrize("whole", [False, True], ids=["as done", "one period"])
 @pytest.mark.parametrize("case", REFUSED)
 def test_what_is_not_ours_stays(player: Player, asked: Asked, here: Path, case: str, whole: bool) -> None:
