@@ -45,7 +45,7 @@ WHEELS = ("wheel", "railwheel")
 """The looks of bodies that are wheels about their first joint."""
 ENDED = ("hook", "pad", "bucket")
 """The looks of bodies of which more is drawn about their last joint than a bar's width."""
-_RIM, _GLASS = 0.8, 0.35
+RIM, _GLASS = 0.8, 0.35
 """How wide a wheel's rim is in half widths of a bar, and how much its disc covers."""
 
 
@@ -61,7 +61,7 @@ def _plate(points: list[complex], gauge: Gauge, colours: Colours) -> list[Layer]
 def _wheel(points: list[complex], gauge: Gauge, colours: Colours, radius: float = 0.0) -> list[Layer]:
     """Return a wheel out to the furthest joint or further; a spoke to the second shows its turning."""
     (edge, fill), radius = colours, max(radius, wheel_radius(points, gauge))
-    rim, line = _RIM * gauge.bar, gauge.outline
+    rim, line = RIM * gauge.bar, gauge.outline
     ring = [disc(radius - line), disc(radius - rim)[::-1]]
     edges = [disc(radius), disc(radius - line)[::-1], disc(radius - rim), disc(radius - rim - line)[::-1]]
     spoke = lined(points[:2], gauge.bar, line, colours)

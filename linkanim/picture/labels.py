@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.linkage import Body
 from linkanim.mechanics.motion import Pose
-from linkanim.picture.bodies import BEYOND, body_parts
+from linkanim.picture.bodies import BEYOND, RIM, WHEELS, body_parts, wheel_radius
 from linkanim.picture.dead_centres import DeadCentres
 from linkanim.picture.dimensions import AngleArc, MeasureLine, Measurement, Symbols
 from linkanim.picture.figure import SAMPLES, DrawSetting, Figure
@@ -57,8 +57,8 @@ _CLEAR = 1.3
 """How far off a bar's middle a label beside it begins, in half widths of a bar."""
 _BLOCK = 2.7
 """How far a slider's block reaches, in half widths of a bar."""
-_MIDDLE = (0.5, 0.42, 0.58)
-"""Where along its own bar a length may stand."""
+_MIDDLE, _ON_GROUND = (0.5, 0.42, 0.58), (0.33, 0.67)
+"""Where along its own bar a length may stand, and where one of the ground besides."""
 _LEVELS = 8
 """So many dimension lines may lie beside each other, on either side."""
 _TIER = 1.4
@@ -73,6 +73,8 @@ _AROUND_PLATE = (0.5, 0.3, 0.7)
 """Where along a plate's side its name may stand outside it."""
 _ONE_CORNER = 0.8
 """Corners round a body that are nearer to each other count as one, in half widths of a bar."""
+_PIECES = 32
+"""In so many straight pieces labels keep off a wheel's rim."""
 _ARC_RINGS = 2
 """In so many rings the input's angle may stand outside its arc."""
 _ROOMY = (1.0, 1.7, 2.6, 3.6)
@@ -231,7 +233,8 @@ class Surroundings:
             return
         ends, (_, way), mine = (about.begin, about.end), self._frame(about.frame), self._numbers(about.own)
         if about.bare and size[0] < abs(way[0] * (ends[1] - ends[0])):
-            by_bar = self._line(about.frame, ends, size, product((1, -1), _MIDDLE), mine)
+            shares = _MIDDLE if about.own else _MIDDLE + _ON_GROUND
+            by_bar = self._line(about.frame, ends, size, product((1, -1), shares), mine)
             yield replace(by_bar, candidates=by_bar.candidates._replace(gap=_GAP * size[1]))
         low, step = 2.0 * self.setting.gauge.bar + 9 * self.setting.layout.unit, _TIER * size[1]
         levels = [(side, low + n * step) for n in range(_LEVELS) for side in (1.0, -1.0)]
@@ -329,7 +332,10 @@ class Surroundings:
     @cached_property
     def things(self) -> tuple[Thing, ...]:
         """All that labels keep off, at each of the moments."""
-        return (*self._links(), *self._pins(), *self._fittings(), *self._standing(), *self._arrow())
+        return (
+            *(*self._links(), *self._pins(), *self._fittings()),
+            *(*self._rims(), *self._standing(), *self._arrow()),
+        )
 
     def _links(self) -> Iterator[Thing]:
         """Yield what each of the bodies covers, and each spring and damper."""
@@ -348,6 +354,21 @@ class Surroundings:
         for joints, corners, half in (*links, *struts):
             solid = Solid(np.stack([self._paths[name] for name in corners], axis=1), half)
             yield Thing(frozenset(joints), solid, True)
+
+    def _rims(self) -> Iterator[Thing]:
+        """Yield the rims of wheels, in short pieces."""
+        figure, gauge = self.setting.figure, self.setting.gauge
+        for body in figure.bodies:
+            style = figure.scene.style(body.name)
+            if style.outline in WHEELS:
+                first, *others = (complex(self._paths[name][0]) for name in body.joints)
+                stated = self.setting.view.scale * (style.radius or 0.0)
+                radius = max(stated, wheel_radius([other - first for other in others], gauge))
+                middle = radius - 0.5 * RIM * gauge.bar
+                round_ = middle * np.exp(2j * pi * np.arange(_PIECES + 1) / _PIECES)
+                for ends in pairwise(round_):
+                    corners = self._paths[body.joints[0]][:, None] + np.array(ends)
+                    yield Thing(frozenset(), Solid(corners, 0.5 * RIM * gauge.bar, little=True))
 
     def _moving(self, part: Part, corners: Loop) -> Solid:
         """Return what corners in the frame of a part cover."""

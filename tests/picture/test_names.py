@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from pictures import BARE, labelled, painted, pixels, standing
 
+from linkanim.picture.bodies import WHEELS
 from linkanim.picture.dimensions import leg_part, symbols
 from linkanim.picture.figure import figure
 from linkanim.picture.layout import Gauge
@@ -78,6 +79,35 @@ def test_words_of_a_still_lie_on_nothing_that_reaches_beyond_its_joints(
     for loop in (loop for layer in layers for loop in layer.loops):
         sides = zip(loop, np.roll(loop, -1), strict=True)
         assert not any(box.crossed(complex(one), complex(other)) for one, other in sides)
+
+
+# scene, how the words begin: a length stands by the middle of its rod, also where that is at a rim
+RIMS = [("parallel-locomotive", "r₁"), ("engine", ""), ("landing-gear", "")]
+
+
+@pytest.mark.parametrize(("name", "said"), RIMS)
+def test_no_word_of_a_still_lies_on_the_rim_of_a_wheel(name: str, said: str) -> None:
+    scene = load(name)
+    for phase in (default_phase(scene), 1.0):
+        painter, pose = Picture(scene, (1280, 720), Look(names=2), moment=phase), scene.pose(phase)
+        places = painter.drawing.places(pose)
+        for body in painter.figure.bodies:
+            style = scene.style(body.name)
+            if style.outline in WHEELS:
+                (part,) = (one for one in painter.drawing.parts.bodies if one.name == body.name)
+                radius, at = max(np.abs(part.layers[1].loops[0])), places[body.joints[0]]
+                for text, box in standing(painter, pose):
+                    if not text.startswith(said):
+                        continue
+                    near = (
+                        max(box.x - at.real, at.real - box.right, 0),
+                        max(box.y - at.imag, at.imag - box.bottom, 0),
+                    )
+                    corners = [
+                        abs(complex(x, y) - at) for x in (box.x, box.right) for y in (box.y, box.bottom)
+                    ]
+                    rim = radius - 0.5 * painter.gauge.bar
+                    assert not np.hypot(*near) < rim < max(corners), text
 
 
 def test_a_plate_too_slender_for_its_name_has_it_outside() -> None:
