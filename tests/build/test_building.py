@@ -75,7 +75,13 @@ def test_a_bar_within_a_body_that_was_stored_is_as_long_as_its_ends_are_apart() 
 
 
 def test_a_body_whose_first_joint_hangs_free_keeps_its_shape() -> None:
-    lines = ("click 0 0", "click 100 0", "drag 100 0 110 80", "drag 110 80 40 110", "drag 75 95 75 60")
+    lines: tuple[str, ...] = (
+        "click 0 0",
+        "click 100 0",
+        "drag 100 0 110 80",
+        "drag 110 80 40 110",
+        "drag 75 95 75 60",
+    )
     lines += ("drag 0 0 75 60", "drag 100 0 37 102", "choose bars O4–A", "delete", "choose joints P", "drive")
     building = drawn(lines)
     scene = building.made.scene

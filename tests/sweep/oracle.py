@@ -10,10 +10,11 @@ from __future__ import annotations
 import subprocess
 import sys
 import warnings
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from itertools import count, islice
 from pathlib import Path
 from random import Random
+from typing import Any
 
 from limits import Limits
 from outputs import MEGABYTES, OUTPUTS, SECONDS, Case, Output, is_good, written
@@ -56,7 +57,7 @@ SHARES = {
 ROTATION = tuple(name for name, share in SHARES.items() for _ in range(share))
 
 
-start_nothing = fake_start([])
+start_nothing: Callable[..., Any] = fake_start([])
 """What a window starts here for a process: a recording has ended well, a search for layers has failed."""
 
 
