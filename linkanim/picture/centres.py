@@ -152,7 +152,8 @@ class Centres:
         marks = [self._mark(seen) for seen in named]
         for n, seen in enumerate(named):
             wide = self.setting.type.width(seen.label, size, strong=True)
-            busy = [*words, *marks[:n], *marks[n + 1 :]]
+            # a name may touch its own cross, not its own arrow
+            busy = [*words, *marks[:n], *marks[n + (not seen.direction) :]]
             best, least = None, (inf, inf)
             for place in self._around(seen, wide):
                 rect = self._about(place, wide, size)
