@@ -36,6 +36,13 @@ def test_a_second_of_frames_is_a_second_of_phase() -> None:
     assert Clock(RATE).at(60) == RATE
 
 
+def test_what_is_let_go_runs_on_as_fast_as_the_hand_and_comes_to_rest() -> None:
+    clock = Clock(RATE).pause(30, True)
+    coasting = clock.let_go(30, 5.0, paused=True)
+    assert (coasting.at(30.001) - coasting.at(30)) * 60 / 0.001 == pytest.approx(5.0, rel=1e-3)
+    assert coasting.at(1000) == coasting.at(900) > coasting.at(31) > clock.at(30)
+
+
 def test_the_phase_is_not_summed() -> None:
     # A day at 60 frames a second: the sum of so many steps would be off by far more.
     frames = 60 * 86400

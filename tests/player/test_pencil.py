@@ -435,6 +435,20 @@ def test_the_dial_rests_at_an_answer_and_undo_takes_it_back(fronted: State) -> N
     assert (sketch_of(back).dialled, sketch_of(back).off) == (None, 0.12)
 
 
+def test_between_two_answers_the_crank_starts_between_theirs_the_short_way_round(answered: State) -> None:
+    one, other = (PathAnswer(0.3, 1.0, start, 1.0, ROW, 0.8, 0.8).numbers for start in (6.2, 0.2))
+    found = sketch_of(after(answered, Action("way", (0.0, *one, *other)), Action("dial", 0.5))).dialled
+    assert found
+    assert found.start == pytest.approx((6.2 + 0.2 + math.tau) / 2)
+
+
+def test_a_way_of_two_answers_is_stepped_by_keys_too(answered: State) -> None:
+    one, other = (PathAnswer(off, 1.0, 0.4, 1.0, ROW, 0.8, 0.8).numbers for off in (0.3, 0.4))
+    two = after(answered, Action("way", (0.0, *one, *other)))
+    assert sketch_of(after(two, Action("dial_on", 1))).dial == 1.0
+    assert sketch_of(after(two, Action("dial_on", 1), Action("dial_on", -1))).dial == 0.0
+
+
 def test_a_way_of_one_answer_has_no_dial(answered: State) -> None:
     one = after(answered, Action("way", (0.0, *FIRST)))
     assert len(sketch_of(one).way) == 1
