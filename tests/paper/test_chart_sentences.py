@@ -13,7 +13,7 @@ from linkanim.cli import main
 from linkanim.mechanics.measures import output_body, output_slider
 from linkanim.paper.curves import Pace, curves_of, within_a_turn
 from linkanim.paper.sentences import about, closing, plain
-from linkanim.scenes import load, names
+from linkanim.scenes import load
 
 PACE = Pace(10.0, "10 rad/s")
 
@@ -35,7 +35,11 @@ def test_the_ram_falls_slowly() -> None:
     assert f"time ratio {load('press').info.time_ratio:.2f}" in text
 
 
-@pytest.mark.parametrize("name", names())
+UNEVEN = ("wiper", "pumpjack", "stephenson-1", "press", "crank-rocker", "engine", "double-rocker")
+"""Outputs whose two ways all but take the same time, and others."""
+
+
+@pytest.mark.parametrize("name", UNEVEN)
 def test_the_time_ratio_of_the_output_is_that_of_the_scene(name: str) -> None:
     scene = load(name)
     output = output_slider(scene.linkage) or output_body(scene.linkage)

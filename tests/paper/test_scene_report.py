@@ -431,6 +431,7 @@ def test_an_extreme_at_the_start_is_looked_at_once() -> None:
 
 
 @pytest.mark.parametrize("name", names())
+@pytest.mark.sampled
 def test_what_is_told_to_be_greatest_or_least_at_an_instant_is(name: str) -> None:
     scene = load(name)
     _, *extremes = usual_instants(scene)
