@@ -286,6 +286,7 @@ def help_sheet(board: Board, shown: tuple[Help, int]) -> pygame.Surface:
 
 def _help_in_steps(board: Board, shown: tuple[Help, int]) -> Generator[None, None, pygame.Surface]:
     laid = yield from _help_laid(board, shown)
+    yield
     sheet = board.sheet(laid.wide, laid.high)
     for column, x in _help_columns(laid):
         for n, line in enumerate(column.lines):

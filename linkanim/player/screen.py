@@ -254,6 +254,8 @@ _AHEAD = (
 """What may be asked for next and changes where things stand."""
 _OPENING = (Action("help"), Action("edit"), Action("list"), Action("shelf"))
 """What opens a panel."""
+_MOST_JOINTS = 20
+"""Of a linkage with more of them single steps would hold a frame up."""
 _PULLED = 6.0
 """How near to a line of the grid counts as on it, in units."""
 _VISIBLE = 1.0
@@ -309,6 +311,8 @@ class Screen:
         Returns whether there is more to do.
         """
         if state.mode not in ("play", "paused") or state.held or state.grasp or state.glide:
+            return False
+        if len(state.scene.linkage.joints) > _MOST_JOINTS:
             return False
         picture, before = self._framing.last, self._prepared
         if picture is not before:

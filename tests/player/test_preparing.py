@@ -102,3 +102,12 @@ def test_a_moving_mouse_leaves_no_time_to_prepare(here: object) -> None:
             player.mouse(pygame.MOUSEMOTION, (20 + step, 20), rel=(1, 0), buttons=(0, 0, 0))
         assert "telling" not in vars(player.state.scene)
         player.window.close()
+
+
+def test_of_a_large_linkage_nothing_is_prepared(rested: Player, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A single step of it would hold a frame up."""
+    window, state = rested.window.screen, replace(rested.state, scene=fresh("six-bar"))
+    window.show(state, rested.window.screen.over)
+    assert window.prepare(state)
+    monkeypatch.setattr(screen, "_MOST_JOINTS", 3)
+    assert not window.prepare(state)
