@@ -254,6 +254,8 @@ _AHEAD = (
 """What may be asked for next and changes where things stand."""
 _OPENING = (Action("help"), Action("edit"), Action("list"), Action("shelf"))
 """What opens a panel."""
+_REST = 20
+"""So many frames a picture stands before anything is prepared, so that a walk along the shelf does not wait."""
 _MOST_JOINTS = 20
 """Of a linkage with more of them single steps would hold a frame up."""
 _PULLED = 6.0
@@ -325,6 +327,8 @@ class Screen:
 
     def _ahead(self, state: State, picture: Picture) -> Iterator[None]:
         """Find what keys will ask for: the other closure, quantities to chart, polygons, help and lists."""
+        for _ in range(_REST):
+            yield
         other = ghost_of(state.scene)
         yield
         if other:
