@@ -255,7 +255,7 @@ _AHEAD = (
 _OPENING = (Action("help"), Action("edit"), Action("list"), Action("shelf"))
 """What opens a panel."""
 _REST = 20
-"""So many frames a picture stands before anything is prepared, so that a walk along the shelf does not wait."""
+"""So many frames a picture stands before anything is prepared: a walk along the shelf does not wait."""
 _MOST_JOINTS = 20
 """Of a linkage with more of them single steps would hold a frame up."""
 _PULLED = 6.0
