@@ -79,6 +79,7 @@ def _compared(name: str, look: Look, monkeypatch: pytest.MonkeyPatch) -> None:
     assert psnr(read.astype(float), window) >= 30
 
 
+@pytest.mark.thinned(2)
 @pytest.mark.parametrize(("name", "look"), SAMPLE)
 @pytest.mark.slow
 def test_a_file_is_the_window_s_picture(name: str, look: str, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -45,6 +45,7 @@ from linkanim.units import rounded, significant, typeset
 POSED = ["crank-rocker", "dwell-six-bar", "double-rocker"]
 
 
+@pytest.mark.thinned(3)
 @pytest.mark.parametrize("name", POSED)
 def test_a_figure_a_solution_and_a_report_are_of_one_pose(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
@@ -243,6 +244,7 @@ def test_facts_and_the_end_have_the_tables_digits_and_set_symbols(press: Path) -
     assert re.search(r"<div class='keep'>\n<section id='chapter-12'>", text)
 
 
+@pytest.mark.thinned(2)
 @pytest.mark.parametrize(("name", "beside"), [("jansen", True), ("scissor-lift", False)])
 def test_equations_too_long_for_half_a_page_stand_below_the_loops(name: str, beside: bool) -> None:
     scene = load(name)
