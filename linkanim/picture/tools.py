@@ -38,7 +38,7 @@ class ToolPrinter:
     """Paints the bar of tools; the bar without its tooltip is kept."""
 
     def __init__(self) -> None:
-        self._kept: tuple[object, pygame.Surface] | None = None
+        self._kept: tuple[object, pygame.Surface, tuple[int, int]] | None = None
         self._type = Type()
 
     def draw(self, surface: pygame.Surface, layout: Layout, theme: Theme, bar: ToolBar | None) -> None:
@@ -49,14 +49,17 @@ class ToolPrinter:
         board, cells = Board(layout, self._type, theme), tool_cells(layout)
         made_for = layout.size, cells, theme, replace(bar, pointed=None)
         if self._kept is None or self._kept[0] != made_for:
-            self._kept = made_for, _bar(board, cells, bar)
-        surface.blit(self._kept[1], (0, 0))
+            self._kept = made_for, *_bar(board, cells, bar)
+        surface.blit(*self._kept[1:])
         if bar.pointed is not None:
             _tooltip(surface, board, cells[bar.pointed], TOOLS[bar.pointed], typed=bar.typed)
 
 
-def _bar(board: Board, cells: tuple[Rect, ...], bar: ToolBar) -> pygame.Surface:
-    """Return the tools on nothing, as large as the window; all are painted together, which is quicker."""
+def _bar(board: Board, cells: tuple[Rect, ...], bar: ToolBar) -> tuple[pygame.Surface, tuple[int, int]]:
+    """Return the bar, no larger than its tools, and where its upper left corner is.
+
+    All tools are painted together, which is quicker.
+    """
     sheet = pygame.Surface(board.layout.size, pygame.SRCALPHA, 32)
     theme, line = board.theme, max(1.2 * board.layout.unit, 1.0)
     layers: list[Layer] = []
@@ -72,7 +75,8 @@ def _bar(board: Board, cells: tuple[Rect, ...], bar: ToolBar) -> pygame.Surface:
         layers += [Layer(rim, [outer]), Layer(fill, [inner])]
         layers += [layer.placed(cell.middle) for layer in ICONS[tool.icon](gauge, theme)]
     paint(sheet, layers)
-    return sheet
+    used = sheet.get_bounding_rect()
+    return sheet.subsurface(used).copy(), used.topleft
 
 
 def _tooltip(surface: pygame.Surface, board: Board, cell: Rect, tool: Tool, *, typed: bool) -> None:

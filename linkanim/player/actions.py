@@ -789,6 +789,8 @@ def carried(state: State, action: Action) -> State:
     if action.name in _KEEPS | _LEAVES:
         state = keep(state, None) if action.name in _KEEPS else left(state)
 
+    if action.name == "list" and state.building and (missing := state.building.building.made.missing):
+        return with_toast(state, missing)  # the quantities are those of what moves
     handle = building.in_list(state, action.name, rule.handle)
 
     def handled(before: State) -> State:

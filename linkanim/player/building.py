@@ -541,16 +541,19 @@ def agreed(before: State, after: State) -> State:
     typed in its own rows, as without the list.
     """
     sheet, was = after.building, before.building
-    if sheet is None or not after.editing.open:
+    if sheet is None:
         return after
-    if was is None or not before.editing.open:
-        return _rowed(after) if sheet.building.chosen else _chosen_by_row(after)
-    if sheet.building is was.building and after.scene is not before.scene:
+    is_old = was is not None and sheet.building is was.building
+    if is_old and after.scene is not before.scene and sheet.building.made.scene:
         grows = after.editing.past is not before.editing.past
         building = renumbered(sheet.building, after.scene, grows=grows)
         editing = replace(after.editing, past=before.editing.past, future=before.editing.future)
         after = replace(_with(after, building=building, rests=None, warned=False), editing=editing)
-        return _chosen_by_row(after)
+        return _chosen_by_row(after) if editing.open else after
+    if not after.editing.open:
+        return after
+    if was is None or not before.editing.open:
+        return _rowed(after) if sheet.building.chosen else _chosen_by_row(after)
     if sheet.building is not was.building:
         if sheet.building.draft is not was.building.draft:
             after = replace(after, editing=cleared(after.editing, drafts=()))
@@ -629,6 +632,7 @@ _WHILE_IT_STANDS: Mapping[str, Handler] = {
     "nudge": _in_rows(_row_nudged),
     **_OWN_ROWS,
     **dict.fromkeys(("pull", "reset", "returns", "grab", "carry"), _unused),
+    "closure": reassemble,
 }
 """What the list of dimensions does on a sheet with nothing that moves: its rows are what is drawn."""
 

@@ -68,6 +68,7 @@ _BEGUN: Mapping[str, tuple[Action, ...]] = {
     "pencil": (Action("own_trace"),),
     "sheet": (Action("build_on"),),
     "lengths": (Action("edit"),),
+    "lengths on a sheet": (Action("build_on"), Action("numbers")),
     "chart": (Action("chart", 1), Action("names")),
 }
 """What is on in a window that opens, by name."""

@@ -990,3 +990,10 @@ def test_letters_of_a_draft_are_off_its_bars(builder: Builder, size: tuple[int, 
             share = ((at - begin) / (end_ - begin)).real
             off = abs(at - begin - min(max(share, 0.0), 1.0) * (end_ - begin))
             assert off > thick.bar + 0.3 * size_, name.text
+
+
+def test_what_does_not_move_has_no_quantities(builder: Builder) -> None:
+    builder.press(pygame.K_k, text="k")
+    assert builder.state.mode == "build"
+    assert builder.state.toast
+    assert builder.state.toast.text == builder.sheet.building.made.missing

@@ -317,3 +317,16 @@ def test_a_draft_in_no_file_is_let_go_of_only_by_asking_for_a_tool_twice(editor:
     assert editor.state.toast
     editor.tool("spring")
     assert (editor.mode, editor.sheet.tool) == ("numbers", "spring")
+
+
+@pytest.mark.parametrize("action", ["closure", "reset", "returns", Action("nudge", 1), Action("pull", 2)])
+def test_the_list_of_what_does_not_move_changes_nothing_of_the_mechanism_before(
+    editor: Editor, action: Action | str
+) -> None:
+    state = after(
+        editor.state, "edit", "build", Action("hand_down", (0.0, 0.0, 3.0, 1.0)), "hand_up", "numbers"
+    )
+    assert state.mode == "numbers"
+    done = after(state, action)
+    assert done.scene is state.scene
+    assert not done.effects
