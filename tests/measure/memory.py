@@ -13,7 +13,6 @@ from linkanim import child
 from linkanim.bench.result import this_machine
 from linkanim.bounds import MOST_NAMES
 from linkanim.errors import WorkFailed
-from linkanim.export import columns
 from linkanim.scenes import load, names
 
 COMMANDS = {
@@ -40,6 +39,7 @@ with display.opened((1280, 720)):
     screen = Screen(state)
     for _ in range(300):
         screen.show(state, overlay(state))
+        screen.prepare(state)
         state = advance(state)
 """
 """Five seconds of a window with its names, dimensions and arrows."""
@@ -83,12 +83,21 @@ def _peak(command: list[str], folder: Path) -> float:
 
 
 def main() -> None:
-    """Print the table, and the largest of each column."""
-    with tempfile.TemporaryDirectory() as room:
-        found = list(rows(Path(room)))
-    most = (f"{max(float(row[n]) for row in found):.0f}" for n in range(1, len(COMMANDS) + 2))
-    print(columns([("MB at most", *COMMANDS, "window"), *found, ("the largest", *most)]))
+    """Print a row for each scene as it is found, and the largest of each column."""
     print(this_machine().line)
+    print(_row(("MB at most", *COMMANDS, "window")), flush=True)
+    found = []
+    with tempfile.TemporaryDirectory() as room:
+        for row in rows(Path(room)):
+            found.append(row)
+            print(_row(row), flush=True)
+    most = (f"{max(float(row[n]) for row in found):.0f}" for n in range(1, len(COMMANDS) + 2))
+    print(_row(("the largest", *most)))
+
+
+def _row(cells: tuple[str, ...]) -> str:
+    """Return a line of the table."""
+    return f"{cells[0]:<24}" + "".join(f"{cell:>8}" for cell in cells[1:])
 
 
 if __name__ == "__main__":
