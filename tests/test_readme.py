@@ -235,6 +235,7 @@ RECORDED = {
 LARGEST_GIF = 400_000
 
 
+@pytest.mark.thinned(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", RECORDED)
 def test_a_moving_picture_is_what_its_command_records(name: str, fresh: Path) -> None:

@@ -141,6 +141,7 @@ def greatest(vectors: NDArray[np.float64]) -> float:
     return float(np.nanmax(np.hypot(vectors[..., 0], vectors[..., 1])))
 
 
+@pytest.mark.thinned(3)
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)
 def test_four_bar_poses_and_rates_are_right_to_the_last_digits(case: Case) -> None:
     bar = case.bar

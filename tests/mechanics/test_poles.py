@@ -96,6 +96,7 @@ def rolled(name: str, count: int = 40_000) -> tuple[Path, Path, Path]:
     return fixed[steps + 1] - fixed[steps], turned, fixed[steps]
 
 
+@pytest.mark.thinned(2)
 @pytest.mark.parametrize("name", ["crank-rocker", "drag-link", "elliptic-trammel", "cardan-gears"])
 @pytest.mark.slow
 def test_the_moving_centrode_rolls_on_the_fixed_one(name: str) -> None:

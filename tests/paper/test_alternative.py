@@ -97,10 +97,10 @@ def test_a_tape_and_another_ending_are_refused(tmp_path: Path, capsys: pytest.Ca
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.slow
-def test_every_scene_is_told_in_a_paragraph() -> None:
-    for name in names():
-        scene = load(name)
-        for text in (of_motion(scene, Pace(scene.linkage.drive.speed, "its speed")), of_pose(scene, 0.3)):
-            assert 40 < len(text) < 700, (name, text)
-            assert not re.search(r"nan|inf\b|_\{|  |\.\.", text), (name, text)
+@pytest.mark.parametrize("name", names())
+@pytest.mark.sampled
+def test_a_scene_is_told_in_a_paragraph(name: str) -> None:
+    scene = load(name)
+    for text in (of_motion(scene, Pace(scene.linkage.drive.speed, "its speed")), of_pose(scene, 0.3)):
+        assert 40 < len(text) < 700, text
+        assert not re.search(r"nan|inf\b|_\{|  |\.\.", text), text
