@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import cached_property
+from math import inf
 
 import numpy as np
 
@@ -161,7 +162,7 @@ class Polygon:
         return self.pen.type.width(f"1000 {self.figure.scene.length_unit}{per}", self.pen.small)
 
     def scale(self, speed: float) -> float:
-        """Return pixels for one unit of length and second at this input speed; 0 where nothing moves.
+        """Return pixels for one unit of length and second at this input speed; 0 where nothing moves or fits.
 
         It changes with the speed and with nothing else, so that a polygon's size tells where it is fast.
         """
@@ -169,7 +170,8 @@ class Polygon:
         box, room = self._box, self._room
         spans = [(room.width, box.right - box.left), (room.height, box.high - box.low)]
         shares = [have / need for have, need in spans if need > 0]
-        return min(shares) / faster if shares and faster > 0 else 0.0
+        found = min(shares) / faster if shares and faster > 0 else 0.0
+        return found if 0.0 < found < inf and self.rect.width > 0 else 0.0
 
     def pole(self, speed: float) -> complex:
         """Return where the pole stands, so that all poses of the cycle have room."""

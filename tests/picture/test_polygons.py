@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -62,6 +63,16 @@ def test_velocities_and_accelerations_have_the_colours_of_those_in_the_picture(
         assert colours & {*absolute} == {own}
         assert LIGHT.dim in colours
         assert (LIGHT.traces[0] in colours) is guided
+
+
+@pytest.mark.parametrize("name", ["galloway", "crank-rocker", "scotch-yoke"])
+@pytest.mark.parametrize("width", [0.0, -3.0, 2.0])
+def test_in_a_place_that_is_no_wider_than_nothing_it_has_no_bar(name: str, width: float) -> None:
+    for panel in panels(name):
+        narrow = replace(panel, rect=panel.rect._replace(width=width))
+        for one in (narrow, narrow.standing(1.17)):
+            group = drawn(one, 1.17)
+            assert any("/s" in text for text in words(group)) == (width > 0)
 
 
 @pytest.mark.parametrize("order", [1, 2])
