@@ -59,7 +59,7 @@ def test_a_caption_says_what_to_watch_for_where_it_is_asked_for(folder: Path) ->
 # The key's arrows stand for round values, those of the pose's own speed.
 @pytest.mark.parametrize(
     ("kinds", "said"),
-    [("v", ["velocity", "50 mm/s"]), ("v,a", ["velocity", "50 mm/s", "acceleration", "200 mm/s"])],
+    [("v", ["velocity", "20 mm/s"]), ("v,a", ["velocity", "20 mm/s", "acceleration", "50 mm/s"])],
 )
 def test_a_figure_says_how_much_its_arrows_stand_for(kinds: str, said: list[str], folder: Path) -> None:
     command = ["draw", "crank-rocker", "--angle", "60 deg", "--size", "640x360", "--vectors", kinds]
