@@ -196,7 +196,7 @@ class Live:
 
 
 class ShelfPrinter:
-    """Paints the open shelf: frames and titles at once, then a mechanism in sight a frame, which are kept."""
+    """Paints the open shelf: frames and titles at once, then a mechanism in sight a frame; these are kept."""
 
     def __init__(self) -> None:
         self._made_for: object = None
@@ -216,10 +216,11 @@ class ShelfPrinter:
         yield from _still(size, board, grid(size, shelf.browsing), shelf.browsing)
 
     def draw(self, surface: pygame.Surface, shelf: Shelf) -> None:
-        """Draw the shelf instead of the picture, with one mechanism more than before."""
+        """Draw the shelf instead of the picture, once it is open with one mechanism more than before."""
         size = surface.get_size()
         made_for = size, shelf.theme, shelf.browsing.entries, shelf.browsing.own
-        if self._made_for != made_for:
+        opens = self._made_for != made_for
+        if opens:
             self.close()
             self._made_for = made_for
         board, found = Board(layout(size), self._type, theme_of(shelf.theme)), grid(size, shelf.browsing)
@@ -227,7 +228,8 @@ class ShelfPrinter:
         if self._still is None or self._still[0] != shown:
             self._still = shown, at_once(_still(size, board, found, shelf.browsing))
         surface.blit(self._still[1], (0, 0))
-        self._join(found, shelf)
+        if not opens:
+            self._join(found, shelf)
         for n in _due(self._live, found, shelf):
             self._live[n].go(_turn(shelf, n, len(found.cells)))
         surface.set_clip(pygame.Rect(0, 0, size[0], int(found.room.bottom)))

@@ -120,7 +120,7 @@ def test_each_chapter_begins_a_row_and_the_rows_are_gone_through_whatever_their_
 
 
 @pytest.mark.slow
-def test_the_first_paint_has_every_frame_and_title_and_a_picture_comes_with_each() -> None:
+def test_the_first_paint_has_every_frame_and_title_and_a_picture_comes_with_each_after_it() -> None:
     size, painter = (1280, 720), ShelfPrinter()
     surface = pygame.Surface(size, 0, 32)
     found = grid(size, _shelf(names()).browsing)
@@ -129,8 +129,8 @@ def test_the_first_paint_has_every_frame_and_title_and_a_picture_comes_with_each
         painter.draw(surface, _shelf(names(), 0, frame))
         shots.append(pixels(surface))
     drawn = [{n for n, cell in found.cells.items() if _differs(shot, shots[0], cell)} for shot in shots]
-    assert all(len(after - before) == 1 for before, after in pairwise(drawn[:-1]))
-    assert drawn[-1] == drawn[-2] == {*found.cells} - {NEW, 0}
+    assert all(len(after - before) == 1 for before, after in pairwise(drawn))
+    assert drawn[-1] == {*found.cells} - {NEW}
     for n, cell in found.cells.items():  # titles stand below the pictures, from the first on
         foot = cell._replace(y=cell.bottom - found.line, height=found.line)
         if foot.bottom <= found.room.bottom:
@@ -153,7 +153,8 @@ def test_a_closed_shelf_keeps_no_picture() -> None:
         return sum(isinstance(one, Picture) for one in gc.get_objects())
 
     before, painter = painters(), ShelfPrinter()
-    painter.draw(pygame.Surface((640, 480), 0, 32), _shelf(("kite",)))
+    for _ in range(2):
+        painter.draw(pygame.Surface((640, 480), 0, 32), _shelf(("kite",)))
     assert painters() > before
     painter.close()
     assert painters() == before
