@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import cached_property
-from math import inf
 
 import numpy as np
 
@@ -39,6 +38,8 @@ _TITLE = 0.6
 """So much of the width has a title beside the bar of the scale."""
 _BARS = 5
 """So many bars of the scale, at the most, go into the panel's width."""
+_LARGEST = 1e300
+"""Pixels for a unit: at more of them what the bar of the scale stands for is no number any more."""
 _ROW = 1.2
 """From row to row of a list, in heights of its text."""
 _GUIDED: frozenset[Sort] = frozenset({"coriolis", "sliding"})
@@ -171,7 +172,7 @@ class Polygon:
         spans = [(room.width, box.right - box.left), (room.height, box.high - box.low)]
         shares = [have / need for have, need in spans if need > 0]
         found = min(shares) / faster if shares and faster > 0 else 0.0
-        return found if 0.0 < found < inf and self.rect.width > 0 else 0.0
+        return found if 0.0 < found < _LARGEST and self.rect.width >= 1.0 else 0.0
 
     def pole(self, speed: float) -> complex:
         """Return where the pole stands, so that all poses of the cycle have room."""
