@@ -508,6 +508,11 @@ class FitRequest(NamedTuple):
     """Further places, in the scene's unit, that the view has to hold."""
     type_scale: float = 1.0
 
+    @property
+    def worded(self) -> bool:
+        """Whether the rows of words are shown; an open list takes their place."""
+        return self.hud and not self.listed
+
 
 def request_of(
     size: tuple[int, int],
@@ -635,8 +640,9 @@ def arranging(subject: Subject, request: FitRequest) -> Generator[None, None, Ar
     if request not in known:
         _ = subject.sweep
         yield
-        _ = subject.rows
-        yield
+        if request.worded:
+            _ = subject.rows
+            yield
         found = yield from _with_chart(subject, request, beside=False)
         if request.chart and request.size[0] >= _WIDE_ENOUGH:
             yield
@@ -671,13 +677,12 @@ def _with_chart(subject: Subject, request: FitRequest, *, beside: bool) -> Gener
     sentence = subject.figure.scene.look_at
     if request.caption:
         parts = with_caption(parts, len(caption_lines(parts, sentence, type_)))
-    worded = request.hud and not request.listed
     words: Iterable[Sequence[WordBlock]] = ()
-    if worded:
+    if request.worded:
         words = blocks(subject.scenes, subject.rows, parts, request.keys, type_)
     elif request.still and request.keys:  # a figure says how much its arrows stand for
         words = [[key_block(subject.figure.scene, parts, request.keys, type_)]]
-    shapes = shapes_of(sentence, parts, type_) if worded and not parts.caption else ()
+    shapes = shapes_of(sentence, parts, type_) if request.worded and not parts.caption else ()
     edge = _EDGE_OF_STILL * parts.unit if request.still else None
     edge = _ROOM_FOR_LINES * parts.small_size if request.lined else edge
     sweep = subject.sweep
