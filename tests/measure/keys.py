@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import sys
 import time
 from collections.abc import Iterable, Iterator
@@ -52,6 +53,8 @@ def measured(size: tuple[int, int], scenes: Iterable[str], keys: str = KEYS) -> 
 
 def _on_scene(size: tuple[int, int], name: str, keys: str) -> list[KeyCost]:
     costs = []
+    gc.collect()
+    gc.freeze()  # as the window does once it is open
     for key in keys:
         begun = begin(replace(load(name)))  # of which nothing is known from the key before
         bind = bind_of(Press(key, key))
