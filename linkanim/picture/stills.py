@@ -39,7 +39,7 @@ def default_phase(scene: Scene) -> float:
     return still_phase(scene, USUAL_SIZE)
 
 
-@lru_cache(maxsize=16)
+@lru_cache(maxsize=128)
 def still_phase(scene: Scene, size: tuple[int, int], type_scale: float = 1.0) -> float:
     """Return the phase, within one turn, of the pose that reads best in a picture of that size in pixels.
 
