@@ -60,6 +60,7 @@ def test_the_help_is_drawn_before_it_is_asked_for(rested: Player) -> None:
     assert shown == [drawn]
 
 
+@pytest.mark.thinned(3)
 @pytest.mark.parametrize("key", "bckph")
 def test_a_picture_is_the_same_where_nothing_was_prepared(
     here: object, key: str, monkeypatch: pytest.MonkeyPatch

@@ -55,6 +55,7 @@ def test_a_scene_loops_over_its_true_period_without_a_seam(tmp_path: Path, name:
     assert 0 < seam <= 1.2 * max(steps)
 
 
+@pytest.mark.long
 def test_a_construction_shows_a_step_a_second_over_one_pose(tmp_path: Path) -> None:
     look = replace(BARE, theme="dark")
     made = record(
