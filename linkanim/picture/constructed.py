@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from itertools import combinations
+from math import inf
 from typing import get_args
 
 import numpy as np
@@ -141,7 +142,8 @@ def shown_at(scene: Scene, at: int, phase: float) -> ConstructionShown:
 def clear_phase(scene: Scene) -> float:
     """Return the phase of the pose whose instant centres are nearest to the linkage, and apart.
 
-    Of several such poses it is the first. BadInput where no centres are constructed.
+    Of several such poses it is the first; one in which every centre is infinitely far is the last choice.
+    BadInput where no centres are constructed.
     """
     _refuse_lacking(scene, "centres")
     known = CentrePairs(figure(scene))
@@ -149,6 +151,8 @@ def clear_phase(scene: Scene) -> float:
 
     def spread(phase: float) -> tuple[float, float]:
         places = [one.place for one in known.of(scene.pose(phase, 1)).values() if one.place is not None]
+        if not places:
+            return inf, inf
         apart = min((abs(one - other) for one, other in combinations(places, 2)), default=size)
         return max(_CLOSE - apart / size, 0.0), round(max(abs(place - middle) for place in places) / size, 6)
 

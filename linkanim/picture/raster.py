@@ -479,7 +479,7 @@ def _covered(surface: pygame.Surface, parts: Sequence[Shapes]) -> tuple[list[_Pi
     drawn: list[tuple[Layer, Outlines]] = []
     limits, ends = [], [0]
     for part in parts:
-        for layers, limit in ((part.layers, np.minimum(part.ends or size, size)), (part.over, size)):
+        for layers, limit in ((part.layers, np.clip(part.ends or size, 0, size)), (part.over, size)):
             some = _with_loops(layers)
             drawn += some
             limits += [limit] * len(some)

@@ -68,6 +68,37 @@ def test_a_chain_has_no_pose_for_centres_that_are_not_constructed() -> None:
         clear_phase(scene)
 
 
+def test_a_pose_whose_centres_are_all_infinitely_far_is_the_last_choice() -> None:
+    document: dict[str, object] = {
+        "drive": {"start": "87 deg"},
+        "ground": {"O2": [0, 0], "G1": [-45, -90]},
+        "joints": {
+            "A": {"crank": "O2", "length": 140},
+            "S1": {
+                "from": "A",
+                "length": 125,
+                "side": "forward",
+                "line": {"through": "O2", "angle": "180 deg"},
+            },
+            "E1": {"length": 65, "slot": {"pivot": "O2", "through": "A"}},
+            "S2": {
+                "from": "A",
+                "length": 95,
+                "side": "backward",
+                "line": {"through": "G1", "angle": "180 deg", "offset": -10},
+            },
+        },
+    }
+    scene = scene_from(document, name="two slides", where="two-slides.toml")
+    known = CentrePairs(figure(scene))
+
+    def places(phase: float) -> list[complex]:
+        return [one.place for one in known.of(scene.pose(phase, 1)).values() if one.place is not None]
+
+    assert not places(0.0)
+    assert places(clear_phase(scene))
+
+
 def named(marks: tuple[Mark, ...]) -> dict[str, complex]:
     return {mark.label: complex(mark.points[0]) for mark in marks if mark.label and len(mark.points) == 1}
 

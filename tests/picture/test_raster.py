@@ -202,6 +202,15 @@ def test_rows_from_the_end_on_are_left_as_they_are() -> None:
     assert cover[30:].sum() == 0
 
 
+@pytest.mark.parametrize("ends", [(-3, 40), (40, -3), (-1, -1), (0, 0)])
+def test_of_layers_that_end_before_the_surface_begins_nothing_is_drawn(ends: tuple[int, int]) -> None:
+    # in a window two pixels wide what stands beside the scene leaves it less than no room
+    layers = [Layer(WHITE, [box(20, 20) + 32 + 32j]), Layer(WHITE, [box(70, 3) + 1j])]
+    surface = filled([])
+    covers(surface, [Shapes(layers, ends, [Layer(WHITE, [_rect(0, 28, 5, 34)])])])[0].put(surface)
+    assert coverage(surface).sum() == 5 * 6
+
+
 def test_what_lies_over_the_layers_may_reach_beyond_their_ends() -> None:
     surface = filled([])
     limited, free = [Layer(WHITE, [box(20, 20) + 32 + 32j])], [Layer(WHITE, [_rect(0, 28, 5, 34)])]

@@ -358,7 +358,7 @@ def constructed(case: Case) -> None:
     command = "record" if path.suffix == ".gif" else "draw"
     words = ("--construction", *((kind,) if kind else ()), "--alt", str(alt), "--size", "160x90")
     if case.asked(command, str(case.path), *words, "-o", str(path)) is not None:
-        told(alt)
+        told(alt, case.path)
         if path.suffix == ".svg":
             well_formed(path.read_text(encoding="utf-8"))
 
@@ -375,12 +375,14 @@ def described(case: Case) -> None:
         "record": ("--seconds", "0.08", *case.rng.choice(((), ("--ink",))), "-o", str(case.made("out.gif"))),
     }[kind]
     if case.command(kind, str(case.path), "--size", "64x36", "--alt", str(alt), *more) is not None:
-        told(alt)
+        told(alt, case.path)
 
 
-def told(path: Path) -> None:
-    """Hold a text to one paragraph of plain words."""
+def told(path: Path, file: Path) -> None:
+    """Hold a text to one paragraph of plain words; the names that the scene's file gives may be any."""
     text = path.read_text(encoding="utf-8")
+    for name in sorted((joint.name for joint in load(file).linkage.joints), key=len, reverse=True):
+        text = text.replace(name, "J")
     assert text.endswith("\n")
     assert not set(map(category, text[:-1])) & {"Cc", "Cs", "Zl", "Zp"}, text
     assert not re.search(r"\b(nan|inf|None)\b", text.replace("None.", "")), text

@@ -115,21 +115,25 @@ def refining(assembly: Assembly, name: str) -> Callable[[Sum], Sum]:
     return refined
 
 
-def extreme(assembly: Assembly, name: str, phase: float) -> tuple[Sum, float, float]:
-    """Return the extreme of a dyad's separation, from that phase in floats (Newton's method).
+def extremes(assembly: Assembly, name: str) -> Callable[[float], tuple[Sum, float, float]]:
+    """Return what finds the extreme of a dyad's separation from a phase in floats (Newton's method).
 
     With its phase comes by how much of a length the dyad closes there; where that is negative it does not
     within so far, the last, of the phase.
     """
     closing = _closing(assembly, name)
     run = decimals(("x",), (closing.u * closing.w, closing.gap))
-    with localcontext(context()):
-        found = _newton(Sum(phase), lambda place: _steps(run, place)[1])
-        place = Decimal(phase) if found is None else found
-        margin, gap = run(place)
-        bend = sum(run(place + way)[0] for way in (-NUDGE, NUDGE)) - 2 * margin
-        reach = (-2 * margin / bend).sqrt() * NUDGE if margin < 0 < bend else Decimal(0)
-        return nearest_sum(place), float(gap), float(reach)
+
+    def extreme(phase: float) -> tuple[Sum, float, float]:
+        with localcontext(context()):
+            found = _newton(Sum(phase), lambda place: _steps(run, place)[1])
+            place = Decimal(phase) if found is None else found
+            margin, gap = run(place)
+            bend = sum(run(place + way)[0] for way in (-NUDGE, NUDGE)) - 2 * margin
+            reach = (-2 * margin / bend).sqrt() * NUDGE if margin < 0 < bend else Decimal(0)
+            return nearest_sum(place), float(gap), float(reach)
+
+    return extreme
 
 
 def _steps(run: Callable[..., Decimals], place: Decimal) -> tuple[Decimal, Decimal]:
@@ -171,19 +175,23 @@ def fitted(assembly: Assembly) -> Assembly:
 def _fitted_root(assembly: Assembly, name: str, root: ChainRoot) -> ChainRoot:
     with localcontext(context()):
         zeros = [_with_stretch(assembly, name, zero) for zero in root.zeros]
-        dips = [_settled(assembly, name, dip) for dip in root.dips]
+        dips = _settled(assembly, name, root.dips)
+        samplers = _samplers(assembly, name)
         return replace(
             root,
-            zeros=tuple(replace(zero, near=_near(assembly, name, zero)) for zero in zeros),
-            dips=tuple(replace(dip, near=_near(assembly, name, dip)) for dip in dips),
+            zeros=tuple(replace(zero, near=_near(name, zero, *samplers(zero))) for zero in zeros),
+            dips=tuple(replace(dip, near=_near(name, dip, *samplers(dip))) for dip in dips),
         )
 
 
-def _settled(assembly: Assembly, name: str, dip: Dip) -> Dip:
-    """Return a dip at the extreme itself, which floats have found to half their digits."""
-    start = _start(assembly.path, dip)
-    place = extreme(assembly, name, float(dip.place - start))[0] + start
-    return replace(dip, place=place)
+def _settled(assembly: Assembly, name: str, dips: Sequence[Dip]) -> list[Dip]:
+    """Return dips at the extremes themselves, which floats have found to half their digits."""
+    if not dips:
+        return []
+    extreme = extremes(assembly, name)
+    starts = [_start(assembly.path, dip) for dip in dips]
+    places = [extreme(float(dip.place - start))[0] + start for dip, start in zip(dips, starts, strict=True)]
+    return [replace(dip, place=place) for dip, place in zip(dips, places, strict=True)]
 
 
 def _with_stretch(assembly: Assembly, name: str, zero: Zero) -> Zero:
@@ -208,12 +216,12 @@ def _with_stretch(assembly: Assembly, name: str, zero: Zero) -> Zero:
     return zero
 
 
-def _near(assembly: Assembly, name: str, zero: Fitted) -> Near | None:
+def _near(name: str, zero: Fitted, sampled: Callable[[Decimal], Sample], width: float) -> Near | None:
     """Fit on the widest stretch where a polynomial holds to the last digit, or nearly; None where none does.
 
+    No stretch is wider than `width`, which is as far as the zero's samples go.
     AssemblyError where the dyad's ends meet without passing each other: D has no direction to go on in.
     """
-    sampled, width = _sampler(assembly, name, zero)
     zeroth, best, least = sampled(Decimal(0)), None, TOLERABLE
     narrowest = NARROWEST_AT_A_LIMIT if isinstance(zero, End) else NARROWEST
     points = POINTS_OF_A_DIP if isinstance(zero, Dip) else POINTS
@@ -283,22 +291,32 @@ def _start(path: InputPath, place: Stationary) -> Sum:
     return Sum(0.0) if place.amplitude else path.place(Sum(0.0))
 
 
-def _sampler(assembly: Assembly, name: str, zero: Fitted) -> tuple[Callable[[Decimal], Sample], float]:
-    """Return the margin, and D, as a function of the way to a zero, and how far that way may go."""
+def _samplers(
+    assembly: Assembly, name: str
+) -> Callable[[Fitted], tuple[Callable[[Decimal], Sample], float]]:
+    """Return what gives, of a zero, the margin and D by the way to it, and how far that way may go."""
     path = assembly.path
-    if isinstance(zero, End):
-        assert isinstance(path, Swing)
-        return _by_way(assembly, path, name, zero), path.amplitude / 2
-    run = decimals(("x",), _outputs(_closing(assembly, name)))
-    place, turns = exactly(zero.place) - exactly(_start(path, zero)), zero.turns
 
-    def sampled(argument: Decimal) -> Sample:
-        half = Decimal(math.atan(float(argument)))
-        margin, *across = run(place + 2 * turns * half)
-        z, other = sine_and_cosine(half)
-        return Sample(z / other, z, margin, tuple(across))
+    @cache
+    def compiled() -> Callable[..., Decimals]:
+        return decimals(("x",), _outputs(_closing(assembly, name)))
 
-    return sampled, WIDEST / turns
+    def sampler(zero: Fitted) -> tuple[Callable[[Decimal], Sample], float]:
+        if isinstance(zero, End):
+            assert isinstance(path, Swing)
+            return _by_way(assembly, path, name, zero), path.amplitude / 2
+        run, turns = compiled(), zero.turns
+        place = exactly(zero.place) - exactly(_start(path, zero))
+
+        def sampled(argument: Decimal) -> Sample:
+            half = Decimal(math.atan(float(argument)))
+            margin, *across = run(place + 2 * turns * half)
+            z, other = sine_and_cosine(half)
+            return Sample(z / other, z, margin, tuple(across))
+
+        return sampled, WIDEST / turns
+
+    return sampler
 
 
 def _by_way(assembly: Assembly, path: Swing, name: str, end: End) -> Callable[[Decimal], Sample]:
@@ -658,8 +676,11 @@ def _settled_separation(assembly: Assembly, name: str, phases: Array) -> Iterato
     """
     if len(phases) > MOST_TOUCHING * assembly.path.periods * assembly.quickest:
         raise AssemblyError(f"joint {name}: {AT_ITS_LIMIT}")
+    if not len(phases):
+        return
+    extreme = extremes(assembly, name)
     for phase in phases.tolist():
-        place, gap, reach = extreme(assembly, name, phase)
+        place, gap, reach = extreme(phase)
         closes = 0 if abs(gap) <= ROUNDING * assembly.linkage.longest else 1 if gap > 0 else -1
         yield Extreme(phase, place, closes, reach)
 
