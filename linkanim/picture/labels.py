@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Generator, Iterable, Iterator, Mapping, Sequence, Set
 from dataclasses import replace
 from functools import cached_property
-from itertools import chain, pairwise, product
+from itertools import pairwise, product
 from math import ceil, pi, prod
 from typing import Any
 
@@ -33,6 +33,7 @@ from linkanim.picture.shapes import Part, Places, directions, framed, hull, unit
 from linkanim.picture.text import subscripted
 from linkanim.picture.theme import Theme
 from linkanim.picture.view import Rect, View
+from linkanim.steps import at_once
 
 # Where labels may stand: round joints, on links, beside what is measured; what is in their way.
 
@@ -524,8 +525,6 @@ class Names:
     unlisted: tuple[Label, ...] = ()
     """Rows for which there is no room."""
     scale: float = 1.0
-    lacking: tuple[int, int] = (0, 0)
-    """How many dimensions, and how many labels in all, do not stand at all times at what they name."""
 
     def captions(self, pose: Pose, places: Places) -> list[Caption]:
         """Return every label that shows, as a line of text, and the table."""
@@ -642,18 +641,47 @@ def names_of(
     step. Of a single moment `tries` other orders are tried for what has no place yet.
     """
     setting = ground.setting
-    fixed, shown = setting.figure.fixed, setting.figure.shown
-    moving = [name for name in shown if name not in fixed]
-    planned = [_joints(ground, fixed, always=True)]
-    planned += [_links(ground)] if setting.look.names or setting.look.centres else []
-    planned += [_dimensions(ground, known), _angle(ground, known)] if known else []
-    planned += [_dead_centres(ground, dead_centres)] if dead_centres else []
-    every, clutter = chain(*planned, _joints(ground, moving)), ground.clutter()
+    every, clutter = _every(ground, known, dead_centres), ground.clutter()
     placer, placed, left = yield from _attempts(every, clutter, tries if ground.phase is not None else 0)
     rows = tuple(label for label in left if label.about)
     found = (setting.figure.scene.period, setting.gauge.bar, _halo(setting))
     table = (yield from _tabled(ground, placer, rows)) if rows else None
-    return Names(placed, *found, table, () if table else rows, setting.view.scale, _lacking(left))
+    return Names(placed, *found, table, () if table else rows, setting.view.scale)
+
+
+def _every(ground: Surroundings, known: Symbols | None, dead_centres: DeadCentres | None) -> Forms:
+    """Yield all labels of a picture, those with the first choice first."""
+    look, fixed = ground.setting.look, ground.setting.figure.fixed
+    moving = [name for name in ground.setting.figure.shown if name not in fixed]
+    yield from _joints(ground, fixed, always=True)
+    yield from _links(ground) if look.names or look.centres else ()
+    if known:
+        yield from _dimensions(ground, known)
+        yield from _angle(ground, known)
+    yield from _dead_centres(ground, dead_centres) if dead_centres else ()
+    yield from _joints(ground, moving)
+
+
+Lacking = tuple[int, int]
+"""How many dimensions, and how many labels in all, have no place at what they name."""
+
+
+class StillLabels:
+    """The labels of a picture of one moment, of which no more is asked than how many have no place."""
+
+    def __init__(self, ground: Surroundings, known: Symbols | None, dead_centres: DeadCentres | None) -> None:
+        self._every, self._clutter = [*_every(ground, known, dead_centres)], ground.clutter()
+        self._clutter.learn([spots.candidates for forms in self._every for _, spots in forms])
+
+    @cached_property
+    def least(self) -> Lacking:
+        """How many have none at the least: none is free even where no other label stands."""
+        return _lacking([forms[0][0] for forms in _hopeless(self._every, self._clutter)])
+
+    def lacking(self, tries: int) -> Lacking:
+        """Return how many have none, the best of `tries` further orders after the best one before."""
+        *_, left = at_once(_attempts(self._every, self._clutter, tries))
+        return _lacking(left)
 
 
 Attempt = tuple[Placer, tuple[Label, ...], tuple[Label, ...]]
@@ -669,13 +697,13 @@ def _attempts(
     """
     best, seen, order = None, list[tuple[Form, ...]](), every
     lasting: list[tuple[Form, list[Label]]] = []
-    more = tries
+    more, hopeless, before = tries, frozenset[int](), set[tuple[int, ...]]()
     while True:
         placer, kept, left = Placer(clutter), list[Label](), list[tuple[Form, ...]]()
         seen, pinned = [], list[tuple[Form, list[Label]]]()
         for forms in order:
             seen.append(forms)
-            placed = yield from _placed(placer, forms)
+            placed = (yield from _placed(placer, forms)) if id(forms) not in hopeless else []
             kept += placed
             pinned += [(forms[0], placed)] if forms[0][0].always else []
             left += [] if any(one.shown is not None and one.shown.all() for one in placed) else [forms]
@@ -684,8 +712,15 @@ def _attempts(
             best, lasting, more = (placer, tuple(kept), names), pinned, tries
         if not left or not more:
             break
+        if not before:
+            hopeless = frozenset(map(id, _hopeless(left, clutter)))
+            before.add(tuple(id(forms) for forms in seen if id(forms) not in hopeless))
         without = {id(forms) for forms in left}
         order, more = [*left, *(forms for forms in seen if id(forms) not in without)], more - 1
+        hopeful = tuple(id(forms) for forms in order if id(forms) not in hopeless)
+        if hopeful in before:  # what comes of that is known
+            break
+        before.add(hopeful)
     further: list[Label] = []
     wanted, room = sum(prod(label.size) for (label, _), _ in lasting), clutter.inside
     for form, found in lasting if wanted < _LASTING * room.width * room.height else ():
@@ -693,7 +728,12 @@ def _attempts(
     return best[0], (*best[1], *further), best[2]
 
 
-def _lacking(left: Sequence[Label]) -> tuple[int, int]:
+def _hopeless(every: Iterable[tuple[Form, ...]], clutter: Clutter) -> list[tuple[Form, ...]]:
+    """Return the labels that have no place at one moment, whatever the others have."""
+    return [forms for forms in every if not any(clutter.has_place(spots.candidates) for _, spots in forms)]
+
+
+def _lacking(left: Sequence[Label]) -> Lacking:
     """Return how many dimensions, and how many labels in all, are left over."""
     return sum(bool(label.about) for label in left), len(left)
 
@@ -716,7 +756,7 @@ def _placed(placer: Placer, forms: tuple[Form, ...]) -> Generator[None, None, li
             found.append(replace(label, spot=spot, shown=placed.shown, drawn=drawn))
         but = placed.shown > 0 if but is None else but | (placed.shown > 0)
         nowhere = least == _LEAST_AGAIN and not placed.shown.any()  # nor would it be a second time
-        if nowhere or but.all():
+        if nowhere or but.all() or len(but) == 1:  # of one moment there is no second time
             break
     return found
 

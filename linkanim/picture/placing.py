@@ -54,6 +54,8 @@ _MANY = 500
 """Pairs of a label's place and a solid that are many."""
 _EDGES = 4
 """Every so many-th of a shape's edges is tried first to part it from a label."""
+_SURE = 1e-6
+"""By so much more, in pixels, are boxes thought to be larger that only tell what is near."""
 _FIRST = 6
 """So many solids are looked at first: where many lie about one place, they leave few places to the others."""
 
@@ -131,19 +133,36 @@ class Clutter:
         """The same at the moments at which places are chosen."""
         return self.at(slice(None, None, _STEP))
 
-    def of_label(self, label: LabelPlaces) -> tuple[_Bools, _Floats]:
-        """Return which places of a label have something on them, and what each costs (1, k).
+    def standing(self, label: LabelPlaces) -> Standing:
+        """Return what of a label on a picture of one moment depends on nothing but this clutter."""
+        self.learn([label])
+        return self._of_labels[id(label)][1]
 
-        That is for a picture of one moment, whose labels are tried in several orders.
+    def learn(self, labels: Sequence[LabelPlaces]) -> None:
+        """Keep what of labels on a picture of one moment depends on nothing but this clutter.
+
+        They are tried in several orders. Many at once take little longer than one.
         """
-        if id(label) not in self._of_labels:
-            forbidden = ~_within(label.places, label.size, self.inside)
-            cost = _covering(label, self, forbidden)
-            self._of_labels[id(label)] = label, forbidden, cost
-        return self._of_labels[id(label)][1:]
+        new = [label for label in labels if id(label) not in self._of_labels]
+        if new:
+            found = zip(new, _standings(new, self), strict=True)
+            self._of_labels.update((id(label), (label, standing)) for label, standing in found)
 
     @cached_property
-    def _of_labels(self) -> dict[int, tuple[LabelPlaces, _Bools, _Floats]]:
+    def sizes(self) -> _Floats:
+        """How wide and how high its rectangles are (2, m)."""
+        return np.array([(rect.width, rect.height) for rect in self.rects]).reshape(-1, 2).T
+
+    def has_place(self, label: LabelPlaces) -> bool:
+        """Tell whether one of a label's places is free as long as no other label stands, at one moment."""
+        standing = self.standing(label)
+        taken = standing.forbidden[0]
+        if label.drawn is not None:
+            taken = taken | (label.drawn >= 0) & standing.barred[0, label.drawn]
+        return not taken.all()
+
+    @cached_property
+    def _of_labels(self) -> dict[int, tuple[LabelPlaces, Standing]]:
         """The same by the label's identity; it is kept, so that no other one has that."""
         return {}
 
@@ -176,6 +195,21 @@ class LabelPlaces(NamedTuple):
         drawn = None if self.drawn is None else self.drawn[which]
         places, price = self.places[moments, which], self.price[which]
         return self._replace(places=places, price=price, lines=lines, drawn=drawn)
+
+
+class Standing(NamedTuple):
+    """What of a label's k places and g lines depends on no other label, at one moment.
+
+    Which places have something on them, what each costs (1, k), and how far the dimension lines of others
+    stay off; the lines (1, g, lines, 2), which of them are barred, and their price (1, g).
+    """
+
+    forbidden: _Bools
+    cost: _Floats
+    off: _Floats
+    lines: Loop
+    barred: _Bools
+    price: _Floats
 
 
 class Placed(NamedTuple):
@@ -275,46 +309,152 @@ class Placer:
     def _cost(self, label: LabelPlaces, moments: Moments, clutter: Clutter) -> _Floats:
         """Return what each place costs at each moment: `_FORBIDDEN` for touching what it must not."""
         places, size = label.places, label.size
-        taken, placed_lines, measures = (
+        taken, lines, measures = (
             all_[moments] if len(all_) > 1 else all_ for all_ in (self._taken, self._lines, self._measures)
         )
-        still = len(places) == 1
-        forbidden = (clutter.of_label(label)[0] if still else ~_within(places, size, clutter.inside)).copy()
-        forbidden |= _over(places[:, :, None] - taken[:, None], size, self._sizes).any(axis=2)
-        forbidden |= _cut(places, size, placed_lines, _THICK)
+        standing = clutter.standing(label) if len(places) == 1 else None
+        forbidden = standing.forbidden if standing else ~_within(places, size, clutter.inside)
+        forbidden = forbidden | _over(places[:, :, None] - taken[:, None], size, self._sizes).any(axis=2)
+        if lines.shape[1]:
+            forbidden |= _cut(places, size, lines, _THICK)
         if measures.shape[1]:
-            nearer = np.maximum(_from_own(label), label.gap)[..., None] if label.gap else _THICK
-            forbidden |= _cut(places, size, measures, nearer)
-        cost = clutter.of_label(label)[1].copy() if still else _covering(label, clutter, forbidden)
-        free = ~forbidden.all(axis=0)
-        lined = np.flatnonzero((label.drawn >= 0) & free) if label.drawn is not None else ()
+            off = standing.off if standing else _off_others(label)
+            forbidden |= _cut(places, size, measures, off[..., None])
+        cost = standing.cost.copy() if standing else _covering(label, clutter, forbidden)
+        lined = np.flatnonzero((label.drawn >= 0) & ~forbidden.all(axis=0)) if label.drawn is not None else ()
         if label.drawn is not None and len(lined):
             used, which = np.unique(label.drawn[lined], return_inverse=True)
-            groups = [label.lines[n] for n in used]
-            firsts = np.stack([lines[:, 0] for lines in groups], axis=1)
-            barred = self._barred(groups, taken, clutter)
-            if label.gap:
-                far = self._far[moments] if len(self._far) > 1 else self._far
-                nearer = np.maximum(far, label.gap)[..., None]
-                barred |= _hits(taken, self._sizes, firsts, nearer).any(axis=1)
-                barred |= _too_near(firsts, measures, label.gap) | _ends_at_pins(firsts, clutter)
-            open_ = np.flatnonzero(~barred.all(axis=0))
-            crossed, links = _crossings(firsts[:, open_], clutter)
-            if label.gap:
-                barred[:, open_] |= links > _MOST_CROSSED
+            far = self._far[moments] if len(self._far) > 1 else self._far
+            if standing:
+                barred, price = standing.barred[:, used], standing.price[:, used]
+                open_ = np.flatnonzero(~barred[0])
+                lines = standing.lines[:, used[open_]]
+                barred[:, open_] = self._barred(lines, label.gap, taken, measures, far)
+            else:
+                groups = np.stack([label.lines[n] for n in used], axis=1)
+                barred = self._barred(groups, label.gap, taken, measures, far)
+                barred |= ~_within(groups, (2.0, 2.0), clutter.inside).all(axis=(2, 3))
+                gapped = np.full(len(used), label.gap > 0)
+                price = _pricing(groups[:, :, 0], clutter, barred, gapped)
             forbidden[:, lined] |= barred[:, which]
-            price = np.zeros(barred.shape)
-            price[:, open_] = _CROSSING * crossed + _THROUGH_LINK * links
             cost[:, lined] += price[:, which]
-        return cost + _FORBIDDEN * forbidden
+        return np.asarray(cost + _FORBIDDEN * forbidden)
 
-    def _barred(self, groups: Sequence[Loop], taken: Loop, clutter: Clutter) -> _Bools:
-        """Return whether groups of lines, each (n, lines, 2), touch what lines must not (n, groups)."""
-        lines = np.concatenate(groups, axis=1)
-        barred = np.asarray(np.logical_not(_within(lines, (2.0, 2.0), clutter.inside)).any(axis=2))
-        barred |= _hits(taken, self._sizes, lines, _THICK).any(axis=1)
-        starts = np.cumsum([0, *(group.shape[1] for group in groups[:-1])])
-        return np.asarray(np.logical_or.reduceat(barred, starts, axis=1))
+    def _barred(self, groups: Loop, gap: float, taken: Loop, measures: Loop, far: _Floats) -> _Bools:
+        """Return whether groups of lines (n, g, lines, 2) touch other labels or their lines (n, g)."""
+        barred = _met(groups, taken, self._sizes)
+        if gap:
+            firsts, nearer = groups[:, :, 0], np.maximum(far, gap)[..., None]
+            barred |= _hits(taken, self._sizes, firsts, nearer).any(axis=1)
+            barred |= _too_near(firsts, measures, gap)
+        return barred
+
+
+def _met(groups: Loop, middles: Loop, sizes: _Floats) -> _Bools:
+    """Return whether groups of lines (n, g, lines, 2) touch boxes of these sizes about middles (n, g)."""
+    moments, count, lines, _ = groups.shape
+    hit = _hits(middles, sizes, groups.reshape(moments, count * lines, 2), _THICK).any(axis=1)
+    return np.asarray(hit.reshape(-1 if count * lines else moments, count, lines).any(axis=2))
+
+
+def _pricing(firsts: Loop, clutter: Clutter, barred: _Bools, gapped: _Bools) -> _Floats:
+    """Return what lines (n, g, 2) cost for what they cross (n, g); more are `barred` then.
+
+    Of dimension lines, which are `gapped` (g,), none ends at a pin or crosses many links.
+    """
+    barred |= gapped & _ends_at_pins(firsts, clutter)
+    open_ = np.flatnonzero(~barred.all(axis=0))
+    crossed, links = _crossings(firsts[:, open_], clutter)
+    barred[:, open_] |= gapped[open_] & (links > _MOST_CROSSED)
+    price = np.zeros(barred.shape)
+    price[:, open_] = _CROSSING * crossed + _THROUGH_LINK * links
+    return price
+
+
+def _standings(labels: Sequence[LabelPlaces], clutter: Clutter) -> Iterator[Standing]:
+    """Yield what of each label of one moment depends on nothing but the clutter."""
+    counts = [label.places.shape[1] for label in labels]
+    places = np.concatenate([label.places[0] for label in labels])
+    size = np.repeat(np.array([label.size for label in labels]).T, counts, axis=1)
+    middles = np.array([rect.middle for rect in clutter.rects], np.complex128)
+    forbidden = ~_within(places, size, clutter.inside)
+    forbidden |= _over(places[:, None] - middles, size[:, :, None], clutter.sizes).any(axis=1)
+    wanted, minor = np.ones((2, len(labels), len(clutter.solids)), np.bool_)
+    minor[:] = clutter.little
+    for n, label in enumerate(labels):
+        wanted[n, [*label.own]], minor[n, [*label.beside]] = False, True
+    of = np.repeat(np.arange(len(labels)), counts)
+    place_, solid = _meeting(places, size, clutter, wanted[of])
+    little = minor[of[place_], solid]
+    forbidden[place_[~little]] = True
+    cost = _BESIDE * np.bincount(place_[little], minlength=len(places))
+    cuts = np.cumsum(counts)[:-1]
+    flags = np.split(forbidden[None], cuts, axis=1)
+    values = (np.split(part[None], cuts, axis=1) for part in (cost, _off_own(labels, places, size)))
+    for *standing, lines in zip(flags, *values, _lines_of(labels, clutter), strict=True):
+        yield Standing(*standing, *lines)
+
+
+def _lines_of(labels: Sequence[LabelPlaces], clutter: Clutter) -> Iterator[tuple[Loop, _Bools, _Floats]]:
+    """Yield the lines of each label of one moment, which of them are barred, and their price."""
+    groups = [line[0] for label in labels for line in label.lines]
+    barred, price = np.zeros((1, len(groups)), np.bool_), np.zeros((1, len(groups)))
+    if groups:
+        starts = np.cumsum([0, *(len(group) for group in groups[:-1])])
+        every = np.concatenate(groups)[None]
+        middles = np.array([[rect.middle for rect in clutter.rects]], np.complex128)
+        hit = ~_within(every, (2.0, 2.0), clutter.inside).all(axis=2)
+        hit |= _hits(middles, clutter.sizes, every, _THICK).any(axis=1)
+        barred = np.logical_or.reduceat(hit, starts, axis=1)
+        gapped = np.array([label.gap > 0 for label in labels for _ in label.lines])
+        price = _pricing(every[:, starts], clutter, barred, gapped)
+    cuts = np.cumsum([len(label.lines) for label in labels])[:-1]
+    found = (np.split(part, cuts, axis=1) for part in (barred, price))
+    for label, one, other in zip(labels, *found, strict=True):
+        lines = np.stack(label.lines, axis=1) if label.lines else np.zeros((1, 0, 1, 2), np.complex128)
+        yield lines, one, other
+
+
+def _off_own(labels: Sequence[LabelPlaces], places: Loop, size: _Floats) -> _Floats:
+    """Return how far each place of labels of one moment stays off others' dimension lines (k,)."""
+    counts = [label.places.shape[1] for label in labels]
+    gaps = np.repeat([label.gap for label in labels], counts)
+    starts = np.cumsum([0, *(len(label.lines) for label in labels)])
+    own = [np.full(count, -1) for count in counts]
+    for n, label in enumerate(labels):
+        if label.drawn is not None and label.gap:
+            own[n] = np.where(label.drawn >= 0, label.drawn + starts[n], -1)
+    line = np.concatenate(own)
+    lined = np.flatnonzero(line >= 0)
+    found = np.where(gaps > 0, gaps, _THICK)
+    if len(lined):
+        firsts = np.array([group[0, 0] for label in labels for group in label.lines])
+        far = _away(places[lined], size[:, lined], firsts[line[lined]]) + _NEARER
+        found[lined] = np.maximum(far, gaps[lined])
+    return found
+
+
+def _meeting(
+    places: Loop, size: _Floats, clutter: Clutter, wanted: _Bools
+) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Return which boxes (k,) of sizes (2, k) meet which solids at one moment, as the numbers of pairs.
+
+    Only those are asked for that are `wanted` (k, m).
+    """
+    if not clutter.solids:
+        return np.zeros(0, np.intp), np.zeros(0, np.intp)
+    left, right, top, bottom = clutter.boxes
+    (wide, high), x, y = size[:, :, None] / 2 + _SURE, places.real[:, None], places.imag[:, None]
+    near = wanted & (left < x + wide) & (right > x - wide) & (top < y + high) & (bottom > y - high)
+    place_, solid = near.nonzero()
+    met = np.zeros(len(place_), np.bool_)
+    number = np.zeros(len(clutter.solids), np.intp)
+    for numbers, solids in clutter.alike:
+        number[numbers] = np.arange(len(numbers))
+        some = np.flatnonzero(np.isin(solid, numbers))
+        which = number[solid[some]]
+        met[some] = _pairs_touch(places[place_[some]], size[:, place_[some]], solids.picked(which))
+    return place_[met], solid[met]
 
 
 def _covering(label: LabelPlaces, clutter: Clutter, forbidden: _Bools) -> _Floats:
@@ -366,6 +506,24 @@ def placed_among(
     return found
 
 
+def _pairs_touch(places: Loop, size: _Floats, solids: Solids) -> _Bools:
+    """Return whether each box (p,) of sizes (2, p) touches the one of as many solids that has its number."""
+    corners, half, (wide, high) = solids.corners[0], solids.half, size
+    if corners.shape[1] == 1:
+        away = places - corners[:, 0]
+        aside = np.maximum(np.abs(away.real) - wide / 2, 0) + 1j * np.maximum(np.abs(away.imag) - high / 2, 0)
+        return np.asarray(np.abs(aside) < half)
+    if corners.shape[1] == 2:
+        middle, reach = ((corners[:, 1] + sign * corners[:, 0]) / 2 for sign in (1, -1))
+        return _hit(places, (wide / 2, high / 2), middle, reach, half)
+    hit = _straddles(corners.real[:, None], places.real[:, None, None], (wide / 2 + half)[:, None, None])
+    hit &= _straddles(corners.imag[:, None], places.imag[:, None, None], (high / 2 + half)[:, None, None])
+    hit = hit[:, 0, 0]
+    some = np.flatnonzero(hit)
+    hit[some] = _overlapping(corners[some] - places[some, None], size[:, some], half[some])
+    return hit
+
+
 def touching(places: Loop, size: tuple[float, float], solids: Solids, but: _Bools | None = None) -> _Bools:
     """Return whether boxes of a size about places (n, k) touch each of the solids (n, k, m).
 
@@ -385,18 +543,27 @@ def touching(places: Loop, size: tuple[float, float], solids: Solids, but: _Bool
         hit &= ~but[..., None]
     moment, place_, solid = hit.nonzero()
     near = corners[moment if len(corners) > 1 else 0, solid] - places[moment, place_, None]
-    ends, together = np.arange(near.shape[1]), np.arange(len(near))
-    # of many, a few of the edges part most of those that are apart: what is left is held to all of them
-    few = (ends[::_EDGES], np.delete(ends, slice(None, None, _EDGES)))
-    for some in few if len(near) > _MANY else (ends,):
-        parted = _parted(near[together], (wide, high), half[solid[together]], some)
-        together = together[~parted]
-    hit[...] = False
-    hit[moment[together], place_[together], solid[together]] = True
+    hit[moment, place_, solid] = _overlapping(near, (wide, high), half[solid])
     return hit
 
 
-def _parted(near: Loop, size: tuple[float, float], half: _Floats, edges: NDArray[np.intp]) -> _Bools:
+def _overlapping(near: Loop, size: tuple[float, float] | _Floats, half: _Floats) -> _Bools:
+    """Return whether shapes (p, c), each with so much round it, overlap boxes about the origin (p,).
+
+    The boxes are of one size, or of sizes (2, p).
+    """
+    ends, together, sides = np.arange(near.shape[1]), np.arange(len(near)), np.asarray(size)
+    # of many, a few of the edges part most of those that are apart: what is left is held to all of them
+    few = (ends[::_EDGES], np.delete(ends, slice(None, None, _EDGES)))
+    for some in few if len(near) > _MANY else (ends,):
+        these = sides if sides.ndim == 1 else sides[:, together]
+        together = together[~_parted(near[together], these, half[together], some)]
+    overlap = np.zeros(len(near), np.bool_)
+    overlap[together] = True
+    return overlap
+
+
+def _parted(near: Loop, size: _Floats, half: _Floats, edges: NDArray[np.intp]) -> _Bools:
     """Return whether one of some edges of shapes (p, c) parts them from a box about the origin (p,)."""
     parted, corners = np.zeros(len(near), bool), np.ascontiguousarray(near.T)
     for end in edges.tolist():
@@ -423,16 +590,28 @@ def _touched(
                 yield touching(places, size, solids.picked(some), but)
 
 
+def _off_others(label: LabelPlaces) -> _Floats:
+    """Return how far each place of a label stays off others' dimension lines (n, k)."""
+    if not label.gap:
+        return np.full(label.places.shape, _THICK)
+    return np.asarray(np.maximum(_from_own(label), label.gap))
+
+
 def _from_own(label: LabelPlaces, which: slice = slice(None)) -> _Floats:
     """Return how far a label is from its own dimension line, and a little more; 0 without one (n, k)."""
     places = label.places[:, which]
     if label.drawn is None:
         return np.zeros(places.shape)
     lines = np.stack([group[:, 0] for group in label.lines], axis=1)[:, label.drawn[which]]
-    wide, high = label.size
+    return np.asarray(np.where(label.drawn[which] >= 0, _away(places, label.size, lines) + _NEARER, 0.0))
+
+
+def _away(places: Loop, size: tuple[float, float] | _Floats, lines: Loop) -> _Floats:
+    """Return how far boxes about places (...) are from lines (..., 2) that do not run through them."""
+    wide, high = size
     ends = (
-        np.abs((lines - places[..., None]).real) - wide / 2,
-        np.abs((lines - places[..., None]).imag) - high / 2,
+        np.abs((lines - places[..., None]).real) - np.asarray(wide)[..., None] / 2,
+        np.abs((lines - places[..., None]).imag) - np.asarray(high)[..., None] / 2,
     )
     near = np.hypot(np.maximum(ends[0], 0), np.maximum(ends[1], 0)).min(axis=-1)
     along = lines[..., 1] - lines[..., 0]
@@ -440,7 +619,7 @@ def _from_own(label: LabelPlaces, which: slice = slice(None)) -> _Floats:
         away = places + corner / 2 - lines[..., 0]
         share = np.clip((away * along.conj()).real / np.maximum(np.abs(along) ** 2, 1e-12), 0.0, 1.0)
         near = np.minimum(near, np.abs(away - share * along))
-    return np.asarray(np.where(label.drawn[which] >= 0, near + _NEARER, 0.0))
+    return np.asarray(near)
 
 
 def _cut(
@@ -456,7 +635,14 @@ def _hits(
     """Return which boxes touch which of the lines (n, k, m)."""
     wide, high = (np.atleast_1d(side)[:, None] / 2 for side in size)
     middle, reach = (((lines[..., 1] + sign * lines[..., 0]) / 2)[:, None] for sign in (1, -1))
-    away = np.atleast_2d(places)[:, :, None] - middle
+    return _hit(np.atleast_2d(places)[:, :, None], (wide, high), middle, reach, half)
+
+
+def _hit(
+    places: Loop, size: tuple[_Floats, _Floats], middle: Loop, reach: Loop, half: float | _Floats
+) -> _Bools:
+    """Return whether boxes about places touch lines, by half their sizes and half ways from end to end."""
+    (wide, high), away = size, places - middle
     long, deep = np.abs(reach.real), np.abs(reach.imag)
     hit = (np.abs(away.real) < wide + half + long) & (np.abs(away.imag) < high + half + deep)
     across = np.abs(away.real * reach.imag - away.imag * reach.real)
@@ -484,18 +670,28 @@ def _crossings(lines: Loop, clutter: Clutter) -> tuple[_Floats, _Floats]:
 
 def _run_through(lines: Loop, solids: Solids) -> _Bools:
     """Return which lines (n, k, 2) run through which solids (n, k, m): nothing parts the two."""
-    ends, corners, half = lines[:, :, None], solids.corners[:, None], solids.half
-    parted = np.zeros(np.broadcast_shapes(ends.shape[:-1], corners.shape[:-1]), np.bool_)
-    count = corners.shape[-1]
-    edges = [corners[..., n] - corners[..., n - 1] for n in range(count if count > 2 else count - 1)]
-    for edge in (ends[..., 1] - ends[..., 0], *edges):
-        way = units(edge)[..., None].conj()
-        line, solid = ends * way, corners * way
-        for one, other in ((line.real, solid.real), (line.imag, solid.imag)):
-            parted |= (one.min(axis=-1) >= other.max(axis=-1) + half) | (
-                one.max(axis=-1) <= other.min(axis=-1) - half
-            )
-    return np.asarray(np.logical_not(parted))
+    corners, half = solids
+    way = units(lines[..., 1] - lines[..., 0])[:, :, None, None].conj()
+    apart = _apart(lines[:, :, None] * way, corners[:, None] * way, half)
+    # most lie apart in the line's own frame: only the others are looked at along the solids' edges
+    moment, line, solid = np.logical_not(apart).nonzero()
+    ends = lines[moment if len(lines) > 1 else 0, line]
+    corners = corners[moment if len(corners) > 1 else 0, solid]
+    parted, around, count = np.zeros(len(line), np.bool_), half[solid], corners.shape[-1]
+    for n in range(count if count > 2 else count - 1):
+        way = units(corners[:, n] - corners[:, n - 1])[:, None].conj()
+        parted |= _apart(ends * way, corners * way, around)
+    apart[moment, line, solid] = parted
+    return np.asarray(np.logical_not(apart))
+
+
+def _apart(ends: Loop, corners: Loop, half: _Floats) -> _Bools:
+    """Return whether lines (..., 2) lie apart, across or down, from corners (..., c) and half round them."""
+    apart = np.zeros((), np.bool_)
+    for one, other in ((ends.real, corners.real), (ends.imag, corners.imag)):
+        apart = apart | (one.min(axis=-1) >= other.max(axis=-1) + half)
+        apart |= one.max(axis=-1) <= other.min(axis=-1) - half
+    return np.asarray(apart)
 
 
 def _too_near(lines: Loop, others: Loop, gap: float) -> _Bools:
@@ -555,7 +751,7 @@ def _within(places: Loop, size: tuple[float, float] | _Floats, room: Rect) -> _B
     return np.asarray(inside & (y - high / 2 >= room.y) & (y + high / 2 <= room.bottom))
 
 
-def _over(away: Loop, size: tuple[float, float], other: _Floats) -> _Bools:
+def _over(away: Loop, size: tuple[float, float] | _Floats, other: _Floats) -> _Bools:
     wide, high = size[0] + other[0], size[1] + other[1]
     return np.asarray((2 * np.abs(away.real) < wide) & (2 * np.abs(away.imag) < high))
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import lru_cache
 from math import sin, tau
 
@@ -10,13 +11,12 @@ from numpy.typing import NDArray
 
 from linkanim.mechanics.linkage import DrivenSlider
 from linkanim.picture.figure import Figure, figure
-from linkanim.picture.labels import TRIES, Surroundings, names_of
+from linkanim.picture.labels import TRIES, Lacking, StillLabels, Surroundings
 from linkanim.picture.look import Look
 from linkanim.picture.motion_marks import motion_of
 from linkanim.picture.picture import Deferral, Picture
 from linkanim.picture.purpose import USUAL_SIZE
 from linkanim.scenes.scene import Scene
-from linkanim.steps import at_once
 
 _USUAL = 60.0
 """The input's angle that textbooks draw, in degrees."""
@@ -56,25 +56,37 @@ def still_phase(scene: Scene, size: tuple[int, int], type_scale: float = 1.0) ->
         return tried[0]
     look = Look(names=2, type_scale=type_scale)
     picture = Picture(scene, size, look, later=Deferral(names="in steps"), moment=tried[0])
-    left = dict[float, tuple[int, int]]()
+    labels = dict[float, StillLabels]()
+    left = dict[float, Lacking]()
     # the poses at the usual input are looked at closely, then all, then the best of these closely
     for more, poses in ((True, tried[:_USUAL_POSES]), (False, tried[_USUAL_POSES:]), (True, None)):
         for phase in poses or sorted(tried, key=lambda phase: left[phase])[:_LOOKED_AT_AGAIN]:
             hidden = shown.apart[np.abs(shown.cycle.phase - phase).argmin()] < _HIDDEN * shown.extent
-            lengths, names = _left_over(picture, phase, more=more)
-            left[phase] = lengths + hidden * len(picture.figure.shown), names
+            worse = hidden * len(picture.figure.shown)
+            if phase not in labels:
+                labels[phase] = _labels(picture, phase)
+            elif phase in tried[:_USUAL_POSES] or not _may_be_best(phase, labels[phase].least, worse, left):
+                continue
+            lengths, names = labels[phase].lacking(TRIES if more else 0)
+            left[phase] = lengths + worse, names
             if not any(left[phase]):
                 return phase
     return min(tried, key=lambda phase: left[phase])
 
 
-def _left_over(picture: Picture, phase: float, *, more: bool) -> tuple[int, int]:
-    """Return how many dimensions of a pose, and how many labels in all, have no place at what they name."""
+def _may_be_best(phase: float, least: Lacking, worse: int, left: Mapping[float, Lacking]) -> bool:
+    """Return whether a pose that lacks so much at the least could be taken of all that were looked at."""
+    best = min(left, key=lambda one: left[one])
+    least = least[0] + worse, least[1]
+    return least < left[best] or (least == left[best] and [*left].index(phase) < [*left].index(best))
+
+
+def _labels(picture: Picture, phase: float) -> StillLabels:
+    """Return the labels of a pose."""
     setting = picture.drawing.setting
     centres = picture.drawing.dead_centres_in(setting.view)
     ground = Surroundings(setting, motion_of(setting), phase, centres.ticks if centres else (), angled=True)
-    steps = names_of(ground, picture.drawing.symbols, centres, TRIES if more else 0)
-    return at_once(steps).lacking
+    return StillLabels(ground, picture.drawing.symbols, centres)
 
 
 def input_rests(scene: Scene, phase: float) -> bool:

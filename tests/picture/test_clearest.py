@@ -85,7 +85,7 @@ def test_few_stills_have_a_table_of_what_has_no_place() -> None:
 def test_of_many_joints_the_usual_pose_is_taken_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
     """Names of all of them in two dozen poses take minutes, and find no room in any."""
     scene = scene_from(chain(20), name="chain", where="chain.toml")
-    monkeypatch.setattr(stills, "_left_over", lambda *given, **more: pytest.fail("names are placed"))
+    monkeypatch.setattr(stills, "_labels", lambda *given: pytest.fail("names are placed"))
     assert np.degrees(scene.pose(still_phase(scene, (320, 180)), 0).coordinate) == pytest.approx(
         60.0, abs=1.0
     )

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 from pictures import standing
 
 from linkanim.mechanics.motion import Pose
@@ -299,3 +300,42 @@ def test_labels_of_one_moment_stand_where_they_would_one_after_the_other(seed: i
     expected = [(placed.which, placed.shown[0] == 1.0) for placed in place(labels, clutter)]
     assert placed_among(labels, room, rects, ends[None], half) == expected
     assert {has_room for _, has_room in expected} == {True, False}
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_labels_of_one_moment_stand_where_they_would_as_long_as_nothing_moves(seed: int) -> None:
+    """Of one moment what is in the way of all labels is found at once, of several that of each in turn."""
+    chance, room = np.random.default_rng(seed), Rect(0, 0, 300, 200)
+
+    def points(*count: int) -> NDArray[np.complex128]:
+        found: NDArray[np.complex128] = chance.uniform(0, 300, count) + 1j * chance.uniform(0, 200, count)
+        return found
+
+    solids = [Solid(points(1, 1), 9.0), *(Solid(points(1, 2), 2.0, little=n < 2) for n in range(6))]
+    solids += [Solid(np.array([hull((one + 15 * points(1, 5)[0] / 100).tolist())]), 1.0) for one in points(4)]
+    clutter = Clutter(
+        room, (Rect(20, 20, 60, 15),), tuple(solids), links=frozenset({2, 3, 4}), pins=frozenset({0})
+    )
+    labels = []
+    for n, count in enumerate(chance.integers(1, 12, 20)):
+        lines = tuple(points(1, 2, 2) for _ in range(4)) if n % 3 == 0 else ()
+        own, beside = (frozenset(chance.integers(0, len(solids), 2).tolist()) for _ in range(2))
+        label = LabelPlaces(
+            (float(chance.uniform(5, 40)), 12.0), points(1, count), np.arange(count) / 7, own, beside
+        )
+        labels.append(
+            label._replace(lines=lines, drawn=chance.integers(-1, 4, count), gap=5.0 * (n % 2))
+            if lines
+            else label
+        )
+    often = [
+        one._replace(places=one.places.repeat(16, 0), lines=tuple(line.repeat(16, 0) for line in one.lines))
+        for one in labels
+    ]
+    still, moving = place(labels, clutter), place(often, clutter)
+    assert [bool(one.shown.all()) for one in still] == [bool(one.shown.all()) for one in moving]
+    assert [one.which for one in still if one.shown.all()] == [one.which for one in moving if one.shown.all()]
+    assert len({bool(one.shown.all()) for one in still}) == 2
+    clutter.learn(labels)
+    alone = [place([label], clutter)[0].shown.all() for label in labels]
+    assert [*map(clutter.has_place, labels)] == alone
