@@ -289,3 +289,10 @@ def test_the_first_frame_loads_nothing_that_it_does_not_need() -> None:
     assert not any(
         name in loaded for name in ("linkanim.recorder", "linkanim.paper", "tape_file", "player.beside")
     )
+
+
+def test_no_room_s_tests_are_left_out(pytestconfig: pytest.Config) -> None:
+    """Pytest's own list of folders not to be looked into has `build` on it, and left a room of tests out."""
+    folders = {path.parent.name for path in Path(__file__).parent.rglob("test_*.py")}
+    assert folders >= {"build", "player"}
+    assert folders.isdisjoint(pytestconfig.getini("norecursedirs"))
