@@ -16,6 +16,9 @@ from hypothesis import settings
 from withstood import MARK, table
 
 from linkanim import scenes
+from linkanim.picture.command_icons import window_icon
+from linkanim.picture.text import Type
+from linkanim.player import screen
 from linkanim.scenes import Scene, files
 
 os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
@@ -51,6 +54,24 @@ def _read_once(name_or_path: str | os.PathLike[str]) -> Scene:
 
 # before any test, or any module under test, has taken its name from there
 scenes.load = _read_once
+
+
+def _written_once() -> None:
+    """Have all painters share the glyphs that one of them has drawn, and windows one icon.
+
+    Both hang on nothing but what they are asked for; the tests open hundreds of windows.
+    """
+    begin, drawn = Type.__init__, Type()
+
+    def shared(self: Type) -> None:
+        begin(self)
+        self._fonts, self._steps, self._glyphs = drawn._fonts, drawn._steps, drawn._glyphs
+
+    Type.__init__ = shared  # type: ignore[method-assign]
+    setattr(screen, "window_icon", cache(window_icon))  # noqa: B010
+
+
+_written_once()
 
 SAMPLE = {
     "crank-rocker",

@@ -31,11 +31,18 @@ def _box(type_: Type, char: str, size: int) -> pygame.Rect:
     return ink.sprite.get_rect(topleft=(ink.right, ink.down))
 
 
+def unshared() -> Type:
+    """Return a type with glyphs of its own: those that the tests share are of the fonts that are here."""
+    type_ = Type()
+    type_._fonts, type_._steps, type_._glyphs = fonts.Fonts(), {}, {}
+    return type_
+
+
 @pytest.fixture
 def alone(monkeypatch: pytest.MonkeyPatch) -> Type:
     """A type on a system without fonts."""
     monkeypatch.setattr(fonts, "_WIDE", ())
-    return Type()
+    return unshared()
 
 
 # What no font here has, and what stands for it.
@@ -105,7 +112,7 @@ def test_what_the_bundled_face_lacks_stands_on_its_line_in_a_font_of_the_system(
 
 def test_a_system_that_cannot_list_its_fonts_has_none(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(pygame.font, "get_fonts", lambda: [])
-    assert Type().width("曲", SIZE) == 0
+    assert unshared().width("曲", SIZE) == 0
 
 
 @pytest.mark.parametrize(
