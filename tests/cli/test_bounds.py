@@ -73,7 +73,10 @@ def test_what_is_too_much_is_refused_with_the_bound(
 
 
 def test_an_outline_has_no_pixels_to_hold(folder: Path) -> None:
-    assert main(["draw", "kite", "-o", "kite.svg", "--size", "16384x16384", "--poses", "20"]) == 0
+    assert (
+        main(["draw", "kite", "--phase", "1 rad", "-o", "kite.svg", "--size", "16384x16384", "--poses", "20"])
+        == 0
+    )
 
 
 def test_the_bounds_leave_room_for_every_built_in_scene() -> None:

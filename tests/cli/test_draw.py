@@ -33,7 +33,7 @@ def test_a_figure_is_written_where_it_was_asked_for(folder: Path, capsys: pytest
 
 
 def test_without_a_name_it_is_the_scenes(folder: Path) -> None:
-    assert main(["draw", "kite"]) == 0
+    assert main(["draw", "kite", "--phase", "1 rad"]) == 0
     assert sorted(path.name for path in folder.iterdir()) == [LIST, "kite.svg"]
     root = ElementTree.parse(folder / "kite.svg").getroot()
     assert (root.get("width"), root.get("height")) == ("1280", "720")
@@ -50,7 +50,9 @@ def test_angle_and_phase_say_the_same_pose(folder: Path) -> None:
 def test_a_caption_says_what_to_watch_for_where_it_is_asked_for(folder: Path) -> None:
     texts = []
     for words in ([], ["--caption"]):
-        assert main(["draw", "crank-rocker", *words, "-o", str(folder / "figure.svg")]) == 0
+        assert (
+            main(["draw", "crank-rocker", "--angle", "60 deg", *words, "-o", str(folder / "figure.svg")]) == 0
+        )
         text = re.sub(r"<[^>]*>", "", (folder / "figure.svg").read_text(encoding="utf-8"))
         texts.append(" ".join(text.split()))
     assert [load("crank-rocker").look_at in text for text in texts] == [False, True]
@@ -70,8 +72,10 @@ def test_a_figure_says_how_much_its_arrows_stand_for(kinds: str, said: list[str]
 
 
 def test_no_pose_lies_behind_where_none_is_asked_for(folder: Path) -> None:
-    assert main(["draw", "kite", "-o", "none.svg", "--size", "320x180"]) == 0
-    assert main(["draw", "kite", "-o", "one.svg", "--size", "320x180", "--poses", "1"]) == 0
+    assert main(["draw", "kite", "--phase", "1 rad", "-o", "none.svg", "--size", "320x180"]) == 0
+    assert (
+        main(["draw", "kite", "--phase", "1 rad", "-o", "one.svg", "--size", "320x180", "--poses", "1"]) == 0
+    )
     none, one = ((folder / f"{name}.svg").read_text(encoding="utf-8") for name in ("none", "one"))
     assert len(none) < len(one)
 

@@ -91,7 +91,7 @@ def test_a_scene_and_a_file_of_its_name_are_two_things(folder: Path) -> None:
 
 # Commands that take a usual name, and that name.
 USUAL = {
-    "kite.svg": ("draw", "kite", "--size", "64x36"),
+    "kite.svg": ("draw", "kite", "--phase", "1 rad", "--size", "64x36"),
     "kite.png": ("chart", "kite", "--quantity", "B.velocity", "--size", "200x120"),
     "kite.gif": ("record", "kite", "--size", "64x36", "--seconds", "0.1"),
     "kite.html": ("share", "kite"),
@@ -132,7 +132,7 @@ def test_files_of_usual_names_share_one_list(folder: Path) -> None:
 
 
 def test_the_words_beside_a_pdf_take_nobody_s_place(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    words = ["draw", "kite", "-o", "fig.pdf", "--text", "latex"]
+    words = ["draw", "kite", "--phase", "1 rad", "-o", "fig.pdf", "--text", "latex"]
     (folder / "fig.pdf_tex").write_text("mine")
     before = contents(folder)
     assert main(words) == 2

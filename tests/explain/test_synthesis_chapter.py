@@ -61,8 +61,8 @@ def test_an_exercise_leaves_the_numbers_open_and_the_page_has_the_construction(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     (tmp_path / "log.toml").write_text(text(MADE["function-3"]()), encoding="utf-8")
-    assert main(["explain", "log.toml", "-o", "solution.html"]) == 0
-    assert main(["explain", "log.toml", "-o", "sheet.html", "--exercise"]) == 0
+    assert main(["explain", "log.toml", "--phase", "1 rad", "-o", "solution.html"]) == 0
+    assert main(["explain", "log.toml", "--phase", "1 rad", "-o", "sheet.html", "--exercise"]) == 0
     page, sheet = ((tmp_path / name).read_text() for name in ("solution.html", "sheet.html"))
     assert "its construction" in page
     assert "its construction" in sheet

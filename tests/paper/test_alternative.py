@@ -35,7 +35,9 @@ def test_a_recording_s_text_says_what_moves_between_which_values(tmp_path: Path)
     assert "lasts 3 s" in text
 
 
-@pytest.mark.parametrize("command", [["draw", "press"], ["chart", "press", "--quantity", "5.travel"]])
+@pytest.mark.parametrize(
+    "command", [["draw", "press", "--angle", "87 deg"], ["chart", "press", "--quantity", "5.travel"]]
+)
 def test_figures_and_charts_carry_their_words_and_write_them_beside(
     command: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -84,7 +86,7 @@ def test_a_pose_without_links_of_a_name_is_told_by_its_joints_as_closely_anywher
 def test_a_pdf_has_a_language_a_title_and_its_words(tmp_path: Path) -> None:
     pytest.importorskip("fpdf")
     made = tmp_path / "made.pdf"
-    assert main(["draw", "crank-rocker", "-o", str(made)]) == 0
+    assert main(["draw", "crank-rocker", "--angle", "60 deg", "-o", str(made)]) == 0
     content = made.read_bytes()
     assert re.search(rb"/Lang\s*\(", content)
     assert b"/DisplayDocTitle true" in content

@@ -130,7 +130,7 @@ def test_without_a_background_nothing_is_behind() -> None:
     figured = Figured(load("kite"), SIZE, replace(FULL, background=False), phase=1.0)
     assert pygame.surfarray.array_alpha(figured.surface())[0, 0] == 0
     assert "<rect" not in figured.document()
-    assert "<rect" in Figured(load("kite"), SIZE, FULL).document()
+    assert "<rect" in Figured(load("kite"), SIZE, FULL, phase=1.0).document()
 
 
 def test_faint_poses_stay_behind_and_faint() -> None:
@@ -145,7 +145,7 @@ def test_faint_poses_stay_behind_and_faint() -> None:
 
 def test_a_figure_of_which_nothing_is_asked_is_of_one_pose_and_one_closure() -> None:
     scene = load("crank-rocker")
-    bare, ghost = Figured(scene, SIZE, FULL), Figured(scene, SIZE, replace(FULL, ghost=True))
+    bare, ghost = (Figured(scene, SIZE, replace(FULL, ghost=ghost), phase=1.0) for ghost in (False, True))
     assert "pose-1" not in _groups(bare)
     assert "pose-1" in _groups(ghost)
     assert "pose-2" not in _groups(ghost)

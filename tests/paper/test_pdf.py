@@ -62,7 +62,7 @@ def test_the_background_covers_the_page_in_its_colour_or_is_left_open() -> None:
 
 @pytest.mark.parametrize("background", [True, False])
 def test_a_figure_has_the_background_that_is_asked_for(background: bool) -> None:
-    drawn = content(data(Figured(load("kite"), (400, 200), Look(background=background)), ".pdf"))
+    drawn = content(data(Figured(load("kite"), (400, 200), Look(background=background), phase=1.0), ".pdf"))
     assert (" re f" in drawn) == background
 
 
@@ -105,11 +105,16 @@ def test_what_is_half_seen_through_is_so_in_print() -> None:
 
 @pytest.mark.slow
 def test_the_same_figure_has_the_same_bytes() -> None:
-    one, two = (data(Figured(load("press"), (640, 360), Look(hud=False, names=2)), ".pdf") for _ in range(2))
+    one, two = (
+        data(Figured(load("press"), (640, 360), Look(hud=False, names=2), phase=1.0), ".pdf")
+        for _ in range(2)
+    )
     assert one == two
 
 
-@pytest.mark.parametrize("words", [["draw", "kite"], ["chart", "kite", "--quantity", "rocker.angle"]])
+@pytest.mark.parametrize(
+    "words", [["draw", "kite", "--phase", "1 rad"], ["chart", "kite", "--quantity", "rocker.angle"]]
+)
 def test_commands_write_it(words: list[str], tmp_path: Path) -> None:
     target = tmp_path / "out.pdf"
     assert main([*words, "-o", str(target)]) == 0
@@ -123,7 +128,9 @@ def test_without_the_extra_the_way_out_is_told() -> None:
 
 
 @pytest.mark.parametrize(
-    "words", [["draw", "kite"], ["chart", "kite", "--quantity", "rocker.angle"]], ids=str
+    "words",
+    [["draw", "kite", "--phase", "1 rad"], ["chart", "kite", "--quantity", "rocker.angle"]],
+    ids=str,
 )
 def test_only_a_pdf_asks_for_the_extra(
     words: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch

@@ -66,12 +66,12 @@ def put(count: int, *, sliding: bool = False) -> Action:
     return Action("set_poses", (float(sliding), *(value for row in ROWS[:count] for value in row)))
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def empty() -> State:
     return after(begin(load("crank-rocker")), "poses")
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def three(empty: State) -> State:
     return answered(after(empty, put(3)))
 

@@ -10,13 +10,15 @@ import pytest
 from playing import SIZE, Player
 
 from linkanim.player import screen
-from linkanim.player.state import begin
+from linkanim.player.state import State, begin
 from linkanim.scenes import load
 from linkanim.scenes.editing import other_closure
 from linkanim.scenes.scene import Scene
 
 LONG = 400
 """So many frames in which nothing happens are enough to prepare everything."""
+DONE = 5
+"""After so many in which there was nothing more to prepare nothing is."""
 
 
 def fresh(name: str) -> Scene:
@@ -24,9 +26,21 @@ def fresh(name: str) -> Scene:
     return replace(load(name))
 
 
-def quiet(player: Player, frames: int = LONG) -> None:
-    for _ in range(frames):
-        player.tick()
+def quiet(player: Player) -> int:
+    """Leave the window alone until nothing is left to prepare, and return for how many frames."""
+    more, prepare = list[bool](), screen.Screen.prepare
+
+    def noted(self: screen.Screen, state: State) -> bool:
+        more.append(prepare(self, state))
+        return more[-1]
+
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(screen.Screen, "prepare", noted)
+        for frame in range(LONG):
+            player.tick()
+            if len(more) > DONE and not any(more[-DONE:]):
+                return frame + 1
+    return LONG
 
 
 @pytest.fixture
@@ -66,13 +80,15 @@ def test_a_picture_is_the_same_where_nothing_was_prepared(
     here: object, key: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     del here
-    found = []
+    found, frames = [], 0
     for prepares in (True, False):
         with screen.opened(SIZE):
-            if not prepares:
-                monkeypatch.setattr(screen.Screen, "prepare", lambda *_: None)
             player = Player(begin(fresh("six-bar")))
-            quiet(player)
+            if prepares:
+                frames = quiet(player)
+            else:
+                monkeypatch.setattr(screen.Screen, "prepare", lambda *_: None)
+                player.tick(frames)
             player.type(key)
             found.append(player.pixels)
             player.window.close()
@@ -90,7 +106,8 @@ def test_a_fault_in_what_is_prepared_is_met_by_the_key_alone(
     with screen.opened(SIZE):
         player = Player(begin(fresh("crank-rocker")))
         monkeypatch.setattr(screen, "ghost_of", broken)
-        quiet(player, 5)
+        for _ in range(5):
+            player.tick()
         assert not player.window._reported
         player.window.close()
 
