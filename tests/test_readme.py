@@ -111,7 +111,10 @@ SMALL = {"record": ["--size", "96x54"]}
 """What makes a command quick without making it another."""
 
 
-MINUTES = {"synthesis 1", "synthesis 3", "make 1", "hand-outs 1", "loops 1", "figures 4", "figures 5"}
+MINUTES = {
+    *("synthesis 1", "synthesis 2", "synthesis 3", "synthesis 5", "make 1", "hand-outs 1", "hand-outs 4"),
+    *("loops 1", "figures 4", "figures 5", "figures 6", "first-hour 8"),
+}
 """Blocks whose commands other tests run, too, and that take long."""
 
 
@@ -235,7 +238,7 @@ RECORDED = {
 LARGEST_GIF = 400_000
 
 
-@pytest.mark.thinned(2)
+@pytest.mark.thinned(4)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", RECORDED)
 def test_a_moving_picture_is_what_its_command_records(name: str, fresh: Path) -> None:
@@ -267,6 +270,7 @@ def test_the_sheet_of_all_scenes_has_each_as_it_is_now(first: int) -> None:
 
 
 # The gallery's moving pictures in README: a scene that changed its look has to be recorded anew.
+@pytest.mark.thinned(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["whitworth", "press"])
 def test_a_picture_of_the_gallery_is_what_the_gallery_records(name: str, fresh: Path) -> None:

@@ -44,6 +44,7 @@ def read(way: Read) -> Solve:
 
 
 # The method, and the range of its worst error in steps of one degree, in longest links.
+@pytest.mark.thinned(3)
 @pytest.mark.parametrize("mechanism", MECHANISMS, ids=lambda mechanism: mechanism.name)
 @pytest.mark.parametrize(
     ("solve", "least", "most"),
@@ -96,6 +97,7 @@ def test_other_packages_are_right_on_the_easy_cycle(solve: Solve, mechanism: Cas
     assert found.error < 1e-9
 
 
+@pytest.mark.thinned(3)
 @pytest.mark.parametrize(("mechanism", "case"), HARD, ids=lambda item: item.name)
 def test_this_solver_is_exact_on_the_hard_cases(mechanism: CaseSet, case: Case) -> None:
     posed = thinned(case)

@@ -47,6 +47,7 @@ def _dyads(case: Case) -> Any:
         yield dyad, tuple(mpf(repr(length)) if case.decimal else mpf(length) for length in lengths)
 
 
+@pytest.mark.thinned(3)
 @pytest.mark.parametrize("case", SMOOTH, ids=lambda case: case.name)
 def test_the_path_has_no_jump(case: Case) -> None:
     # A jump to the other closure, even where they are a degree apart, would be a step like none beside it.

@@ -30,6 +30,7 @@ def nudged(scene: Scene, item: Dimension) -> Scene | None:
         return None
 
 
+@pytest.mark.sampled
 @pytest.mark.parametrize("name", names())
 def test_a_draft_follows_every_number_of_its_scene_and_undo_goes_back(name: str) -> None:
     building = building_of(load(name))
@@ -47,6 +48,7 @@ def test_a_draft_follows_every_number_of_its_scene_and_undo_goes_back(name: str)
         assert redo(undo(found)).draft == found.draft
 
 
+@pytest.mark.sampled
 @pytest.mark.parametrize("name", names())
 def test_a_draft_follows_the_other_closure(name: str) -> None:
     building = building_of(load(name))

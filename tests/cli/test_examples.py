@@ -105,6 +105,7 @@ def test_the_cells_of_the_notebook_run() -> None:
     assert isinstance(names["fastest"], int)
 
 
+@pytest.mark.long
 @pytest.mark.slow
 @pytest.mark.skipif(shutil.which("make") is None, reason="needs make")
 def test_the_makefile_makes_every_recording_of_the_deck(tmp_path: Path) -> None:

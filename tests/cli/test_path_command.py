@@ -102,6 +102,7 @@ def test_a_front_is_written_as_a_table(
     assert table[:, 2].min() < first["size"]
 
 
+@pytest.mark.long
 @pytest.mark.slow
 def test_what_rounding_costs_is_printed(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["path", "oval.csv", "--round", "1 mm", "--count", "1", "--json"]) == 0

@@ -226,6 +226,7 @@ def test_a_gallery_is_a_gif_for_each_scene_and_a_sheet(
 
 
 # Ctrl-C and SIGTERM in the middle of the work: what was there stays, and nothing else is there
+@pytest.mark.thinned(2)
 @pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
 @pytest.mark.slow
 def test_stopped_in_the_middle_it_leaves_the_old_file_alone(

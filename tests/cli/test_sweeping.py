@@ -52,6 +52,7 @@ JOINED = [
 ]
 
 
+@pytest.mark.thinned(3)
 @pytest.mark.parametrize("size", [1, 7])
 @pytest.mark.parametrize(("name", "typed", "by"), JOINED)
 def test_blocks_join_without_a_seam(

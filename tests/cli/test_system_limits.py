@@ -21,6 +21,7 @@ RECORD = ("record", "kite", "--size", "64x36", "--seconds", "0.1", "-o")
 
 # Enough files for the program but not for an encoder's pipes, or for a list; memory for Python but not for
 # numpy, and for numpy but not for the threads of its OpenBLAS, which says itself that it has no memory.
+@pytest.mark.thinned(3)
 @pytest.mark.parametrize(
     ("limit", "value", "words", "message"),
     [

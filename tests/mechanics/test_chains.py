@@ -88,6 +88,7 @@ CHANGED: list[tuple[str, list[tuple[Key, float]]]] = [
 ]
 
 
+@pytest.mark.thinned(2)
 @pytest.mark.parametrize(("name", "changes"), CHANGED, ids=[f"{row[0]}-{n}" for n, row in enumerate(CHANGED)])
 def test_changed_scenes_run_smoothly(name: str, changes: list[tuple[Key, float]]) -> None:
     scene = load(name)
@@ -207,6 +208,7 @@ def test_what_keeps_from_its_limit_behind_a_change_point_has_none() -> None:
     assert path.ends == ("B", "B")
 
 
+@pytest.mark.thinned(2)
 @pytest.mark.parametrize(
     "aside",
     [0.0, 1e-14, *(pytest.param(aside, marks=pytest.mark.long) for aside in (1e-15, 1e-12, 1e-6, 1e-3))],

@@ -151,6 +151,7 @@ def test_next_to_a_zero_there_are_still_all_digits(form: str, names: list[str]) 
             assert units(found[name], true[name], of=true[name]) <= 4, (angle, name)
 
 
+@pytest.mark.thinned(7)
 @pytest.mark.parametrize("form", ["half", "signed", "sharp"])
 @pytest.mark.parametrize("quarters", range(-4, 6))
 def test_a_small_way_from_where_they_vanish_keeps_all_its_digits(form: str, quarters: int) -> None:

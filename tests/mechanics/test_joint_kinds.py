@@ -49,6 +49,7 @@ def check(make: Make, count: int) -> None:
         assert error.rate <= RATE, linkage.joints
 
 
+@pytest.mark.thinned(3)
 @every_kind
 @pytest.mark.slow
 def test_a_joint_is_right_to_many_digits(make: Make) -> None:

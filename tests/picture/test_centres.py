@@ -128,6 +128,7 @@ def test_a_centre_out_of_sight_is_told_with_its_distance_and_an_arrow_along_the_
 CROWDED = ["stephenson-3", "umbrella", "pumpjack", "elliptic-trammel"]
 
 
+@pytest.mark.thinned(4)
 @pytest.mark.parametrize("name", CROWDED)
 def test_no_word_of_a_still_lies_on_a_centre(name: str) -> None:
     scene = load(name)

@@ -62,6 +62,7 @@ def test_a_picture_is_the_golden_one(name: str, phase: float, look: Look, tmp_pa
     assert worst <= LEVELS, f"{worst} levels apart; side by side in {_beside(drawn, wanted, tmp_path)}"
 
 
+@pytest.mark.thinned(4)
 @pytest.mark.parametrize("size", [(320, 180), (1280, 720), (720, 1280)])
 @pytest.mark.parametrize(("name", "level", "theme"), [("crank-rocker", 2, "light"), ("press", 1, "dark")])
 def test_names_stand_as_in_the_golden_picture(

@@ -67,6 +67,7 @@ def test_no_name_ever_lies_on_another_or_on_a_pin_or_in_the_hud(name: str, size:
 BEYOND = [("scotch-yoke", "r₂ = 80 mm", "fitting-Y"), ("toggle-clamp", "O₆", "body-arm")]
 
 
+@pytest.mark.thinned(2)
 @pytest.mark.parametrize(("name", "text", "part"), BEYOND)
 def test_words_of_a_still_lie_on_nothing_that_reaches_beyond_its_joints(
     name: str, text: str, part: str
@@ -85,6 +86,7 @@ def test_words_of_a_still_lie_on_nothing_that_reaches_beyond_its_joints(
 RIMS = [("parallel-locomotive", "r₁"), ("engine", ""), ("landing-gear", "")]
 
 
+@pytest.mark.thinned(3)
 @pytest.mark.parametrize(("name", "said"), RIMS)
 def test_no_word_of_a_still_lies_on_the_rim_of_a_wheel(name: str, said: str) -> None:
     scene = load(name)
@@ -110,6 +112,7 @@ def test_no_word_of_a_still_lies_on_the_rim_of_a_wheel(name: str, said: str) -> 
                     assert not np.hypot(*near) < rim < max(corners), text
 
 
+@pytest.mark.long
 def test_a_plate_too_slender_for_its_name_has_it_outside() -> None:
     scene = load("excavator")
     phase = default_phase(scene)

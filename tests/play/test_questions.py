@@ -35,7 +35,7 @@ from linkanim.scenes.scene import Scene
 MAKING = ("pole", "slow way", "precision point")
 FEW, MANY = 14, 100
 """Questions about a scene, and about one of a long run."""
-SEED, SOME, EACH = 35, 6, 5
+SEED, SOME, EACH = 35, 3, 4
 """Random scenes of the default run, and questions about each."""
 PARTS, MORE, MANY_EACH = 10, 290, 15
 """Of the long run: with those about the catalogue there are 10,000 questions."""
@@ -128,6 +128,7 @@ REASONS = {
 }
 
 
+@pytest.mark.thinned(2)
 @pytest.mark.parametrize(("token", "said"), REASONS.items(), ids=REASONS)
 def test_a_reason_is_one(token: str, said: str) -> None:
     question = question_of(QuestionId.of(token))
@@ -135,6 +136,7 @@ def test_a_reason_is_one(token: str, said: str) -> None:
     assert faults(question, ExactMotion(question.scene)) == []
 
 
+@pytest.mark.thinned(2)
 @pytest.mark.parametrize("phase", [0.0, 3.1416, pi, tau])
 def test_a_question_at_a_limit_holds(phase: float) -> None:
     scene = load("chebyshev-line")

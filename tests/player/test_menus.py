@@ -74,6 +74,7 @@ def open_rows(state: State) -> list[ListRow]:
     return [*state.listing.others.found]
 
 
+@pytest.mark.thinned(3)
 @pytest.mark.parametrize("mode", ENTERED)
 def test_every_command_of_every_mode_is_listed_by_f10_and_by_a_right_click(
     player: Player, mode: Mode

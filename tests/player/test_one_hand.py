@@ -446,6 +446,7 @@ WRITES = os.environ.get("LINKANIM_GOLDENS") == "write"
 HANDS = (ByMouse, ByTouch, ByKeys)
 
 
+@pytest.mark.thinned(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", HANDS, ids=[one.name for one in HANDS])
 def test_a_lecture_is_given_by_one_hand_alone(

@@ -99,6 +99,7 @@ def test_a_part_is_added_to_the_lengths_that_were_edited_and_one_undo_takes_back
     assert of_label(editor.state, "Crank 2") == 51
 
 
+@pytest.mark.thinned(4)
 @pytest.mark.parametrize("paused", [False, True])
 @pytest.mark.parametrize("way", ["escape", "f2", "button"])
 def test_the_mode_is_left_at_once_and_the_motion_is_as_it_was(
@@ -177,6 +178,7 @@ def test_a_value_that_cannot_be_is_refused_on_the_sheet_as_it_is_without(editor:
     assert "the crank cannot turn fully" in told[0]
 
 
+@pytest.mark.sampled
 @pytest.mark.parametrize("name", names())
 def test_nothing_of_a_mechanism_is_lost_on_the_way_to_the_sheet_and_back(name: str) -> None:
     scene = load(name)

@@ -381,6 +381,7 @@ def test_shift_w_takes_the_scene_s_own_trace(player: Player) -> None:
     assert player.state.scene.name == "crank-rocker"
 
 
+@pytest.mark.long
 @pytest.mark.slow
 def test_the_process_answers_a_stroke(stroke: State) -> None:
     request = request_of(sketch_of(stroke), search=True)

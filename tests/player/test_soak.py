@@ -29,7 +29,7 @@ from linkanim.player.state import State, begin
 from linkanim.scenes import load, names
 
 SEED = 20261121
-SOME = names()[::4]
+SOME = names()[::9]
 """Scenes of a short run, of every chapter some."""
 needs_proc = pytest.mark.skipif(not Path("/proc/self/statm").exists(), reason="memory is read through /proc")
 
@@ -149,12 +149,12 @@ def resident_mb() -> float:
     return pages * 4096 / 1e6
 
 
-@pytest.mark.withstands("frames run", 600)
+@pytest.mark.withstands("frames run", 300)
 @needs_proc
 @pytest.mark.slow
 def test_states_stay_finite_whatever_is_asked(record_property: Callable[[str, object], None]) -> None:
-    run = states(600, 0.3, SOME)
-    for state in islice(run, 300):
+    run = states(300, 0.3, SOME)
+    for state in islice(run, 150):
         finite(state)
     before = resident_mb()
     for state in run:
@@ -162,13 +162,13 @@ def test_states_stay_finite_whatever_is_asked(record_property: Callable[[str, ob
     record_property("memory growth, MB", resident_mb() - before)
 
 
-@pytest.mark.withstands("frames run", 60)
+@pytest.mark.withstands("frames run", 35)
 @pytest.mark.slow
 def test_a_window_withstands_keys_and_mouse(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(beside, "_start", fake_start([]))
     monkeypatch.setattr(beside, "Following", NoSearch)
     with screen.opened(SIZE):
-        painted(60, here, scenes=SOME)
+        painted(35, here, scenes=SOME)
 
 
 @needs_proc

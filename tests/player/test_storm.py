@@ -21,6 +21,7 @@ def blown(events: int, seed: int, here: Path, patch: pytest.MonkeyPatch, *, calm
     return storm
 
 
+@pytest.mark.thinned(2)
 @pytest.mark.slow
 @pytest.mark.withstands("events withstood", 250)
 @pytest.mark.parametrize("seed", [1, 2])

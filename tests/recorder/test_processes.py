@@ -144,6 +144,7 @@ def test_as_many_processes_draw_as_cores_frames_and_memory_allow(
     assert processes_for(frames, size) == 0, "its threads would be missing in a copy"
 
 
+@pytest.mark.thinned(2)
 @pytest.mark.parametrize("form", ["gif", "mp4", "png"])
 def test_a_recording_has_the_same_bytes_whatever_draws_it(
     form: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

@@ -30,6 +30,7 @@ def test_the_answer_that_is_shown_is_compact_and_follows(name: str) -> None:
     assert all(max(off, 0.003) >= 1.5 * figures.deviation for off in smaller)
 
 
+@pytest.mark.long
 @pytest.mark.slow
 def test_a_foot_is_followed_by_a_linkage_that_runs_well() -> None:
     _, shown = chosen("foot")

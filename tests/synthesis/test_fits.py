@@ -123,6 +123,7 @@ def test_every_answer_of_a_thousand_is_what_it_says() -> None:
             verify(fit, points)
 
 
+@pytest.mark.long
 @pytest.mark.thinned(2)
 @pytest.mark.parametrize(("count", "noise"), [(64, 0.01), (2000, 0.001)])
 @pytest.mark.slow

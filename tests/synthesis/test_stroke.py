@@ -130,6 +130,7 @@ def test_the_answer_that_is_shown_stays_when_more_come_and_the_way_goes_from_exa
     assert sizes == sorted(sizes, reverse=True)
 
 
+@pytest.mark.long
 @pytest.mark.slow
 def test_what_is_dragged_is_followed_and_stays_shown_among_the_others() -> None:
     curve = stroke_of(curves("four-bar", 1, seed=55)[0])
