@@ -41,7 +41,10 @@ class KennedyStep(NamedTuple):
 
 
 def blocks(linkage: Linkage) -> tuple[Body, ...]:
-    """Return the blocks that slide on a link, or on the ground, and that no named body is."""
+    """Return the blocks that slide on a link, or on the ground, and that no named body is.
+
+    Of a pin in two slots there is one, which turns with the first of its guides.
+    """
     named = {body.slider for body in linkage.bodies}
     points = dict.fromkeys(slide.point for joint in linkage.joints for slide in joint.slides)
     return tuple(Body("", slider=point) for point in points if point not in named)
@@ -76,13 +79,22 @@ def joint_between(linkage: Linkage, one: Link, other: Link) -> str | None:
 
 
 def slide_between(linkage: Linkage, one: Link, other: Link) -> Slide | None:
-    """Return the slide by which one of two links slides on the other; None where neither does."""
-    slides = [slide for joint in linkage.joints for slide in joint.slides]
+    """Return the slide by which one of two links slides on the other; None where neither does.
+
+    What is in a second slot by the same pin turns in it, and so has its centre elsewhere.
+    """
     for block, guide in ((one, other), (other, one)):
-        for slide in slides:
-            if block is not None and block.slider == slide.point and _guides(linkage, guide, slide):
+        if block is not None and block.slider is not None:
+            slide = _slide_of(linkage, block.slider)
+            if _guides(linkage, guide, slide):
                 return slide
     return None
+
+
+def touch(linkage: Linkage, one: Link, other: Link) -> bool:
+    """Whether the centre of two links is known by how they touch: in a joint, on a guide, as gears."""
+    joined = joint_between(linkage, one, other) or slide_between(linkage, one, other)
+    return joined is not None or _geared(linkage, one, other)
 
 
 def kennedy(linkage: Linkage, links: Mapping[str, Link]) -> tuple[KennedyStep, ...]:
@@ -93,7 +105,7 @@ def kennedy(linkage: Linkage, links: Mapping[str, Link]) -> tuple[KennedyStep, .
     those stand that only one such link leads to.
     """
     pairs = list(combinations(links, 2))
-    known = {pair for pair in pairs if _adjacent(linkage, links, pair)}
+    known = {(one, other) for one, other in pairs if touch(linkage, links[one], links[other])}
     steps: list[KennedyStep] = []
     for least in (2, 1):
         while found := next(_next(links, pairs, known, least), None):
@@ -111,13 +123,6 @@ def _next(
         by = tuple(third for third in links if (one, third) in both and (third, other) in both)
         if (one, other) not in known and len(by) >= least:
             yield KennedyStep((one, other), by[:2])
-
-
-def _adjacent(linkage: Linkage, links: Mapping[str, Link], pair: tuple[str, str]) -> bool:
-    """Whether the centre of two links is known by how they touch."""
-    one, other = (links[number] for number in pair)
-    touch = joint_between(linkage, one, other) or slide_between(linkage, one, other)
-    return touch is not None or _geared(linkage, one, other)
 
 
 def _geared(linkage: Linkage, one: Link, other: Link) -> bool:

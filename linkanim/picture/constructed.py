@@ -11,7 +11,7 @@ import numpy as np
 
 from linkanim.errors import BadInput
 from linkanim.frozen import NamedTuple
-from linkanim.mechanics.centres import Centre, KennedyStep, joint_between, slide_between
+from linkanim.mechanics.centres import Centre, KennedyStep, joint_between, slide_between, touch
 from linkanim.mechanics.motion import Pose
 from linkanim.picture.centres import CentrePairs, kennedy_line, label_of
 from linkanim.picture.figure import Figure, figure
@@ -38,7 +38,10 @@ _REFUSED: dict[ConstructionKind, str] = {
         "has no construction of a synthesis; one is drawn of what linkanim guide, function and quick-return "
         "have made"
     ),
-    "centres": "has more than five links; instant centres are constructed of up to five",
+    "centres": (
+        "has more than five links, or no two whose centres with a third are both known; instant centres are "
+        "constructed of up to five"
+    ),
     "dead-centres": (
         "is neither a slider-crank, its rod longer than its crank, nor a crank-rocker, driven by its "
         "crank; of those dead centres are constructed"
@@ -186,8 +189,11 @@ def _centre_steps(shown: Figure, phase: float) -> tuple[ConstructionStep, ...]:
     pose = shown.scene.pose(phase, 1)
     found, near = known.of(pose), set(known.near(pose))
     size = known.size
-    later = {step.pair for step in known.steps}
-    given = [pair for pair, _ in known.pairs if pair in found and pair not in later]
+    links = shown.by_number
+    touching = [
+        (one, other) for (one, other), _ in known.pairs if touch(shown.linkage, links[one], links[other])
+    ]
+    given = [pair for pair in touching if pair in found]
     marks = [_given_mark(shown, pose, pair, found[pair], near, size) for pair in given]
     steps = [ConstructionStep(_given_words(shown, found, given), tuple(marks))]
     for step in known.steps:
