@@ -264,13 +264,13 @@ class Fade:
 _ROOM = 0.85 / FRAMES_PER_SECOND
 """What a frame may take, in seconds: the rest is for what else the machine does."""
 _ONCE = 0.75
-"""What a step takes at once of what it takes in two frames: all that moves is in both."""
+"""What a step takes in one frame, as a share of its two: what moves is drawn in both of these."""
 
 
-class Halving:
-    """Knows how long the last step took, and whether the rest of it is still to be drawn.
+class StepSplitter:
+    """Draws a step under the hand in two frames where the last one took longer than a frame.
 
-    In the first of two frames the linkage follows, in the second what stands still behind it, and the list;
+    In the first of the two the linkage follows, in the second what stands still behind it, and the list;
     meanwhile a mouse that only moves has to wait.
     """
 
@@ -290,7 +290,7 @@ class Halving:
         return events
 
     def late(self, *, stepped: bool) -> bool:
-        """Return whether this frame, in which something was changed or not, has the first half of a step."""
+        """Return whether this frame, in which something was changed or not, is the first of a step's two."""
         was, self._late = self._late, stepped and self._step > _ROOM
         self._part = "first" if self._late else "rest" if was else "whole" if stepped else "none"
         return self._late

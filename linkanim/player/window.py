@@ -33,7 +33,7 @@ from linkanim.player.commands import tool_asks
 from linkanim.player.devices import MOUSE_EVENTS, PAD_EVENTS, Fingers, Keyboard, Mouse, Pads, latest
 from linkanim.player.edits import renewed
 from linkanim.player.files import DraftFile, SavedScenes, SceneFile, beside, scene_files
-from linkanim.player.framing import Halving
+from linkanim.player.framing import StepSplitter
 from linkanim.player.keys import bind_of
 from linkanim.player.pointing import Pointed, PointedThing
 from linkanim.player.screen import Screen
@@ -110,7 +110,7 @@ class Window:
         self._as_made: Sequence[str] = _USUALLY_MADE
         self.screen = Screen(state)
         self._keyboard, self._mouse, self._fingers, self._pads = Keyboard(), Mouse(), Fingers(), Pads()
-        self._speaker, self._halving = Speaker(), Halving()
+        self._speaker, self._splitter = Speaker(), StepSplitter()
         self._notes: list[str] = []
         self._photo: str | None = None
         self._windowed = screen.frame()
@@ -134,14 +134,14 @@ class Window:
         """
         self._pads.look(frames)
         events = self._fingers.pointed(pygame.event.get(), pygame.display.get_window_size())
-        events = self._halving.begin(events)
+        events = self._splitter.begin(events)
         self._now, before = self.state.frame + frames, self.state
         for frame in range(frames):
             self._advance(events if frame == 0 else [])
         for cue in cues(before, self.state):
             self._speaker.play(cue)
         self._show()
-        self._halving.end()
+        self._splitter.end()
         if not events:
             self.screen.prepare(self.state)
         return self._open
@@ -424,7 +424,7 @@ class Window:
             hover = None  # a joint of the scene that was there until now
         try:
             row, over = self._mouse.pointed(self.screen), self._over_sheet()
-            late, button = self._halving.late(stepped=self._has_stepped), self._mouse.on_bar(self.screen)
+            late, button = self._splitter.late(stepped=self._has_stepped), self._mouse.on_bar(self.screen)
             pointed = self._mouse.over_scene(self.screen, self.state.frame) if free else self._led_joint()
             over_ = overlay(self.state, hover, row, over, button, pointed)
             self.screen.show(self.state, over_, late=late)

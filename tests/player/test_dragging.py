@@ -15,7 +15,7 @@ from linkanim.picture.items import Group
 from linkanim.picture.look import Look
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
-from linkanim.player.framing import Framing, Halving
+from linkanim.player.framing import Framing, StepSplitter
 from linkanim.player.state import State, begin, loss_of_turning
 from linkanim.player.tape import Tape, starting
 from linkanim.scenes import load, names
@@ -340,7 +340,7 @@ def test_the_view_stands_still_under_the_hand_as_long_as_there_is_room() -> None
 def charted_drag(player: Player, seconds: float, far: float = 2.0) -> Iterator[tuple[bool, bool, bool]]:
     """Drag a joint where a frame takes so long; yield if the scene, the curve and the list have changed."""
     clock = iter(count(step=seconds))
-    player.window._halving = Halving(lambda: next(clock))
+    player.window._splitter = StepSplitter(lambda: next(clock))
     player.window.state = replace(player.state, look=Look(chart="P.velocity"))
     player.type("e")
     player.settle()
