@@ -51,7 +51,7 @@ class CouplerLinkage(ABC):
     angles: Real
     """Of the crank, where the coupler is at each point or pose that it was made for, in their order."""
     transmission_angle: float
-    """The least; where the input does not turn fully, along the way it was made for."""
+    """The least; where the input does not turn fully, over the part that it was made for."""
     size: float
     """The longest link, or side of the coupler."""
 
@@ -77,7 +77,7 @@ class CouplerLinkage(ABC):
 
     @property
     def sense(self) -> float:
-        """+1 where the drive runs forwards along the way, else -1; a crank's angle then grows."""
+        """+1 where the drive runs forwards along the path, else -1; a crank's angle then grows."""
         return math.copysign(1.0, self.scene.linkage.drive.speed)
 
 
@@ -130,7 +130,7 @@ class Fit(CouplerLinkage):
 
     @property
     def error(self) -> float:
-        """By what answers are ranked: the root mean square, and a way between the points that strays."""
+        """By what answers are ranked: the root mean square, and how far the path strays between points."""
         if len(self.angles) <= FEW:
             return self.rms
         return math.hypot(self.rms, max(0.0, self.stray - self.largest - self.task.curve.longest_step / 2))
@@ -148,7 +148,7 @@ class Fit(CouplerLinkage):
 def document_of(
     kind: LinkageKind, row: Iterable[float], closure: float, start: tuple[float, float], **stated: str
 ) -> dict[str, Any]:
-    """Return a linkage as a scene's document, its crank starting at an angle, turning a way (±1).
+    """Return a linkage as a scene's document, its crank starting at an angle, in a sense (±1).
 
     `stated` is its source, and its title and unit of length if these are not the usual ones.
     """
@@ -175,17 +175,17 @@ def parameters_of(kind: LinkageKind, row: Iterable[float]) -> dict[str, float]:
 
 def rounded(task: PathTask, row: Real) -> Real:
     """Return a row as it is written, to twelve digits after the curve's first: one input gives one file."""
-    found = [
+    values = [
         round(float(value), 13 if name == "line_angle" else task.quantum) + 0.0
         for name, value in zip(task.kind.parameters, row, strict=True)
     ]
-    return np.array(found)
+    return np.array(values)
 
 
 # Every answer as the solver runs it: its whole turn, one closure, the points in order, true distances.
 
 _POSES = 1440
-"""Over the turn, or between the first and the last point, at which the way is compared with the polyline."""
+"""Over the turn, or between the first and the last point, at which the path is compared with the polyline."""
 _STEPPED, _BEYOND = 200, 0.02
 """Points at the most that are looked for in steps along the curve, and how far beyond its ends they go."""
 _FOOT_STEPS = 12
@@ -198,7 +198,7 @@ _RUN, _MOST_RUNS = 16, 128
 def checked(task: PathTask, row: Real, closure: float, angles: Real) -> Fit | None:
     """Return the answer as the solver runs it; None where it is none after all.
 
-    That is where it does not assemble, does not turn fully or not all the way along an open curve, passes
+    That is where it does not assemble, does not turn fully or not over the whole of an open curve, passes
     the points out of order, or breaks a limit. `angles` (n,) are those of the crank at the points.
     """
     if not keeps(task, row):
@@ -262,7 +262,7 @@ class _Answer(NamedTuple):
 
 
 def _scene(task: PathTask, row: Real, closure: float, start: tuple[float, float]) -> Scene:
-    """Return the scene of a linkage, its crank starting at an angle, turning a way (±1)."""
+    """Return the scene of a linkage, its crank starting at an angle, in a sense (±1)."""
     stated = {"source": task.source, "length_unit": task.unit}
     document = document_of(task.kind, row, closure, start, **stated)
     return scene_from(document, name=task.name, where=task.name)
@@ -342,21 +342,21 @@ def _passed(answer: _Answer, task: PathTask, places: Real) -> Real:
         least = np.minimum.accumulate(total)
         before.append(np.maximum.accumulate(np.where(total <= least, numbers, 0)))
         total = least + square
-    found = [int(total.argmin())]
+    backwards = [int(total.argmin())]
     for last in reversed(before):
-        found.append(int(last[found[-1]]))
+        backwards.append(int(last[backwards[-1]]))
     along = task.normal.places
-    passed = np.interp(along, along[chosen], steps[found[::-1]])
+    passed = np.interp(along, along[chosen], steps[backwards[::-1]])
     return passed if _in_order(task, passed, answer.round) else places
 
 
 def _ascending(places: Real, most: float) -> Real:
     """Return places sorted, those that go on beyond the curve's end where it begins."""
-    found = np.sort(places)
-    while found[-1] - found[0] > most:
-        found[0], found[-1] = found[-1] - most, found[0] + most
-        found.sort()
-    return found
+    ascending = np.sort(places)
+    while ascending[-1] - ascending[0] > most:
+        ascending[0], ascending[-1] = ascending[-1] - most, ascending[0] + most
+        ascending.sort()
+    return ascending
 
 
 def _nearest(answer: _Answer, points: Complex, places: Real) -> Real:
@@ -366,12 +366,12 @@ def _nearest(answer: _Answer, points: Complex, places: Real) -> Real:
     left = np.arange(len(best))
     for _ in range(_FOOT_STEPS):
         motion = answer.scene.solve(**{answer.by: best[left]}, speed=1.0, derivatives=2)
-        way = points[left] - as_complex(motion.position["P"])
+        missing = points[left] - as_complex(motion.position["P"])
         rate, turn = as_complex(motion.velocity["P"]), as_complex(motion.acceleration["P"])
         with np.errstate(all="ignore"):
             square = np.abs(rate) ** 2
-            bend = square - (np.conj(turn) * way).real
-            step = np.nan_to_num((np.conj(rate) * way).real / np.where(bend > 0, bend, square))
+            bend = square - (np.conj(turn) * missing).real
+            step = np.nan_to_num((np.conj(rate) * missing).real / np.where(bend > 0, bend, square))
         step = np.clip(step, -reach[left], reach[left])
         off = np.abs(answer.traced(best[left] + step) - points[left])
         nearer = off < least[left]
@@ -412,10 +412,10 @@ def _stray(answer: _Answer, task: PathTask, places: Real) -> float:
     return _farthest(answer.traced(np.linspace(places[0], last, _POSES)), task.curve)
 
 
-def _farthest(way: Complex, curve: DrawnCurve) -> float:
-    """Return how far a way goes from the points' polyline: from the nearest of its segments.
+def _farthest(path: Complex, curve: DrawnCurve) -> float:
+    """Return how far a path goes from the points' polyline: from the nearest of its segments.
 
-    Infinite where the way is not closed. Of the segments, taken in runs, only runs are looked at that may
+    Infinite where the path breaks off. Of the segments, taken in runs, only runs are looked at that may
     hold the nearest one.
     """
     start, side = curve.polyline[:-1], np.diff(curve.polyline)
@@ -423,22 +423,22 @@ def _farthest(way: Complex, curve: DrawnCurve) -> float:
     corners = [curve.polyline[run[0] : run[-1] + 2] for run in runs]
     middle = np.array([part.mean() for part in corners])
     radius = np.array([np.abs(part - centre).max() for part, centre in zip(corners, middle, strict=True)])
-    least = np.full(len(way), np.inf)
-    away = np.abs(way[:, None] - middle)
+    least = np.full(len(path), np.inf)
+    away = np.abs(path[:, None] - middle)
     near = away - radius <= (away + radius).min(axis=1, keepdims=True) * (1 + _SLACK)
     for run, here in zip(runs, near.T, strict=True):
         if here.any():
-            least[here] = np.minimum(least[here], _off(way[here], start[run], side[run]))
+            least[here] = np.minimum(least[here], _off(path[here], start[run], side[run]))
     return float(least.max())
 
 
 def _off(places: Complex, start: Complex, side: Complex) -> Real:
     """Return how far places (n,) are from the nearest of some segments (m,)."""
-    way, side = places - start[:, None], side[:, None]
+    from_start, side = places - start[:, None], side[:, None]
     with np.errstate(invalid="ignore"):  # segments without a length
-        share = np.nan_to_num((way.real * side.real + way.imag * side.imag) / np.abs(side) ** 2)
+        share = np.nan_to_num((from_start.real * side.real + from_start.imag * side.imag) / np.abs(side) ** 2)
     np.clip(share, 0, 1, out=share)
-    x, y = way.real - share * side.real, way.imag - share * side.imag
+    x, y = from_start.real - share * side.real, from_start.imag - share * side.imag
     return np.asarray(np.sqrt((x * x + y * y).min(axis=0)))
 
 
@@ -464,8 +464,8 @@ def cognates_of(fit: Fit) -> Iterator[Fit]:
             continue
         closures = np.where((np.conj(other - crank) * (rocker - crank)).imag >= 0, 1.0, -1.0)
         task = fit.task if fit.task.curve.closed else fit.task.swinging()
-        found = checked(task, row, first.closure, angles) or checked_by_phase(task, row, closures, angles)
-        yield from [replace(found, cognate=True)] if found else []
+        cognate = checked(task, row, first.closure, angles) or checked_by_phase(task, row, closures, angles)
+        yield from [replace(cognate, cognate=True)] if cognate else []
 
 
 def _timed(fit: Fit, angles: Real) -> Real | None:
@@ -501,8 +501,8 @@ NUMBERS = EARLIER + 2
 class PathAnswer(NamedTuple):
     """A four-bar beside a stroke: by how much of its size in percent it is off, and what it is.
 
-    `closure` is +1 or -1, `start` the crank's angle at the stroke's first point (rad), `sense` +1 or -1 the
-    way it turns from there, `row` the parameters of a four-bar. `size` is its longest link as a share of the
+    `closure` is +1 or -1, `start` the crank's angle at the stroke's first point (rad), `sense` +1 or -1 as it
+    turns from there, `row` the parameters of a four-bar. `size` is its longest link as a share of the
     stroke's size, `angle` the least transmission angle (rad), each 0 where it is not known.
     """
 

@@ -30,7 +30,7 @@ CURVES = 20_000
 POINTS = 64
 """Along each curve."""
 _POSES = 96
-"""At equal crank angles, from which the points are found."""
+"""At equal crank angles, between which a curve's points are interpolated."""
 _AT_ONCE = 2_000
 """Curves, so that memory does not grow with the atlas beyond what it holds."""
 _SEED = 25
@@ -74,11 +74,11 @@ def atlas(kind: LinkageKind, count: int = CURVES) -> Atlas:
 def _sampled(kind: LinkageKind, count: int) -> Real:
     """Return linkages whose crank turns fully, the first `count` of a row of random ones."""
     random = np.random.default_rng(_SEED)
-    found: list[Real] = []
-    while sum(map(len, found)) < count:
+    sound: list[Real] = []
+    while sum(map(len, sound)) < count:
         rows = kind.random_rows(random, 2 * count)
-        found.append(rows[(kind.slack(rows, _WORST) > 0).all(axis=1)])
-    return np.concatenate(found)[:count]
+        sound.append(rows[(kind.slack(rows, _WORST) > 0).all(axis=1)])
+    return np.concatenate(sound)[:count]
 
 
 def _along(kind: LinkageKind, rows: Real, first: int) -> tuple[Real, Complex]:
@@ -120,7 +120,7 @@ VARIANTS = tuple((mirrored, reverse) for mirrored in (False, True) for reverse i
 class Candidates(NamedTuple):
     """Linkages (B, p), their closures (B,), and the crank angles (B, n) at which they pass the points.
 
-    Angles go one way all along; `sense` (B,) is +1 where they grow.
+    Angles grow or fall all along; `sense` (B,) is +1 where they grow.
     """
 
     rows: Real
@@ -145,7 +145,7 @@ def matched_in_time(
 
     Where the start is not free a linkage may only be turned with its crank.
     """
-    rows, found = atlas.rows[:_TIMED], list[tuple[Real, Candidates]]()
+    rows, hits = atlas.rows[:_TIMED], list[tuple[Real, Candidates]]()
     chosen = np.linspace(0, len(points) - 1, min(len(points), _TIMED_POINTS)).round().astype(np.intp)
     for mirrored in (False, True):
         own, angles = (np.conj(points), -timing) if mirrored else (points, timing)
@@ -154,14 +154,14 @@ def matched_in_time(
         own_angles = angles + start[best, None]
         placed = _laid(atlas, rows[best], own, own_angles, np.ones(count), mirrored=mirrored)
         placed = placed if free_start else placed._replace(angles=np.tile(timing, (count, 1)))
-        found.append((score[best], placed))
-    return _best(found, count)
+        hits.append((score[best], placed))
+    return _best(hits, count)
 
 
 def matched_few(atlas: Atlas, curve: DrawnCurve, count: int) -> Candidates:
     """Return candidates for points too few to say what lies between: crank angles are tried at random."""
     random = np.random.default_rng(_FEW_SEED)
-    found, points = list[tuple[Real, Candidates]](), curve.points
+    hits, points = list[tuple[Real, Candidates]](), curve.points
     reach = 2 * math.pi * (1.0 if curve.closed else 0.8)
     sought = points - points.mean()
     for mirrored, _ in _FEW_TRIES * VARIANTS:
@@ -174,13 +174,13 @@ def matched_few(atlas: Atlas, curve: DrawnCurve, count: int) -> Candidates:
         score = np.abs(product) ** 2 / (np.abs(shape) ** 2).sum(axis=1)
         best = np.argpartition(-score, count)[:count]
         placed = _laid(atlas, atlas.rows[best], own, angles[best], np.ones(count), mirrored=mirrored)
-        found.append((score[best], placed))
-    return _best(found, count)
+        hits.append((score[best], placed))
+    return _best(hits, count)
 
 
-def _best(found: Iterable[tuple[Real, Candidates]], count: int) -> Candidates:
+def _best(hits: Iterable[tuple[Real, Candidates]], count: int) -> Candidates:
     """Return the best `count` of sets of candidates with their scores."""
-    scores, parts = zip(*found, strict=True)
+    scores, parts = zip(*hits, strict=True)
     return joined(parts).take(np.argsort(-np.concatenate(scores), kind="stable")[:count])
 
 
@@ -215,8 +215,8 @@ def _hits(atlas: Atlas, curve: DrawnCurve, count: int) -> Iterator[tuple[Real, C
         sought /= np.sqrt((np.abs(sought) ** 2).sum())
         size = None if curve.closed else _window(atlas, steps)
         for mirrored, reverse in VARIANTS:
-            way = np.conj(sought) if mirrored else sought
-            score, start = _correlated(atlas, way[::-1] if reverse else way, size)
+            target = np.conj(sought) if mirrored else sought
+            score, start = _correlated(atlas, target[::-1] if reverse else target, size)
             best = np.argpartition(-score, count)[:count]
             places = (1.0 if curve.closed else curve.places[-1]) - curve.places if reverse else curve.places
             angles = _angles(atlas, best, start[best, None] + last * places)

@@ -191,15 +191,15 @@ def circle_points(poses: Poses, centres: Complex) -> Complex:
     """
     rows = np.moveaxis(_rows(poses, centres), 0, -1)
     pairs = [_cross(one, other) for one, other in combinations(rows, 2)]
-    found = np.array(pairs)
-    best = np.abs(found).max(axis=1).argmax(axis=0)
-    one, x, y = found[best, :, np.arange(found.shape[2])].T
+    products = np.array(pairs)
+    best = np.abs(products).max(axis=1).argmax(axis=0)
+    one, x, y = products[best, :, np.arange(products.shape[2])].T
     with np.errstate(all="ignore"):
         place = poses.origins[0] + (x + 1j * y) / one
         lengths = np.abs(poses.places(place) - np.asarray(centres)[:, None])
-        kept = np.abs(place - poses.centre) <= _FAR * poses.size
-        kept &= np.ptp(lengths, axis=1) <= _LOOSE * np.maximum(lengths.max(axis=1), poses.size)
-    return np.asarray(np.where(kept, place, np.nan))
+        sound = np.abs(place - poses.centre) <= _FAR * poses.size
+        sound &= np.ptp(lengths, axis=1) <= _LOOSE * np.maximum(lengths.max(axis=1), poses.size)
+    return np.asarray(np.where(sound, place, np.nan))
 
 
 def centre_points(poses: Poses, circles: Complex) -> Complex:
@@ -208,9 +208,9 @@ def centre_points(poses: Poses, circles: Complex) -> Complex:
     one, other = places[:, 1] - places[:, 0], places[:, 2] - places[:, 0]
     across = 2 * (np.conj(one) * other).imag
     with np.errstate(all="ignore"):
-        found = places[:, 0] + 1j * (one * np.abs(other) ** 2 - other * np.abs(one) ** 2) / across
-    far = ~(np.abs(found - poses.centre) <= _FAR * poses.size)
-    return np.asarray(np.where(far, np.nan, found))
+        centres = places[:, 0] + 1j * (one * np.abs(other) ** 2 - other * np.abs(one) ** 2) / across
+    far = ~(np.abs(centres - poses.centre) <= _FAR * poses.size)
+    return np.asarray(np.where(far, np.nan, centres))
 
 
 def polished(poses: Poses, bars: Bars) -> Bars:
@@ -218,10 +218,10 @@ def polished(poses: Poses, bars: Bars) -> Bars:
     circle, centre = bars
     for _ in range(2):
         places = poses.places(circle)
-        way = places - centre[:, None]
+        arm = places - centre[:, None]
         off = ((places - places[:, :1]) * np.conj(places + places[:, :1] - 2 * centre[:, None])).real[:, 1:]
-        by_circle = 2 * (np.conj(way) * poses.turns - np.conj(way[:, :1]))[:, 1:]
-        by_centre = -2 * np.conj(way - way[:, :1])[:, 1:]
+        by_circle = 2 * (np.conj(arm) * poses.turns - np.conj(arm[:, :1]))[:, 1:]
+        by_centre = -2 * np.conj(arm - arm[:, :1])[:, 1:]
         slopes = np.stack([by_circle.real, -by_circle.imag, by_centre.real, -by_centre.imag], axis=-1)
         scale = np.abs(slopes).max(axis=(1, 2), initial=0.0)[:, None, None]
         step = np.einsum("kpj,kj->kp", np.linalg.pinv(slopes / np.where(scale, scale, 1.0)), -off)
@@ -288,7 +288,7 @@ def _raised(linear: _Linear, conic: list[Any]) -> list[Any]:
 class CurveCircuit(NamedTuple):
     """A part of the cubic as lines through its pole meet it: between two directions, or all the way round.
 
-    `sign` is that of the root; 0 where it changes at both ends and the part is one closed way.
+    `sign` is that of the root; 0 where it changes at both ends and the part is one closed curve.
     """
 
     low: float
@@ -307,8 +307,8 @@ class CentreCurve:
 
     @cached_property
     def _form(self) -> list[float]:
-        ways = zip(self.poses.shifts[1:] / self.poses.size, self.poses.turns[1:], strict=True)
-        pairs = (((way.real, way.imag), (turn.real, turn.imag)) for way, turn in ways)
+        shifts = zip(self.poses.shifts[1:] / self.poses.size, self.poses.turns[1:], strict=True)
+        pairs = (((shift.real, shift.imag), (turn.real, turn.imag)) for shift, turn in shifts)
         return _cubic([_equation(*pair) for pair in pairs])
 
     @cached_property
@@ -350,7 +350,7 @@ class CentreCurve:
 
     @cached_property
     def circuits(self) -> tuple[CurveCircuit, ...]:
-        """Its circuits: closed ways between two directions, or all the way round once for each root."""
+        """Its circuits: closed curves between two directions, or all the way round once for each root."""
         _, form = self._about
         zeros = _discriminant_zeros(form)
         if not zeros:
@@ -386,8 +386,8 @@ class CentreCurve:
         aim = (point - start) / size
         samples = (self.sampled(_FINE) - start) / size
         samples = np.append(samples[np.isfinite(samples)], aim)
-        found = [self._footed(complex(one), aim) for one in samples[np.abs(samples - aim).argsort()[:4]]]
-        return start + size * min(found, key=lambda one: abs(one - aim))
+        feet = [self._footed(complex(one), aim) for one in samples[np.abs(samples - aim).argsort()[:4]]]
+        return start + size * min(feet, key=lambda one: abs(one - aim))
 
     def _footed(self, place: complex, aim: complex) -> complex:
         """Return the foot of a point on the curve: along the tangent towards it, and back on the curve."""
@@ -410,8 +410,8 @@ class CentreCurve:
         near = np.abs(centres - self.poses.centre) <= _FAR * self.poses.size
         centres = centres[near]
         circles = circle_points(self.poses, centres)
-        kept = np.isfinite(circles)
-        return polished(self.poses, Bars(circles[kept], centres[kept]))
+        finite = np.isfinite(circles)
+        return polished(self.poses, Bars(circles[finite], centres[finite]))
 
 
 def _value_and_slope(form: list[float], place: complex) -> tuple[float, complex]:
@@ -459,8 +459,8 @@ def _discriminant_zeros(form: Real) -> list[float]:
     with np.errstate(all="ignore"):
         roots = np.roots(coefficients)
     on = roots[np.abs(np.log(np.maximum(np.abs(roots), 1e-300))) < 1e-3]
-    found = sorted(float(angle) % math.pi for angle in np.angle(on) / 2)
-    return _crossings(form, found)
+    zeros = sorted(float(angle) % math.pi for angle in np.angle(on) / 2)
+    return _crossings(form, zeros)
 
 
 def _crossings(form: Real, near: list[float]) -> list[float]:
@@ -495,8 +495,8 @@ def burmester_points(poses: Poses) -> Bars:
     with localcontext(context()):
         size = Decimal(poses.size)
         rows = [_exact_equation(poses, pose, size) for pose in range(1, MOST)]
-        found = [bar for centre in _centres(rows) for bar in _with_circle(rows, centre)]
-        places = [[_placed(poses, place, size) for place in bar] for bar in found]
+        pairs = [bar for centre in _centres(rows) for bar in _with_circle(rows, centre)]
+        places = [[_placed(poses, place, size) for place in bar] for bar in pairs]
     circles, centres = np.array(places, dtype=np.complex128).reshape(-1, 2).T
     near = (np.abs(circles - poses.centre) <= _FAR * poses.size) & (
         np.abs(centres - poses.centre) <= _FAR * poses.size
@@ -517,9 +517,9 @@ def _exact_equation(poses: Poses, pose: int, size: Decimal) -> _Row:
     return _equation(_turned((x, y), 1), (cosine, sine))
 
 
-def _turned(point: _Point, way: int) -> _Point:
+def _turned(point: _Point, sense: int) -> _Point:
     """Return a point in the turned axes, or with -1 back in the poses' own."""
-    (x, y), c, s = point, _decimal(_COSINE), way * _decimal(_SINE)
+    (x, y), c, s = point, _decimal(_COSINE), sense * _decimal(_SINE)
     return x * c - y * s, x * s + y * c
 
 
@@ -609,11 +609,11 @@ def _by_y(conic: list[Decimal]) -> tuple[_Polynomial, _Polynomial, _Polynomial]:
 
 
 def _product(one: _Polynomial, other: _Polynomial) -> _Polynomial:
-    found = [Decimal(0)] * (len(one) + len(other) - 1)
+    product = [Decimal(0)] * (len(one) + len(other) - 1)
     for i, a in enumerate(one):
         for k, b in enumerate(other):
-            found[i + k] += a * b
-    return found
+            product[i + k] += a * b
+    return product
 
 
 def _polynomial_minus(one: _Polynomial, other: _Polynomial) -> _Polynomial:
@@ -640,13 +640,13 @@ def _real_roots(polynomial: _Polynomial) -> list[Decimal]:
     ends = [-far, *_real_roots(slope), far]
     values = [_value(parts, end) for end in ends]
     zero = [abs(value) <= _NOTHING * _size_at(parts, end) for value, end in zip(values, ends, strict=True)]
-    found = []
+    roots = []
     for n in range(len(ends) - 1):
         if zero[n]:
-            found.append(ends[n])
+            roots.append(ends[n])
         elif not zero[n + 1] and values[n] * values[n + 1] < 0:
-            found.append(_between(parts, slope, (ends[n], ends[n + 1]), values[n] > 0))
-    return found
+            roots.append(_between(parts, slope, (ends[n], ends[n + 1]), values[n] > 0))
+    return roots
 
 
 def _size_at(polynomial: _Polynomial, x: Decimal) -> Decimal:
@@ -674,7 +674,7 @@ def _with_circle(rows: Sequence[_Row], centre: _Point) -> Iterator[tuple[_Point,
     x, y = centre
     lines = [tuple(a * x + b * y + c for a, b, c in row) for row in rows]
     crossings = [_cross(one, other) for one, other in combinations(lines, 2)]
-    crossing = max(crossings, key=lambda found: max(map(abs, found)))
+    crossing = max(crossings, key=lambda place: max(map(abs, place)))
     one, p, q = crossing
     size = max(map(abs, crossing))
     off = (sum(a * b for a, b in zip(line, crossing, strict=True)) for line in lines)
@@ -699,12 +699,12 @@ def ball_point(poses: Poses) -> Slides:
     """
     if not poses.poles:
         along = poses.shifts[int(np.abs(poses.shifts).argmax())]
-        way = along / abs(along)
-        found = Slides(poses.origins[:1], np.array([way]))
-        return found if _strays(poses, found) <= STRAIGHT else Slides(found.point[:0], found.direction[:0])
+        direction = along / abs(along)
+        slide = Slides(poses.origins[:1], np.array([direction]))
+        return slide if _strays(poses, slide) <= STRAIGHT else Slides(slide.point[:0], slide.direction[:0])
     candidates = [point for point in _ball_points(poses) if np.isfinite(point)]
     tries = [_straightened(poses, point) for point in candidates]
-    best = min(tries, key=lambda found: _strays(poses, found), default=None)
+    best = min(tries, key=lambda slide: _strays(poses, slide), default=None)
     if best is None or not _strays(poses, best) <= STRAIGHT:
         return Slides(np.empty(0, np.complex128), np.empty(0, np.complex128))
     return best
@@ -758,27 +758,27 @@ def _ball_points(poses: Poses) -> Iterator[complex]:
         line = square2 * linear - square * linear2
         if abs(square) <= SAME or not line:
             continue
-        way = line.conjugate() / abs(line)
+        direction = line.conjugate() / abs(line)
         start = pole - complex(four.origins[0])
-        far = -2 * (start.conjugate() * way).real - (linear * way).imag / square
-        within = (start + far * way) / complex(poses.turns[one])
+        far = -2 * (start.conjugate() * direction).real - (linear * direction).imag / square
+        within = (start + far * direction) / complex(poses.turns[one])
         yield complex(poses.origins[0]) + within
 
 
 def _straightened(poses: Poses, point: complex) -> Slides:
     """Return a point moved, with its direction, to where its places lie in line as well as they can."""
-    way = complex(slides_through(poses, np.array([point])).direction[0])
+    direction = complex(slides_through(poses, np.array([point])).direction[0])
     for _ in range(3):
-        ways = (poses.places(point) - point)[1:] / way
-        by_point = (poses.turns[1:] - 1) / way
-        slopes = np.stack([by_point.imag, by_point.real, -ways.real / poses.size], axis=1)
-        step = np.linalg.lstsq(slopes, -ways.imag, rcond=1e-14)[0]
+        steps = (poses.places(point) - point)[1:] / direction
+        by_point = (poses.turns[1:] - 1) / direction
+        slopes = np.stack([by_point.imag, by_point.real, -steps.real / poses.size], axis=1)
+        step = np.linalg.lstsq(slopes, -steps.imag, rcond=1e-14)[0]
         point += complex(step[0], step[1])
-        way *= cmath.exp(1j * step[2] / poses.size)
-    return Slides(np.array([point]), np.array([way]))
+        direction *= cmath.exp(1j * step[2] / poses.size)
+    return Slides(np.array([point]), np.array([direction]))
 
 
-def _strays(poses: Poses, found: Slides) -> float:
+def _strays(poses: Poses, slide: Slides) -> float:
     """Return how far a point strays from its line, in the poses' size."""
-    ways = (poses.places(found.point) - found.point[:, None]) / found.direction[:, None]
-    return float(np.abs(ways.imag).max() / poses.size)
+    steps = (poses.places(slide.point) - slide.point[:, None]) / slide.direction[:, None]
+    return float(np.abs(steps.imag).max() / poses.size)

@@ -128,9 +128,9 @@ def guided_body(scene: Scene, purpose: PosesPurpose) -> GuidedBody:
 
 def _guided(scene: Scene, purpose: PosesPurpose) -> Iterator[ConstructionStep]:
     """Yield the steps of a body's guidance."""
-    found = guided_body(scene, purpose)
-    poses = found.poses
-    places = [poses.places(complex(joint)) for joint in found.joints]
+    body = guided_body(scene, purpose)
+    poses = body.poses
+    places = [poses.places(complex(joint)) for joint in body.joints]
     reach = 0.18 * poses.size
     frames = [
         Mark("frame", _at(origin, origin + reach * cmath.exp(1j * angle)), str(n), spreads=True)
@@ -149,25 +149,25 @@ def _guided(scene: Scene, purpose: PosesPurpose) -> Iterator[ConstructionStep]:
     ]
     yield _step("Two of its joints, A and B, in each pose.", *bodies, *joints)
     if poses.count <= 3:
-        yield from _midperpendiculars(found, places)
+        yield from _midperpendiculars(body, places)
         yield from _pole_triangle(poses)
     elif poses.poles:
         yield from _curves(poses)
-    yield _linkage(found)
+    yield _linkage(body)
 
 
 def _numbered(name: str, *numbers: int) -> str:
     return name + "".join(map(str, numbers)).translate(_SUBSCRIPTS)
 
 
-def _midperpendiculars(found: GuidedBody, places: list[Complex]) -> Iterator[ConstructionStep]:
+def _midperpendiculars(body: GuidedBody, places: list[Complex]) -> Iterator[ConstructionStep]:
     """Yield the midperpendiculars of each joint's places, which meet in its pivot, or the slider's line."""
     tones: tuple[Tone, Tone] = ("first", "second")
-    for name, pivot, each, tone, held in zip("AB", ("O2", "O4"), places, tones, found.held, strict=True):
+    for name, pivot, each, tone, held in zip("AB", ("O2", "O4"), places, tones, body.held, strict=True):
         chords = [Mark("thin", _at(*pair), tone=tone) for pair in pairwise(each)]
         if held is None:
-            assert found.line is not None
-            reach = found.poses.size * found.line
+            assert body.line is not None
+            reach = body.poses.size * body.line
             line = Mark("line", _at(each[0] - reach, each[-1] + reach), tone=tone)
             yield _step(f"The places of {name} lie on one line: there it slides.", *chords, line)
             continue
@@ -263,11 +263,11 @@ def _of_last(poses: Poses, phases: Real) -> Iterator[ConstructionStep]:
         )
 
 
-def _linkage(found: GuidedBody) -> ConstructionStep:
+def _linkage(body: GuidedBody) -> ConstructionStep:
     """Return the linkage in the first pose."""
-    first, second = (complex(joint) for joint in found.joints)
-    marks = [Mark("plate", _at(first, second, found.poses.origins[0]), tone="ink")]
-    for name, joint, held in zip(("O₂", "O₄"), (first, second), found.held, strict=True):
+    first, second = (complex(joint) for joint in body.joints)
+    marks = [Mark("plate", _at(first, second, body.poses.origins[0]), tone="ink")]
+    for name, joint, held in zip(("O₂", "O₄"), (first, second), body.held, strict=True):
         if held is not None:
             marks += [Mark("bar", _at(held, joint)), Mark("dot", _at(held), name, spreads=True)]
     return _step("The linkage in pose 1.", *marks)
@@ -362,9 +362,9 @@ def _joined(value: float) -> str:
 
 
 def _tick(centre: complex, angle: float, reach: float, label: str, tone: Tone) -> Mark:
-    way = cmath.exp(1j * angle)
+    ray = cmath.exp(1j * angle)
     return Mark(
-        "thin", _at(centre + 0.97 * reach * way, centre + 1.03 * reach * way), label, tone, spreads=True
+        "thin", _at(centre + 0.97 * reach * ray, centre + 1.03 * reach * ray), label, tone, spreads=True
     )
 
 
@@ -457,17 +457,17 @@ def _in_line(scene: Scene, parts: InLineParts, phase: float, start: complex) -> 
 
 def dead_centre_steps(scene: Scene) -> tuple[ConstructionStep, ...]:
     """Return how compasses find the dead centres of a slider-crank or crank-rocker from its lengths."""
-    parts, found = in_line_parts(scene), dead_centres(scene)
+    parts, centres = in_line_parts(scene), dead_centres(scene)
     assert parts
-    start, (near, far) = found.crank_pivot, found.ends
+    start, (near, far) = centres.crank_pivot, centres.ends
     o2, a, b, unit = parts.pivot.translate(_SUBSCRIPTS), parts.pin, parts.end, scene.length_unit
-    crank, coupler = abs(found.pins[0] - start), abs(far - found.pins[1])
-    word = "rod" if found.pivot is None else "coupler"
+    crank, coupler = abs(centres.pins[0] - start), abs(far - centres.pins[1])
+    word = "rod" if centres.pivot is None else "coupler"
     marks = [
         Mark("dot", _at(start), o2, spreads=True),
         Mark("thin", _circled(start, crank), tone="first", spreads=True),
     ]
-    if found.pivot is None:
+    if centres.pivot is None:
         over = 0.25 * (far - near)
         where, marks = (
             "its line of travel",
@@ -476,14 +476,14 @@ def dead_centre_steps(scene: Scene) -> tuple[ConstructionStep, ...]:
         words = f"Given are the crank's circle about {o2} and the line of travel of {b}."
     else:
         o4 = (parts.held or "").translate(_SUBSCRIPTS)
-        where, arm = f"the circle about {o4}", abs(far - found.pivot)
+        where, arm = f"the circle about {o4}", abs(far - centres.pivot)
         begin, swing = (
-            cmath.phase(near - found.pivot),
-            cmath.phase((far - found.pivot) / (near - found.pivot)),
+            cmath.phase(near - centres.pivot),
+            cmath.phase((far - centres.pivot) / (near - centres.pivot)),
         )
-        arc = _arc(found.pivot, begin - 0.3 * swing, begin + 1.3 * swing, arm)
+        arc = _arc(centres.pivot, begin - 0.3 * swing, begin + 1.3 * swing, arm)
         marks += [
-            Mark("dot", _at(found.pivot), o4, spreads=True),
+            Mark("dot", _at(centres.pivot), o4, spreads=True),
             Mark("arc", arc, tone="second", spreads=True),
         ]
         words = f"Given are the crank's circle about {o2} and the circle of {b} about {o4}."
@@ -492,23 +492,23 @@ def dead_centre_steps(scene: Scene) -> tuple[ConstructionStep, ...]:
     less = f"{word} less crank" if coupler > crank else f"crank less {word}"
     folded = ("Folded", less, abs(coupler - crank), "thin")
     for end, pin, dash, (how, made, length, shape) in (
-        (far, found.pins[1], "″", stretched),
-        (near, found.pins[0], "′", folded),
+        (far, centres.pins[1], "″", stretched),
+        (near, centres.pins[0], "′", folded),
     ):
         turn = cmath.phase(end - start)
         around = Mark("arc", _arc(start, turn - _SWING, turn + _SWING, abs(end - start)), tone="third")
         said = f"{how}, crank and {word} lie in line: {b}{dash} is on {where}, {length:.4g} {unit} from {o2}"
         steps.append(_step(f"{said}: {made}.", around, Mark("ring", _at(end), f"{b}{dash}", "second", True)))
         bars = [Mark(cast(Shape, shape), _at(start, pin, end))]
-        bars += [Mark("thin", _at(found.pivot, end))] if found.pivot is not None else []
+        bars += [Mark("thin", _at(centres.pivot, end))] if centres.pivot is not None else []
         angle = math.degrees(cmath.phase(pin - start)) % 360
         said = f"The crank pin {a}{dash} lies on {o2}{b}{dash}: there the input stands at {angle:.4g}°."
         steps.append(_step(said, *bars, Mark("ring", _at(pin), f"{a}{dash}", "first", True)))
-    alpha = math.degrees(found.angle)
-    if found.pivot is None:
+    alpha = math.degrees(centres.angle)
+    if centres.pivot is None:
         what = f"The stroke is {b}′{b}″ = {abs(far - near):.4g} {unit}"
     else:
-        swing = math.degrees(cmath.phase((far - found.pivot) / (near - found.pivot)))
+        swing = math.degrees(cmath.phase((far - centres.pivot) / (near - centres.pivot)))
         what = f"The swing is {abs(swing):.4g}°"
     if alpha > 1e-6:
         ratio = (180 + alpha) / (180 - alpha)
@@ -530,22 +530,22 @@ def _circled(middle: complex, radius: float) -> Complex:
 
 def _returning(scene: Scene, purpose: TimeRatioPurpose) -> Iterator[ConstructionStep]:
     """Yield the steps of Alt's construction."""
-    found = dead_centres(scene)
-    start, (near, far) = found.crank_pivot, found.ends
-    alpha = math.degrees(found.angle)
+    centres = dead_centres(scene)
+    start, (near, far) = centres.crank_pivot, centres.ends
+    alpha = math.degrees(centres.angle)
     chord = [Mark("ring", _at(near), "B′", "second", True), Mark("ring", _at(far), "B″", "second", True)]
-    if found.pivot is None:
+    if centres.pivot is None:
         chord.append(Mark("line", _at(near, far), tone="second"))
         yield _step("The slider's stroke, between its dead centres B′ and B″.", *chord)
     else:
-        arms = [Mark("thin", _at(found.pivot, end), tone="second") for end in found.ends]
+        arms = [Mark("thin", _at(centres.pivot, end), tone="second") for end in centres.ends]
         chord.append(Mark("thin", _at(near, far), tone="second"))
-        pivot = Mark("dot", _at(found.pivot), "O₄", spreads=True)
+        pivot = Mark("dot", _at(centres.pivot), "O₄", spreads=True)
         yield _step("The rocker's swing, between its dead centres B′ and B″.", *arms, *chord, pivot)
     ratio = f"{purpose.ratio:g}"
-    rays = [Mark("dashed", _at(start, end), tone="first") for end in found.ends]
+    rays = [Mark("dashed", _at(start, end), tone="first") for end in centres.ends]
     pin = Mark("dot", _at(start), "O₂", spreads=True)
-    if found.angle > 1e-6:
+    if centres.angle > 1e-6:
         corner = Mark(
             "arc",
             _arc(
@@ -578,11 +578,11 @@ def _returning(scene: Scene, purpose: TimeRatioPurpose) -> Iterator[Construction
         yield _step("Without a quick return O₂ lies on the chord's line.", *rays, pin)
     joints = [
         Mark("ring", _at(place), label, "first", True)
-        for place, label in zip(found.pins, ("A′", "A″"), strict=True)
+        for place, label in zip(centres.pins, ("A′", "A″"), strict=True)
     ]
     bars = [
-        Mark("bar", _at(start, found.pins[1], far)),
-        Mark("thin", _at(start, found.pins[0], near)),
+        Mark("bar", _at(start, centres.pins[1], far)),
+        Mark("thin", _at(start, centres.pins[0], near)),
     ]
     yield _step(
         "O₂B″ is coupler and crank, O₂B′ coupler less crank: half their difference is the crank.",

@@ -57,7 +57,7 @@ class _Affine(NamedTuple):
 
     def after(self, inner: _Affine) -> _Affine:
         """Return what comes of a transformation within this one."""
-        x, y, origin = (self.x * way.real + self.y * way.imag for way in inner)
+        x, y, origin = (self.x * image.real + self.y * image.imag for image in inner)
         return _Affine(x, y, origin + self.origin)
 
 
@@ -97,8 +97,8 @@ def _drawn_elements(root: ElementTree.Element, where: str) -> Iterator[tuple[Ele
     waiting = [(root, _Affine())]
     while waiting:
         element, place = waiting.pop()
-        for found in _matrices(element.get("transform", ""), where):
-            place = place.after(found)
+        for matrix in _matrices(element.get("transform", ""), where):
+            place = place.after(matrix)
         yield element, place
         waiting += [(child, place) for child in reversed(element) if _name(child) not in _NOT_DRAWN]
 
@@ -111,12 +111,12 @@ def _matrices(text: str, where: str) -> Iterator[_Affine]:
     """Yield the transformations of an attribute, the outermost first."""
     place = 0
     while place < len(text.rstrip()):
-        found = _TRANSFORM.match(text, place)
-        numbers = [_number(one[0], "transform", where) for one in _NUMBER.finditer(found[2])] if found else []
-        if found is None or len(numbers) not in _ARGUMENTS[found[1]]:
+        match = _TRANSFORM.match(text, place)
+        numbers = [_number(one[0], "transform", where) for one in _NUMBER.finditer(match[2])] if match else []
+        if match is None or len(numbers) not in _ARGUMENTS[match[1]]:
             raise BadInput(f"{where}: the transform cannot be read at {text[place : place + 20].strip()!r}")
-        place = found.end()
-        yield _matrix(found[1], numbers)
+        place = match.end()
+        yield _matrix(match[1], numbers)
 
 
 def _matrix(kind: str, numbers: list[float]) -> _Affine:
@@ -152,26 +152,26 @@ def _points(drawn: str, where: str) -> Complex:
             break
         pen, along = _drawn(pen, letter, values)
         points += along
-    kept = [point for n, point in enumerate(points) if n == 0 or point != points[n - 1]]
-    return np.array(kept, dtype=np.complex128)
+    distinct = [point for n, point in enumerate(points) if n == 0 or point != points[n - 1]]
+    return np.array(distinct, dtype=np.complex128)
 
 
 def _pieces(drawn: str, where: str) -> Iterator[tuple[str, list[float]]]:
     """Yield each command's letter with its numbers, repeated ones each on its own; M is followed by L."""
     letter, values, place = "", list[float](), 0
     while place < len(drawn):
-        found = (_FLAG if letter in ("A", "a") and len(values) in (3, 4) else _TOKEN).match(drawn, place)
-        if found is None:
+        match = (_FLAG if letter in ("A", "a") and len(values) in (3, 4) else _TOKEN).match(drawn, place)
+        if match is None:
             raise BadInput(f"{where}: the path cannot be read at {drawn[place : place + 12]!r}")
-        place = found.end()
-        if found["letter"]:
+        place = match.end()
+        if match["letter"]:
             if values:
                 raise BadInput(f"{where}: the path's {letter} has too few numbers")
-            letter = found["letter"]
+            letter = match["letter"]
             if letter in "Zz":
                 yield letter, []
-        elif found["number"]:
-            values.append(_number(found["number"], "path", where))
+        elif match["number"]:
+            values.append(_number(match["number"], "path", where))
             if not letter or letter in "Zz":
                 raise BadInput(f"{where}: the path has the number {values[-1]:g} where none can be")
             if len(values) == _TAKES[letter.upper()]:

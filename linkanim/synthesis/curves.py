@@ -52,12 +52,12 @@ class DrawnCurve:
     @cached_property
     def places(self) -> Real:
         """How far along the polyline each point is, from 0 to 1 at its end (n,)."""
-        way = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(self.polyline)))])
-        return np.asarray(way[: len(self.points)] / way[-1])
+        lengths = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(self.polyline)))])
+        return np.asarray(lengths[: len(self.points)] / lengths[-1])
 
     @property
     def longest_step(self) -> float:
-        """The longest way from one point to the next."""
+        """The longest distance from one point to the next."""
         return float(np.abs(np.diff(self.polyline)).max())
 
     def at(self, places: Real) -> Complex:
@@ -81,24 +81,24 @@ def drawn(points: ArrayLike, *, closed: bool, timed: bool = False) -> DrawnCurve
     BadInput for fewer than three points, for one that is not finite, for neighbours that coincide (with
     prescribed timing a point may rest), and for points without extent.
     """
-    found = _as_complex(points)
-    for number, point in enumerate(found, start=1):
+    path = _as_complex(points)
+    for number, point in enumerate(path, start=1):
         if not np.isfinite(point):
             raise BadInput(f"point {number} is not finite; leave it out")
-    if closed and not timed and len(found) > 1 and found[0] == found[-1]:
-        found = found[:-1]
-    if len(found) < LEAST_POINTS:
-        raise BadInput(f"a path needs {LEAST_POINTS} points at least; there are {len(found)}")
-    if (farthest := float(max(np.abs(found.real).max(), np.abs(found.imag).max()))) > _FARTHEST:
+    if closed and not timed and len(path) > 1 and path[0] == path[-1]:
+        path = path[:-1]
+    if len(path) < LEAST_POINTS:
+        raise BadInput(f"a path needs {LEAST_POINTS} points at least; there are {len(path)}")
+    if (farthest := float(max(np.abs(path.real).max(), np.abs(path.imag).max()))) > _FARTHEST:
         raise BadInput(f"a point lies at {farthest:g}; give points up to {_FARTHEST:g}")
-    size = np.hypot(np.ptp(found.real), np.ptp(found.imag))
-    if not size > 1e-9 * np.abs(found).max() or not size > 1e-150:
+    size = np.hypot(np.ptp(path.real), np.ptp(path.imag))
+    if not size > 1e-9 * np.abs(path).max() or not size > 1e-150:
         raise BadInput("the points have no extent: all are one; draw a curve")
-    same = np.flatnonzero(np.abs(np.diff(found)) <= 1e-12 * size)
+    same = np.flatnonzero(np.abs(np.diff(path)) <= 1e-12 * size)
     if len(same) and not timed:
         raise BadInput(f"points {same[0] + 1} and {same[0] + 2} coincide; leave one of them out")
-    found.flags.writeable = False
-    return DrawnCurve(found, closed)
+    path.flags.writeable = False
+    return DrawnCurve(path, closed)
 
 
 def _as_complex(points: ArrayLike) -> Complex:
@@ -126,7 +126,7 @@ _ARM, _SHARP = 0.025, math.radians(50)
 _WIDTH = 0.016
 """Of the length, by how much it is smoothed."""
 _SAME = 1e-6
-"""Of the size: a way back that differs by less is the same."""
+"""Of the size: a path back that differs by less is the same."""
 _REACH = 0.1
 """Of the points, that a point takes along to either side."""
 
@@ -147,24 +147,24 @@ def _joined(even: Complex) -> Complex:
     """Return a stroke's samples with its ends joined: what runs on past the start is cut, or led to it."""
     tail = round(_GAP * _SAMPLES)
     even = even[: len(even) - tail + int(np.abs(even[-tail:] - even[0]).argmin()) + 1]
-    way, gap = even[-1] - even[-1 - tail // 4], even[0] - even[-1]
-    ahead = (np.conj(way) * gap).real > abs((np.conj(way) * gap).imag)
+    heading, gap = even[-1] - even[-1 - tail // 4], even[0] - even[-1]
+    ahead = (np.conj(heading) * gap).real > abs((np.conj(heading) * gap).imag)
     even = even if ahead else even + gap * np.linspace(-len(even) / tail, 1.0, len(even)).clip(0.0)
     return DrawnCurve(even, closed=True).at(np.linspace(0.0, 1.0, _SAMPLES + 1))
 
 
-def trace_of(way: Complex) -> DrawnCurve:
-    """Return the curve that a joint's places (n,) over a period are; one gone back the same way is open.
+def trace_of(path: Complex) -> DrawnCurve:
+    """Return the curve that a joint's places (n,) over a period are; one that goes back on itself is open.
 
     BadInput for a joint that stands still.
     """
-    way = way[np.isfinite(way)]
-    back = np.abs(way - np.roll(way[::-1], 1)).max(initial=0.0) <= _SAME * np.abs(way - way[:1]).max(
+    path = path[np.isfinite(path)]
+    back = np.abs(path - np.roll(path[::-1], 1)).max(initial=0.0) <= _SAME * np.abs(path - path[:1]).max(
         initial=0.0
     )
-    way = way[: len(way) // 2 + 1] if back else way
-    whole = DrawnCurve(way, closed=not back)
-    return drawn(way[whole.thinned(POINTS)] if whole.size else way, closed=not back)
+    path = path[: len(path) // 2 + 1] if back else path
+    whole = DrawnCurve(path, closed=not back)
+    return drawn(path[whole.thinned(POINTS)] if whole.size else path, closed=not back)
 
 
 def bent(curve: DrawnCurve, point: int, to: complex) -> DrawnCurve:
@@ -230,15 +230,15 @@ def _corners(even: Complex, *, closed: bool) -> Indices:
     if not len(sharp):
         return sharp
     runs = np.split(sharp, np.flatnonzero(np.diff(sharp) > arm) + 1)
-    found = np.array([run[turn[run].argmax()] for run in runs])
-    if closed and len(found) > 1 and found[0] + _SAMPLES - found[-1] <= arm:
-        found = found[1:] if turn[found[-1]] > turn[found[0]] else found[:-1]
-    return found
+    corners = np.array([run[turn[run].argmax()] for run in runs])
+    if closed and len(corners) > 1 and corners[0] + _SAMPLES - corners[-1] <= arm:
+        corners = corners[1:] if turn[corners[-1]] > turn[corners[0]] else corners[:-1]
+    return corners
 
 
 def _turns(points: Complex, arm: int) -> Real:
-    """Return by what angle the way turns at each point, over an arm to either side; 0 next to the ends."""
+    """Return by what angle the path turns at each point, over an arm to either side; 0 next to the ends."""
     turn = np.zeros(len(points))
-    way = points[arm:] - points[:-arm]
-    turn[arm:-arm] = np.abs(np.angle(way[arm:] * np.conj(way[:-arm])))
+    chords = points[arm:] - points[:-arm]
+    turn[arm:-arm] = np.abs(np.angle(chords[arm:] * np.conj(chords[:-arm])))
     return turn

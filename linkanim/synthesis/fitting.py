@@ -26,7 +26,7 @@ from linkanim.synthesis.linkages import Indices, LinkageKind, Real, Requirements
 # What is asked for: a drawn curve, a kind of linkage, how the crank goes with the points, and limits.
 
 FEW = 12
-"""Points that say nothing about the way between them."""
+"""So few points say nothing about the path between them."""
 EXACTLY = 1e10
 """What a point that is to be passed through exactly weighs beside another one."""
 
@@ -73,17 +73,17 @@ class PathTask:
             timing=None if self.timing is None else self.timing[chosen],
         )
 
-    def scaled(self, found: Candidates) -> Candidates:
+    def scaled(self, candidates: Candidates) -> Candidates:
         """Return candidates of size 1 in the curve's own unit and place."""
-        return self._placed(found, self.curve.size, self.curve.centre)
+        return self._placed(candidates, self.curve.size, self.curve.centre)
 
-    def normalised(self, found: Candidates) -> Candidates:
+    def normalised(self, candidates: Candidates) -> Candidates:
         """Return candidates in the curve's unit at size 1 about the origin: `scaled` undone."""
-        return self._placed(found, 1 / self.curve.size, -self.curve.centre / self.curve.size)
+        return self._placed(candidates, 1 / self.curve.size, -self.curve.centre / self.curve.size)
 
-    def _placed(self, found: Candidates, scale: float, shift: complex) -> Candidates:
-        ones = np.ones(len(found.rows), np.complex128)
-        return found._replace(rows=self.kind.placed(found.rows, scale * ones, shift * ones))
+    def _placed(self, candidates: Candidates, scale: float, shift: complex) -> Candidates:
+        ones = np.ones(len(candidates.rows), np.complex128)
+        return candidates._replace(rows=self.kind.placed(candidates.rows, scale * ones, shift * ones))
 
     def swinging(self) -> PathTask:
         """Return the same task, the crank free to swing."""
@@ -116,7 +116,7 @@ _DIFFERENCE = 1e-7
 class _State(NamedTuple):
     """Candidates with what is known at them: traced points, slack of the limits, and the merit."""
 
-    found: Candidates
+    candidates: Candidates
     traced: TracedPoints
     slack: Real
     broken: Real
@@ -150,7 +150,7 @@ def refined(
         if ((resting >= _PATIENCE) | (state.cost < _EXACT)).all():
             break
         damping = np.where(better, np.maximum(damping * 0.2, _LEAST_DAMPING), damping * 6)
-    return state.found, state.cost
+    return state.candidates, state.cost
 
 
 def merit(problem: PathTask, candidates: Candidates) -> Real:
@@ -158,34 +158,34 @@ def merit(problem: PathTask, candidates: Candidates) -> Real:
     return _state(problem, candidates, guarded=True).cost
 
 
-def _state(problem: PathTask, found: Candidates, *, guarded: bool) -> _State:
+def _state(problem: PathTask, candidates: Candidates, *, guarded: bool) -> _State:
     with np.errstate(all="ignore"):
-        traced = problem.kind.trace(found.rows, found.closure, found.angles)
-        slack = problem.requirements.slack(problem.kind, found.rows)
+        traced = problem.kind.trace(candidates.rows, candidates.closure, candidates.angles)
+        slack = problem.requirements.slack(problem.kind, candidates.rows)
         mask, values = problem.requirements.held(problem.kind)
-        missing = (found.rows - values) * mask
+        missing = (candidates.rows - values) * mask
         off = np.abs(problem.curve.points - traced.point) ** 2 * problem.weights
-        between = _between(problem, found, traced) if guarded and problem.is_dense else 0.0
+        between = _between(problem, candidates, traced) if guarded and problem.is_dense else 0.0
         turning = 2 if problem.requirements.full_turn else 0
         broken = np.minimum(slack[:, turning:], 0.0)
         cost = off.mean(axis=1) + between + _BROKEN * ((broken**2).sum(axis=1) + (missing**2).sum(axis=1))
         cost = np.where(np.isfinite(cost) & (slack[:, :turning] > 0).all(axis=1), cost, np.inf)
-    return _State(found, traced, slack, missing, cost)
+    return _State(candidates, traced, slack, missing, cost)
 
 
-def _between(problem: PathTask, found: Candidates, traced: TracedPoints) -> Real:
+def _between(problem: PathTask, candidates: Candidates, traced: TracedPoints) -> Real:
     """Return the mean square of how far the curve strays halfway between points, beyond what is usual there.
 
     That is as far as the next point is, and as far as the curve is off at the points themselves.
     """
     before = 0 if problem.curve.closed else 1
-    points, angles, places = problem.curve.points, found.angles, traced.point
-    last = angles[:, -1:] - 2 * np.pi * found.sense[:, None]
+    points, angles, places = problem.curve.points, candidates.angles, traced.point
+    last = angles[:, -1:] - 2 * np.pi * candidates.sense[:, None]
     angles = np.concatenate([last, angles], axis=1)[:, before:]
     points = np.append(points[-1], points)[before:]
     off = np.abs(places - problem.curve.points)
     off = np.concatenate([off[:, -1:], off], axis=1)[:, before:]
-    halfway = problem.kind.points(found.rows, found.closure, (angles[:, 1:] + angles[:, :-1]) / 2)
+    halfway = problem.kind.points(candidates.rows, candidates.closure, (angles[:, 1:] + angles[:, :-1]) / 2)
     chord = np.diff(points)
     share = np.clip((np.conj(chord) * (halfway - points[:-1])).real / np.abs(chord) ** 2, 0, 1)
     far = np.abs(halfway - points[:-1] - share * chord)
@@ -198,9 +198,9 @@ def _stepped(problem: PathTask, state: _State, damping: Real) -> Candidates:
     with np.errstate(all="ignore"):
         residual, slopes = _equations(problem, state)
         change = _change(problem, state, residual, slopes, damping)
-        angles = state.found.angles + _turned(problem, state, change)
-    rows = state.found.rows + change[:, : state.found.rows.shape[1]]
-    return state.found._replace(rows=rows, angles=angles)
+        angles = state.candidates.angles + _turned(problem, state, change)
+    rows = state.candidates.rows + change[:, : state.candidates.rows.shape[1]]
+    return state.candidates._replace(rows=rows, angles=angles)
 
 
 def _equations(problem: PathTask, state: _State) -> tuple[Real, Real]:
@@ -233,7 +233,7 @@ def _change(problem: PathTask, state: _State, residual: Real, slopes: Real, damp
     equations = np.zeros((len(right), len(mask), count))
     equations[:, range(len(mask)), range(len(mask))] = mask
     step = _solved(normal, right, equations, -state.broken)
-    slack, rows = state.slack, state.found.rows
+    slack, rows = state.slack, state.candidates.rows
     moved = problem.requirements.slack(problem.kind, rows + step[:, : rows.shape[1]])
     breaking = ~(moved >= np.minimum(_NEARER * slack, 0.9 * slack + 1e-12))
     if not breaking.any():
@@ -279,25 +279,25 @@ def _solutions(matrices: Real, right: Real) -> Real:
     try:
         return np.asarray(np.linalg.solve(matrices, right[..., None])[..., 0])
     except np.linalg.LinAlgError:
-        found = np.zeros(right.shape)
+        solutions = np.zeros(right.shape)
         for n, (matrix, side) in enumerate(zip(matrices, right, strict=True)):
             with suppress(np.linalg.LinAlgError):
-                found[n] = np.linalg.solve(matrix, side)
-        return found
+                solutions[n] = np.linalg.solve(matrix, side)
+        return solutions
 
 
 def _turned(problem: PathTask, state: _State, change: Real) -> Real:
     """Return how far the crank turns on at each point (B, n)."""
     if problem.timing is not None:
         return change[:, -1:] if problem.free_start else np.zeros((len(change), 1))
-    traced, size = state.traced, state.found.rows.shape[1]
+    traced, size = state.traced, state.candidates.rows.shape[1]
     left = problem.curve.points - traced.point - (traced.slopes @ change[:, :size, None])[..., 0]
     turn = (np.conj(traced.rate) * left).real / np.abs(traced.rate) ** 2
-    gap = np.diff(state.found.angles, axis=1) * state.found.sense[:, None]
+    gap = np.diff(state.candidates.angles, axis=1) * state.candidates.sense[:, None]
     last = (
         2 * np.pi - gap.sum(axis=1, keepdims=True) if problem.curve.closed else np.full((len(gap), 1), np.pi)
     )
     before = np.concatenate([last, gap], axis=1) * _OF_GAP
     after = np.concatenate([gap, last], axis=1) * _OF_GAP
-    forward = turn * state.found.sense[:, None]
-    return np.asarray(np.nan_to_num(np.clip(forward, -before, after) * state.found.sense[:, None]))
+    forward = turn * state.candidates.sense[:, None]
+    return np.asarray(np.nan_to_num(np.clip(forward, -before, after) * state.candidates.sense[:, None]))

@@ -25,7 +25,7 @@ from linkanim.synthesis.front import cards, cost, front_of, knee, searched_front
 from linkanim.synthesis.guidance import GuidedLinkage, pose_answer_of
 from linkanim.synthesis.linkages import FOUR_BAR
 from linkanim.synthesis.path import task_of
-from linkanim.synthesis.search import ALIKE, found, glimpsed, refitted
+from linkanim.synthesis.search import ALIKE, best_fits, glimpsed, refitted
 
 COUNT = 6
 """Answers for a stroke."""
@@ -99,8 +99,8 @@ class Follower:
     def replies(self, request: Request, pulse: Callable[[], None] = lambda: None) -> Iterator[Reply]:
         """Yield the answer near by or the atlas's best, then all; `pulse` is called meanwhile."""
         try:
-            found = self._fits(request, pulse) if isinstance(request, Follow) else self._guided(request)
-            for fits, chosen, way in found:
+            parts = self._fits(request, pulse) if isinstance(request, Follow) else self._guided(request)
+            for fits, chosen, way in parts:
                 numbers, along = self._told(fits), self._told(way)
                 yield Reply(request.stroke, chosen is not None, numbers, chosen or 0, way=along)
         except LinkanimError as error:
@@ -116,7 +116,7 @@ class Follower:
     def _fits(
         self, request: Follow, pulse: Callable[[], None]
     ) -> Iterator[tuple[tuple[Fit, ...], int | None, tuple[Fit, ...]]]:
-        """Yield answers, which of them is shown, and the way along the front.
+        """Yield answers, which of them is shown, and the way: the answers along the front.
 
         It is None where it is only one that is followed. First come answers from many limits, then with them
         those that are the most exact of all.
@@ -134,7 +134,7 @@ class Follower:
             shown = _shown(front, shown)
             row = cards(front, shown, COUNT)
             yield row, row.index(shown), ()
-        exact = found(task, 2 * COUNT, lambda *_: pulse(), widely=False)
+        exact = best_fits(task, 2 * COUNT, lambda *_: pulse(), widely=False)
         front = with_cognates(front_of([*front, *exact]), pulse)
         shown = _shown(front, shown)
         row = cards(front, shown, COUNT)

@@ -55,11 +55,11 @@ def front_of(fits: Iterable[Fit]) -> tuple[Fit, ...]:
     ordered = sorted(fits, key=lambda fit: (cost(fit.figures), *fit.figures))
     best = min((fit.figures.deviation for fit in ordered), default=0.0)
     follow = [fit for fit in ordered if fit.figures.deviation <= max(_TIMES * best, _FARTHEST)]
-    kept: list[Fit] = []
+    unbeaten: list[Fit] = []
     for fit in [fit for fit in follow if fit.figures.angle >= _JAMS] or follow:
-        if not any(_beats(one.figures, fit.figures) for one in kept):
-            kept.append(fit)
-    return tuple(sorted(kept, key=lambda fit: (fit.figures.deviation, *fit.figures)))
+        if not any(_beats(one.figures, fit.figures) for one in unbeaten):
+            unbeaten.append(fit)
+    return tuple(sorted(unbeaten, key=lambda fit: (fit.figures.deviation, *fit.figures)))
 
 
 def _beats(one: Figures, other: Figures) -> bool:
@@ -112,11 +112,11 @@ def preferred(fits: Iterable[Fit], prefer: Preference) -> list[Fit]:
 
 def differing(fits: Iterable[Fit], count: int) -> list[Fit]:
     """Return the first few of answers that differ to the eye."""
-    kept: list[Fit] = []
+    different: list[Fit] = []
     for fit in fits:
-        if len(kept) < count and not any(fit.apart(one) <= ALIKE for one in kept):
-            kept.append(fit)
-    return kept
+        if len(different) < count and not any(fit.apart(one) <= ALIKE for one in different):
+            different.append(fit)
+    return different
 
 
 def cards(front: Sequence[Fit], shown: Fit, count: int) -> tuple[Fit, ...]:
@@ -126,13 +126,13 @@ def cards(front: Sequence[Fit], shown: Fit, count: int) -> tuple[Fit, ...]:
     the others in their figures.
     """
     ends = [preferred(front, prefer)[0] for prefer in PREFERENCES] if front else []
-    kept = differing([shown, *ends], count)
-    rest = [fit for fit in front if all(fit.apart(one) > ALIKE for one in kept)]
-    while rest and len(kept) < count:
-        far = max(rest, key=lambda fit: min(_away(fit.figures, one.figures) for one in kept))
-        kept.append(far)
+    chosen = differing([shown, *ends], count)
+    rest = [fit for fit in front if all(fit.apart(one) > ALIKE for one in chosen)]
+    while rest and len(chosen) < count:
+        far = max(rest, key=lambda fit: min(_away(fit.figures, one.figures) for one in chosen))
+        chosen.append(far)
         rest = [fit for fit in rest if fit.apart(far) > ALIKE]
-    return tuple(preferred(kept, "exact"))
+    return tuple(preferred(chosen, "exact"))
 
 
 def names_of(cards: Sequence[Figures]) -> tuple[str, ...]:
@@ -175,12 +175,12 @@ _LITTLE = 0.25
 class _Limited(NamedTuple):
     """Candidates at some points, and each one's longest link in curve sizes and least transmission angle."""
 
-    found: Candidates
+    candidates: Candidates
     sizes: Real
     angles: Real
 
     def take(self, chosen: Indices) -> _Limited:
-        return _Limited(self.found.take(chosen), self.sizes[chosen], self.angles[chosen])
+        return _Limited(self.candidates.take(chosen), self.sizes[chosen], self.angles[chosen])
 
     def problem(self, task: PathTask, chosen: Indices) -> PathTask:
         """Return what is asked of the candidates at chosen points, each within limits of its own."""
@@ -201,13 +201,13 @@ def searched_front(
     closed = task.curve.closed
     pool = started(task, chosen, _POOL if closed else _OPEN_POOL, _POOL_CURVES if closed else _OPEN_CURVES)
     now = _starts(task, pool)
-    for points, steps, kept in zip(_POINTS, _STEPS, _KEPT, strict=True):
+    for points, steps, most in zip(_POINTS, _STEPS, _KEPT, strict=True):
         pulse()
         before, chosen = chosen, task.thinned(points)
         now, costs = _fitted(task, now, before, chosen, steps)
-        now = now.take(_best_of_each(now, costs, kept))
+        now = now.take(_best_of_each(now, costs, most))
     pulse()
-    return with_cognates(front_of([*known, *verified(task, now.found, chosen)]), pulse)
+    return with_cognates(front_of([*known, *verified(task, now.candidates, chosen)]), pulse)
 
 
 def with_cognates(front: Sequence[Fit], pulse: Callable[[], None] = lambda: None) -> tuple[Fit, ...]:
@@ -227,10 +227,12 @@ def _fitted(
     task: PathTask, now: _Limited, before: Indices, chosen: Indices, steps: int
 ) -> tuple[_Limited, Real]:
     """Return candidates fitted at chosen points within their limits, and each one's merit."""
-    now = now._replace(found=now.found._replace(angles=spread(task, now.found, before, chosen)))
+    now = now._replace(
+        candidates=now.candidates._replace(angles=spread(task, now.candidates, before, chosen))
+    )
     problem = now.problem(task, chosen)
-    found, _ = refined(problem, now.found, steps)
-    return now._replace(found=found), merit(problem, found)
+    candidates, _ = refined(problem, now.candidates, steps)
+    return now._replace(candidates=candidates), merit(problem, candidates)
 
 
 def _starts(task: PathTask, pool: Candidates) -> _Limited:
@@ -289,12 +291,12 @@ def way_along(
     chosen = task.thinned(_POINTS[-1])
     now, costs = _fitted(task, limits, np.arange(len(task.curve.points)), chosen, _WAY_STEPS)
     pulse()
-    found = verified(task, now.take(_best_of_each(now, costs, 1)).found, chosen)
-    return tuple(sorted(_along([*ends, *found], set(ends)), key=lambda fit: fit is not exact))
+    more = verified(task, now.take(_best_of_each(now, costs, 1)).candidates, chosen)
+    return tuple(sorted(_along([*ends, *more], set(ends)), key=lambda fit: fit is not exact))
 
 
-def _along(fits: Iterable[Fit], kept: Set[Fit]) -> list[Fit]:
-    """Return those that are the most exact of their size, the largest first, and those that are kept.
+def _along(fits: Iterable[Fit], ends: Set[Fit]) -> list[Fit]:
+    """Return those that are the most exact of their size, the largest first, and the `ends`.
 
     A much better transmission angle makes up for a little deviation.
     """
@@ -302,12 +304,12 @@ def _along(fits: Iterable[Fit], kept: Set[Fit]) -> list[Fit]:
     def off(fit: Fit) -> float:
         return fit.figures.deviation * math.pow(_of_angle(fit.figures), _LITTLE)
 
-    found, least = list[Fit](), math.inf
+    best, least = list[Fit](), math.inf
     for fit in sorted(fits, key=lambda fit: (fit.figures.size, off(fit))):
-        if fit in kept or off(fit) < least:
-            found.append(fit)
+        if fit in ends or off(fit) < least:
+            best.append(fit)
             least = min(least, off(fit))
-    return found[::-1]
+    return best[::-1]
 
 
 def _candidates_of(task: PathTask, fits: Sequence[Fit]) -> Candidates:

@@ -123,12 +123,12 @@ class GivenFunction:
             return float(y[-1] - y[0])
         return float(np.ptp(y))
 
-    def share(self, x: Real) -> Real:
-        """Return which share of its range x is."""
+    def x_share(self, x: Real) -> Real:
+        """Return how far x is along its range, from 0 to 1."""
         return np.asarray((x - self.first) / (self.last - self.first))
 
-    def way(self, x: Real) -> Real:
-        """Return how far y has gone at x since the start, in spans."""
+    def y_share(self, x: Real) -> Real:
+        """Return how far y is at x from its value at the start, in spans."""
         return np.asarray((self(x) - self.start) / self.span)
 
     def chebyshev(self, count: int) -> Real:
@@ -216,10 +216,10 @@ def _bends(x: Real, y: Real) -> Real:
         factor = step[n] / diagonal[n - 1]
         diagonal[n] -= factor * step[n]
         right[n] -= factor * right[n - 1]
-    found = np.zeros(len(x))
+    bends = np.zeros(len(x))
     for n in range(len(diagonal) - 1, -1, -1):
-        found[n + 1] = (right[n] - step[n + 1] * found[n + 2]) / diagonal[n]
-    return found
+        bends[n + 1] = (right[n] - step[n + 1] * bends[n + 2]) / diagonal[n]
+    return bends
 
 
 def _spline(x: Real, y: Real, bends: Real, at: Real) -> Real:
@@ -247,7 +247,7 @@ def _spline(x: Real, y: Real, bends: Real, at: Real) -> Real:
 COUNT = 3
 FEWEST_POINTS, MOST_POINTS = 3, 5
 GROUND, STROKE = 100.0, 100.0
-"""The four-bar's ground, and the slider's way, where nothing is said of them."""
+"""The four-bar's ground, and the slider's stroke, where nothing is said of them."""
 
 _FREE = tuple(math.radians(angle) for angle in (60, 90, 120))
 """Ranges that are tried where one is free."""
@@ -267,7 +267,7 @@ _LEVEL = 1e-9
 _SAME, _ALIKE = 1e-6, 1e-3
 """Of an angle, and of the longest link: what differs by less is one."""
 _FARTHEST = 3.0
-"""Of the slider's way: where its scale is tried to begin, to either side of the crank's pivot."""
+"""In strokes: how far to either side of the crank's pivot the slider's scale is tried to begin."""
 _KEPT, _MORE = 4, 7
 """Linkages that are kept of those for one pair of ranges, and looked at beside those that are asked for."""
 _HALVINGS = 50
@@ -405,9 +405,9 @@ class Generator(ABC):
 
     @abstractmethod
     def outputs(self, rows: Real, closure: Real, inputs: Real, near: Real) -> tuple[Real, Real]:
-        """Return the output's ways (k, n) at those of the input, and cos μ; NaN where it is not reached.
+        """Return how far the output has moved (k, n) where the input has, and cos μ; NaN where it cannot be.
 
-        Of angles that are one the way is that which is nearest to what it is to be `near`.
+        An angle is told in the turn in which it is nearest to `near`.
         """
 
     @abstractmethod
@@ -445,27 +445,29 @@ class FourBarGenerator(Generator):
         """Return the rows of couplers between both; that of length 1 between the pivots is none."""
         pin = (bars.circle - poses.origins[0]) * np.exp(1j * (first[1] - first[0]))
         lengths = np.abs(pin), np.abs(bars.circle - bars.centre), np.abs(bars.centre)
-        found = np.stack([*lengths, np.angle(pin), np.angle(bars.centre)], axis=1)
-        return np.asarray(found[(lengths[0] > _SAME) & (lengths[2] > _SAME)])
+        rows = np.stack([*lengths, np.angle(pin), np.angle(bars.centre)], axis=1)
+        return np.asarray(rows[(lengths[0] > _SAME) & (lengths[2] > _SAME)])
 
     def through(self, inputs: Real, outputs: Real) -> Real:
         """Solve Freudenstein's equation; a negative length is a link that points the other way."""
         cosines = np.stack([np.cos(outputs), -np.cos(inputs), np.ones_like(inputs)], axis=-1)
-        found = _solved(cosines, np.cos(inputs - outputs))
+        solution = _solved(cosines, np.cos(inputs - outputs))
         with np.errstate(all="ignore"):
-            crank, rocker = 1 / found[:, 0], 1 / found[:, 1]
-            coupler = np.sqrt(1 + crank**2 + rocker**2 - 2 * crank * rocker * found[:, 2])
+            crank, rocker = 1 / solution[:, 0], 1 / solution[:, 1]
+            coupler = np.sqrt(1 + crank**2 + rocker**2 - 2 * crank * rocker * solution[:, 2])
         return np.asarray(np.stack([crank, coupler, rocker], axis=1))
 
     def outputs(self, rows: Real, closure: Real, inputs: Real, near: Real) -> tuple[Real, Real]:
         """Close the loop by its signed root."""
         crank, coupler, rocker, first, last = (part[:, None] for part in rows.T)
-        way = 1 - crank * np.exp(1j * (first + inputs))
-        square = np.abs(way) ** 2
+        diagonal = 1 - crank * np.exp(1j * (first + inputs))
+        square = np.abs(diagonal) ** 2
         with np.errstate(all="ignore"):
             root = np.sqrt(((coupler + rocker) ** 2 - square) * (square - (coupler - rocker) ** 2))
             # B from O4: seen from there the root has the other sign
-            arm = -way * (square + (rocker - coupler) * (rocker + coupler) - 1j * closure[:, None] * root)
+            arm = -diagonal * (
+                square + (rocker - coupler) * (rocker + coupler) - 1j * closure[:, None] * root
+            )
             turned = np.angle(arm * np.exp(-1j * last))
             cosine = (coupler**2 + rocker**2 - square) / (2 * coupler * rocker)
         return turned + math.tau * np.round((near - turned) / math.tau), cosine
@@ -533,16 +535,16 @@ class SliderGenerator(Generator):
         """Return the rows of rods between both."""
         pin = (bars.circle - poses.origins[0]) * np.exp(-1j * first[0])
         rod = np.abs(bars.circle - bars.centre)
-        found = np.stack([np.abs(pin), rod, bars.centre.imag, np.angle(pin), bars.centre.real], axis=1)
-        return found[found[:, 0] > _SAME]
+        rows = np.stack([np.abs(pin), rod, bars.centre.imag, np.angle(pin), bars.centre.real], axis=1)
+        return rows[rows[:, 0] > _SAME]
 
     def through(self, inputs: Real, outputs: Real) -> Real:
         """Solve s² = 2r s cos θ + 2re sin θ + (l² - r² - e²), linear in three numbers of the lengths."""
         parts = np.stack([outputs * np.cos(inputs), np.sin(inputs), np.ones_like(inputs)], axis=-1)
-        found = _solved(parts, outputs**2)
+        solution = _solved(parts, outputs**2)
         with np.errstate(all="ignore"):
-            crank, offset = found[:, 0] / 2, found[:, 1] / found[:, 0]
-            rod = np.sqrt(found[:, 2] + crank**2 + offset**2)
+            crank, offset = solution[:, 0] / 2, solution[:, 1] / solution[:, 0]
+            rod = np.sqrt(solution[:, 2] + crank**2 + offset**2)
         return np.stack([crank, rod, offset], axis=1)
 
     def outputs(self, rows: Real, closure: Real, inputs: Real, near: Real) -> tuple[Real, Real]:
@@ -597,9 +599,9 @@ GENERATORS: Mapping[str, Generator] = {one.name: one for one in (FourBarGenerato
 def _solved(matrices: Real, right: Real) -> Real:
     """Return the solutions of linear equations (k, 3, 3), NaN of those that have none."""
     sound = np.abs(np.linalg.det(matrices)) > 1e-12
-    found = np.full(right.shape, np.nan)
-    found[sound] = np.linalg.solve(matrices[sound], right[sound][..., None])[..., 0]
-    return found
+    solutions = np.full(right.shape, np.nan)
+    solutions[sound] = np.linalg.solve(matrices[sound], right[sound][..., None])[..., 0]
+    return solutions
 
 
 def function(
@@ -679,19 +681,19 @@ def task_of(
 
 def answers(task: FunctionTask, count: int = COUNT) -> tuple[Generated, ...]:
     """Return the best few linkages that differ, each as the solver runs it; BadInput where there is none."""
-    found: list[Generated] = []
+    linkages: list[Generated] = []
     for design in _candidates(task, count):
         one = checked(task, design)
         if one is not None:
-            found.append(one)
-        if len(found) == count:
+            linkages.append(one)
+        if len(linkages) == count:
             break
-    if not found:
+    if not linkages:
         raise BadInput(
             f"no {task.generator.name} was found that follows {task.function.words} over the whole range on "
             "one branch; take other ranges, another number of precision points, or a shorter piece of it"
         )
-    return tuple(sorted(found, key=lambda one: one.error))
+    return tuple(sorted(linkages, key=lambda one: one.error))
 
 
 class _Design(NamedTuple):
@@ -726,16 +728,16 @@ def _candidates(task: FunctionTask, count: int) -> Iterator[_Design]:
 
 def _different(task: FunctionTask, designs: list[_Design]) -> list[_Design]:
     """Return linkages, the best first, none of them like one before it."""
-    found: list[tuple[_Design, Real]] = []
+    different: list[tuple[_Design, Real]] = []
     for one in sorted(designs, key=lambda design: _merit(task, design)):
         lengths = task.generator.lengths(one.row[None])[0]
         if not any(
             np.abs(lengths - others).max() <= _ALIKE * max(lengths.max(), others.max())
             and abs(one.input_range - other.input_range) < _SAME
-            for other, others in found
+            for other, others in different
         ):
-            found.append((one, lengths))
-    return [one for one, _ in found]
+            different.append((one, lengths))
+    return [one for one, _ in different]
 
 
 def _ranges(task: FunctionTask) -> Iterator[tuple[float, float]]:
@@ -752,7 +754,7 @@ def _ranges(task: FunctionTask) -> Iterator[tuple[float, float]]:
 def _through(task: FunctionTask, ranges: tuple[float, float], points: int) -> list[_Design]:
     """Return the best linkages that are exact at Chebyshev's points, for given ranges of both scales."""
     x = task.function.chebyshev(points)
-    inputs, outputs = task.function.share(x) * ranges[0], task.function.way(x) * ranges[1]
+    inputs, outputs = task.function.x_share(x) * ranges[0], task.function.y_share(x) * ranges[1]
     try:
         rows = _rows_of_three(task, inputs, outputs) if points == 3 else _rows_of_more(task, inputs, outputs)
     except BadInput:  # of poses that are one: a function that comes back to where it was
@@ -761,13 +763,13 @@ def _through(task: FunctionTask, ranges: tuple[float, float], points: int) -> li
     generator = task.generator
     closures = generator.closures(rows, inputs, outputs)
     rows, closures = (part[(closures == closures[:, :1]).all(axis=1)] for part in (rows, closures))
-    found = [
+    designs = [
         _Design(row, float(closure), *ranges, points)
         for row, (closure, *_) in zip(rows, closures, strict=True)
     ]
     merits = _merits(task, rows, closures[:, 0], ranges)
     order = np.argsort(merits, kind="stable")[:_KEPT]
-    return [found[n] for n in order if np.isfinite(merits[n])]
+    return [designs[n] for n in order if np.isfinite(merits[n])]
 
 
 def _rows_of_three(task: FunctionTask, inputs: Real, outputs: Real) -> Real:
@@ -815,7 +817,7 @@ def _at_start(
 
     def rows(phases: Real) -> Real:
         centre = curve.at(circuit, phases)
-        found = np.full((len(phases), 5), np.nan)
+        solved = np.full((len(phases), 5), np.nan)
         bars = Bars(circle_points(poses, centre), centre)
         sound = np.isfinite(bars.circle)
         with np.errstate(all="ignore"):
@@ -824,14 +826,14 @@ def _at_start(
                 for n in np.flatnonzero(sound)
             ]
         for n, row in zip(np.flatnonzero(sound), made, strict=True):
-            found[n] = row[0] if len(row) else np.nan
-        return found
+            solved[n] = row[0] if len(row) else np.nan
+        return solved
 
-    def off(found: Real) -> Real:
+    def off(solved: Real) -> Real:
         if column == 4 and isinstance(task.generator, SliderGenerator):
-            return np.asarray(found[:, 4] - start)
+            return np.asarray(solved[:, 4] - start)
         # half a turn off is the same link pointing the other way
-        return np.sin(found[:, column] - start)
+        return np.sin(solved[:, column] - start)
 
     phases = np.linspace(0.0, math.tau, 4 * _CURVE + 1)
     return rows(_zeros(lambda at: off(rows(at)), phases, off(rows(phases)), 1))
@@ -842,9 +844,9 @@ def _generated(
 ) -> tuple[Real, Real]:
     """Return the structural errors (k, n) at x in y's unit, and cos μ."""
     function = task.function
-    way = function.way(x) * ranges[1]
-    outputs, cosine = task.generator.outputs(rows, closure, function.share(x) * ranges[0], way)
-    return (outputs - way) * (function.span / ranges[1]), cosine
+    wanted = function.y_share(x) * ranges[1]
+    outputs, cosine = task.generator.outputs(rows, closure, function.x_share(x) * ranges[0], wanted)
+    return (outputs - wanted) * (function.span / ranges[1]), cosine
 
 
 def _merits(task: FunctionTask, rows: Real, closure: Real, ranges: tuple[float, float]) -> Real:
@@ -854,10 +856,10 @@ def _merits(task: FunctionTask, rows: Real, closure: Real, ranges: tuple[float, 
     with np.errstate(all="ignore"):
         worst = np.abs(error).max(axis=1) / abs(task.function.span)
         sine = np.sqrt(1 - np.abs(cosine).max(axis=1) ** 2)
-        found = np.log(worst + _FINEST) + _POOR * np.maximum(np.log(math.sin(_LEAST) / sine), 0.0)
+        merits = np.log(worst + _FINEST) + _POOR * np.maximum(np.log(math.sin(_LEAST) / sine), 0.0)
         lengths = task.generator.lengths(rows)
-        found[lengths.max(axis=1) > _SLIMMEST * lengths.min(axis=1)] = np.inf
-    return np.where(np.isfinite(found), found, np.inf)
+        merits[lengths.max(axis=1) > _SLIMMEST * lengths.min(axis=1)] = np.inf
+    return np.where(np.isfinite(merits), merits, np.inf)
 
 
 def _merit(task: FunctionTask, design: _Design) -> float:
@@ -933,22 +935,22 @@ def _alternating(task: FunctionTask, design: _Design, x: Real, count: int) -> Re
     """Return `count` places at which the error is greatest to either side in turn; None if fewer."""
     places = _extremes(lambda at: _errors(task, design, at), x)
     error = _errors(task, design, places)
-    kept: list[int] = []
+    peaks: list[int] = []
     for n in np.flatnonzero(np.isfinite(error)):
-        if kept and error[kept[-1]] * error[n] > 0:
-            kept[-1] = max(kept[-1], int(n), key=lambda one: abs(error[one]))
+        if peaks and error[peaks[-1]] * error[n] > 0:
+            peaks[-1] = max(peaks[-1], int(n), key=lambda one: abs(error[one]))
         else:
-            kept.append(int(n))
-    while len(kept) > count:
+            peaks.append(int(n))
+    while len(peaks) > count:
         # neighbours go in pairs, so that signs still go on in turn, but for the last one too many
-        heights = np.abs(error[kept])
+        heights = np.abs(error[peaks])
         pairs = np.maximum(heights[1:], heights[:-1])
-        if len(kept) == count + 1 or min(heights[0], heights[-1]) < pairs.min():
-            kept.pop(0 if heights[0] < heights[-1] else -1)
+        if len(peaks) == count + 1 or min(heights[0], heights[-1]) < pairs.min():
+            peaks.pop(0 if heights[0] < heights[-1] else -1)
         else:
             least = int(pairs.argmin())
-            del kept[least : least + 2]
-    return places[kept] if len(kept) == count else None
+            del peaks[least : least + 2]
+    return places[peaks] if len(peaks) == count else None
 
 
 def _extremes(errors: Callable[[Real], Real], x: Real) -> Real:
@@ -979,8 +981,8 @@ def _solved_for(
     """Return the step of a row that takes errors to none, as well as it can, with `more` unknowns (n, m)."""
     function = task.function
     unit = function.span / design.output_range
-    way = error / unit + function.way(places) * design.output_range
-    slopes = task.generator.slopes(design.row, function.share(places) * design.input_range, way)
+    reached = error / unit + function.y_share(places) * design.output_range
+    slopes = task.generator.slopes(design.row, function.x_share(places) * design.input_range, reached)
     matrix = np.column_stack([slopes[:, columns] * unit, more])
     if not np.isfinite(matrix).all() or not np.isfinite(error).all():
         return None
@@ -1009,7 +1011,7 @@ def _smoothed(task: FunctionTask, design: _Design, columns: list[int]) -> _Desig
 
 
 def checked(task: FunctionTask, design: _Design) -> Generated | None:
-    """Return a linkage as it is written and as the solver runs it; None where it does not go all the way."""
+    """Return a linkage as it is written and as the solver runs it; None where it cannot cover the range."""
     generator, function, length = task.generator, task.function, task.length
     row = design.row.copy()
     row[:3] = np.round(row[:3] * length, _DIGITS) / length
@@ -1070,8 +1072,8 @@ def checked(task: FunctionTask, design: _Design) -> Generated | None:
 def _stated(task: FunctionTask, points: Real, scales: tuple[float, float, float, float]) -> dict[str, object]:
     """Return the function and its precision points as the scene's file keeps them."""
     start, wide, first, high = scales
-    inputs = np.degrees(start + wide * task.function.share(points)).tolist()
-    outputs = first + high * task.function.way(points)
+    inputs = np.degrees(start + wide * task.function.x_share(points)).tolist()
+    outputs = first + high * task.function.y_share(points)
     turning = task.generator.turning
     places = (np.degrees(outputs) if turning else outputs).tolist()
     return {
@@ -1088,8 +1090,10 @@ def _solved_errors(
 ) -> Real:
     """Return the structural errors at x as the solver has them, by start and range of input and output."""
     function, generator, (start, wide, first, high) = task.function, task.generator, scales
-    motion = scene.solve(angle=start + wide * function.share(x), derivatives=0)
-    off = np.asarray(getattr(motion, generator.reading)[generator.output]) - first - high * function.way(x)
+    motion = scene.solve(angle=start + wide * function.x_share(x), derivatives=0)
+    off = (
+        np.asarray(getattr(motion, generator.reading)[generator.output]) - first - high * function.y_share(x)
+    )
     if generator.turning:
         off = np.remainder(off + math.pi, math.tau) - math.pi
     return np.asarray(off * (function.span / high))

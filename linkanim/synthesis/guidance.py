@@ -183,8 +183,8 @@ def task_of(
         raise BadInput("poses are numbers: give a row of x, y and angle for each") from None
     if rows.ndim != 2 or rows.shape[1] != 3:
         raise BadInput(f"poses of shape {rows.shape}: give a row of x, y and angle for each, (n, 3)")
-    found, chosen = Poses(rows[:, 0] + 1j * rows[:, 1], rows[:, 2].copy()), KINDS[kind]
-    if (point := found.one_pole) is not None:
+    pose_set, chosen = Poses(rows[:, 0] + 1j * rows[:, 1], rows[:, 2].copy()), KINDS[kind]
+    if (point := pose_set.one_pole) is not None:
         raise BadInput(
             f"all poses turn about one point, {point.real:g}, {point.imag:g}: a single pin there carries the "
             "body, so no linkage is needed; move one of the poses if one is"
@@ -192,16 +192,16 @@ def task_of(
     if len(pivots) > len(chosen.pins):
         raise BadInput(f"a {kind} has {len(chosen.pins)} fixed pins; {len(pivots)} are given")
     given = tuple(_pivot(pivot) for pivot in pivots if pivot is not None)
-    if len(given) == 2 and abs(given[1] - given[0]) <= SAME * found.size:
+    if len(given) == 2 and abs(given[1] - given[0]) <= SAME * pose_set.size:
         raise BadInput(
             f"both pivots are given at {given[0].real:g}, {given[0].imag:g}, so there is no ground link "
             "between them; give one of them another place, or leave it out"
         )
-    boxes = _boxes(box, found, given, len(chosen.pins) - len(given))
+    boxes = _boxes(box, pose_set, given, len(chosen.pins) - len(given))
     limits = Requirements.of(
-        found.size, "sizes of the poses", largest=largest, least_angle=least_angle, box=None
+        pose_set.size, "sizes of the poses", largest=largest, least_angle=least_angle, box=None
     )
-    return GuideTask(found, chosen, given, replace(limits, full_turn=False), boxes, unit, name, source)
+    return GuideTask(pose_set, chosen, given, replace(limits, full_turn=False), boxes, unit, name, source)
 
 
 def _boxes(
@@ -214,27 +214,27 @@ def _boxes(
     if box is None or not len(box):
         return ()
     rows = [box] if np.ndim(box[0]) == 0 else list(box)
-    found = tuple(box_of(row) for row in rows)  # type: ignore[arg-type]
+    boxes = tuple(box_of(row) for row in rows)  # type: ignore[arg-type]
     if not free:
         for pivot in given:
-            if not any(holds(one, pivot) for one in found):
+            if not any(holds(one, pivot) for one in boxes):
                 raise BadInput(
                     f"the pivot at {pivot.real:g}, {pivot.imag:g} lies outside the box; enlarge the box"
                 )
         return ()
-    if len(found) > free:
+    if len(boxes) > free:
         pins = "one fixed pin is" if free == 1 else f"{free} fixed pins are"
-        raise BadInput(f"{len(found)} boxes are given, and {pins} free; give a box for each free pin, or one")
+        raise BadInput(f"{len(boxes)} boxes are given, and {pins} free; give a box for each free pin, or one")
     if poses.count == _ON_A_CURVE and poses.poles:
         curve = CentreCurve(poses)
-        for one in found:
+        for one in boxes:
             if not len(_phases_in((one,), curve)):
                 nearest = curve.nearest(complex(one[0] + one[2] / 2, one[1] + one[3] / 2))
                 raise BadInput(
                     f"no centre point of these four poses lies in the box of {one[2]:g} x {one[3]:g} at "
                     f"{one[0]:g}, {one[1]:g}; one that is near is {nearest.real:.6g}, {nearest.imag:.6g}"
                 )
-    return found
+    return boxes
 
 
 def _pivot(pivot: Sequence[float]) -> complex:
@@ -271,12 +271,10 @@ class _EndChoice(NamedTuple):
         )
 
 
-def _all_of(found: Bars | Slides) -> _EndChoice:
+def _all_of(ends: Bars | Slides) -> _EndChoice:
     """Return a choice among so many and no others."""
-    rows = np.arange(len(found[0]), dtype=np.float64)[:, None]
-    return _EndChoice(
-        rows, lambda rows: type(found)(*(part[rows[:, 0].astype(int)] for part in found)), (0.0,)
-    )
+    rows = np.arange(len(ends[0]), dtype=np.float64)[:, None]
+    return _EndChoice(rows, lambda rows: type(ends)(*(part[rows[:, 0].astype(int)] for part in ends)), (0.0,))
 
 
 def _bars(task: GuideTask) -> _EndChoice:
@@ -316,9 +314,9 @@ def _of_two(poses: Poses, rows: Real) -> Bars:
     """Return the bars of two poses by their pivots, and how far along the midline of the pivot's images."""
     centre = rows[:, 0] + 1j * rows[:, 1]
     first, second = poses.images(centre).T
-    way = second - first
+    chord = second - first
     with np.errstate(all="ignore"):
-        return Bars((first + second) / 2 + 1j * way / np.abs(way) * rows[:, 2], centre)
+        return Bars((first + second) / 2 + 1j * chord / np.abs(chord) * rows[:, 2], centre)
 
 
 def _about(poses: Poses, rows: Real) -> Bars:
@@ -352,14 +350,14 @@ def _phases_in(boxes: Sequence[Box], curve: CentreCurve) -> Real:
     """Return circuits of a curve and phases along them (n, 2) at which it runs within each of some boxes."""
     count = _CLOSER * _SAMPLES[4]
     phases = np.asarray((np.arange(count) + 0.5) * (math.tau / count), dtype=np.float64)
-    found = [np.empty((0, 2))]
+    parts = [np.empty((0, 2))]
     for circuit in range(len(curve.circuits)):
         places = curve.at(circuit, phases)
         for box in boxes:
             there = phases[[holds(box, place) for place in places.tolist()]]
             there = there[:: -(-len(there) // _SAMPLES[4]) or 1]
-            found.append(np.column_stack([np.full(len(there), float(circuit)), there]))
-    return np.concatenate(found)
+            parts.append(np.column_stack([np.full(len(there), float(circuit)), there]))
+    return np.concatenate(parts)
 
 
 def _held(task: GuideTask, pivot: complex) -> _EndChoice:
@@ -369,13 +367,13 @@ def _held(task: GuideTask, pivot: complex) -> _EndChoice:
     if poses.count == 2:
         return _on_midline(poses, pivot)
     if poses.count == 3 or not poses.poles:
-        found = Bars(circle_points(poses, np.array([pivot])), np.array([pivot]))
-        if not np.isfinite(found.circle[0]):
+        bar = Bars(circle_points(poses, np.array([pivot])), np.array([pivot]))
+        if not np.isfinite(bar.circle[0]):
             raise BadInput(
                 f"{where}: as the body sees it, it lies in one line in all poses, or in one point, so no "
                 "joint of the body stays at one distance from it; move the pivot"
             )
-        return _all_of(found)
+        return _all_of(bar)
     if poses.count == 4:
         nearest = CentreCurve(poses).nearest(pivot)
         if abs(nearest - pivot) > _ON_CURVE * poses.size:
@@ -435,14 +433,14 @@ def _slides(task: GuideTask) -> _EndChoice:
     if poses.count == 3 and poses.poles:
         rows = np.linspace(0.0, math.tau, _SAMPLES[3], endpoint=False, dtype=np.float64)[:, None]
         return _EndChoice(rows, lambda rows: slides_through(poses, slide_points(poses, rows[:, 0])), (0.1,))
-    found = ball_point(poses)
-    if not len(found.point):
+    slide = ball_point(poses)
+    if not len(slide.point):
         fewer = "leave one out" if poses.count > 4 else "turn them against each other"
         raise BadInput(
             f"no point of the body has its places in these {poses.count} poses in one line, so none can "
             f"slide; {fewer}, or take a four-bar"
         )
-    return _all_of(found)
+    return _all_of(slide)
 
 
 class _Pairs(NamedTuple):
@@ -517,7 +515,7 @@ def _judged(task: GuideTask, pairs: _Pairs) -> _Judged:
     angle = np.where((far & ~near)[:, None], angle % math.tau, angle)
     closures = np.where(side > 0, 1.0, -1.0)
     upper = np.where(angle > 0, 1.0, -1.0)
-    way = _passed(angle, turning)
+    turned = _passed(angle, turning)
     other_range = parted[:, None] & (upper != upper[:, :1])
     other_closure = closures != closures[:, :1]
     crossed = other_closure.any(axis=1) & (closures * upper != (closures * upper)[:, :1]).any(axis=1)
@@ -525,12 +523,12 @@ def _judged(task: GuideTask, pairs: _Pairs) -> _Judged:
         turning, np.choose(changes, [other_closure.any(axis=1), False, crossed]), other_range.any(axis=1)
     )
     branch = ~turning & (other_closure & ~other_range).any(axis=1)
-    steps = np.diff(way, axis=1)
+    steps = np.diff(turned, axis=1)
     order = ~circuit & ~branch & ~((steps > 0).all(axis=1) | (steps < 0).all(axis=1))
     defects = np.column_stack([circuit, branch, order])
     cosine = np.abs(p[:, None] + q[:, None] * np.cos(angle)).max(axis=1)
     for place, half in ((p + q, 0.0), (p - q, math.pi)):
-        passed = np.floor((way[:, 0] - half) / math.tau) != np.floor((way[:, -1] - half) / math.tau)
+        passed = np.floor((turned[:, 0] - half) / math.tau) != np.floor((turned[:, -1] - half) / math.tau)
         cosine = np.where(passed & ~defects.any(axis=1), np.maximum(cosine, np.abs(place)), cosine)
     transmission = np.arctan2(np.sqrt(np.maximum((1 - cosine) * (1 + cosine), 0.0)), cosine)
     with np.errstate(all="ignore"):
@@ -539,7 +537,7 @@ def _judged(task: GuideTask, pairs: _Pairs) -> _Judged:
     rest = (np.angle(held), offset) if sliding else (held.real, held.imag, r4)
     rows = np.stack([*base, *rest], axis=1)
     size = task.kind.link_lengths(rows).max(axis=1)
-    angles = way + np.angle(reference)[:, None]
+    angles = turned + np.angle(reference)[:, None]
     return _Judged(rows, closures, angles, transmission, defects, turning, size)
 
 
@@ -562,16 +560,16 @@ def _merit(task: GuideTask, judged: _Judged, weight: float) -> Real:
     """Return what is to be small: defects first, then size against the transmission angle, by its weight."""
     with np.errstate(all="ignore"):
         sine = np.log(np.sin(judged.transmission))
-        found = np.log(judged.size / task.poses.size) - weight * sine
-        found += weight * np.maximum(math.log(math.sin(_USUAL_LEAST)) - sine, 0.0)
-        found -= _TURNING * judged.turning
+        merit = np.log(judged.size / task.poses.size) - weight * sine
+        merit += weight * np.maximum(math.log(math.sin(_USUAL_LEAST)) - sine, 0.0)
+        merit -= _TURNING * judged.turning
         limits = task.requirements
         slack = limits.slack(task.kind, judged.rows).min(axis=1)
         if task.boxes:
             slack = np.minimum(slack, -_outside(task, task.kind.pivots(judged.rows)))
-        kept = (slack >= -1e-9 * task.poses.size) & (judged.transmission >= limits.angle_to_keep("angle"))
-    found += _DEFECT * judged.defects.sum(axis=1)
-    return np.asarray(np.where(kept & np.isfinite(found), found, np.inf))
+        allowed = (slack >= -1e-9 * task.poses.size) & (judged.transmission >= limits.angle_to_keep("angle"))
+    merit += _DEFECT * judged.defects.sum(axis=1)
+    return np.asarray(np.where(allowed & np.isfinite(merit), merit, np.inf))
 
 
 def _outside(task: GuideTask, pivots: Complex) -> Real:
@@ -598,32 +596,34 @@ def answers(task: GuideTask, count: int = COUNT, weight: float | None = None) ->
     ends = _ends(task)
     free = any(choice.free for pair in ends for choice in pair)
     alike = _ALIKE if free else SAME
-    found: list[GuidedLinkage] = []
+    linkages: list[GuidedLinkage] = []
     for pairs in _candidates(task, ends, count, weight):
         bars = _bars_of(task, pairs)
-        if any(_bars_apart(bars, other.bars, task.poses.size) <= alike for other in found):
+        if any(_bars_apart(bars, other.bars, task.poses.size) <= alike for other in linkages):
             continue
         one = checked(task, pairs)
         if one is not None:
-            found.append(one)
+            linkages.append(one)
         # where nothing is free they come in the order of their defects
-        if sum(not one.defects for one in found) >= count or (not free and len(found) >= count):
+        if sum(not one.defects for one in linkages) >= count or (not free and len(linkages) >= count):
             break
-    if not found:
+    if not linkages:
         raise BadInput(_none_keeps(task, ends))
-    return tuple(sorted(found, key=lambda one: len(one.defects))[:count])
+    return tuple(sorted(linkages, key=lambda one: len(one.defects))[:count])
 
 
 def _none_keeps(task: GuideTask, ends: list[tuple[_EndChoice, _EndChoice]]) -> str:
     """Return why there is no answer, with what the smallest linkage would need."""
     limits = [("the box", "a pin in each box")[len(task.boxes) - 1]] if task.boxes else []
-    kept = ", ".join([*limits, "the longest link"]) + " and the least transmission angle"
+    named = ", ".join([*limits, "the longest link"]) + " and the least transmission angle"
     sizes = [_judged(task, _all_pairs(pair)).size for pair in ends]
     least = float(np.nanmin([*np.concatenate(sizes), np.inf])) / task.poses.size
-    way = f"; the longest link is {least:.3g} sizes of the poses at the least" if math.isfinite(least) else ""
+    smallest = (
+        f"; the longest link is {least:.3g} sizes of the poses at the least" if math.isfinite(least) else ""
+    )
     most = task.requirements.largest / task.poses.size
-    more = f"{way}, {most:g} are allowed" if least > most else "; give it more room"
-    return f"no {task.kind.name} through these {task.poses.count} poses keeps to {kept}{more}"
+    more = f"{smallest}, {most:g} are allowed" if least > most else "; give it more room"
+    return f"no {task.kind.name} through these {task.poses.count} poses keeps to {named}{more}"
 
 
 def _all_pairs(ends: tuple[_EndChoice, _EndChoice]) -> _Pairs:
@@ -681,23 +681,23 @@ def _seeds(task: GuideTask, ends: tuple[_EndChoice, _EndChoice], count: int, wei
     order = np.argsort(merit, kind="stable")[: int(np.isfinite(merit).sum())]
     places = np.stack([pairs.pin, pairs.pivot, pairs.end, pairs.held], axis=1)
     least = _APART * task.poses.size if first.free or second.free else 0.0
-    found = []
+    seeds = []
     for number in _apart_ones(places, order, least, count):
         one, other = divmod(number, len(second.rows))
         rows = first.rows[one : one + 1], second.rows[other : other + 1]
-        found.append(_Seed(ends, rows, float(merit[number])))
-    return found
+        seeds.append(_Seed(ends, rows, float(merit[number])))
+    return seeds
 
 
 def _apart_ones(places: Complex, order: Indices, least: float, count: int) -> list[int]:
     """Return `count` linkages in their order, each with joints farther than `least` from all before."""
-    found: list[int] = []
+    picked: list[int] = []
     left = order
-    while len(left) and len(found) < count:
-        found.append(int(left[0]))
+    while len(left) and len(picked) < count:
+        picked.append(int(left[0]))
         off = np.abs(places[left] - places[left[0]]).max(axis=1)
         left = left[off > least] if least else left[1:]
-    return found
+    return picked
 
 
 def _followed(task: GuideTask, seed: _Seed, weight: float) -> _Seed:
@@ -752,12 +752,12 @@ def followed(
 
 def _held_by(pivots: Sequence[complex], bars: list[tuple[complex, complex]]) -> list[tuple[complex, complex]]:
     """Return bars, those that are nearest to given pivots at these."""
-    found, free = list(bars), list(range(len(bars)))
+    held, free = list(bars), list(range(len(bars)))
     for pivot in pivots[: len(bars)]:
         nearest = min(free, key=lambda n: abs(bars[n][1] - pivot))
-        found[nearest] = bars[nearest][0], pivot
+        held[nearest] = bars[nearest][0], pivot
         free.remove(nearest)
-    return found
+    return held
 
 
 def _bar_of(poses: Poses, joint: complex, pivot: complex) -> Bars | None:
@@ -768,8 +768,8 @@ def _bar_of(poses: Poses, joint: complex, pivot: complex) -> Bars | None:
     """
     if poses.count == 2:
         first, second = poses.places(joint)
-        way = second - first
-        along = 1j * way / abs(way) if abs(way) > SAME * poses.size else 1.0
+        chord = second - first
+        along = 1j * chord / abs(chord) if abs(chord) > SAME * poses.size else 1.0
         middle = (first + second) / 2
         foot = middle + along * ((pivot - middle) * np.conj(along)).real
         return Bars(np.array([joint]), np.array([foot]))
@@ -777,8 +777,8 @@ def _bar_of(poses: Poses, joint: complex, pivot: complex) -> Bars | None:
         return None
     if poses.count == 4:
         joint = CentreCurve(poses.inverse).nearest(joint)
-    found = Bars(np.array([joint]), centre_points(poses, np.array([joint])))
-    return polished(poses, found) if np.isfinite(found.centre[0]) else None
+    bar = Bars(np.array([joint]), centre_points(poses, np.array([joint])))
+    return polished(poses, bar) if np.isfinite(bar.centre[0]) else None
 
 
 def _choices(poses: Poses) -> Bars | CentreCurve | None:
@@ -797,22 +797,22 @@ def _nearest_bar(
         return choices.take(np.array([off.argmin()])) if len(off) else None
     if poses.count == 2:
         one, other = poses.images(pivot)
-        way = other - one
-        along = 1j * way / abs(way) if abs(way) > SAME * poses.size else 0.0
+        chord = other - one
+        along = 1j * chord / abs(chord) if abs(chord) > SAME * poses.size else 0.0
         middle = (one + other) / 2 if along else joint
         foot = middle + along * ((joint - middle) * np.conj(along)).real
         return Bars(np.array([foot]), np.array([pivot]))
     if choices is not None:
         pivot = choices.nearest(pivot)
-    found = Bars(circle_points(poses, np.array([pivot])), np.array([pivot]))
-    return polished(poses, found) if np.isfinite(found.circle[0]) else None
+    bar = Bars(circle_points(poses, np.array([pivot])), np.array([pivot]))
+    return polished(poses, bar) if np.isfinite(bar.circle[0]) else None
 
 
 def _nearest_slide(poses: Poses, joint: complex) -> Slides | None:
     """Return the sliding point that is nearest to a joint in the first pose."""
     if poses.count > 3 or not poses.poles:
-        found = ball_point(poses)
-        return found if len(found.point) else None
+        slide = ball_point(poses)
+        return slide if len(slide.point) else None
     if poses.count == 2:
         return slides_through(poses, np.array([joint]))
     ring = slide_points(poses, np.linspace(0.0, math.tau, _FINEST, endpoint=False))
@@ -937,17 +937,17 @@ def _off(task: GuideTask, scene: Scene, phases: Real, lean: float) -> Real:
 
 def _defects(scene: Scene, phases: Real, met: NDArray[np.bool_]) -> tuple[str, ...]:
     """Return the defects of a linkage that meets some of its poses at phases of the circuit it is on."""
-    found = [] if met.all() else ["circuit"]
+    defects = [] if met.all() else ["circuit"]
     if scene.info.full_turn:
-        way = (phases - phases[0]) % scene.period
-        back = -((-way) % scene.period)
+        forth = (phases - phases[0]) % scene.period
+        back = -((-forth) % scene.period)
     else:
         if len(set((phases[met] // math.pi).tolist())) > 1:
-            found.append("branch")
-        way = back = phases
-    if not found and not ((np.diff(way) > 0).all() or (np.diff(back) < 0).all()):
-        found.append("order")
-    return tuple(found)
+            defects.append("branch")
+        forth = back = phases
+    if not defects and not ((np.diff(forth) > 0).all() or (np.diff(back) < 0).all()):
+        defects.append("order")
+    return tuple(defects)
 
 
 def _bars_of(task: GuideTask, pairs: _Pairs) -> tuple[Complex, Complex]:

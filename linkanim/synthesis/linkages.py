@@ -24,7 +24,7 @@ from linkanim.units import shown
 # The linkages whose coupler point is to run along a path: a four-bar and a slider-crank, many at once.
 #
 # A row of parameters is a linkage; a closure is +1 (B left of A -> O4, or forward along the line) or -1. The
-# pin is A = O2 + crank·e^(iθ), and B closes on the ground: N·B = c, where N is the normal of the way that B
+# pin is A = O2 + crank·e^(iθ), and B closes on the ground: N·B = c, where N is the normal of the path that B
 # is held to (a circle about O4, or a line). What a small change of A, the rod or the ground does to the
 # coupler's angle, and so to the coupler point, follows from that one line for both kinds.
 
@@ -45,7 +45,7 @@ class TracedPoints(NamedTuple):
 
 
 class _Closed(NamedTuple):
-    """The coupler's direction, the normal of B's way, and what B is moved by: each (B, n)."""
+    """The coupler's direction, the normal of B's path, and what B is moved by: each (B, n)."""
 
     direction: Complex
     normal: Complex
@@ -129,9 +129,9 @@ class LinkageKind(ABC):
     def joints(self, rows: Real, closure: Real, angles: Real) -> Complex:
         """Return the fixed pins, then the pins A, B and P at crank angles (B, n), in a row (B, m)."""
         pin, _ = _pins(rows, angles)
-        way = self.close(rows, closure[:, None], pin).direction
+        direction = self.close(rows, closure[:, None], pin).direction
         return np.concatenate(
-            [self.pivots(rows), pin, pin + rows[:, 3:4] * way, pin + _arm(rows) * way], axis=1
+            [self.pivots(rows), pin, pin + rows[:, 3:4] * direction, pin + _arm(rows) * direction], axis=1
         )
 
     def trace(self, rows: Real, closure: Real, angles: Real) -> TracedPoints:
@@ -141,9 +141,9 @@ class LinkageKind(ABC):
         arm = _arm(rows)
         turn = 1j * arm * direction / (rows[:, 3:4] * _dot(normal, 1j * direction))
 
-        def moved(way: Complex | complex) -> Complex:
-            """Return how the point goes when the pin goes a way and B's own way stays."""
-            return way - turn * _dot(normal, way)
+        def moved(step: Complex | complex) -> Complex:
+            """Return how the point moves when the pin moves a step and B's own path stays."""
+            return step - turn * _dot(normal, step)
 
         one = np.ones_like(pin)
         base = (one, 1j * one) if self.carried else (moved(1.0), moved(1j))
@@ -189,12 +189,12 @@ class FourBarKind(LinkageKind):
         """Close two bars on the pin and the pivot O4, by the signed root of both factors."""
         pivot = rows[:, 6:7] + 1j * rows[:, 7:8]
         a, b = rows[:, 3:4], rows[:, 8:9]
-        way = pivot - pin
-        square = way.real**2 + way.imag**2
+        diagonal = pivot - pin
+        square = diagonal.real**2 + diagonal.imag**2
         with np.errstate(all="ignore"):
             root = closure * np.sqrt(((a + b) ** 2 - square) * (square - (a - b) ** 2))
-            direction = way * (square + (a - b) * (a + b) + 1j * root) / (2 * square * a)
-        normal = a * direction - way
+            direction = diagonal * (square + (a - b) * (a + b) + 1j * root) / (2 * square * a)
+        normal = a * direction - diagonal
         return _Closed(direction, normal, (normal.real, normal.imag, b))
 
     def link_lengths(self, rows: Real) -> Real:
@@ -313,16 +313,16 @@ class Linkage4(NamedTuple):
     @property
     def angle(self) -> float:
         """The crank's angle (rad)."""
-        way = self.A - self.O2
-        return math.atan2(way.imag, way.real)
+        crank = self.A - self.O2
+        return math.atan2(crank.imag, crank.real)
 
     @classmethod
     def of(cls, row: Real, angle: float) -> Self:
         """Return the joints of a row of closure +1 at a crank angle."""
         pin, pivot = FOUR_BAR.pivots(row[None])[0]
         crank = pin + row[2] * np.exp(1j * angle)
-        way = FOUR_BAR.close(row[None], np.ones((1, 1)), np.array([[crank]])).direction[0, 0]
-        joints = pin, crank, crank + row[3] * way, pivot, crank + complex(*row[4:6]) * way
+        direction = FOUR_BAR.close(row[None], np.ones((1, 1)), np.array([[crank]])).direction[0, 0]
+        joints = pin, crank, crank + row[3] * direction, pivot, crank + complex(*row[4:6]) * direction
         return cls(*map(complex, joints))
 
 

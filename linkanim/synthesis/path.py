@@ -16,7 +16,7 @@ from linkanim.synthesis.curves import DrawnCurve, drawn
 from linkanim.synthesis.fitting import EXACTLY, PathTask
 from linkanim.synthesis.front import PREFERENCES, Preference, differing, preferred, searched_front
 from linkanim.synthesis.linkages import KINDS, LinkageKind, Real, Requirements, refuse_count
-from linkanim.synthesis.search import SAME, Progress, found, rounded_to, with_round_lengths
+from linkanim.synthesis.search import SAME, Progress, best_fits, rounded_to, with_round_lengths
 from linkanim.units import shown
 
 LARGEST = 8.0
@@ -58,7 +58,7 @@ def path(
     task = task_of(points, closed, **options)  # type: ignore[arg-type]
     if rounding is not None and not (math.isfinite(rounding) and rounding > 0):
         raise BadInput(f"rounding to {rounding!r}: give a length above zero, such as 0.1")
-    fits = found(task, count, progress)
+    fits = best_fits(task, count, progress)
     if prefer != "exact":
         front = preferred(searched_front(task, fits), prefer)
         fits = tuple(differing(front, count))
@@ -80,8 +80,8 @@ def _with_cognates(fits: Sequence[Fit], rounding: float | None) -> tuple[Fit, ..
 def _cognates(fit: Fit, rounding: float | None) -> Iterator[Fit]:
     """Yield an answer's cognates, in round lengths where its own are."""
     for other in cognates_of(fit.exact or fit):
-        found = other if rounding is None else rounded_to(other, rounding)
-        yield from [found] if found else []
+        cognate = other if rounding is None else rounded_to(other, rounding)
+        yield from [cognate] if cognate else []
 
 
 def task_of(
@@ -188,12 +188,12 @@ def _timing(timing: float | ArrayLike | None, free: bool | None, count: int) -> 
 def _weights(weights: ArrayLike | None, exactly: Sequence[int], curve: DrawnCurve) -> Real:
     """Return the points' weights, their mean 1 before the exact ones are raised."""
     count = len(curve.points)
-    found: Real = np.ones(count) if weights is None else np.array(weights, dtype=np.float64)
-    if found.shape != (count,) or not (np.isfinite(found) & (found >= 0)).all() or not found.any():
+    shares: Real = np.ones(count) if weights is None else np.array(weights, dtype=np.float64)
+    if shares.shape != (count,) or not (np.isfinite(shares) & (shares >= 0)).all() or not shares.any():
         raise BadInput(f"weights: give {count} numbers of zero or more, not all zero, one for each point")
-    found /= found.mean()
+    shares /= shares.mean()
     for point in exactly:
         if not 0 <= point < count:
             raise BadInput(f"exactly: there is no point {point}; the points are 0 to {count - 1}")
-        found[point] = EXACTLY
-    return found
+        shares[point] = EXACTLY
+    return shares

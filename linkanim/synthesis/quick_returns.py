@@ -104,7 +104,7 @@ class DeadCentreFamily:
     def rocker(self, t: Real) -> tuple[Real, Real, Real, Real]:
         """Return crank, coupler, rocker and ground; NaN where the dead centres are not of one circuit.
 
-        The ground is negative where the coupler's end lies to the right of the way from A to O4.
+        The ground is negative where the coupler's end lies to the right of the line from A to O4.
         """
         crank, coupler, off = self.lengths(t)
         rocker = np.full_like(t, 1 / (2 * math.sin(self.swing / 2)))
@@ -167,21 +167,21 @@ class DeadCentreFamily:
 def families(kind: str, ratio: float, swing: float = 0.0) -> tuple[DeadCentreFamily, ...]:
     """Return the families of linkages with a time ratio, and for crank-rockers a swing (rad); maybe none."""
     angle = math.pi * (ratio - 1) / (ratio + 1)
-    found = []
+    parts = []
     for side in (1.0,) if kind == "slider-crank" or angle < _EVEN else (1.0, -1.0):
         whole = DeadCentreFamily(kind, angle, swing, side, 0.0, math.pi / 2)
         if angle < _EVEN:
             whole = replace(whole, low=1.0, high=_LONGEST_ROD + 1)
         places = np.linspace(whole.low, whole.high, _TRIED + 1)[1:]
         crank, coupler, _ = whole.lengths(places)
-        kept = (np.nan_to_num(whole.transmission(places)) >= _STEEPEST) & (coupler <= _LONGEST_ROD * crank)
-        sound = np.flatnonzero(kept)
-        found += [
+        allowed = (np.nan_to_num(whole.transmission(places)) >= _STEEPEST) & (coupler <= _LONGEST_ROD * crank)
+        sound = np.flatnonzero(allowed)
+        parts += [
             replace(whole, low=float(places[run[0]]), high=float(places[run[-1]]))
             for run in np.split(sound, np.flatnonzero(np.diff(sound) > 1) + 1)
             if len(run) > 2
         ]
-    return tuple(sorted(found, key=lambda one: -float(one.transmission(np.array([one.best]))[0])))
+    return tuple(sorted(parts, key=lambda one: -float(one.transmission(np.array([one.best]))[0])))
 
 
 def quick_return(
@@ -224,12 +224,12 @@ def quick_return(
         raise BadInput(f"a swing of {math.degrees(swing):g} deg: a rocker swings by 1 to 179 deg")
     if place is not None and not 0 <= place <= 1:
         raise BadInput(f"place={place:g}: the family goes from 0 to 1")
-    found = families(kind, ratio, swing or 0.0)
-    if not found:
+    solutions = families(kind, ratio, swing or 0.0)
+    if not solutions:
         said = f"swings by {math.degrees(swing):g} deg" if swing else "slides"
         other = ", or another swing" if swing else ""
         raise BadInput(f"no {kind} {said} with a time ratio of {ratio:g}; take a smaller one{other}")
-    family = found[0]
+    family = solutions[0]
     best = family.best
     places = (
         [best, *np.linspace(family.low, family.high, count + 1)[1:-1]]
@@ -272,14 +272,14 @@ def member_of(scene: Scene) -> FamilyMember | None:
         chord = 2 * abs(places["B"] - places["O4"]) * math.sin(swing / 2)
     if not chord or not 1 <= purpose.ratio < 10:
         return None
-    found = []
+    candidates = []
     for family in families(kind, purpose.ratio, swing):
         t = min(max(family.at(crank, coupler), family.low), family.high)
         its = 0.0 if kind == "slider-crank" else abs(float(family.rocker(np.array([t]))[3][0])) * chord
-        found.append((abs(its - ground), family, t))
-    if not found:
+        candidates.append((abs(its - ground), family, t))
+    if not candidates:
         return None
-    _, family, t = min(found, key=lambda one: one[0])
+    _, family, t = min(candidates, key=lambda one: one[0])
     least, most = family.transmission(np.array([t, family.best])).tolist()
     return FamilyMember(family, chord, family.place_of(t), least, most)
 
@@ -353,5 +353,5 @@ def _slider_crank(lengths: list[float]) -> tuple[dict[str, float], dict[str, Any
 
 def _crank_rocker(lengths: list[float]) -> tuple[dict[str, float], dict[str, Any]]:
     crank, coupler, rocker, ground = lengths
-    found = {"ground": abs(ground), "crank": crank, "coupler": coupler, "rocker": rocker}
-    return found, {"four-bar": {**found, "assembly": "open" if ground > 0 else "crossed"}}
+    parameters = {"ground": abs(ground), "crank": crank, "coupler": coupler, "rocker": rocker}
+    return parameters, {"four-bar": {**parameters, "assembly": "open" if ground > 0 else "crossed"}}

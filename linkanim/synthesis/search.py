@@ -64,7 +64,7 @@ _CLOSED = 1e-24
 """A merit that is as good as none: candidates that are off by so little are equal."""
 
 
-def found(
+def best_fits(
     task: PathTask, count: int, progress: Progress | None = None, *, widely: bool = True
 ) -> tuple[Fit, ...]:
     """Return the best few answers that differ, the best first; BadInput where there is none.
@@ -82,9 +82,9 @@ def found(
 def _none_fits(task: PathTask) -> str:
     limits = ["the box"] if task.requirements.box else []
     limits += [f"the given {name}" for name in task.requirements.given]
-    kept = ", ".join([*limits, "the longest link"])
+    named = ", ".join([*limits, "the longest link"])
     return (
-        f"no {task.kind.name} was found that keeps to {kept} and the least transmission angle; "
+        f"no {task.kind.name} was found that keeps to {named} and the least transmission angle; "
         "give it more room"
     )
 
@@ -122,8 +122,8 @@ def _searched(task: PathTask, count: int, progress: Progress | None, *, widely: 
 def _through(
     task: PathTask, stages: tuple[_Stage, ...], count: int, progress: Progress | None
 ) -> tuple[Fit, ...]:
-    found, chosen = _refined_through(task, stages, progress)
-    return best_of(_enough(verified(task, found, chosen), count), count)
+    candidates, chosen = _refined_through(task, stages, progress)
+    return best_of(_enough(verified(task, candidates, chosen), count), count)
 
 
 def _enough(fits: Iterator[Fit], count: int) -> Iterator[Fit]:
@@ -176,16 +176,16 @@ def refitted(task: PathTask, fit: Fit) -> Fit | None:
     return next(verified(task, now, chosen), None)
 
 
-def spread(task: PathTask, found: Candidates, before: Indices, after: Indices) -> Real:
+def spread(task: PathTask, candidates: Candidates, before: Indices, after: Indices) -> Real:
     """Return the crank angles at some points from those at others."""
     if np.array_equal(before, after):
-        return found.angles
+        return candidates.angles
     if task.timing is not None:
-        return np.asarray(found.angles[:, :1] + (task.timing[after] - task.timing[before[0]]))
-    places, angles = task.normal.places[before], found.angles
+        return np.asarray(candidates.angles[:, :1] + (task.timing[after] - task.timing[before[0]]))
+    places, angles = task.normal.places[before], candidates.angles
     if task.curve.closed:
         places = np.append(places, places[0] + 1.0)
-        angles = np.concatenate([angles, angles[:, :1] + 2 * math.pi * found.sense[:, None]], axis=1)
+        angles = np.concatenate([angles, angles[:, :1] + 2 * math.pi * candidates.sense[:, None]], axis=1)
     return np.stack([np.interp(task.normal.places[after], places, row) for row in angles])
 
 
@@ -206,11 +206,11 @@ def verified(task: PathTask, normal: Candidates, chosen: Indices) -> Iterator[Fi
 
 def best_of(fits: Iterable[Fit], count: int) -> tuple[Fit, ...]:
     """Return the best of those that differ by more than rounding."""
-    kept: list[Fit] = []
+    distinct: list[Fit] = []
     for fit in ranked(fits):
-        if not any(_same(fit, other) for other in kept):
-            kept.append(fit)
-    return tuple(kept[:count])
+        if not any(_same(fit, other) for other in distinct):
+            distinct.append(fit)
+    return tuple(distinct[:count])
 
 
 def ranked(fits: Iterable[Fit]) -> list[Fit]:
@@ -250,10 +250,10 @@ def with_round_lengths(fits: tuple[Fit, ...], step: float) -> tuple[Fit, ...]:
 
     Each knows what it was before (`exact`). BadInput where nothing that follows the curve is left.
     """
-    found = [fit for fit in (rounded_to(fit, step) for fit in fits) if fit is not None]
-    if not found:
+    round_ones = [fit for fit in (rounded_to(fit, step) for fit in fits) if fit is not None]
+    if not round_ones:
         raise BadInput(f"rounded to {step:g} no linkage is left that follows the curve; take a finer step")
-    return best_of(found, len(found))
+    return best_of(round_ones, len(round_ones))
 
 
 def rounded_to(fit: Fit, step: float) -> Fit | None:

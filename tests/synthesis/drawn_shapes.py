@@ -21,7 +21,7 @@ from linkanim.synthesis.follower import COUNT
 from linkanim.synthesis.front import front_of, knee, searched_front, with_cognates
 from linkanim.synthesis.linkages import Complex
 from linkanim.synthesis.path import task_of
-from linkanim.synthesis.search import found
+from linkanim.synthesis.search import best_fits
 
 if TYPE_CHECKING:
     import pygame
@@ -100,7 +100,7 @@ def stroke(name: str) -> DrawnCurve:
 def front(curve: DrawnCurve) -> tuple[Fit, ...]:
     """Return the front that the window finds for a stroke."""
     task = task_of(curve.points, curve.closed)
-    return with_cognates(front_of([*searched_front(task), *found(task, 2 * COUNT, widely=False)]))
+    return with_cognates(front_of([*searched_front(task), *best_fits(task, 2 * COUNT, widely=False)]))
 
 
 def main(target: str) -> None:

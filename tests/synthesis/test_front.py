@@ -16,7 +16,7 @@ from linkanim.synthesis.follower import COUNT
 from linkanim.synthesis.front import cards, front_of, knee, names_of, preferred, searched_front, way_along
 from linkanim.synthesis.linkages import Complex
 from linkanim.synthesis.path import path, task_of
-from linkanim.synthesis.search import ALIKE, found
+from linkanim.synthesis.search import ALIKE, best_fits
 
 TURN = np.linspace(0, 2 * math.pi, 160)
 SHAPES: dict[str, Complex] = {
@@ -35,7 +35,7 @@ def front(request: pytest.FixtureRequest) -> tuple[Fit, ...]:
     """A shape's front, with the most exact answers known."""
     curve = stroke_of(SHAPES[request.param])
     task = task_of(curve.points, curve.closed)
-    return searched_front(task, found(task, 6, widely=False))
+    return searched_front(task, best_fits(task, 6, widely=False))
 
 
 def figures(*values: tuple[float, float] | tuple[float, float, float]) -> list[Figures]:
@@ -91,7 +91,7 @@ def test_a_front_reaches_from_the_best_deviation_to_bars_as_long_as_the_curve(
     front: tuple[Fit, ...],
 ) -> None:
     task = front[0].task
-    best = found(task, 1, widely=False)[0].figures.deviation
+    best = best_fits(task, 1, widely=False)[0].figures.deviation
     assert front[0].figures.deviation <= 1.5 * best
     assert min(fit.figures.size for fit in front) < 1.2
     assert max(fit.figures.angle for fit in front) > math.radians(25)

@@ -167,7 +167,7 @@ def test_the_largest_error_is_the_least_by_kolmogorov_s_criterion(
         row += [mpmath.mpf(found.input_start), mpmath.mpf(found.output_start)]
         orders = [tuple(int(n == k) for n in range(5)) for k in range(5)]
         slopes = mpmath.matrix(5, 6)
-        for n, x in enumerate(found.task.function.share(places)):
+        for n, x in enumerate(found.task.function.x_share(places)):
             for k, order in enumerate(orders):
                 slopes[k, n] = mpmath.diff(lambda *at, x=x: output(x, *at), row, order)
         weights = mpmath.lu_solve(slopes[:, :5], -slopes[:, 5])
@@ -237,10 +237,10 @@ def test_nothing_near_by_has_a_smaller_largest_error() -> None:
     x = np.linspace(1, 2, 801)
     closure = np.array([1.0 if found.scene.document["joints"]["B"]["side"] == "left" else -1.0])
     random = np.random.default_rng(4)
-    way = given.way(x) * found.output_range
+    way = given.y_share(x) * found.output_range
 
     def largest(row: Real) -> float:
-        outputs, _ = generator.outputs(row[None], closure, given.share(x) * found.input_range, way)
+        outputs, _ = generator.outputs(row[None], closure, given.x_share(x) * found.input_range, way)
         return float(np.abs(outputs[0] - way).max() * given.span / found.output_range)
 
     assert largest(row) == pytest.approx(found.error, rel=1e-5)

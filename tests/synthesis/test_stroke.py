@@ -19,13 +19,13 @@ from linkanim.synthesis.curves import DrawnCurve, bent, stroke_of, trace_of
 from linkanim.synthesis.follower import COUNT, Follow, Follower, Reply
 from linkanim.synthesis.front import cost
 from linkanim.synthesis.path import task_of
-from linkanim.synthesis.search import found, glimpsed, refitted
+from linkanim.synthesis.search import best_fits, glimpsed, refitted
 
 
 @pytest.mark.slow
 def test_the_atlas_answers_first_and_a_refined_answer_is_better() -> None:
     task = task_of(curves("four-bar", 1, seed=51)[0])
-    first, last = glimpsed(task), found(task, 2)[0]
+    first, last = glimpsed(task), best_fits(task, 2)[0]
     assert first
     assert last.rms <= first.rms < 0.1 * task.curve.size
 
@@ -33,7 +33,7 @@ def test_the_atlas_answers_first_and_a_refined_answer_is_better() -> None:
 @pytest.mark.slow
 def test_an_answer_follows_a_point_that_is_dragged() -> None:
     task = task_of(curves("four-bar", 1, seed=52)[0])
-    best = found(task, 1)[0]
+    best = best_fits(task, 1)[0]
     points = task.curve.points.copy()
     points[5] += 0.02 * task.curve.size
     again = refitted(replace(task, curve=DrawnCurve(points, closed=True)), best)
@@ -45,7 +45,7 @@ def test_an_answer_follows_a_point_that_is_dragged() -> None:
 @pytest.mark.slow
 def test_a_pivot_that_is_dragged_is_held_where_it_is_put() -> None:
     task = task_of(curves("four-bar", 1, seed=53)[0])
-    best = found(task, 1)[0]
+    best = best_fits(task, 1)[0]
     x, y = (best.parameters[name] + 0.01 * best.task.curve.size for name in ("x4", "y4"))
     held = replace(task, requirements=replace(task.requirements, given={"x4": x, "y4": y}))
     again = refitted(held, best)
