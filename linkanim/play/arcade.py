@@ -51,31 +51,31 @@ class Arcade:
 
     def completed(self, words: str) -> str:
         """Return a game's words with a seed, best scores, and what was missed."""
-        found, scores = GameWords.of(words), self._scores()
-        match found.kind:
+        game, scores = GameWords.of(words), self._scores()
+        match game.kind:
             case "title":
-                return str(found.having(door=scores.door or "play"))
+                return str(game.having(door=scores.door or "play"))
             case "menu":
                 from linkanim.play.menus import is_round
 
                 rounds = (f"{name}:{score}" for name, score in scores.best.items() if is_round(name))
-                return str(found.having(best=",".join(rounds)))
+                return str(game.having(best=",".join(rounds)))
             case "follow":
                 from linkanim.play.follow import read as run_of
 
-                return str(found.having(best=scores.best.get(run_of(found).kept_as, 0)))
+                return str(game.having(best=scores.best.get(run_of(game).kept_as, 0)))
             case "match":
                 from linkanim.play.match import first_unsolved
                 from linkanim.play.match import read as level_of
 
-                found = found if "level" in found.fields else found.having(level=first_unsolved(scores.best))
-                return str(found.having(best=scores.best.get(level_of(found).kept_as, 0)))
+                game = game if "level" in game.fields else game.having(level=first_unsolved(scores.best))
+                return str(game.having(best=scores.best.get(level_of(game).kept_as, 0)))
             case "predict":
                 from linkanim.play.predict import read as round_of
 
-                again = ",".join(map(str, self._again(found, scores)))
-                best = scores.best.get(round_of(found).kept_as, 0)
-                return str(found.having(seed=self._random.randrange(_SEEDS), again=again, best=best or ""))
+                again = ",".join(map(str, self._again(game, scores)))
+                best = scores.best.get(round_of(game).kept_as, 0)
+                return str(game.having(seed=self._random.randrange(_SEEDS), again=again, best=best or ""))
         return words
 
     def _again(self, words: GameWords, scores: Scores) -> list[QuestionId]:

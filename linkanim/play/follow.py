@@ -40,7 +40,7 @@ LENGTH = 4_500
 """Of the paper, in mm."""
 LEVELS = 3
 _HALF_WIDTHS = (0.11, 0.075, 0.05)
-"""Of the way between the lines, in strokes, by level."""
+"""Of the space between the lines, in strokes, by level."""
 _LEAD = 60
 _HALF_TURN = 150
 """So much paper, in mm, goes by before the ram has to move, and while a steady crank turns halfway."""
@@ -141,8 +141,8 @@ def _turning(cycle: NDArray[np.float64], scene: Scene, phase: float, halves: int
     """Return the ram's places while a steady crank turns some halves of a turn on from a phase."""
     phases = phase + math.pi / _HALF_TURN * np.arange(1, halves * _HALF_TURN + 1)
     known = np.arange(_SAMPLES + 1) * (scene.period / _SAMPLES)
-    found: list[float] = np.interp(phases % scene.period, known, np.append(cycle, cycle[0])).tolist()
-    return found
+    places: list[float] = np.interp(phases % scene.period, known, np.append(cycle, cycle[0])).tolist()
+    return places
 
 
 # Follow: turn the crank so that the ram stays between two lines on paper that scrolls by.
@@ -220,16 +220,16 @@ class FollowRun:
             case Action("scrub", float() | int() as phase):
                 return self._turned(state, float(phase), 0)
             case Action("turn", int() as steps) if self.stage != "over":
-                way = 1 if steps > 0 else -1
-                notch = self.notch + way * (_COARSE if abs(steps) > 1 else 1)
+                step = 1 if steps > 0 else -1
+                notch = self.notch + step * (_COARSE if abs(steps) > 1 else 1)
                 return self._turned(state, state.phase, min(max(notch, -_NOTCHES), _NOTCHES))
             case Action("next"):
                 return self._begun(state) if self.stage == "over" else self._turned(state, state.phase, 0)
             case Action("raise", int() as further) if self.stage in ("ready", "over"):
                 known = tracks()
                 place = known.index(self.scene) if self.scene in known else 0
-                way = 1 if further > 0 else -1
-                return replace(self, scene=known[(place - way) % len(known)])._begun(state)
+                step = 1 if further > 0 else -1
+                return replace(self, scene=known[(place - step) % len(known)])._begun(state)
             case Action("option", int() as level) if self.stage in ("ready", "over") and 0 <= level < LEVELS:
                 return replace(self, level=level + 1)._begun(state)
         return state
@@ -249,8 +249,8 @@ class FollowRun:
         """Let the paper scroll, and see whether the ram is between its lines; none of it below the help."""
         if self.stage not in ("counts", "runs") or state.help:
             return state
-        way = 1 if state.scene.linkage.drive.speed > 0 else -1
-        phase = state.phase + way * self.notch * _NOTCH
+        sense = 1 if state.scene.linkage.drive.speed > 0 else -1
+        phase = state.phase + sense * self.notch * _NOTCH
         clock = state.clock.go(state.frame, phase, paused=True)
         if self.stage == "counts":
             game = replace(self, counted=self.counted + 1, phase=phase)

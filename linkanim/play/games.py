@@ -112,10 +112,10 @@ def members(chapter: str) -> tuple[str, ...]:
     """Return the scenes of a chapter, of all, or the one scene of that name; BadInput for another name."""
     if chapter == ALL:
         return names()
-    found = chapters().get(chapter, [chapter] if chapter in names() else [])
-    if not found:
+    scenes = chapters().get(chapter, [chapter] if chapter in names() else [])
+    if not scenes:
         raise BadInput(f"there is no chapter {shown(chapter)}; there are {ALL}, {', '.join(chapters())}")
-    return tuple(found)
+    return tuple(scenes)
 
 
 def titled(chapter: str) -> str:

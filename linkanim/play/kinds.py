@@ -17,7 +17,7 @@ import numpy as np
 from linkanim.frozen import NamedTuple
 from linkanim.mechanics.analysis import FourBar, four_bar_of
 from linkanim.mechanics.linkage import Body, Slide
-from linkanim.mechanics.measures import between as way_between
+from linkanim.mechanics.measures import between as vector_between
 from linkanim.mechanics.measures import coupler_body, growth, output_body, said
 from linkanim.mechanics.program import Array
 from linkanim.mechanics.search import sign_changes
@@ -72,10 +72,10 @@ def speeding(puzzle: Puzzle) -> QuizQuestion | None:
         ax, ay = puzzle.pose.acceleration[name]
         gains = isfinite(along) and abs(along) > PLAIN * hypot(ax, ay)
         if gains and puzzle.share(f"{name}.acceleration") > CLEAR:
-            way = "the way it moves" if along > 0 else "against its velocity"
+            pointing = "the way it moves" if along > 0 else "against its velocity"
             why = (
                 f"The part of its acceleration along its velocity, {number(along)} "
-                f"{puzzle.scene.length_unit}/s², points {way}."
+                f"{puzzle.scene.length_unit}/s², points {pointing}."
             )
             larger = ax if abs(ax) > abs(ay) else ay
             slip = "the sign of the acceleration alone, whichever way the point moves"
@@ -216,18 +216,18 @@ def _distinct(puzzle: Puzzle, columns: Sequence[Array]) -> list[Array] | None:
     value = value - (value.max() + value.min()) / 2
     if abs(float(value[-1] - value[0])) > 0.5 * float(np.ptp(value)):
         return None  # it turns on and on: its angle is a line
-    way = -1 if puzzle.scene.linkage.drive.speed < 0 else 1
-    scaled = [part[::way] / np.abs(part).max() for part in (value, *rates)]
+    sense = -1 if puzzle.scene.linkage.drive.speed < 0 else 1
+    scaled = [part[::sense] / np.abs(part).max() for part in (value, *rates)]
     alike = (float(np.abs(one - other).max()) < _APART for one, other in combinations(scaled, 2))
     return None if any(alike) else scaled
 
 
 def coriolis(puzzle: Puzzle) -> QuizQuestion | None:
     """Return whether a point that slides has a Coriolis acceleration; only where the guide turns it has."""
-    found = list(_sliding(puzzle))
-    if not found:
+    sliding = list(_sliding(puzzle))
+    if not sliding:
         return None
-    joint, guide, turns = puzzle.random.choice(found)
+    joint, guide, turns = puzzle.random.choice(sliding)
     why = (
         f"The guide turns while {joint} slides along it: 2ω × v is not zero."
         if turns
@@ -268,9 +268,9 @@ def _slides(puzzle: Puzzle, slide: Slide) -> bool:
     """Return whether a joint clearly slides along its guide."""
     ends = (slide.start or slide.line.through, slide.point)
     rates = []
-    for found in (puzzle.cycle, puzzle.pose):
-        way, moving = (way_between(vectors, ends) for vectors in (found.position, found.velocity))
-        rates.append(np.abs(said(found, growth(way, moving), "{}/s", 1)))
+    for motion in (puzzle.cycle, puzzle.pose):
+        apart, moving = (vector_between(vectors, ends) for vectors in (motion.position, motion.velocity))
+        rates.append(np.abs(said(motion, growth(apart, moving), "{}/s", 1)))
     return bool(rates[1] > PLAIN * float(np.nanmax(rates[0])))
 
 
@@ -302,11 +302,11 @@ def pole(puzzle: Puzzle) -> QuizQuestion | None:
         for pair in near
         if pair != (one, other)
     ]
-    kept = [poles[one, other]]
+    places = [poles[one, other]]
     wrong: list[QuizAnswer] = []
     for place, slip in tries:
-        if len(wrong) < MOST - 1 and all(abs(place - known) > CLEAR * size for known in kept):
-            kept.append(place)
+        if len(wrong) < MOST - 1 and all(abs(place - known) > CLEAR * size for known in places):
+            places.append(place)
             wrong.append(QuizAnswer(_place(puzzle, place), slip))
     if len(wrong) < 2:
         return None
@@ -396,7 +396,7 @@ def _at(x: float) -> str:
 # What moves which way and how fast: turning, the fastest point, the heading, the instant centre.
 
 _OBLIQUE = pi / 6
-"""A way that is farther from a compass point is between two of them."""
+"""A heading that is farther from a compass point is between two of them."""
 _NEAR = 0.08
 """Places that are nearer to each other, in sizes of the linkage, could be taken for one."""
 _ARROWS = Look(names=1, vectors=frozenset({VELOCITY}))
@@ -404,7 +404,7 @@ _BACKWARDS = "when the input runs backwards"
 
 
 def turning(puzzle: Puzzle) -> QuizQuestion | None:
-    """Return which way a link turns; taken wrongly, as the input does."""
+    """Return in which direction a link turns; taken wrongly, as the input does."""
     clear = [body for body in puzzle.turning if abs(puzzle.share(f"{body.name}.angular_velocity")) > PLAIN]
     if not clear:
         return None
@@ -427,14 +427,14 @@ def _why_turning(puzzle: Puzzle, body: Body, rate: float) -> str:
     """Return why a body turns as it does: by how one joint moves about another, a fixed one if any."""
     is_fixed = {name: puzzle.scene.linkage.joint(name).fixed for name in body.joints[:2]}
     first, second = sorted(is_fixed, key=lambda name: not is_fixed[name])
-    place, way = (
+    place, moving = (
         quarter(puzzle.vector(kind, second) - puzzle.vector(kind, first)) for kind in ("position", "velocity")
     )
     lies = f"{second} lies {SIDES[place]} {first}"
     if not is_fixed[first]:
         lies = f"Seen from {first}, {second} lies {BESIDE[place]}"
     turns = f"{puzzle.name(body)} turns {TURNS[rate < 0]}, with {number(abs(rate))} rad/s"
-    return f"{lies} and moves {WAYS[way]}: {turns}."
+    return f"{lies} and moves {WAYS[moving]}: {turns}."
 
 
 def fastest(puzzle: Puzzle) -> QuizQuestion | None:
@@ -492,9 +492,9 @@ def _why_faster(puzzle: Puzzle, first: str, others: list[str]) -> str:
 
 
 def heading(puzzle: Puzzle) -> QuizQuestion | None:
-    """Return which way a joint moves; taken wrongly, back, along its link or as it is accelerated.
+    """Return in which direction a joint moves; taken wrongly, back, along its link or as it is accelerated.
 
-    What slides in a fixed guide is asked for the two ways of its guide only.
+    What slides in a fixed guide is asked for the two directions of its guide only.
     """
     names = puzzle.clear("velocity")
     puzzle.random.shuffle(names)
@@ -502,14 +502,14 @@ def heading(puzzle: Puzzle) -> QuizQuestion | None:
         velocity = puzzle.vector("velocity", name)
         if obliquity(velocity) > _OBLIQUE:
             continue
-        way = quarter(velocity)
-        ways = (way, (way + 2) % 4) if _is_guided(puzzle, name) else range(4)
-        slips = dict(_taken_for_heading(puzzle, name, way))
+        correct = quarter(velocity)
+        possible = (correct, (correct + 2) % 4) if _is_guided(puzzle, name) else range(4)
+        slips = dict(_taken_for_heading(puzzle, name, correct))
         return puzzle.question(
             name,
             f"Which way does {name} move?",
-            QuizAnswer(WAYS[way]),
-            [QuizAnswer(WAYS[n], slips.get(n, "")) for n in ways if n != way],
+            QuizAnswer(WAYS[correct]),
+            [QuizAnswer(WAYS[n], slips.get(n, "")) for n in possible if n != correct],
             _why_heading(puzzle, name),
             shows=_ARROWS,
             arrows=[name],
@@ -523,13 +523,13 @@ def _is_guided(puzzle: Puzzle, name: str) -> bool:
     return any(slide.point == name and slide.start is None for slide in slides)
 
 
-def _taken_for_heading(puzzle: Puzzle, name: str, way: int) -> Iterator[tuple[int, str]]:
-    """Yield which way is taken for a joint's heading, and why; what counts most comes last."""
+def _taken_for_heading(puzzle: Puzzle, name: str, correct: int) -> Iterator[tuple[int, str]]:
+    """Yield which direction is taken for a joint's heading, and why; what counts most comes last."""
     pin = puzzle.pivot_of(name)
     if pin is not None:
         along = quarter(puzzle.apart(pin, name))
         yield from ((n % 4, "along its link, not across") for n in (along, along + 2))
-    yield (way + 2) % 4, f"the way it moves {_BACKWARDS}"
+    yield (correct + 2) % 4, f"the way it moves {_BACKWARDS}"
     acceleration = puzzle.vector("acceleration", name)
     known = isfinite(abs(acceleration)) and puzzle.share(f"{name}.acceleration") > CLEAR
     if known and obliquity(acceleration) < _OBLIQUE:
@@ -624,11 +624,11 @@ def _taken_for_pole(puzzle: Puzzle, name: str) -> str:
 
 def _apart(points: Iterable[complex], least: float) -> list[complex]:
     """Return the points that are so far from each one before them."""
-    kept: list[complex] = []
+    apart: list[complex] = []
     for point in points:
-        if all(abs(point - other) > least for other in kept):
-            kept.append(point)
-    return kept
+        if all(abs(point - other) > least for other in apart):
+            apart.append(point)
+    return apart
 
 
 # How far things go: dead centres, the input's range, closures beyond a limit, Grashof's sum.
@@ -690,10 +690,10 @@ def _turning_back(puzzle: Puzzle, body: Body) -> dict[float, float]:
     # once round from between two samples: many turn back at a phase of 0
     once_round = scene.period * (np.arange(samples + 1) + 0.5) / samples
     rate = scene.quantities[_rate_of(body)]
-    found = sign_changes(
+    reversals = sign_changes(
         lambda phases: np.asarray(rate.read(scene.solve(phase=phases, derivatives=1))), once_round
     )
-    return dict(sorted((crank_degrees(puzzle, float(phase)), float(phase)) for phase in found))
+    return dict(sorted((crank_degrees(puzzle, float(phase)), float(phase)) for phase in reversals))
 
 
 def _in_line(puzzle: Puzzle, body: Body, exact: Mapping[float, float]) -> str:

@@ -78,7 +78,7 @@ def _off(joints: Linkage4, curve: DrawnCurve) -> float:
 def trace(joints: Linkage4) -> Complex:
     """Return what the coupler point draws, the first point once more at the end; that of a swing comes back.
 
-    The way back of a swing is on the other closure.
+    A swing comes back on the other closure.
     """
     rows, step = np.array([joints.row]), 2 * math.pi / _MOMENTS
     angles: Real = joints.angle + step * np.arange(_MOMENTS + 1, dtype=np.float64)
@@ -91,18 +91,18 @@ def trace(joints: Linkage4) -> Complex:
     shut = np.flatnonzero(~np.isfinite(there))
     # the stretch that the crank is in, from limit to limit, and back
     open_ = np.arange(shut[-1] + 1 - _MOMENTS, shut[0])
-    found: Complex = np.concatenate([there[open_ % _MOMENTS], back[open_[::-1] % _MOMENTS]])
-    found = found[np.isfinite(found)]
-    return np.append(found, found[:1])
+    path: Complex = np.concatenate([there[open_ % _MOMENTS], back[open_[::-1] % _MOMENTS]])
+    path = path[np.isfinite(path)]
+    return np.append(path, path[:1])
 
 
 def _distances(points: Complex, line: Complex) -> float:
     """Return the root mean square of the points' distances from a line through others."""
-    begin, way = line[:-1], np.diff(line)
+    begin, side = line[:-1], np.diff(line)
     from_begin = points[:, None] - begin
-    square = np.maximum(way.real**2 + way.imag**2, 1e-300)
-    share = np.clip((from_begin * way.conj()).real / square, 0.0, 1.0)
-    nearest: Real = np.abs(from_begin - share * way).min(axis=1)
+    square = np.maximum(side.real**2 + side.imag**2, 1e-300)
+    share = np.clip((from_begin * side.conj()).real / square, 0.0, 1.0)
+    nearest: Real = np.abs(from_begin - share * side).min(axis=1)
     return float(np.sqrt(np.mean(nearest**2)))
 
 
@@ -157,13 +157,13 @@ class Level:
         """How far the linkage follows as the level begins."""
         return min(shares(worth(self.start, self.curve), self.full)[0], 0.99)
 
-    def earned(self, found: Worth) -> tuple[float, float, float]:
+    def earned(self, reached: Worth) -> tuple[float, float, float]:
         """Return what a linkage earns of each full score, 0 to 1.
 
         What follows no better than the linkage that the level begins with earns nothing, and size and angle
         count as far as it does.
         """
-        off, links, angle = shares(found, self.full)
+        off, links, angle = shares(reached, self.full)
         gained = max(off - self._given, 0.0) / (1.0 - self._given)
         return gained, gained * links, gained * angle
 
@@ -171,8 +171,8 @@ class Level:
 @lru_cache(maxsize=1)
 def level_names() -> tuple[str, ...]:
     """Return the levels of the package, the first ones first."""
-    found = sorted(entry.name for entry in FOLDER.iterdir() if entry.name.endswith(".toml"))
-    return tuple(name.removesuffix(".toml").split("-", 1)[1] for name in found)
+    files = sorted(entry.name for entry in FOLDER.iterdir() if entry.name.endswith(".toml"))
+    return tuple(name.removesuffix(".toml").split("-", 1)[1] for name in files)
 
 
 @lru_cache(maxsize=4)
@@ -233,10 +233,10 @@ def _said_of(section: Section, key: str, make: Callable[[], Made]) -> Made:
 
 
 def _stated_least_angle(full: Section) -> float:
-    found = _said_of(full, "angle", lambda: angle(full.text("angle")))
-    if not 0.0 < found <= math.pi / 2:
+    least = _said_of(full, "angle", lambda: angle(full.text("angle")))
+    if not 0.0 < least <= math.pi / 2:
         raise full.error("angle", 'must be a transmission angle, such as "40 deg"')
-    return found
+    return least
 
 
 def _positive(section: Section, key: str) -> float:
@@ -312,13 +312,13 @@ _NAMES = ("how exactly", "how small", "transmission angle")
 class MatchGame:
     """A level with the joints as they stand: since the last drag, or as the path solver has them (`gave_up`).
 
-    `held` is the joint under the hand, `earlier` the linkages before each drag, `found` the worth of this, a
+    `held` is the joint under the hand, `earlier` the linkages before each drag, `worth` the worth of this, a
     moment old while one is held.
     """
 
     level: str
     joints: Linkage4
-    found: Worth
+    worth: Worth
     best: int = 0
     gave_up: bool = False
     held: str | None = None
@@ -340,7 +340,7 @@ class MatchGame:
     @property
     def points(self) -> tuple[int, ...]:
         """The three scores, 0 to 100."""
-        return _earned(self.of_level.earned(self.found))
+        return _earned(self.of_level.earned(self.worth))
 
     def entered(self, state: State) -> State:
         """Return the state with the four-bar standing beside the curve."""
@@ -357,7 +357,7 @@ class MatchGame:
     @property
     def judged(self) -> MatchGame:
         """The game with the worth of the joints as they are now."""
-        return replace(self, found=worth(self.joints, self.of_level.curve))
+        return replace(self, worth=worth(self.joints, self.of_level.curve))
 
     def carried(self, state: State, action: Action) -> State:
         """Drag a joint; run, step, take back; give up, or go on to another level."""
@@ -449,9 +449,9 @@ class MatchGame:
         """Return the overlay with the curve, the three bars, and what they come to."""
         level = self.of_level
         answer = level.earned(level.worth_of_answer)
-        own = level.earned(self.found)
+        own = level.earned(self.worth)
         points = _earned(own)
-        known = zip(_NAMES, _worded(self.found), points, own, answer, strict=True)
+        known = zip(_NAMES, _worded(self.worth), points, own, answer, strict=True)
         bars = tuple(
             ScoreBar(name, f"{text}   {some}", share, (mark, 1.0) if 0 < mark < 1 else (1.0,))
             for name, text, some, share, mark in known
@@ -506,12 +506,12 @@ def _listed(words: list[str]) -> str:
     return " and ".join(words)
 
 
-def shares(found: Worth, full: Worth) -> tuple[float, float, float]:
+def shares(reached: Worth, full: Worth) -> tuple[float, float, float]:
     """Return how much of each full score a linkage earns, 0 to 1: by ratios for the first two."""
-    away = min(max(found.off / full.off, 1.0), _LOOSEST / full.off)
+    away = min(max(reached.off / full.off, 1.0), _LOOSEST / full.off)
     off = 1 - math.log(away) / math.log(_LOOSEST / full.off)
-    links = 1 - math.log(max(found.links / full.links, 1.0)) / math.log(_LARGEST)
-    return max(off, 0.0), max(links, 0.0), min(found.angle / full.angle, 1.0)
+    links = 1 - math.log(max(reached.links / full.links, 1.0)) / math.log(_LARGEST)
+    return max(off, 0.0), max(links, 0.0), min(reached.angle / full.angle, 1.0)
 
 
 def _earned(three: tuple[float, float, float]) -> tuple[int, ...]:
@@ -519,10 +519,10 @@ def _earned(three: tuple[float, float, float]) -> tuple[int, ...]:
     return tuple(int(_POINTS * share + 1e-9) for share in three)
 
 
-def _worded(found: Worth) -> tuple[str, str, str]:
+def _worded(reached: Worth) -> tuple[str, str, str]:
     """Return the three in words."""
-    off = f"{significant(found.off, 2)} % off" if found.off < _LOOSEST else "far off"
-    return off, f"{found.links:.2f} sizes", f"{math.degrees(found.angle):.0f}°"
+    off = f"{significant(reached.off, 2)} % off" if reached.off < _LOOSEST else "far off"
+    return off, f"{reached.links:.2f} sizes", f"{math.degrees(reached.angle):.0f}°"
 
 
 def _is_sound(joints: Linkage4, level: Level) -> bool:
@@ -567,7 +567,7 @@ def _home(game: MatchGame) -> Box:
     points, size = level.curve.points, level.curve.size
     low, high = (complex(of(points.real), of(points.imag)) for of in (min, max))
     middle = (low + high) / 2
-    reach = [middle + 1.1 * size * way for way in (1, -1, 0.95j, -0.95j)]
+    reach = [middle + 1.1 * size * side for side in (1, -1, 0.95j, -0.95j)]
     reach += [*level.start, *(game.joints if game.gave_up else ())]
     reach += [*trace(game.joints)] if game.gave_up else []
     across, up = [place.real for place in reach], [place.imag for place in reach]

@@ -163,9 +163,9 @@ class Predict:
         scenes, seed = members(self.chapter), f"{self.seed} {len(self.done)}"
         before = [*self.again, *(one.question_id for one in self.done)]
         for name in Random(seed).sample(scenes, min(len(scenes), _SCENES)):
-            found = next_question(load(name), seed, before, (missed.kind,))
-            if found.kind == missed.kind:
-                return found
+            another = next_question(load(name), seed, before, (missed.kind,))
+            if another.kind == missed.kind:
+                return another
         return question_of(missed)
 
     def carried(self, state: State, action: Action) -> State:
@@ -236,8 +236,11 @@ class Predict:
             return replace(state, clock=slow.pause(state.frame, False))
         if clock.paused:
             return state
-        goal, way = question.phase if question.stops is None else question.stops, 1 if clock.speed > 0 else -1
-        ahead = (goal - state.phase) * way % period
+        goal, sense = (
+            question.phase if question.stops is None else question.stops,
+            1 if clock.speed > 0 else -1,
+        )
+        ahead = (goal - state.phase) * sense % period
         if ahead <= abs(clock.speed) / FRAMES_PER_SECOND:
             return replace(state, clock=clock.go(state.frame, goal, paused=True))
         return state

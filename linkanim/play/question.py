@@ -145,7 +145,7 @@ class Puzzle:
         return complex(*getattr(self.pose, kind)[name])
 
     def apart(self, one: str, other: str) -> complex:
-        """Return the way from one joint to another."""
+        """Return the vector from one joint to another."""
         return self.vector("position", other) - self.vector("position", one)
 
     def bodies_of(self, *joints: str) -> Iterator[Body]:

@@ -40,13 +40,13 @@ def questions(
     before a scene has nothing else. `progress` is called with (questions made, in all). WorkFailed where a
     scene has nothing that can be asked, because nothing of it moves clearly.
     """
-    found: list[QuizQuestion] = []
+    asked: list[QuizQuestion] = []
     spent: set[tuple[str, str]] = set()
     for number in range(count):
-        scene, before = scenes[number % len(scenes)], [one.question_id for one in found]
-        found.append(next_question(scene, f"{seed} {number}", before, spent=spent))
+        scene, before = scenes[number % len(scenes)], [one.question_id for one in asked]
+        asked.append(next_question(scene, f"{seed} {number}", before, spent=spent))
         progress(number + 1, count)
-    return tuple(found)
+    return tuple(asked)
 
 
 def next_question(
@@ -150,13 +150,13 @@ def pose_words(question: QuizQuestion) -> str:
     """Return a question's scene, where its input is, and how fast and which way that runs."""
     scene, pose = question.scene, question.scene.pose(question.phase)
     drive = scene.linkage.drive
-    way = f", {speed_words(scene, drive.speed)}"
+    running = f", {speed_words(scene, drive.speed)}"
     if drive.coordinate.is_angle:
         # at a limit it stands, and is about to turn back
         turns = "counterclockwise" if (pose.coordinate_rate or pose.coordinate_second) > 0 else "clockwise"
-        way = f", {speed_words(scene, abs(drive.speed))} {turns}"
+        running = f", {speed_words(scene, abs(drive.speed))} {turns}"
     at = pose.coordinate % tau if scene.info.full_turn else pose.coordinate
-    return f"{scene.title}, {scene.info.input_name} at {driven_words(scene, at)}{way}"
+    return f"{scene.title}, {scene.info.input_name} at {driven_words(scene, at)}{running}"
 
 
 def question_figure(question: QuizQuestion, size: tuple[int, int] = _SIZE) -> Figured:

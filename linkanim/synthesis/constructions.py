@@ -311,10 +311,10 @@ def _generated(scene: Scene, purpose: FunctionPurpose) -> Iterator[ConstructionS
             Mark("dot", _at(other), "O₄", spreads=True),
         )
     held = [] if other is None else [other]
-    chains = [_at(start, pin, end, *held) for pin, end in zip(pins, ends, strict=True)]
-    first, *rest = chains
+    polylines = [_at(start, pin, end, *held) for pin, end in zip(pins, ends, strict=True)]
+    first, *rest = polylines
     marks = [
-        *(Mark("thin", chain, tone="dim", spreads=True) for chain in rest),
+        *(Mark("thin", polyline, tone="dim", spreads=True) for polyline in rest),
         Mark("bar", first, spreads=True),
     ]
     yield _step("The linkage in its precision points: there what it does is y, to the last digit.", *marks)

@@ -58,19 +58,19 @@ class FlatPart(NamedTuple):
 def flat_parts(made: MadeLinkage) -> list[FlatPart]:
     """Return every plate, and the rings that keep layers apart, with what the cut takes away allowed for."""
     grown = made.kerf / 2
-    found = []
+    parts = []
     for number, plate in enumerate(made.plates):
         # a tongue has no room for its name
         label = made.numbers[number] if plate.role == "slider" else made.label(number)
-        found.append(FlatPart(label, plate.clearest, plate.outline(grown), tuple(plate.cuts(grown))))
+        parts.append(FlatPart(label, plate.clearest, plate.outline(grown), tuple(plate.cuts(grown))))
     for pin in made.pins:
         for ring in pin.spacers:
             hole = rounded([0j], made.sizes.hole / 2 - grown)
             edge = rounded([0j], ring.diameter / 2 + grown)
             label, outer, inner = f"{pin.name} {ring.layer}", ring.diameter / 2, made.sizes.hole / 2
             room = _room_in_ring(outer, inner, _LETTER * len(label))
-            found.append(FlatPart(label, -0.5j * (outer + inner), edge, (hole,), room))
-    return found
+            parts.append(FlatPart(label, -0.5j * (outer + inner), edge, (hole,), room))
+    return parts
 
 
 def _room_in_ring(outer: float, inner: float, wide: float) -> float:
@@ -283,8 +283,8 @@ class _Tiles(NamedTuple):
         places = [complex(x, y) for x in xs for y in (3 * half, high - 3 * half)]
         places += [complex(x, y) for y in ys for x in (3 * half, wide - 3 * half)]
         for place in places:
-            for way in (3, 3j):
-                yield _line(made, place - way, place + way, _HAIR)
+            for arm in (3, 3j):
+                yield _line(made, place - arm, place + arm, _HAIR)
 
 
 def _on_page(made: MadeLinkage, place: complex) -> complex:
@@ -300,8 +300,8 @@ def _drawn(made: MadeLinkage, part: FlatPart, at: complex, turn: complex) -> Ite
     for outline in part.holes:
         if len(outline) == 2:
             middle = at + turn * (outline[0][0] + outline[1][0]) / 2
-            for way in (1.5, 1.5j):
-                yield _line(made, middle - way, middle + way, _HAIR / 2)
+            for arm in (1.5, 1.5j):
+                yield _line(made, middle - arm, middle + arm, _HAIR / 2)
     if part.label:
         size = min(max(made.sizes.bar / 3, _READABLE), 5.0, max(part.room, _READABLE))
         # words lie level on the page; a ring's stay below its hole however it is turned
@@ -371,9 +371,9 @@ def bodies(made: MadeLinkage) -> Iterator[tuple[str, bytes]]:
     sunk, head = _SUNK * thick, _head(made)
     for number, plate in enumerate(made.plates):
         body = _prism(plate.outline(), thick, tuple(plate.cuts()))
-        (origin, way), places = made.placed(0.0)[number], made.pinned(0.0)
+        (origin, direction), places = made.placed(0.0)[number], made.pinned(0.0)
         for pin, place in zip(made.pins, places, strict=True):
-            at = (place - origin) * way.conjugate()
+            at = (place - origin) * direction.conjugate()
             # Beyond the plate's face, so that none of it is left there.
             for end, foot in ((pin.low, -1.0), (pin.high, thick - sunk)):
                 if number == _end_plate(made, pin, end):

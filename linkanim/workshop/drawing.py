@@ -44,11 +44,11 @@ class Drawn:
     @cached_property
     def _loops(self) -> list[tuple[Loop, ...]]:
         """The edge of each plate and those of its cuts, where they lie at the phase, in mm."""
-        found = []
+        loops = []
         for plate, (at, turn) in zip(self.made.plates, self.made.placed(self.phase), strict=True):
             outlines = (plate.outline(), *plate.cuts())
-            found.append(tuple(at + turn * np.array(polygon(outline, _CHORD)) for outline in outlines))
-        return found
+            loops.append(tuple(at + turn * np.array(polygon(outline, _CHORD)) for outline in outlines))
+        return loops
 
     @cached_property
     def _box(self) -> Box:
@@ -151,10 +151,10 @@ class Drawn:
                 and room.holds(box.right, box.bottom)
                 and not any(map(box.meets, taken))
             )
-            found = next(free, boxes[0])
-            taken.append(found)
+            spot = next(free, boxes[0])
+            taken.append(spot)
             halo = Halo(self.theme.background, 2.5)
-            yield Caption(text, (found.middle.real, found.y), _TEXT, self.theme.ink, "centre", halo=halo)
+            yield Caption(text, (spot.middle.real, spot.y), _TEXT, self.theme.ink, "centre", halo=halo)
 
     def _number(self, number: int, view: View) -> Iterator[Item]:
         """Yield a plate's number in a disc, where it is farthest from holes."""
@@ -272,8 +272,8 @@ def _moved(item: Item, right: float) -> Item:
 
 
 def _in_view(loop: Loop, view: View) -> Loop:
-    found: Loop = view.x + view.scale * loop.real + 1j * (view.y - view.scale * loop.imag)
-    return found
+    pixels: Loop = view.x + view.scale * loop.real + 1j * (view.y - view.scale * loop.imag)
+    return pixels
 
 
 def _around(loop: Loop) -> Rect:

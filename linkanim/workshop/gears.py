@@ -122,9 +122,9 @@ def _spur(linkage: Linkage, crank: Crank, driver: Crank, scale: float, module: f
     if abs(apart) <= 1e-9 * linkage.longest:
         raise NotFlat(f"the gear pair {driver.name}, {crank.name} has both wheels on one pin")
     teeth, size = _teeth((abs(ratio).numerator, ratio.denominator), scale * abs(apart), module, ring=False)
-    way = cmath.phase(apart)
+    angle = cmath.phase(apart)
     # A tooth of the first points along its crank; where it meets the second, that one has a gap.
-    tooth = way + math.pi + math.pi / teeth[1] - float(ratio) * way - crank.gear.offset
+    tooth = angle + math.pi + math.pi / teeth[1] - float(ratio) * angle - crank.gear.offset
     return Mesh(
         GearWheel(driver.pivot, driver.name, teeth[0], size, 0.0),
         GearWheel(crank.pivot, crank.name, teeth[1], size, tooth),

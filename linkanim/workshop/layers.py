@@ -99,11 +99,11 @@ def pieces_of(kit: Kit, hole: float) -> list[MovingPiece]:
 def _nodes(kit: Kit, hanging: Sequence[int]) -> list[list[int]]:
     """Return each plate's node, then those that each pin goes through: 0 is the ground, a bridge the last."""
     node = {plate: number for number, group in enumerate(kit.groups) for plate in group}
-    found = [[node[plate]] for plate in range(len(kit.plates))]
+    nodes = [[node[plate]] for plate in range(len(kit.plates))]
     for number, pin in enumerate(kit.pins):
         through = {node[plate] for plate in pin.plates}
-        found.append(sorted(through - {0} | {len(kit.groups)} if number in hanging else through))
-    return found
+        nodes.append(sorted(through - {0} | {len(kit.groups)} if number in hanging else through))
+    return nodes
 
 
 def _clashing(through: Sequence[Sequence[int]], clashes: Sequence[tuple[int, int]]) -> Iterator[Choice]:
@@ -126,17 +126,17 @@ def _to_blame(
 ) -> tuple[Clash, ...]:
     """Return clashes that cannot be kept together, though without any one of them the others can."""
     frame, through, nodes = list(_framing(len(kit.groups), False)), _nodes(kit, ()), len(kit.groups)
-    kept = list(clashes)
+    blamed = list(clashes)
     for pair in clashes:
-        rest = [one for one in kept if one != pair]
+        rest = [one for one in blamed if one != pair]
         if _solved(nodes, [*_clashing(through, rest), *frame], nodes) is None:
-            kept = rest
+            blamed = rest
 
     def called(number: int) -> str:
         plates = len(kit.plates)
         return kit.plates[number].name if number < plates else f"the pin at {kit.pins[number - plates].name}"
 
-    return tuple(Clash(called(one), called(other), near[one, other].phase) for one, other in kept)
+    return tuple(Clash(called(one), called(other), near[one, other].phase) for one, other in blamed)
 
 
 class _Order(NamedTuple):
@@ -199,7 +199,7 @@ def _clique(nodes: int, choices: Sequence[Choice]) -> int:
 def _solved(
     nodes: int, choices: Sequence[Choice], layers: int, most_work: int | None = None
 ) -> tuple[int, ...] | None:
-    """Return the lowest layer of each node that a way through the choices leaves; None where none does.
+    """Return the lowest layer of each node, one alternative of each choice taken; None where none can be.
 
     `_GivenUp` after so many looks at a choice.
     """
@@ -232,8 +232,8 @@ def _solved(
         # First the choice that leaves least room.
         first = min(left, key=lambda one: min(high[b] - low[a] for pairs in one for a, b in pairs))
         rest = [one for one in left if one is not first]
-        found = (search([*low], [*high], [*pairs, *one], rest) for one in first)
-        return next((layers for layers in found if layers is not None), None)
+        tries = (search([*low], [*high], [*pairs, *one], rest) for one in first)
+        return next((layers for layers in tries if layers is not None), None)
 
     return search([0] * nodes, [layers - 1] * nodes, [], choices)
 

@@ -104,11 +104,11 @@ class MadeLinkage:
         given = {body.name: number for body, number in figure(self.scene).numbers.items()}
         wanted = [next((given[name] for name in plate.bodies if name in given), "") for plate in self.plates]
         wanted[:1] = ["1"]
-        found: list[str] = []
+        numbers: list[str] = []
         others = (str(number) for number in count(2) if str(number) not in wanted)
         for number in wanted:
-            found.append(number if number and number not in found else next(others))
-        return tuple(found)
+            numbers.append(number if number and number not in numbers else next(others))
+        return tuple(numbers)
 
     def label(self, number: int) -> str:
         """Return a plate's number and name; the number alone where that is its name."""
@@ -217,14 +217,14 @@ def laid(made: MadeLinkage, *, bridge: bool) -> MadeLinkage:
     """
     sizes, cycle = made.sizes, Cycle(made.scene, made.sizes.scale)
     parts = kit(cycle, sizes)
-    found = stacked(cycle, parts, hole=sizes.hole, gap=sizes.gap, bridge=bridge)
-    if isinstance(found, Unstackable):
-        return replace(made, refused=_why_not(found, cycle, sizes))
-    pins = tuple(_pin(parts, found, number, sizes) for number in range(len(parts.pins)))
+    stack = stacked(cycle, parts, hole=sizes.hole, gap=sizes.gap, bridge=bridge)
+    if isinstance(stack, Unstackable):
+        return replace(made, refused=_why_not(stack, cycle, sizes))
+    pins = tuple(_pin(parts, stack, number, sizes) for number in range(len(parts.pins)))
     whole = replace(
-        made, plates=parts.plates, layer=found.layers, pins=pins, bands=parts.bands, fewest=found.least
+        made, plates=parts.plates, layer=stack.layers, pins=pins, bands=parts.bands, fewest=stack.least
     )
-    if found.hanging:
+    if stack.hanging:
         whole = _bridged(cycle, whole)
     refuse_thin(whole.plates, sizes)
     return whole
@@ -271,16 +271,16 @@ def _is_stackable(cycle: Cycle, sizes: Sizes) -> bool:
     return isinstance(stacked(cycle, parts, hole=sizes.hole, gap=sizes.gap, bridge=False), Stack)
 
 
-def _pin(parts: Kit, found: Stack, number: int, sizes: Sizes) -> MadePin:
+def _pin(parts: Kit, stack: Stack, number: int, sizes: Sizes) -> MadePin:
     """Return a pin as far as it reaches, with a ring in each layer between its plates where one has room."""
-    pin, hangs = parts.pins[number], number in found.hanging
+    pin, hangs = parts.pins[number], number in stack.hanging
     plates = tuple(plate for plate in pin.plates if plate or not hangs)
-    levels = {found.layers[plate] for plate in plates} | ({max(found.layers) + 1} if hangs else set())
+    levels = {stack.layers[plate] for plate in plates} | ({max(stack.layers) + 1} if hangs else set())
     rings = [
         Spacer(layer, 2 * reach)
         for layer in range(min(levels), max(levels))
         if layer not in levels
-        for reach in [_reach(parts, found, number, layer, sizes)]
+        for reach in [_reach(parts, stack, number, layer, sizes)]
         if reach >= sizes.hole / 2 + sizes.wall / 4
     ]
     side: Literal["below", "above"] | None = "above" if hangs else "below" if pin.fixed else None
@@ -288,12 +288,12 @@ def _pin(parts: Kit, found: Stack, number: int, sizes: Sizes) -> MadePin:
     return MadePin(pin.name, pin.frame, pin.at, *ends, side, plates, pin.sliding, pin.stuck, tuple(rings))
 
 
-def _reach(parts: Kit, found: Stack, number: int, layer: int, sizes: Sizes) -> float:
+def _reach(parts: Kit, stack: Stack, number: int, layer: int, sizes: Sizes) -> float:
     """Return the radius that a ring on a pin can have in a layer: a bar's, or what others leave."""
     first = len(parts.plates)
     own, reach = first + number, sizes.bar / 2
-    for (one, other), room in found.room.items():
-        if other == own and one < first and found.layers[one] == layer:
+    for (one, other), room in stack.room.items():
+        if other == own and one < first and stack.layers[one] == layer:
             reach = min(reach, sizes.hole / 2 + room - sizes.gap)
         elif own in (one, other) and one >= first:
             # The other pin may have a ring there, too.
@@ -322,9 +322,9 @@ def _bridged(cycle: Cycle, made: MadeLinkage) -> MadeLinkage:
     corners = (*hanging.values(), *posts)
     bridge = Plate("bridge", "bridge", GROUND, corners, sizes.bar / 2, holes=carried + stands)
     ground = made.plates[0]
-    kept = tuple(hole for hole in ground.holes if hole.joint not in hanging)
+    remaining = tuple(hole for hole in ground.holes if hole.joint not in hanging)
     others = (corner for corner in ground.corners if corner not in hanging.values())
-    ground = replace(ground, holes=kept + stands, corners=tuple(dict.fromkeys((*others, *posts))))
+    ground = replace(ground, holes=remaining + stands, corners=tuple(dict.fromkeys((*others, *posts))))
     pins = [pin._replace(plates=(*pin.plates, number)) if pin.name in hanging else pin for pin in made.pins]
     pins += [
         MadePin(f"post {n}", GROUND, place, 0, top, "below", (0, number), stuck=True)

@@ -47,16 +47,16 @@ def nested(outlines: Sequence[Outline], room: tuple[float, float], between: floa
     for outline in outlines:
         points = polygon(outline)
         turn = upright(points)
-        ways = ((way, box(way * point for point in points)) for way in (turn, 1j * turn))
-        lying = [(way, found) for way, found in ways if _holds(room, found)]
+        turned = ((by, box(by * point for point in points)) for by in (turn, 1j * turn))
+        lying = [(by, around) for by, around in turned if _holds(room, around)]
         sizes.append(lying[0] if lying else (None, box(turn * point for point in points)))
-    found: dict[int, Laid | Oversize] = {}
+    laid: dict[int, Laid | Oversize] = {}
     rows: list[_Row] = []
     for part in sorted(range(len(sizes)), key=lambda number: sizes[number][1][2] - sizes[number][1][3]):
         turn_, (left, right, low, top) = sizes[part]
         wide, high = right - left, top - low
         if turn_ is None:
-            found[part] = Oversize(part, wide, high)
+            laid[part] = Oversize(part, wide, high)
             continue
         fitting = (n for n, row in enumerate(rows) if high <= row.high and row.filled + wide <= room[0])
         at = next(fitting, len(rows))
@@ -66,11 +66,11 @@ def nested(outlines: Sequence[Outline], room: tuple[float, float], between: floa
             fits = foot + high <= room[1]
             rows.append(_Row(last.sheet, foot, high, 0.0) if fits else _Row(last.sheet + 1, 0.0, high, 0.0))
         row = rows[at]
-        found[part] = Laid(part, row.sheet, complex(row.filled - left, row.foot - low), turn_)
+        laid[part] = Laid(part, row.sheet, complex(row.filled - left, row.foot - low), turn_)
         rows[at] = row._replace(filled=row.filled + wide + between)
-    return [found[number] for number in range(len(sizes))]
+    return [laid[number] for number in range(len(sizes))]
 
 
-def _holds(room: tuple[float, float], found: tuple[float, float, float, float]) -> bool:
-    left, right, low, high = found
+def _holds(room: tuple[float, float], around: tuple[float, float, float, float]) -> bool:
+    left, right, low, high = around
     return right - left <= room[0] and high - low <= room[1]

@@ -98,12 +98,12 @@ class Toothing(NamedTuple):
 
     wheel: GearWheel
     middle: complex
-    way: complex
+    direction: complex
     play: float
 
     def outline(self, grown: float) -> Outline:
         """Return the teeth's edge."""
-        return moved(self.wheel.outline(self.play, grown), self.middle, self.way)
+        return moved(self.wheel.outline(self.play, grown), self.middle, self.direction)
 
 
 @frozen
@@ -225,7 +225,7 @@ def kit(cycle: Cycle, sizes: Sizes) -> Kit:
         raise NotFlat(
             "a cylinder drives it, which no flat parts are; let a crank or a slider drive it instead"
         )
-    return _Bench(cycle, sizes).kit()
+    return _KitBuilder(cycle, sizes).kit()
 
 
 def refuse_thin(plates: Iterable[Plate], sizes: Sizes) -> None:
@@ -279,7 +279,7 @@ class _PlateDraft:
         return joint in self.places or joint in self.guided
 
 
-class _Bench:
+class _KitBuilder:
     """The parts of a linkage as they are put together."""
 
     def __init__(self, cycle: Cycle, sizes: Sizes) -> None:
@@ -384,13 +384,13 @@ class _Bench:
         frame = Frame(bar.point, bar.axis, cmath.rect(1.0, bar.angle))
         yoke = _PlateDraft(name, "link", frame, {bar.point: 0j}, (name,))
         self.drafts.append(yoke)
-        number, way = len(self.drafts) - 1, cmath.rect(1.0, pin.angle - bar.angle)
-        least, most = _range((self.cycle.seen(pin.point, frame) * way.conjugate()).real)
-        yoke.slots.append(Slot(way * least, way * most, self.sizes.hole / 2, pin.point))
+        number, direction = len(self.drafts) - 1, cmath.rect(1.0, pin.angle - bar.angle)
+        least, most = _range((self.cycle.seen(pin.point, frame) * direction.conjugate()).real)
+        yoke.slots.append(Slot(direction * least, direction * most, self.sizes.hole / 2, pin.point))
         yoke.guided.add(pin.point)
         ends = self._free_ends(bar.point, bar.line, 2.5 * self.sizes.bar)
         self._tongue(bar.point, bar.line, ends, f"{name} tongue")
-        yoke.reach += [way * least, way * most, *map(complex, ends)]
+        yoke.reach += [direction * least, direction * most, *map(complex, ends)]
         for end in ends:
             self._dowel(frame, complex(end), (number, len(self.drafts) - 1))
 
@@ -400,18 +400,18 @@ class _Bench:
 
     def _travel(self, point: str, line: Line) -> tuple[complex, complex, float, float]:
         """Return a point of a line in its guide's frame, its direction, and the range of a joint along it."""
-        draft, way = self.drafts[self._guide(line)], cmath.rect(1.0, line.angle)
+        draft, direction = self.drafts[self._guide(line)], cmath.rect(1.0, line.angle)
         if line.on:
             axis = draft.places[line.on[1]] - draft.places[line.on[0]]
-            way *= axis / abs(axis)
-        base = draft.places[line.through] + 1j * way * line.offset * self.sizes.scale
-        along = ((self.cycle.seen(point, draft.frame) - base) * way.conjugate()).real
-        return base, way, *_range(along)
+            direction *= axis / abs(axis)
+        base = draft.places[line.through] + 1j * direction * line.offset * self.sizes.scale
+        along = ((self.cycle.seen(point, draft.frame) - base) * direction.conjugate()).real
+        return base, direction, *_range(along)
 
     def _slot(self, point: str, line: Line, ends: tuple[float, float], radius: float) -> None:
         """Cut a slot for what reaches from `ends[0]` to `ends[1]` of a joint that slides along a line."""
-        base, way, least, most = self._travel(point, line)
-        slot = Slot(base + way * (least + ends[0]), base + way * (most + ends[1]), radius, point)
+        base, direction, least, most = self._travel(point, line)
+        slot = Slot(base + direction * (least + ends[0]), base + direction * (most + ends[1]), radius, point)
         draft = self.drafts[self._guide(line)]
         draft.slots.append(slot)
         draft.reach += [slot.begin, slot.end]
@@ -428,11 +428,11 @@ class _Bench:
         return tongue
 
     def _free_ends(self, point: str, line: Line, long: float) -> tuple[float, float]:
-        """Return where a tongue begins and ends, from a joint on, whose way meets no joint of its guide."""
-        base, way, least, most = self._travel(point, line)
+        """Return where a tongue begins and ends, from a joint on, so as to slide past its guide's joints."""
+        base, direction, least, most = self._travel(point, line)
         near = (self.sizes.tongue + self.sizes.hole + self.sizes.bar) / 2
         places = self.drafts[self._guide(line)].places.values()
-        others = [(place - base) * way.conjugate() for place in places]
+        others = [(place - base) * direction.conjugate() for place in places]
         met = [place.real for place in others if abs(place.imag) < near]
 
         def free(begin: float) -> bool:

@@ -22,9 +22,9 @@ from linkanim.workshop.shapes import box, polygon, upright
 from linkanim.workshop.sweep import GROUND, Cycle
 
 _SHEETS: dict[str, Size] = {"laser": (600.0, 400.0), "print": (math.inf, math.inf), "cardboard": PAGES["A4"]}
-"""The usual sheet of each way; of a printer's bed we know nothing."""
+"""The usual sheet for each way of making; of a printer's bed we know nothing."""
 _USUAL = {"cardboard": (1.5, 0.0), "laser": (3.0, 0.2), "print": (4.0, 0.4)}
-"""The usual thickness and clearance of each way, in mm."""
+"""The usual thickness and clearance for each way of making, in mm."""
 _GAP = 0.5
 _HOLED, _WIDEST_HOLE = 0.4, 6.0
 """A usual hole's share of its bar's width, and the widest usual hole, in mm."""
@@ -65,18 +65,18 @@ def make(
     asked = _Asked(way, bar, hole, thickness, clearance, gap, kerf)
     asked.check()
     size = _sheet(sheet, fit, asked.way)
-    found = MadeLinkage(scene, asked.way, Sizes(true_scale(scene)), kerf, size)
+    made = MadeLinkage(scene, asked.way, Sizes(true_scale(scene)), kerf, size)
     try:
         scale = _fitting(scene, asked, PAGES[fit]) if fit else true_scale(scene)
-        found = laid(replace(found, sizes=asked.sizes(scene, scale)), bridge=bridge)
+        made = laid(replace(made, sizes=asked.sizes(scene, scale)), bridge=bridge)
     except NotFlat as why:
-        found = replace(found, refused=f"{scene.name} cannot be made of flat parts: {why}")
+        made = replace(made, refused=f"{scene.name} cannot be made of flat parts: {why}")
     if output is not None:
         # Here, since what is only asked for its layers needs no pictures.
         from linkanim.workshop.files import write
 
-        write(found, output)
-    return found
+        write(made, output)
+    return made
 
 
 class _Asked(NamedTuple):

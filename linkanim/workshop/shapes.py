@@ -32,11 +32,11 @@ def rounded(points: Iterable[complex], radius: float) -> Outline:
         return ((corners[0] + radius, 1.0), (corners[0] - radius, 1.0))
     edges = [after - corner for corner, after in zip(corners, corners[1:] + corners[:1], strict=True)]
     sides = [-1j * edge / abs(edge) for edge in edges]
-    found: list[tuple[complex, float]] = []
+    outline: list[tuple[complex, float]] = []
     for corner, before, after in zip(corners, sides[-1:] + sides[:-1], sides, strict=True):
         sweep = cmath.phase(after / before) % math.tau
-        found += [(corner + radius * before, math.tan(sweep / 4)), (corner + radius * after, 0.0)]
-    return tuple(found)
+        outline += [(corner + radius * before, math.tan(sweep / 4)), (corner + radius * after, 0.0)]
+    return tuple(outline)
 
 
 def straight(points: Iterable[complex]) -> Outline:
@@ -63,18 +63,18 @@ def _chain(points: Sequence[complex]) -> list[complex]:
 
 
 def _is_straight(a: complex, b: complex, c: complex) -> bool:
-    """Whether b is not left of the way from a to c, but for rounding."""
+    """Whether b is not left of the line from a to c, but for rounding."""
     return ((b - a).conjugate() * (c - b)).imag <= _SAME * abs(b - a) * abs(c - b)
 
 
 def polygon(outline: Outline, chord: float = _CHORD) -> list[complex]:
     """Return an outline's corners with its arcs divided, their sides within `chord` of them."""
-    found: list[complex] = []
+    corners: list[complex] = []
     for (start, bulge), (end, _) in zip(outline, outline[1:] + outline[:1], strict=True):
-        found.append(start)
+        corners.append(start)
         if bulge:
-            found += _divided(start, end, bulge, chord)
-    return found
+            corners += _divided(start, end, bulge, chord)
+    return corners
 
 
 def _divided(start: complex, end: complex, bulge: float, chord: float) -> list[complex]:

@@ -197,16 +197,16 @@ class Sheet:
 
     def _questions(self) -> list[QuizQuestion]:
         """Return questions that the model answers; none where nothing of it moves clearly."""
-        found: list[QuizQuestion] = []
+        questions: list[QuizQuestion] = []
         for n in range(_QUESTIONS):
-            before = [one.question_id for one in found]
+            before = [one.question_id for one in questions]
             try:
                 question = next_question(self.made.scene, f"make {n}", before, _BY_HAND)
             except WorkFailed:
                 break
             if question.question_id not in before:
-                found.append(question)
-        return found
+                questions.append(question)
+        return questions
 
     def _tasks(self, questions: Sequence[QuizQuestion]) -> Iterator[Part]:
         rows = [

@@ -2,8 +2,8 @@
 
 A piece is made of convex cells, each a hull of corners with a rim of one radius, and moves with a frame: a
 joint that it keeps, and a direction. Between two samples a corner strays from where the nearer one has it by
-no more than its speeds, a bound of its acceleration, and what the way between the samples is longer than its
-speeds account for. Where that does not settle whether two pieces stay apart, the step is halved.
+no more than its speeds, a bound of its acceleration, and what the distance between the samples has more than
+its speeds account for. Where that does not settle whether two pieces stay apart, the step is halved.
 """
 
 from __future__ import annotations
@@ -64,7 +64,7 @@ class _Placed(NamedTuple):
     """Where a frame is: its origin and its direction, each with two derivatives."""
 
     origin: tuple[Points, Points, Points]
-    way: tuple[Points, Points, Points]
+    direction: tuple[Points, Points, Points]
 
 
 class Cycle:
@@ -96,13 +96,13 @@ class Cycle:
     def paths(self, frame: Frame, points: Sequence[complex]) -> Points:
         """Return where points of a frame are at the samples, (samples, points), in the ground's."""
         placed = _placed(frame, self._start, self.count)
-        found: Points = placed.origin[0][:, None] + placed.way[0][:, None] * np.asarray(points)
-        return found
+        places: Points = placed.origin[0][:, None] + placed.direction[0][:, None] * np.asarray(points)
+        return places
 
     def seen(self, joint: str, frame: Frame) -> Points:
         """Return where a joint is at the samples in a frame's own coordinates."""
         placed = _placed(frame, self._start, self.count)
-        return (self._start.position[joint] - placed.origin[0]) * placed.way[0].conj()
+        return (self._start.position[joint] - placed.origin[0]) * placed.direction[0].conj()
 
     def nearness(
         self, pieces: Sequence[MovingPiece], pairs: Sequence[tuple[int, int, float]]
@@ -112,8 +112,8 @@ class Cycle:
         # A step is known by where it begins, counted in the finest steps.
         whole, unit = np.arange(self.count) * finest, period / (self.count * finest)
         steps = self._steps(pieces, whole, finest, self._start)
-        found = {k: Nearness(True, far, 0.0) for k, far in steps.far(pairs)}
-        left = {k: whole for k in range(len(pairs)) if k not in found}
+        known = {k: Nearness(True, far, 0.0) for k, far in steps.far(pairs)}
+        left = {k: whole for k in range(len(pairs)) if k not in known}
         bounds = dict.fromkeys(left, np.inf)
         for level in range(_HALVINGS + 1):
             width = finest >> level
@@ -126,16 +126,16 @@ class Cycle:
                 unsure = sure < asked
                 bounds[k] = min(bounds[k], float(sure[~unsure].min(initial=np.inf)))
                 if near < asked:
-                    found[k] = Nearness(False, near, at * unit)
+                    known[k] = Nearness(False, near, at * unit)
                 elif not unsure.any():
-                    found[k] = Nearness(True, bounds[k], at * unit)
+                    known[k] = Nearness(True, bounds[k], at * unit)
                 elif level == _HALVINGS:
-                    found[k] = Nearness(False, float(sure.min()), at * unit)
+                    known[k] = Nearness(False, float(sure.min()), at * unit)
                 else:
                     left[k] = np.sort(np.concatenate((own[unsure], own[unsure] + width // 2)))
                     continue
                 del left[k]
-        return [found[k] for k in range(len(pairs))]
+        return [known[k] for k in range(len(pairs))]
 
     def _steps(
         self, pieces: Sequence[MovingPiece], begins: Numbers, width: int, places: _Places | None = None
@@ -211,23 +211,23 @@ def _placed(frame: Frame, places: _Places, count: int) -> _Placed:
     begin, end = frame.axis
     bar, moves, speeds = (quantity[end] - quantity[begin] for quantity in places)
     size = np.abs(bar)
-    way = bar / size
+    direction = bar / size
     # The bar keeps its length: its direction's derivatives are those of the bar across it, and inwards.
-    rate = (moves * way.conj()).imag / size
-    second = (speeds * way.conj()).imag / size
-    way = way * frame.turn
-    return _Placed(origin, (way, 1j * rate * way, (1j * second - rate**2) * way))
+    rate = (moves * direction.conj()).imag / size
+    second = (speeds * direction.conj()).imag / size
+    direction = direction * frame.turn
+    return _Placed(origin, (direction, 1j * rate * direction, (1j * second - rate**2) * direction))
 
 
 def _stray(piece: MovingPiece, placed: _Placed, first: Numbers, last: Numbers, step: float) -> Real:
     """Return how far a piece's points may be, within each step, from where the nearer end has them."""
     far = max(abs(corner) for cell in piece.cells for corner in cell)
     total = np.zeros(len(first))
-    for (place, speed, acceleration), share in ((placed.origin, 1.0), (placed.way, far)):
+    for (place, speed, acceleration), share in ((placed.origin, 1.0), (placed.direction, far)):
         fastest = np.maximum(np.abs(speed[first]), np.abs(speed[last]))
         bent = _CAUTION * np.maximum(np.abs(acceleration[first]), np.abs(acceleration[last]))
-        way = place[last] - place[first] - (speed[first] + speed[last]) * (step / 2)
-        total += share * (fastest * (step / 2) + bent * (step**2 / 8) + np.abs(way))
+        drift = place[last] - place[first] - (speed[first] + speed[last]) * (step / 2)
+        total += share * (fastest * (step / 2) + bent * (step**2 / 8) + np.abs(drift))
     return total
 
 
@@ -235,11 +235,11 @@ def _corners(
     piece: MovingPiece, placed: Mapping[Frame, _Placed], cell: Sequence[complex], rows: Numbers | None = None
 ) -> Points:
     """Return where a cell's corners are, (phases, corners), at some of the phases or at all."""
-    origin, way = placed[piece.frame].origin[0], placed[piece.frame].way[0]
+    origin, direction = placed[piece.frame].origin[0], placed[piece.frame].direction[0]
     if rows is not None:
-        origin, way = origin[rows], way[rows]
-    found: Points = origin[:, None] + way[:, None] * np.asarray(cell)
-    return found
+        origin, direction = origin[rows], direction[rows]
+    corners: Points = origin[:, None] + direction[:, None] * np.asarray(cell)
+    return corners
 
 
 def _apart(one: MovingPiece, other: MovingPiece, placed: Mapping[Frame, _Placed], rows: Numbers) -> Real:
@@ -259,7 +259,7 @@ def hulls_apart(a: Points, b: Points) -> Real:
 
 
 def _edges(corners: Points) -> tuple[Points, Points]:
-    """Return where edges begin and which way they go; a point is an edge of no length."""
+    """Return where edges begin, and the vectors along them; a point is an edge of no length."""
     if corners.shape[1] < 3:
         return corners[:, :1], corners[:, -1:] - corners[:, :1]
     return corners, np.roll(corners, -1, axis=1) - corners
@@ -285,8 +285,8 @@ def _meet(a: Points, b: Points) -> NDArray[np.bool_]:
     one, other = u[:, :, None], v[:, None, :]
     left = _cross(one, between) * _cross(one, between + other) < 0
     right = _cross(other, between) * _cross(other, between - one) < 0
-    found: NDArray[np.bool_] = inside | np.any(left & right, axis=(1, 2))
-    return found
+    meet: NDArray[np.bool_] = inside | np.any(left & right, axis=(1, 2))
+    return meet
 
 
 def _holds(hull: Points, point: Points) -> NDArray[np.bool_]:

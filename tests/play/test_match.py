@@ -201,7 +201,7 @@ def test_a_drag_moves_one_joint_and_the_scores() -> None:
     state = done(state, *dragged("P", 12.3, -7.8))
     after = game(state)
     assert after.joints == before.joints._replace(P=12 - 8j)
-    assert after.found != before.found
+    assert after.worth != before.worth
     assert done(state, *dragged("P", 12.34, -7.81, 0.1)).scene.pose(0.0).position["P"] == pytest.approx(
         (12.3, -7.8)
     )
@@ -385,7 +385,7 @@ def test_the_least_angle_is_the_solver_s() -> None:
     least = state.scene.info.transmission_angle
     assert state.scene.info.full_turn
     assert least
-    assert game(state).found.angle == pytest.approx(least[0], abs=1e-9)
+    assert game(state).worth.angle == pytest.approx(least[0], abs=1e-9)
 
 
 @pytest.mark.parametrize("level", level_names())
