@@ -2,11 +2,13 @@
 
     python tests/sweep/oracle.py SEED FIRST STEP COUNT FOLDER
 
-prints the number of each scene before it is made into anything, and a line for each fault.
+prints the number of each scene before it is made into anything, and a line for each fault. FOLDER is one
+that exists, to work in.
 """
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 import warnings
@@ -15,6 +17,10 @@ from itertools import count, islice
 from pathlib import Path
 from random import Random
 from typing import Any
+
+if __name__ == "__main__":  # pytest finds the helpers in these folders by its own settings
+    sys.path[:0] = [str(Path(__file__).parents[1] / folder) for folder in ("sweep", "tally", "player")]
+    os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")  # its greeting would stand among the faults
 
 from limits import Limits
 from outputs import MEGABYTES, OUTPUTS, SECONDS, Case, Output, is_good, written

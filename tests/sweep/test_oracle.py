@@ -6,11 +6,15 @@ the number of its scene: `made(seed, number)` makes it again.
 
 from __future__ import annotations
 
+import os
 import re
+import subprocess
+import sys
 from dataclasses import replace
 from pathlib import Path
 from random import Random
 
+import oracle
 import pytest
 from limits import Limits
 from oracle import (
@@ -77,6 +81,14 @@ def test_what_once_failed_is_made(seed: int, number: int, output: str, tmp_path:
 def test_a_process_that_does_not_end_well_is_a_fault_with_its_last_scene(tmp_path: Path) -> None:
     [line] = faults_apart(SEED, 3, 1, 1, tmp_path / "missing")
     assert re.match(r"made\(20, \d+\): the process ended with 1: .*FileNotFoundError", line, re.DOTALL)
+
+
+@pytest.mark.slow
+def test_by_hand_it_finds_its_helpers_wherever_it_is_started(tmp_path: Path) -> None:
+    words = [oracle.__file__, str(SEED), "3", "1", "0", str(tmp_path)]
+    env = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+    done = subprocess.run([sys.executable, *words], env=env, cwd=tmp_path, capture_output=True, check=False)
+    assert (done.returncode, done.stdout) == (0, b""), done.stderr.decode()
 
 
 def _endless(case: Case) -> None:
