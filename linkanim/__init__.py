@@ -6,23 +6,33 @@ coupler passes them, `function` a function into linkages that generate it, `quic
 into linkages that have it, `make` a scene into parts to cut and pin together. Everything is imported when
 first asked for: `import linkanim` alone brings in neither a window nor an encoder.
 
-`mechanics`, `scenes`, `synthesis`, `explain` and `bench` list their modules in their own docstrings, in the
-order in which they are read; `mechanics.solver` is for `mechanics` alone.
+The rooms, from the ground up. Each imports only from those before it; its docstring lists its modules in
+the order in which they are read:
 
-`build`, `picture`, `paper`, `share`, `player`, `play`, `workshop` and `recorder` list their modules in their
-own docstrings, in the order in which they are read.
+    mechanics  what a linkage is and how it moves; `mechanics.solver` is for `mechanics` alone
+    scenes     the catalogue, and scene files
+    synthesis  linkages for a path, poses, a function, a time ratio
+    build      a linkage drawn by hand
+    picture    everything between a pose and pixels
+    explain    a pose worked out by hand: formulas, steps, joints, chapters, documents
+    paper      figures, charts and reports
+    share      a page that moves in a browser
+    player     the window: keys, state, tapes, the loop
+    play       what is asked about linkages, printed or played, and other games
+    workshop   a linkage as flat parts and pins, in layers in which it can turn
+    recorder   frames to GIF, MP4 and PNG
+    bench      speed against error
+    cli        the commands
+    notebook   how a scene and a motion show themselves in a notebook
 
-`explain`: a pose worked out by hand: formulas, steps, joints, chapters, and the document that they make.
+The modules beside this one (`errors`, `frozen`, `units`, ...) and the `manual` stand above all rooms. How a
+frame and a recording come about, and the reason for each large choice, is in `manual/design.md`.
 
 A kind of joint is its data in `mechanics/linkage`, how it closes in `mechanics/solver/closing`, how it is
 written in `scenes/file_form`, how it is worked out in `explain/joints`; what is drawn of it follows from its
 bars and from what slides. A kind of input is its data in `mechanics/linkage`, its path in
 `mechanics/solver/strokes`, how it is written in `scenes/file_form`, how it is worked out in
 `explain/solution`.
-
-`play`: what is asked about linkages, printed or played, and other games: pure values over the player's state.
-
-`workshop`: a linkage as flat parts and pins, layers in which it can turn, and the files that it is cut from.
 """
 
 import os

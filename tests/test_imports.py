@@ -141,21 +141,44 @@ def test_no_modules_import_each_other_in_a_circle() -> None:
     TopologicalSorter(graph).prepare()  # CycleError names the modules
 
 
-READ = ("build", "picture", "paper", "share", "player", "recorder")
+ROOMS = sorted(
+    path.parent for path in PACKAGE.glob("*/__init__.py") if path.parent.name not in ("manual", "notebook")
+)
+ROOMS.append(PACKAGE / "mechanics/solver")
 
 
-@pytest.mark.parametrize("room", READ)
-def test_a_room_lists_its_modules_in_the_order_in_which_they_import(room: str) -> None:
+@pytest.mark.parametrize("room", ROOMS, ids=lambda room: room.name)
+def test_a_room_lists_its_modules_in_the_order_in_which_they_import(room: Path) -> None:
     """The docstring of a room is its map: each module stands after those that it imports from."""
-    text = ast.get_docstring(ast.parse((PACKAGE / room / "__init__.py").read_text(encoding="utf-8"))) or ""
+    text = ast.get_docstring(ast.parse((room / "__init__.py").read_text(encoding="utf-8"))) or ""
     order = re.findall(r"^    (\w+) {2,}\S", text, re.MULTILINE)
-    assert sorted(order) == sorted(path.stem for path in (PACKAGE / room).glob("*.py") if path.stem[0] != "_")
+    modules = {path.stem: [path] for path in room.glob("*.py") if path.stem[0] != "_"}
+    modules |= {path.parent.name: list(path.parent.glob("*.py")) for path in room.glob("*/__init__.py")}
+    assert sorted(order) == sorted(modules)
+    package = ".".join(["linkanim", *room.relative_to(PACKAGE).parts, ""])
     above = []
     for place, module in enumerate(order):
-        parts = [name.split(".") for name in imported(PACKAGE / room / f"{module}.py")]
-        inner = {part[2] for part in parts if part[:2] == ["linkanim", room] and len(part) > 2}
+        names = {name for path in modules[module] for name in imported(path) if name.startswith(package)}
+        inner = {name.removeprefix(package).split(".")[0] for name in names}
         above += [(module, one) for one in inner & set(order) if order.index(one) > place]
     assert above == []
+
+
+def test_the_maps_for_a_newcomer_have_all_rooms_in_their_order() -> None:
+    """The package's docstring, and the page on how the house is built, whose modules are there."""
+    page = (PACKAGE / "manual/design.md").read_text(encoding="utf-8")
+    table = re.findall(r"^\| (`.*?) \|", page, re.MULTILINE)
+    rooms = {path.parent.name for path in PACKAGE.glob("*/__init__.py")}
+    maps = {
+        "docstring": re.findall(r"^    (\w+) {2,}\S", linkanim.__doc__ or "", re.MULTILINE),
+        "page": [room for row in table for room in re.findall(r"`(\w+)`", row) if room in rooms - {"manual"}],
+    }
+    for where, order in maps.items():
+        assert (where, sorted(order)) == (where, sorted(rooms - {"manual"}))
+        assert (where, sorted(order, key=RANK.__getitem__)) == (where, order)
+    told = re.findall(rf"`({'|'.join(rooms)})/(\w+)`", page)
+    assert [path for path in told if not PACKAGE.joinpath(*path).with_suffix(".py").exists()] == []
+    assert len(told) > 10
 
 
 def test_a_third_party_stays_in_its_rooms() -> None:

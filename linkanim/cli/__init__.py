@@ -1,4 +1,15 @@
-"""The `linkanim` command."""
+"""The `linkanim` command.
+
+From the ground up; a module imports from those before it only:
+
+    exits            how a command ends: its exit code, and one line on stderr
+    options          the arguments of each command, and what their texts mean
+    picture_options  what commands that write pictures are asked alike
+    alternative      what a picture shows, in a paragraph beside it
+    answers          answers of a synthesis, as files and as a table
+    command_table    every command: what it does, what it takes, which file does its work
+    commands         a command a file: what it does once its options are read
+"""
 
 from __future__ import annotations
 

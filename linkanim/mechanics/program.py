@@ -445,8 +445,8 @@ def _prelude(
 class _Passes:
     """The operations on one block, of its inputs, in their order, and which values are results.
 
-    What is little is worked out twice as the operations are noted: to compile them takes as long as several
-    hundred poses, and one pose, with its rates in time and by the input, is all that many a program is for.
+    For few poses the operations are run one by one, twice at the most: to compile them takes as long as
+    several hundred poses, and many a program is for one pose only, with its rates in time and by the input.
     """
 
     def __init__(

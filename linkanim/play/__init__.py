@@ -24,14 +24,15 @@ The frame for games lies below, in the player, which knows no game by name:
 
 From the ground up; a module imports from those before it only:
 
-    games     a game's words, the table of games, and what they share
-    question  a question about a linkage at a pose
-    kinds     the one table of kinds of questions
-    quiz      rounds of questions, printed with their key
-    menus     the title, the games, the rounds to choose from
-    predict   a question, then the motion shows the answer
-    follow    a ram is kept between two lines
-    match     a curve is matched by dragging joints
-    scores    the file of best scores
-    arcade    what a window is given of games and scores
+    games      a game's words, the table of games, and what they share
+    question   a question about a linkage at a pose
+    kinds      the one table of kinds of questions
+    quiz       rounds of questions, printed with their key
+    platforms  rounds of questions as learning platforms take them
+    menus      the title, the games, the rounds to choose from
+    predict    a question, then the motion shows the answer
+    follow     a ram is kept between two lines
+    match      a curve is matched by dragging joints
+    scores     the file of best scores
+    arcade     what a window is given of games and scores
 """

@@ -1,6 +1,8 @@
 """A linkage that can be made: cut it, pin it together, and it turns.
 
-`made` has the door: `make`, and what it gives, `MadeLinkage`. Each module imports from those before it only:
+The door is `request.make`; what it gives is a `MadeLinkage`.
+
+From the ground up; a module imports from those before it only:
 
     media      the ways of making, pages
     shapes     outlines in mm, with arcs
@@ -14,4 +16,5 @@
     drawing    pictures: the plan by layers, from the side, exploded, step by step
     sheet      the page that tells how to put it together
     files      all of it as a folder
+    request    `linkanim.make`: what is asked for, checked and made
 """
