@@ -141,13 +141,13 @@ def test_no_modules_import_each_other_in_a_circle() -> None:
     TopologicalSorter(graph).prepare()  # CycleError names the modules
 
 
-ROOMS = sorted(
+LISTED = sorted(
     path.parent for path in PACKAGE.glob("*/__init__.py") if path.parent.name not in ("manual", "notebook")
 )
-ROOMS.append(PACKAGE / "mechanics/solver")
+LISTED.append(PACKAGE / "mechanics/solver")
 
 
-@pytest.mark.parametrize("room", ROOMS, ids=lambda room: room.name)
+@pytest.mark.parametrize("room", LISTED, ids=lambda room: room.name)
 def test_a_room_lists_its_modules_in_the_order_in_which_they_import(room: Path) -> None:
     """The docstring of a room is its map: each module stands after those that it imports from."""
     text = ast.get_docstring(ast.parse((room / "__init__.py").read_text(encoding="utf-8"))) or ""
