@@ -14,14 +14,14 @@ from linkanim.synthesis.answers import file_set, write
 
 
 class Designed(Protocol):
-    """What a synthesis finds."""
+    """An answer of a synthesis."""
 
     @property
     def scene(self) -> Scene:
         """The linkage."""
 
 
-Found = TypeVar("Found", bound=Designed)
+Answer = TypeVar("Answer", bound=Designed)
 
 
 def target_of(output: Path | None, name: str) -> Path:
@@ -32,16 +32,16 @@ def target_of(output: Path | None, name: str) -> Path:
 
 
 def deliver(
-    found: Sequence[Found],
+    answers: Sequence[Answer],
     target: Path,
     options: Namespace,
     titles: Sequence[str],
-    cells: Callable[[Found], Sequence[str]],
-    values: Callable[[Found], dict[str, object]],
+    cells: Callable[[Answer], Sequence[str]],
+    values: Callable[[Answer], dict[str, object]],
 ) -> None:
     """Write the answers' files, and print each file with its `cells` in a table, or its `values` as JSON."""
-    files = [str(file) for file in write([one.scene for one in found], target)]
-    rows = list(zip(files, found, strict=True))
+    files = [str(file) for file in write([one.scene for one in answers], target)]
+    rows = list(zip(files, answers, strict=True))
     if options.json:
         print(json_text([{"file": file} | values(one) for file, one in rows], indent=2))
     else:

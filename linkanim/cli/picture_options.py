@@ -33,7 +33,7 @@ class Canvas(NamedTuple):
 
 
 def _canvas(options: Namespace) -> Canvas:
-    """Return the canvas for the purpose that the options name; of words that LaTeX sets that is a book."""
+    """Return the canvas for the purpose that the options name; a book's where LaTeX sets the words."""
     name = options.purpose or ("book" if options.text else None)
     if name is None:
         return Canvas(options.size or USUAL_SIZE)

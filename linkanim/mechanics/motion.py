@@ -136,14 +136,14 @@ def scaled(values: Mapping[str, Array], factor: float) -> Mapping[str, Array]:
     return Lazy(values, lambda name: values[name] * factor)
 
 
-def read_only(found: Any) -> Any:
-    """Return what was found, its arrays such that nobody can change them any more."""
-    if isinstance(found, tuple):
-        for part in found:
+def read_only(values: Any) -> Any:
+    """Return an array, or a tuple of values, with its arrays made read-only."""
+    if isinstance(values, tuple):
+        for part in values:
             read_only(part)
-    elif isinstance(found, np.ndarray):
-        found.flags.writeable = False
-    return found
+    elif isinstance(values, np.ndarray):
+        values.flags.writeable = False
+    return values
 
 
 _NEAR = math.pi / 2
@@ -282,7 +282,7 @@ class Derived(ABC, Generic[Vector, Number]):
         return self.coordinate
 
     def _missing(self, what: str, name: str) -> AttributeError:
-        """Return what is raised for an attribute that `what` has not."""
+        """Return the error for an attribute that `what` does not have."""
         if name == "crank_angle":
             return AttributeError("a slider drives, which has no crank angle; read coordinate")
         return AttributeError(f"{what} has no {name!r}")
@@ -619,7 +619,7 @@ class Mechanism:
 
     @property
     def retraced(self) -> bool:
-        """Whether the input swings and comes back by the way it came: each pose is one of the way up."""
+        """Whether the input swings and comes back through the same poses as it went."""
         return self.linkage.drive.retraced and not self.full_turn
 
     @property
@@ -832,7 +832,7 @@ def _shaped(rate: Any, shape: tuple[int, ...]) -> Any:
 
 
 def _kept(values: Array, shape: tuple[int, ...]) -> Array:
-    """Return the values along one axis, repeated to the shape, as nobody can change them any more."""
+    """Return the values along one axis, repeated to the shape and read-only."""
     if values.base is not None or values.flags.writeable or values.shape != shape:
         values = values.copy() if values.shape == shape else np.array(np.broadcast_to(values, shape))
         values.flags.writeable = False
@@ -868,9 +868,10 @@ def _assembled(linkage: Linkage) -> tuple[Assembly, Separations | None]:
 
 
 def stopped(linkage: Linkage) -> Mechanism | None:
-    """Return a linkage whose input does not turn fully, for how far it goes; None of others.
+    """Return a linkage whose input does not turn fully, to ask how far it goes; None where it turns fully.
 
-    That is known long before all that it takes to solve it. AssemblyError where it cannot be put together.
+    This takes far less time than to make it ready to be solved. AssemblyError where it cannot be put
+    together.
     """
     assembly, found = _assembled(linkage)
     assembly = limits.stopped(assembly, linkage, found) if found else assembly

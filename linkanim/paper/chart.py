@@ -16,7 +16,7 @@ import pygame
 from linkanim.export import csv_head, csv_rows
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.paper.curves import Curve, Curves, MeasuredCurve, Peak, extremes, table
-from linkanim.paper.sentences import about, plain
+from linkanim.paper.sentences import about, without_subscripts
 from linkanim.picture.chart import (
     Pen,
     Plot,
@@ -298,7 +298,7 @@ class Page:
     @property
     def words(self) -> str:
         """Where its curves are greatest, least and zero."""
-        return plain(about(self.curves))
+        return without_subscripts(about(self.curves))
 
     def csv(self) -> str:
         """Return the curves as a table."""

@@ -83,7 +83,7 @@ def of_motion(scene: Scene, pace: Pace) -> str:
         traced,
         f"One true period lasts {scene.period / abs(pace.speed):.4g} s, and then it begins again.",
     ]
-    return plain(" ".join(part for part in parts if part))
+    return without_subscripts(" ".join(part for part in parts if part))
 
 
 def of_pose(scene: Scene, phase: float) -> str:
@@ -105,11 +105,11 @@ def of_pose(scene: Scene, phase: float) -> str:
                 x, y = (stepped(float(value), scene.length_step) for value in pose.position[joint.name])
                 stand.append(f"{joint.name} at ({x}, {y}) {scene.length_unit}")
     more = f", and {len(stand) - _MOST_TOLD} more" if len(stand) > _MOST_TOLD else ""
-    return plain(f"{_sentence(scene.title)} At {place}: {', '.join(stand[:_MOST_TOLD])}{more}.")
+    return without_subscripts(f"{_sentence(scene.title)} At {place}: {', '.join(stand[:_MOST_TOLD])}{more}.")
 
 
-def plain(text: str) -> str:
-    """Return text in which subscripts are letters like others."""
+def without_subscripts(text: str) -> str:
+    """Return text with its subscripts as plain letters."""
     return _LOWERED.sub(r"\1", text)
 
 

@@ -490,20 +490,16 @@ class MatchGame:
         """Say what is reached, and where it beats the path solver."""
         if self.gave_up:
             better = [words for words, share in zip(_BETTER, answer, strict=True) if share < 1.0]
-            return "The path solver's answer" + (f"; {_listed(better)} can be had" if better else "")
+            return "The path solver's answer" + (f"; {' and '.join(better)} can be had" if better else "")
         reached = "Full score" if min(own) >= 1.0 else "It follows" if own[0] >= 1.0 else ""
         beaten = [words for words, mine, its in zip(_BETTER, own, answer, strict=True) if mine > its + 0.005]
         if reached and beaten and self.of_level.answer:
-            return f"{reached}, with {_listed(beaten)} than the path solver's"
+            return f"{reached}, with {' and '.join(beaten)} than the path solver's"
         return reached
 
 
 _BETTER = ("a closer way", "smaller links", "a better transmission angle")
 """What is had where a linkage beats another one in each."""
-
-
-def _listed(words: list[str]) -> str:
-    return " and ".join(words)
 
 
 def shares(reached: Worth, full: Worth) -> tuple[float, float, float]:

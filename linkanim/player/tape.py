@@ -51,7 +51,7 @@ class Tape:
         return by_frame
 
     def at(self, frame: int) -> tuple[Action, ...]:
-        """Return what is done at a frame."""
+        """Return the actions of a frame."""
         return tuple(self._by_frame.get(frame, ()))
 
     def rewound(self, state: State) -> State:
@@ -78,7 +78,7 @@ class Tape:
 
 
 def starting(state: State) -> State:
-    """Return the state as a tape starts from it: frame 0, standing where it stands, nothing to be done."""
+    """Return the state as a tape starts from it: at frame 0, at the same phase, with no effects left."""
     state = leave(state) if state.game else state
     clock, sketch = state.clock.go(0, state.phase), state.sketch or state.building
     kept = {name: getattr(state, name) for name in ("shelf", "place", "look", "help", "kept", "games")}

@@ -159,7 +159,7 @@ class Scene:
 
     @cached_property
     def length_step(self) -> float:
-        """The step in which its lengths are told: a power of ten, some three thousandth of the longest.
+        """The step in which its lengths are told: a power of ten, about a three-thousandth of the longest.
 
         How far it stands from the origin counts no more than how far its pins are apart.
         """

@@ -190,7 +190,7 @@ def spread(task: PathTask, candidates: Candidates, before: Indices, after: Indic
 
 
 def verified(task: PathTask, normal: Candidates, chosen: Indices) -> Iterator[Fit]:
-    """Yield those that are answers, of candidates of size 1 at chosen points; of the same ones the first."""
+    """Yield the answers among candidates of size 1 at chosen points; of linkages that are the same, one."""
     everywhere = spread(task, normal, chosen, np.arange(len(task.normal.points)))
     scaled = task.scaled(normal._replace(angles=everywhere))
     middle = everywhere.shape[1] // 2
@@ -257,7 +257,7 @@ def with_round_lengths(fits: tuple[Fit, ...], step: float) -> tuple[Fit, ...]:
 
 
 def rounded_to(fit: Fit, step: float) -> Fit | None:
-    """Return an answer in round lengths; None where no linkage of such lengths runs through."""
+    """Return an answer in round lengths; None where no linkage of such lengths is an answer."""
     now: Fit | None = fit
     for name in fit.task.kind.parameters:
         if name == "line_angle" or now is None:

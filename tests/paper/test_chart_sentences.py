@@ -12,7 +12,7 @@ import pytest
 from linkanim.cli import main
 from linkanim.mechanics.measures import output_body, output_slider
 from linkanim.paper.curves import Pace, curves_of, within_a_turn
-from linkanim.paper.sentences import about, closing, plain
+from linkanim.paper.sentences import about, closing, without_subscripts
 from linkanim.scenes import load
 
 PACE = Pace(10.0, "10 rad/s")
@@ -124,7 +124,7 @@ BARE: list[tuple[str, str, str]] = [
 def test_of_what_is_unbounded_it_is_said_where_and_of_the_level_nothing(
     scene: str, token: str, sentence: str
 ) -> None:
-    assert plain(said(scene, token)) == sentence
+    assert without_subscripts(said(scene, token)) == sentence
 
 
 def test_a_report_ends_with_what_the_output_does() -> None:

@@ -11,7 +11,7 @@ from linkanim.errors import BadInput
 from linkanim.paper.chart import Page
 from linkanim.paper.curves import Curves, MeasuredCurve, Pace, beside, curves_of, read_table, usual_over
 from linkanim.paper.latex import labels_of
-from linkanim.paper.sentences import plain
+from linkanim.paper.sentences import without_subscripts
 from linkanim.paper.write import OF_A_CHART, write
 from linkanim.scenes import load
 from linkanim.scenes.editing import in_unit
@@ -50,7 +50,9 @@ def run(options: Namespace) -> None:
 def _listed(scene: Scene) -> str:
     """Return all quantities of a scene, one a line: how each is asked for, and what it is."""
     wide = max(map(len, scene.quantities))
-    titles = {token: plain(one.title(scene.length_unit)) for token, one in scene.quantities.items()}
+    titles = {
+        token: without_subscripts(one.title(scene.length_unit)) for token, one in scene.quantities.items()
+    }
     return "\n".join(f"{token:<{wide}}  {title}" for token, title in titles.items())
 
 

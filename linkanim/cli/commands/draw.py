@@ -25,18 +25,17 @@ def run(options: Namespace) -> None:
     size = canvas.size
     is_raster = target.path.suffix.lower() == ".png"
     _refuse_many(scene, options.poses or 0, size if is_raster else (0, 0))
+    phase = options.phase if options.angle is None else phase_at(scene, options.angle)
     if options.construction is not None:
         from linkanim.paper.construction import ConstructionPage
 
         kind, steps = options.construction
-        phase = options.phase if options.angle is None else phase_at(scene, options.angle)
         page = ConstructionPage(
             scene, size, look.theme, steps, kind, phase, canvas.type_scale, ground=canvas.ground
         )
         _write(page, target, canvas, latex=bool(options.text))
         told(page.title)
         return
-    phase = options.phase if options.angle is None else phase_at(scene, options.angle)
     phase = None if phase is None else float(phase)
     shown = Figured(scene, size, look, phase, options.poses or 0, options.speed)
     _write(shown, target, canvas, latex=bool(options.text))
