@@ -107,14 +107,13 @@ class Clutter:
     @cached_property
     def boxes(self) -> tuple[_Floats, ...]:
         """Left, right, top and bottom (n moments, m) of what each solid covers."""
-        half = np.array([solid.half for solid in self.solids])
-        ends = (
-            np.stack(np.broadcast_arrays(*(end(of(s.corners), axis=1) for s in self.solids)), axis=1)
-            + sign * half
-            for of in (np.real, np.imag)
-            for end, sign in ((np.min, -1), (np.max, 1))
-        )
-        return tuple(ends)
+        moments = max(len(solids.corners) for _, solids in self.alike)
+        found = np.empty((4, moments, len(self.solids)))
+        for numbers, (corners, half) in self.alike:
+            for n, part in enumerate((corners.real, corners.imag)):
+                found[2 * n][:, numbers] = part.min(axis=2) - half
+                found[2 * n + 1][:, numbers] = part.max(axis=2) + half
+        return tuple(found)
 
     @cached_property
     def alike(self) -> tuple[tuple[NDArray[np.intp], Solids], ...]:
@@ -260,7 +259,8 @@ class Placer:
         """
         label = label._replace(own=label.own | on)
         bare = np.flatnonzero(covered < 1.0)
-        cost = self._cost(label.at(bare), bare, self.clutter.at(bare))
+        clutter = self.clutter if len(bare) == len(covered) else self.clutter.at(bare)
+        cost = self._cost(label.at(bare), bare, clutter)
         which = int((label.price + cost.mean(axis=0)).argmin())
         cost = self._cost(label.at(slice(None), slice(which, which + 1)), slice(None), self.clutter)
         shown = _eased(cost[:, 0] >= _FORBIDDEN, _SOFT - _GONE)
