@@ -133,14 +133,25 @@ class Drawn:
         yield Layer(self.theme.metal, [at + disc(max(radius - 1.2, 1.0))])
 
     def _names(
-        self, wanted: Iterable[tuple[str, Sequence[tuple[float, float]]]], taken: list[Rect]
+        self, wanted: Iterable[tuple[str, Sequence[tuple[float, float]]]], taken: Sequence[Rect]
     ) -> Iterator[Caption]:
         """Yield pins' names, each at the first of its places where nothing is yet, or else at the first.
 
         A place is the middle of a name's upper edge.
         """
         room, type_ = Rect(0, 0, *self.size), Type()
-        for name, places in wanted:
+        wanted = list(wanted)
+        edges = np.full((4, len(taken) + len(wanted)), np.inf)
+        for n, spot in enumerate(taken):
+            edges[:, n] = spot.x, spot.y, spot.right, spot.bottom
+        left, top, right, low = edges
+
+        def free_of(box: Rect) -> bool:
+            # of a large linkage there are ten thousand places, each beside hundreds of things
+            apart = (left >= box.right) | (box.x >= right) | (top >= box.bottom) | (box.y >= low)
+            return bool(apart.all())
+
+        for n, (name, places) in enumerate(wanted, start=len(taken)):
             text = subscripted(name)
             wide = type_.width(text, _TEXT)
             boxes = [Rect(x - wide / 2, y, wide, _TEXT) for x, y in places]
@@ -149,10 +160,10 @@ class Drawn:
                 for box in boxes
                 if room.holds(box.x, box.y)
                 and room.holds(box.right, box.bottom)
-                and not any(map(box.meets, taken))
+                and free_of(box)
             )
             spot = next(free, boxes[0])
-            taken.append(spot)
+            edges[:, n] = spot.x, spot.y, spot.right, spot.bottom
             halo = Halo(self.theme.background, 2.5)
             yield Caption(text, (spot.middle.real, spot.y), _TEXT, self.theme.ink, "centre", halo=halo)
 
