@@ -189,7 +189,8 @@ def test_windows_opened_one_after_the_other_take_no_more_memory(here: Path) -> N
 @pytest.mark.withstands("frames run", 1_000_000)
 @needs_proc
 def test_a_million_frames_take_no_more_memory(record_property: Callable[[str, object], None]) -> None:
-    for state in states(30_000, 0.05):
+    # as many actions for each scene as are measured then: what is kept of scenes and pictures is full by then
+    for state in states(200_000, 0.05):
         finite(state)
     before = resident_mb()
     for state in states(1_000_000, 0.01):
