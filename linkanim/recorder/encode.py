@@ -14,7 +14,7 @@ import subprocess
 import sys
 import time
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from fractions import Fraction
 from pathlib import Path
@@ -97,15 +97,17 @@ class _Watch:
 
 
 @contextmanager
-def running(command: Sequence[str], *, ahead: int) -> Iterator[Callable[[Frame], None]]:
+def running(
+    command: Sequence[str], *, ahead: int, settings: Mapping[str, str] | None = None
+) -> Iterator[Callable[[Frame], None]]:
     """Run the encoder and give the function that writes to it, not too far ahead of what is encoded.
 
     It tells of each frame that it is done with by a line on stdout, and gets no more than `ahead` of
-    them; so its memory is the same for few frames and for many. When the block ends well, the encoder
-    has; else it is gone.
+    them; so its memory is the same for few frames and for many. `settings` are added to its environment.
+    When the block ends well, the encoder has; else it is gone.
     `RecordingFailed` where it cannot be started, stops early, stands still or reports an error.
     """
-    process = _started(command)
+    process = _started(command, settings)
     watch = _Watch(process)
     room = Semaphore(ahead)
     words: deque[bytes] = deque(maxlen=_LAST_WORDS)
@@ -165,11 +167,18 @@ def told(command: Sequence[str]) -> bytes:
     return b"".join(lines) if process.returncode == 0 else b""
 
 
-def _started(command: Sequence[str]) -> subprocess.Popen[bytes]:
+def _started(command: Sequence[str], settings: Mapping[str, str] | None = None) -> subprocess.Popen[bytes]:
     """Start the encoder in a session of its own: Ctrl-C in the terminal is for us, and we stop it."""
     pipe = subprocess.PIPE
     try:
-        return subprocess.Popen(command, stdin=pipe, stdout=pipe, stderr=pipe, start_new_session=True)
+        return subprocess.Popen(
+            command,
+            stdin=pipe,
+            stdout=pipe,
+            stderr=pipe,
+            env={**os.environ, **(settings or {})},
+            start_new_session=True,
+        )
     except OSError as error:
         why = error.strerror or error
         raise RecordingFailed(f"the encoder {command[0]} cannot be started: {why}") from error
@@ -250,6 +259,9 @@ _AHEAD = {"gif": 6, "mp4": 20, "png": 6}
 _LARGE, _AHEAD_OF_LARGE = 1920 * 1200, 2
 """Of more pixels fewer frames are, and H.264 looks at none ahead: one of 3840×2160 takes it some 30 MB."""
 
+_GIVING_BACK = {"MALLOC_MMAP_THRESHOLD_": "1048576", "MALLOC_ARENA_MAX": "1"}
+"""By these glibc gives a frame's memory back at once; else the encoder's threads each keep some for later."""
+
 _BT709 = "setparams=color_primaries=bt709:color_trc=bt709:colorspace=bt709"
 _TELLING = ("-stats_enc_post", "pipe:1", "-stats_enc_post_fmt", "{n}")
 """A line on stdout for every frame that is encoded."""
@@ -291,8 +303,9 @@ def encoding(stream: Stream, form: Format, part: Path) -> Iterator[Callable[[Fra
     ends the encoder is done; whatever else ends it, the encoder is gone. `RecordingFailed` where the encoder
     cannot be started, stops early or reports an error.
     """
-    ahead = _AHEAD_OF_LARGE if _is_large(stream) else _AHEAD[form]
-    with running(_command(stream, form, part), ahead=ahead) as write:
+    large = _is_large(stream)
+    ahead, settings = (_AHEAD_OF_LARGE, _GIVING_BACK) if large else (_AHEAD[form], None)
+    with running(_command(stream, form, part), ahead=ahead, settings=settings) as write:
         yield write
 
 

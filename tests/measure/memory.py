@@ -1,4 +1,7 @@
-"""The most memory that commands and a window take: of each scene, and of the largest that is allowed."""
+"""The most memory that commands and a window take: of each scene, and of the largest that is allowed.
+
+Some ten minutes of processor time; of the scenes alone that are named, less.
+"""
 
 from __future__ import annotations
 
@@ -6,8 +9,9 @@ import os
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
+from statistics import median
 
 from linkanim import child
 from linkanim.bench.result import this_machine
@@ -19,11 +23,14 @@ COMMANDS = {
     "solve": ("solve", "{scene}", "--sweep", "0:360:1", "--phase", "--json"),
     "draw": ("draw", "{scene}", "-o", "out.svg", "--names", "--names"),
     "chart": ("chart", "{scene}", "--quantity", "{joint}.velocity", "-o", "out.png"),
-    "record": ("record", "{scene}", "-o", "out.gif", "--size", "1280x720"),
+    "record": ("record", "{scene}", "-o", "out.gif", "--size", "1280x720", "--seconds", "1"),
     "report": ("report", "{scene}", "-o", "out"),
     "share": ("share", "{scene}", "-o", "out.html"),
 }
-"""One of each kind, with what makes it large; a recording's encoder and drawing processes are told apart."""
+"""One of each kind, with what makes it large; of a recording a second, for more frames take no more.
+
+Its encoder and what else draws are left out.
+"""
 WINDOW = """
 import sys
 from linkanim.picture.look import Look
@@ -37,12 +44,12 @@ from linkanim.scenes import load
 state = begin(load(sys.argv[1]), look=Look(names=2, vectors=frozenset("va")))
 with display.opened((1280, 720)):
     screen = Screen(state)
-    for _ in range(300):
+    for _ in range(60):
         screen.show(state, overlay(state))
         screen.prepare(state)
         state = advance(state)
 """
-"""Five seconds of a window with its names, dimensions and arrows."""
+"""A second of a window with its names, dimensions and arrows."""
 
 
 def largest(folder: Path) -> Path:
@@ -59,9 +66,9 @@ def largest(folder: Path) -> Path:
     return file
 
 
-def rows(folder: Path) -> Iterator[tuple[str, ...]]:
+def rows(folder: Path, scenes: Sequence[str]) -> Iterator[tuple[str, ...]]:
     """Yield a scene's name and what each command, then its window, takes at most, in MB."""
-    for scene in (*names(), str(largest(folder))):
+    for scene in (*scenes, str(largest(folder))):
         joint = next(joint.name for joint in load(scene).linkage.joints if not joint.fixed)
         filled = ([part.format(scene=scene, joint=joint) for part in words] for words in COMMANDS.values())
         commands = [child.module("linkanim", *words) for words in filled]
@@ -83,16 +90,19 @@ def _peak(command: list[str], folder: Path) -> float:
 
 
 def main() -> None:
-    """Print a row for each scene as it is found, and the largest of each column."""
+    """Print a row for each scene as it is found, then each column's median, and its most with the scene."""
     print(this_machine().line)
     print(_row(("MB at most", *COMMANDS, "window")), flush=True)
     found = []
     with tempfile.TemporaryDirectory() as room:
-        for row in rows(Path(room)):
+        for row in rows(Path(room), sys.argv[1:] or names()):
             found.append(row)
             print(_row(row), flush=True)
-    most = (f"{max(float(row[n]) for row in found):.0f}" for n in range(1, len(COMMANDS) + 2))
-    print(_row(("the largest", *most)))
+    columns = [[(float(row[n]), row[0]) for row in found] for n in range(1, len(COMMANDS) + 2)]
+    print(_row(("median", *(f"{median(peak for peak, _ in column):.0f}" for column in columns))))
+    for command, column in zip((*COMMANDS, "window"), columns, strict=True):
+        peak, scene = max(column)
+        print(f"{command}: at most {peak:.0f} MB, of {scene}")
 
 
 def _row(cells: tuple[str, ...]) -> str:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import sys
 import tracemalloc
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from fractions import Fraction
 from pathlib import Path
@@ -215,15 +216,23 @@ def test_transparency_in_an_mp4_is_refused_before_any_frame_is_drawn(tmp_path: P
 def test_few_large_frames_are_on_their_way(
     size: tuple[int, int], ahead: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    asked = list[tuple[str, int]]()
+    asked = list[tuple[str, int, bool]]()
 
     @contextmanager
-    def running(command: Sequence[str], *, ahead: int) -> Iterator[object]:
-        asked.append((" ".join(command), ahead))
+    def running(
+        command: Sequence[str], *, ahead: int, settings: Mapping[str, str] | None = None
+    ) -> Iterator[object]:
+        asked.append((" ".join(command), ahead, bool(settings)))
         yield None
 
     monkeypatch.setattr(encode, "running", running)
     with encode.encoding(encode.Stream(size, Fraction(25)), "mp4", Path("a.mp4")):
         pass
-    [(command, taken)] = asked
-    assert (taken, "-tune zerolatency" in command) == (ahead, ahead < 20)
+    [(command, taken, gives_back)] = asked
+    assert (taken, "-tune zerolatency" in command, gives_back) == (ahead, ahead < 20, ahead < 20)
+
+
+def test_an_encoder_s_settings_are_added_to_its_environment() -> None:
+    order = "import os, sys; sys.exit(os.environ.get('KEPT_FRAMES') != '1' or not os.environ.get('PATH'))"
+    with encode.running([sys.executable, "-P", "-c", order], ahead=1, settings={"KEPT_FRAMES": "1"}):
+        pass
