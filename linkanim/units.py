@@ -59,8 +59,8 @@ def rpm(speed: float) -> str:
 
 
 def degrees(angle: float) -> str:
-    """Return an angle in radians as degrees of four significant digits; what rounding leaves of none is 0."""
-    return f"{significant(to_degrees(angle) if abs(angle) > _NOTHING else 0.0, 4)}°"
+    """Return radians as degrees of four significant digits, set; what rounding leaves of none is 0."""
+    return f"{typeset(significant(to_degrees(angle) if abs(angle) > _NOTHING else 0.0, 4))}°"
 
 
 def stepped(value: float, step: float) -> str:

@@ -64,7 +64,7 @@ def test_speed_is_told_in_turns_a_minute(speed: float, words: str) -> None:
 
 @pytest.mark.parametrize(
     ("angle", "words"),
-    [(math.pi / 2, "90°"), (-1.0, "-57.3°"), (-0.0, "0°"), (math.radians(87.456), "87.46°")],
+    [(math.pi / 2, "90°"), (-1.0, "−57.3°"), (-0.0, "0°"), (math.radians(87.456), "87.46°")],
 )
 def test_an_angle_is_told_in_degrees(angle: float, words: str) -> None:
     assert degrees(angle) == words
@@ -114,7 +114,7 @@ def test_a_number_too_large_or_small_for_decimals_has_three_digits() -> None:
 # What the last digits of a limit leave of nothing: a drag was answered with −6.986e-14°.
 @pytest.mark.parametrize(
     ("angle", "words"),
-    [(-1.2193e-15, "0°"), (1e-33, "0°"), (0.0, "0°"), (1e-9, "5.73e-08°"), (math.pi, "180°")],
+    [(-1.2193e-15, "0°"), (1e-33, "0°"), (0.0, "0°"), (1e-9, "5.73e−08°"), (math.pi, "180°")],
 )
 def test_no_angle_is_what_rounding_leaves_of_none(angle: float, words: str) -> None:
     assert degrees(angle) == words

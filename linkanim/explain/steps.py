@@ -38,6 +38,7 @@ from linkanim.mechanics.motion import Pose
 from linkanim.mechanics.quantities import link_labels
 from linkanim.picture.dimensions import symbols
 from linkanim.picture.figure import Figure
+from linkanim.units import signed
 
 # What a worked solution consists of, whatever it is printed as: chapters, steps, lines.
 
@@ -307,8 +308,8 @@ class Work:
     told: set[str] = field(default_factory=set)
 
     def say(self, text: str) -> None:
-        """Add a sentence."""
-        self.items.append(Words(text))
+        """Add a sentence; its numbers have true minus signs."""
+        self.items.append(Words(signed(text)))
 
     def say_once(self, text: str) -> None:
         """Add a sentence where it has not been said before."""

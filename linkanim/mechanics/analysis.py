@@ -30,7 +30,7 @@ from linkanim.mechanics.quantities import input_symbol, phrase
 from linkanim.mechanics.search import changes_by_row, highest, in_blocks, own_rows, sign_changes
 from linkanim.mechanics.solver.closing import CLOSERS, walk_at
 from linkanim.mechanics.solver.signed_root import Kind
-from linkanim.units import degrees, short, significant
+from linkanim.units import degrees, short, significant, typeset
 
 # In which step each joint is solved: the causal chain from the input to the output.
 
@@ -763,10 +763,10 @@ def _facts(info: Info) -> Iterator[tuple[str, str | None]]:
     yield "time ratio", None if info.time_ratio is None else f"{info.time_ratio:.4f}"
     if info.demand is not None:
         (work, *efforts), (name, unit) = info.demand, info.effort
-        yield "work per period", f"{significant(work, 6)} J"
+        yield "work per period", f"{typeset(significant(work, 6))} J"
         unknown = ("unbounded", f"undefined, since the {name} is unbounded at a limit")
         for word, value, without in zip(("peak", "mean"), efforts, unknown, strict=True):
-            yield f"{word} {name}", without if value is None else f"{significant(value, 6)} {unit}"
+            yield f"{word} {name}", without if value is None else f"{typeset(significant(value, 6))} {unit}"
     turns = "one drive period" if info.true_period == 1 else f"{info.true_period} drive periods"
     yield "true period", f"{turns}, {short(info.period_seconds)} s"
 
@@ -779,11 +779,11 @@ def _worst(info: Info, found: Transmission) -> str:
     linkage = info.mechanism.linkage
     place = float(info.mechanism.solve(phase=found.phase, speed=1.0, derivatives=0).coordinate)
     if not linkage.drive.coordinate.is_angle:
-        where = f"{significant(place, 4)} {info.length_unit}"
+        where = f"{typeset(significant(place, 4))} {info.length_unit}"
     else:
         turned = round(math.degrees(place), 1) % 360 if info.full_turn else math.degrees(place)
         told = significant(turned, 3)
-        where = "0°" if info.full_turn and told == "360" else f"{told}°"
+        where = "0°" if info.full_turn and told == "360" else f"{typeset(told)}°"
     symbol = input_symbol(linkage).translate({ord("{"): None, ord("}"): None})
     return f"μ ≥ {least}, {symbol} = {where}"
 
@@ -792,4 +792,5 @@ def _places(info: Info, places: tuple[float, ...], between: str = ", ") -> str:
     """Return places of the input in words: its angles, or how far a slider has travelled; "" for none."""
     if info.mechanism.linkage.drive.coordinate.is_angle:
         return between.join(map(degrees, places))
-    return f"{between.join(significant(place, 6) for place in places)} {info.length_unit}" if places else ""
+    travels = (typeset(significant(place, 6)) for place in places)
+    return f"{between.join(travels)} {info.length_unit}" if places else ""

@@ -21,7 +21,7 @@ from linkanim.play.kinds import KINDS
 from linkanim.play.question import Puzzle, QuestionId, QuizAnswer, QuizQuestion
 from linkanim.scenes import load, names
 from linkanim.scenes.scene import Scene
-from linkanim.units import shown
+from linkanim.units import shown, stepped
 
 # Rounds of questions about one scene or several, the same ones for the same seed.
 
@@ -242,7 +242,7 @@ def _key_page(round_: Sequence[QuizQuestion], title: str) -> Iterator[str]:
 def _worded(answer: QuizAnswer) -> str:
     """Return an answer, and of its curve some values evenly over the period."""
     values = answer.curve[:: max(len(answer.curve) // _PRINTED, 1)]
-    return f"{answer.text}: {' '.join(f'{value:.2f}' for value in values)}" if values else answer.text
+    return f"{answer.text}: {' '.join(stepped(value, 0.01) for value in values)}" if values else answer.text
 
 
 def _drawn(curve: Sequence[float]) -> str:

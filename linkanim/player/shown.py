@@ -458,7 +458,7 @@ def value_words(scene: Scene, one: Quantity, pose: Pose) -> str:
     found = one.shown(pose)
     parts = found if isinstance(found, tuple | list | np.ndarray) and np.ndim(found) else (found,)
     if scene.info.full_turn and any(one.token == f"{body.name}.angle" for body in _cranks(scene)):
-        parts = tuple(float(significant(float(part), 4)) % 360 for part in parts)
+        parts = tuple(float(significant(float(part) % 360, 4)) % 360 for part in parts)
     values = ", ".join(_four_digits(float(part)) for part in parts if part is not None)
     unit = one.shown_unit(scene.length_unit)
     return f"{one.symbol} = {values or '–'}{'' if unit == '°' else ' '}{unit}".rstrip()

@@ -37,7 +37,7 @@ from linkanim.scenes import load, names
 from linkanim.scenes.editing import Dimension, Handle, dimensions, handles, in_unit, passing
 from linkanim.scenes.form import Key
 from linkanim.scenes.scene import Scene
-from linkanim.units import degrees, typeset
+from linkanim.units import degrees
 
 if TYPE_CHECKING:
     from linkanim.synthesis.answers import PathAnswer
@@ -170,7 +170,7 @@ def loss_of_turning(before: Info, after: Info) -> str | None:
     """Say that the input no longer turns fully, where it did; else None."""
     if after.full_turn or not before.full_turn:
         return None
-    low, high = (typeset(degrees(limit)) for limit in after.input_range)
+    low, high = (degrees(limit) for limit in after.input_range)
     cause = f"{after.why_swinging}: " if after.why_swinging else ""
     return f"{cause}the crank cannot turn fully; it swings {low}…{high}"
 

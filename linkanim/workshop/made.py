@@ -98,6 +98,12 @@ class MadeLinkage:
             "in true size" if abs(self.ratio - 1) < _TRUE else f"{self.ratio:g} times as large as the scene"
         )
 
+    @property
+    def layer_words(self) -> str:
+        """In how many layers its links lie, in words; in none where all slide in the ground's own."""
+        layers = "1 layer" if self.layers == 1 else f"{self.layers} layers"
+        return f"in {layers} on the ground" if self.layers else "all within the ground"
+
     @cached_property
     def numbers(self) -> tuple[str, ...]:
         """The plates' numbers: the ground's is 1, those of links are the figures', others come after them."""

@@ -59,10 +59,11 @@ class Sheet:
     def _head(self) -> Iterator[str]:
         made, sizes = self.made, self.made.sizes
         fewest = "fewer cannot turn" if made.fewest else "there may be a way with fewer"
+        layers = f"{made.layer_words} ({fewest})" if made.layers else made.layer_words
         yield html.paragraph(
-            f"{len(made.plates)} flat parts of {sizes.thickness:g} mm, {made.size_words}, in {made.layers} "
-            f"layers on the ground ({fewest}); bars {_mm(sizes.bar)} wide, holes {_mm(sizes.hole)}. Over the "
-            f"whole period nothing in a layer comes nearer to anything else than {_mm(sizes.gap)}."
+            f"{len(made.plates)} flat parts of {sizes.thickness:g} mm, {made.size_words}, {layers}; bars "
+            f"{_mm(sizes.bar)} wide, holes {_mm(sizes.hole)}. Over the whole period nothing in a layer comes "
+            f"nearer to anything else than {_mm(sizes.gap)}."
         )
         words = {"pin": significant(sizes.pin, 3), "thick": f"{sizes.thickness:g}"}
         yield html.paragraph(_WAYS[made.way].format(**words))
@@ -109,7 +110,8 @@ class Sheet:
             )
             for pin in made.pins
         ]
-        yield html.table("Pins, and rings on them that keep layers apart", heads, pins)
+        if pins:
+            yield html.table("Pins, and rings on them that keep layers apart", heads, pins)
         for band in made.bands:
             ends = " and ".join(subscripted(name) for name in band.joints)
             yield html.paragraph(f"A rubber band for the {band.name}, between {ends}, over all layers.")
@@ -222,7 +224,9 @@ class Sheet:
             heads = "", "where", "question", "answers"
             yield html.table("Predict before it is turned, then turn it there and look", heads, rows)
         blank = [(what, "", "") for what, _ in self._measures()]
-        yield html.table("Measure on the model", ("what", "measured", "worked out from its lengths"), blank)
+        if blank:
+            columns = "what", "measured", "worked out from its lengths"
+            yield html.table("Measure on the model", columns, blank)
 
     def _key(self, questions: Sequence[QuizQuestion]) -> Iterator[Part]:
         rows = [
@@ -231,7 +235,8 @@ class Sheet:
         ]
         if rows:
             yield html.table("Predictions", ("", "right", "why"), rows)
-        yield html.table("Measures of the model", ("what", "value"), [*self._measures()])
+        if measures := [*self._measures()]:
+            yield html.table("Measures of the model", ("what", "value"), measures)
 
     def _measures(self) -> Iterator[tuple[str, str]]:
         """Yield what can be measured on the model, and its value there."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -192,3 +193,11 @@ def test_info_counts_links_and_joints_and_tells_the_rockers_swing_and_time_ratio
 )
 def test_links_and_joints_are_counted_as_gruebler_does(name: str, counts: tuple[int, int, int]) -> None:
     assert linkanim.load(name).info.counts == counts
+
+
+@pytest.mark.parametrize("name", ["watt-line", "oscillating-cylinder"])
+def test_what_it_tells_has_true_minus_signs(name: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["info", name]) == 0
+    printed = capsys.readouterr().out
+    assert not re.search(r"(?<![\w])-\d", printed)
+    assert name != "watt-line" or "swings −69.2°…32.33°" in printed

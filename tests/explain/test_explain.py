@@ -634,3 +634,13 @@ def test_pages_bring_the_font_of_their_formulas() -> None:
     path = Path(linkanim.explain.documents.__file__).parent / "faces"
     assert base64.b64decode(face) == (path / "LinkanimMath.woff2").read_bytes()
     assert {"GUST-FONT-LICENSE.txt", "MANIFEST-LinkanimMath.txt"} <= {one.name for one in path.iterdir()}
+
+
+@pytest.mark.parametrize(("name", "says"), [("watt-line", "swings −69.2°"), ("antiparallelogram", "is −1: ")])
+def test_its_sentences_have_true_minus_signs(
+    name: str, says: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["explain", name]) == 0
+    prose = re.sub(r"\$[^$]*\$", "", capsys.readouterr().out)
+    assert says in prose
+    assert not re.search(r"(?<!\w)-\d", prose)

@@ -46,7 +46,12 @@ def test_a_slider_that_nothing_hangs_on_is_laid_into_its_slot() -> None:
         "drive": {"slider": {"joint": "B", "from": 0, "to": 100}},
     }
     made = make(scene_from(document, name="alone", where="alone.toml"))
-    assert "Lay down 1 ground; lay 2 slider B into its slot." in Sheet(made).document()
+    text = Sheet(made).document()
+    assert "Lay down 1 ground; lay 2 slider B into its slot." in text
+    assert "all within the ground" in text
+    # it has no pin, and nothing to be measured: no table of nothing
+    assert "<tbody></tbody>" not in re.sub(r"\s", "", text)
+    assert text.count("<table") == 3
 
 
 def test_the_key_stands_on_a_page_of_its_own_and_the_tasks_do_not_tell_it() -> None:

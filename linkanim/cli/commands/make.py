@@ -59,7 +59,7 @@ def run(options: Namespace) -> None:
             print(options.output / SHEET)
         if picture:
             print(picture.path)
-        print(f"{len(made.plates)} parts in {made.layers} layers on the ground, {made.size_words}")
+        print(f"{len(made.plates)} parts {made.layer_words}, {made.size_words}")
     if not made.fewest:
         print("there may be a way with fewer layers; the search was given up", file=sys.stderr)
 
