@@ -28,6 +28,7 @@ from linkanim.mechanics.solver.strokes import CylinderStroke, SliderStroke
 from linkanim.scenes import load, names
 from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
+from linkanim.units import typeset
 
 DOUBLE_ROCKER = {"ground": 100, "crank": 80, "coupler": 40, "rocker": 90}
 
@@ -74,7 +75,7 @@ def test_a_range_lies_around_the_stated_start(
     assert (low + high) / 2 == pytest.approx(around)
     assert low < start < high
     assert main(["info", str(path)]) == 0
-    assert f"swings {low:.4g}°…{high:.4g}°" in capsys.readouterr().out
+    assert f"swings {typeset(f'{low:.4g}')}°…{typeset(f'{high:.4g}')}°" in capsys.readouterr().out
     assert main(["solve", str(path), "--angle", f"{start + 180} deg"]) != 0
     refused = capsys.readouterr().err
     assert f"goes from {low:.6g} deg to {high:.6g} deg" in refused
