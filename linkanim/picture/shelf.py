@@ -203,12 +203,13 @@ class ShelfPrinter:
         self._still: tuple[object, pygame.Surface] | None = None
         self._live: dict[int, Live] = {}
         self._unread: set[int] = set()
+        self._read: tuple[int, Scene] | None = None
         self._type = Type()
 
     def close(self) -> None:
         """Forget what was drawn for a shelf that is no longer open."""
         self._made_for = self._still = None
-        self._live, self._unread = {}, set()
+        self._live, self._unread, self._read = {}, set(), None
 
     def prepared(self, size: tuple[int, int], shelf: Shelf) -> Iterator[None]:
         """Draw the frames and titles of a shelf in steps, so that they take less when it is opened."""
@@ -247,7 +248,10 @@ class ShelfPrinter:
         _foot(surface, board, found, shelf, self._live.get(shelf.browsing.chosen))
 
     def _join(self, found: Grid, shelf: Shelf) -> None:
-        """Read the next mechanism in sight, the chosen one first; a file that is no scene has no picture."""
+        """Read the next mechanism in sight, the chosen one first, or make the picture of the one just read.
+
+        A file that is no scene has no picture.
+        """
         order = sorted(found.cells, key=lambda n: n != shelf.browsing.chosen)
         n = next((n for n in order if n not in self._live and n not in self._unread and n != NEW), None)
         if n is None:
@@ -257,8 +261,10 @@ class ShelfPrinter:
         look = Look(theme=shelf.theme, hud=False, background=False)
         try:
             entry = file.name if file else shelf.browsing.entries[n]
-            scene = load(Path(entry) if file else entry) if isinstance(entry, str) else entry
-            self._live[n] = Live(Picture(scene, size, look))
+            if self._read is None or self._read[0] != n:
+                self._read = n, load(Path(entry) if file else entry) if isinstance(entry, str) else entry
+                return
+            self._live[n] = Live(Picture(self._read[1], size, look))
         except LinkanimError:
             self._unread.add(n)
 

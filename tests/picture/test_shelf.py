@@ -120,13 +120,14 @@ def test_each_chapter_begins_a_row_and_the_rows_are_gone_through_whatever_their_
 
 
 @pytest.mark.slow
-def test_the_first_paint_has_every_frame_and_title_and_a_picture_comes_with_each_after_it() -> None:
+def test_the_first_paint_has_every_frame_and_title_and_a_picture_comes_with_each_second_after_it() -> None:
     size, painter = (1280, 720), ShelfPrinter()
     surface = pygame.Surface(size, 0, 32)
     found = grid(size, _shelf(names()).browsing)
     shots = []
     for frame in range(len(found.cells)):  # an empty sheet has no picture
-        painter.draw(surface, _shelf(names(), 0, frame))
+        for _ in range(2 if frame else 1):  # in one it is read, in the other its picture is made
+            painter.draw(surface, _shelf(names(), 0, frame))
         shots.append(pixels(surface))
     drawn = [{n for n, cell in found.cells.items() if _differs(shot, shots[0], cell)} for shot in shots]
     assert all(len(after - before) == 1 for before, after in pairwise(drawn))
@@ -153,7 +154,7 @@ def test_a_closed_shelf_keeps_no_picture() -> None:
         return sum(isinstance(one, Picture) for one in gc.get_objects())
 
     before, painter = painters(), ShelfPrinter()
-    for _ in range(2):
+    for _ in range(3):
         painter.draw(pygame.Surface((640, 480), 0, 32), _shelf(("kite",)))
     assert painters() > before
     painter.close()
