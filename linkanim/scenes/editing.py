@@ -360,13 +360,14 @@ def other_closure(scene: Scene) -> Scene:
     Of several loops it is the one nearest the input. AssemblyError where there is no second closure,
     or where it cannot be assembled further down the chain.
     """
-    if kept := scene.elsewhere.pop(_OTHER_CLOSURE, None):
-        return kept
     choice = _choice(scene)
     if choice is None:
         raise AssemblyError(f"{scene.name} has no second closure: no loop of it can be put together two ways")
-    document = replaced(scene.document, choice.key, choice.other)
-    return with_document(scene, document)
+    other = scene.elsewhere.pop(_OTHER_CLOSURE, None)
+    other = other or with_document(scene, replaced(scene.document, choice.key, choice.other))
+    if replaced(other.document, choice.key, choice.name) == scene.document:
+        other.elsewhere[_OTHER_CLOSURE] = scene  # the way back needs no search
+    return other
 
 
 def other_return(scene: Scene) -> Scene:
@@ -397,6 +398,11 @@ def ghost_of(scene: Scene) -> Scene | None:
     except LinkanimError:
         return None
     return scene.elsewhere[_OTHER_CLOSURE]
+
+
+def known_ghost_of(scene: Scene) -> Scene | None:
+    """Return the other closure where it is kept; None where it was not looked for, or there is none."""
+    return scene.elsewhere.get(_OTHER_CLOSURE)
 
 
 def _choice(scene: Scene) -> _Choice | None:
