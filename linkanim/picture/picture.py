@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Generator, Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import cached_property
 from itertools import chain, combinations, islice
@@ -144,6 +144,8 @@ class Picture:
         anew = before is not None and not self._named_as(before, held=held)
         self.hurried: bool = later.names == "as before" and look.named and anew
         """Whether its names are those of another picture."""
+        self.waits: bool = self.hurried and before is not None and not before.has_polygons
+        """Whether polygons that were not there before come with the names, once room is made for them."""
         tabled = look.names > 1 and before and before.fit.request.table[0]
         if self.hurried and tabled and before and before._goal is self._goal:
             self._arrange(request._replace(table=self._table_size()), before, held=held)
@@ -179,8 +181,8 @@ class Picture:
         self.earlier: Earlier = earlier if earlier and self.late else Earlier(place, {})
         self._settled = earlier is None or self.fit.has_room
 
-    def preparing(self, look: Look, *, listed: bool) -> Iterator[None]:
-        """Find in steps what a picture of the scene in another look needs to know, and keep it."""
+    def preparing(self, look: Look, *, listed: int) -> Generator[None, None, Layout]:
+        """Find in steps what a picture of the scene in another look needs to know; return its layout."""
         tokens = chart_tokens(self.scene, look.chart)
         for token in tokens:
             quantity(self.scene, token).read(self.figure.cycle)
@@ -189,7 +191,7 @@ class Picture:
         request = request_of(self.size, look, len(tokens), listed=listed, row=self.row, bar=last.bar)
         if look.names == self.look.names:
             request = request._replace(table=last.table)
-        yield from arranging(self.fit.subject, request)
+        return (yield from arranging(self.fit.subject, request)).layout
 
     def expecting(self, other: Scene) -> Iterator[None]:
         """Find in steps what a picture of another scene in the same look needs to know, and keep it."""
@@ -197,6 +199,11 @@ class Picture:
         yield
         yield from arranging(subject, self.fit.request)
         self.fit.subject.expected[:] = [subject]
+
+    @property
+    def has_polygons(self) -> bool:
+        """Whether polygons are drawn beside it."""
+        return self.layout.polygons is not None and not self.waits
 
     def catch_up(self) -> None:
         """Have what stands still as it is, not as it was in an earlier picture."""
@@ -301,7 +308,7 @@ class Picture:
         named = self.names.captions(pose, self.drawing.places(pose)) if self.names else []
         taken = (line.around(self.type) for line in named)
         yield from self._within(self.drawing.moving(pose, chain(self.layout.words, taken)))
-        for polygon in self._polygons:
+        for polygon in () if self.waits else self._polygons:
             stands = overlay.paused and self._moment is None
             yield (polygon.standing(pose.phase) if stands else polygon).group(pose)
         yield from self._on_chart(pose, grasped=overlay.grip)
