@@ -408,7 +408,7 @@ def _of_strut(strut: Spring | Damper, index: str, words: str, *, every: bool) ->
 
 
 _LEAST, _MOST = 6, 10
-_IN_STEP = 4
+_IN_STEP = 2
 """So many quantities are looked at in a step."""
 
 

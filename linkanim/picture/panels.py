@@ -120,7 +120,7 @@ _FEWEST = 4
 """As many rows are shown before hints and facts give way."""
 _NAME = 4.5
 """So much of a row's name is seen where its value is too long, in heights of the text."""
-_ROWS_IN_STEP = 6
+_ROWS_IN_STEP = 3
 """So many rows are drawn in a step where a list is drawn beforehand."""
 _FLASH = 0.45
 """How much of the flash's colour is in the bar behind the facts at its brightest."""
@@ -157,6 +157,7 @@ def _edit_list_in_steps(board: Board, panel: Panel) -> Generator[None, None, pyg
     yield
     size = parts.size
     sheet = board.sheet(parts.wide, STEP * size * parts.lines)
+    yield
     _head(board, sheet, panel, parts)
     top = parts.top
     for k, n in enumerate(parts.rows):
@@ -248,7 +249,7 @@ _WIDEST = 0.97
 """The most of its room that the help takes."""
 _LEAST = 9
 """The smallest text that can be read, in pixels."""
-_LINES_IN_STEP = 8
+_LINES_IN_STEP = 4
 """So many lines are drawn in a step where it is drawn beforehand."""
 
 
@@ -288,6 +289,7 @@ def _help_in_steps(board: Board, shown: tuple[Help, int]) -> Generator[None, Non
     laid = yield from _help_laid(board, shown)
     yield
     sheet = board.sheet(laid.wide, laid.high)
+    yield
     for column, x in _help_columns(laid):
         for n, line in enumerate(column.lines):
             if n % _LINES_IN_STEP == 0:
@@ -570,13 +572,16 @@ class Panels:
         return help_line_at(self.board, (overlay.help, room), x - place.x, y - place.y) or ""
 
     def prepared(self, overlay: Overlay) -> Iterator[None]:
-        """Draw the help and the lists of an overlay in steps, so that they take less when they are shown."""
+        """Draw help, lists and chip of an overlay in steps, so that they take less when they are shown."""
         if overlay.help:
             yield from self._ahead(help_sheet, (overlay.help, self.board.layout.size[0]), _help_in_steps)
         if overlay.panel:
             yield from self._ahead(edit_list, overlay.panel, _edit_list_in_steps)
         if overlay.quantities:
             yield from self._ahead(quantity_list, overlay.quantities, _quantity_list_in_steps)
+        if overlay.chip:
+            yield
+            self._keep(chip, overlay.chip.text)
 
     def _ahead(self, make: Any, shown: Any, steps: Any) -> Iterator[None]:
         """Draw a panel in steps, and keep it as it is kept when it is shown."""

@@ -13,6 +13,7 @@ from linkanim.mechanics.motion import Pose
 from linkanim.picture.board import Board
 from linkanim.picture.build_sheet import SHEET
 from linkanim.picture.items import Caption, Group, flat
+from linkanim.picture.layout import Layout
 from linkanim.picture.overlay import Overlay
 from linkanim.picture.panels import Panels
 from linkanim.picture.picture import Picture
@@ -21,6 +22,8 @@ from linkanim.picture.text import Lettering, Type
 
 _MOST_PICTURES, _MOST_BYTES = 8, 100_000_000
 """What is kept of shapes that come again takes no more memory than so many pictures, nor than so much."""
+_MOST_EXPECTED = 6
+"""For so many layouts panels are kept that may be shown next."""
 _SPARE_LABELS = 8
 """So many labels are kept that the last frame had not."""
 
@@ -38,6 +41,7 @@ class SurfacePrinter:
         self._covers: dict[Hashable, tuple[tuple[Group, ...], Cover]] = {}
         self._labels = _Labels()
         self._panels: Panels | None = None
+        self._expected: list[Panels] = []
         self._paper: tuple[Group, pygame.Surface] | None = None
 
     def print(
@@ -81,9 +85,18 @@ class SurfacePrinter:
         if canvas is not surface:
             surface.blit(canvas, (0, 0))
 
-    def prepared(self, picture: Picture, overlay: Overlay) -> Iterator[None]:
-        """Draw the panels of an overlay in steps, so that they take less when they are shown."""
-        yield from self._panels_of(picture).prepared(overlay)
+    def prepared(self, picture: Picture, place: Layout, overlay: Overlay) -> Iterator[None]:
+        """Draw the panels of an overlay in steps, so that they take less when they are shown.
+
+        They are those of a picture like this one in the layout `place`.
+        """
+        panels = self._panels_of(picture)
+        board = replace(panels.board, layout=place)
+        every = panels, *self._expected
+        panels = next((one for one in every if one.board == board), None) or Panels(board)
+        if panels not in every:
+            self._expected = [*self._expected[1 - _MOST_EXPECTED :], panels]
+        yield from panels.prepared(overlay)
 
     def row_at(self, picture: Picture, overlay: Overlay, x: float, y: float) -> int | None:
         """Return the row of the open list under a pixel, -1 on the list beside them; None off it."""
@@ -168,7 +181,7 @@ class SurfacePrinter:
         before = self._panels.board if self._panels else Board(picture.layout, picture.type, picture.theme)
         board = replace(before, layout=picture.layout, type=picture.type, theme=picture.theme)
         if self._panels is None or before != board:
-            self._panels = Panels(board)
+            self._panels = next((one for one in self._expected if one.board == board), None) or Panels(board)
         return self._panels
 
 

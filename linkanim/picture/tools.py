@@ -44,15 +44,19 @@ class ToolPrinter:
     def draw(self, surface: pygame.Surface, layout: Layout, theme: Theme, bar: ToolBar | None) -> None:
         """Draw a bar over the picture, and what the tool under the mouse is called."""
         if bar is None:
-            self._kept = None
             return
+        surface.blit(*self.prepare(layout, theme, bar))
+        if bar.pointed is not None:
+            cell = tool_cells(layout)[bar.pointed]
+            _tooltip(surface, Board(layout, self._type, theme), cell, TOOLS[bar.pointed], typed=bar.typed)
+
+    def prepare(self, layout: Layout, theme: Theme, bar: ToolBar) -> tuple[pygame.Surface, tuple[int, int]]:
+        """Return a bar without its tooltip, and where its upper left corner is; keep it."""
         board, cells = Board(layout, self._type, theme), tool_cells(layout)
         made_for = layout.size, cells, theme, replace(bar, pointed=None)
         if self._kept is None or self._kept[0] != made_for:
             self._kept = made_for, *_bar(board, cells, bar)
-        surface.blit(*self._kept[1:])
-        if bar.pointed is not None:
-            _tooltip(surface, board, cells[bar.pointed], TOOLS[bar.pointed], typed=bar.typed)
+        return self._kept[1:]
 
 
 def _bar(board: Board, cells: tuple[Rect, ...], bar: ToolBar) -> tuple[pygame.Surface, tuple[int, int]]:

@@ -7,7 +7,7 @@ be drawn in a frame, it is drawn in two.
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator
 from dataclasses import replace
 from functools import partial
 from math import inf
@@ -17,6 +17,7 @@ import pygame
 from pygame.event import Event
 
 from linkanim.frozen import frozen
+from linkanim.picture.layout import Layout
 from linkanim.picture.look import Look
 from linkanim.picture.picture import Deferral, Earlier, Picture
 from linkanim.picture.view import Box, View, eased
@@ -164,9 +165,12 @@ class Framing:
         room = made.layout.stage.inset(2 * made.layout.margin)
         return view_for(self._drawn[1], stroke, made.fit.subject.figure.box, room, made.layout.hud)
 
-    def preparing(self, state: State) -> Iterator[None]:
-        """Find in steps what the picture of a state with the scene of the last one needs to know."""
-        yield from self.last.preparing(self._look(state), listed=state.listed)
+    def preparing(self, state: State) -> Generator[None, None, Layout]:
+        """Find in steps what the picture of a state with the scene of the last one needs to know.
+
+        Returns the layout of that picture.
+        """
+        return (yield from self.last.preparing(self._look(state), listed=self._listed(state)))
 
     def _look(self, state: State) -> Look:
         """Return the look of a state; where it is captioned, names come with what to watch for."""

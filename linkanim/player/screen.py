@@ -44,10 +44,10 @@ from linkanim.player.framing import Fade, Framing
 from linkanim.player.pointing import Pointed, PointedThing, thing_at
 from linkanim.player.posing import has_room
 from linkanim.player.posing import under as posed_under
-from linkanim.player.shown import Hover, kept
+from linkanim.player.shown import Hover, overlay
 from linkanim.player.state import PIVOTS, State, driven_bar, proved
 from linkanim.scenes import names, title_of
-from linkanim.scenes.editing import ghost_of, handles
+from linkanim.scenes.editing import ghost_of, handles, known_ghost_of
 
 # The display: a window on a screen that is really there.
 
@@ -250,10 +250,9 @@ def _pointer(capsule: Any) -> int:
 _AHEAD = (
     *(Action("chart", 1), Action("polygons"), Action("names"), Action("edit")),
     *(Action("vectors", kind) for kind in "va"),
+    *(Action("help"), Action("list"), Action("shelf")),
 )
-"""What may be asked for next and changes where things stand."""
-_OPENING = (Action("help"), Action("edit"), Action("list"), Action("shelf"))
-"""What opens a panel."""
+"""What may be asked for next and changes where things stand, or opens a panel."""
 _REST = 20
 """So many frames a picture stands before anything is prepared: a walk along the shelf does not wait."""
 _MOST_JOINTS = 20
@@ -283,6 +282,7 @@ class Screen:
         self._pointer: object = None
         self._prepared: Picture | None = None
         self._preparing: Iterator[None] = iter(())
+        self._arrived: int | None = None
 
     def show(self, state: State, over: Overlay, *, late: bool = False) -> None:
         """Paint the state into the window and flip, where it differs from what is there.
@@ -305,6 +305,9 @@ class Screen:
             self._fade.draw(surface, veiled, over.shutter)
             pygame.display.flip()
             self._shown = shown
+        if state.arrived != self._arrived:
+            self._arrived = state.arrived
+            self._find_other(state)
 
     def prepare(self, state: State) -> bool:
         """Do a step of what the next key may ask for, in a frame in which nothing happens.
@@ -312,9 +315,7 @@ class Screen:
         What is found is kept where it would be looked up; the picture of a key is the same without it.
         Returns whether there is more to do.
         """
-        if state.mode not in ("play", "paused") or state.held or state.grasp or state.glide:
-            return False
-        if len(state.scene.linkage.joints) > _MOST_JOINTS:
+        if not _has_leisure(state):
             return False
         picture, before = self._framing.last, self._prepared
         if picture is not before:
@@ -325,28 +326,40 @@ class Screen:
                 return True
         return False
 
+    def _find_other(self, state: State) -> None:
+        """Find the other closure of a mechanism that has just come on.
+
+        Some take a tenth of a second, all in one: at a cut that is not seen as it would be while it runs.
+        """
+        with suppress(Exception):  # of a fault the key tells, which meets it again
+            if _has_leisure(state):
+                ghost_of(state.scene)
+
     def _ahead(self, state: State, picture: Picture) -> Iterator[None]:
-        """Find what keys will ask for: the other closure, quantities to chart, polygons, help and lists."""
+        """Find what keys will ask for: the other closure's picture, quantities to chart, polygons, panels."""
         for _ in range(_REST):
             yield
-        other = ghost_of(state.scene)
-        yield
-        if other:
+        if other := known_ghost_of(state.scene):
             proved(other, 0.0)
             yield
             yield from picture.expecting(other)
         yield from state.scene.finding_telling()
-        for action in _AHEAD:
-            yield
-            yield from self._framing.preparing(carried(state, action))
         _ = picture.fit.subject.figure.polygon_boxes
         for name in names():
             yield
             title_of(name)
-        for opening in _OPENING:
-            over = kept(carried(state, opening))
+        for action in _AHEAD:
             yield
-            yield from self._printer.prepared(picture, over)
+            after = carried(state, action)
+            yield
+            over = overlay(after)
+            yield
+            place = yield from self._framing.preparing(after)
+            yield
+            yield from self._printer.prepared(picture, place, over)
+            if over.tool_bar:
+                yield
+                self._tools.prepare(place, picture.theme, over.tool_bar)
             if over.shelf:
                 yield from self._shelf.prepared(self.size, over.shelf)
 
@@ -682,3 +695,9 @@ class Screen:
     def charted(self, x: float, y: float) -> float | None:
         """Return the phase under a pixel of the chart; None beside it."""
         return None if self.over.hides_chart else self._framing.last.chart_phase_at(x, y)
+
+
+def _has_leisure(state: State) -> bool:
+    """Return whether what a key may ask for can be found meanwhile: nothing is led, no step takes long."""
+    leads = state.held or state.grasp or state.glide
+    return state.mode in ("play", "paused") and not leads and len(state.scene.linkage.joints) <= _MOST_JOINTS

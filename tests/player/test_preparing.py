@@ -12,7 +12,7 @@ from playing import SIZE, Player
 from linkanim.player import screen
 from linkanim.player.state import State, begin
 from linkanim.scenes import load
-from linkanim.scenes.editing import other_closure
+from linkanim.scenes.editing import ghost_of, other_closure
 from linkanim.scenes.scene import Scene
 
 LONG = 400
@@ -63,6 +63,66 @@ def test_what_keys_ask_for_is_there_after_a_while(rested: Player) -> None:
     rested.type("b")
     assert rested.state.scene is kept
     assert "other closure" not in scene.elsewhere  # or undo would hold on to a chain of them
+
+
+def test_the_other_closure_is_looked_for_as_a_mechanism_comes_on_and_never_while_it_runs(
+    here: object, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The search cannot be parted: while it runs, it would be seen as a hitch."""
+    del here
+    sought: list[str] = []
+
+    def seeking(scene: Scene) -> Scene | None:
+        sought.append(scene.name)
+        return ghost_of(scene)
+
+    monkeypatch.setattr(screen, "ghost_of", seeking)
+    with screen.opened(SIZE):
+        player = Player(begin(fresh("crank-rocker")))
+        player.tick()
+        assert sought == ["crank-rocker"]
+        quiet(player)
+        player.type("b")
+        quiet(player)
+        assert sought == ["crank-rocker"]
+        player.press(pygame.K_TAB)
+        assert sought == ["crank-rocker", player.state.scene.name]
+        player.window.close()
+
+
+def test_the_way_back_from_the_other_closure_needs_no_search() -> None:
+    scene = fresh("jansen")
+    other = other_closure(scene)
+    assert other_closure(other) is scene
+    assert other_closure(scene) is other
+    assert "other closure" not in scene.elsewhere
+
+
+def test_the_list_of_dimensions_is_drawn_in_its_own_layout_before_it_is_asked_for(rested: Player) -> None:
+    printer = rested.window.screen._printer
+    drawn = [
+        sheet
+        for panels in printer._expected
+        for (make, _), (_, sheet) in panels._kept.items()
+        if make.__name__ == "edit_list"
+    ]
+    rested.type("e")
+    assert printer._panels is not None
+    kept = {make.__name__: sheet for (make, _), (_, sheet) in printer._panels._kept.items()}
+    assert any(kept["edit_list"] is sheet for sheet in drawn)
+
+
+def test_polygons_come_once_room_is_made_for_them_and_then_stay(rested: Player) -> None:
+    framing = rested.window.screen._framing
+    rested.type("p")
+    assert framing.last.waits
+    quiet(rested, 40)
+    assert framing.last.has_polygons
+    for key in "lvc":
+        rested.type(key)
+        for _ in range(30):
+            assert framing.last.has_polygons, key
+            rested.tick()
 
 
 def test_the_help_is_drawn_before_it_is_asked_for(rested: Player) -> None:
