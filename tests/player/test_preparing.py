@@ -116,7 +116,8 @@ def test_polygons_come_once_room_is_made_for_them_and_then_stay(rested: Player) 
     framing = rested.window.screen._framing
     rested.type("p")
     assert framing.last.waits
-    quiet(rested, 40)
+    for _ in range(40):
+        rested.tick()
     assert framing.last.has_polygons
     for key in "lvc":
         rested.type(key)
