@@ -169,8 +169,9 @@ def _signals_raise() -> Iterator[None]:
         signal.signal(number, arrived)
     try:
         yield
-    except ImportError as error:
-        if ends:  # numpy takes what arrives while it is loaded for a failure of its own
+    except (ImportError, SystemError) as error:
+        # numpy takes what arrives while it is loaded for a failure of its own; closing a buffer loses it
+        if ends:
             raise ends[-1] from error
         raise
     finally:

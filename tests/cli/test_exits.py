@@ -328,3 +328,14 @@ def test_a_signal_while_a_class_is_made_ends_us_as_any_other(
 
     assert guarded(wrapped) == code
     assert "unexpected" not in capsys.readouterr().err
+
+
+def test_an_interrupt_that_foreign_code_loses_is_one(capsys: pytest.CaptureFixture[str]) -> None:
+    def work() -> None:
+        try:
+            signal.raise_signal(signal.SIGINT)
+        except KeyboardInterrupt as ending:
+            raise SystemError("error return without exception set") from ending
+
+    assert guarded(work) == 130
+    assert capsys.readouterr().err == "linkanim: interrupted\n"
