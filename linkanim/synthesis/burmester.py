@@ -400,9 +400,10 @@ class CentreCurve:
         return place
 
     def sampled(self, count: int) -> Complex:
-        """Return points of all circuits, `count` of each."""
+        """Return points of all circuits, `count` of each; none of a curve that has no circuit."""
         phases = _around(count)
-        return np.concatenate([self.at(circuit, phases) for circuit in range(len(self.circuits))])
+        circuits = [self.at(circuit, phases) for circuit in range(len(self.circuits))]
+        return np.concatenate([np.zeros(0, np.complex128), *circuits])
 
     def bars(self, count: int) -> Bars:
         """Return circle points with their centre points, at most `count` of each circuit, all finite."""
