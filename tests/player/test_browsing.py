@@ -185,7 +185,7 @@ def test_the_shelf_opens_at_once_and_reads_a_mechanism_every_second_frame(
 
     monkeypatch.setattr("linkanim.picture.shelf.load", reading)
     player.type("o")
-    for frame in range(4):
+    for frame in range(7):
         assert len(read) == (frame + 1) // 2  # what is read in one frame is drawn in the next
         player.tick()
     assert len({*read}) == 4
