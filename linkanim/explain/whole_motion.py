@@ -163,13 +163,19 @@ class _WholeMotion:
     def _limits_of_bars(self, bars: _Bars) -> None:
         """Add where coupler and output lie in one line: the cosine rule with the ground and the crank."""
         work, (pivot, pin, joint, fixed) = self.work, bars.joints
+        g, r = bars.ground, bars.crank
+        if g.value * r.value == 0:
+            work.say(
+                f"To the digits shown {marked(pin)} is as far from {marked(fixed)} at every angle of the "
+                f"crank: the bars that meet in {marked(joint)} close at all of them or at none."
+            )
+            return
         work.say(
             f"At a limit of the input the bars that meet in {marked(joint)} lie in one line, stretched or "
             f"folded, so that {marked(pin)} is as far from {marked(fixed)} as their lengths add up to, or "
             f"differ by. The cosine rule in the triangle {marked(pivot)}, {marked(pin)}, {marked(fixed)} "
             f"gives the angle ψ of the crank from the ground line:"
         )
-        g, r = bars.ground, bars.crank
         for name, reach, low in (
             ("stretched", bars.coupler + bars.output, True),
             ("folded", bars.coupler - bars.output, False),

@@ -69,6 +69,16 @@ def test_a_table_is_followed_by_a_slider(here: Path, capsys: pytest.CaptureFixtu
     assert np.abs(off).max() == pytest.approx(row["error"], abs=3e-4)
 
 
+def test_a_straight_line_some_of_whose_poses_have_no_centre_points_is_generated(
+    here: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    rows = "\n".join(f"{n},{np.pi * (1 + n / 20)}" for n in range(12))
+    (here / "line.csv").write_text(f"{rows}\n")
+    (row, *_) = printed_json(capsys, "function", "line.csv")
+    assert row["error"] < 3e-4
+    assert linkanim.load(here / row["file"]).linkage
+
+
 def test_the_table_of_functions(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main([*LOGARITHM, "--input", "60 deg", "--output", "-60 deg", "--count", "1"]) == 0
     titles, row = capsys.readouterr().out.splitlines()

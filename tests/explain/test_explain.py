@@ -544,6 +544,15 @@ def test_the_input_turns_back_at_derived_angles(lengths: tuple[int, ...]) -> Non
         assert min(abs(math.remainder(end - angle, 360)) for angle in angles) < 1e-3
 
 
+def test_pivots_in_one_place_to_the_digits_shown_ask_for_no_division_by_zero() -> None:
+    written = {"four-bar": {"ground": 1e-10, "crank": 50_000, "coupler": 85_000, "rocker": 80_000}}
+    found = solution(PoseRequest(scene_from(written, name="my", where="my.toml"), "phase", 3.3, 2.0))
+    assert not any(name.startswith(("k", "ψ")) for name in _lines_of(found, "How far the input goes"))
+    text = document(found, MARKDOWN)
+    assert "To the digits shown A is as far from O4 at every angle of the crank" in text
+    assert "So the crank turns fully." in text
+
+
 @pytest.mark.parametrize("offset", [0, 25, -25])
 def test_a_crank_longer_than_its_rod_turns_back_where_the_rod_stands_square(offset: int) -> None:
     written = {"slider-crank": {"crank": 80, "rod": 60, "offset": offset}}

@@ -270,7 +270,7 @@ OFFSETS = st.floats(-1e9, 1e9)
 TITLES = st.text(st.characters(codec="utf-8"), max_size=20).filter(lambda title: not control_in(title))
 
 
-@settings(max_examples=15)
+@settings(max_examples=40)
 @given(
     title=TITLES,
     lengths=st.lists(LENGTHS, min_size=4, max_size=4),
