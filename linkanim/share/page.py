@@ -9,7 +9,7 @@ import base64
 import hashlib
 import json
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import cache
 from html import escape
@@ -269,15 +269,16 @@ def document(shared: Shared) -> str:
     scene = shared.scene
     if shared.speed == 0:
         raise BadInput("--speed: at 0 nothing moves; give a speed such as 20 rpm, clockwise negative")
-    both = tuple(one for one in (scene, ghost_of(scene)) if one)
-    page = _whole(shared, both)
+    size = _size(scene)
+    both = [_drawn(shared, one, size) for one in (scene, ghost_of(scene)) if one]
+    page = _whole(shared, size, both)
     if len(both) > 1 and len(page.encode()) > LARGEST:
-        page = _whole(shared, both[:1])
+        page = _whole(shared, size, both[:1])
     if len(page.encode()) > LARGEST:
-        size = len(page.encode()) / 1000
+        kilobytes = len(page.encode()) / 1000
         raise BadInput(
-            f"{scene.name}: a page of it would take {size:.0f} kB, and {LARGEST / 1000:.0f} kB is the most; "
-            f"{_why_large(scene)}"
+            f"{scene.name}: a page of it would take {kilobytes:.0f} kB, "
+            f"and {LARGEST / 1000:.0f} kB is the most; {_why_large(scene)}"
         )
     return page
 
@@ -291,9 +292,17 @@ def _why_large(scene: Scene) -> str:
     return f"it has {count}: share a scene of fewer, or record it"
 
 
-def _whole(shared: Shared, closures: tuple[Scene, ...]) -> str:
-    scene, pairs, size = shared.scene, Pairs(), _size(shared.scene)
-    sides = [_Side(shared, one, size, pairs) for one in closures]
+def _drawn(shared: Shared, scene: Scene, size: tuple[int, int]) -> tuple[Picture, Picture]:
+    """Return the pictures of a closure, light and dark."""
+    look = Look(names=shared.names, hud=False, vectors=frozenset((VELOCITY, ACCELERATION)))
+    light, dark = (replace(look, theme=name) for name in shared.themes)
+    picture = Picture(scene, size, light, apart=True)
+    return picture, Picture(scene, size, dark, picture, apart=True)
+
+
+def _whole(shared: Shared, size: tuple[int, int], closures: Sequence[tuple[Picture, Picture]]) -> str:
+    scene, pairs = shared.scene, Pairs()
+    sides = [_Side(shared, *drawn, pairs) for drawn in closures]
     known: dict[str, str] = {}
     shapes = "\n".join(side.markup(n, known) for n, side in enumerate(sides))
     found = {
@@ -345,13 +354,10 @@ def _size(scene: Scene) -> tuple[int, int]:
 class _Side:
     """One of a scene's closures on a page."""
 
-    def __init__(self, shared: Shared, scene: Scene, size: tuple[int, int], pairs: Pairs) -> None:
-        look = Look(names=shared.names, hud=False, vectors=frozenset((VELOCITY, ACCELERATION)))
-        light, dark = (replace(look, theme=name) for name in shared.themes)
-        self._shared, self._scene, self._pairs = shared, scene, pairs
-        self._picture = Picture(scene, size, light, apart=True)
-        other = Picture(scene, size, dark, self._picture, apart=True)
-        self._dark, self._movables = other, tuple(Mobile(self._picture, other, pairs).movables())
+    def __init__(self, shared: Shared, light: Picture, dark: Picture, pairs: Pairs) -> None:
+        self._shared, self._scene, self._pairs = shared, light.scene, pairs
+        self._picture, self._dark = light, dark
+        self._movables = tuple(Mobile(light, dark, pairs).movables())
 
     def markup(self, number: int, known: dict[str, str]) -> str:
         """Return its groups, those that move numbered; hidden but for the first.

@@ -1,9 +1,9 @@
 """Random good scenes, each made into outputs within limits; also a process of its own, which a fault may end.
 
-    python tests/sweep/oracle.py SEED FIRST STEP COUNT FOLDER
+    python tests/sweep/oracle.py SEED FIRST STEP COUNT FOLDER [SECONDS]
 
 prints the number of each scene before it is made into anything, and a line for each fault. FOLDER is one
-that exists, to work in.
+that exists, to work in. SECONDS of processor time are what an output may take: 10 on a quiet machine.
 """
 
 from __future__ import annotations
@@ -21,6 +21,7 @@ from typing import Any
 if __name__ == "__main__":  # pytest finds the helpers in these folders by its own settings
     sys.path[:0] = [str(Path(__file__).parents[1] / folder) for folder in ("sweep", "tally", "player")]
     os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")  # its greeting would stand among the faults
+    os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
 
 from limits import Limits
 from outputs import MEGABYTES, OUTPUTS, SECONDS, Case, Output, is_good, written
@@ -63,6 +64,10 @@ SHARES = {
 ROTATION = tuple(name for name, share in SHARES.items() for _ in range(share))
 
 
+_PATIENCE = 3 * SECONDS
+"""Seconds in a test, whose machine may be slower than ours and is shared: it looks for what does not end."""
+
+
 start_nothing: Callable[..., Any] = fake_start([])
 """What a window starts here for a process: a recording has ended well, a search for layers has failed."""
 
@@ -90,14 +95,16 @@ def output_of(number: int) -> str:
     return ROTATION[number % len(ROTATION)]
 
 
-def faults(seed: int, number: int, folder: Path, output: str | None = None) -> list[str]:
+def faults(
+    seed: int, number: int, folder: Path, output: str | None = None, seconds: float = _PATIENCE
+) -> list[str]:
     """Return a line for every output that could not be made of a scene, with its seed and number.
 
     Each scene is checked, solved and swept, and made into the one output that its number chooses, unless
     that is named.
     """
     words, document = scene(seed, number)
-    limits = Limits(SECONDS, MEGABYTES)
+    limits = Limits(seconds, MEGABYTES)
     case = written(document, folder / str(number), Random(f"{seed}:{number}"))
     reasons = {name: fault(OUTPUTS[name], case, limits) for name in (*ALWAYS, output or output_of(number))}
     case.clear()
@@ -116,7 +123,7 @@ def fault(output: Output, case: Case, limits: Limits) -> str | None:
 
 def faults_apart(seed: int, first: int, step: int, most: int, folder: Path) -> list[str]:
     """Return the faults of so many good scenes, made in a process of their own, and how that ended if ill."""
-    words = (str(word) for word in (seed, first, step, most, folder))
+    words = (str(word) for word in (seed, first, step, most, folder, _PATIENCE))
     done = subprocess.run(
         [sys.executable, "-P", __file__, *words],
         env={**child.env(), **child.ONE_CORE},
@@ -132,16 +139,16 @@ def faults_apart(seed: int, first: int, step: int, most: int, folder: Path) -> l
     return found
 
 
-def main(seed: int, first: int, step: int, most: int, folder: Path) -> None:
+def main(seed: int, first: int, step: int, most: int, folder: Path, seconds: float) -> None:
     """Print the number of each of so many good scenes, and its faults."""
     warnings.simplefilter("error")
     for number in islice(good_scenes(seed, first, step), most):
         print(number, flush=True)
-        for line in faults(seed, number, folder):
+        for line in faults(seed, number, folder, seconds=seconds):
             print(" ".join(line.split()), flush=True)
 
 
 if __name__ == "__main__":
     beside._start = start_nothing
     seed, first, step, most = map(int, sys.argv[1:5])
-    main(seed, first, step, most, Path(sys.argv[5]))
+    main(seed, first, step, most, Path(sys.argv[5]), float(sys.argv[6]) if sys.argv[6:] else SECONDS)
