@@ -299,6 +299,9 @@ _MOST_AT_ONCE = 1 << 28
 _PIECES = 8
 """Where there are more, the pieces are so many times smaller: they take a quarter of the memory."""
 
+_MOST_PAIRS = 1 << 24
+"""So many pairs of layers are looked at together: all of four thousand layers."""
+
 
 class Outlines(Sequence[Loop]):
     """Closed loops, one after the other in one array: they are placed together."""
@@ -535,11 +538,12 @@ def _levels(boxes: _Boxes, ends: Sequence[int]) -> tuple[Ints, list[int]]:
 
     Those of a part, up to its end, are above all of the part before. Also how many each part has.
     """
-    left, top, right, end = (side[:, None] for side in boxes)
-    meet = (left < boxes.right) & (right > boxes.left) & (top < boxes.end) & (end > boxes.top)
-    taken: list[int] = []
+    count, taken = len(boxes.left), list[int]()
     levels, counts = [], []
-    bits, wide = np.packbits(meet, axis=1, bitorder="little").tobytes(), -(-len(meet) // 8)
+    # of tens of thousands of layers a byte for each pair would take too much memory
+    some = max(_MOST_PAIRS // count, 1)
+    bits = b"".join(_meeting(boxes, slice(n, n + some)) for n in range(0, count, some))
+    wide = -(-count // 8)
     for begin, after in pairwise(ends):
         lowest = len(taken)
         for n in range(begin, after):
@@ -553,6 +557,13 @@ def _levels(boxes: _Boxes, ends: Sequence[int]) -> tuple[Ints, list[int]]:
             levels.append(level)
         counts.append(len(taken) - lowest)
     return np.array(levels), counts
+
+
+def _meeting(boxes: _Boxes, some: slice) -> bytes:
+    """Return for some layers, a row of bits for each, which of all layers they may touch."""
+    left, top, right, end = (side[some, None] for side in boxes)
+    meet = (left < boxes.right) & (right > boxes.left) & (top < boxes.end) & (end > boxes.top)
+    return np.packbits(meet, axis=1, bitorder="little").tobytes()
 
 
 def _inked(runs: Runs, within: Room, drawn: tuple[Words, list[float]], begins: Ints) -> _Pixels:

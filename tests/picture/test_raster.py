@@ -248,6 +248,7 @@ def test_parts_worked_out_a_few_layers_at_a_time_are_the_same_bytes(
         cover.put(whole)
     pieces = filled([], background=90, alpha=alpha)
     monkeypatch.setattr(raster, "_MOST_AT_ONCE", most * 64 * 64)
+    monkeypatch.setattr(raster, "_MOST_PAIRS", 10 * most)
     for covers_ in in_turn(pieces, parts):
         for cover in covers_:
             cover.put(pieces)
@@ -266,6 +267,17 @@ def test_many_layers_take_no_more_memory_than_some(monkeypatch: pytest.MonkeyPat
         peaks.append(tracemalloc.get_traced_memory()[1])
         tracemalloc.stop()
     assert peaks[1] < 2 * peaks[0]
+
+
+@pytest.mark.slow
+def test_many_small_layers_take_no_memory_for_each_pair_of_them(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(raster, "_MOST_PAIRS", 1 << 18)
+    layers = [Layer(WHITE, [_rect(n % 60, n % 59, n % 60 + 2.5, n % 59 + 2.5)]) for n in range(3000)]
+    tracemalloc.start()
+    paint(filled([]), layers)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak < len(layers) ** 2
 
 
 @pytest.mark.parametrize("right", [0, 1, 20, 33, 64])

@@ -381,7 +381,9 @@ def described(case: Case) -> None:
 def told(path: Path, file: Path) -> None:
     """Hold a text to one paragraph of plain words; the names that the scene's file gives may be any."""
     text = path.read_text(encoding="utf-8")
-    for name in sorted((joint.name for joint in load(file).linkage.joints), key=len, reverse=True):
+    linkage = load(file).linkage
+    names = [*(joint.name for joint in linkage.joints), *(body.name for body in linkage.bodies)]
+    for name in sorted(names, key=len, reverse=True):
         text = text.replace(name, "J")
     assert text.endswith("\n")
     assert not set(map(category, text[:-1])) & {"Cc", "Cs", "Zl", "Zp"}, text
