@@ -11,7 +11,7 @@ from linkanim.bench import paths
 pytest.importorskip("scipy")
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_problems_are_measured_beside_what_is_published_and_searched(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(paths, "SHAPES", {"square": paths.SHAPES["square"]})
     rows = paths.run(0.5, 2)
