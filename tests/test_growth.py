@@ -34,6 +34,14 @@ def named(scene: Scene) -> Picture:
     return Picture(scene, (1280, 720), Look(names=2))
 
 
+def arrowed(scene: Scene) -> Picture:
+    return Picture(scene, (1280, 720), Look(vectors=frozenset({"v", "a"})), moment=0.7)
+
+
+def drawn(picture: Picture) -> object:
+    return [*picture.groups(picture.scene.pose(0.7, 2))]
+
+
 def calls(work: Callable[[], object]) -> int:
     """Count the calls of functions while something is done."""
     count = 0
@@ -61,6 +69,12 @@ def test_what_is_said_of_a_linkage_takes_as_many_more_calls_as_it_has_more_joint
 @pytest.mark.slow
 def test_placing_names_takes_as_many_more_calls_as_there_are_more_joints() -> None:
     few, many = (calls(partial(named, scene_of(series(dyads)))) for dyads in (FEW // 2, MANY // 2))
+    assert many <= LINEAR * few
+
+
+@pytest.mark.slow
+def test_a_frame_with_names_at_arrows_takes_as_many_more_calls_as_there_are_more_joints() -> None:
+    few, many = (calls(partial(drawn, arrowed(scene_of(series(dyads))))) for dyads in (3 * FEW, 3 * MANY))
     assert many <= LINEAR * few
 
 

@@ -15,13 +15,13 @@ From the ground up; a module imports from those before it only:
     fittings      sliders and guides, springs, dampers, the ground
     bodies        bars, plates, pins, centres of mass, the causal chain
     gears         wheels, teeth, belts
+    placing       one place for each label
     motion_marks  traces, the input's arrow, velocity and acceleration arrows
     ink           traces thickened and coloured by speed
     dimensions    symbols of dimensions, and dimension lines
     quantities    quantities over one true period, and axes
     chart         charts, and the chart beside the scene
     construction  the construction of a synthesis
-    placing       one place for each label
     polygons      the velocity and the acceleration polygon
     centres       instant centres and centrodes
     constructed  which constructions a scene has, and their steps

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from functools import cached_property
 from itertools import combinations, pairwise
-from math import inf
 
 import numpy as np
 
@@ -16,6 +15,7 @@ from linkanim.mechanics.motion import Pose
 from linkanim.picture.chart import runs_of
 from linkanim.picture.figure import DrawSetting, Figure
 from linkanim.picture.items import Caption, Halo
+from linkanim.picture.placing import about, crossed, least_met, met, overlap, rect_rows
 from linkanim.picture.raster import Colour, Layer, Loop
 from linkanim.picture.shapes import Places, arrows, dashes, segments, stroke, unit
 from linkanim.picture.text import subscripted
@@ -145,26 +145,23 @@ class Centres:
 
     def captions(self, pose: Pose, places: Places, taken: Iterable[Rect]) -> Iterator[Caption]:
         """Yield the names of the centres that are no joints, off what is `taken`, each other and bars."""
-        bars, solid, words = self._bars(places), [*self._solid(places)], list(taken)
         theme, size = self.setting.theme, self.setting.layout.small_size
         halo = Halo(theme.background, max(1.4 * self.setting.gauge.line, 1.5))
         named = [seen for seen in self.seen(pose) if not seen.jointed]
-        marks = [self._mark(seen) for seen in named]
-        for n, seen in enumerate(named):
-            wide = self.setting.type.width(seen.label, size, strong=True)
-            # a name may touch its own cross, not its own arrow
-            busy = [*words, *marks[:n], *marks[n + (not seen.direction) :]]
-            best, least = None, (inf, inf)
-            for place in self._around(seen, wide):
-                rect = self._about(place, wide, size)
-                met = _meeting(rect, busy), _crossing(rect, bars) + _meeting(rect, solid)
-                if met < least:
-                    best, least = rect, met
-                if not any(met):
-                    break
-            assert best
-            words.append(best)
-            yield Caption(seen.label, (best.x, best.y), size, theme.warning, strong=True, halo=halo)
+        if not named:
+            return
+        wide = [self.setting.type.width(seen.label, size, strong=True) for seen in named]
+        middles = np.array([self._around(*each) for each in zip(named, wide, strict=True)])
+        room = self.setting.layout.reach.inset(_MARGIN * self.setting.layout.unit)
+        rects = about(middles, np.array(wide)[:, None], size, room)
+        marks = rect_rows(map(self._mark, named))
+        # a name may touch its own cross, not its own arrow
+        own = np.array([not seen.direction for seen in named])[:, None] & overlap(rects, marks[..., None])
+        busy = met(rects, np.column_stack((rect_rows(taken), marks))) - own
+        solid = crossed(rects, self._bars(places)) + met(rects, rect_rows(self._solid(places)))
+        for n, which in enumerate(least_met(rects, busy, solid)):
+            x, y = rects[:2, n, which].tolist()
+            yield Caption(named[n].label, (x, y), size, theme.warning, strong=True, halo=halo)
 
     def crosses(self, pose: Pose) -> tuple[tuple[complex, complex], ...]:
         """Return the lines of the crosses of a pose, from end to end."""
@@ -193,26 +190,23 @@ class Centres:
         bodies = self.setting.figure.bodies
         return [(places[one], places[other]) for body in bodies for one, other in pairwise(body.joints)]
 
-    def _around(self, seen: Seen, wide: float) -> Iterator[complex]:
-        """Yield places for the middle of a name: round a cross, or beside and behind an arrow."""
+    def _around(self, seen: Seen, wide: float) -> Loop:
+        """Return 24 places for the middle of a name: round a cross, or beside and behind an arrow.
+
+        Of those about an arrow the last six are one.
+        """
         size, off = self.setting.layout.small_size, 0.8 * self.setting.gauge.bar
         if not seen.direction:
-            for away in (0.0, 0.7 * size, 1.5 * size):
-                for way in _AROUND:
-                    across = way.real * (off + away + wide / 2) + 1j * way.imag * (off + away + size / 2)
-                    yield seen.at + across
-            return
+            away = np.array([[0.0], [0.7 * size], [1.5 * size]])
+            x, y = (off + away + side / 2 for side in (wide, size))
+            return (seen.at + (_AROUND.real * x + 1j * (_AROUND.imag * y))).ravel()
+        beside = list[complex]()
         for back in (0.5 * _ARROW, 1.1 * _ARROW, 1.6 * _ARROW):
             foot = seen.at - back * size * seen.direction
             for side in (1j * seen.direction, -1j * seen.direction):
                 aside = 0.5 * (abs(side.real) * wide + abs(side.imag) * size) + 0.5 * size
-                yield foot + aside * side
-
-    def _about(self, middle: complex, wide: float, high: float) -> Rect:
-        """Return a name's rectangle about a place, in the picture."""
-        room = self.setting.layout.reach.inset(_MARGIN * self.setting.layout.unit)
-        inside = room.nearest(middle, complex(wide, high) / 2)
-        return Rect(inside.real - wide / 2, inside.imag - high / 2, wide, high)
+                beside.append(foot + aside * side)
+        return np.array([*beside, *[beside[-1]] * (3 * len(_AROUND) - len(beside))])
 
     def seen(self, pose: Pose) -> Iterator[Seen]:
         """Yield the centres as they show: those in the picture, then the ways to the others from a pin."""
@@ -288,16 +282,6 @@ class Centres:
         width = 1.3 * self.setting.gauge.line
         runs = clipped(path, self.setting.layout.reach)
         return Layer(colour, [loop for run in runs for loop in stroke(_thinned(run), width)])
-
-
-def _meeting(rect: Rect, others: Iterable[Rect]) -> int:
-    """Return how many rectangles another one meets."""
-    return sum(rect.meets(other) for other in others)
-
-
-def _crossing(rect: Rect, bars: Iterable[tuple[complex, complex]]) -> int:
-    """Return how many bars run through a rectangle."""
-    return sum(rect.crossed(*ends) is not None for ends in bars)
 
 
 def _thinned(run: Loop) -> Loop:

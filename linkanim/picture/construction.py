@@ -10,6 +10,7 @@ import numpy as np
 
 from linkanim.picture.chart import Pen, line_layer
 from linkanim.picture.items import Caption, Halo, Item
+from linkanim.picture.placing import holding, least_met, met, rect_rows
 from linkanim.picture.raster import Colour, Layer, Loop
 from linkanim.picture.shapes import arrows, disc, segments
 from linkanim.picture.theme import mixed
@@ -160,6 +161,7 @@ def _names(marks: Sequence[Mark], pixels: Callable[[Loop], Loop], area: Rect, pe
         if not mark.label:
             continue
         at, wide, high = pixels(mark.points), pen.type.width(mark.label, pen.small), 1.2 * pen.small
+        taken = rect_rows(placed)
         if mark.shape == "word":
             tries = [_about(complex(at[0]), wide, high)]
         elif mark.shape == "thin" and len(at) == 2:
@@ -175,17 +177,19 @@ def _names(marks: Sequence[Mark], pixels: Callable[[Loop], Loop], area: Rect, pe
         else:
             foot = complex(at[len(at) // 2 if mark.shape == "arc" else 0])
             tries = [_about(foot + way, wide, high) for way in _ways(_FARTHER, pen)]
-            if all(_meeting(rect, placed) for rect in tries if _within(rect, area)):
+            if met(rect_rows(rect for rect in tries if _within(rect, area)), taken).all():
                 # the room about it is taken: a thin line leads to a name that stands off
-                away = [_about(foot + way, wide, high) for way in _ways(_FAR_OFF, pen)]
-                free = [rect for rect in away if _within(rect, area) and not _meeting(rect, placed)]
-                if free:
-                    tries = free[:1]
+                away = (_about(foot + way, wide, high) for way in _ways(_FAR_OFF, pen))
+                far = [rect for rect in away if _within(rect, area)]
+                free = np.flatnonzero(met(rect_rows(far), taken) == 0)
+                if free.size:
+                    tries = [far[free[0]]]
                     colour = mixed(_tone(mark, pen), pen.theme.background, 0.5)
-                    led = np.array([foot, _nearest(free[0], foot)])
+                    led = np.array([foot, _nearest(tries[0], foot)])
                     yield Layer(colour, segments(led[:1], led[1:], _WIDTHS["thin"] * pen.line))
         inside = [rect for rect in tries if _within(rect, area)] or tries
-        best = min(inside, key=lambda rect: (_meeting(rect, placed), _covering(rect, busy)))
+        rects = rect_rows(inside)[:, None]
+        best = inside[least_met(rects, met(rects, taken), holding(rects, busy))[0]]
         placed.append(best)
         halo = Halo(pen.theme.background, 1.5 * pen.line)
         yield Caption(mark.label, (best.x, best.y), pen.small, _tone(mark, pen), halo=halo)
@@ -208,12 +212,3 @@ def _about(at: complex, wide: float, high: float) -> Rect:
 
 def _within(rect: Rect, area: Rect) -> bool:
     return area.holds(rect.x, rect.y) and area.holds(rect.right, rect.bottom)
-
-
-def _meeting(rect: Rect, placed: Sequence[Rect]) -> int:
-    return sum(rect.meets(other) for other in placed)
-
-
-def _covering(rect: Rect, busy: Loop) -> int:
-    across = (busy.real >= rect.x) & (busy.real <= rect.right)
-    return int((across & (busy.imag >= rect.y) & (busy.imag <= rect.bottom)).sum())

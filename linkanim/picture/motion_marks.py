@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property, lru_cache
-from itertools import accumulate, pairwise, product
-from math import ceil, floor, inf, pi, tau
+from itertools import accumulate, pairwise
+from math import ceil, floor, pi, tau
 from typing import Any, Literal, TypeVar
 
 import numpy as np
@@ -342,6 +342,8 @@ largest value counts for: less is all but rest."""
 ORDER = {"v": 1, "a": 2}
 _ASIDE = complex(directions(1.1))
 """The way to a name beside an arrow's head, where there is none beyond it."""
+_OFF_HEAD = 0.4 + np.array([0.0, 1.0, 2.0])
+"""How far a name may be off its arrow's head, in heights of the text."""
 
 
 class SeenArrow(NamedTuple):
@@ -425,34 +427,37 @@ def arrow_names(
     Each is off the names before it, too, and where it can be off `bars`; an arrow shorter than its name is
     high has none. Names stay in the picture where their arrows leave it.
     """
-    (type_, size), taken, found = letters, list(busy), list[list[Caption]]()
-    for kind in kinds:
-        halo, names = Halo(kind.halo, max(1.2 * kind.gauge.line, 1.5)), list[Caption]()
-        for arrow in kind.seen(pose, view, joints):
-            if abs(arrow.reach) < size:
-                continue
-            wide, way = type_.width(arrow.symbol, size, strong=True), unit(arrow.reach)
-            best, least = None, (inf, inf)
-            for turn, further in product((1, _ASIDE, _ASIDE.conjugate()), (0.0, 1.0, 2.0)):
-                off = way * turn
-                away = abs(off.real) * wide / 2 + abs(off.imag) * size / 2 + (0.4 + further) * size
-                middle = inside.nearest(arrow.foot + arrow.reach + away * off, complex(wide, size) / 2)
-                place = Rect(middle.real - wide / 2, middle.imag - size / 2, wide, size)
-                over = place.inset(-kind.gauge.bar)
-                met = (
-                    sum(place.meets(other) for other in taken),
-                    sum(over.crossed(*ends) is not None for ends in bars),
-                )
-                if met < least:
-                    best, least = place, met
-                if not any(met):
-                    break
-            assert best
-            taken.append(best)
-            at = (best.middle.real, best.y)
-            names.append(Caption(arrow.symbol, at, size, kind.colour, "centre", strong=True, halo=halo))
-        found.append(names)
+    from linkanim.picture.placing import about, crossed, least_met, met, rect_rows, widened
+
+    type_, size = letters
+    seen = [
+        (n, arrow)
+        for n, kind in enumerate(kinds)
+        for arrow in kind.seen(pose, view, joints)
+        if abs(arrow.reach) >= size
+    ]
+    found: list[list[Caption]] = [[] for _ in kinds]
+    if not seen:
+        return found
+    wide = np.array([type_.width(arrow.symbol, size, strong=True) for _, arrow in seen])[:, None]
+    middles = _beyond_heads([arrow for _, arrow in seen], wide, size)
+    rects = about(middles, wide, size, inside)
+    in_bars = crossed(widened(rects, kinds[0].gauge.bar), bars)
+    places = least_met(rects, met(rects, rect_rows(busy)), in_bars)
+    for (n, arrow), (x, y, width, _) in zip(seen, rects[:, range(len(seen)), places].T.tolist(), strict=True):
+        halo, at = Halo(kinds[n].halo, max(1.2 * kinds[n].gauge.line, 1.5)), (x + width / 2, y)
+        name = Caption(arrow.symbol, at, size, kinds[n].colour, "centre", strong=True, halo=halo)
+        found[n].append(name)
     return found
+
+
+def _beyond_heads(seen: Sequence[SeenArrow], wide: NDArray[np.float64], high: float) -> Loop:
+    """Return where the middles of n names so wide (n, 1) may stand (n, k): beyond their arrows' heads."""
+    turns = (1, _ASIDE, _ASIDE.conjugate())
+    ways = np.array([[[unit(arrow.reach) * turn] for turn in turns] for arrow in seen])
+    away = np.abs(ways.real) * wide[..., None] / 2 + np.abs(ways.imag) * high / 2 + _OFF_HEAD * high
+    heads = np.array([arrow.foot + arrow.reach for arrow in seen])[:, None, None]
+    return np.asarray((heads + away * ways).reshape(len(seen), -1))
 
 
 def _values(pose: Pose, kind: Kind, joints: tuple[str, ...]) -> list[tuple[str, Any, Any]]:

@@ -8,7 +8,7 @@ of one moment, such as a chart or a figure, a label stands there or not at all.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import cached_property
 
@@ -503,6 +503,88 @@ def placed_among(
         if not forbidden[which]:
             taken[count], sizes[:, count] = label.places[0, which], label.size
             count += 1
+    return found
+
+
+# Names of one pose that have to stand somewhere: where they meet least.
+
+
+def rect_rows(rects: Iterable[Rect]) -> _Floats:
+    """Return rectangles as rows (4, m): their left and top edges, widths and heights."""
+    return np.array([*rects], np.float64).reshape(-1, 4).T
+
+
+def about(middles: Loop, wide: ArrayLike, high: float, room: Rect) -> _Floats:
+    """Return rectangles (4, ...) of a size about these middles, moved into a room as little as can be."""
+    found = np.empty((4, *middles.shape))
+    found[2], found[3] = wide, high
+    for n, (place, low, end) in enumerate(
+        ((middles.real, room.x, room.right), (middles.imag, room.y, room.bottom))
+    ):
+        half = found[2 + n] / 2
+        least = low + half
+        found[n] = np.minimum(np.maximum(place, least), np.maximum(end - half, least)) - half
+    return found
+
+
+def widened(rects: _Floats, by: float) -> _Floats:
+    """Return rectangles (4, ...) with a border of that width round each."""
+    x, y, wide, high = rects
+    return np.array((x - by, y - by, wide + 2 * by, high + 2 * by))
+
+
+def overlap(rects: _Floats, others: _Floats) -> _Bools:
+    """Return whether rectangles (4, ...) meet others (4, ...) in the same places: `Rect.meets`."""
+    (left, top, wide, high), (x, y, width, height) = rects, others
+    apart = (x >= left + wide) | (left >= x + width) | (y >= top + high) | (top >= y + height)
+    return np.asarray(~apart)
+
+
+def met(rects: _Floats, others: _Floats) -> NDArray[np.int64]:
+    """Return how many of others (4, m) each of some rectangles (4, ...) meets."""
+    return np.asarray(overlap(rects[..., None], others).sum(axis=-1))
+
+
+def crossed(rects: _Floats, lines: Sequence[tuple[complex, complex]]) -> NDArray[np.int64]:
+    """Return how many of some lines, from end to end, run through each rectangle (4, ...): `Rect.crossed`."""
+    if not lines:
+        return np.zeros(rects.shape[1:], np.int64)
+    one, other = np.array(lines).T
+    way, (x, y, wide, high) = other - one, rects[..., None]
+    first, last, beside = np.zeros(()), np.ones(()), np.zeros((), np.bool_)
+    with np.errstate(all="ignore"):
+        for step, gap in (
+            (-way.real, one.real - x),
+            (way.real, x + wide - one.real),
+            (-way.imag, one.imag - y),
+            (way.imag, y + high - one.imag),
+        ):
+            share = gap / step
+            beside = beside | (step == 0) & (gap < 0)
+            first = np.where(step < 0, np.fmax(first, share), first)
+            last = np.where(step > 0, np.fmin(last, share), last)
+    return np.asarray(((first < last) & ~beside).sum(axis=-1))
+
+
+def holding(rects: _Floats, points: Loop) -> NDArray[np.int64]:
+    """Return how many points (m,) lie in each of some rectangles (4, ...)."""
+    x, y, wide, high = rects[..., None]
+    held = (points.real >= x) & (points.real <= x + wide) & (points.imag >= y) & (points.imag <= y + high)
+    return np.asarray(held.sum(axis=-1))
+
+
+def least_met(rects: _Floats, meets: NDArray[np.int64], crosses: NDArray[np.int64]) -> list[int]:
+    """Return which of its k places (4, n, k) each of n names takes: the first of those that meet least.
+
+    What it `meets` at each place (n, k) counts first, and the names before it with that; of places that meet
+    as much, that which crosses less is better.
+    """
+    # in one number, as one crossed never counts as much as one met
+    whole = 1 + int(crosses.max(initial=0))
+    counts, found = whole * meets + crosses, list[int]()
+    for n in range(len(counts)):
+        found.append(int(counts[n].argmin()))
+        counts[n + 1 :] += whole * overlap(rects[:, n + 1 :], rects[:, n, found[n]])
     return found
 
 

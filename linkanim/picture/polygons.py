@@ -14,7 +14,7 @@ from linkanim.mechanics.polygons import Order, Side, Sort
 from linkanim.picture.chart import Pen
 from linkanim.picture.figure import Figure
 from linkanim.picture.items import Caption, Group, Halo
-from linkanim.picture.placing import LabelPlaces, placed_among
+from linkanim.picture.placing import LabelPlaces, crossed, met, placed_among, rect_rows
 from linkanim.picture.quantities import round_step
 from linkanim.picture.raster import Colour, Layer
 from linkanim.picture.shapes import arrows, disc, segments, unit
@@ -306,13 +306,10 @@ class Polygon:
         corners = [Rect(x, y, wide, high) for y in (low, top) for x in (rect.right - wide, rect.x)]
         ends = [(arrow.foot, arrow.foot + arrow.reach) for arrow in found]
         busy = [line.around(self.pen.type) for line in named] + [*self._words]
-
-        def covered(corner: Rect) -> int:
-            crossed = sum(corner.crossed(*pair) is not None for pair in ends)
-            return crossed + sum(corner.meets(other) for other in busy)
-
-        corner = min(corners[::2] if self.aside else corners, key=covered)
-        return corner, covered(corner) == 0
+        corners = corners[::2] if self.aside else corners
+        rects = rect_rows(corners)
+        covered = crossed(rects, ends) + met(rects, rect_rows(busy))
+        return corners[covered.argmin()], not covered.all()
 
     def _listed(self, rows: list[tuple[str, Colour]], corner: Rect) -> Iterator[Caption]:
         small = self.pen.small

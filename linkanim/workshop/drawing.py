@@ -158,9 +158,7 @@ class Drawn:
             free = (
                 box
                 for box in boxes
-                if room.holds(box.x, box.y)
-                and room.holds(box.right, box.bottom)
-                and free_of(box)
+                if room.holds(box.x, box.y) and room.holds(box.right, box.bottom) and free_of(box)
             )
             spot = next(free, boxes[0])
             edges[:, n] = spot.x, spot.y, spot.right, spot.bottom

@@ -24,9 +24,17 @@ from linkanim.picture.placing import (
     Placed,
     Solid,
     Solids,
+    about,
+    crossed,
+    holding,
+    least_met,
+    met,
+    overlap,
     place,
     placed_among,
+    rect_rows,
     touching,
+    widened,
 )
 from linkanim.picture.shapes import hull
 from linkanim.picture.view import Rect
@@ -339,3 +347,64 @@ def test_labels_of_one_moment_stand_where_they_would_as_long_as_nothing_moves(se
     clutter.learn(labels)
     alone = [place([label], clutter)[0].shown.all() for label in labels]
     assert [*map(clutter.has_place, labels)] == alone
+
+
+COARSE = (0.0, 10.0, 20.0, 30.0)
+"""Few values, so that edges often lie on each other, and lines on edges, or have no length."""
+
+
+def _some_rects(chance: np.random.Generator, count: int) -> list[Rect]:
+    corners = chance.choice(COARSE, (count, 2)) + chance.choice([0.0, 0.1], (count, 1))
+    sizes = chance.choice([10.0, 20.0, 0.0], (count, 2))
+    found = [Rect(*row) for row in np.hstack((corners, sizes)).tolist()]
+    found[0] = found[0]._replace(x=float("nan"))
+    return found
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_many_rectangles_at_once_meet_and_cross_what_each_does(seed: int) -> None:
+    chance = np.random.default_rng(seed)
+    rects, others = _some_rects(chance, 40), _some_rects(chance, 30)
+    ends = (chance.choice(COARSE, (60, 2)) + 1j * chance.choice([*COARSE, 3.7], (60, 2))).tolist()
+    lines = [(one, other) for one, other in ends]
+    rows = rect_rows(rects)
+    meets = [[one.meets(other) for other in others] for one in rects]
+    assert overlap(rows[..., None], rect_rows(others)).tolist() == meets
+    assert met(rows, rect_rows(others)).tolist() == [sum(row) for row in meets]
+    crossing = [sum(one.crossed(*line) is not None for line in lines) for one in rects]
+    assert crossed(rows, lines).tolist() == crossing
+    assert 0 < sum(crossing) < len(rects) * len(lines)
+    held = [sum(one.holds(begin.real, begin.imag) for begin, _ in lines) for one in rects]
+    assert holding(rows, np.array(lines)[:, 0]).tolist() == held
+    assert widened(rows, 2.5).T.tolist()[1:] == [[*one.inset(-2.5)] for one in rects[1:]]
+
+
+@pytest.mark.parametrize("room", [Rect(0, 0, 300, 200), Rect(5, 5, 20, 4)])
+def test_rectangles_are_moved_into_a_room_as_each_is_even_if_they_have_none(room: Rect) -> None:
+    chance = np.random.default_rng(1)
+    middles = np.array(chance.uniform(-40, 340, (6, 9)) * (1 + 1j), np.complex128)
+    wide = chance.uniform(5, 40, (6, 1))
+    expected = []
+    for row, broad in zip(middles.tolist(), wide[:, 0].tolist(), strict=True):
+        moved = [room.nearest(at, complex(broad, 12) / 2) for at in row]
+        expected.append([[at.real - broad / 2, at.imag - 12 / 2, broad, 12.0] for at in moved])
+    assert np.moveaxis(about(middles, wide, 12, room), 0, -1).tolist() == expected
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_each_name_takes_the_first_place_that_meets_least_and_of_these_crosses_least(seed: int) -> None:
+    chance = np.random.default_rng(seed)
+    places = [_some_rects(chance, 6) for _ in range(12)]
+    busy = _some_rects(chance, 8)
+    bars = [(complex(*one), complex(*other)) for one, other in chance.choice(COARSE, (9, 2, 2)).tolist()]
+    rects = np.stack([rect_rows(row) for row in places], axis=1)
+    expected, taken = [], list(busy)
+    for row in places:
+        costs = [
+            (sum(one.meets(other) for other in taken), sum(one.crossed(*bar) is not None for bar in bars))
+            for one in row
+        ]
+        expected.append(costs.index(min(costs)))
+        taken.append(row[expected[-1]])
+    assert least_met(rects, met(rects, rect_rows(busy)), crossed(rects, bars)) == expected
+    assert len(set(expected)) > 2

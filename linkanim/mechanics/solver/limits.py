@@ -291,9 +291,7 @@ def _start(path: InputPath, place: Stationary) -> Sum:
     return Sum(0.0) if place.amplitude else path.place(Sum(0.0))
 
 
-def _samplers(
-    assembly: Assembly, name: str
-) -> Callable[[Fitted], tuple[Callable[[Decimal], Sample], float]]:
+def _samplers(assembly: Assembly, name: str) -> Callable[[Fitted], tuple[Callable[[Decimal], Sample], float]]:
     """Return what gives, of a zero, the margin and D by the way to it, and how far that way may go."""
     path = assembly.path
 
