@@ -202,8 +202,8 @@ def _draft(entries: Section, key: str) -> tuple[Key, str]:
 
 _QUICK = frozenset({"pen_to", "zoom", "pan", "scrub", "step", "speed"})
 """What of a frame may be much: the mouse tells of more than one move while the window waits."""
-_MOST_DRAFTS = 10
-"""A tape that begins on a sheet has one."""
+_MOST = {"draft": 10, "play": 1_000}
+"""Of a whole tape: one that begins on a sheet has one draft."""
 _LATER = ("kept", "drafts")
 """What older tapes lack."""
 _FLAG = TapeValue(Section.flag)
@@ -266,15 +266,16 @@ def _actions(top: Section, frames: int) -> tuple[tuple[int, Action], ...]:
 
 
 def _refuse_crowded(top: Section, actions: list[tuple[int, Action]]) -> None:
-    """Refuse more that takes its time at one frame, or more drafts, than a window ever does."""
-    drafts = sum(action.name == "draft" for _, action in actions)
-    if drafts > _MOST_DRAFTS:
-        raise top.error("actions", f"have {drafts:,} drafts, more than {_MOST_DRAFTS}; record the tape again")
+    """Refuse more that takes its time at one frame, or more drafts or games, than a window ever has."""
     crowds = Counter(frame for frame, action in actions if action.name not in _QUICK)
     for frame, count in crowds.most_common(1):
         if count > MOST_AT_ONCE:
             many = f"are {count:,} at frame {frame}, more than {MOST_AT_ONCE}"
             raise top.error("actions", f"{many}; record the tape again")
+    names = Counter(action.name for _, action in actions)
+    for name, what in (("draft", "drafts"), ("play", "beginnings of a game")):
+        if (count := names[name]) > (most := _MOST[name]):
+            raise top.error("actions", f"have {count:,} {what}, more than {most:,}; record the tape again")
 
 
 def _action(entry: Any) -> tuple[int, Action]:

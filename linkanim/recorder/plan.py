@@ -136,7 +136,7 @@ def refuse_size(size: tuple[int, int], *, painted: bool = True) -> None:
     width, height = size
     if not all(low <= side <= high for side in size):
         raise BadInput(
-            f"a size of {width}x{height} cannot be recorded; both sides must be {low} to {high} pixels"
+            f"a size of {width}x{height} cannot be drawn; both sides must be {low} to {high} pixels"
         )
     if painted and width * height > MOST_PIXELS:
         raise BadInput(

@@ -246,6 +246,10 @@ UNREADABLE: dict[str, tuple[Spoil, str]] = {
         lambda d: d.update(actions=[[7, "mechanism", 1]] * 101),
         "actions: are 101 at frame 7, more than 100; record the tape again",
     ),
+    "a hundred rounds at frame after frame": (
+        lambda d: d.update(actions=[[n // 99, "play", f"predict seed={n}"] for n in range(1_001)]),
+        "actions: have 1,001 beginnings of a game, more than 1,000; record the tape again",
+    ),
     "eleven drafts": (
         lambda d: d.update(actions=[[n, "draft", "{}"] for n in range(11)]),
         "actions: have 11 drafts, more than 10; record the tape again",

@@ -200,7 +200,7 @@ def kept(tape: Tape, folder: Path) -> Path:
 
 
 def test_a_tape_is_refused_at_a_size_that_no_picture_has(tmp_path: Path) -> None:
-    with pytest.raises(BadInput, match="-5x90 cannot be recorded"):
+    with pytest.raises(BadInput, match="-5x90 cannot be drawn"):
         record_tape(kept(tape((3, Action("theme"))), tmp_path), tmp_path / "tape.gif", size=(-5, 90))
 
 
