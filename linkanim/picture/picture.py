@@ -89,13 +89,15 @@ AT_ONCE = Deferral()
 class Picture:
     """A scene at one pixel size and look: what stands where is measured once, `groups` is a pose of it.
 
-    The view fits what is shown: the scene, and its other closure where the look has it in view. `scene` is
-    in the unit of the look. `listed` leaves room for the edit list, instead of the HUD, and `row` for one of
-    small pictures. A `kept` view is zoomed and panned instead of the one that fits, or that of a rectangle
-    of the `sheet` that it is built on. With `apart` each joint has a group of its own. What `before`
-    measured of the same scene is taken over; names keep their places on one that is zoomed, or on its way to
-    another. `later` says what waits. With a `moment` names stand as is best at that phase alone. `also` are
-    further places, in the scene's unit, that the view holds. The `bar` of commands has room at the foot.
+    The view fits what is shown: the scene, its other closure where the look shows that, and the places `also`
+    (in the scene's unit). Instead it is a `kept` one, or the one of the `sheet`, a rectangle of the scene, on
+    which a linkage is built; the look zooms and pans it. `listed` leaves room for the edit list instead of
+    the HUD, `row` for a row of small pictures, `bar` for the bar of commands at the foot.
+
+    With a `moment` names stand as is best at that phase alone, else as is best over the cycle. With `apart`
+    each joint has a group of its own. What the picture `before` measured of the same scene is taken over;
+    its names keep their places where only the zoom differs, or while the scene turns into another. `later`
+    says what waits for a later frame. The attribute `scene` is in the look's unit.
     Raises BadInput where the look's chart is no quantity of the scene.
     """
 
@@ -155,7 +157,7 @@ class Picture:
             self.place_names()
 
     def place_names(self, most: int | None = None) -> bool:
-        """Place `most` more names, or all that are left; return whether all have their places."""
+        """Place names in `most` more steps, or in all that are left; return whether all have their places."""
         return not any(step == most for step, _ in enumerate(islice(self._steps, most), start=1))
 
     def _named(self, before: Picture | None, earlier: Earlier | None, *, held: bool) -> Iterator[None]:
@@ -247,7 +249,7 @@ class Picture:
         row: bool = False,
         sheet: Box | None = None,
     ) -> bool:
-        """Return whether it is made for these."""
+        """Return whether it is the picture of these; a late one whose scene has no room is of none."""
         same = self._made_for[0] is scene and self._made_for[1:] == (size, look, listed, held, row, sheet)
         return same and self._settled
 
@@ -260,7 +262,7 @@ class Picture:
 
     @cached_property
     def _order(self) -> int:
-        """The derivatives that are asked for: none on the way to another scene where nothing shows them."""
+        """The derivatives that poses need: none while the scene turns into another and no rate is shown."""
         look, info = self.look, self._goal.info
         shown = look.vectors or look.chart or look.polygons_shown or look.centres or look.names
         still = self.scene.towards is None or not info.full_turn or any(measured(self._goal))
@@ -406,7 +408,7 @@ class Picture:
         return self._behind[2]
 
     def _as_earlier(self, name: str, groups: Iterable[Group]) -> tuple[Group, ...]:
-        """Return groups under a name; those of the earlier picture where it has some."""
+        """Keep groups under a name and return them; of a late picture those that the earlier one kept."""
         if not self.late or name not in self.earlier.groups:
             self.earlier.groups[name] = tuple(groups)
         return self.earlier.groups[name]
@@ -648,7 +650,7 @@ class Picture:
         return len(rows), table_width(rows, self.drawing.setting)
 
     def _named_as(self, other: Picture, *, held: bool) -> bool:
-        """Return whether the names on another picture are this one's."""
+        """Return whether names may stay where they stand on another picture."""
         both = (self, other)
         looks = ((one.look.names, one.look.joints_named, one.look.centres > 0, one.size) for one in both)
         same = (self.scene, self.fitted, self.layout) == (other.scene, other.fitted, other.layout)

@@ -31,13 +31,13 @@ MOMENTS = 144
 _STEP = 4
 """At every fourth of them a place is chosen."""
 _FORBIDDEN = 20.0
-"""What a place costs that is forbidden for the whole cycle, where one on what it belongs to costs 1."""
+"""What a place costs at a moment at which it is forbidden; its price is added to the mean over the cycle."""
 _BESIDE = 2.0
-"""What it costs to lie on a solid that a label belongs to."""
+"""What it costs at a moment to lie on a solid that matters little to the label."""
 _CROSSING, _THROUGH_LINK = 0.4, 0.8
 """What it costs a line to cross a solid, and so much more a link."""
 _THICK = 1.0
-"""Half as thick as lines that go with labels are taken to be, in pixels."""
+"""Half the width that lines which go with labels are taken to have, in pixels."""
 _MOST_CROSSED = 1
 """A line crosses no more links than this."""
 _NEARER = 1.0
@@ -49,13 +49,13 @@ _CHAINED = 0.5
 _GONE = 3
 """How many moments before it would lie on something a label is gone."""
 _SOFT = 3
-"""In so many moments either way it comes and goes."""
+"""Over so many moments it fades away, and comes back."""
 _MANY = 500
-"""Pairs of a label's place and a solid that are many."""
+"""Of more pairs of a place and a solid a few edges, or solids, are tried first."""
 _EDGES = 4
 """Every so many-th of a shape's edges is tried first to part it from a label."""
 _SURE = 1e-6
-"""By so much more, in pixels, are boxes thought to be larger that only tell what is near."""
+"""How much larger, in pixels, boxes are taken to be that tell only what is near: rounding loses nothing."""
 _FIRST = 6
 """So many solids are looked at first: where many lie about one place, they leave few places to the others."""
 

@@ -25,21 +25,21 @@ _TITLES = {1: ("velocity polygon", "velocities", "/s"), 2: ("acceleration polygo
 _NOTHING = 1e-9
 """Of a polygon's greatest extent: what is shorter has no direction."""
 _LABELLED = 0.3
-"""A moving vector has its symbol where it is as long as this, in heights of the text."""
+"""The shortest vector that has its symbol beside it, in heights of the text."""
 _ASIDE = (0.0, 0.3, 1.1, 2.0, 3.0, 4.2)
 """How far off its vector a symbol may stand, in heights of the text."""
 _SHARES = (0.5, 0.35, 0.65)
 """Where along it."""
 _LED = 1.0
-"""From so far off on a thin line leads to the vector."""
+"""A symbol so far off or farther has a thin line to its vector."""
 _BEYOND = 5.0
-"""How far beyond its place symbols may stand, in widths of a thin line."""
+"""How far outside of the polygon's place symbols may stand, in widths of a thin line."""
 _TITLE = 0.6
-"""So much of the width has a title beside the bar of the scale."""
+"""The largest share of the width that a title takes beside the bar of the scale."""
 _BARS = 5
-"""So many bars of the scale, at the most, go into the panel's width."""
+"""How many bars of the scale, at the most, go into the width."""
 _LARGEST = 1e300
-"""Pixels for a unit: at more of them what the bar of the scale stands for is no number any more."""
+"""The most pixels for a unit: with more the bar of the scale would stand for less than a number can say."""
 _ROW = 1.2
 """From row to row of a list, in heights of its text."""
 _GUIDED: frozenset[Sort] = frozenset({"coriolis", "sliding"})
@@ -63,7 +63,7 @@ class Arrow(NamedTuple):
         return self.side.sort == "absolute"
 
     def is_on(self, other: Arrow) -> bool:
-        """Whether it is the same arrow, to a small part of a pixel: all of a vector, or of its only part."""
+        """Whether the two lie on each other, as a vector and the only part that it has do."""
         return abs(self.foot - other.foot) + abs(self.reach - other.reach) < 1e-3
 
 
@@ -79,15 +79,11 @@ class PlacedSymbols(NamedTuple):
 class Polygon:
     """One polygon of a figure in its place: all poses of the cycle at one scale, about one pole.
 
-    With a `moment` they are such as fill the place at that phase. So does a pose that is `shown`; what cannot
-    be named beside its vector is listed, `aside` of them where no corner is free, the largest of it where not
-    all has room, and nothing where it `lists` none. What the bar of the scale `says` besides stands with it
-    where it has room.
+    With a `moment` the scale is such that the pose at that phase, which is the one `shown`, fills the place.
+    Its vectors that have no room for their symbols are then listed in a corner, or in a column so wide
+    `aside` of the polygon where no corner is free; of too many the largest, and none where it `lists` none.
+    `says` is what the bar of the scale says besides its length, where it has room.
     """
-
-    def standing(self, phase: float) -> Polygon:
-        """Return it as large as its place lets it be at a phase, of which the bar of the scale tells."""
-        return replace(self, moment=phase, says="at this pose")
 
     figure: Figure
     order: Order
@@ -98,6 +94,10 @@ class Polygon:
     aside: float = 0.0
     says: str = ""
     lists: bool = True
+
+    def standing(self, phase: float) -> Polygon:
+        """Return it at the scale at which the pose at a phase fills its place; the bar says so."""
+        return replace(self, moment=phase, says="at this pose")
 
     def group(self, pose: Pose) -> Group:
         """Return the polygon of a pose with its title and the bar of its scale."""

@@ -1,4 +1,4 @@
-"""Poses of a body as they are set down: frames, pins, the coupler in each, what the theory has of them."""
+"""Draw poses of a body that a user sets down: axes, pins, the coupler in each, Burmester's curves."""
 
 from __future__ import annotations
 
@@ -22,15 +22,15 @@ from linkanim.synthesis.burmester import Poses
 from linkanim.synthesis.constructions import Mark, pose_marks
 
 _ACROSS = 0.55
-"""The y axis, in x axes."""
+"""How long a pose's y axis is drawn, in lengths of its x axis."""
 _CURVE, _HELD = 200, 90
-"""Points of a circuit of Burmester's curves, and while they change under the hand."""
+"""Points of a circuit of Burmester's curves, and of one while a hand changes it."""
 _WORDS = 0.5
 """The share of the stage's width that words beside the dial take."""
 
 
 def posed(setting: DrawSetting, shown: PosesShown) -> Iterator[Group]:
-    """Yield what belongs to poses, over the linkage; the words; then frames and what can be dragged."""
+    """Yield all that is drawn of poses: curves and couplers, the words, what can be dragged, and the axes."""
     view, theme, layout = setting.view, setting.theme, setting.layout
     line = max(1.8 * layout.unit, 1.2)
     if shown.curves and len(shown.frames) > 1:
@@ -55,13 +55,13 @@ def _reach(setting: DrawSetting) -> float:
 def _frames(setting: DrawSetting, shown: PosesShown, line: float) -> Iterator[Layer]:
     view, theme, reach = setting.view, setting.theme, _reach(setting)
     for n, (x, y, angle) in enumerate(shown.frames):
-        at, way = view.place((x, y)), reach * cmath.exp(-1j * angle)
-        ways = np.array([way, -1j * _ACROSS * way])
+        at, along = view.place((x, y)), reach * cmath.exp(-1j * angle)
+        axes = np.array([along, -1j * _ACROSS * along])
         if ("pose", n) == shown.taken:
             yield Layer(ORANGE, [at + disc(7 * line)], 0.45)
-        yield Layer(theme.background, segments(np.array([at, at]), at + ways, 4 * line))
-        yield Layer(theme.ink, arrows(np.array([at, at]), ways, 1.5 * line))
-        yield Layer(theme.velocity, [at + way + disc(2.6 * line)])
+        yield Layer(theme.background, segments(np.array([at, at]), at + axes, 4 * line))
+        yield Layer(theme.ink, arrows(np.array([at, at]), axes, 1.5 * line))
+        yield Layer(theme.velocity, [at + along + disc(2.6 * line)])
         yield Layer(theme.background, [at + disc(3.4 * line)])
         yield Layer(theme.ink, stroke(at + disc(3.4 * line), 1.3 * line, closed=True))
     if shown.cursor:
@@ -96,9 +96,9 @@ def _handles(setting: DrawSetting, shown: PosesShown, line: float) -> Iterator[L
 
 @lru_cache(maxsize=4)
 def _marks(frames: tuple[tuple[float, float, float], ...], count: int) -> tuple[Mark, ...]:
-    """Return what the theory has of poses, curves by so many points; nothing where it has nothing.
+    """Return poles and Burmester's curves of poses, `count` points a circuit; nothing of poses without any.
 
-    Of few points they have no names, and no lines from pole to pole.
+    While a hand changes them, which few points tell, they have no names, and the poles no lines between them.
     """
     rows = np.array(frames)
     try:
@@ -111,7 +111,7 @@ def _marks(frames: tuple[tuple[float, float, float], ...], count: int) -> tuple[
 
 
 def _joined(marks: Sequence[Mark]) -> Iterator[Mark]:
-    """Yield the lines of each tone as one, which is filled at once: from one to the next it is nowhere."""
+    """Yield the lines of each tone as one mark, so that they are filled together; NaN parts them."""
     for tone in dict.fromkeys(mark.tone for mark in marks if mark.shape == "line"):
         parts = [(*mark.points, np.nan) for mark in marks if mark.shape == "line" and mark.tone == tone]
         yield Mark("line", np.concatenate([np.array(part) for part in parts]), tone=tone)

@@ -1,6 +1,6 @@
 """Sizes of figures and charts for where they are printed or shown: a book's column, a page, a slide.
 
-Each is so wide on paper, has letters of so many points there, and a ground or none.
+Each states how wide a figure is there, how large its letters are, and whether its ground is painted.
 """
 
 from __future__ import annotations
@@ -8,14 +8,14 @@ from __future__ import annotations
 from linkanim.frozen import NamedTuple
 
 USUAL_SIZE = (1280, 720)
-"""The size in pixels of what is for no purpose of these."""
+"""The size in pixels of a figure that is for none of these."""
 _INCH, _POINTS = 25.4, 72.0
 _EM = 1.08
 """The face's size in heights of a line of its text, about."""
 
 
 class Purpose(NamedTuple):
-    """How wide in mm a figure is, the size of its small letters in points there, and how it is drawn for it.
+    """A figure's width in mm where it is shown, its small letters in points, and how it is drawn for that.
 
     `shape` is its width over its height, `pixels` its width as a PNG and the unit in which it is drawn.
     """
@@ -28,12 +28,12 @@ class Purpose(NamedTuple):
     words: str
 
     def size(self, asked: tuple[int, int] | None) -> tuple[int, int]:
-        """Return the size in pixels, in the shape of one that was asked for."""
+        """Return the size in pixels; where one was `asked` for, its shape is kept."""
         shape = asked[0] / asked[1] if asked else self.shape
         return self.pixels, max(round(self.pixels / shape), 1)
 
     def type_scale(self, usual: float) -> float:
-        """Return how many times larger its words are than small words of a `usual` height in its pixels."""
+        """Return how many times larger small words of a `usual` height in pixels have to be drawn for it."""
         em = self.points / _POINTS * _INCH / self.wide * self.pixels
         return em / (_EM * usual)
 

@@ -1,7 +1,7 @@
-"""Give quantities over one true period, what they are shown over, and axes with few round ticks.
+"""A scene's quantities over one true period, what they are shown over, and axes with few round ticks.
 
-What they are shown over is the driven bar's angle, time, or phase. What the input is called, and the unit
-in which its speed is told, stands here, too.
+They are shown over the driven bar's angle, time, or phase. The words for the input and for its speed are
+here, too.
 """
 
 from __future__ import annotations
@@ -42,15 +42,15 @@ class Series(NamedTuple):
 
 
 def quantity(scene: Scene, token: str) -> Quantity:
-    """Return a scene's quantity, of a body by its name in the scene or by what it is called.
+    """Return the quantity of a token, in which a body has its name in the scene or the one that is shown.
 
-    BadInput with the nearest ones and the list where there is none.
+    BadInput, with the nearest tokens and the list of all, where the scene has no such quantity.
     """
     return look_up(scene.quantities, _own_token(scene, token) or token, scene.name)
 
 
 def _own_token(scene: Scene, token: str) -> str | None:
-    """Return a quantity's token by the scene's own name of its body; None where there is no such quantity."""
+    """Return a token with its body's name in the scene; None where the scene has no such quantity."""
     owner, dot, measure = token.partition(".")
     own = {words: name for name, words in scene.info.link_names.items()}
     named = token if token in scene.quantities else f"{own.get(owner, owner)}{dot}{measure}"
@@ -58,9 +58,9 @@ def _own_token(scene: Scene, token: str) -> str | None:
 
 
 def chart_tokens(scene: Scene, charted: str | None) -> tuple[str, ...]:
-    """Return the tokens of the quantities that a look's `chart` names, which has commas between several.
+    """Return the tokens in a look's `chart`, where commas part several; a name may hold a comma itself.
 
-    A name may hold a comma itself.
+    What is left at the end and is no quantity comes last, for the caller to refuse.
     """
     if charted is None or "," not in charted or charted in scene.quantities:
         return () if charted is None else (charted,)
@@ -75,7 +75,7 @@ def chart_tokens(scene: Scene, charted: str | None) -> tuple[str, ...]:
 
 
 def broken(series: Series, quantity: Quantity, cycle: Motion) -> Series:
-    """Return a series over a cycle with infinite values where it is not bounded between its instants."""
+    """Return a cycle's series with an infinite value more wherever it is unbounded between two instants."""
     places = quantity.unbounded_between(cycle)
     if not len(places):
         return series
@@ -121,12 +121,12 @@ def _unit_of(stated: str) -> str:
 
 
 def speed_in(unit: str, speed: float) -> float:
-    """Return an angular speed in rad/s in "rpm", "rad/s" or "deg/s"."""
+    """Return an angular speed, given in rad/s, as a number of a unit: "rpm", "rad/s" or "deg/s"."""
     return speed * _PER_RADIAN[unit]
 
 
 def sign_of(unit: str) -> str:
-    """Return a unit of speed as it is set: °/s for deg/s."""
+    """Return a unit of speed as it is shown: °/s for deg/s."""
     return _SIGNS.get(unit, unit)
 
 
@@ -147,9 +147,9 @@ def speed_words(scene: Scene, speed: float) -> str:
 _WILD = 8.0
 """A peak this many times the span of the middle nine tenths is cut off, or all else would be a line."""
 _LITTLE = 0.06
-"""Of the span of the values, left free at either end."""
+"""The share of the values' span that an axis leaves free at either end."""
 _COMMON = (0.08, 0.92)
-"""Of what goes to infinity an axis holds these quantiles, and half as much again beyond either."""
+"""Where values go to infinity an axis holds what lies between these quantiles, and half as much beyond."""
 
 
 @frozen
@@ -197,7 +197,7 @@ def around(
 ) -> Axis:
     """Return a linear axis that holds the finite values, with a little room; wild peaks run out of it.
 
-    Where there are none it has no ticks.
+    Without a finite value it has no ticks.
     """
     low, high = range_around(values, room)
     if not np.isfinite(values).any():
@@ -286,7 +286,7 @@ Floats = NDArray[np.float64]
 
 @frozen
 class Course:
-    """How a phase lies along a chart: `x = (phase - origin) / scale`, from 0 to `span` and over again.
+    """Where phases lie along a chart: at `x = (phase - origin) / scale`, from 0 to `span`, then from 0 again.
 
     `period` is the true period in phase; `scale` is negative where the phase runs back over time.
     `marks` are places along it that have a name.
@@ -315,7 +315,7 @@ class Course:
         return linear(0.0, self.span, most=most, unit=self.unit)
 
     def laid(self, series: Series) -> tuple[Floats, Floats]:
-        """Return a series along the course, both ends with it: x (n + 2,) rising, values (n + 2, k)."""
+        """Return a series along the course and at its two ends: x (n + 2,) rising, values (n + 2, k)."""
         gain = gain_of(series)
         x = self.x_of(series.phases)
         turns = np.rint((self.phase_of(x) - series.phases) / self.period)

@@ -229,9 +229,9 @@ _HALF = np.float32(0.5)
 
 
 class Mix(NamedTuple):
-    """What becomes of pixels: of each byte is kept a share, and a level added; both (4n,).
+    """What mixing does to n pixels: each byte keeps a share of itself, and a level is added (both 4n,).
 
-    The levels hold the half that rounds.
+    The levels have a half in them, for rounding.
     """
 
     place: Ints
@@ -240,7 +240,7 @@ class Mix(NamedTuple):
 
 
 def shares(cover: Counts | Floats) -> Shares:
-    """Return coverage as it is mixed by."""
+    """Return coverage (0 to 2 to the power of `WHOLE_BITS`) as shares (0 to `WHOLE`)."""
     shift = WHOLE_BITS - _SHARE_BITS
     return (cover.astype(np.int32) + (1 << shift - 1) >> shift).astype(np.uint16)
 
@@ -255,7 +255,7 @@ def mixed_in(place: Ints, share: Shares, ink: Words) -> Mix:
 
 
 def mix(pixels: Words, what: Mix, begin: int, end: int, *, clear: bool) -> None:
-    """Mix some of what there is into pixels.
+    """Mix into pixels what there is of a mix from `begin` to `end`.
 
     `clear` where the surface itself lets light through: its colours are kept straight.
     """
@@ -280,7 +280,7 @@ def _straight(below: Singles, keep: Singles, add: Singles) -> Singles:
 
 
 def words(surface: pygame.Surface, colours: Iterable[tuple[int, int, int]]) -> Words:
-    """Return colours as the surface keeps them, opaque."""
+    """Return opaque colours as the surface keeps them."""
     inks = np.array([surface.map_rgb(colour) for colour in colours], np.int64).astype(np.uint32)
     return inks | np.uint32(0xFFFFFFFF ^ sum(surface.get_masks()[:3]))
 
@@ -384,9 +384,9 @@ _NO_PIXELS = _Pixels(_NONE, _NONE.astype(np.uint16), _NONE.astype(np.uint32), _N
 
 
 class Shapes(NamedTuple):
-    """Layers in their order, which end before some column and row, and those over them, which do not.
+    """Layers in their order, cut off at a column and a row (`ends`), and layers `over` them, which are not.
 
-    Columns and rows from the ends on are left as they are.
+    The column and the row, and all beyond them, are left as they are.
     """
 
     layers: Iterable[Layer]
