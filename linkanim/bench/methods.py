@@ -514,7 +514,7 @@ def of_many_linkages() -> Entry:
     rows = rows[(kind.slack(rows, 0.0) > 0).all(axis=1)][:FEW]
     ways, angles = np.ones(len(rows)), random.uniform(0.0, TURN, (len(rows), 1))
     timed = Timed(lambda: kind.joints(rows, ways, angles), len(rows))
-    name = f"linkanim, {len(rows):,} different linkages"
+    name = f"synthesis, {len(rows):,} different linkages"
     return Entry("", "different", name, "linkanim, its synthesis", each_its_own, timed)
 
 

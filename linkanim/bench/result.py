@@ -15,6 +15,7 @@ import platform
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict
+from datetime import date
 from pathlib import Path
 from statistics import median
 from typing import Any, TypeVar
@@ -137,6 +138,7 @@ class Result:
 
     machine: Machine
     rows: tuple[Measured, ...]
+    day: date
 
 
 def run(
@@ -156,7 +158,7 @@ def run(
         for scores in [_scores(mechanism, methods)]
         for entry in methods
     )
-    return Result(this_machine(), found)
+    return Result(this_machine(), found, date.today())
 
 
 def _work(methods: Sequence[Entry]) -> dict[Row, Timed]:
@@ -229,7 +231,8 @@ def as_markdown(result: Result) -> str:
     """Return the table, its mechanisms one after the other, and where it was measured, for the manual."""
     blank = [""] * (len(TITLES) - 1)
     rows = [line for name, lines in _by_mechanism(result) for line in ([f"**{name}**", *blank], *lines)]
-    return f"{markdown([TITLES, *rows])}\n\n{_note(result)} Measured on {result.machine.line}.\n"
+    told = f"{_note(result)} Measured on {result.day} on {result.machine.line}.\n"
+    return f"{markdown([TITLES, *rows])}\n\n{told}"
 
 
 def _by_mechanism(result: Result) -> Iterator[tuple[str, list[Sequence[str]]]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from datetime import date
 from math import inf, nan
 
 from linkanim.bench.reference import Score
@@ -31,4 +32,4 @@ def result() -> Result:
         row("newton 1", 1604.0, hard=LOST),
         row("batch", 20.0, 40.0, mechanism="press", easy=few),
     )
-    return Result(Machine("A processor", 2, "3.11.7", "2.4.6", ("X86_V3",)), rows)
+    return Result(Machine("A processor", 2, "3.11.7", "2.4.6", ("X86_V3",)), rows, date(2026, 11, 28))

@@ -52,6 +52,7 @@ def test_the_manual_s_table_is_markdown_with_its_machine() -> None:
     assert body[3].startswith("| **press** |")
     assert {line.count("|") for line in body if line.startswith("|")} == {len(report.TITLES) + 1}
     assert "of 5,198 (four-bar), 5,198 (press) hard poses" in body[-1]
+    assert " Measured on 2026-11-28 on A processor, " in body[-1]
     assert body[-1].endswith("numpy 2.4.6 with X86_V3, one thread.")
 
 
