@@ -28,7 +28,16 @@ from linkanim.picture.hud import (
     shapes_of,
     widest_rows,
 )
-from linkanim.picture.layout import Gauge, Layout, gauge, layout, with_caption, with_table
+from linkanim.picture.layout import (
+    NOTHING_DOCKED,
+    Docked,
+    Gauge,
+    Layout,
+    gauge,
+    layout,
+    with_caption,
+    with_table,
+)
 from linkanim.picture.look import Look
 from linkanim.picture.text import Type
 from linkanim.picture.view import Box, Rect, View, joined
@@ -490,11 +499,9 @@ class FitRequest(NamedTuple):
     keys: int
     """How many lines the key to the colours has."""
     hud: bool
-    listed: int
-    """Whether it leaves room for the edit list."""
+    docked: Docked = NOTHING_DOCKED
     polygons: int = 0
     """1 for both polygons, 2 for a large one."""
-    row: bool = False
     table: tuple[int, float] = (0, 0.0)
     """How many rows a table beside the figure has, and how wide they are."""
     caption: bool = False
@@ -502,8 +509,6 @@ class FitRequest(NamedTuple):
     """Whether it is of one pose, which keeps farther from the edge than what moves."""
     lined: bool = False
     """Whether that pose has dimension lines or arrows."""
-    bar: bool = False
-    """Whether the bar of commands has room at the foot."""
     held: tuple[complex, ...] = ()
     """Further places, in the scene's unit, that the view has to hold."""
     type_scale: float = 1.0
@@ -511,25 +516,18 @@ class FitRequest(NamedTuple):
     @property
     def worded(self) -> bool:
         """Whether the rows of words are shown; an open list takes their place."""
-        return self.hud and not self.listed
+        return self.hud and not self.docked.listed
 
 
 def request_of(
-    size: tuple[int, int],
-    look: Look,
-    charts: int,
-    *,
-    listed: int,
-    row: bool,
-    still: bool = False,
-    bar: bool = False,
+    size: tuple[int, int], look: Look, charts: int, docked: Docked, *, still: bool = False
 ) -> FitRequest:
     """Return what an arrangement depends on, for a look with that number of charts."""
     keys, polygons = key_lines(look), look.polygons_shown
-    captioned = look.caption and not listed
-    request = FitRequest(size, charts, keys, look.hud, listed, polygons, row, caption=captioned)
+    captioned = look.caption and not docked.listed
+    request = FitRequest(size, charts, keys, look.hud, docked, polygons, caption=captioned)
     lined = still and (look.names > 1 or bool(look.vectors))
-    return request._replace(bar=bar, still=still, lined=lined, type_scale=look.type_scale)
+    return request._replace(still=still, lined=lined, type_scale=look.type_scale)
 
 
 @frozen
@@ -666,10 +664,10 @@ def _with_chart(subject: Subject, request: FitRequest, *, beside: bool) -> Gener
         request.size,
         chart=request.chart,
         beside=beside,
-        listed=request.listed,
+        listed=request.docked.listed,
         polygons=request.polygons,
-        row=request.row,
-        bar=request.bar,
+        row=request.docked.row,
+        bar=request.docked.bar,
         type_scale=request.type_scale,
     )
     head = 1.4 * parts.text_size if request.hud else 0.0

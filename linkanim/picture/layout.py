@@ -7,7 +7,7 @@ from functools import cached_property
 from math import ceil
 
 from linkanim.build.tools import TOOLS
-from linkanim.frozen import frozen
+from linkanim.frozen import NamedTuple, frozen
 from linkanim.picture.view import Rect
 
 _DRAWN_FOR = (1280, 720)
@@ -55,6 +55,20 @@ _SHARES_OF_POLYGONS = (0.38, 0.6)
 
 That of a large one comes second.
 """
+
+
+class Docked(NamedTuple):
+    """What has room of its own in a window, beside the scene and its charts."""
+
+    listed: int = 0
+    """1 for an open list, instead of the HUD; 2 for one with tools beside it."""
+    row: bool = False
+    """Whether there is a row of small pictures, at the foot."""
+    bar: bool = False
+    """Whether the bar of commands has room, at the foot."""
+
+
+NOTHING_DOCKED = Docked()
 
 
 @frozen

@@ -31,7 +31,7 @@ from linkanim.picture.figure import DrawSetting, Figure, figure
 from linkanim.picture.hud import Hud, Legend, caption_lines, legend_for, measured
 from linkanim.picture.items import Caption, Group, Item, grouped
 from linkanim.picture.layered import Layered, LayerView, lifted
-from linkanim.picture.layout import CAPTION_STEP, Gauge, Layout, gauge
+from linkanim.picture.layout import CAPTION_STEP, NOTHING_DOCKED, Docked, Gauge, Layout, gauge
 from linkanim.picture.look import Look
 from linkanim.picture.marks import glow, grip, measure, spots
 from linkanim.picture.motion_marks import motion_of
@@ -91,8 +91,7 @@ class Picture:
 
     The view fits what is shown: the scene, its other closure where the look shows that, and the places `also`
     (in the scene's unit). Instead it is a `kept` one, or the one of the `sheet`, a rectangle of the scene, on
-    which a linkage is built; the look zooms and pans it. `listed` leaves room for the edit list instead of
-    the HUD, `row` for a row of small pictures, `bar` for the bar of commands at the foot.
+    which a linkage is built; the look zooms and pans it. What is `docked` in the window has its room.
 
     With a `moment` names stand as is best at that phase alone, else as is best over the cycle. With `apart`
     each joint has a group of its own. What the picture `before` measured of the same scene is taken over;
@@ -109,17 +108,15 @@ class Picture:
         before: Picture | None = None,
         *,
         later: Deferral = AT_ONCE,
-        listed: int = 0,
+        docked: Docked = NOTHING_DOCKED,
         apart: bool = False,
-        row: bool = False,
         kept: View | None = None,
         sheet: Box | None = None,
         moment: float | None = None,
         also: tuple[complex, ...] = (),
-        bar: bool = False,
     ) -> None:
         held, earlier = later.holds, later.earlier
-        self._made_for, self._kept, self.row = (scene, size, look, listed, held, row, sheet), kept, row
+        self._made_for, self._kept = (scene, size, look, docked, held, sheet), kept
         self.sheet, self.held = sheet, held
         self.scene, self.size, self.look = in_unit(scene, look.unit), size, look
         self._goal = self.scene.towards or self.scene
@@ -130,7 +127,7 @@ class Picture:
         self._apart, self._moment = apart, moment
         follows = held or self.scene.towards is not None
         charts = len(chart_tokens(self.scene, look.chart))
-        request = request_of(size, look, charts, listed=listed, row=row, still=moment is not None, bar=bar)
+        request = request_of(size, look, charts, docked, still=moment is not None)
         if look.centres and moment is not None:
             from linkanim.picture.centres import CentrePairs
 
@@ -183,16 +180,15 @@ class Picture:
         self.earlier: Earlier = earlier if earlier and self.late else Earlier(place, {})
         self._settled = earlier is None or self.fit.has_room
 
-    def preparing(self, look: Look, *, listed: int) -> Generator[None, None, Layout]:
+    def preparing(self, look: Look, docked: Docked) -> Generator[None, None, Layout]:
         """Find in steps what a picture of the scene in another look needs to know; return its layout."""
         tokens = chart_tokens(self.scene, look.chart)
         for token in tokens:
             quantity(self.scene, token).read(self.figure.cycle)
             yield
-        last = self.fit.request
-        request = request_of(self.size, look, len(tokens), listed=listed, row=self.row, bar=last.bar)
+        request = request_of(self.size, look, len(tokens), docked)
         if look.names == self.look.names:
-            request = request._replace(table=last.table)
+            request = request._replace(table=self.fit.request.table)
         return (yield from arranging(self.fit.subject, request)).layout
 
     def expecting(self, other: Scene) -> Iterator[None]:
@@ -243,14 +239,13 @@ class Picture:
         scene: Scene,
         size: tuple[int, int],
         look: Look,
+        docked: Docked,
         *,
-        listed: int = 0,
         held: bool = False,
-        row: bool = False,
         sheet: Box | None = None,
     ) -> bool:
         """Return whether it is the picture of these; a late one whose scene has no room is of none."""
-        same = self._made_for[0] is scene and self._made_for[1:] == (size, look, listed, held, row, sheet)
+        same = self._made_for[0] is scene and self._made_for[1:] == (size, look, docked, held, sheet)
         return same and self._settled
 
     def poses(

@@ -17,7 +17,7 @@ import pygame
 from pygame.event import Event
 
 from linkanim.frozen import frozen
-from linkanim.picture.layout import Layout
+from linkanim.picture.layout import Docked, Layout
 from linkanim.picture.look import Look
 from linkanim.picture.picture import Deferral, Earlier, Picture
 from linkanim.picture.view import Box, View, eased
@@ -107,9 +107,9 @@ class Framing:
         before, sketch, look = self._fitting, state.sketch, self._look(state)
         hurried = hurried and self._captioned
         held = bool(state.held or (sketch and sketch.held is not None) or state.building or state.home)
-        row, listed = sketch is not None and bool(sketch.answers), self._listed(state)
+        docked = self._docked(state)
         home = state.building.home if state.building else state.home
-        fits = before and before.fits(state.shown, size, look, listed=listed, held=held, row=row, sheet=home)
+        fits = before and before.fits(state.shown, size, look, docked, held=held, sheet=home)
         if before and fits and not before.hurried:
             if not earlier:
                 before.catch_up()
@@ -121,10 +121,8 @@ class Framing:
             size,
             look,
             before,
-            listed=listed,
-            row=row,
+            docked=docked,
             sheet=home,
-            bar=self._captioned,
         )
         if before and fits and not sketch:
             self._coming = self._coming or make(later=Deferral(held, "in steps"))
@@ -148,10 +146,11 @@ class Framing:
         self._fitting = made
         return made
 
-    def _listed(self, state: State) -> int:
-        """Return 1 where a list is open, 2 for one with tools beside it, which a window alone has."""
+    def _docked(self, state: State) -> Docked:
+        """Return what has room of its own; tools beside a list and the bar of commands a window alone has."""
         has_tools = self._captioned and state.editing.open and not (state.listing or state.game)
-        return 2 if has_tools else int(state.listed)
+        row = state.sketch is not None and bool(state.sketch.answers)
+        return Docked(2 if has_tools else int(state.listed), row, self._captioned)
 
     def _of_the_stroke(self, before: Picture, made: Picture, sketch: Sketch) -> View:
         """Return the view of what is drawn and the linkage for it; as it is where there is none yet."""
@@ -170,7 +169,7 @@ class Framing:
 
         Returns the layout of that picture.
         """
-        return (yield from self.last.preparing(self._look(state), listed=self._listed(state)))
+        return (yield from self.last.preparing(self._look(state), self._docked(state)))
 
     def _look(self, state: State) -> Look:
         """Return the look of a state; where it is captioned, names come with what to watch for."""
@@ -199,12 +198,10 @@ class Framing:
             size,
             look,
             goal,
-            listed=self._listed(state),
-            row=goal.row,
+            docked=self._docked(state),
             kept=kept,
             sheet=goal.sheet,
             later=Deferral(names="as before" if goal.hurried else "at once", earlier=earlier),
-            bar=self._captioned,
         )
         return self._passing
 

@@ -13,7 +13,7 @@ import pytest
 from pictures import pixels
 
 from linkanim.picture.arrangement import FitRequest, Sweep, arranged, fitted
-from linkanim.picture.layout import layout
+from linkanim.picture.layout import Docked, layout
 from linkanim.picture.look import Look
 from linkanim.picture.overlay import EditRow, Fading, Overlay, Panel
 from linkanim.picture.picture import Picture
@@ -53,7 +53,7 @@ def test_what_a_scene_sweeps_fills_the_height_or_the_width(
     """
     scene, least = load(name), 0.8 if min(size) < 200 else 1.0
     for other in (None, ghost_of(scene)):
-        staging = fitted(scene, other, FitRequest(size, chart, 0, True, False), type_of_words())
+        staging = fitted(scene, other, FitRequest(size, chart, 0, True), type_of_words())
         arrangement, box = staging.arrangement, staging.subject.sweep.box
         left, low = arrangement.view.to_pixel(box.left, box.low)
         right, high = arrangement.view.to_pixel(box.right, box.high)
@@ -107,7 +107,7 @@ def _part(surface: pygame.Surface, rect: Rect) -> np.ndarray:
 @pytest.mark.sampled
 def test_the_title_is_whole_and_all_words_can_be_read(name: str, size: tuple[int, int]) -> None:
     scene = load(name)
-    block = fitted(scene, None, FitRequest(size, False, 0, True, False), type_of_words()).arrangement.block
+    block = fitted(scene, None, FitRequest(size, False, 0, True), type_of_words()).arrangement.block
     assert block is not None
     assert " ".join(line.text for line in block.lines if line.strong) == scene.title
     assert block.size >= max(10, 0.7 * min(21 * size[1] / 720, 21))
@@ -116,7 +116,7 @@ def test_the_title_is_whole_and_all_words_can_be_read(name: str, size: tuple[int
 
 @pytest.mark.parametrize("name", ["press", "six-bar", "rocker-driven"])
 def test_a_title_is_in_one_line_where_it_finds_room(name: str) -> None:
-    arrangement = fitted(load(name), None, FitRequest((1280, 720), False, 0, True, False), Type()).arrangement
+    arrangement = fitted(load(name), None, FitRequest((1280, 720), False, 0, True), Type()).arrangement
     assert arrangement.block is not None
     assert arrangement.block.turns == 0
 
@@ -131,7 +131,7 @@ def test_the_other_closure_keeps_the_view_and_the_place_of_the_words(
     other = ghost_of(scene)
     if other is None:
         return
-    wanted = FitRequest(size, False, 0, True, False)
+    wanted = FitRequest(size, False, 0, True)
     one = fitted(scene, other, wanted, type_of_words()).arrangement
     two = fitted(other, ghost_of(other), wanted, type_of_words()).arrangement
     views = [(view.scale, view.x, view.y) for view in (one.view, two.view)]
@@ -145,7 +145,7 @@ def test_the_other_closure_keeps_the_view_and_the_place_of_the_words(
 
 def test_a_tall_scene_has_its_chart_beside_it_and_a_wide_one_below() -> None:
     for name, beside in (("press", True), ("slider-crank", False)):
-        wanted = FitRequest((1280, 720), True, 0, True, False)
+        wanted = FitRequest((1280, 720), True, 0, True)
         parts = fitted(load(name), None, wanted, type_of_words()).arrangement.layout
         assert parts.chart is not None
         assert (parts.chart.x >= parts.stage.right) == beside
@@ -218,7 +218,9 @@ def test_nothing_that_comes_and_goes_erases_a_word_about_the_scene(
 @pytest.mark.parametrize("name", names())
 @pytest.mark.sampled
 def test_the_view_makes_room_for_the_edit_list(name: str) -> None:
-    staging = fitted(load(name), None, FitRequest((1280, 720), False, 0, True, True), type_of_words())
+    staging = fitted(
+        load(name), None, FitRequest((1280, 720), False, 0, True, Docked(listed=1)), type_of_words()
+    )
     box, layout = staging.subject.sweep.box, staging.arrangement.layout
     assert staging.arrangement.view.to_pixel(box.left, 0.0)[0] > layout.lists.right
 
@@ -228,13 +230,13 @@ def test_the_view_makes_room_for_the_edit_list(name: str) -> None:
 def test_a_list_covers_no_more_than_half_of_any_window_and_none_of_the_scene(
     name: str, size: tuple[int, int]
 ) -> None:
-    staging = fitted(load(name), None, FitRequest(size, False, 0, True, True), type_of_words())
+    staging = fitted(load(name), None, FitRequest(size, False, 0, True, Docked(listed=1)), type_of_words())
     box, parts, view = staging.subject.sweep.box, staging.arrangement.layout, staging.arrangement.view
     lists, (left, top) = parts.lists, view.to_pixel(box.left, box.high)
     right, bottom = view.to_pixel(box.right, box.low)
     assert lists.width * lists.height <= 0.51 * size[0] * size[1]
     assert not lists.meets(Rect(left, top, right - left, bottom - top))
-    painter, scene = Picture(load(name), size, Look(), listed=True), load(name)
+    painter, scene = Picture(load(name), size, Look(), docked=Docked(listed=1)), load(name)
     bare, told = offscreen(size), offscreen(size)
     rows = tuple(EditRow(f"Point {n} of its bar, to the left", "123.45 mm", n == 3) for n in range(30))
     for surface, over in ((bare, Overlay()), (told, Overlay(panel=Panel(rows, hint=HINT)))):
@@ -250,7 +252,7 @@ EDITED = Overlay(panel=Panel((EditRow("Crank 2", "55 mm", chosen=True),), hint="
 
 def test_help_stands_beside_the_values_that_it_explains() -> None:
     scene, size = load("crank-rocker"), (1280, 720)
-    painter, surface = Picture(scene, size, Look(), listed=True), offscreen(size)
+    painter, surface = Picture(scene, size, Look(), docked=Docked(listed=1)), offscreen(size)
     SurfacePrinter().paint(surface, painter, scene.pose(1.0), EDITED)
     plain = pixels(surface)
     lines = tuple((f"key {n}", "what it does, in a few words") for n in range(9))
@@ -285,9 +287,7 @@ def test_a_toast_does_not_lie_on_the_chart(name: str) -> None:
 @pytest.mark.parametrize("name", names())
 @pytest.mark.sampled
 def test_the_marks_stand_where_no_words_are(name: str, size: tuple[int, int]) -> None:
-    layout = fitted(
-        load(name), None, FitRequest(size, False, 0, True, False), type_of_words()
-    ).arrangement.layout
+    layout = fitted(load(name), None, FitRequest(size, False, 0, True), type_of_words()).arrangement.layout
     assert not any(layout.marks.meets(rect) for rect in layout.words)
 
 
@@ -326,7 +326,7 @@ def test_class_and_title_do_not_repeat_each_other(title: str, class_name: str, r
 @pytest.mark.parametrize("name", names())
 @pytest.mark.sampled
 def test_a_chart_does_not_drive_out_the_words(name: str) -> None:
-    wanted = FitRequest((480, 270), True, 2, True, False)
+    wanted = FitRequest((480, 270), True, 2, True)
     block = fitted(load(name), None, wanted, type_of_words()).arrangement.block
     assert block is not None
     assert block.rows
@@ -365,6 +365,6 @@ def test_the_strip_lies_on_nothing_that_moves_or_is_said(name: str, size: tuple[
         SurfacePrinter().paint(surface, painter, scene.pose(float(phase)))
         part = _part(surface, place)
         assert (part == BACKGROUND).all(), phase
-    widest = fitted(scene, None, FitRequest((1280, 720), False, 0, True, False), type_of_words()).arrangement
+    widest = fitted(scene, None, FitRequest((1280, 720), False, 0, True), type_of_words()).arrangement
     assert widest.layout.hint is not None
     assert widest.layout.hint.width >= 11 * widest.layout.small_size

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from linkanim.picture.layout import Docked
 from linkanim.picture.look import Look
 from linkanim.picture.picture import Deferral, Picture
 from linkanim.picture.view import Rect
@@ -47,7 +48,7 @@ def test_words_and_sign_stand_in_their_corners_in_every_look(name: str, size: tu
 @pytest.mark.parametrize("size", SIZES)
 @pytest.mark.parametrize("listed", [False, True])
 def test_the_sign_stays_beside_an_open_list(listed: bool, size: tuple[int, int]) -> None:
-    layout = Picture(load("crank-rocker"), size, Look(), listed=listed, later=IN_STEPS).layout
+    layout = Picture(load("crank-rocker"), size, Look(), docked=Docked(listed=listed), later=IN_STEPS).layout
     assert (layout.marks.right, layout.marks.y) == pytest.approx((size[0] - layout.margin, layout.margin))
 
 

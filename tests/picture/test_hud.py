@@ -50,7 +50,7 @@ def test_the_press_tells_angle_speed_spring_and_damper() -> None:
 
 def _hud(name: str) -> Hud:
     type_ = Type()
-    found = fitted(load(name), None, FitRequest((640, 360), False, 0, True, False), type_).arrangement
+    found = fitted(load(name), None, FitRequest((640, 360), False, 0, True), type_).arrangement
     assert found.layout.hud
     assert found.block
     return Hud(load(name), found.block, found.layout.hud, type_, LIGHT)
@@ -164,7 +164,7 @@ SIZES = [(320, 180), (480, 270), (640, 360), (1280, 720), (400, 800)]
 @pytest.mark.sampled
 def test_names_and_values_never_touch_at_any_speed(name: str, size: tuple[int, int]) -> None:
     scene, type_ = load(name), Type()
-    arrangement = fitted(scene, None, FitRequest(size, True, 2, True, False), type_).arrangement
+    arrangement = fitted(scene, None, FitRequest(size, True, 2, True), type_).arrangement
     block, key = arrangement.block, arrangement.layout.legend
     assert block is not None
     for speed in (1.0, -10.0):

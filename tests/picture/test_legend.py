@@ -45,7 +45,7 @@ def test_words_and_values_of_the_key_never_touch(size: tuple[int, int]) -> None:
     shown, type_ = figure(load("press")), Type()
     measure = gauge(1.0, 100.0)
     kinds = tuple(arrows_of(shown, kind, size[1], measure, LIGHT) for kind in (VELOCITY, ACCELERATION))
-    parts = fitted(load("press"), None, FitRequest(size, False, 2, True, False), type_).arrangement.layout
+    parts = fitted(load("press"), None, FitRequest(size, False, 2, True), type_).arrangement.layout
     legend = legend_for(kinds, parts, type_, LIGHT)
     assert legend is not None
     for kind in kinds:
@@ -57,7 +57,7 @@ def test_words_and_values_of_the_key_never_touch(size: tuple[int, int]) -> None:
 @pytest.mark.parametrize("size", [(480, 270), (640, 360), (1280, 720)])
 @pytest.mark.parametrize("name", ["press", "crank-rocker", "jansen"])
 def test_the_key_stands_below_the_words_in_the_window(name: str, size: tuple[int, int]) -> None:
-    parts = fitted(load(name), None, FitRequest(size, False, 2, True, False), Type()).arrangement.layout
+    parts = fitted(load(name), None, FitRequest(size, False, 2, True), Type()).arrangement.layout
     assert parts.hud
     assert parts.legend
     assert parts.legend.y >= parts.hud.bottom

@@ -20,6 +20,7 @@ from linkanim.picture import arrangement
 from linkanim.picture.bodies import colours_of
 from linkanim.picture.figure import figure
 from linkanim.picture.items import Caption, Group, Halo
+from linkanim.picture.layout import Docked
 from linkanim.picture.look import Look, ThemeName
 from linkanim.picture.overlay import EditRow, GamePanel, Overlay, Panel, Quantities
 from linkanim.picture.picture import Picture
@@ -446,7 +447,7 @@ def _distance(point: complex, one: complex, other: complex) -> float:
 
 def test_beside_an_open_list_no_words_are_measured(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("linkanim.picture.arrangement.widest_rows", lambda *_: pytest.fail("no HUD is shown"))
-    Picture(load("press"), (640, 360), Look(), listed=True)
+    Picture(load("press"), (640, 360), Look(), docked=Docked(listed=1))
 
 
 @pytest.mark.parametrize(

@@ -205,7 +205,7 @@ def test_lines_are_no_wider_than_they_may_be_and_lose_nothing(text: str, width: 
 
 def test_a_title_that_no_font_has_gives_way_to_the_scene_s_name(alone: Type) -> None:
     scene = replace(load("crank-rocker"), name="mine", title="曲柄")
-    block = fitted(scene, None, FitRequest((640, 360), False, 0, True, False), alone).arrangement.block
+    block = fitted(scene, None, FitRequest((640, 360), False, 0, True), alone).arrangement.block
     assert block is not None
     assert block.lines[0].text == "mine"
 

@@ -19,6 +19,7 @@ from linkanim.errors import BadInput, RecordingFailed
 from linkanim.manifest import single
 from linkanim.picture.figure import figure
 from linkanim.picture.gears import teeth_a_second
+from linkanim.picture.layout import Docked
 from linkanim.picture.look import Look
 from linkanim.picture.overlay import Overlay
 from linkanim.picture.picture import Picture
@@ -264,7 +265,7 @@ def test_a_recording_shows_the_open_list_and_the_scene_beside_it() -> None:
     done, size = tape((2, Action("chart", 1)), (4, Action("edit")), frames=60), (480, 270)
     state, phase = list(done.pictures(10))[9]
     wanted = offscreen(size)
-    picture = Picture(state.scene, size, state.look, listed=True)
+    picture = Picture(state.scene, size, state.look, docked=Docked(listed=1))
     over = replace(overlay(state), hint=None, chip=None, grip=False)
     assert over.panel is not None
     SurfacePrinter().print(wanted, picture, phase, state.clock.speed, over)
