@@ -23,7 +23,7 @@ pytestmark = [
     pytest.mark.skipif(shutil.which("xdotool") is None, reason="needs xdotool; .ci/run installs it"),
 ]
 
-PATIENCE = 20.0
+PATIENCE = 60.0
 
 
 def xdotool(*words: str) -> str:
