@@ -182,11 +182,11 @@ def _edged(loop: Points) -> Points:
 def _rims(figure: Figure) -> Iterator[Points]:
     """Yield circles over each wheel, wherever it goes."""
     for centre, reach in _round(figure):
-        way = _path(figure, centre)
-        still = bool(np.all(np.abs(way - way[0]) <= 1e-9 * reach))
-        way, circles, shares = (way[:1], _ROUND, 9) if still else (way, _ROUND[::4], 3)
+        path = _path(figure, centre)
+        still = bool(np.all(np.abs(path - path[0]) <= 1e-9 * reach))
+        path, circles, shares = (path[:1], _ROUND, 9) if still else (path, _ROUND[::4], 3)
         for share in np.linspace(1.0, 0.2, shares):
-            yield (way[:, None] + share * reach * circles).ravel()
+            yield (path[:, None] + share * reach * circles).ravel()
 
 
 def _round(figure: Figure) -> Iterator[tuple[str, float]]:
@@ -473,11 +473,11 @@ class _WaysToArrange:
 
 def _ways_through(shares: Sequence[float], group: Sequence[WordBlock]) -> list[tuple[float, int, int]]:
     """Return cost, and the numbers of the scale and of the words, the cheapest first."""
-    ways = [
+    choices = [
         (1.0 - share + _LINE * block.turns, step, turn)
         for (step, share), (turn, block) in product(enumerate(shares), enumerate(group))
     ]
-    return sorted(ways, key=lambda way: way[0])
+    return sorted(choices, key=lambda choice: choice[0])
 
 
 # A scene fitted into a window: what of it is measured once, and outlasts pans, zooms and themes.

@@ -96,7 +96,7 @@ def _pad(points: list[complex], gauge: Gauge, colours: Colours) -> list[Layer]:
     side = -1 if ((points[0] - end) / along).imag < 0 else 1
     (wide, deep), bar, down = _PAD, gauge.bar, 1j * along * side
     foot, high = end + down * deep * bar, 1.2 * bar
-    sole = [foot + along * way * 0.5 * wide * bar for way in (-1, 1)]
+    sole = [foot + along * sign * 0.5 * wide * bar for sign in (-1, 1)]
     stem = lined([end, foot], 0.5 * bar, gauge.outline, colours)
     pad = lined(sole, high / 2, gauge.outline, colours)
     return [*stem, *pad, *_drawn(np.array(points), gauge, colours)]
@@ -107,10 +107,10 @@ def _bucket(points: list[complex], gauge: Gauge, colours: Colours) -> list[Layer
     if len(points) < 3:
         return _plate(points, gauge, colours)
     first, *_, before, end = points
-    way, share = end - before, np.linspace(0.0, 1.0, 12)
-    out = 1j * way * (1 if ((first - before) / way).imag < 0 else -1)
-    back = before + way * share + out * _BACK * 4 * share * (1 - share)
-    tip = unit(way - 4 * _BACK * out) * gauge.bar
+    along, share = end - before, np.linspace(0.0, 1.0, 12)
+    out = 1j * along * (1 if ((first - before) / along).imag < 0 else -1)
+    back = before + along * share + out * _BACK * 4 * share * (1 - share)
+    tip = unit(along - 4 * _BACK * out) * gauge.bar
     tooth = end + tip * np.array([_TOOTH, -0.5 + 0.9j, -0.5 - 0.9j])
     shell = glazed([*points, *back.tolist()], gauge.bar, gauge.outline, colours)
     return [Layer(colours[0], [tooth]), *shell]

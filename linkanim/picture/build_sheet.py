@@ -98,10 +98,10 @@ def dashed(setting: DrawSetting, shown: PathShown) -> Group:
     assert shown.curve
     width, theme = 2.6 * setting.gauge.line, setting.theme
     line = _placed(setting.view, shown.curve.polyline)
-    way = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(line)))])
-    count = max(ceil(way[-1] / ((_DASH + _GAP) * width)), 1)
-    ends = np.arange(count) * (way[-1] / count) + np.array([[0.0], [_DASH * width]])
-    begin, end = np.interp(ends, way, line.real) + 1j * np.interp(ends, way, line.imag)
+    along = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(line)))])
+    count = max(ceil(along[-1] / ((_DASH + _GAP) * width)), 1)
+    ends = np.arange(count) * (along[-1] / count) + np.array([[0.0], [_DASH * width]])
+    begin, end = np.interp(ends, along, line.real) + 1j * np.interp(ends, along, line.imag)
     loops = segments(begin, end, width)
     return Group("stroke", [Layer(mixed(theme.ink, theme.background, 0.55), loops)], still=True)
 
@@ -167,8 +167,8 @@ class DraftDrawing:
         """Yield a line along a guide's two places, some way to either side of what slides on it."""
         start, beside, *blocks = self._placed(guide.places)
         along, reach = unit(beside - start), _GUIDE * self._gauge.bar
-        ways = [((at - start) * along.conjugate()).real for at in blocks] or [0.0]
-        ends = start + along * (min(ways) - reach), start + along * (max(ways) + reach)
+        places = [((at - start) * along.conjugate()).real for at in blocks] or [0.0]
+        ends = start + along * (min(places) - reach), start + along * (max(places) + reach)
         yield Layer(self._theme.ground, [*hatched(*ends, self._gauge, 1)])
 
     def _foot(self, pin: Shape) -> Iterator[Layer]:

@@ -42,7 +42,7 @@ _CROSS, _BLOCK = 0.8, 2.4
 _MARGIN = 6.0
 """How far names stay off the picture's edge, in its unit."""
 _AROUND = np.exp(-0.25j * np.pi * np.array([1, -1, 3, -3, 0, 4, 2, -2]))
-"""The ways from a centre to its name, the best first."""
+"""The directions from a centre to its name, the best first."""
 
 
 class NamedPair(NamedTuple):
@@ -167,7 +167,7 @@ class Centres:
         """Return the lines of the crosses of a pose, from end to end."""
         seen = (one for one in self.seen(pose) if not one.jointed and not one.direction)
         reach = _CROSS * self.setting.gauge.bar
-        return tuple((one.at - way, one.at + way) for one in seen for way in (reach, 1j * reach))
+        return tuple((one.at - half, one.at + half) for one in seen for half in (reach, 1j * reach))
 
     def _mark(self, seen: Seen) -> Rect:
         """Return what a centre's cross covers, or its arrow."""
@@ -209,7 +209,7 @@ class Centres:
         return np.array([*beside, *[beside[-1]] * (3 * len(_AROUND) - len(beside))])
 
     def seen(self, pose: Pose) -> Iterator[Seen]:
-        """Yield the centres as they show: those in the picture, then the ways to the others from a pin."""
+        """Yield the centres as they show: those in the picture, then the directions of the others."""
         found = self.known.of(pose)
         view, room, (named, pin) = self.setting.view, self.setting.layout.reach, self._pin
         inner, far = room.inset(6 * self.setting.layout.unit), list[Seen]()

@@ -25,7 +25,7 @@ _DOT, _RING, _CROSS = 3.0, 2.4, 3.2
 _POINTS = ("dot", "ring", "cross")
 """What lies over all lines."""
 _CUT, _JUMP = 1e-6, 4.0
-"""How far pieces of one way may be apart (pixels), and which step goes through infinity (widths)."""
+"""How far pieces of one curve may be apart (pixels), and which step goes through infinity (widths)."""
 _ROOM = 0.12
 """Of the marks' width and height, left free at every side."""
 _AROUND = np.exp(1j * np.pi * np.array([0.25, 0.75, -0.25, -0.75, 0.0, 1.0, 0.5, -0.5]))
@@ -90,11 +90,11 @@ def _drawn(mark: Mark, at: Loop, area: Rect, pen: Pen) -> Iterator[Layer]:
             yield Layer(pen.theme.background, [place + disc((_RING - 0.3) * line) for place in at])
         case "cross":
             arm = _CROSS * line * np.exp(0.25j * np.pi)
-            ends = [(place - way, place + way) for place in at for way in (arm, 1j * arm)]
+            ends = [(place - half, place + half) for place in at for half in (arm, 1j * arm)]
             yield Layer(colour, [loop for pair in ends for loop in segments(*pair, 1.2 * line)])
         case "frame":
-            way = at[1] - at[0]
-            reaches = np.array([way, -1j * way])
+            axis = at[1] - at[0]
+            reaches = np.array([axis, -1j * axis])
             yield Layer(colour, arrows(np.array([at[0], at[0]]), reaches, _WIDTHS["frame"] * line))
         case "word":
             return
@@ -113,7 +113,7 @@ def _drawn(mark: Mark, at: Loop, area: Rect, pen: Pen) -> Iterator[Layer]:
 
 
 def _clipped(at: Loop, area: Rect) -> Iterator[Loop]:
-    """Yield the pieces of a way that lie in the picture, cut at its edges; it may run through infinity."""
+    """Yield the pieces of a curve that lie in the picture, cut at its edges; it may run through infinity."""
     run: list[complex] = []
     for piece in _pieces(at, area):
         if run and abs(run[-1] - piece[0]) > _CUT:
@@ -125,7 +125,7 @@ def _clipped(at: Loop, area: Rect) -> Iterator[Loop]:
 
 
 def _pieces(at: Loop, area: Rect) -> Iterator[Loop]:
-    """Yield what of a way lies in the picture: stretches that do as they are, segments at its edges cut."""
+    """Yield what of a curve lies in the picture: stretches that do as they are, segments at its edges cut."""
     x, y = at.real, at.imag
     within = (x >= area.x) & (x <= area.right) & (y >= area.y) & (y <= area.bottom)
     beyond = ((x < area.x), (x > area.right), (y < area.y), (y > area.bottom), ~np.isfinite(at))
@@ -166,9 +166,9 @@ def _names(marks: Sequence[Mark], pixels: Callable[[Loop], Loop], area: Rect, pe
             tries = [_about(complex(at[0]), wide, high)]
         elif mark.shape == "thin" and len(at) == 2:
             # a tick of a scale has its number beyond it, or before it
-            way = complex(at[1] - at[0]) / max(abs(at[1] - at[0]), 1e-9)
-            beyond = 0.5 * (wide * abs(way.real) + high * abs(way.imag)) + 0.25 * pen.small
-            ends = ((at[1], way), (at[0], -way))
+            along = complex(at[1] - at[0]) / max(abs(at[1] - at[0]), 1e-9)
+            beyond = 0.5 * (wide * abs(along.real) + high * abs(along.imag)) + 0.25 * pen.small
+            ends = ((at[1], along), (at[0], -along))
             tries = [
                 _about(complex(end) + away * beyond * out, wide, high)
                 for away in _BEYOND
@@ -176,10 +176,10 @@ def _names(marks: Sequence[Mark], pixels: Callable[[Loop], Loop], area: Rect, pe
             ]
         else:
             foot = complex(at[len(at) // 2 if mark.shape == "arc" else 0])
-            tries = [_about(foot + way, wide, high) for way in _ways(_FARTHER, pen)]
+            tries = [_about(foot + off, wide, high) for off in _offsets(_FARTHER, pen)]
             if met(rect_rows(rect for rect in tries if _within(rect, area)), taken).all():
                 # the room about it is taken: a thin line leads to a name that stands off
-                away = (_about(foot + way, wide, high) for way in _ways(_FAR_OFF, pen))
+                away = (_about(foot + off, wide, high) for off in _offsets(_FAR_OFF, pen))
                 far = [rect for rect in away if _within(rect, area)]
                 free = np.flatnonzero(met(rect_rows(far), taken) == 0)
                 if free.size:
@@ -195,9 +195,9 @@ def _names(marks: Sequence[Mark], pixels: Callable[[Loop], Loop], area: Rect, pe
         yield Caption(mark.label, (best.x, best.y), pen.small, _tone(mark, pen), halo=halo)
 
 
-def _ways(distances: Sequence[float], pen: Pen) -> Iterator[complex]:
+def _offsets(distances: Sequence[float], pen: Pen) -> Iterator[complex]:
     """Yield where about its point a name may stand, the nearest first."""
-    return (away * pen.small * complex(way) for away in distances for way in _AROUND)
+    return (away * pen.small * complex(direction) for away in distances for direction in _AROUND)
 
 
 def _nearest(rect: Rect, at: complex) -> complex:

@@ -55,12 +55,15 @@ class DeadCentres:
         for text, foot in zip(lines, feet, strict=False):
             yield text, partial(self._places, *foot)
 
-    def _places(self, foot: complex, way: int, size: tuple[float, float]) -> Loop:
-        """Return places for the middle of a line of text off the guide, the one to the way `out` first."""
+    def _places(self, foot: complex, end: int, size: tuple[float, float]) -> Loop:
+        """Return places for the middle of a line of text off the guide, those on its side `out` first.
+
+        The text is at one `end` of the guide, -1 or 1, or about its middle, 0.
+        """
         (along, out), (wide, high) = self._frame, size
         aside, beyond = (0.5 * (abs(side.real) * wide + abs(side.imag) * high) for side in (out, along))
-        level = self._reach + aside + 0.2 * high + (0 if way else 1.3 * high * abs(out.imag))
-        steps = [0, way * beyond, 2 * way * beyond, -way * beyond, -2 * way * beyond] if way else [0]
+        level = self._reach + aside + 0.2 * high + (0 if end else 1.3 * high * abs(out.imag))
+        steps = [0, end * beyond, 2 * end * beyond, -end * beyond, -2 * end * beyond] if end else [0]
         return np.array(
             [
                 foot + side * out * (level + further * high) + step * along
@@ -77,16 +80,16 @@ class DeadCentres:
 
     @cached_property
     def _frame(self) -> tuple[complex, complex]:
-        """The way of the slider in pixels, and the way out from its guide: where there is more room."""
-        begin, way = self.ends[0], self.ends[1] - self.ends[0]
-        seen = (np.concatenate([np.zeros(0, complex), *self._passed()]) - begin) / way
+        """The directions in pixels along the guide, and off it to where there is more room."""
+        begin, along = self.ends[0], self.ends[1] - self.ends[0]
+        seen = (np.concatenate([np.zeros(0, complex), *self._passed()]) - begin) / along
         near = seen[(seen.real > -_NEAR) & (seen.real < 1 + _NEAR)].imag
         crowded = float(np.sum(np.sign(near) * np.exp(-np.abs(near))))
-        out = 1j * way / abs(way) * (-1 if crowded > _FEW * near.size else 1)
-        return way / abs(way), out if self._fits(out) or not self._fits(-out) else -out
+        out = 1j * along / abs(along) * (-1 if crowded > _FEW * near.size else 1)
+        return along / abs(along), out if self._fits(out) or not self._fits(-out) else -out
 
     def _passed(self) -> Iterator[Loop]:
-        """Yield pixels that bars pass through in the cycle, but for the slider's own way."""
+        """Yield pixels that bars pass through in the cycle, but for the slider's own track."""
         figure, view = self.setting.figure, self.setting.view
         for body in figure.bodies:
             for ends in pairwise(body.joints):

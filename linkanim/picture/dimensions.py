@@ -48,9 +48,12 @@ class MeasureLine(NamedTuple):
         at, head = self.frame
         return Part(at, at, head, (Layer(colour, dimension_line(*ends, away, gauge)),))
 
-    def tracks(self, at: Loop, way: Loop, gauge: Gauge) -> Loop:
-        """Return its line and its leads, begin and end of each (n moments, 3, 2), for a frame at `at`."""
-        begin, end = at + self.begin * way, at + self.end * way
+    def tracks(self, at: Loop, span: Loop, gauge: Gauge) -> Loop:
+        """Return its line and its leads, begin and end of each (n moments, 3, 2), for a frame at `at`.
+
+        `span` leads from the frame's first joint to its second.
+        """
+        begin, end = at + self.begin * span, at + self.end * span
         along = end - begin
         side = 1j * along / np.maximum(np.abs(along), 1e-9) * np.sign(self.reach)
         level, near = side * abs(self.reach), side * _OFF * gauge.bar
@@ -70,14 +73,14 @@ class AngleArc(NamedTuple):
         """Return it drawn: the arc, and a lead along each of its sides."""
         sweep = float(np.angle(self.end / self.begin))
         path = self.radius * unit(self.begin) * directions(np.linspace(0, sweep, 2 + round(12 * abs(sweep))))
-        leads = [way * (self.radius + _OVER * gauge.line) for way in map(unit, (self.begin, self.end))]
+        leads = [side * (self.radius + _OVER * gauge.line) for side in map(unit, (self.begin, self.end))]
         at, head = self.frame
         loops = [*stroke(path, 0.9 * gauge.line), *segments([0j, 0j], leads, 0.7 * gauge.line)]
         return Part(at, at, head, (Layer(colour, loops),))
 
-    def tracks(self, at: Loop, way: Loop, gauge: Gauge) -> Loop:
+    def tracks(self, at: Loop, span: Loop, gauge: Gauge) -> Loop:
         """Return what it draws in straight lines, begin and end of each (n moments, 4, 2)."""
-        turn = (way / np.maximum(np.abs(way), 1e-9))[:, None] * self.radius * unit(self.begin)
+        turn = (span / np.maximum(np.abs(span), 1e-9))[:, None] * self.radius * unit(self.begin)
         shares = np.linspace(0, float(np.angle(self.end / self.begin)), 5)
         points = at[:, None] + turn * directions(shares)
         pairs: Loop = np.stack((points[:, :-1], points[:, 1:]), axis=2)
@@ -173,13 +176,15 @@ def _ground(figure: Figure) -> Iterator[Measurement]:
     """Yield the length of the ground, and its angle where it does not lie level."""
     for first, second in pairwise(pivots(figure)[:2]):
         yield _bar(figure, "1", first, second, bare=True)
-        way = figure.start(second) - figure.start(first)
-        if abs(way.imag) > _NONE * figure.extent:
+        span = figure.start(second) - figure.start(first)
+        if abs(span.imag) > _NONE * figure.extent:
             value, about = (
-                degrees(float(np.angle(way))),
+                degrees(float(np.angle(span))),
                 f"angle of {_named(first, second)} to the horizontal",
             )
-            yield Measurement("θ₁", value, about, (first, first), 1, way.conjugate(), frozenset(), angle=True)
+            yield Measurement(
+                "θ₁", value, about, (first, first), 1, span.conjugate(), frozenset(), angle=True
+            )
 
 
 def _offsets(figure: Figure) -> Iterator[Measurement]:
@@ -213,8 +218,8 @@ def _numbered(figure: Figure, found: Iterable[Measurement]) -> Iterator[Measurem
 def _span(figure: Figure, one: Measurement) -> frozenset[complex]:
     """Return where the ends of a length stand as the cycle begins, to a small part of the figure."""
     at, head = (figure.start(name) for name in one.frame)
-    way, grain = head - at if one.frame[0] != one.frame[1] else 1 + 0j, _NONE * figure.extent
-    ends = (at + complex(place).conjugate() * way for place in (one.begin, one.end))
+    span, grain = head - at if one.frame[0] != one.frame[1] else 1 + 0j, _NONE * figure.extent
+    ends = (at + complex(place).conjugate() * span for place in (one.begin, one.end))
     return frozenset(complex(round(end.real / grain), round(end.imag / grain)) for end in ends)
 
 

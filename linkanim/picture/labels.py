@@ -373,8 +373,8 @@ class Surroundings:
 
     def _moving(self, part: Part, corners: Loop) -> Solid:
         """Return what corners in the frame of a part cover."""
-        way = self._paths[part.head] - self._paths[part.tail]
-        turn = way / np.where(way == 0, 1, np.abs(way)) + (way == 0)
+        span = self._paths[part.head] - self._paths[part.tail]
+        turn = span / np.where(span == 0, 1, np.abs(span)) + (span == 0)
         return Solid(self._paths[part.at][:, None] + turn[:, None] * corners, 0.0)
 
     def _pins(self) -> Iterator[Thing]:

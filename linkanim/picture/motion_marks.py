@@ -104,7 +104,7 @@ class Trace:
     def _courses(self) -> tuple[_Course, _Course]:
         """Two rounds of the path, and two the other way."""
         side = sides_of(self.path)
-        corner = _corners(np.stack([self.path + way * side for way in (self.width, -self.width)]))
+        corner = _corners(np.stack([self.path + half * side for half in (self.width, -self.width)]))
         there = _Course(np.tile(self.path, 2), np.tile(side, 2), np.tile(corner, 2))
         return there, _Course(there.path[::-1], -there.side[::-1], there.corner[::-1])
 
@@ -212,14 +212,14 @@ class Turning:
     ) -> Iterator[tuple[Loop, float]]:
         """Yield points (n, k) along the arrow and the angle, for joints on paths (n); half their widths."""
         centre, pin = paths[self.pivot], paths[self.pin]
-        way, share = (pin - centre) / np.abs(pin - centre), np.linspace(0, 1, 16)
+        direction, share = (pin - centre) / np.abs(pin - centre), np.linspace(0, 1, 16)
         sweep = SWEEP * np.clip(-rates / self.fastest, -1, 1)[:, None]
         shaft = np.sign(sweep) * AHEAD + sweep * np.linspace(0, 1, 6)
         head = shaft[:, -1:] + np.sign(sweep) * 6.0 * self.gauge.line / self.arrow * np.array([-0.5, 1])
         for bend, half in ((shaft, 1.8), (head, 4.2)):
-            yield centre[:, None] + self.arrow * way[:, None] * directions(bend), half * self.gauge.line
+            yield centre[:, None] + self.arrow * direction[:, None] * directions(bend), half * self.gauge.line
         if angled:
-            turned = self.turned(np.angle(np.conj(way)))[:, None]
+            turned = self.turned(np.angle(np.conj(direction)))[:, None]
             yield centre[:, None] + self.arc * directions(-turned * share), 1.5 * self.gauge.line
             yield centre[:, None] + np.array([0, 1.5 * self.arc]), self.gauge.line
 
@@ -234,8 +234,8 @@ class Turning:
 
     def angle(self, places: Places) -> list[Layer]:
         """Return the arc from the horizontal to the bar, and the line it begins at."""
-        centre, way = self._bar(places)
-        turned = self.turned(float(np.angle(way.conjugate())))
+        centre, direction = self._bar(places)
+        turned = self.turned(float(np.angle(direction.conjugate())))
         path = centre + self.arc * directions(np.linspace(0, -turned, max(round(abs(turned) * 12), 2)))
         ink, back = self.colours
         halo, line = strokes(path, (2.6 * self.gauge.line, 0.9 * self.gauge.line))
@@ -454,10 +454,10 @@ def arrow_names(
 def _beyond_heads(seen: Sequence[SeenArrow], wide: NDArray[np.float64], high: float) -> Loop:
     """Return where the middles of n names so wide (n, 1) may stand (n, k): beyond their arrows' heads."""
     turns = (1, _ASIDE, _ASIDE.conjugate())
-    ways = np.array([[[unit(arrow.reach) * turn] for turn in turns] for arrow in seen])
-    away = np.abs(ways.real) * wide[..., None] / 2 + np.abs(ways.imag) * high / 2 + _OFF_HEAD * high
+    headings = np.array([[[unit(arrow.reach) * turn] for turn in turns] for arrow in seen])
+    away = np.abs(headings.real) * wide[..., None] / 2 + np.abs(headings.imag) * high / 2 + _OFF_HEAD * high
     heads = np.array([arrow.foot + arrow.reach for arrow in seen])[:, None, None]
-    return np.asarray((heads + away * ways).reshape(len(seen), -1))
+    return np.asarray((heads + away * headings).reshape(len(seen), -1))
 
 
 def _values(pose: Pose, kind: Kind, joints: tuple[str, ...]) -> list[tuple[str, Any, Any]]:

@@ -333,8 +333,8 @@ class Picture:
         facts = f"step {len(shown.steps)} of {shown.total}"
         facts = facts if self._moment is not None else f"{facts} · F7 goes on"
         rooms = _ROOMS_OF_WORDS[1:] if leading else _ROOMS_OF_WORDS
-        ways = [worded(self.drawing.setting, shown.steps[-1].words, [facts], room=room) for room in rooms]
-        yield next((one for one in ways if not self._covers(one, pose)), ways[0])
+        choices = [worded(self.drawing.setting, shown.steps[-1].words, [facts], room=room) for room in rooms]
+        yield next((one for one in choices if not self._covers(one, pose)), choices[0])
         yield from slider(self.drawing.setting, leading) if leading else ()
 
     def _covers(self, words: Group, pose: Pose) -> bool:
@@ -505,8 +505,8 @@ class Picture:
             yield worded(self.drawing.setting, sentence, is_warning=warns)
         for shown in overlay.measured:
             at, head = map(self.view.place, (pose.position[name] for name in shown.frame))
-            way = head - at if shown.frame[0] != shown.frame[1] else complex(self.view.scale)
-            begin, end = (at + place.conjugate() * way for place in (shown.begin, shown.end))
+            span = head - at if shown.frame[0] != shown.frame[1] else complex(self.view.scale)
+            begin, end = (at + place.conjugate() * span for place in (shown.begin, shown.end))
             yield from measure(self.drawing.setting, begin, end, shown)
         if overlay.path and overlay.path.curve and overlay.path.marked:
             marks = list(handles(self.drawing.setting, overlay.path))

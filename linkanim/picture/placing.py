@@ -550,14 +550,14 @@ def crossed(rects: _Floats, lines: Sequence[tuple[complex, complex]]) -> NDArray
     if not lines:
         return np.zeros(rects.shape[1:], np.int64)
     one, other = np.array(lines).T
-    way, (x, y, wide, high) = other - one, rects[..., None]
+    along, (x, y, wide, high) = other - one, rects[..., None]
     first, last, beside = np.zeros(()), np.ones(()), np.zeros((), np.bool_)
     with np.errstate(all="ignore"):
         for step, gap in (
-            (-way.real, one.real - x),
-            (way.real, x + wide - one.real),
-            (-way.imag, one.imag - y),
-            (way.imag, y + high - one.imag),
+            (-along.real, one.real - x),
+            (along.real, x + wide - one.real),
+            (-along.imag, one.imag - y),
+            (along.imag, y + high - one.imag),
         ):
             share = gap / step
             beside = beside | (step == 0) & (gap < 0)
@@ -723,7 +723,7 @@ def _hits(
 def _hit(
     places: Loop, size: tuple[_Floats, _Floats], middle: Loop, reach: Loop, half: float | _Floats
 ) -> _Bools:
-    """Return whether boxes about places touch lines, by half their sizes and half ways from end to end."""
+    """Return whether boxes about places touch lines, by half their sizes and half the lines' vectors."""
     (wide, high), away = size, places - middle
     long, deep = np.abs(reach.real), np.abs(reach.imag)
     hit = (np.abs(away.real) < wide + half + long) & (np.abs(away.imag) < high + half + deep)
@@ -753,16 +753,16 @@ def _crossings(lines: Loop, clutter: Clutter) -> tuple[_Floats, _Floats]:
 def _run_through(lines: Loop, solids: Solids) -> _Bools:
     """Return which lines (n, k, 2) run through which solids (n, k, m): nothing parts the two."""
     corners, half = solids
-    way = units(lines[..., 1] - lines[..., 0])[:, :, None, None].conj()
-    apart = _apart(lines[:, :, None] * way, corners[:, None] * way, half)
+    turn = units(lines[..., 1] - lines[..., 0])[:, :, None, None].conj()
+    apart = _apart(lines[:, :, None] * turn, corners[:, None] * turn, half)
     # most lie apart in the line's own frame: only the others are looked at along the solids' edges
     moment, line, solid = np.logical_not(apart).nonzero()
     ends = lines[moment if len(lines) > 1 else 0, line]
     corners = corners[moment if len(corners) > 1 else 0, solid]
     parted, around, count = np.zeros(len(line), np.bool_), half[solid], corners.shape[-1]
     for n in range(count if count > 2 else count - 1):
-        way = units(corners[:, n] - corners[:, n - 1])[:, None].conj()
-        parted |= _apart(ends * way, corners * way, around)
+        turn = units(corners[:, n] - corners[:, n - 1])[:, None].conj()
+        parted |= _apart(ends * turn, corners * turn, around)
     apart[moment, line, solid] = parted
     return np.asarray(np.logical_not(apart))
 

@@ -139,11 +139,11 @@ class Polygon:
         """The title, as long and as large as there is room for, beside the bar of the scale if it can be."""
         pen, (full, brief, _) = self.pen, _TITLES[self.order]
         rooms = (self._beside_bar, self.rect.width)
-        ways = [
+        choices = [
             (room, words, size) for room in rooms for words in (full, brief) for size in (pen.text, pen.small)
         ]
-        fits = (way[1:] for way in ways if pen.type.width(*way[1:]) <= way[0])
-        words, size = next(fits, ways[-1][1:])
+        fits = (choice[1:] for choice in choices if pen.type.width(*choice[1:]) <= choice[0])
+        words, size = next(fits, choices[-1][1:])
         return Caption(words, (self.rect.x, self.rect.y), size, pen.theme.ink)
 
     @property

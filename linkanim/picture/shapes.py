@@ -51,15 +51,15 @@ def folded(turn: complex, fold: int) -> complex:
     It is rounded to a step far below what shows, so that a direction that comes again after some such
     parts of a turn is found again to the last digit.
     """
-    nearest = max((turn * way for way in _ways(fold)), key=lambda way: way.real)
+    nearest = max((turn * alike for alike in _turns(fold)), key=lambda alike: alike.real)
     side = round(nearest.imag * _GRAIN) / _GRAIN
     return complex(sqrt(1.0 - side * side), side)
 
 
 @lru_cache(maxsize=64)
-def _ways(fold: int) -> tuple[complex, ...]:
-    ways: list[complex] = directions(2 * pi / fold * np.arange(fold)).tolist()
-    return tuple(ways)
+def _turns(fold: int) -> tuple[complex, ...]:
+    turns: list[complex] = directions(2 * pi / fold * np.arange(fold)).tolist()
+    return tuple(turns)
 
 
 def lengths(vectors: Directions) -> NDArray[np.float64]:

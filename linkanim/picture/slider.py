@@ -91,24 +91,24 @@ def dial_track(room: Rect) -> Rect:
 
 def dial_value(room: Rect, x: float) -> float:
     """Return the value at a pixel's x; beyond the ends of the track that of the end."""
-    way = dial_track(room)
-    return min(max((x - way.x) / max(way.width, 1.0), 0.0), 1.0)
+    track = dial_track(room)
+    return min(max((x - track.x) / max(track.width, 1.0), 0.0), 1.0)
 
 
 def is_on_dial(room: Rect, x: float, y: float) -> bool:
     """Return whether a pixel is on a dial."""
-    way, reach = dial_track(room), _BESIDE * room.height
-    return way._replace(x=way.x - reach, width=way.width + 2 * reach).holds(x, y)
+    track, reach = dial_track(room), _BESIDE * room.height
+    return track._replace(x=track.x - reach, width=track.width + 2 * reach).holds(x, y)
 
 
 def draw_dial(surface: pygame.Surface, board: Board, room: Rect, dial: DialShown) -> None:
     """Draw a dial in its room, its words beside the ends of the track."""
-    way, size, unit = dial_track(room), board.layout.small_size, board.layout.unit
-    row, line, radius = way.y + way.height / 2, max(1.6 * unit, 1.0), 0.5 * size
-    marks = [complex(way.x + at * way.width, row) + box(2 * line, 0.6 * size) for at in dial.marks]
+    rail, size, unit = dial_track(room), board.layout.small_size, board.layout.unit
+    row, line, radius = rail.y + rail.height / 2, max(1.6 * unit, 1.0), 0.5 * size
+    marks = [complex(rail.x + at * rail.width, row) + box(2 * line, 0.6 * size) for at in dial.marks]
     filled = board.theme.velocity if dial.held else board.theme.background
-    track = _track(complex(way.x, row), way.width, dial.value, radius, line, board.theme, filled)
-    paint(surface, [Layer(board.theme.rule, marks), *track])
+    knob_and_track = _track(complex(rail.x, row), rail.width, dial.value, radius, line, board.theme, filled)
+    paint(surface, [Layer(board.theme.rule, marks), *knob_and_track])
     top, gap, dim = row - 0.65 * size, radius + 0.7 * size, board.theme.dim
-    board.write(surface, dial.low, (way.x - gap, top), size=size, colour=dim, anchor="right")
-    board.write(surface, dial.high, (way.right + gap, top), size=size, colour=dim)
+    board.write(surface, dial.low, (rail.x - gap, top), size=size, colour=dim, anchor="right")
+    board.write(surface, dial.high, (rail.right + gap, top), size=size, colour=dim)

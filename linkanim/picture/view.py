@@ -64,12 +64,12 @@ class Rect(NamedTuple):
 
     def crossed(self, one: complex, other: complex) -> tuple[complex, complex] | None:
         """Return what of a segment lies in it, by Liang and Barsky's shares; None where nothing does."""
-        way, first, last = other - one, 0.0, 1.0
+        along, first, last = other - one, 0.0, 1.0
         for step, gap in (
-            (-way.real, one.real - self.x),
-            (way.real, self.right - one.real),
-            (-way.imag, one.imag - self.y),
-            (way.imag, self.bottom - one.imag),
+            (-along.real, one.real - self.x),
+            (along.real, self.right - one.real),
+            (-along.imag, one.imag - self.y),
+            (along.imag, self.bottom - one.imag),
         ):
             if step == 0 and gap < 0:
                 return None
@@ -77,7 +77,7 @@ class Rect(NamedTuple):
                 first = max(first, gap / step)
             elif step > 0:
                 last = min(last, gap / step)
-        return (one + first * way, one + last * way) if first < last else None
+        return (one + first * along, one + last * along) if first < last else None
 
 
 class Box(NamedTuple):

@@ -246,10 +246,10 @@ class Pads:
     def turned(self, state: State) -> tuple[Action, ...]:
         """Return where the stick has turned the crank to since the last frame: both its axes together."""
         moved, self._moved = self._moved, False
-        way = complex(self._stick[0], -self._stick[1])
-        if not moved or abs(way) <= _DEAD_ZONE or state.mode in ("list", "shelf"):
+        stick = complex(self._stick[0], -self._stick[1])
+        if not moved or abs(stick) <= _DEAD_ZONE or state.mode in ("list", "shelf"):
             return ()
-        return (Action("scrub", phase_along(state.displayed, state.phase, way / max(abs(way), 1.0))),)
+        return (Action("scrub", phase_along(state.displayed, state.phase, stick / max(abs(stick), 1.0))),)
 
     def repeated(self, frame: int) -> tuple[Action, ...]:
         """Return what a button that is held asks for when that is due again."""

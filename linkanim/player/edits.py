@@ -107,8 +107,7 @@ def exchanged(state: State, scene: Scene) -> State:
 
 def followed(state: State, scene: Scene) -> State:
     """Let the scene that is shown glide to a changed one."""
-    way = glide(state.shown, scene, state.frame)
-    return replace(exchanged(state, scene), glide=way)
+    return replace(exchanged(state, scene), glide=glide(state.shown, scene, state.frame))
 
 
 def _verdict(info: Info) -> tuple[str, bool, bool]:

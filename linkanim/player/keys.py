@@ -144,9 +144,11 @@ def _zoom(keys: str, notches: float) -> tuple[Bind, ...]:
 
 def _aims() -> tuple[Bind, ...]:
     """Return the arrows, which move the cursor by a line of the grid, and with Shift by a fine step."""
-    ways = {"up": (0.0, 1.0), "down": (0.0, -1.0), "left": (-1.0, 0.0), "right": (1.0, 0.0)}
-    lines = (bind for key, way in ways.items() for bind in _on(key, "aim", way, held=True))
-    fine = (bind for key, way in ways.items() for bind in _on(f"shift+{key}", "aim", (*way, 0.0), held=True))
+    arrows = {"up": (0.0, 1.0), "down": (0.0, -1.0), "left": (-1.0, 0.0), "right": (1.0, 0.0)}
+    lines = (bind for key, step in arrows.items() for bind in _on(key, "aim", step, held=True))
+    fine = (
+        bind for key, step in arrows.items() for bind in _on(f"shift+{key}", "aim", (*step, 0.0), held=True)
+    )
     return (*lines, *fine)
 
 

@@ -80,9 +80,9 @@ def _apart(at: complex, corners: list[complex]) -> float:
 
 
 def _from_side(at: complex, begin: complex, end: complex) -> float:
-    way = end - begin
-    share = ((at - begin) * way.conjugate()).real / (abs(way) ** 2 or 1.0)
-    return abs(at - begin - min(max(share, 0.0), 1.0) * way)
+    along = end - begin
+    share = ((at - begin) * along.conjugate()).real / (abs(along) ** 2 or 1.0)
+    return abs(at - begin - min(max(share, 0.0), 1.0) * along)
 
 
 def told(state: State, pointed: Pointed) -> Told | None:

@@ -183,10 +183,10 @@ def along(state: State, hand: tuple[float, float, float, float]) -> State:
             pose = sketch.poses[grip.number]._replace(x=to[0], y=to[1])
         case "axis":
             pose = sketch.poses[grip.number]
-            way = at[0] - pose.x, at[1] - pose.y
-            if hypot(*way) <= reach:
+            off = at[0] - pose.x, at[1] - pose.y
+            if hypot(*off) <= reach:
                 return state
-            angle = atan2(way[1], way[0])
+            angle = atan2(off[1], off[0])
             pose = pose._replace(angle=_whole(angle) if snap else angle)
         case "pin":
             pins = tuple(to if n == grip.number else place for n, place in enumerate(sketch.pins))

@@ -266,8 +266,8 @@ def _snap(seen: Draft, sheet: BuildSheet, hover: Hover | None) -> Snap | None:
         place = complex(*at) - from_span(complex(*one), complex(*other), complex(*at))
         return Snap(as_point(place), (one, other))
     if thing[0] == "guides":
-        start, way = line_of(seen, seen.of("guides")[thing[1]])
-        ends = as_point(start - 1e3 * reach * way), as_point(start + 1e3 * reach * way)
+        start, direction = line_of(seen, seen.of("guides")[thing[1]])
+        ends = as_point(start - 1e3 * reach * direction), as_point(start + 1e3 * reach * direction)
         return Snap(_met(seen, thing, at) or at, ends)
     met = _met(seen, thing, at)
     return Snap(met) if met else None
@@ -296,7 +296,7 @@ _MAKE_HINT = "Enter writes the parts"
 _BAR_FRAMES = 6 * FRAMES_PER_SECOND
 _WATCH_FRAMES = 6 * FRAMES_PER_SECOND
 _NAME = r"\b[^\W\d_]\w*"
-_WAYS = ("along", "to the left", "to the right", "x", "y")
+_DIRECTIONS = ("along", "to the left", "to the right", "x", "y")
 """What the labels of places end in, and the other side."""
 _READ, _NEAR = 15, 40
 """How many frames a value in the list of quantities stands, and how many rows by the chosen have one."""
@@ -634,11 +634,11 @@ def _measured(state: State, items: tuple[Dimension, ...]) -> Iterator[DimensionL
 
 
 def _worded(item: Dimension, digits: int) -> str:
-    """Return a dimension's value; of a place on a body with the way that it leads, and no sign."""
-    way = item.label.rpartition(", ")[2]
-    if way == "to the left" and item.value < 0:
-        item, way = replace(item, value=-item.value), "to the right"
-    return f"{way} {_valued(item, digits)}" if way in _WAYS else _valued(item, digits)
+    """Return a dimension's value; of a place on a body without a sign, after its direction."""
+    direction = item.label.rpartition(", ")[2]
+    if direction == "to the left" and item.value < 0:
+        item, direction = replace(item, value=-item.value), "to the right"
+    return f"{direction} {_valued(item, digits)}" if direction in _DIRECTIONS else _valued(item, digits)
 
 
 def _recording(state: State) -> str | None:

@@ -251,46 +251,48 @@ _FOLLOWED = ("length", "offset", "angle")
 
 @frozen
 class Glide:
-    """Dimensions on their way since frame `since`: (key, from, to), and the scene shown meanwhile.
+    """Dimensions that change since frame `since`: (key, from, to), and the scene shown meanwhile.
 
     `coming` is the one that is worked out for the next frame, if any.
     """
 
     scene: Scene
     since: int
-    ways: tuple[tuple[Key, float, float], ...]
+    changes: tuple[tuple[Key, float, float], ...]
     coming: Scene | None = None
 
 
 def glide(before: Scene, after: Scene, frame: int) -> Glide | None:
-    """Return the way from one scene to the other; None where no length or angle differs."""
+    """Return the glide from one scene to the other; None where no length or angle differs."""
     old = {item.key: item for item in dimensions(before)}
-    ways = tuple(
+    changes = tuple(
         (item.key, old[item.key].value, item.value)
         for item in dimensions(after)
         if item.kind in _FOLLOWED and item.key in old
         if item.unit == old[item.key].unit and item.value != old[item.key].value
     )
-    return Glide(before, frame, ways) if ways else None
+    return Glide(before, frame, changes) if changes else None
 
 
-def followed(way: Glide, after: Scene, frame: int) -> Glide | None:
+def followed(begun: Glide, after: Scene, frame: int) -> Glide | None:
     """Return the glide at `frame`; None when `after` is reached.
 
     A scene on the way that cannot be assembled all along is left out: the last one stays.
     """
-    gone = frame + 1 - way.since
+    gone = frame + 1 - begun.since
     if gone > FRAMES:
         return None
     if gone % EVERY == 0 and gone < FRAMES:
-        return replace(way, coming=_on_the_way(way, after, gone / FRAMES))
-    return replace(way, scene=way.coming, coming=None) if way.coming else way
+        return replace(begun, coming=_on_the_way(begun, after, gone / FRAMES))
+    return replace(begun, scene=begun.coming, coming=None) if begun.coming else begun
 
 
-def _on_the_way(way: Glide, after: Scene, part: float) -> Scene | None:
+def _on_the_way(begun: Glide, after: Scene, part: float) -> Scene | None:
     """Return the scene after a part of the way; None where it cannot be assembled all along."""
     try:
-        scene = passing(after, {key: start + (end - start) * eased(part) for key, start, end in way.ways})
+        scene = passing(
+            after, {key: start + (end - start) * eased(part) for key, start, end in begun.changes}
+        )
     except LinkanimError:
         return None
     return scene if closes(scene) else None

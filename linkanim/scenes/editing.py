@@ -47,7 +47,7 @@ _SPEED = {one.key: one.usual for one in DRIVE.fields if one.key == "speed"}
 
 
 class Number(NamedTuple):
-    """A number of a document: the way to it, its field, which item of a list it is, and what is written."""
+    """A number of a document: its key, its field, which item of a list it is, and what is written."""
 
     key: Key
     field: Field
@@ -377,8 +377,8 @@ def other_return(scene: Scene) -> Scene:
     """
     if scene.info.full_turn:
         raise AssemblyError(f"{scene.name}: its input turns fully, and never comes back")
-    way = "other" if scene.linkage.drive.retraced else "same"
-    document = replaced(scene.document, ("drive", "returns"), way)
+    returns = "other" if scene.linkage.drive.retraced else "same"
+    document = replaced(scene.document, ("drive", "returns"), returns)
     return with_document(scene, document)
 
 
@@ -460,7 +460,7 @@ class Handle:
     """A dimension that follows a joint: the distance from `start`, or a part of the place on a body.
 
     `part` is 0 along the body's axis `on` and 1 to its left, or 0 for x and 1 for y of a fixed pin; None for
-    a distance. An `angle` is that of the way from `start`.
+    a distance. An `angle` is that of the line from `start`.
     """
 
     key: Key
@@ -515,9 +515,10 @@ def _in_degrees(written: object) -> bool:
 
 
 class Stretch(NamedTuple):
-    """A straight line from `begin` to `end` in the frame of two joints, whose way is 1, to its left 1j.
+    """A straight line from `begin` to `end` in the frame of two joints.
 
-    Of one joint twice, 1 is the scene's unit, level. `key` is the dimension that it is.
+    There 1 leads from one joint to the other, and 1j to the left of that. Where it is one joint twice, 1 is
+    one unit of the scene, level. `key` is the dimension that it is.
     """
 
     frame: tuple[str, str]
@@ -572,14 +573,14 @@ def _of_place(joint: Joint, scene: Scene, key: Key) -> Iterator[Stretch]:
 
 
 def _legs(scene: Scene, on: tuple[str, str], at: complex, key: Key) -> Iterator[Stretch]:
-    """Yield the way along a body's axis and the way from there to its left."""
+    """Yield the stretch along a body's axis and the one from there to its left."""
     at /= _apart(scene, *on)
     yield Stretch(on, 0, at.real, (*key[:-1], 0))
     yield Stretch(on, at.real, at, (*key[:-1], 1))
 
 
 def _of_offset(joint: Joint, scene: Scene, key: Key) -> Iterator[Stretch]:
-    """Yield the way from a pivot to its slot, or from a line's joint to the line."""
+    """Yield the stretch from a pivot to its slot, or from a line's joint to the line."""
     line: Line | None = getattr(joint, "line", None)
     if line is None:
         pivot, offset = getattr(joint, "pivot", ""), getattr(joint, "offset", 0.0)
@@ -624,15 +625,15 @@ def phase_towards(scene: Scene, phase: float, point: tuple[float, float]) -> flo
     return phase if x == 0.0 == y else mechanism.phase_of(math.atan2(y, x), phase)
 
 
-def phase_along(scene: Scene, phase: float, way: complex) -> float:
-    """Return the phase near `phase` at which the input crank points along `way` (x + yi, y up).
+def phase_along(scene: Scene, phase: float, direction: complex) -> float:
+    """Return the phase near `phase` at which the input crank points along `direction` (x + yi, y up).
 
-    As `phase_towards` at limits. A slider that drives stands as far along its guide as `way`, of length 1
-    at the most, reaches along it from the middle: at 1 it is at its end.
+    As `phase_towards` at limits. A slider that drives stands as far along its guide as `direction`, 1
+    long at the most, reaches along it from the middle: at 1 it is at its end.
     """
     mechanism, driven = scene.mechanism, scene.linkage.driven.joint
     if not isinstance(driven, DrivenSlider):
-        return mechanism.phase_of(cmath.phase(way), phase)
+        return mechanism.phase_of(cmath.phase(direction), phase)
     low, high = scene.info.input_range
-    along = (way * complex(*unit(driven.line.angle)).conjugate()).real
+    along = (direction * complex(*unit(driven.line.angle)).conjugate()).real
     return mechanism.phase_of((low + high) / 2 + along * (high - low) / 2, phase)

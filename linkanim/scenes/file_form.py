@@ -547,7 +547,7 @@ def _pose(table: Table, key: str) -> tuple[Any, ...] | None:
 
 
 def _place(table: Table, key: str) -> float:
-    """Read an angle, or a way along a line."""
+    """Read an angle, or a travel along a line."""
     value = table.values[key]
     angular = isinstance(value, str) and any(sign in value for sign in ("deg", "rad", "°"))
     return _with_unit(table, key, ANGLE if angular else OFFSET, "30 deg")

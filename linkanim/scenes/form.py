@@ -116,7 +116,7 @@ Schema = Mapping[str, Any]
 
 _LARGEST, _LONGEST = 1e30, 1e12
 SHORTEST = 1 / _LONGEST
-"""The least length of a scene file, and the least way of an input."""
+"""The least length of a scene file, and the least travel of an input."""
 _MOST_TURNS = 100
 _SMALL, _STEEP = 12, 100
 _FRACTION = r"(?a)\s*([+-]?\d{1,9}(?:\.\d{1,18})?)\s*(?:/\s*(\d{1,9})\s*)?"
@@ -336,7 +336,7 @@ JOINTS = _joints()
 # Fields, and the tables that they make up: what a table of a scene file may say, and what that becomes.
 
 Key = tuple[str | int, ...]
-"""The way to a value in a scene's document."""
+"""The keys and numbers that lead to a value in a scene's document."""
 
 NEEDED = object()
 """What is usual of a key that must not be missing."""

@@ -41,7 +41,7 @@ class FunctionPurpose(NamedTuple):
     """A function in words, with its precision points.
 
     At each x the function has a y, the crank stands at an angle `input` (rad), and the output at an angle
-    (rad), or a slider at a way along its line (the scene's unit).
+    (rad), or a slider at a travel along its line (the scene's unit).
     """
 
     words: str

@@ -63,7 +63,7 @@ def line_numbers(text: str) -> dict[Keys, int]:
     table: Keys = ()
     for at, statement, document in _statements(text):
         if statement.lstrip().startswith("["):
-            table = _way(document)
+            table = _keys_of(document)
             found.setdefault(table, at)
         else:
             for keys in _keys(document):
@@ -93,16 +93,16 @@ def _statements(text: str) -> Iterator[tuple[int, str, Any]]:
         lines = []
 
 
-def _way(document: Any) -> Keys:
+def _keys_of(document: Any) -> Keys:
     """Return the keys of a header, [a.b] or [[a.b]]."""
-    way: list[str] = []
+    keys: list[str] = []
     while document:
         document = document[0] if isinstance(document, list) else document
         if not document:
             break
         ((key, document),) = document.items()
-        way.append(key)
-    return tuple(way)
+        keys.append(key)
+    return tuple(keys)
 
 
 def _keys(document: dict[str, Any]) -> list[Keys]:
