@@ -306,6 +306,7 @@ def _still(
         board.write(still, _NONE, (x, found.room.y), size=text, colour=board.theme.warning)
     for name, at in found.headings:
         board.write(still, name, (at.x, at.y), size=round(_HEADING * text), strong=True)
+    yield
     width = max(1.5 * board.layout.unit, 1.0)
     outer, inner = ([frame_of(cell, board, by) for cell in found.cells.values()] for by in (width, 0.0))
     paint(still, [Layer(board.theme.rule, outer), Layer(board.theme.panel, inner)])
