@@ -637,11 +637,13 @@ def names_of(
 ) -> Generator[None, None, Names]:
     """Place the names of joints, and links; where the symbols are known, dimensions and input's angle, too.
 
-    Lengths that do not stand on the picture at all times go into a table. Each place that is looked for is a
-    step. Of a single moment `tries` other orders are tried for what has no place yet.
+    Lengths that do not stand on the picture at all times go into a table. What is in the way of names is a
+    step, and each place that is looked for. Of a single moment `tries` other orders are tried for what has
+    no place yet.
     """
     setting = ground.setting
     every, clutter = _every(ground, known, dead_centres), ground.clutter()
+    yield
     placer, placed, left = yield from _attempts(every, clutter, tries if ground.phase is not None else 0)
     rows = tuple(label for label in left if label.about)
     found = (setting.figure.scene.period, setting.gauge.bar, _halo(setting))

@@ -24,6 +24,8 @@ _MOST_PICTURES, _MOST_BYTES = 8, 100_000_000
 """What is kept of shapes that come again takes no more memory than so many pictures, nor than so much."""
 _MOST_EXPECTED = 6
 """For so many layouts panels are kept that may be shown next."""
+_WORDS_IN_STEP = 6
+"""So many lines of words are drawn in a step where a picture is drawn beforehand."""
 _SPARE_LABELS = 8
 """So many labels are kept that the last frame had not."""
 
@@ -38,6 +40,7 @@ class SurfacePrinter:
         keep_memory()
         self._picture: Picture | None = None
         self._still: tuple[tuple[Group, ...], pygame.Surface] | None = None
+        self._next_still: tuple[tuple[Group, ...], pygame.Surface] | None = None
         self._covers: dict[Hashable, tuple[tuple[Group, ...], Cover]] = {}
         self._labels = _Labels()
         self._panels: Panels | None = None
@@ -85,6 +88,22 @@ class SurfacePrinter:
         if canvas is not surface:
             surface.blit(canvas, (0, 0))
 
+    def drawn_ahead(self, picture: Picture, phase: float, speed: float, overlay: Overlay) -> Iterator[None]:
+        """Draw in steps what is kept of a picture that is printed next: its words, and what stands still."""
+        pose, faint = picture.poses(phase, speed)
+        groups = [*picture.groups(pose, overlay, faint=faint)]
+        yield
+        first, *others = _runs(groups)
+        bitmap = self._bitmap(picture, first)
+        self._next_still = first, bitmap
+        lines = [line for run in others for group in run for line in group.captions]
+        self._labels.expect(lines)
+        scrap = bitmap.copy()
+        yield
+        for n in range(0, len(lines), _WORDS_IN_STEP):
+            self._words(scrap, picture.type, (Group("words", (), lines[n : n + _WORDS_IN_STEP]),))
+            yield
+
     def prepared(self, picture: Picture, place: Layout, overlay: Overlay) -> Iterator[None]:
         """Draw the panels of an overlay in steps, so that they take less when they are shown.
 
@@ -125,7 +144,10 @@ class SurfacePrinter:
     ) -> pygame.Surface:
         """Return the surface, or where it is of another kind one to work on, with what stands still on it."""
         if self._still is None or not _same(self._still[0], still):
-            self._still = still, self._bitmap(picture, still)
+            if self._next_still and _same(self._next_still[0], still):
+                self._still, self._next_still = self._next_still, None
+            else:
+                self._still = still, self._bitmap(picture, still)
         bitmap = self._still[1]
         alike = surface.get_size() == picture.size and surface.get_masks() == bitmap.get_masks()
         canvas = surface if alike and paints(surface) else bitmap.copy()
@@ -191,11 +213,16 @@ class _Labels:
     def __init__(self) -> None:
         self._kept: dict[Hashable, Lettering] = {}
         self._drawn: set[Hashable] = set()
+        self._expected: set[Hashable] = set()
+
+    def expect(self, lines: Iterable[Caption]) -> None:
+        """Keep those of these lines that are drawn, until others are expected."""
+        self._expected = {_label_key(line) for line in lines}
 
     def draw(self, surface: pygame.Surface, line: Caption, type_: Type, *, whole: bool) -> None:
         """Draw a line in its halo, as strongly as it shows."""
         assert line.halo
-        key = (line.text, line.size, line.colour, line.halo)
+        key = _label_key(line)
         self._drawn.add(key)
         if key not in self._kept:
             colours = line.colour, line.halo.colour
@@ -208,9 +235,14 @@ class _Labels:
 
     def let_go(self) -> None:
         """Forget what the frame that ends here had not, where that is more than a few."""
-        if len(self._kept) > len(self._drawn) + _SPARE_LABELS:
-            self._kept = {key: self._kept[key] for key in self._drawn}
+        needed = self._drawn | (self._expected & self._kept.keys())
+        if len(self._kept) > len(needed) + _SPARE_LABELS:
+            self._kept = {key: self._kept[key] for key in needed}
         self._drawn.clear()
+
+
+def _label_key(line: Caption) -> Hashable:
+    return line.text, line.size, line.colour, line.halo
 
 
 def _runs(groups: Iterable[Group]) -> Iterator[tuple[Group, ...]]:

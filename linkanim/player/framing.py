@@ -7,9 +7,10 @@ be drawn in a frame, it is drawn in two.
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Generator
+from collections.abc import Callable, Generator, Iterator
 from dataclasses import replace
 from functools import partial
+from itertools import islice
 from math import inf
 from typing import Literal
 
@@ -32,6 +33,8 @@ from linkanim.player.stroke_view import view_for
 APPROACH_FRAMES = 14
 _NAMES = 2
 """So many names are placed in a frame."""
+
+DrawnAhead = Callable[[Picture, State], Iterator[None]]
 
 
 @frozen
@@ -72,13 +75,15 @@ class Framing:
     """The picture of each state that comes, and the last one; a list in a window takes its room.
 
     Where it is `captioned`, as the window is, names come with the sentence on what to watch for, the bar of
-    commands has room at the foot, and a frame does not wait for all names to be placed.
+    commands has room at the foot, and a frame does not wait for all names to be placed. The picture with
+    their places is then drawn `ahead` as it is in a state, in steps, before it is given.
     """
 
-    def __init__(self, *, captioned: bool = False) -> None:
-        self._captioned = captioned
+    def __init__(self, *, captioned: bool = False, ahead: DrawnAhead | None = None) -> None:
+        self._captioned, self._ahead = captioned, ahead
         self._fitting: Picture | None = None
         self._coming: Picture | None = None
+        self._drawing: Iterator[None] | None = None
         self._passing: Picture | None = None
         self._approach: Approach | None = None
         self._drawn: tuple[int, View] | None = None
@@ -125,15 +130,14 @@ class Framing:
             sheet=home,
         )
         if before and fits and not sketch:
-            self._coming = self._coming or make(later=Deferral(held, "in steps"))
-            if not self._coming.place_names(_NAMES if hurried else None):
+            made = self._coming = self._coming or make(later=Deferral(held, "in steps"))
+            if not made.place_names(_NAMES if hurried else None) or (hurried and self._draws(made, state)):
                 return before
-            made = self._coming
         else:
             stay = hurried and not (sketch and stays)
             make = partial(make, later=Deferral(held, "as before" if stay else "at once", earlier))
             made = make(kept=before.fitted if before and sketch and stays else None)
-        self._coming = None
+        self._coming = self._drawing = None
         if before and sketch and stays and not held and not made.look.framed:
             goal = self._of_the_stroke(before, made, sketch)
             made = made if goal == made.fitted else make(kept=goal)
@@ -145,6 +149,12 @@ class Framing:
             self._approach = None
         self._fitting = made
         return made
+
+    def _draws(self, coming: Picture, state: State) -> bool:
+        """Draw a step of the picture that comes ahead; return whether one was left."""
+        if self._drawing is None:
+            self._drawing = self._ahead(coming, state) if self._ahead else iter(())
+        return any(True for _ in islice(self._drawing, 1))
 
     def _docked(self, state: State) -> Docked:
         """Return what has room of its own; tools beside a list and the bar of commands a window alone has."""

@@ -270,13 +270,13 @@ class Screen:
     """
 
     def __init__(self, state: State) -> None:
-        self._framing = Framing(captioned=True)
         self._shown: object = None
         self.state = state
         self._titled: str | None = None
         self._shelf = ShelfPrinter()
         self._fade = Fade()
         self._printer = SurfacePrinter()
+        self._framing = Framing(captioned=True, ahead=self._drawn_ahead)
         self.over = Overlay()
         self._row, self._tools, self._bar = RowPrinter(), ToolPrinter(), BarPrinter()
         self._pointer: object = None
@@ -325,6 +325,10 @@ class Screen:
             for _ in self._preparing:
                 return True
         return False
+
+    def _drawn_ahead(self, picture: Picture, state: State) -> Iterator[None]:
+        """Draw in steps a picture that comes in the place of the one that is shown."""
+        return self._printer.drawn_ahead(picture, state.phase, state.clock.speed, self.over)
 
     def _find_other(self, state: State) -> None:
         """Find the other closure of a mechanism that has just come on.

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import Any
 
 import pygame
 import pytest
 from playing import SIZE, Player
 
+from linkanim.picture import surface
+from linkanim.picture.text import Lettering
 from linkanim.player import screen
 from linkanim.player.state import State, begin
 from linkanim.scenes import load
@@ -124,6 +127,30 @@ def test_polygons_come_once_room_is_made_for_them_and_then_stay(rested: Player) 
         for _ in range(30):
             assert framing.last.has_polygons, key
             rested.tick()
+
+
+@pytest.mark.parametrize("key", "pn")
+def test_the_frame_in_which_names_come_finds_their_letters_drawn(
+    rested: Player, key: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Else names, polygons and what stands still would all be drawn in that frame, and hold it up."""
+    framing, made = rested.window.screen._framing, [False]
+
+    def lettered(*known: Any) -> Lettering:
+        made[0] = True
+        return Lettering(*known)
+
+    monkeypatch.setattr(surface, "Lettering", lettered)
+    rested.type(" ")  # in motion names come at their phases
+    rested.type(key)
+    for _ in range(60):
+        made[0], waits = False, framing.last.hurried
+        rested.tick()
+        if waits and not framing.last.hurried:
+            break
+    assert framing.last.names is not None
+    assert not framing.last.hurried
+    assert not made[0]
 
 
 def test_the_help_is_drawn_before_it_is_asked_for(rested: Player) -> None:
