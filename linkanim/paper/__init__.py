@@ -2,7 +2,7 @@
 
 From the ground up; a module imports from those before it only:
 
-    illustration  a picture of groups that are at hand, to be written as a file
+    illustration  a page's pen and surface, and a picture of groups that are at hand
     svg           items as SVG
     pdf           items as PDF
     latex         a PDF whose words LaTeX sets

@@ -16,6 +16,7 @@ import pygame
 from linkanim.export import csv_head, csv_rows
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.paper.curves import Curve, Curves, MeasuredCurve, Peak, extremes, table
+from linkanim.paper.illustration import page_pen, page_surface
 from linkanim.paper.sentences import about, without_subscripts
 from linkanim.picture.chart import (
     Pen,
@@ -27,21 +28,16 @@ from linkanim.picture.chart import (
     line_layer,
     marked,
     paths,
-    pen_for,
     right_axis,
     without_values,
     x_title,
 )
 from linkanim.picture.items import Caption, Group, Item, grouped
-from linkanim.picture.layout import layout
 from linkanim.picture.look import ThemeName
 from linkanim.picture.placing import Clutter, LabelPlaces, Solid, place
 from linkanim.picture.quantities import Axis, linear, range_around, zeros_level
-from linkanim.picture.raster import Colour, Layer, offscreen
+from linkanim.picture.raster import Colour, Layer
 from linkanim.picture.shapes import box, disc, segments
-from linkanim.picture.surface import printed
-from linkanim.picture.text import Type
-from linkanim.picture.theme import on_paper, theme_of
 from linkanim.picture.view import Rect
 from linkanim.units import stepped
 
@@ -271,9 +267,7 @@ class Page:
     @cached_property
     def pen(self) -> Pen:
         """What it is drawn with."""
-        theme = theme_of(self.theme)
-        parts = layout(self.size, type_scale=self.type_scale)
-        pen = pen_for(parts, Type(), theme if self.ground else on_paper(theme))
+        pen = page_pen(self.size, self.theme, self.type_scale, ground=self.ground)
         return replace(pen, line=max(pen.line, _THINNEST)) if self.brief else pen
 
     @property
@@ -283,11 +277,7 @@ class Page:
 
     def surface(self) -> pygame.Surface:
         """Return the chart drawn."""
-        surface = offscreen(self.size, alpha=not self.ground)
-        if self.ground:
-            surface.fill(self.pen.theme.background)
-        printed(surface, self.groups(), self.pen.type)
-        return surface
+        return page_surface(self.size, self.background, self.groups(), self.pen.type)
 
     @property
     def title(self) -> str:

@@ -13,19 +13,16 @@ import pygame
 from linkanim.export import csv_head, csv_rows
 from linkanim.frozen import frozen
 from linkanim.mechanics.quantities import input_symbol
-from linkanim.picture.chart import Pen, Plot, axes, curve_layer, dot, line_layer, pen_for, plot_area, x_title
+from linkanim.paper.illustration import page_pen, page_surface
+from linkanim.picture.chart import Pen, Plot, axes, curve_layer, dot, line_layer, plot_area, x_title
 from linkanim.picture.constructed import clear_phase, linkage_marks, steps_of, title_of, usual_kind
 from linkanim.picture.construction import box_of, construction_items, view_of
 from linkanim.picture.items import Caption, Group, Item, grouped
-from linkanim.picture.layout import layout
 from linkanim.picture.look import ConstructionKind, ThemeName
 from linkanim.picture.purpose import USUAL_SIZE
 from linkanim.picture.quantities import driven_words, linear, range_around
-from linkanim.picture.raster import Colour, Layer, offscreen
+from linkanim.picture.raster import Colour, Layer
 from linkanim.picture.shapes import segments
-from linkanim.picture.surface import printed
-from linkanim.picture.text import Type
-from linkanim.picture.theme import on_paper, theme_of
 from linkanim.picture.view import Rect
 from linkanim.scenes.scene import Scene
 from linkanim.synthesis.constructions import ConstructionStep
@@ -77,9 +74,7 @@ class ConstructionPage:
     @cached_property
     def pen(self) -> Pen:
         """What it is drawn with."""
-        theme = theme_of(self.theme)
-        parts = layout(self.size, type_scale=self.type_scale)
-        return pen_for(parts, Type(), theme if self.ground else on_paper(theme))
+        return page_pen(self.size, self.theme, self.type_scale, ground=self.ground)
 
     @property
     def background(self) -> Colour | None:
@@ -103,11 +98,7 @@ class ConstructionPage:
 
     def surface(self) -> pygame.Surface:
         """Return the figure drawn."""
-        surface = offscreen(self.size, alpha=not self.ground)
-        if self.ground:
-            surface.fill(self.pen.theme.background)
-        printed(surface, self.groups(), self.pen.type)
-        return surface
+        return page_surface(self.size, self.background, self.groups(), self.pen.type)
 
     def groups(self) -> tuple[Group, ...]:
         """Return everything on the page, words over shapes."""
@@ -170,7 +161,7 @@ class ErrorChart:
     @cached_property
     def pen(self) -> Pen:
         """What it is drawn with."""
-        return pen_for(layout(self.size), Type(), theme_of(self.theme))
+        return page_pen(self.size, self.theme)
 
     @property
     def background(self) -> Colour:
@@ -201,10 +192,7 @@ class ErrorChart:
 
     def surface(self) -> pygame.Surface:
         """Return the chart drawn."""
-        surface = offscreen(self.size)
-        surface.fill(self.background)
-        printed(surface, self.groups(), self.pen.type)
-        return surface
+        return page_surface(self.size, self.background, self.groups(), self.pen.type)
 
     def groups(self) -> tuple[Group, ...]:
         """Return everything on the page, words over shapes."""

@@ -1,14 +1,37 @@
-"""A picture of groups that are at hand, to be written as a file."""
+"""A page's pen and surface, and a picture of groups that are at hand, to be written as a file."""
 
 from __future__ import annotations
+
+from collections.abc import Iterable
 
 import pygame
 
 from linkanim.frozen import NamedTuple
+from linkanim.picture.chart import Pen, pen_for
 from linkanim.picture.items import Group
+from linkanim.picture.layout import layout
+from linkanim.picture.look import ThemeName
 from linkanim.picture.raster import Colour, offscreen
 from linkanim.picture.surface import printed
 from linkanim.picture.text import Type
+from linkanim.picture.theme import on_paper, theme_of
+
+
+def page_pen(size: tuple[int, int], theme: ThemeName, type_scale: float = 1.0, *, ground: bool = True) -> Pen:
+    """Return the pen for a page of so many pixels, words `type_scale` times as large, on a ground or none."""
+    known = theme_of(theme)
+    return pen_for(layout(size, type_scale=type_scale), Type(), known if ground else on_paper(known))
+
+
+def page_surface(
+    size: tuple[int, int], background: Colour | None, groups: Iterable[Group], type_: Type
+) -> pygame.Surface:
+    """Return groups drawn on a surface of so many pixels; it is clear where there is no background."""
+    surface = offscreen(size, alpha=background is None)
+    if background is not None:
+        surface.fill(background)
+    printed(surface, groups, type_)
+    return surface
 
 
 class Illustration(NamedTuple):
@@ -30,7 +53,4 @@ class Illustration(NamedTuple):
 
     def surface(self) -> pygame.Surface:
         """Return the picture drawn."""
-        surface = offscreen(self.size)
-        surface.fill(self.background)
-        printed(surface, self.drawn, Type())
-        return surface
+        return page_surface(self.size, self.background, self.drawn, Type())
