@@ -333,12 +333,14 @@ PRESETS = {
 class Further(Action):
     """An option that goes to its step of a field of the look, or a step further; never back."""
 
-    def __call__(self, _parser: object, found: Namespace, _values: object, _word: str | None = None) -> None:
-        """Put the step into what is found."""
+    def __call__(
+        self, _parser: object, options: Namespace, _values: object, _word: str | None = None
+    ) -> None:
+        """Put the step into the options."""
         steps = TOGGLES[self.dest].steps
-        at = steps.index(getattr(found, self.dest))
+        at = steps.index(getattr(options, self.dest))
         to = at + 1 if self.const is None else steps.index(self.const)
-        setattr(found, self.dest, steps[max(at, min(to, len(steps) - 1))])
+        setattr(options, self.dest, steps[max(at, min(to, len(steps) - 1))])
 
 
 def _takes(*names: str, **how: Any) -> Argument:

@@ -341,10 +341,10 @@ def leave(state: State) -> State:
         return state
     look = replace(under.look, theme=state.look.theme)
     clock = under.clock.go(state.frame, under.phase)
-    kept = replace(under, frame=state.frame, clock=clock, look=look, touched=state.touched)
-    kept = replace(kept, sounds=state.sounds, pad=state.pad, from_title=state.from_title)
-    kept = replace(kept, kiosk=state.kiosk, take=state.take, taking=state.taking)
-    return replace(kept, recording=state.recording, effects=state.effects, faded=state.frame)
+    resumed = replace(under, frame=state.frame, clock=clock, look=look, touched=state.touched)
+    resumed = replace(resumed, sounds=state.sounds, pad=state.pad, from_title=state.from_title)
+    resumed = replace(resumed, kiosk=state.kiosk, take=state.take, taking=state.taking)
+    return replace(resumed, recording=state.recording, effects=state.effects, faded=state.frame)
 
 
 def with_scene(state: State, scene: Scene, phase: float = 0.0, *, paused: bool = False) -> State:

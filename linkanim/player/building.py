@@ -139,15 +139,15 @@ def left(state: State) -> State:
     sheet = state.sheet
     if sheet is None or not sheet.open:
         return state
-    kept = replace(state, sheet=replace(sheet, open=False, grip=None, cursor=None, warned=False))
-    kept = replace(kept, faded=state.frame, look=_look_after(state, sheet), held=None)
+    after = replace(state, sheet=replace(sheet, open=False, grip=None, cursor=None, warned=False))
+    after = replace(after, faded=state.frame, look=_look_after(state, sheet), held=None)
     if sheet.building.made.scene is None:
-        return replace(kept, scene=sheet.before, clock=sheet.clock, editing=sheet.editing)
-    kept = replace(kept, clock=state.clock.pause(state.frame, sheet.clock.paused))
+        return replace(after, scene=sheet.before, clock=sheet.clock, editing=sheet.editing)
+    after = replace(after, clock=state.clock.pause(state.frame, sheet.clock.paused))
     editing = with_undo(sheet.editing, sheet.before)
     if sheet.saved:
         editing = replace(editing, saved=(state.scene.name, sheet.saved))
-    return replace(kept, editing=replace(editing, original=state.scene) if sheet.is_written else editing)
+    return replace(after, editing=replace(editing, original=state.scene) if sheet.is_written else editing)
 
 
 def _look_after(state: State, sheet: BuildSheet) -> Look:

@@ -307,8 +307,8 @@ def erase(state: State, _: None) -> State:
     """Take the last typed character away; that of the row's draft, where none is typed."""
     editing, item = state.editing, chosen(state.editing, state.scene)
     draft = dict(editing.drafts).get(item.key, "") if item else ""
-    kept = tuple(pair for pair in editing.drafts if not item or pair[0] != item.key)
-    return replace(state, editing=cleared(editing, typed=(editing.typed or draft)[:-1], drafts=kept))
+    others = tuple(pair for pair in editing.drafts if not item or pair[0] != item.key)
+    return replace(state, editing=cleared(editing, typed=(editing.typed or draft)[:-1], drafts=others))
 
 
 def take(state: State, _: None) -> State:
@@ -514,8 +514,9 @@ def _dragged(state: State, held: Held, values: Mapping[Key, str]) -> State:
         refusal = str(error).removeprefix(f"{state.scene.name}: ")
     if refusal:
         return replace(state, editing=replace(editing, refusal=refusal, refused=document))
-    kept = editing if state.scene is not held.scene else with_undo(editing, held.scene)
-    return replace(exchanged(state, after), editing=cleared(kept))
+    if state.scene is held.scene:
+        editing = with_undo(editing, held.scene)
+    return replace(exchanged(state, after), editing=cleared(editing))
 
 
 def _values_at(held: Held, point: tuple[float, float], share: float) -> dict[Key, str]:

@@ -95,8 +95,8 @@ def slide(state: State, step: int) -> State:
         return lift_to(state, step)
     held = state.held or Held("", state.scene, state.phase, not state.clock.paused)
     scene, steps = _member(held.scene, step), state.constructed
-    kept = state.editing if state.scene is not held.scene else with_undo(state.editing, held.scene)
-    state = exchanged(replace(state, held=held, glide=None, editing=cleared(kept)), scene)
+    editing = state.editing if state.scene is not held.scene else with_undo(state.editing, held.scene)
+    state = exchanged(replace(state, held=held, glide=None, editing=cleared(editing)), scene)
     return replace(state, construction=(scene, steps))
 
 

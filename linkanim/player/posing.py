@@ -55,8 +55,8 @@ def put(state: State, numbers: tuple[float, ...]) -> State:
     if sketch is None:
         return state
     rows = zip(numbers[1::3], numbers[2::3], numbers[3::3], strict=True)
-    kept = tuple(SetPose(*row) for row in rows)[:MOST]
-    return _changed(state, replace(sketch, poses=kept, sliding=numbers[0] > 0, earlier=sketch), "anew")
+    poses = tuple(SetPose(*row) for row in rows)[:MOST]
+    return _changed(state, replace(sketch, poses=poses, sliding=numbers[0] > 0, earlier=sketch), "anew")
 
 
 def pin(state: State, at: Point) -> State:
@@ -164,10 +164,10 @@ def _pivot_taken(state: State, sketch: PoseSketch, grip: PoseGrip) -> State:
     place = joints[PIVOTS[-1 - grip.number]]
     known = [n for n, at in enumerate(sketch.pins) if abs(complex(*at) - place) < 1e-9 * (1 + abs(place))]
     room = 1 if sketch.sliding else len(PIVOTS)
-    kept = sketch.pins if known else (*sketch.pins[: room - 1], (place.real, place.imag))
-    number = known[0] if known else len(kept) - 1
+    pins = sketch.pins if known else (*sketch.pins[: room - 1], (place.real, place.imag))
+    number = known[0] if known else len(pins) - 1
     held, taken = PoseGrip("pin", number), ("pin", number)
-    return sketching(state, held=held, base=state.scene, pins=kept, taken=taken, earlier=sketch)
+    return sketching(state, held=held, base=state.scene, pins=pins, taken=taken, earlier=sketch)
 
 
 def along(state: State, hand: tuple[float, float, float, float]) -> State:
@@ -193,8 +193,8 @@ def along(state: State, hand: tuple[float, float, float, float]) -> State:
             return _led(state, replace(sketch, pins=pins))
         case "joint":
             return _led(state, replace(sketch, held=grip._replace(at=to)))
-    kept = tuple(pose if n == grip.number else one for n, one in enumerate(sketch.poses))
-    return _led(state, replace(sketch, poses=kept))
+    poses = tuple(pose if n == grip.number else one for n, one in enumerate(sketch.poses))
+    return _led(state, replace(sketch, poses=poses))
 
 
 def _led(state: State, sketch: PoseSketch) -> State:
@@ -276,8 +276,8 @@ def sliding(state: State, _: None) -> State:
     sketch = state.posing
     if sketch is None or sketch.held:
         return state
-    kept = sketch.pins if sketch.sliding else sketch.pins[:1]
-    return _changed(state, replace(sketch, sliding=not sketch.sliding, pins=kept, earlier=sketch), "anew")
+    pins = sketch.pins if sketch.sliding else sketch.pins[:1]
+    return _changed(state, replace(sketch, sliding=not sketch.sliding, pins=pins, earlier=sketch), "anew")
 
 
 def curves(state: State, _: None) -> State:

@@ -318,7 +318,7 @@ def overlay(
     `button` the number of a command on the bar, `pointed` what of the scene tells itself.
     """
     items = _items(state)
-    lists = _kept(state, items, over)
+    lists = _lasting(state, items, over)
     return replace(
         lists,
         panel=lists.panel and replace(lists.panel, pointed=row),
@@ -346,9 +346,9 @@ def _glow(state: State, hover: str | None) -> str | None:
     return joint if joint in state.shown.linkage.by_name else None
 
 
-def kept(state: State) -> Overlay:
+def lasting(state: State) -> Overlay:
     """Return what of the overlay belongs on a screenshot: all that does not come and go."""
-    return _kept(state, _items(state))
+    return _lasting(state, _items(state))
 
 
 def _items(state: State) -> tuple[Dimension, ...]:
@@ -356,7 +356,7 @@ def _items(state: State) -> tuple[Dimension, ...]:
     return dimensions(in_unit(state.scene, state.look.unit)) if state.editing.open else ()
 
 
-def _kept(state: State, items: tuple[Dimension, ...], over: Hover | None = None) -> Overlay:
+def _lasting(state: State, items: tuple[Dimension, ...], over: Hover | None = None) -> Overlay:
     found = Overlay(
         paused=_stands(state) and not (state.game or state.building),
         noted=True,

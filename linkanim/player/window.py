@@ -37,7 +37,7 @@ from linkanim.player.framing import StepSplitter
 from linkanim.player.keys import bind_of
 from linkanim.player.pointing import Pointed, PointedThing
 from linkanim.player.screen import Screen
-from linkanim.player.shown import Hover, kept, overlay
+from linkanim.player.shown import Hover, lasting, overlay
 from linkanim.player.sound import Speaker, cues
 from linkanim.player.state import BuildSheet, Game, Naming, PoseSketch, State, Take, begin, recovered, report
 from linkanim.player.tape import Tape, Taping
@@ -497,7 +497,7 @@ class Window:
             case "render":
                 self._stop("mp4" if effect.value == "mp4" else "gif")
             case "screenshot":
-                picture = self.screen.picture(self.state, kept(self.state))
+                picture = self.screen.picture(self.state, lasting(self.state))
                 self._notes.append(files.where(files.screenshot(picture, self.state.scene.name)))
             case "svg":
                 self._notes.append(files.where(files.vector(self.state, pygame.display.get_window_size())))

@@ -15,7 +15,7 @@ from linkanim.player import screen as display
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
 from linkanim.player.framing import Fade, Framing
-from linkanim.player.shown import kept, overlay
+from linkanim.player.shown import lasting, overlay
 from linkanim.player.state import CHIP_FRAMES, FADE_FRAMES, SHUTTER_FRAMES, State, begin
 from linkanim.player.window import Window
 from linkanim.scenes import load, names
@@ -180,7 +180,7 @@ def test_there_is_no_strip_over_anything_else(rocker: State, quiet: str | Action
 
 def test_nothing_that_comes_and_goes_is_on_a_screenshot(rocker: State) -> None:
     state = after(rocker, "direction", "screenshot", Action("note", "told"))
-    shown = kept(state)
+    shown = lasting(state)
     assert (shown.chip, shown.hint, shown.toast, shown.shutter) == (None, None, None, 0)
 
 
@@ -300,9 +300,11 @@ def test_a_mark_is_drawn_and_goes(over: Overlay, size: tuple[int, int]) -> None:
     with display.opened(size):
         player = Player(after(begin(load("crank-rocker")), Action("chart", 1), "pause"))
         screen, plain = player.window.screen, player.pixels
-        screen.show(player.state, replace(kept(player.state), **vars(over) | {"paused": True, "noted": True}))
+        screen.show(
+            player.state, replace(lasting(player.state), **vars(over) | {"paused": True, "noted": True})
+        )
         marked = player.pixels
-        screen.show(player.state, kept(player.state))
+        screen.show(player.state, lasting(player.state))
         bare = player.pixels
         player.window.close()
     assert marked != bare

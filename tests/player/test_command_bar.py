@@ -22,7 +22,7 @@ from linkanim.player.actions import advance, is_taped
 from linkanim.player.commands import bar, pressed, slid, slides
 from linkanim.player.framing import Framing
 from linkanim.player.keys import GROUPS, MODES, commands
-from linkanim.player.shown import kept, overlay
+from linkanim.player.shown import lasting, overlay
 from linkanim.player.state import STIR_FRAMES, State, begin
 from linkanim.scenes import load
 from linkanim.scenes.editing import dimensions
@@ -76,7 +76,7 @@ def test_the_bar_shows_for_three_seconds_after_the_mouse_has_moved(rocker: State
 
 
 def test_the_bar_is_on_no_screenshot_and_no_tape(rocker: State) -> None:
-    assert kept(rocker).bar is None
+    assert lasting(rocker).bar is None
     assert not is_taped(Action("stir"))
 
 

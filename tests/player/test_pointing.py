@@ -18,7 +18,7 @@ from linkanim.player import screen
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
 from linkanim.player.pointing import Pointed, PointedThing, thing_at, told
-from linkanim.player.shown import kept, overlay
+from linkanim.player.shown import lasting, overlay
 from linkanim.player.state import State, begin
 from linkanim.scenes import load
 from linkanim.scenes.scene import Scene
@@ -127,7 +127,7 @@ def test_beside_the_linkage_there_is_nothing() -> None:
 def test_it_is_in_no_screenshot() -> None:
     state = standing("crank-rocker")
     assert overlay(state, pointed=Pointed((0.0, 0.0), PointedThing("joint", "P"))).told
-    assert kept(state).told is None
+    assert lasting(state).told is None
 
 
 @pytest.mark.parametrize("size", [(320, 180), (640, 360), (1280, 720)])
@@ -137,7 +137,7 @@ def test_the_card_is_within_the_picture_and_beside_the_joint(size: tuple[int, in
     picture = Picture(state.scene, size, Look())
     pose, _ = picture.poses(1.0)
     place = pose.position[joint]
-    over = replace(kept(state), told=told(state, Pointed(place, PointedThing("joint", joint))))
+    over = replace(lasting(state), told=told(state, Pointed(place, PointedThing("joint", joint))))
     (card,) = (group for group in picture.groups(pose, over) if group.name == "told")
     corners = card.layers[0].loops[0]
     assert corners.real.min() >= -1.0
