@@ -370,8 +370,14 @@ class Picture:
 
     @property
     def edge(self) -> Rect | None:
-        """What the scene is kept within; None where that is the whole picture."""
-        reach = self.layout.reach
+        """What the scene is kept within; None where that is the whole picture.
+
+        While polygons wait nothing stands in their place, and the scene that makes room for them is not cut.
+        """
+        reach, polygons = self.layout.reach, self.layout.polygons
+        if self.waits and polygons:
+            right, bottom = max(reach.right, polygons.right), max(reach.bottom, polygons.bottom)
+            reach = reach._replace(width=right - reach.x, height=bottom - reach.y)
         return None if (reach.right, reach.bottom) == self.size else reach
 
     def _within(self, groups: Iterable[Group]) -> Iterator[Group]:
