@@ -25,8 +25,8 @@ from linkanim.scenes import load, names
 
 KEYS = "lnptcvaibjhkoe"
 """The letters measured: those that change what is shown."""
-BEFORE, AFTER = 12, 8
-"""Frames shown before a key, and after it."""
+BEFORE, AFTER = 12, 26
+"""Frames shown before a key, and after it: names and polygons have come by then."""
 BOUNDS_MS = {(1280, 720): 33.0, (1920, 1080): 50.0}
 """For the frame that heeds a key; those after it take no longer than the first of them."""
 STEP_MS = 16.0
