@@ -494,9 +494,9 @@ class FitRequest(NamedTuple):
     """What of a window and a look an arrangement depends on."""
 
     size: tuple[int, int]
-    chart: int
+    charts: int
     """How many charts there are."""
-    keys: int
+    key_lines: int
     """How many lines the key to the colours has."""
     hud: bool
     docked: Docked = NOTHING_DOCKED
@@ -509,7 +509,7 @@ class FitRequest(NamedTuple):
     """Whether it is of one pose, which keeps farther from the edge than what moves."""
     lined: bool = False
     """Whether that pose has dimension lines or arrows."""
-    held: tuple[complex, ...] = ()
+    also: tuple[complex, ...] = ()
     """Further places, in the scene's unit, that the view has to hold."""
     type_scale: float = 1.0
 
@@ -642,7 +642,7 @@ def arranging(subject: Subject, request: FitRequest) -> Generator[None, None, Ar
             _ = subject.rows
             yield
         found = yield from _with_chart(subject, request, beside=False)
-        if request.chart and request.size[0] >= _WIDE_ENOUGH:
+        if request.charts and request.size[0] >= _WIDE_ENOUGH:
             yield
             aside = yield from _with_chart(subject, request, beside=True)
             as_many = 2 * _row_count(aside) >= _row_count(found)
@@ -662,7 +662,7 @@ def _with_chart(subject: Subject, request: FitRequest, *, beside: bool) -> Gener
     type_ = subject.type
     parts = layout(
         request.size,
-        chart=request.chart,
+        chart=request.charts,
         beside=beside,
         listed=request.docked.listed,
         polygons=request.polygons,
@@ -677,14 +677,14 @@ def _with_chart(subject: Subject, request: FitRequest, *, beside: bool) -> Gener
         parts = with_caption(parts, len(caption_lines(parts, sentence, type_)))
     words: Iterable[Sequence[WordBlock]] = ()
     if request.worded:
-        words = blocks(subject.scenes, subject.rows, parts, request.keys, type_)
-    elif request.still and request.keys:  # a figure says how much its arrows stand for
-        words = [[key_block(subject.figure.scene, parts, request.keys, type_)]]
+        words = blocks(subject.scenes, subject.rows, parts, request.key_lines, type_)
+    elif request.still and request.key_lines:  # a figure says how much its arrows stand for
+        words = [[key_block(subject.figure.scene, parts, request.key_lines, type_)]]
     shapes = shapes_of(sentence, parts, type_) if request.worded and not parts.caption else ()
     edge = _EDGE_OF_STILL * parts.unit if request.still else None
     edge = _ROOM_FOR_LINES * parts.small_size if request.lined else edge
     sweep = subject.sweep
-    if request.held:
+    if request.also:
         nothing = np.zeros(0, complex)
-        sweep |= Sweep(nothing, nothing, np.array(request.held))
+        sweep |= Sweep(nothing, nothing, np.array(request.also))
     return (yield from _arranging(parts, sweep, subject.figure.shortest, words, shapes, edge))

@@ -133,7 +133,7 @@ class Picture:
 
             also = (*also, *CentrePairs(figure(self.scene)).near(self.scene.pose(moment, 2)))
         if also:
-            request = request._replace(held=also, lined=True)
+            request = request._replace(also=also, lined=True)
         if before and moment is None and (size, look.names) == (before.size, before.look.names):
             same = follows or before._goal is self._goal
             request = request._replace(table=before.fit.request.table) if same else request
