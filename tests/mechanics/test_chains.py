@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -13,7 +15,9 @@ from limits import Limits
 from linkanim.errors import LinkanimError
 from linkanim.mechanics.linkage import RRP, RRR, Crank, Drive, Line, Linkage, Pin
 from linkanim.mechanics.motion import Mechanism, mechanism
-from linkanim.mechanics.solver.closing import Touch
+from linkanim.mechanics.program import Array
+from linkanim.mechanics.solver import limits
+from linkanim.mechanics.solver.closing import Assembly, Touch
 from linkanim.mechanics.solver.input import Swing
 from linkanim.scenes import load
 from linkanim.scenes.editing import with_dimensions
@@ -188,6 +192,38 @@ def test_a_slot_whose_ends_lie_in_one_place_for_a_while_is_refused_at_once() -> 
     }
     with Limits(10, 400).held(), pytest.raises(LinkanimError, match="S: it is at its limit"):
         scene_from(document, name="kite", where="kite.toml")
+
+
+def row_of_dyads(count: int, size: float = 1.0) -> dict[str, object]:
+    """Return a row of dyads, each a parallelogram with the one before it but for the first."""
+    ground = {f"O{n + 2}": [4 * size * n, 0] for n in range(count + 1)}
+    joints: dict[str, object] = {"A": {"crank": "O2", "length": 4 * size}}
+    for n in range(1, count + 1):
+        before = "A" if n == 1 else f"D{n - 1}"
+        length = [4.2 * size if n == 1 else 4 * size, 2.5 * size]
+        joints[f"D{n}"] = {"from": [before, f"O{n + 2}"], "length": length, "side": "left"}
+    return {"ground": ground, "joints": joints, "drive": {"speed": "-20 rpm", "start": "600 rad"}}
+
+
+@pytest.mark.long  # half a minute of a busy machine
+def test_a_dyad_that_rounding_holds_at_its_limit_is_refused_before_it_is_looked_at_ever_closer() -> None:
+    with Limits(60, 800).held(), pytest.raises(LinkanimError, match=r"D\d+: it is at its limit"):
+        scene_from(row_of_dyads(20, 1e-9), name="row", where="row")
+
+
+@pytest.mark.slow
+def test_where_dyads_just_fall_into_line_is_settled_of_each_once_and_at_last_of_all(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    asked, settled = list[str](), limits._settled_separation
+
+    def noted(assembly: Assembly, name: str, phases: Array) -> Iterator[limits.Extreme]:
+        asked.append(name)
+        return settled(assembly, name, phases)
+
+    monkeypatch.setattr(limits, "_settled_separation", noted)
+    assert scene_from(row_of_dyads(4), name="row", where="row").mechanism
+    assert Counter(asked).most_common(1)[0][1] <= 3
 
 
 def test_what_keeps_from_its_limit_behind_a_change_point_has_none() -> None:

@@ -13,7 +13,7 @@ import math
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 from decimal import Decimal, localcontext
-from functools import cache, partial
+from functools import cache, cached_property, partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -75,7 +75,8 @@ class Sample(NamedTuple):
     across: Decimals = ()
 
 
-STEPS = 40
+STEPS, SLOW = 40, 12
+"""The steps at the most, and those after which they are taken for a series whose sum is told from two."""
 NUDGE = Decimal(10) ** -15
 CONVERGED = Decimal(10) ** -25
 NEARBY = 1e-6
@@ -146,8 +147,13 @@ def _steps(run: Callable[..., Decimals], place: Decimal) -> tuple[Decimal, Decim
 def _newton(phase: Sum, step: Callable[[Decimal], Decimal]) -> Decimal | None:
     """Return where steps from a phase end; None where that is not nearby."""
     start = place = exactly(phase)
-    for _ in range(STEPS):
+    last = Decimal(0)
+    for count in range(STEPS):
         way = step(place)
+        # Beside a kink differences are of both its sides, and steps are each a share of the one before.
+        share = way / last if count > SLOW and count % 2 else Decimal(0)
+        last = way
+        way /= 1 - share if abs(share) < 1 else 1
         if not abs(place - way - start) < Decimal(NEARBY):
             return None
         place -= way
@@ -357,6 +363,9 @@ FLAT = 2.0**-52
 """Share of a margin's scale by which it changes between samples that need no others between them."""
 FINEST = 2.0**-40
 HALVINGS = 32
+MOST_UNCLEAR = 500_000
+"""Cells of all dyads in which extremes could be missed: where halving makes more, and more than there were
+samples at first, they are rounding on a stretch of next to nothing, and have no end."""
 AT_END = 1e-6
 """At its own limit, where the input turns back, a separation is extreme by phase: that is no touching."""
 
@@ -408,11 +417,12 @@ class Separations:
 
     scales: Mapping[str, float]
     """What the margin of each dyad is beside."""
-    phases: Array
-    shut: Bools
-    """Of every dyad at every phase, whether it does not close there (D, N)."""
-    settled: Mapping[str, tuple[Extreme, ...]]
-    """Of every dyad, the extremes at which floats cannot tell its margin from nothing."""
+    samples: Sampled
+    settled: Callable[[str], tuple[Extreme, ...]]
+    """Returns the extremes of a dyad at which floats cannot tell its margin from nothing.
+
+    They take their time, which grows with the dyads before it: they are worked out when they are asked for.
+    """
     barely: Mapping[str, tuple[float, ...]]
     """Of every dyad, the phases of others at which it barely closes."""
     margins: Callable[[Array], Array]
@@ -424,13 +434,23 @@ class Separations:
         return tuple(self.scales)
 
     @property
+    def phases(self) -> Array:
+        """The phases of the samples (N,)."""
+        return self.samples.phases
+
+    @cached_property
+    def shut(self) -> Bools:
+        """Of every dyad at every phase, whether it does not close there (D, N)."""
+        return _shut(self.samples, [self.settled(name) for name in self.names])
+
+    @property
     def closes(self) -> bool:
         """Whether every dyad closes all along."""
         return not self.shut.any()
 
     def beside(self, phase: float, name: str, way: int) -> Sum | None:
         """Return where a stretch about an extreme ends, on that side, in which floats see the dyad close."""
-        for found in self.settled[name]:
+        for found in self.settled(name):
             turns = round((phase - found.phase) / (2 * math.pi))
             if found.closes < 0 and abs(phase - found.phase - turns * 2 * math.pi) <= found.reach:
                 return found.place + FULL_TURN.times(float(turns)) + Sum(way * found.reach)
@@ -438,30 +458,33 @@ class Separations:
 
     def touches(self, name: str) -> tuple[Sum, ...]:
         """Return the phases at which a dyad's bars just fall into line."""
-        return tuple(found.place for found in self.settled[name] if found.closes == 0)
+        return tuple(found.place for found in self.settled(name) if found.closes == 0)
 
     def dips(self, name: str) -> tuple[Sum, ...]:
         """Return the phases at which a dyad barely closes, its separation being extreme."""
-        settled = (found.place for found in self.settled[name] if found.closes > 0)
+        settled = (found.place for found in self.settled(name) if found.closes > 0)
         return (*settled, *map(Sum, self.barely[name]))
 
 
 def separations(assembly: Assembly) -> Separations:
     """Return how the dyads that come near their limits fare along the path, over its true period.
 
-    AssemblyError where one is at its limit all along.
+    AssemblyError where one is at its limit all along: where so many extremes are next to nothing that they
+    are rounding on a stretch of it.
     """
     phases = _phases(assembly)
     scales = _scales(assembly, phases)
     if not scales:
-        nothing = np.zeros((0, len(phases)))
-        return Separations({}, phases, nothing > 0, {}, {}, lambda places: nothing[:, : len(places)])
+        nothing = np.zeros((4, 0, len(phases)))
+        return Separations(
+            {}, Sampled(phases, nothing, 0.0), lambda _: (), {}, lambda places: nothing[0, :, : len(places)]
+        )
     scale, barely = np.array([*scales.values()]).T
     found = walk_at(assembly, Graph().input("x"), Slope(1.0)).closings
     closings = {name: found[name] for name in scales}
     blur = _blur(assembly.linkage)
     sampled = _sampler_separation(closings.values(), scale, blur)
-    samples = _halved(sampled, sampled(phases))
+    samples = _halved(tuple(scales), sampled, sampled(phases))
     extremes = _places(sampled, samples, _turning(samples, barely), 0)
     peaks = _places(sampled, samples, _passing(samples), 3)
     samples = samples.followed(sampled(np.concatenate([*extremes, *peaks]))).ordered
@@ -469,15 +492,14 @@ def separations(assembly: Assembly) -> Separations:
         name: _low(assembly, name, (places, sampled(places).rows[2, row]), (-blur, barely[row]))
         for row, (name, places) in enumerate(zip(closings, extremes, strict=True))
     }
-    settled = {
-        name: tuple(_settled_separation(assembly, name, places[margins <= blur]))
-        for name, (places, margins) in low.items()
-    }
+    unsettled = {name: places[margins <= blur] for name, (places, margins) in low.items()}
+    for name, places in unsettled.items():
+        if len(places) > MOST_TOUCHING * assembly.path.periods * assembly.quickest:
+            raise AssemblyError(f"joint {name}: {AT_ITS_LIMIT}")
     return Separations(
         dict(zip(scales, scale.tolist(), strict=True)),
-        samples.phases,
-        _shut(samples, [*settled.values()]),
-        settled,
+        samples,
+        cache(lambda name: tuple(_settled_separation(assembly, name, unsettled[name]))),
         {name: tuple(places[margins > blur].tolist()) for name, (places, margins) in low.items()},
         lambda phases: np.asarray(sampled(phases).rows[2]),
     )
@@ -561,16 +583,23 @@ def _behind(shut: Bools) -> Bools:
     return np.concatenate([np.zeros_like(shut[:1]), before[:-1]])
 
 
-def _halved(sampled: Callable[[Array], Sampled], samples: Sampled) -> Sampled:
-    """Return the samples with others between them wherever a second extreme could lie there."""
+def _halved(names: Sequence[str], sampled: Callable[[Array], Sampled], samples: Sampled) -> Sampled:
+    """Return the samples with others between them wherever a second extreme could lie there.
+
+    AssemblyError where there would be no end of them: the dyad rests at its limit, but for rounding.
+    """
     left, right, found = samples.at(slice(None, -1)), samples.at(slice(1, None)), samples
     fastest = _fastest_change(samples)[:, None] / 4
+    most = max(len(samples.phases), MOST_UNCLEAR // len(names))
     for _ in range(HALVINGS):
         # At first a margin may change faster than at both neighbours; the nearer they are, the less.
         with np.errstate(all="ignore"):
-            index = np.flatnonzero(_unclear(left, right, fastest).any(axis=0))
+            unclear = _unclear(left, right, fastest)
+        index = np.flatnonzero(unclear.any(axis=0))
         if not len(index):
             break
+        if len(index) > most:
+            raise AssemblyError(f"joint {names[unclear.sum(axis=1).argmax()]}: {AT_ITS_LIMIT}")
         left, right = left.at(index), right.at(index)
         middle = sampled((left.phases + right.phases) / 2)
         found = found.followed(middle)
@@ -668,12 +697,7 @@ def _low(
 
 
 def _settled_separation(assembly: Assembly, name: str, phases: Array) -> Iterator[Extreme]:
-    """Yield the extremes at which floats cannot tell a dyad's margin from nothing.
-
-    AssemblyError where there are so many that they are rounding on a stretch of nothing.
-    """
-    if len(phases) > MOST_TOUCHING * assembly.path.periods * assembly.quickest:
-        raise AssemblyError(f"joint {name}: {AT_ITS_LIMIT}")
+    """Yield the extremes at which floats cannot tell a dyad's margin from nothing."""
     if not len(phases):
         return
     extreme = extremes(assembly, name)
