@@ -330,8 +330,9 @@ _AGREES = 5e-6
 _LONG = 100.0
 """A bar longer than so many times the usual one does not decide how many decimals lengths have."""
 _TINY = 1e-300
+_PRIMES = "Primes are derivatives by the input: h for angles, f for displacements."
 _BY_INPUT = (
-    "Primes are derivatives by the input: h for angles, f for displacements. Each loop differentiated gives "
+    f"{_PRIMES} Each loop differentiated gives "
     "two linear equations; a are the entries of their matrix, b the right sides, D the determinant, and both "
     "unknowns follow by Cramer's rule."
 )
@@ -342,6 +343,7 @@ _IN_TIME = (
 )
 _CHECK = "Check: put into the differentiated loops, these rates leave {} at the most."
 _CARRIED = "Enough digits are carried to give every result to five significant digits."
+_AS_INPUT = "The slider is the input, and goes as that does."
 _NO_LOOP = "There is none to close: each joint follows from the input alone."
 _SINGULAR = (
     "No rates follow here with the digits that a page can show: at a limit or a change point the two linear "
@@ -496,7 +498,8 @@ class _Draft:
         halves = self._half_angles()
         self.work.items.clear()
         if rates:
-            rest = [*self._by_input(), *self._in_time(), *self._parts()]
+            by_input = self._by_input()
+            rest = [*by_input, *self._in_time(has_coefficients=bool(by_input)), *self._parts()]
         else:
             rest = [Chapter("Velocities and accelerations", (Step("", (Words(_SINGULAR),)),))]
         given = Chapter(
@@ -552,20 +555,23 @@ class _Draft:
     def _turning(self) -> Iterator[Body]:
         return (body for body in self.linkage.bodies if body.slider is None)
 
-    def _by_input(self) -> Iterator[Chapter]:
-        """Yield the chapter of kinematic coefficients."""
+    def _by_input(self) -> list[Chapter]:
+        """Return the chapter of kinematic coefficients; of a slider alone, which drives, there is none."""
         self.slopes.start(ONE)
-        self._step("", partial(self.work.say, _BY_INPUT))
+        self._step("", partial(self.work.say, _BY_INPUT if self.loops else _PRIMES))
+        begun = len(self.steps)
         for order, word, token in zip(ORDERS, ("first", "second"), ("", "second_"), strict=True):
             self._moved(self.slopes, order, f", {word} coefficients")
             self._tell_links(self.slopes, order, f"{token}coefficient", f"{token}coefficient")
-        yield from self._chapter("Kinematic coefficients")
+        if len(self.steps) == begun:
+            self.steps.clear()
+        return self._chapter("Kinematic coefficients")
 
-    def _in_time(self) -> Iterator[Chapter]:
-        """Yield the chapters of velocities and accelerations."""
+    def _in_time(self, *, has_coefficients: bool) -> Iterator[Chapter]:
+        """Yield the chapters of velocities and accelerations, which tell of coefficients if there are any."""
         titles = {"velocity": "Velocities", "acceleration": "Accelerations"}
         for order, (word, title), text in zip(ORDERS, titles.items(), _IN_TIME, strict=True):
-            self._step("", partial(self.work.say, text))
+            self._step("", partial(self.work.say, text if has_coefficients else _AS_INPUT))
             self._moved(self.rates, order)
             for joint in self.linkage.joints:
                 moving = self.rates.of(joint.name, order)

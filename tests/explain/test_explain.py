@@ -402,6 +402,16 @@ def test_a_cylinder_that_drives_is_a_loop_and_where_none_closes_it_says_so() -> 
     assert abs(cylinder) == pytest.approx(math.dist(places["G"], places["H"]))
     text = document(solution(_request("cardan-gears", 50.0)), MARKDOWN)
     assert "There is none to close" in text
+    assert "Primes are derivatives by the input" in text
+    assert "Each loop" not in text
+    slider = {
+        "ground": {"O": [0, 0]},
+        "joints": {"B": {"line": {"through": "O"}}},
+        "drive": {"slider": {"joint": "B", "from": 0, "to": 100}},
+    }
+    alone = scene_from(slider, name="slider", where="slider")
+    text = document(solution(PoseRequest(alone, "phase", 1.0, 1.0)), MARKDOWN)
+    assert all(word not in text for word in ("Each loop", "Kinematic coefficients", "chain rule"))
 
 
 LONG_SLOT = {
