@@ -59,9 +59,9 @@ class _Watch:
     def __init__(self, process: subprocess.Popen[bytes]) -> None:
         self._process, self._over = process, Event()
         self._since: float | None = None
-        self._thread = Thread(target=self._look)
-        self._thread.start()
         self.ended = False
+        self._thread = _listening(self._look)
+        self._thread.start()
 
     @contextmanager
     def waiting(self) -> Iterator[None]:
@@ -107,16 +107,12 @@ def running(
     When the block ends well, the encoder has; else it is gone.
     `RecordingFailed` where it cannot be started, stops early, stands still or reports an error.
     """
-    process = _started(command, settings)
-    watch = _Watch(process)
     room = Semaphore(ahead)
     words: deque[bytes] = deque(maxlen=_LAST_WORDS)
+    process = _started(command, settings)
     frames, stdout, stderr = _pipes(process)
-    _widen(frames)
-    listeners = (
-        Thread(target=_making_room, args=(stdout, room, watch)),
-        Thread(target=words.extend, args=(stderr,)),
-    )
+    watch = _Watch(process)
+    listeners = (_listening(_making_room, stdout, room, watch), _listening(words.extend, stderr))
 
     def write(frame: Frame) -> None:
         room.acquire(timeout=_PATIENCE)
@@ -127,6 +123,7 @@ def running(
             raise _GoneError from error
 
     try:
+        _widen(frames)
         for listener in listeners:
             listener.start()
         with suppress(_GoneError):
@@ -150,7 +147,7 @@ def told(command: Sequence[str]) -> bytes:
     process = _started(command)
     watch = _Watch(process)
     frames, stdout, stderr = _pipes(process)
-    listener = Thread(target=stderr.read)
+    listener = _listening(stderr.read)
     lines = []
     try:
         listener.start()
@@ -196,6 +193,14 @@ def _widen(pipe: IO[bytes]) -> None:
     if sys.platform == "linux":
         with suppress(OSError):
             fcntl.fcntl(pipe.fileno(), fcntl.F_SETPIPE_SZ, _WIDTH)
+
+
+def _listening(work: Callable[..., object], *words: object) -> Thread:
+    """Return a thread that the program does not wait for as it ends.
+
+    Ctrl-C may come between the thread's start and what stops it: the program would not end, for ever.
+    """
+    return Thread(target=work, args=words, daemon=True)
 
 
 def _making_room(stdout: IO[bytes], room: Semaphore, watch: _Watch) -> None:

@@ -8,6 +8,7 @@ import select
 import signal
 import subprocess
 import sys
+import threading
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -106,6 +107,34 @@ def test_whatever_interrupts_leaves_nothing(target: Path, form: Format, error: t
         write(frames, frames.plan, target)
     assert untouched(target.parent)
     assert children(os.getpid()) == []
+
+
+@needs_proc
+def test_ctrl_c_as_an_encoder_has_begun_leaves_neither_it_nor_a_thread(
+    target: Path, form: Format, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupt(pipe: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(processes, "_widen", interrupt)
+    frames, before = disc(form), threading.enumerate()
+    with pytest.raises(KeyboardInterrupt):
+        write(frames, frames.plan, target)
+    assert threading.enumerate() == before
+    assert children(os.getpid()) == []
+
+
+def test_a_program_that_ends_waits_for_no_thread_of_an_encoder(target: Path, form: Format) -> None:
+    """It would wait for ever where Ctrl-C comes before what stops the thread."""
+    waited = list[str]()
+
+    def look() -> None:
+        main = threading.main_thread()
+        waited.extend(one.name for one in threading.enumerate() if one is not main and not one.daemon)
+
+    frames = at_frame(3, look, form)
+    write(frames, frames.plan, target)
+    assert waited == []
 
 
 @needs_proc
