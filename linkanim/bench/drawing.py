@@ -20,7 +20,7 @@ TABLE = "Table"
 OWN = ("batch", "single")
 COLOURS = (
     *("#d55e00", "#0072b2", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#7f7f7f"),
-    *("#000000", "#8c564b", "#bcbd22", "#9467bd", "#17becf", "#f0a3c0"),
+    *("#000000", "#8c564b", "#bcbd22", "#9467bd", "#17becf", "#f0a3c0", "#3b6d11"),
 )
 """The first ones of Okabe and Ito, Color Universal Design: told apart by colour-blind readers, too."""
 MARKS = ("o", "^", "s")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from dataclasses import replace
 from importlib.resources import files
 from pathlib import Path
@@ -63,6 +64,13 @@ def test_the_manual_shows_such_a_table_and_counts_the_hard_poses() -> None:
     for mechanism in MECHANISMS:
         assert any(line.startswith(f"| **{mechanism.name}** |") for line in shown)
         assert f"{sum(len(case.inputs) for case in mechanism.hard):,} ({mechanism.name})" in shown[-1]
+
+
+def test_each_method_of_the_manual_s_table_has_a_colour_of_its_own_in_the_chart() -> None:
+    page = (files("linkanim") / "manual" / "measurements.md").read_text(encoding="utf-8")
+    shown = page.partition("<!-- bench -->\n")[2].partition("**slider-crank**")[0].splitlines()
+    drawn = [line for line in shown if re.match(r"\| \w", line) and "1,000,000 at once" not in line]
+    assert len(drawn) - 1 == len(set(drawing.COLOURS)) == len(drawing.COLOURS)
 
 
 def test_the_json_is_strict_and_whole() -> None:
