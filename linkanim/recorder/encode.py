@@ -144,11 +144,10 @@ def told(command: Sequence[str]) -> bytes:
 
     `RecordingFailed` where it cannot be started or stands still.
     """
-    process = _started(command)
-    watch = _Watch(process)
-    frames, stdout, stderr = _pipes(process)
-    listener = _listening(stderr.read)
     lines = []
+    process = _started(command)
+    frames, stdout, stderr = _pipes(process)
+    watch, listener = _Watch(process), _listening(stderr.read)
     try:
         listener.start()
         frames.close()
@@ -195,12 +194,12 @@ def _widen(pipe: IO[bytes]) -> None:
             fcntl.fcntl(pipe.fileno(), fcntl.F_SETPIPE_SZ, _WIDTH)
 
 
-def _listening(work: Callable[..., object], *words: object) -> Thread:
+def _listening(work: Callable[..., object], *given: object) -> Thread:
     """Return a thread that the program does not wait for as it ends.
 
     Ctrl-C may come between the thread's start and what stops it: the program would not end, for ever.
     """
-    return Thread(target=work, args=words, daemon=True)
+    return Thread(target=work, args=given, daemon=True)
 
 
 def _making_room(stdout: IO[bytes], room: Semaphore, watch: _Watch) -> None:
