@@ -48,3 +48,9 @@ class NoDisplay(WorkFailed):
 
 class RecordingFailed(WorkFailed):
     """The encoder or the disk gave up; nothing was left under the name asked for."""
+
+
+def shortened(text: str, most: int = 500) -> str:
+    """Return what a message repeats in `most` characters at the most: of more their begin and their end."""
+    half = (most - 3) // 2
+    return text if len(text) <= most else f"{text[:half]}...{text[-half:]}"

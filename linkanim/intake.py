@@ -20,7 +20,7 @@ from pathlib import Path
 from typing import Any, ClassVar, Self, TypeVar
 
 from linkanim.bounds import LONGEST_TEXT, MOST_DIGITS, MOST_ROWS_READ
-from linkanim.errors import BadInput, OtherVersion, WorkFailed
+from linkanim.errors import BadInput, OtherVersion, WorkFailed, shortened
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.units import shown
 
@@ -168,8 +168,8 @@ def unnameable(path: str) -> str | None:
 
 
 def named(path: str | os.PathLike[str]) -> str:
-    """Return a path as it is shown, on one line."""
-    return "".join(c if c.isprintable() else "?" for c in os.fspath(path))
+    """Return a path as it is shown, on one line; what no system takes as a path is shortened."""
+    return "".join(c if c.isprintable() else "?" for c in shortened(os.fspath(path)))
 
 
 def _depth(bare: str) -> int:

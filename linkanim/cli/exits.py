@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from types import FrameType
 
-from linkanim.errors import LinkanimError
+from linkanim.errors import LinkanimError, shortened
 
 DONE = 0
 FAILED = 1
@@ -23,6 +23,8 @@ _ENDING = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP"
 _BAD_NAMES = (errno.ENAMETOOLONG,)
 """What the system says of names that cannot be: those who chose them can mend that."""
 _NO_MEMORY = ("failed to map segment", "cannot allocate memory")
+_LONGEST = 4000
+"""Characters of a message that are shown."""
 _ONE_AND_THE_SAME = 3.0
 """Seconds in which further signals say what the first did: a terminal that closes sends several."""
 
@@ -85,8 +87,12 @@ def _say(message: str, code: int) -> int:
 
 
 def one_line(message: str) -> str:
-    """Return a message on one line, with nothing in it that a terminal would take for an order."""
-    return "".join(c if c.isprintable() else "?" for c in " ".join(message.split()))
+    """Return a message on one line, with nothing in it that a terminal would take for an order.
+
+    What it repeats is shortened in its middle where it has no end: the reason and the way out are to be seen.
+    """
+    line = " ".join(shortened(word) for word in message.split())
+    return "".join(c if c.isprintable() else "?" for c in shortened(line, _LONGEST))
 
 
 def _reason(error: OSError) -> str:

@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 
 from linkanim.cli import main
+from linkanim.cli.command_table import COMMANDS
 from linkanim.cli.exits import HUNG_UP, Ended, guarded
 from linkanim.errors import BadInput, NoDisplay, RecordingFailed, SceneError
 
@@ -45,6 +46,9 @@ def raising(error: BaseException) -> Callable[[], None]:
         (BadInput("one\n  two"), 2, "linkanim: one two"),
         # nothing in one is an order to the terminal
         (BadInput("a \x1b[31m\u202e"), 2, "linkanim: a ?[31m?"),
+        # what it repeats has an end
+        (BadInput(f"{'x' * 500}: no"), 2, f"linkanim: {'x' * 248}...{'x' * 247}: no"),
+        (BadInput(f"{'x ' * 9_000}: no"), 2, f"linkanim: {'x ' * 999}...{'x ' * 997}: no"),
         # from outside
         (KeyboardInterrupt(), 130, "linkanim: interrupted"),
         (Ended(143), 143, "linkanim: terminated"),
@@ -200,6 +204,39 @@ def test_bad_usage_is_one_line_that_names_the_word(
     assert printed.err.startswith("linkanim: ")
     assert printed.err.count("\n") == 1
     assert named in printed.err
+    assert list(tmp_path.iterdir()) == []
+
+
+ENDLESS = "q" * 100_000
+"""Longer than any path: what is wrong with it is to be seen beside it."""
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        (ENDLESS,),
+        (f"--{ENDLESS}",),
+        *(
+            (command, *words)
+            for command in COMMANDS
+            for words in ((ENDLESS,), (f"./{ENDLESS}.toml",), ("kite", "-o", f"{ENDLESS}.svg"))
+        ),
+        ("solve", "a " * 50_000 + ".toml", "--angle", "1 deg"),
+        ("check", f"{ENDLESS}.toml"),
+    ],
+    ids=lambda words: " ".join(word[:20] for word in words),
+)
+def test_what_has_no_end_is_not_repeated_whole(
+    words: tuple[str, ...],
+    capsys: pytest.CaptureFixture[str],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(words) == 2
+    printed = capsys.readouterr()
+    assert printed.err.count("\n") == 1
+    assert len(printed.out + printed.err) < 4100
     assert list(tmp_path.iterdir()) == []
 
 
