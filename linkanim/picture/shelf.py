@@ -50,6 +50,8 @@ _TRACK = 1.6
 _CHOSEN_TURNS = 2
 _AT_ONCE = 5
 """The chosen picture moves at every second frame; of the others so many at each, in turns."""
+_BESIDE_A_NEW_ONE = 2
+"""So many of the others move in a frame that makes the picture of a new one."""
 _PER_SECOND = 60
 _NONE = "no title or chapter contains that"
 _TITLE = "Mechanisms"
@@ -229,9 +231,8 @@ class ShelfPrinter:
         if self._still is None or self._still[0] != shown:
             self._still = shown, at_once(_still(size, board, found, shelf.browsing))
         surface.blit(self._still[1], (0, 0))
-        if not opens:
-            self._join(found, shelf)
-        for n in _due(self._live, found, shelf):
+        others = _AT_ONCE if opens else self._join(found, shelf)
+        for n in _due(self._live, found, shelf, others):
             self._live[n].go(_turn(shelf, n, len(found.cells)))
         surface.set_clip(pygame.Rect(0, 0, size[0], int(found.room.bottom)))
         for n, cell in found.cells.items():
@@ -247,15 +248,16 @@ class ShelfPrinter:
         surface.set_clip(None)
         _foot(surface, board, found, shelf, self._live.get(shelf.browsing.chosen))
 
-    def _join(self, found: Grid, shelf: Shelf) -> None:
+    def _join(self, found: Grid, shelf: Shelf) -> int:
         """Read the next mechanism in sight, the chosen one first, or make the picture of the one just read.
 
-        A file that is no scene has no picture.
+        A file that is no scene has no picture. Returns how many others may move in the rest of this frame:
+        to read one may take all of it.
         """
         order = sorted(found.cells, key=lambda n: n != shelf.browsing.chosen)
         n = next((n for n in order if n not in self._live and n not in self._unread and n != NEW), None)
         if n is None:
-            return
+            return _AT_ONCE
         cell, file = found.cells[n], shelf.browsing.file_at(n)
         size = round(cell.width), round(cell.height - found.line)
         look = Look(theme=shelf.theme, hud=False, background=False)
@@ -263,20 +265,26 @@ class ShelfPrinter:
             entry = file.name if file else shelf.browsing.entries[n]
             if self._read is None or self._read[0] != n:
                 self._read = n, load(Path(entry) if file else entry) if isinstance(entry, str) else entry
-                return
+                return 0
             self._live[n] = Live(Picture(self._read[1], size, look))
         except LinkanimError:
             self._unread.add(n)
+        return _BESIDE_A_NEW_ONE
 
 
-def _due(live: dict[int, Live], found: Grid, shelf: Shelf) -> list[int]:
-    """Return the places to be painted at this frame: the chosen one, new ones, and some whose turn it is."""
+def _due(live: dict[int, Live], found: Grid, shelf: Shelf, others: int) -> list[int]:
+    """Return the places to be painted at this frame: the chosen one, new ones, and `others` whose turn it is.
+
+    Where no others may move, the chosen one does not either.
+    """
+    if not others:
+        return []
     seen = [n for n in found.cells if n in live]
     first = shelf.frame * _AT_ONCE % max(len(seen), 1)
     order = seen[first:] + seen[:first]
     stale = [n for n in order if live[n].turn != _turn(shelf, n, len(found.cells))]
     at_once = [n for n in stale if n == shelf.browsing.chosen or live[n].printed is None]
-    return at_once + [n for n in stale if n not in at_once][:_AT_ONCE]
+    return at_once + [n for n in stale if n not in at_once][:others]
 
 
 def _turn(shelf: Shelf, n: int, count: int) -> int:

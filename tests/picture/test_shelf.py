@@ -142,6 +142,16 @@ def test_the_first_paint_has_every_frame_and_title_and_a_picture_comes_with_each
             assert (rows != rows[0, 0]).any()
 
 
+def test_a_frame_that_reads_a_mechanism_moves_no_other() -> None:
+    painter, surface = ShelfPrinter(), pygame.Surface((1280, 720), 0, 32)
+    shots = []
+    for frame in range(9):  # the first opens the shelf; of the others each second one reads
+        painter.draw(surface, _shelf(names(), 0, frame)._replace(still=False))
+        shots.append(pixels(surface))
+    stood = [(one == other).all() for one, other in pairwise(shots)]
+    assert stood == [True, False] * 4
+
+
 def _differs(one: Pixels, other: Pixels, cell: Rect) -> bool:
     part = slice(round(cell.y), round(cell.bottom)), slice(round(cell.x), round(cell.right))
     return bool((one[part] != other[part]).any())
