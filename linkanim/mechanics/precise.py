@@ -11,7 +11,8 @@ from linkanim.mechanics.arithmetic import DIGITS, Constant, digits_of
 
 PI = Decimal("3.14159265358979323846264338327950288419716939937510582097494459")
 
-_LAST_TERM = Decimal(10) ** -(DIGITS + 5)
+_SPARE = 10
+"""Digits that sums have beside those that are asked for."""
 
 
 def context() -> Context:
@@ -52,17 +53,32 @@ def sine_and_cosine(angle: Decimal) -> tuple[Decimal, Decimal]:
     return _series(angle, getcontext().prec)
 
 
+@lru_cache(maxsize=8)
+def _fixed_point(digits: int) -> tuple[int, Decimal]:
+    """Return how many bits of a whole number stand for so many digits and some more, and that unit."""
+    bits = math.ceil((digits + _SPARE) * math.log2(10))
+    return bits, Decimal(1 << bits)
+
+
 @lru_cache(maxsize=64)
-def _series(angle: Decimal, _digits: int) -> tuple[Decimal, Decimal]:
-    """Return sine and cosine in the context's digits; formulas ask for the one and then for the other."""
+def _series(angle: Decimal, digits: int) -> tuple[Decimal, Decimal]:
+    """Return sine and cosine in the context's digits; formulas ask for the one and then for the other.
+
+    The sums are of whole numbers, each of so many `bits` a unit: Python's are ten times as fast as Decimals.
+    """
+    bits, unit = _fixed_point(digits)
     count = int((2 * angle / PI).to_integral_value())
-    sums = [Decimal(0), Decimal(0)]
-    term, rest, n = Decimal(1), angle - count * PI / 2, 0
-    while abs(term) > _LAST_TERM and n < 4 * DIGITS:
-        sums[n % 2] += term if n % 4 in (0, 1) else -term
-        n += 1
-        term = term * rest / n
-    cosine, sine = sums
+    rest = angle - count * PI / 2
+    square = int(rest * rest * unit)
+    term = cosines = sines = 1 << bits  # of the cosine, and of the sine over its angle
+    n = 1
+    while term and n < 4 * DIGITS:
+        term = (term * square >> bits) // -(n + 1)
+        cosines += term
+        term //= n + 2
+        sines += term
+        n += 2
+    cosine, sine = Decimal(cosines) / unit, rest * (Decimal(sines) / unit)
     return ((sine, cosine), (cosine, -sine), (-sine, -cosine), (-cosine, sine))[count % 4]
 
 

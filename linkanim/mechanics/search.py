@@ -64,15 +64,22 @@ def highest(
     return place
 
 
-def ends_of(holds: Callable[[Array], Bools], inside: Array, outside: Array, share: float = FINEST) -> Array:
+def ends_of(
+    holds: Callable[[Array], Bools],
+    inside: Array,
+    outside: Array,
+    share: float = FINEST,
+    *,
+    ahead: int = _AHEAD,
+) -> Array:
     """Return the last places at which a condition holds, each between one where it does and one where not.
 
     `holds` takes places (M, N), M in each of the N brackets, and returns whether it holds at each. No
     bracket is halved below that `share` of its places. Of few brackets all places that several halvings may
-    come to are asked for at once: a call costs more than a place.
+    come to are asked for at once, `ahead` of them at the most: a call costs more than a place.
     """
     finest, each = share * np.maximum(np.abs(inside), np.abs(outside)), np.arange(len(inside))
-    deep = min(max(int(math.log2(_AHEAD / max(len(inside), 1) + 1)), 1), _DEEPEST)
+    deep = min(max(int(math.log2(ahead / max(len(inside), 1) + 1)), 1), _DEEPEST)
     while True:
         middles, at = _middles(inside, outside, deep), np.zeros(len(inside), np.intp)
         held = holds(middles)

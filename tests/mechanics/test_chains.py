@@ -17,7 +17,7 @@ from linkanim.mechanics.linkage import RRP, RRR, Crank, Drive, Line, Linkage, Pi
 from linkanim.mechanics.motion import Mechanism, mechanism
 from linkanim.mechanics.program import Array
 from linkanim.mechanics.solver import limits
-from linkanim.mechanics.solver.closing import Assembly, Touch
+from linkanim.mechanics.solver.closing import Touch
 from linkanim.mechanics.solver.input import Swing
 from linkanim.scenes import load
 from linkanim.scenes.editing import with_dimensions
@@ -217,9 +217,9 @@ def test_where_dyads_just_fall_into_line_is_settled_of_each_once_and_at_last_of_
 ) -> None:
     asked, settled = list[str](), limits._settled_separation
 
-    def noted(assembly: Assembly, name: str, phases: Array) -> Iterator[limits.Extreme]:
+    def noted(exact: limits.ExactWalk, name: str, phases: Array) -> Iterator[limits.Extreme]:
         asked.append(name)
-        return settled(assembly, name, phases)
+        return settled(exact, name, phases)
 
     monkeypatch.setattr(limits, "_settled_separation", noted)
     assert scene_from(row_of_dyads(4), name="row", where="row").mechanism

@@ -977,9 +977,16 @@ CLOSERS: Mapping[type[Joint], Closer] = {
 def walked(assembly: Assembly, state: InputState) -> Walk:
     """Return a walk over the whole linkage at the state's instant."""
     walk = Walk(assembly, state)
-    for joint in assembly.linkage.joints:
-        CLOSERS[type(joint)].close(joint, walk)
+    for _ in walking(walk):
+        pass
     return walk
+
+
+def walking(walk: Walk) -> Iterator[Joint]:
+    """Walk over the linkage, and yield each joint that is done."""
+    for joint in walk.linkage.joints:
+        CLOSERS[type(joint)].close(joint, walk)
+        yield joint
 
 
 def walk_at(assembly: Assembly, phase: Value, pace: Slope) -> Walk:

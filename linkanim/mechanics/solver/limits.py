@@ -39,9 +39,11 @@ from linkanim.mechanics.solver.closing import (
     PolynomialFit,
     Stationary,
     Touch,
+    Walk,
     Zero,
     walk_at,
     walked,
+    walking,
 )
 from linkanim.mechanics.solver.input import InputPath, Limit, Swing, swing_by_angle
 from linkanim.mechanics.solver.loop import ONE_PLACE
@@ -100,13 +102,36 @@ Rounded constants leave kinks of 1e-16 in the margin, where the formula of a loo
 """
 
 
-def refining(assembly: Assembly, name: str) -> Callable[[Sum], Sum]:
+class ExactWalk:
+    """A linkage's dyads in many digits; a walk over it goes as far as they are asked for, once for all."""
+
+    def __init__(self, assembly: Assembly) -> None:
+        self.assembly = assembly
+
+    @cached_property
+    def _walk(self) -> Walk:
+        assembly = precise(self.assembly)
+        return Walk(assembly, assembly.path.state(Graph(exact=True).input("x"), Slope(0.0)))
+
+    @cached_property
+    def _steps(self) -> Iterator[object]:
+        return walking(self._walk)
+
+    def closing(self, name: str) -> Closing:
+        """Return what closes a dyad."""
+        closings = self._walk.closings
+        while name not in closings:
+            next(self._steps)
+        return closings[name]
+
+
+def refining(exact: ExactWalk, name: str) -> Callable[[Sum], Sum]:
     """Return what finds the phase at which a dyad's margin vanishes, from one nearby (Newton's method).
 
     Slopes are differences: the formulas' own rates have constants that are rounded otherwise than the
     margin's.
     """
-    run = decimals(("x",), _outputs(_closing(assembly, name))[:1])
+    run = decimals(("x",), _outputs(exact.closing(name))[:1])
 
     def refined(phase: Sum) -> Sum:
         with localcontext(context()):
@@ -116,13 +141,13 @@ def refining(assembly: Assembly, name: str) -> Callable[[Sum], Sum]:
     return refined
 
 
-def extremes(assembly: Assembly, name: str) -> Callable[[float], tuple[Sum, float, float]]:
+def extremes(exact: ExactWalk, name: str) -> Callable[[float], tuple[Sum, float, float]]:
     """Return what finds the extreme of a dyad's separation from a phase in floats (Newton's method).
 
     With its phase comes by how much of a length the dyad closes there; where that is negative it does not
     within so far, the last, of the phase.
     """
-    closing = _closing(assembly, name)
+    closing = exact.closing(name)
     run = decimals(("x",), (closing.u * closing.w, closing.gap))
 
     def extreme(phase: float) -> tuple[Sum, float, float]:
@@ -162,10 +187,6 @@ def _newton(phase: Sum, step: Callable[[Decimal], Decimal]) -> Decimal | None:
     return place
 
 
-def _closing(assembly: Assembly, name: str) -> Closing:
-    return walk_at(precise(assembly), Graph(exact=True).input("x"), Slope(0.0)).closings[name]
-
-
 def _outputs(closing: Closing) -> tuple[Value, ...]:
     """Return the margin, and D where the dyad's ends may meet."""
     place = closing.across and closing.across.position
@@ -174,15 +195,16 @@ def _outputs(closing: Closing) -> tuple[Value, ...]:
 
 def fitted(assembly: Assembly) -> Assembly:
     """Return the assembly with what is smooth next to the zeros of every dyad on moving points."""
-    chain = {name: _fitted_root(assembly, name, root) for name, root in assembly.chain.items()}
+    exact = ExactWalk(assembly)
+    chain = {name: _fitted_root(exact, name, root) for name, root in assembly.chain.items()}
     return replace(assembly, chain=chain)
 
 
-def _fitted_root(assembly: Assembly, name: str, root: ChainRoot) -> ChainRoot:
+def _fitted_root(exact: ExactWalk, name: str, root: ChainRoot) -> ChainRoot:
     with localcontext(context()):
-        zeros = [_with_stretch(assembly, name, zero) for zero in root.zeros]
-        dips = _settled(assembly, name, root.dips)
-        samplers = _samplers(assembly, name)
+        zeros = [_with_stretch(exact.assembly, name, zero) for zero in root.zeros]
+        dips = _settled(exact, name, root.dips)
+        samplers = _samplers(exact, name)
         return replace(
             root,
             zeros=tuple(replace(zero, near=_near(name, zero, *samplers(zero))) for zero in zeros),
@@ -190,12 +212,12 @@ def _fitted_root(assembly: Assembly, name: str, root: ChainRoot) -> ChainRoot:
         )
 
 
-def _settled(assembly: Assembly, name: str, dips: Sequence[Dip]) -> list[Dip]:
+def _settled(exact: ExactWalk, name: str, dips: Sequence[Dip]) -> list[Dip]:
     """Return dips at the extremes themselves, which floats have found to half their digits."""
     if not dips:
         return []
-    extreme = extremes(assembly, name)
-    starts = [_start(assembly.path, dip) for dip in dips]
+    extreme = extremes(exact, name)
+    starts = [_start(exact.assembly.path, dip) for dip in dips]
     places = [extreme(float(dip.place - start))[0] + start for dip, start in zip(dips, starts, strict=True)]
     return [replace(dip, place=place) for dip, place in zip(dips, places, strict=True)]
 
@@ -297,18 +319,18 @@ def _start(path: InputPath, place: Stationary) -> Sum:
     return Sum(0.0) if place.amplitude else path.place(Sum(0.0))
 
 
-def _samplers(assembly: Assembly, name: str) -> Callable[[Fitted], tuple[Callable[[Decimal], Sample], float]]:
+def _samplers(exact: ExactWalk, name: str) -> Callable[[Fitted], tuple[Callable[[Decimal], Sample], float]]:
     """Return what gives, of a zero, the margin and D by the way to it, and how far that way may go."""
-    path = assembly.path
+    path = exact.assembly.path
 
     @cache
     def compiled() -> Callable[..., Decimals]:
-        return decimals(("x",), _outputs(_closing(assembly, name)))
+        return decimals(("x",), _outputs(exact.closing(name)))
 
     def sampler(zero: Fitted) -> tuple[Callable[[Decimal], Sample], float]:
         if isinstance(zero, End):
             assert isinstance(path, Swing)
-            return _by_way(assembly, path, name, zero), path.amplitude / 2
+            return _by_way(exact.assembly, path, name, zero), path.amplitude / 2
         run, turns = compiled(), zero.turns
         place = exactly(zero.place) - exactly(_start(path, zero))
 
@@ -362,6 +384,8 @@ UNEVEN = 0.1
 FLAT = 2.0**-52
 """Share of a margin's scale by which it changes between samples that need no others between them."""
 FINEST = 2.0**-40
+AHEAD = 512
+"""Places at a time where extremes are bracketed: each call works the whole linkage out."""
 HALVINGS = 32
 MOST_UNCLEAR = 500_000
 """Cells of all dyads in which extremes could be missed: where halving makes more, and more than there were
@@ -496,10 +520,11 @@ def separations(assembly: Assembly) -> Separations:
     for name, places in unsettled.items():
         if len(places) > MOST_TOUCHING * assembly.path.periods * assembly.quickest:
             raise AssemblyError(f"joint {name}: {AT_ITS_LIMIT}")
+    exact = ExactWalk(assembly)
     return Separations(
         dict(zip(scales, scale.tolist(), strict=True)),
         samples,
-        cache(lambda name: tuple(_settled_separation(assembly, name, unsettled[name]))),
+        cache(lambda name: tuple(_settled_separation(exact, name, unsettled[name]))),
         {name: tuple(places[margins > blur].tolist()) for name, (places, margins) in low.items()},
         lambda phases: np.asarray(sampled(phases).rows[2]),
     )
@@ -682,7 +707,7 @@ def _places(sampled: Callable[[Array], Sampled], samples: Sampled, cells: Bools,
         values = sampled(phases.ravel()).rows[row].reshape(-1, *phases.shape)
         return np.asarray((values[dyads, :, np.arange(len(dyads))].T > 0) == start)
 
-    found = ends_of(alike, samples.phases[index], samples.phases[index + 1], FINEST)
+    found = ends_of(alike, samples.phases[index], samples.phases[index + 1], FINEST, ahead=AHEAD)
     return [found[dyads == dyad] for dyad in range(len(cells))]
 
 
@@ -696,14 +721,14 @@ def _low(
     return phases[low], margins[low]
 
 
-def _settled_separation(assembly: Assembly, name: str, phases: Array) -> Iterator[Extreme]:
+def _settled_separation(exact: ExactWalk, name: str, phases: Array) -> Iterator[Extreme]:
     """Yield the extremes at which floats cannot tell a dyad's margin from nothing."""
     if not len(phases):
         return
-    extreme = extremes(assembly, name)
+    extreme = extremes(exact, name)
     for phase in phases.tolist():
         place, gap, reach = extreme(phase)
-        closes = 0 if abs(gap) <= ROUNDING * assembly.linkage.longest else 1 if gap > 0 else -1
+        closes = 0 if abs(gap) <= ROUNDING * exact.assembly.linkage.longest else 1 if gap > 0 else -1
         yield Extreme(phase, place, closes, reach)
 
 
@@ -857,7 +882,7 @@ def _open_interval(assembly: Assembly, found: Separations) -> tuple[Limit, Limit
     if not is_open.any():  # cut back for one dyad, nothing is left to another
         raise AssemblyError(NO_RANGE)
     first, last = _run_around(is_open, home, phases)
-    refiner = cache(partial(refining, assembly))  # one dyad mostly limits both ends
+    refiner = cache(partial(refining, ExactWalk(assembly)))  # one dyad mostly limits both ends
     below, above = (
         _limit(found, (phases[inside], phases[outside]), shut[:, outside], refiner)
         if 0 <= outside < len(phases)
