@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import re
 from base64 import b64encode
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cache, reduce
 from html import escape
@@ -21,7 +21,7 @@ from typing import Literal
 
 import numpy as np
 
-from linkanim.explain.formula import LATEX, MATHML, Formula, Notation, plain_latex, typeset
+from linkanim.explain.formula import LATEX, MATHML, Formula, Notation, Symbol, plain_latex, typeset
 from linkanim.explain.solution import Solution
 from linkanim.explain.steps import (
     MARKED,
@@ -175,6 +175,8 @@ def math_style() -> str:
 
 _INDEXED = re.compile(r"(?<=[^\W\d_])_?(\d+)$")
 _KEY_DIGITS = 5
+_HALF = 0.5001
+"""Of a last place: so far off a value may be that rounds to it."""
 
 
 @frozen
@@ -262,7 +264,8 @@ def _by_owner(found: Solution) -> Iterator[Outcome]:
 def _results(found: Solution, form: DocumentForm) -> Iterator[str]:
     """Yield all that was found."""
     yield form.heading(2, "All results")
-    yield form.listed([_listed(_short(one.value), one.unit, "", form) for one in _by_owner(found)])
+    solved = found.solved
+    yield form.listed([_listed(_short(one.value, solved), one.unit, "", form) for one in _by_owner(found)])
 
 
 def _where(found: Solution, form: DocumentForm) -> str:
@@ -316,16 +319,24 @@ def _listed(value: Formula, unit: str, words: str, form: DocumentForm) -> tuple[
 
 def _key(found: Solution, form: DocumentForm) -> Iterator[str]:
     """Yield all that is worked out, chapter by chapter."""
+    solved = found.solved
     for chapter in found.chapters:
         lines = [item for item in chapter.items if isinstance(item, ValueLine)]
         if lines:
             yield form.heading(2, chapter.title)
-            yield form.listed([_listed(_short(line.value), line.unit, "", form) for line in lines])
+            yield form.listed([_listed(_short(line.value, solved), line.unit, "", form) for line in lines])
 
 
-def _short(value: Formula) -> Formula:
-    """Return a value in as many digits as a key needs."""
-    return replace(value, shown=rounded(value.value, decimals(value.value, _KEY_DIGITS)))
+def _short(value: Formula, solved: Mapping[Symbol, float]) -> Formula:
+    """Return a value in as many digits as a key needs: of a result those of solving, which it may round to.
+
+    Where its last digits are rounding it has fewer.
+    """
+    true = solved.get(value.symbol, value.value) if value.symbol and value.value else value.value
+    places = min(decimals(true, _KEY_DIGITS), len(value.shown.partition(".")[2]))
+    while places and abs(float(rounded(true, places)) - value.value) > _HALF * 10**-places:
+        places -= 1
+    return replace(value, shown=rounded(true, places))
 
 
 def _html_page(title: str, body: str) -> str:

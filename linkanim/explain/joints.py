@@ -295,7 +295,7 @@ def loop_of_bars(joint: RRR, work: Work) -> tuple[Route, Route]:
 def beside_guide(work: Work, guide: GuideLine, point: str, joint: str) -> tuple[Formula, Formula]:
     """Add how far a point lies forward along a guide, and to the left of it."""
     arm, u = work.points[point] - work.points[guide.through], guide.direction
-    forward = work.let(Symbol("f", joint), arm.x * u.x + arm.y * u.y, LENGTH)
+    forward = work.let(Symbol("p", joint), arm.x * u.x + arm.y * u.y, LENGTH)
     return forward, work.let(Symbol("n", joint), arm.y * u.x - arm.x * u.y - guide.offset, LENGTH)
 
 
@@ -310,7 +310,7 @@ def place_slider_on_bar(joint: RRP, work: Work) -> None:
     name, end = joint.name, joint.end
     guide = work.guide(joint.line, name)
     work.say(
-        f"How far {marked(end)} lies along the guide from {marked(guide.through)} (f) and to its left (n), "
+        f"How far {marked(end)} lies along the guide from {marked(guide.through)} (p) and to its left (n), "
         "then the slider's way s:"
     )
     forward, aside = beside_guide(work, guide, end, name)
@@ -410,7 +410,7 @@ def place_yoke(joint: RPP, work: Work) -> None:
     name = joint.name
     guide, slot = work.guide(joint.line, name), _slot(joint, work)
     work.say(
-        f"How far {marked(joint.pin)} lies along the guide from {marked(guide.through)} (f) and to its left "
+        f"How far {marked(joint.pin)} lies along the guide from {marked(guide.through)} (p) and to its left "
         "(n), and where the slot crosses it:"
     )
     forward, aside = beside_guide(work, guide, joint.pin, name)
@@ -439,6 +439,8 @@ def move_yoke(joint: RPP, rates: Rates, order: Order) -> None:
     bar = UnknownRate(name, guide.direction)
     unknowns = bar, UnknownRate(name, _along_slot(joint, work, guide), "t")
     right = rates.of(joint.pin, order) - rates.guided(guide, joint.pin, order, *unknowns)
+    if rates.slopes is None and order == 1:
+        work.say(f"Here f is of the way along the guide, g of that of {marked(joint.pin)} along the slot:")
     rates.solve(name, unknowns, right, order)
     carried = rates.guided(guide, name, order, bar)
     rates.let_moving(name, carried + bar.column.times(rates.rate(name, order)), order)

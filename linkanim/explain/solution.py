@@ -342,7 +342,8 @@ _IN_TIME = (
     "times its acceleration, if it has one.",
 )
 _CHECK = "Check: put into the differentiated loops, these rates leave {} at the most."
-_CARRIED = "Enough digits are carried to give every result to five significant digits."
+_CARRIED = "Enough digits are carried to give every result to five significant digits{}."
+_BUT = ", one that is small beside its like to fewer"
 _AS_INPUT = "The slider is the input, and goes as that does."
 _NO_LOOP = "There is none to close: each joint follows from the input alone."
 _SINGULAR = (
@@ -385,6 +386,11 @@ class Solution:
         return float(self.request.motion().phase)
 
     @property
+    def solved(self) -> dict[Symbol, float]:
+        """What solving gives for each result, by its symbol; of an angle on the same turn."""
+        return {result.value.symbol: true for result, true in _compared(self) if result.value.symbol}
+
+    @property
     def title(self) -> str:
         """What it is a solution of."""
         return self.request.scene.title
@@ -421,7 +427,19 @@ def solution(request: PoseRequest) -> Solution:
                 break
     pose = len(found.chapters) - found.made
     whole = whole_motion(request.scene, draft.work)
-    return replace(found, chapters=(*found.chapters[:pose], *whole, *found.chapters[pose:]))
+    given, *others = found.chapters[:pose]
+    given = replace(given, steps=(*given.steps, *_carried(found)))
+    return replace(found, chapters=(given, *others, *whole, *found.chapters[pose:]))
+
+
+def _carried(found: Solution) -> Iterator[Step]:
+    """Yield the sentence on the digits of a solution, where it has rates."""
+    if not found.singular:
+        fewer = any(
+            result.value.value and abs(result.value.value - true) > _AGREES * abs(true)
+            for result, true in _compared(found)
+        )
+        yield Step("", (Words(_CARRIED.format(_BUT if fewer else "")),))
 
 
 def _compared(found: Solution) -> Iterator[tuple[Outcome, float]]:
@@ -502,9 +520,7 @@ class _Draft:
             rest = [*by_input, *self._in_time(has_coefficients=bool(by_input)), *self._parts()]
         else:
             rest = [Chapter("Velocities and accelerations", (Step("", (Words(_SINGULAR),)),))]
-        given = Chapter(
-            "Given", (Step("", (*self.work.given.values(), *([Words(_CARRIED)] if rates else ()))),)
-        )
+        given = Chapter("Given", (Step("", tuple(self.work.given.values())),))
         steps = tuple(loop.step for loop in loops) or (Step("", (Words(_NO_LOOP),)),)
         made = synthesis(self.request.scene, self.work.names)
         chapters = (given, Chapter("Vector loops", steps), places, *halves, *rest, *made)

@@ -451,15 +451,26 @@ Mark = Literal["˙", "¨", "′", "″"]
 
 
 class Letters(NamedTuple):
-    """How rates are written, of the first and of the second order: of angles, of ways, of coordinates."""
+    """How rates are written, of the first and of the second order: of angles, of ways, of coordinates.
+
+    Ways are along a guide, s, or along a slot that crosses it, t.
+    """
 
     turning: tuple[Symbol, Symbol]
-    sliding: tuple[Symbol, Symbol]
+    sliding: Mapping[str, tuple[Symbol, Symbol]]
     moving: tuple[Mark, Mark]
 
 
-IN_TIME = Letters((Symbol("ω"), Symbol("α")), (Symbol("s", mark="˙"), Symbol("s", mark="¨")), ("˙", "¨"))
-BY_INPUT = Letters((Symbol("h"), Symbol("h", mark="′")), (Symbol("f"), Symbol("f", mark="′")), ("′", "″"))
+IN_TIME = Letters(
+    (Symbol("ω"), Symbol("α")),
+    {way: (Symbol(way, mark="˙"), Symbol(way, mark="¨")) for way in "st"},
+    ("˙", "¨"),
+)
+BY_INPUT = Letters(
+    (Symbol("h"), Symbol("h", mark="′")),
+    {way: (Symbol(letter), Symbol(letter, mark="′")) for way, letter in {"s": "f", "t": "g"}.items()},
+    ("′", "″"),
+)
 
 
 Coordinate = int | str
@@ -530,8 +541,8 @@ class Rates:
         """Return the symbol of how a rigid body turns, or of how fast something slides."""
         if isinstance(coordinate, int):
             return self.letters.turning[order - 1]._replace(sub=self.work.names.turning(coordinate))
-        symbol = self.letters.sliding[order - 1]._replace(sub=self.work.names.slide(coordinate).sub)
-        return symbol._replace(letter=letter) if symbol.letter == "s" else symbol
+        symbol = self.letters.sliding[letter][order - 1]
+        return symbol._replace(sub=self.work.names.slide(coordinate).sub)
 
     def of(self, joint: str, order: Order) -> Components:
         """Return how a joint moves."""

@@ -60,6 +60,8 @@ _ONE = 1e-9
 _ALIKE = 1e-4
 """Time ratios that differ by a smaller share are one."""
 _DIGITS = 6
+_ENDS = ("back", "forward")
+"""Of a swing or a stroke."""
 
 
 def whole_motion(scene: Scene, work: Work) -> tuple[Chapter, ...]:
@@ -412,17 +414,17 @@ class _WholeMotion:
         inputs = motion.coordinate if by_angle else phases
         places = [
             self._found(
-                Symbol("θ" if by_angle else "φ", index),
+                Symbol("θ" if by_angle else "φ", end),
                 float(at) % math.tau,
                 ANGLE,
                 f"{what}, furthest {end}",
             )
-            for index, at, end in zip("bf", inputs, ("back", "forward"), strict=True)
+            for at, end in zip(inputs, _ENDS, strict=True)
             for what in ("input" if by_angle else "phase",)
         ]
         ends = [
             self._found(Symbol(letter, index), value, measure, f"{words} there")
-            for index, value in (("b", first), ("f", first + stroke))
+            for index, value in zip(_ENDS, (first, first + stroke), strict=True)
         ]
         work.let(Symbol("H") if sliding else Symbol("ψ", "swing"), ends[1] - ends[0], measure)
         forth = places[1] - places[0]

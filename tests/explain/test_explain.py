@@ -18,8 +18,9 @@ from tex import needs_tex
 import linkanim.explain.documents
 from linkanim.cli import main
 from linkanim.explain.documents import HTML, MARKDOWN, TEX, DocumentForm, document, exercise
+from linkanim.explain.formula import LATEX, Formula, Symbol, typeset
 from linkanim.explain.solution import PoseRequest, Solution, solution
-from linkanim.explain.steps import System, ValueLine
+from linkanim.explain.steps import Given, System, ValueLine
 from linkanim.explain.variant import variant
 from linkanim.mechanics.forces import effort_token
 from linkanim.mechanics.linkage import RRR
@@ -88,6 +89,25 @@ def test_all_scenes_at_several_angles(name: str) -> None:
         assert _disagreeing(found) == [] or found.singular
 
 
+LOCAL = {("b", "1"), ("b", "2"), ("θ", "half"), ("d", "min"), ("d", "max")}
+"""Symbols of one step alone, by letter and index: right sides of two equations, reaches of two bars."""
+
+
+@pytest.mark.parametrize("name", names())
+@pytest.mark.sampled
+def test_a_symbol_stands_for_one_number(name: str) -> None:
+    found = solution(_request(name, 73.1))
+    known: dict[Symbol, float] = {}
+    for item in (item for chapter in found.chapters for item in chapter.items):
+        if isinstance(item, System):
+            assert item.unknowns[0] != item.unknowns[1]
+        symbol = item.value.symbol if isinstance(item, ValueLine | Given) else None
+        if isinstance(item, ValueLine | Given) and symbol and (symbol.letter, symbol.sub) not in LOCAL:
+            off = item.value.value - known.setdefault(symbol, item.value.value)
+            off = math.remainder(off, 360) if item.unit == "°" else off
+            assert abs(off) <= 1e-4 * abs(item.value.value), symbol
+
+
 def _values(text: str) -> dict[str, float]:
     return {
         sides[0]: float(found[0])
@@ -148,7 +168,8 @@ def test_an_exercise_leaves_its_numbers_open_and_has_a_key_on_a_page_of_its_own(
     assert form.new_page in sheet
     for line in lines:
         assert line.formula.operation == "leaf" or line.value.shown.lstrip("-") not in sheet
-        assert significant(abs(line.value.value), 5) in key
+        true = found.solved.get(line.value.symbol, line.value.value) if line.value.symbol else line.value.value
+        assert significant(abs(true), 5) in key
 
 
 # a four-bar, what turns back, what depends on equal lengths, a cylinder, gears
@@ -478,6 +499,26 @@ def test_all_results_stand_at_the_end_but_not_of_an_exercise() -> None:
     found = solution(PoseRequest(load("crank-rocker"), "angle", 1.0, 10.0))
     assert document(found, MARKDOWN).partition("## All results")[2].count("- $") > 20
     assert "All results" not in exercise([found], MARKDOWN)
+
+
+@pytest.mark.parametrize("name", names())
+@pytest.mark.sampled
+def test_a_result_is_listed_in_the_digits_that_are_right(name: str) -> None:
+    fewer = "one that is small beside its like to fewer"
+    for degrees in (0.0, 73.1, 180.0, 251.7):
+        found = solution(_request(name, degrees))
+        text = document(found, MARKDOWN)
+        printed = dict(
+            re.findall(r"^- \$(.*) = (-?[\d.]+)", text.partition("## All results")[2], re.MULTILINE)
+        )
+        short = 0
+        for symbol, true in found.solved.items():
+            shown = printed.pop(typeset(Formula("leaf", symbol=symbol, shown="0"), LATEX))
+            places = len(shown.partition(".")[2])
+            assert abs(float(shown) - true) <= 0.5001 * 10**-places, (symbol, true)
+            short += float(shown) != 0 and float(shown) != pytest.approx(true, rel=1e-4)
+        assert not printed
+        assert fewer in text or not short
 
 
 def test_an_input_that_swings_has_an_acceleration_by_its_angle_alone(
