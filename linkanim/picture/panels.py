@@ -655,7 +655,10 @@ class Panels:
         if overlay.chip:
             drawn = self._keep(chip, overlay.chip.text)
             marks = 1.5 * self.board.layout.text_size
-            beside = place.right - drawn.get_width(), place.y + marks
+            polygons = self.board.layout.polygons
+            is_beside = polygons is not None and polygons.x >= room.right  # whose words stand at their head
+            right = room.inset(self.board.margin).right if is_beside else place.right
+            beside = right - drawn.get_width(), place.y + marks
             free = off_words(self.board.layout, drawn, [beside, *edges(self.board, drawn)])
             put(surface, drawn, free or beside, overlay.chip)
         if overlay.watch:

@@ -83,6 +83,17 @@ def test_a_chip_and_the_strip_hold_their_words_and_fade(painter: Picture, kind: 
     assert not inked(going, middle, ink)
 
 
+@pytest.mark.parametrize("size", [(1280, 720), (640, 360), (500, 720)], ids=str)
+def test_a_chip_lies_on_no_scale_of_a_polygon(size: tuple[int, int]) -> None:
+    shown, printer = Picture(load("crank-rocker"), size, Look(polygons=True)), SurfacePrinter()
+    sheets = []
+    for chip in (None, Fading("polygons")):
+        sheets.append(offscreen(size))
+        printer.paint(sheets[-1], shown, shown.scene.pose(1.0), Overlay(chip=chip))
+    assert shown.layout.polygons
+    assert not _between(*sheets).meets(shown.layout.polygons)
+
+
 def test_the_picture_recedes_behind_the_help(painter: Picture) -> None:
     told = Overlay(help=(("look", (("H", "help"),)),))
     hud = painter.layout.hud
