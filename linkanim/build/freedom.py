@@ -61,8 +61,8 @@ def _gradients(draft: Draft, places: _Places) -> Iterator[_Row]:
     """Yield the gradients of all that holds joints."""
     for table in draft.of("bars").values():
         first, second = table["joints"]
-        way = _unit(places[second] - places[first])
-        yield {first: -way, second: way}
+        direction = _unit(places[second] - places[first])
+        yield {first: -direction, second: direction}
     for name, table in draft.of("points").items():
         first, second = table["on"]
         share = (places[name] - places[first]) / ((places[second] - places[first]) or 1.0)
@@ -83,16 +83,16 @@ def _gradients(draft: Draft, places: _Places) -> Iterator[_Row]:
 
 def _on_line(places: _Places, joint: str, through: str, guide: Mapping[str, Any], turn: complex) -> _Row:
     """Return the gradient of how far a joint lies beside the line through another, along a guide turned."""
-    way = turn * rect(1.0, units.angle(guide.get("angle", "0 deg")))
+    direction = turn * rect(1.0, units.angle(guide.get("angle", "0 deg")))
     row: dict[str, complex] = {}
     if "on" in guide:
         first, second = guide["on"]
         axis = places[second] - places[first]
-        way *= _unit(axis)
-        along = ((places[joint] - places[through]) * way.conjugate()).real
+        direction *= _unit(axis)
+        along = ((places[joint] - places[through]) * direction.conjugate()).real
         turning = 1j * axis * along / (abs(axis) ** 2 or 1.0)
         row = {first: turning, second: -turning}
-    for name, part in ((joint, 1j * way), (through, -1j * way)):
+    for name, part in ((joint, 1j * direction), (through, -1j * direction)):
         row[name] = row.get(name, 0j) + part
     return row
 
@@ -109,5 +109,5 @@ def _geared(draft: Draft, places: _Places, joint: str, gear: Mapping[str, Any]) 
     return row
 
 
-def _unit(way: complex) -> complex:
-    return way / (abs(way) or 1.0)
+def _unit(span: complex) -> complex:
+    return span / (abs(span) or 1.0)

@@ -100,18 +100,18 @@ def point(building: Building, name: str, place: complex, *, snap: float) -> Buil
 
 def guide(building: Building, start: Thing | None, begin: complex, end: complex, *, snap: float) -> Building:
     """Return the building with a line through a point: on the ground, or on the body of a joint or a bar."""
-    draft, way = building.draft, end - begin
-    if not way:
+    draft, span = building.draft, end - begin
+    if not span:
         return refused(building, "A guide needs a direction: drag along it")
     through, on = _carrier(draft, start)
     if on:
         axis = place_of(draft, on[1]) - place_of(draft, on[0])
-        way *= axis.conjugate() / (abs(axis) or 1.0)
+        span *= axis.conjugate() / (abs(axis) or 1.0)
     elif not draft.of("pins"):
         draft, through = _with_pin(draft, begin, snap)
     through = through or min(draft.of("pins"), key=lambda pin: abs(place_of(draft, pin) - begin))
     table: dict[str, Any] = {"on": on} if on else {}
-    table |= {"through": through, "angle": round_angle(way, snap)}
+    table |= {"through": through, "angle": round_angle(span, snap)}
     direction = line_of(draft, table)[1]
     offset = ((begin - place_of(draft, through)) * direction.conjugate()).imag
     if start is None or start[0] != JOINT:
@@ -247,8 +247,8 @@ def _photographed(building: Building, photo: Photo | None) -> Building:
 
 def crank_drive(draft: Draft, pivot: str, joint: str, snap: float) -> dict[str, Any]:
     """Return the drive of a crank that starts where it is drawn."""
-    way = place_of(draft, joint) - place_of(draft, pivot)
-    return {"joint": joint, "speed": draft.drive.get("speed", SPEED), "start": round_angle(way, snap)}
+    span = place_of(draft, joint) - place_of(draft, pivot)
+    return {"joint": joint, "speed": draft.drive.get("speed", SPEED), "start": round_angle(span, snap)}
 
 
 def _turning_with(draft: Draft, joint: str) -> tuple[str, str] | None:
@@ -297,8 +297,8 @@ def _with_bar(draft: Draft, start: str, end: str, snap: float) -> Draft:
     """Return the draft with a bar, from its ground pin if any, its body, and the first one's drive."""
     if end in draft.of("pins"):
         start, end = end, start
-    way = place_of(draft, end) - place_of(draft, start)
-    draft = draft.with_bar(start, end, round_length(abs(way), snap))
+    span = place_of(draft, end) - place_of(draft, start)
+    draft = draft.with_bar(start, end, round_length(abs(span), snap))
     draft = draft.having("bodies", body_name(draft), {"joints": [start, end]})
     if draft.drive or start not in draft.of("pins"):
         return draft
@@ -348,8 +348,8 @@ def move(building: Building, x: float, y: float, *, snap: float) -> Building:
         return changed(building, moved(draft, thing[1], place, snap, phase), thing)
     if thing and thing[0] == "guides" and (*thing, "offset") not in draft.typed:
         table = {**draft.of("guides")[thing[1]], "offset": 0}
-        start, way = line_of(draft, table)
-        offset = round_number(((place - start) * way.conjugate()).imag, snap)
+        start, direction = line_of(draft, table)
+        offset = round_number(((place - start) * direction.conjugate()).imag, snap)
         return changed(building, fitted(with_number(draft, (*thing, "offset"), offset)), thing)
     return refused(building, "Choose a joint or a guide to move it")
 
@@ -409,8 +409,8 @@ def _drivable(draft: Draft, thing: Thing | None) -> str | None:
 def _slider_drives(draft: Draft, joint: str) -> list[dict[str, Any]]:
     """Return drives of a slider that goes to both sides by a share of its longest bar."""
     guide = draft.of("guides")[draft.of("sliders")[joint]["guide"]]
-    start, way = line_of(draft, {**guide, "offset": 0})
-    travel = ((place_of(draft, joint) - start) * way.conjugate()).real
+    start, direction = line_of(draft, {**guide, "offset": 0})
+    travel = ((place_of(draft, joint) - start) * direction.conjugate()).real
     bars = [abs(place_of(draft, end) - place_of(draft, joint)) for _, end, _ in draft.bars_at(joint)]
     longest = max(bars, default=0.0) or abs(travel) or 100.0
     drives = []

@@ -180,12 +180,12 @@ def _levers(building: Building, drag: Drag, pivot: str, over: str) -> Iterator[M
         yield Meaning("", refused(building, f"{over} is an end of that bar, and cannot slide in it"))
         return
     at, on = place_of(draft, pivot), place_of(draft, over)
-    way = on - at
+    span = on - at
     if abs(drag.to - on) <= drag.reach or abs(drag.to - at) <= drag.reach:
         crank = crank_of(draft, over)
         centre = place_of(draft, crank) if crank else at
         farthest = abs(centre - at) + abs(on - centre)
-        end = at + way / (abs(way) or 1.0) * _BEYOND * farthest
+        end = at + span / (abs(span) or 1.0) * _BEYOND * farthest
     else:
         end = drag.to
     lever = bar(building, pivot, None, snapped(end, drag.snap), snap=drag.snap)

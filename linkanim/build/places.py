@@ -83,7 +83,9 @@ def found(draft: Draft) -> dict[str, dict[str, Any]]:
     tables: dict[str, dict[str, Any]] = {}
     known, plates = set(draft.of("pins")), plates_of(draft)
     waiting = [name for name in draft.places if name not in known]
-    while table := next(((name, way) for name in waiting for way in _ways(draft, name, known, plates)), None):
+    while table := next(
+        ((name, found) for name in waiting for found in _ways(draft, name, known, plates)), None
+    ):
         name, tables[table[0]] = table[0], table[1]
         known.add(name)
         waiting.remove(name)

@@ -150,8 +150,8 @@ def _value(draft: Draft, one: Field) -> Any:
     start, end = one.spans[0] if one.spans else ("", "")
     if one.drag == "direction" and {start, end} <= draft.of("pins").keys():
         pin = draft.of("pins")[end]
-        way = place_of(draft, end) - place_of(draft, start)
-        return pin["angle"] if isinstance(pin, Mapping) else _degrees(phase(way))
+        span = place_of(draft, end) - place_of(draft, start)
+        return pin["angle"] if isinstance(pin, Mapping) else _degrees(phase(span))
     if one.drag == "place":
         return draft.of("points").get(end, {}).get("at")
     guide = draft.of("guides").get(draft.of("sliders").get("B", {}).get("guide"), {})
@@ -415,8 +415,8 @@ def phase_of(scene: Scene, places: Mapping[str, Point], *, swung: bool) -> float
     if scene.info.full_turn and not swung:
         return 0.0
     driven = places[scene.linkage.drive.joint]
-    ways = (0.0,) if scene.info.full_turn else (pi / 2, 3 * pi / 2)
-    return min((phase_towards(scene, way, driven) for way in ways), key=partial(_off, scene, places))
+    phases = (0.0,) if scene.info.full_turn else (pi / 2, 3 * pi / 2)
+    return min((phase_towards(scene, start, driven) for start in phases), key=partial(_off, scene, places))
 
 
 def _off(scene: Scene, places: Mapping[str, Point], phase: float) -> float:

@@ -334,10 +334,10 @@ def _slider_ahead(joint: RRP, work: Work) -> bool:
 
 
 def _why_ahead(joint: RRP, ahead: bool) -> str:
-    way, sign = ("ahead of", "plus") if ahead else ("behind", "minus")
+    where, sign = ("ahead of", "plus") if ahead else ("behind", "minus")
     named = ahead == (joint.side > 0)
     why = "as the scene file states" if named else "the motion came to it through a limit or a change point"
-    return f"Here {marked(joint.name)} is {way} {marked(joint.end)}, so the root has a {sign}: {why}."
+    return f"Here {marked(joint.name)} is {where} {marked(joint.end)}, so the root has a {sign}: {why}."
 
 
 def move_slider_on_bar(joint: RRP, rates: Rates, order: Order) -> None:
@@ -617,9 +617,9 @@ def _loop(joint: Joint, work: Work, found: set[Symbol | None]) -> VectorLoop:
     left, right = list(one.sides[same:]), list(other.sides[same:])
     if one.root != other.root:
         right.insert(0, _ground(work, one.root, other.root))
-    sides = [[side for side, _ in way] for way in (left, right)]
-    bold = [sum((Formula("leaf", symbol=side.symbol, shown="0") for side in way), ZERO) for way in sides]
-    parts = [[sum((side.vector[n] for side in way), ZERO) for way in sides] for n in (0, 1)]
+    sides = [[side for side, _ in chain] for chain in (left, right)]
+    bold = [sum((Formula("leaf", symbol=side.symbol, shown="0") for side in chain), ZERO) for chain in sides]
+    parts = [[sum((side.vector[n] for side in chain), ZERO) for chain in sides] for n in (0, 1)]
     equations = [Equation(*pair) for pair in (bold, *parts)]
     arrows = tuple(LoopArrow(side.symbol, at, at + _value(side)) for side, at in (*left, *right))
     known = {leaf.symbol: leaf for pair in parts for side in pair for leaf in side.leaves}

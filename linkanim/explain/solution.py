@@ -153,23 +153,23 @@ def _stroke(path: Stroke, rates: Rates, phase: tuple[Formula, Formula], symbol: 
     ends = (path.first * path.unscale, path.last * path.unscale)
     middle = work.stated(Symbol(letter, "m"), sum(ends) / 2, LENGTH, "middle of the stroke")
     reach = work.known(Symbol("a"), (ends[1] - ends[0]) / 2, LENGTH, "half of the stroke")
-    way = work.let(Symbol(letter, index), middle - reach * cos(phase[0]), LENGTH)
+    slid = work.let(Symbol(letter, index), middle - reach * cos(phase[0]), LENGTH)
     formulas = _cosine_rates(reach, *phase)
     once = work.let(Symbol(letter, index, "˙"), formulas[0], Powers(1, 1))
     twice = work.let(Symbol(letter, index, "¨"), formulas[1], Powers(1, 2))
     if isinstance(path, CylinderStroke):
-        return _cylinder(path, rates, (way, once, twice), symbol)
+        return _cylinder(path, rates, (slid, once, twice), symbol)
     rates.start(once, twice)
-    return way
+    return slid
 
 
 def _cylinder(
-    path: CylinderStroke, rates: Rates, way: tuple[Formula, Formula, Formula], symbol: Symbol
+    path: CylinderStroke, rates: Rates, slid: tuple[Formula, Formula, Formula], symbol: Symbol
 ) -> Formula:
     """Add the crank's angle and its rates from a cylinder's length."""
     work, between = rates.work, rates.work.linkage.drive.actuator.along
     assert between is not None
-    length, once, twice = way
+    length, once, twice = slid
     pivot = work.linkage.driven.pivot
     sides = [side * path.unscale for side in path.sides]
     g, r = (
@@ -219,13 +219,13 @@ def centre_name(body: Body, rates: Rates) -> str:
 def strut(item: Spring | Damper, rates: Rates) -> Iterator[Outcome]:
     """Add the length of a spring or damper, its rate and its force, and yield them."""
     work, (start, end), name = rates.work, item.between, item.name
-    way, moving = work.points[end] - work.points[start], rates.of(end, 1) - rates.of(start, 1)
-    length = work.let(Symbol("L", name), sqrt(square(way.x) + square(way.y)), LENGTH)
+    between, moving = work.points[end] - work.points[start], rates.of(end, 1) - rates.of(start, 1)
+    length = work.let(Symbol("L", name), sqrt(square(between.x) + square(between.y)), LENGTH)
     yield work.scale.outcome(f"{name}.length", length, LENGTH)
     if length.value == 0:
         work.say("Its ends meet here, so its rate does not follow from this.")
         return
-    rate = rates.let(Symbol("L", name, "˙"), dot(way, moving) / length, Powers(1, 1))
+    rate = rates.let(Symbol("L", name, "˙"), dot(between, moving) / length, Powers(1, 1))
     yield work.scale.outcome(f"{name}.rate", rate, Powers(1, 1))
     if item.forceful:
         force = work.let_plain(Symbol("F", name), _force(item, rates, length, rate), "N")
@@ -278,12 +278,12 @@ def _pace(rates: Rates) -> Formula:
     """Return the rate of what drives: an angular velocity, or a velocity in m/s."""
     work, drive = rates.work, rates.work.linkage.drive
     if drive.actuator.along:
-        way, moving = (
+        between, moving = (
             work.points[drive.actuator.along[1]] - work.points[drive.actuator.along[0]],
             rates.of(drive.actuator.along[1], 1) - rates.of(drive.actuator.along[0], 1),
         )
-        length = sqrt(square(way.x) + square(way.y))
-        return rates.let(Symbol("ℓ", "", "˙"), dot(way, moving) / length, Powers(1, 1)) * _metre(rates)
+        length = sqrt(square(between.x) + square(between.y))
+        return rates.let(Symbol("ℓ", "", "˙"), dot(between, moving) / length, Powers(1, 1)) * _metre(rates)
     pace = rates.rate(work.driver, 1)
     return pace if isinstance(work.driver, int) else pace * _metre(rates)
 
@@ -620,11 +620,11 @@ class _Draft:
 
     def _tell_links(self, rates: Rates, order: Order, turning: str, sliding: str) -> None:
         for body in self.linkage.bodies:
-            way = body.slider or self.work.frame((body.joints[0], body.joints[1]))
-            if (way, "s") in rates.known:
+            frame = body.slider or self.work.frame((body.joints[0], body.joints[1]))
+            if (frame, "s") in rates.known:
                 token = f"{body.name}.{sliding if body.slider else turning}"
                 measure = Powers(int(body.slider is not None), order)
-                self.results.append(rates.scale.outcome(token, rates.rate(way, order), measure))
+                self.results.append(rates.scale.outcome(token, rates.rate(frame, order), measure))
 
     def _parts(self) -> Iterator[Chapter]:
         """Yield the chapters of centres of mass, of springs and dampers, and of what the input delivers."""

@@ -365,8 +365,8 @@ class Work:
         """Return the angle of the way from one joint to another, worked out where it is not known yet."""
         found = self.angles.get((start, end))
         if found is None:
-            way = self.points[end] - self.points[start]
-            found = self.let(self.angle_symbol(start, end), atan2(way.y, way.x), ANGLE)
+            span = self.points[end] - self.points[start]
+            found = self.let(self.angle_symbol(start, end), atan2(span.y, span.x), ANGLE)
             self.angles[start, end] = found
         return found
 
@@ -463,12 +463,12 @@ class Letters(NamedTuple):
 
 IN_TIME = Letters(
     (Symbol("ω"), Symbol("α")),
-    {way: (Symbol(way, mark="˙"), Symbol(way, mark="¨")) for way in "st"},
+    {along: (Symbol(along, mark="˙"), Symbol(along, mark="¨")) for along in "st"},
     ("˙", "¨"),
 )
 BY_INPUT = Letters(
     (Symbol("h"), Symbol("h", mark="′")),
-    {way: (Symbol(letter), Symbol(letter, mark="′")) for way, letter in {"s": "f", "t": "g"}.items()},
+    {along: (Symbol(letter), Symbol(letter, mark="′")) for along, letter in {"s": "f", "t": "g"}.items()},
     ("′", "″"),
 )
 

@@ -180,8 +180,8 @@ class _Chapter:
         own = self._found(joint, (px, py)) if len(self.turns) > 1 else self._chosen(joint, place)
         self.work.say(f"In every pose {marked(joint)} is as far from {marked(pivot)}: a bar may join them.")
         for n, (x, y) in enumerate(self._places(joint, own), start=1):
-            way = square(x - px) + square(y - py)
-            length = self._length("r", f"{pivot}{joint}{n}", sqrt(way))
+            squared = square(x - px) + square(y - py)
+            length = self._length("r", f"{pivot}{joint}{n}", sqrt(squared))
             self.compared.append((length, self._bar(*ends)))
 
     def _chosen(self, joint: str, place: complex) -> tuple[Formula, Formula]:
@@ -266,9 +266,9 @@ class _Chapter:
     def _freudenstein(self, inputs: list[Formula], outputs: list[Formula], *, sliding: bool) -> None:
         """Add the equation at each point, what three of them give, and that the others agree."""
         k1, k2, k3 = (_symbol("K", str(n)) for n in (1, 2, 3))
-        theta, psi, way = _symbol("θ"), _symbol("ψ"), _symbol("s")
+        theta, psi, s = _symbol("θ"), _symbol("ψ"), _symbol("s")
         if sliding:
-            self.work.items.append(Equation(k1 * way * cos(theta) + k2 * sin(theta) + k3, square(way)))
+            self.work.items.append(Equation(k1 * s * cos(theta) + k2 * sin(theta) + k3, square(s)))
         else:
             self.work.items.append(Equation(k1 * cos(psi) - k2 * cos(theta) + k3, cos(theta - psi)))
         self.work.say("Linear in the three K, it holds in each point; p, q and w are what goes with them.")

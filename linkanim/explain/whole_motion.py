@@ -154,8 +154,8 @@ class _WholeMotion:
             work.known(Symbol("r", work.names.length(*ends)), four_bar.links[part], LENGTH)
             for part, ends in pairs.items()
         )
-        way = work.points[fixed] - work.points[pivot]
-        level = way.y.constant == 0 and way.x.value > 0
+        ground_line = work.points[fixed] - work.points[pivot]
+        level = ground_line.y.constant == 0 and ground_line.x.value > 0
         stated = work.given.get(Symbol("θ", work.names.length(pivot, fixed)))
         tilt = (
             number("0", in_degrees=True) if level else stated.value if stated else work.angle_of(pivot, fixed)
@@ -210,8 +210,8 @@ class _WholeMotion:
         pivot = linkage.driven.pivot
         crank = work.length(pivot, joint.end, dict(linkage.joint(joint.end).bars)[pivot])
         guide = work.guide(joint.line, joint.name)
-        way, u = work.points[pivot] - work.points[guide.through], guide.direction
-        beside = way.y * u.x - way.x * u.y - guide.offset
+        to_pivot, u = work.points[pivot] - work.points[guide.through], guide.direction
+        beside = to_pivot.y * u.x - to_pivot.x * u.y - guide.offset
         return _SliderCrank(
             joint, crank, work.length(joint.end, joint.name, joint.length), beside, guide.angle
         )

@@ -112,9 +112,9 @@ def _aside(motion: Any, effort: Array, ends: NDArray[np.bool_]) -> Array:
     solve = motion.mechanism.solve
     there = _power(solve(phase=end, speed=speed, acceleration=second), _MOVING)
     step, weights = _ASIDE
-    way = np.where(phase < end, -step, step)
+    inwards = np.where(phase < end, -step, step)
     read = [
-        weight * input_effort(solve(phase=phase + n * way, speed=speed, acceleration=second))
+        weight * input_effort(solve(phase=phase + n * inwards, speed=speed, acceleration=second))
         for n, weight in enumerate(weights, start=1)
     ]
     found = settled(sum(read), _IDLE * sum(map(np.abs, read)))

@@ -82,10 +82,10 @@ def trace(joints: Linkage4) -> Complex:
     """
     rows, step = np.array([joints.row]), 2 * math.pi / _MOMENTS
     angles: Real = joints.angle + step * np.arange(_MOMENTS + 1, dtype=np.float64)
-    ways = list[Complex]()
+    curves = list[Complex]()
     with np.errstate(all="ignore"):
-        ways += [FOUR_BAR.points(rows, np.array([side]), angles[None])[0] for side in (1.0, -1.0)]
-    there, back = ways if joints.closure > 0 else ways[::-1]
+        curves += [FOUR_BAR.points(rows, np.array([side]), angles[None])[0] for side in (1.0, -1.0)]
+    there, back = curves if joints.closure > 0 else curves[::-1]
     if np.isfinite(there).all():
         return there
     shut = np.flatnonzero(~np.isfinite(there))

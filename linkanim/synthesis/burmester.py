@@ -713,8 +713,8 @@ def ball_point(poses: Poses) -> Slides:
 
 def slides_through(poses: Poses, points: Complex) -> Slides:
     """Return points (k,) with the direction from their first place to the one farthest from there."""
-    ways = poses.places(points) - np.asarray(points)[:, None]
-    longest = ways[np.arange(len(ways)), np.abs(ways).argmax(axis=1)]
+    steps = poses.places(points) - np.asarray(points)[:, None]
+    longest = steps[np.arange(len(steps)), np.abs(steps).argmax(axis=1)]
     with np.errstate(all="ignore"):
         return Slides(np.asarray(points), longest / np.abs(longest))
 

@@ -576,8 +576,8 @@ def _outside(task: GuideTask, pivots: Complex) -> Real:
     """Return how far pivots (k, m) that are not given lie outside the box, or of two one outside each."""
     beyond = []
     for x, y, width, height in task.boxes:
-        ways = x - pivots.real, pivots.real - x - width, y - pivots.imag, pivots.imag - y - height
-        beyond.append(np.max(ways, axis=0))
+        sides = x - pivots.real, pivots.real - x - width, y - pivots.imag, pivots.imag - y - height
+        beyond.append(np.max(sides, axis=0))
     off = np.stack(beyond)
     if len(off) > 1:
         orders = [np.stack([off[0, :, n], off[1, :, 1 - n]]).max(axis=0) for n in (0, 1)]

@@ -109,8 +109,8 @@ def upright(points: Iterable[complex]) -> complex:
     """Return the direction to turn points by so that their rectangle is smallest, its longer side along x."""
     corners = np.array(hull(points))
     sides = np.roll(corners, -1) - corners
-    ways = (sides / np.abs(sides)).conj() if len(corners) > 1 else np.ones(1, np.complex128)
-    turned = np.multiply.outer(ways, corners)
+    directions = (sides / np.abs(sides)).conj() if len(corners) > 1 else np.ones(1, np.complex128)
+    turned = np.multiply.outer(directions, corners)
     wide, high = np.ptp(turned.real, axis=1), np.ptp(turned.imag, axis=1)
     least = int((wide * high).argmin())
-    return complex(ways[least]) * (1 if wide[least] >= high[least] else -1j)
+    return complex(directions[least]) * (1 if wide[least] >= high[least] else -1j)

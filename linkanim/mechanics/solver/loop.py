@@ -204,9 +204,9 @@ def _collinear(links: Links, closing: Closure) -> tuple[_Grown, _Grown]:
     r, a, b, short = links.crank, links.coupler, links.rocker, links.short
     square = closing.half.sine * closing.half.sine
     factors = []
-    for way in (a, -a):
-        least = math.fsum((*short, way, -b)) * math.fsum((*short, way, b)) / closing.unit
-        share = (r - way) / r
+    for signed in (a, -a):
+        least = math.fsum((*short, signed, -b)) * math.fsum((*short, signed, b)) / closing.unit
+        share = (r - signed) / r
         factors.append(_Grown(least, share, square * share + least))
     one, two = sorted(factors, key=lambda factor: -abs(factor.least))
     return one, two

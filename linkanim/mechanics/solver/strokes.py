@@ -120,9 +120,9 @@ class HalfState(InputState):
         assert self.own is not None
         if abs(ratio) != 1:
             return InputState.half_shifted(self, ratio, shift, form)
-        way = float(ratio)
+        sense = float(ratio)
         rest = direction(float(shift.times(0.5)))
-        turned = Vec(self.own.cosine, self.own.sine * way).times(Vec(*rest))
+        turned = Vec(self.own.cosine, self.own.sine * sense).times(Vec(*rest))
         return half_of(turned.y, turned.x)
 
 
@@ -233,13 +233,13 @@ class CylinderStroke(Stroke):
         Both are sums of what is not negative: near the least and the most of ℓ nothing cancels.
         """
         g, r = self.sides
-        way, sine, cosine = self.last - self.first, half.sine, half.cosine
+        stroke, sine, cosine = self.last - self.first, half.sine, half.cosine
         least, most = sorted((self.first, self.last))
-        from_least, to_most = (sine * sine, cosine * cosine) if way > 0 else (cosine * cosine, sine * sine)
+        from_least, to_most = (sine * sine, cosine * cosine) if stroke > 0 else (cosine * cosine, sine * sine)
         longer = 1.0 if g > r else -1.0
         beyond = math.fsum((least, -longer * g, -longer * self.lost, longer * r))
         short = math.fsum((g, self.lost, r, -most))
-        return from_least * abs(way) + beyond, to_most * abs(way) + short
+        return from_least * abs(stroke) + beyond, to_most * abs(stroke) + short
 
     def state_by_angle(self, graph: Graph, pace: Slope) -> tuple[tuple[str, ...], InputState]:
         """Return the names of the graph's inputs, and the input's state at its angle from the middle."""
