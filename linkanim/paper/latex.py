@@ -128,6 +128,8 @@ _ALONE = re.compile(
     r"(?<!\d )(?<![\w(/·])(?!^A [a-z])(?:([A-Z])|^([^\W\d_])(?=$| =|, [^\W\d_]$))([′″]*)([ⁿᵗᶜʳ]*)(?![\w)])"
 )
 """A capital that is a name, or a letter that is all, or that an equation is of; no unit."""
+_DOLLAR = re.compile(r"(?<!\\)\$")
+"""What begins or ends mathematics: not one that is to be seen."""
 _RAISED = {"ⁿ": "n", "ᵗ": "t", "ᶜ": "c", "ʳ": "r"}
 
 
@@ -168,7 +170,7 @@ def _symbol(letter: str, primes: str, raised: str, index: str) -> str:
     high = primes.replace("″", "′′").replace("′", "'")
     if raised:
         high = f"^{{{high}{''.join(_RAISED[char] for char in raised)}}}"
-    base, low = plain_latex(letter).strip("$") + high, plain_latex(index).replace("$", "")
+    base, low = plain_latex(letter).strip("$") + high, _DOLLAR.sub("", plain_latex(index))
     if not index:
         return f"${base}$"
     # the subscript of a joint is its name, that of a link may be a word

@@ -13,12 +13,13 @@ from build import four_bar, six_bar
 from limits import Limits
 
 from linkanim.errors import LinkanimError
+from linkanim.mechanics.arithmetic import Slope
 from linkanim.mechanics.linkage import RRP, RRR, Crank, Drive, Line, Linkage, Pin
 from linkanim.mechanics.motion import Mechanism, mechanism
 from linkanim.mechanics.program import Array
 from linkanim.mechanics.solver import limits
-from linkanim.mechanics.solver.closing import Touch
-from linkanim.mechanics.solver.input import Swing
+from linkanim.mechanics.solver.closing import SignedDistance, Touch, walk_at
+from linkanim.mechanics.solver.input import InputState, Swing
 from linkanim.scenes import load
 from linkanim.scenes.editing import with_dimensions
 from linkanim.scenes.reading import scene_from
@@ -224,6 +225,30 @@ def test_where_dyads_just_fall_into_line_is_settled_of_each_once_and_at_last_of_
     monkeypatch.setattr(limits, "_settled_separation", noted)
     assert scene_from(row_of_dyads(4), name="row", where="row").mechanism
     assert Counter(asked).most_common(1)[0][1] <= 3
+
+
+def test_how_far_each_of_many_change_points_is_takes_a_look_at_each(monkeypatch: pytest.MonkeyPatch) -> None:
+    looks, distance = list[Touch](), Touch.distance
+
+    def noted(touch: Touch, state: InputState) -> SignedDistance:
+        looks.append(touch)
+        return distance(touch, state)
+
+    document: dict[str, object] = {
+        "ground": {"O2": [0, 0], "O4": [1e-28, 0]},
+        "joints": {
+            "A": {"crank": "O2", "length": 30},
+            "B0": {"crank": "A", "length": 20, "gear": {"with": "A", "ratio": -1, "offset": "30 deg"}},
+            "B1": {"crank": "O4", "length": 1e-6, "gear": {"with": "B0", "ratio": -5}},
+            "B2": {"crank": "B0", "length": 20, "gear": {"with": "B1", "ratio": "1/3", "offset": "90 deg"}},
+            "S": {"slot": {"pivot": "A", "through": "B2"}, "length": 40},
+        },
+    }
+    assembly = scene_from(document, name="gears", where="gears").mechanism.assembly
+    assert len(assembly.chain["S"].zeros) == 8
+    monkeypatch.setattr(Touch, "distance", noted)
+    walk_at(assembly, 1.0, Slope(1.0))
+    assert Counter(map(id, looks)).most_common(1)[0][1] == 1
 
 
 def test_what_keeps_from_its_limit_behind_a_change_point_has_none() -> None:

@@ -10,11 +10,13 @@ Its parts, in reading order:
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import field
 from decimal import localcontext
 from fractions import Fraction
 from functools import cached_property, partial
+from itertools import accumulate
+from operator import mul
 from typing import Any
 
 from linkanim.errors import AssemblyError
@@ -366,50 +368,59 @@ class ChainRoot:
         """Return q and ρ, signed and finite through every zero."""
         margin = maximum(closing.u * closing.w, self.least)
         plain = plain_root(margin, 1.0, closing.separation, closing.half_difference)
-        side = self.side(state)
+        away = [zero.distance(state) for zero in self.zeros]
+        side, others = self._sides(away)
         found = SignedRoot(plain.q * side, Slope(plain.ratio.value * side, plain.ratio.rate * side))
         if any(zero.near and zero.near.across for zero in self.zeros) and closing.across:
             found = found.with_lift(Reduced(closing.across, found.q))
-        for zero in (*self.dips, *self.zeros):
+        for dip in self.dips:
+            if dip.near is not None:
+                found = _beside(dip, dip.near, closing, (dip.distance(state), side), found)
+        for zero, there in zip(self.zeros, zip(away, others, strict=True), strict=True):
             if zero.near is not None:
-                found = self._beside(zero, zero.near, closing, state, found)
+                found = _beside(zero, zero.near, closing, there, found)
         return found
 
-    def _beside(
-        self, zero: Fitted, near: Near, closing: Closing, state: InputState, far: SignedRoot
-    ) -> SignedRoot:
-        """Return the root from its fit next to a zero, else the one from `far` of it."""
-        distance, others = zero.distance(state), self.side(state, zero)
-        fitted = near.root.at(distance.argument)
-        q = near.root_at(distance.z, fitted)
-        rho = closing.rates(q)
+    def side(self, state: InputState) -> Value:
+        """Return the sign of the closure on the smooth path."""
+        return self._sides([zero.distance(state) for zero in self.zeros])[0]
 
-        def chosen(close: Value, otherwise: Value) -> Value:
-            return zero.chosen(distance, near.root.width, close, otherwise)
+    def _sides(self, away: Sequence[SignedDistance]) -> tuple[Value, list[Value]]:
+        """Return the sign of the closure on the smooth path, and what it is but for each of the zeros."""
+        signs = [_sign(distance.z.value) for distance in away]
+        before = [*accumulate(signs, mul, initial=self.sign)]
+        after = [*accumulate(reversed(signs), mul, initial=1.0)]
+        return before[-1], [one * other for one, other in zip(before, after[-2::-1], strict=False)]
 
-        found = SignedRoot(
-            chosen(q.value * others, far.q),
-            Slope(chosen(rho.value * others, far.ratio.value), chosen(rho.rate * others, far.ratio.rate)),
-        )
-        if far.lift is None:
-            return found
-        if near.across is None:
-            return found.with_lift(Reduced(far.lift.across, chosen(q.value * others, far.lift.q)))
-        reduced = _vector(*(fit.at(distance.argument) for fit in near.across))
-        points = [
-            Vec(chosen(a.x, b.x), chosen(a.y, b.y)) for a, b in zip(reduced, far.lift.across, strict=True)
-        ]
-        return found.with_lift(
-            Reduced(MovingPoint(*points), chosen(fitted.value * distance.share * others, far.lift.q))
-        )
 
-    def side(self, state: InputState, other_than: Fitted | None = None) -> Value:
-        """Return the sign of the closure on the smooth path, without that of a zero."""
-        sign: Value = self.sign
-        for zero in self.zeros:
-            if zero is not other_than:
-                sign = sign * _sign(zero.distance(state).z.value)
-        return sign
+def _beside(
+    zero: Fitted, near: Near, closing: Closing, there: tuple[SignedDistance, Value], far: SignedRoot
+) -> SignedRoot:
+    """Return the root from its fit next to a zero, else the one from `far` of it.
+
+    `there` has the distance from the zero, and the sign of the closure but for that.
+    """
+    distance, others = there
+    fitted = near.root.at(distance.argument)
+    q = near.root_at(distance.z, fitted)
+    rho = closing.rates(q)
+
+    def chosen(close: Value, otherwise: Value) -> Value:
+        return zero.chosen(distance, near.root.width, close, otherwise)
+
+    found = SignedRoot(
+        chosen(q.value * others, far.q),
+        Slope(chosen(rho.value * others, far.ratio.value), chosen(rho.rate * others, far.ratio.rate)),
+    )
+    if far.lift is None:
+        return found
+    if near.across is None:
+        return found.with_lift(Reduced(far.lift.across, chosen(q.value * others, far.lift.q)))
+    reduced = _vector(*(fit.at(distance.argument) for fit in near.across))
+    points = [Vec(chosen(a.x, b.x), chosen(a.y, b.y)) for a, b in zip(reduced, far.lift.across, strict=True)]
+    return found.with_lift(
+        Reduced(MovingPoint(*points), chosen(fitted.value * distance.share * others, far.lift.q))
+    )
 
 
 def _root(x: Moving, more: float = 0.0) -> Moving:
