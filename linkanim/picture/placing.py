@@ -465,10 +465,16 @@ def _covering(label: LabelPlaces, clutter: Clutter, forbidden: _Bools) -> _Float
     minor[[*label.beside]] = True
     near = _near(places, size, clutter)
     near[[*label.own]] = False
-    for touched in _touched(places, size, clutter, near & minor):
-        cost += _BESIDE * touched.sum(axis=2)
-    for touched in _touched(places, size, clutter, near & ~minor, but=forbidden):
-        forbidden |= touched.any(axis=2)
+    for solids in _some(places, clutter, near & minor):
+        cost += _BESIDE * touching(places, size, solids).sum(axis=2)
+    for solids in _some(places, clutter, near & ~minor):
+        # where a label is too large for its room all of its places are out
+        open_ = np.ix_(~forbidden.all(axis=1), ~forbidden.all(axis=0))
+        if open_[0].size:
+            left = Solids(
+                solids.corners[open_[0][:, 0]] if len(solids.corners) > 1 else solids.corners, solids.half
+            )
+            forbidden[open_] |= touching(places[open_], size, left, forbidden[open_]).any(axis=2)
     return cost
 
 
@@ -657,19 +663,14 @@ def _parted(near: Loop, size: _Floats, half: _Floats, edges: NDArray[np.intp]) -
     return parted
 
 
-def _touched(
-    places: Loop, size: tuple[float, float], clutter: Clutter, wanted: _Bools, *, but: _Bools | None = None
-) -> Iterator[_Bools]:
-    """Yield whether boxes touch the solids that are wanted, some after some (n, k, m).
-
-    It need not be told of the places `but` (n, k), which may have become more from some to the next.
-    """
+def _some(places: Loop, clutter: Clutter, wanted: _Bools) -> Iterator[Solids]:
+    """Yield the solids that are wanted, some after some: of many a few first, which may bar most places."""
     for numbers, solids in clutter.alike:
         which = np.flatnonzero(wanted[numbers])
         first = _FIRST if which.size * places.size > _MANY else which.size
         for some in (which[:first], which[first:]):
             if some.size:
-                yield touching(places, size, solids.picked(some), but)
+                yield solids.picked(some)
 
 
 def _off_others(label: LabelPlaces) -> _Floats:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from numpy.typing import NDArray
 from pictures import standing
 
 from linkanim.mechanics.motion import Pose
+from linkanim.picture import placing
 from linkanim.picture.dimensions import symbols
 from linkanim.picture.fittings import rail_reach
 from linkanim.picture.labels import Surroundings
@@ -291,6 +293,24 @@ def test_a_label_takes_the_place_where_nothing_comes_and_is_gone_where_it_must_b
     assert first.shown.all()
     assert not second.shown.any()
     assert (other.which, other.shown.min()) == (1, 1.0)
+
+
+def test_a_label_that_is_larger_than_its_room_is_held_to_no_solid(monkeypatch: pytest.MonkeyPatch) -> None:
+    held = list[int]()
+
+    def noted(places: NDArray[np.complex128], *more: Any) -> NDArray[np.bool_]:
+        held.append(places.size)
+        return touching(places, *more)
+
+    monkeypatch.setattr(placing, "touching", noted)
+    solids = tuple(Solid(np.full((MOMENTS, 1), 20 + 20j), 5.0) for _ in range(9))
+    clutter = Clutter(Rect(0, 0, 40, 40), solids=solids)
+    places = np.full((MOMENTS, 30), 20 + 20j)
+    for size, most in (((60, 10), 0), ((10, 10), MOMENTS * 30 * 9)):
+        label = LabelPlaces(size, places, np.zeros(30))
+        assert not place([label], clutter)[0].shown.any()
+        assert sum(held) <= most
+    assert sum(held) > 0
 
 
 @pytest.mark.parametrize("seed", range(20))
