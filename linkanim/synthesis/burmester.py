@@ -37,6 +37,8 @@ FEWEST, MOST = 2, 5
 """Poses."""
 SAME = 1e-9
 """Of the poses' size, and in radians: what differs by less is one."""
+_ROUNDING = 2.0**-40
+"""Of the farthest coordinate: by so much poles that are one may be apart."""
 _LARGEST = 1e30
 """Of x and y: what is larger cannot be computed with, and no scene file takes it."""
 STRAIGHT = 1e-12
@@ -169,9 +171,9 @@ class Poses:
         pairs = self.count * (self.count - 1) // 2
         if self.count == FEWEST or len(poles) < pairs:
             return None
-        near = max(abs(pole - poles[0]) for pole in poles) <= SAME * max(
-            self.size, abs(poles[0] - self.centre)
-        )
+        same = SAME * max(self.size, abs(poles[0] - self.centre))
+        rounding = _ROUNDING * float(np.abs(self.origins).max())
+        near = max(abs(pole - poles[0]) for pole in poles) <= max(same, rounding)
         return poles[0] if near else None
 
 

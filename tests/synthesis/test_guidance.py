@@ -281,6 +281,11 @@ FIVE = [*FOUR, (60, -80, 170 * DEGREE)]
         (about(7 - 3j, 0, 30, 70), {}, "all poses turn about one point, 7, -3"),
         (about(0j, 0, 30, 70, -20, 90), {}, "all poses turn about one point"),
         (turned((4, 4, 0), (4, 4, 30), (4, 4, 70)), {}, "all poses turn about one point, 4, 4"),
+        (
+            turned(*((2.1e10, 2.1e10, 10 * n) for n in range(4))),
+            {},
+            "all poses turn about one point, 2.1e.10",
+        ),
         (LID, {"kind": "six-bar"}, "take four-bar or slider-crank"),
         (LID, {"pivots": [(0, 0), (1, 1), (2, 2)]}, "has 2 fixed pins; 3 are given"),
         (LID, {"pivots": [(0, 0)] * 2, "kind": "slider-crank"}, "has 1 fixed pins; 2 are given"),
