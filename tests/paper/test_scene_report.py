@@ -52,6 +52,7 @@ def anywhere(monkeypatch: pytest.MonkeyPatch) -> None:
 POSED = ["crank-rocker", "dwell-six-bar", "double-rocker"]
 
 
+@pytest.mark.slow
 @pytest.mark.thinned(3)
 @pytest.mark.parametrize("name", POSED)
 def test_a_figure_a_solution_and_a_report_are_of_one_pose(
@@ -597,6 +598,7 @@ def test_printed_values_stand_beside_the_press_s_own(press: Path) -> None:
         assert abs(float(percent.replace("−", "-"))) < 0.04
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("anywhere")
 def test_a_scene_of_that_name_in_a_file_has_no_printed_values(tmp_path: Path) -> None:
     path = tmp_path / "press.toml"

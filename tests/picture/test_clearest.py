@@ -48,6 +48,7 @@ def test_no_two_bars_lie_in_line_there(name: str) -> None:
     assert crank.max() > 0.15
 
 
+@pytest.mark.slow
 def test_a_figure_is_of_that_pose_unless_told_otherwise_and_its_caption_says_where() -> None:
     scene = load("inverted-slider-crank")
     chosen, asked = (Figured(scene, (320, 180), Look(), phase) for phase in (None, 0.5))

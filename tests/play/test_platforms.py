@@ -251,6 +251,7 @@ def test_questions_come_back_from_moodle_in_their_categories() -> None:
     assert any(one.pictures > 1 for one in found["$course$/top/linkanim/Four-bars"])
 
 
+@pytest.mark.slow
 def test_questions_come_back_from_a_package() -> None:
     content = qti(ROUNDS, "Round")
     found = read_qti(content)

@@ -430,6 +430,7 @@ def test_a_line_of_several_commands_lists_them(large: Player) -> None:
     assert rows(large.state) == ["slower", "faster"]
 
 
+@pytest.mark.slow
 def test_every_line_of_the_help_is_under_the_mouse(large: Player) -> None:
     shown = large.window.screen.over.help
     assert shown

@@ -84,6 +84,7 @@ def killed(tape: Tape, kept: Path, moment: int) -> int:
     return last
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="kill -9 is of POSIX")
 @pytest.mark.parametrize(
     "session",

@@ -222,6 +222,7 @@ def charts(player: Player) -> list[str]:
     return [one for one in [player.state.look.chart] if one]
 
 
+@pytest.mark.slow
 def test_a_row_of_numbers_charts_its_quantity_and_puts_that_away(rows_shown: Player) -> None:
     for label, token in (
         ("spring force", "return.force"),

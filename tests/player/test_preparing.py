@@ -57,6 +57,7 @@ def rested(here: object) -> Iterator[Player]:
         player.window.close()
 
 
+@pytest.mark.slow
 def test_what_keys_ask_for_is_there_after_a_while(rested: Player) -> None:
     scene, picture = rested.state.scene, rested.window.screen._framing.last
     assert vars(scene)["telling"] == fresh("crank-rocker").telling
@@ -68,6 +69,7 @@ def test_what_keys_ask_for_is_there_after_a_while(rested: Player) -> None:
     assert "other closure" not in scene.elsewhere  # or undo would hold on to a chain of them
 
 
+@pytest.mark.slow
 def test_the_other_closure_is_looked_for_as_a_mechanism_comes_on_and_never_while_it_runs(
     here: object, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -101,6 +103,7 @@ def test_the_way_back_from_the_other_closure_needs_no_search() -> None:
     assert "other closure" not in scene.elsewhere
 
 
+@pytest.mark.slow
 def test_the_list_of_dimensions_is_drawn_in_its_own_layout_before_it_is_asked_for(rested: Player) -> None:
     printer = rested.window.screen._printer
     drawn = [
@@ -115,6 +118,7 @@ def test_the_list_of_dimensions_is_drawn_in_its_own_layout_before_it_is_asked_fo
     assert any(kept["edit_list"] is sheet for sheet in drawn)
 
 
+@pytest.mark.slow
 def test_polygons_come_once_room_is_made_for_them_and_then_stay(rested: Player) -> None:
     framing = rested.window.screen._framing
     rested.type("p")
@@ -135,6 +139,7 @@ def test_polygons_come_once_room_is_made_for_them_and_then_stay(rested: Player) 
             rested.tick()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("key", "pn")
 def test_the_frame_in_which_names_come_finds_their_letters_drawn(
     rested: Player, key: str, monkeypatch: pytest.MonkeyPatch
@@ -159,6 +164,7 @@ def test_the_frame_in_which_names_come_finds_their_letters_drawn(
     assert not made[0]
 
 
+@pytest.mark.slow
 def test_the_help_is_drawn_before_it_is_asked_for(rested: Player) -> None:
     panels = rested.window.screen._printer._panels
     assert panels is not None
@@ -168,6 +174,7 @@ def test_the_help_is_drawn_before_it_is_asked_for(rested: Player) -> None:
     assert shown == [drawn]
 
 
+@pytest.mark.slow
 @pytest.mark.thinned(3)
 @pytest.mark.parametrize("key", "bckph")
 def test_a_picture_is_the_same_where_nothing_was_prepared(
@@ -216,6 +223,7 @@ def test_a_moving_mouse_leaves_no_time_to_prepare(here: object) -> None:
         player.window.close()
 
 
+@pytest.mark.slow
 def test_of_a_large_linkage_nothing_is_prepared(rested: Player, monkeypatch: pytest.MonkeyPatch) -> None:
     """A single step of it would hold a frame up."""
     window, state = rested.window.screen, replace(rested.state, scene=fresh("six-bar"))

@@ -263,6 +263,7 @@ def still(state: State) -> State:
     return replace(gone, effects=(), beneath=None)
 
 
+@pytest.mark.slow
 def test_nothing_walks_away_from_what_was_left() -> None:
     for kiosk, cases in ((False, {**LEFT, **RUNNING}), (True, LEFT)):
         for name, actions in cases.items():

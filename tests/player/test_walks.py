@@ -141,6 +141,7 @@ def asked_by(player: Player, at: tuple[float, float], *, finger: bool) -> Action
     return player.state.listing.asked(scene, picked.value) if picked else None  # type: ignore[arg-type]
 
 
+@pytest.mark.slow
 @pytest.mark.thinned(5)
 def test_every_command_is_reached_by_pointing_alone(player: Player) -> None:
     expected = wanted(player.state)

@@ -195,6 +195,7 @@ def test_the_other_closure_and_the_way_back(page: Page, tmp_path: Path) -> None:
     assert isclose(page.value("Number(document.querySelector('#sliders input').value)"), found["values"][0])
 
 
+@pytest.mark.slow
 def test_only_what_the_solver_knows_has_sliders() -> None:
     known = {name for name in names() if model(load(name))}
     assert {"crank-rocker", "slider-crank", "jansen", "stephenson-3"} <= known

@@ -103,6 +103,7 @@ def at_joints(made: MadeLinkage) -> int:
     return sum(not pin.stuck for pin in made.pins)
 
 
+@pytest.mark.slow
 def test_every_scene_of_the_catalogue_is_made_or_refused_with_the_reason() -> None:
     found: dict[str, tuple[int, int, int] | str] = {}
     for name in names():
