@@ -655,8 +655,9 @@ class Panels:
         if overlay.chip:
             drawn = self._keep(chip, overlay.chip.text)
             marks = 1.5 * self.board.layout.text_size
-            polygons = self.board.layout.polygons
-            is_beside = polygons is not None and polygons.x >= room.right  # whose words stand at their head
+            docked = (self.board.layout.chart, self.board.layout.polygons)
+            # their words stand at their head
+            is_beside = any(one is not None and one.x >= room.right for one in docked)
             right = room.inset(self.board.margin).right if is_beside else place.right
             beside = right - drawn.get_width(), place.y + marks
             free = off_words(self.board.layout, drawn, [beside, *edges(self.board, drawn)])

@@ -83,15 +83,17 @@ def test_a_chip_and_the_strip_hold_their_words_and_fade(painter: Picture, kind: 
     assert not inked(going, middle, ink)
 
 
+@pytest.mark.parametrize("look", [Look(polygons=True), Look(chart="j.angle")], ids=["polygons", "chart"])
 @pytest.mark.parametrize("size", [(1280, 720), (640, 360), (500, 720)], ids=str)
-def test_a_chip_lies_on_no_scale_of_a_polygon(size: tuple[int, int]) -> None:
-    shown, printer = Picture(load("crank-rocker"), size, Look(polygons=True)), SurfacePrinter()
+def test_a_chip_lies_on_no_words_of_a_chart_or_a_polygon(size: tuple[int, int], look: Look) -> None:
+    shown, printer = Picture(load("jansen"), size, look), SurfacePrinter()
     sheets = []
     for chip in (None, Fading("polygons")):
         sheets.append(offscreen(size))
         printer.paint(sheets[-1], shown, shown.scene.pose(1.0), Overlay(chip=chip))
-    assert shown.layout.polygons
-    assert not _between(*sheets).meets(shown.layout.polygons)
+    beside = shown.layout.polygons or shown.layout.chart
+    assert beside
+    assert not _between(*sheets).meets(beside)
 
 
 def test_the_picture_recedes_behind_the_help(painter: Picture) -> None:
