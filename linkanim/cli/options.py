@@ -19,6 +19,7 @@ from linkanim import units
 from linkanim.bounds import LARGEST_SIDE, MOST_LISTED, MOST_POSES
 from linkanim.errors import BadInput
 from linkanim.frozen import NamedTuple, frozen
+from linkanim.intake import meant
 from linkanim.picture.look import TOGGLES, ConstructionKind, Look, Option, Toggle
 from linkanim.picture.purpose import PURPOSES
 from linkanim.units import shown
@@ -260,7 +261,19 @@ class Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         """Raise the usage error as one sentence that names the help to read."""
-        raise BadInput(f"{message} (see `{self.prog} --help`)")
+        told = f"{message[:-1]}; " if message.endswith(")") else f"{message} ("
+        raise BadInput(f"{told}see `{self.prog} --help`)")
+
+    def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
+        """Refuse what a command does not know with that command's own help, and its nearest option."""
+        found, unknown = super().parse_known_args(args, namespace)
+        if unknown and self._subparsers is None:
+            word, *_ = unknown[0].split("=")
+            if not word.startswith("-"):
+                self.error(f"{shown(unknown[0])} is one argument too many")
+            options = [option for action in self._actions for option in action.option_strings]
+            self.error(f"there is no option {shown(word)}{meant(word, options)}")
+        return found, unknown
 
     def _get_value(self, action: argparse.Action, arg_string: str) -> Any:
         # argparse's own knows no `BadInput`, and would let it go without the option's name

@@ -240,12 +240,13 @@ def _nearest(known: Iterable[str], token: str) -> list[str]:
     """Return the tokens most like another: of the same part and of words like its, then those like it."""
     from difflib import SequenceMatcher
 
-    part, _, measure = token.casefold().partition(".")
+    token = token.casefold().replace("speed", "velocity")
+    part, _, measure = token.partition(".")
     sought = measure or part
 
     def likeness(candidate: str) -> float:
         other, _, named = candidate.casefold().partition(".")
-        whole = SequenceMatcher(None, token.casefold(), candidate.casefold()).ratio()
+        whole = SequenceMatcher(None, token, candidate.casefold()).ratio()
         words = SequenceMatcher(None, sought, named or other).ratio()
         within = bool(sought) and sought in (named or other)
         return whole + words + within + (other == part)

@@ -144,8 +144,9 @@ USAGE = [
     (["record"], "SCENE"),
     (["solve"], "SCENE"),
     (["solve", "press"], "--angle"),
-    (["info", "press", "kite"], "kite"),
-    (["scenes", "--all"], "--all"),
+    (["info", "press", "kite"], '"kite" is one argument too many (see `linkanim info --help`)'),
+    (["scenes", "--all"], '"--all" (see `linkanim scenes --help`)'),
+    (["record", "press", "--fsp=3"], '"--fsp" (did you mean "--fps"?; see `linkanim record --help`)'),
     # units are written, numbers are finite
     (["solve", "press", "--angle", "87"], "no unit"),
     (["solve", "press", "--angle", "-87"], "no unit"),

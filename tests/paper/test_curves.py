@@ -144,6 +144,8 @@ def test_a_quantity_named_twice_is_drawn_once_and_none_is_refused() -> None:
         _curves("press")
     with pytest.raises(BadInput, match=r"5\.travl.*nearest are 5\.travel, "):
         _curves("press", "5.travl")
+    with pytest.raises(BadInput, match=r"nearest are B\.velocity, "):
+        _curves("press", "B.speed")
 
 
 def test_the_table_holds_what_is_solved_in_radians() -> None:
