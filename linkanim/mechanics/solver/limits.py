@@ -155,7 +155,7 @@ def extremes(exact: ExactWalk, name: str) -> Callable[[float], tuple[Sum, float,
             found = _newton(Sum(phase), lambda place: _steps(run, place)[1])
             place = Decimal(phase) if found is None else found
             margin, gap = run(place)
-            bend = sum(run(place + way)[0] for way in (-NUDGE, NUDGE)) - 2 * margin
+            bend = sum(run(place + nudge)[0] for nudge in (-NUDGE, NUDGE)) - 2 * margin
             reach = (-2 * margin / bend).sqrt() * NUDGE if margin < 0 < bend else Decimal(0)
             return nearest_sum(place), float(gap), float(reach)
 
@@ -164,7 +164,7 @@ def extremes(exact: ExactWalk, name: str) -> Callable[[float], tuple[Sum, float,
 
 def _steps(run: Callable[..., Decimals], place: Decimal) -> tuple[Decimal, Decimal]:
     """Return the steps to the margin's zero and to its extreme."""
-    before, here, after = (run(place + way)[0] for way in (-NUDGE, 0, NUDGE))
+    before, here, after = (run(place + nudge)[0] for nudge in (-NUDGE, 0, NUDGE))
     slope, bend = (after - before) / (2 * NUDGE), (after - 2 * here + before) / NUDGE**2
     return here / slope, slope / bend
 
@@ -174,15 +174,15 @@ def _newton(phase: Sum, step: Callable[[Decimal], Decimal]) -> Decimal | None:
     start = place = exactly(phase)
     last = Decimal(0)
     for count in range(STEPS):
-        way = step(place)
+        change = step(place)
         # Beside a kink differences are of both its sides, and steps are each a share of the one before.
-        share = way / last if count > SLOW and count % 2 else Decimal(0)
-        last = way
-        way /= 1 - share if abs(share) < 1 else 1
-        if not abs(place - way - start) < Decimal(NEARBY):
+        share = change / last if count > SLOW and count % 2 else Decimal(0)
+        last = change
+        change /= 1 - share if abs(share) < 1 else 1
+        if not abs(place - change - start) < Decimal(NEARBY):
             return None
-        place -= way
-        if abs(way) < CONVERGED:
+        place -= change
+        if abs(change) < CONVERGED:
             break
     return place
 
@@ -228,13 +228,13 @@ def _with_stretch(assembly: Assembly, name: str, zero: Zero) -> Zero:
     if not isinstance(zero, End) or not isinstance(path, Swing):
         return zero
     sampled = _by_way(assembly, path, name, zero)
-    before, here, after = (sampled(way).margin for way in (-NUDGE, Decimal(0), NUDGE))
+    before, here, after = (sampled(nudge).margin for nudge in (-NUDGE, Decimal(0), NUDGE))
     slope, bend = (after - before) / (2 * NUDGE), (after - 2 * here + before) / NUDGE**2
     place = -2 * slope / bend
     if not -Decimal(SHORT) < place < 0:
         return zero
     for _ in range(STEPS):
-        low, high = (sampled(place * (1 + way)).margin for way in (-NUDGE, NUDGE))
+        low, high = (sampled(place * (1 + nudge)).margin for nudge in (-NUDGE, NUDGE))
         step = (low + high) / (high - low) * place * NUDGE
         place -= step
         if not -2 * Decimal(SHORT) < place < 0:
@@ -472,12 +472,12 @@ class Separations:
         """Whether every dyad closes all along."""
         return not self.shut.any()
 
-    def beside(self, phase: float, name: str, way: int) -> Sum | None:
+    def beside(self, phase: float, name: str, side: int) -> Sum | None:
         """Return where a stretch about an extreme ends, on that side, in which floats see the dyad close."""
         for found in self.settled(name):
             turns = round((phase - found.phase) / (2 * math.pi))
             if found.closes < 0 and abs(phase - found.phase - turns * 2 * math.pi) <= found.reach:
-                return found.place + FULL_TURN.times(float(turns)) + Sum(way * found.reach)
+                return found.place + FULL_TURN.times(float(turns)) + Sum(side * found.reach)
         return None
 
     def touches(self, name: str) -> tuple[Sum, ...]:
