@@ -575,7 +575,8 @@ def loops_of(work: Work, places: Chapter) -> tuple[VectorLoop, ...]:
         for step in places.steps
     }
     dyads = (joint for joint in work.linkage.joints if KINDS[type(joint)].loop)
-    loops = tuple(_loop(joint, work, found.get(f"Joint {marked(joint.name)}", set())) for joint in dyads)
+    ways = _WaysFromGround(work)
+    loops = tuple(_loop(joint, ways, found.get(f"Joint {marked(joint.name)}", set())) for joint in dyads)
     lines = [item for step in places.steps for item in step.items if isinstance(item, ValueLine)]
     length = next((line.value for line in lines if line.value.symbol == CYLINDER), None)
     return loops if length is None else (_cylinder(length, work), *loops)
@@ -607,10 +608,10 @@ def _cylinder(length: Formula, work: Work) -> VectorLoop:
     return VectorLoop(Step("Loop of the cylinder", (*equations, Unknown((turned, tilt)))), arrows)
 
 
-def _loop(joint: Joint, work: Work, found: set[Symbol | None]) -> VectorLoop:
-    close = KINDS[type(joint)].loop
+def _loop(joint: Joint, ways: _WaysFromGround, found: set[Symbol | None]) -> VectorLoop:
+    work, close = ways.work, KINDS[type(joint)].loop
     assert close is not None
-    one, other = (_from_ground(route, work) for route in close(joint, work))
+    one, other = (ways.along(route) for route in close(joint, work))
     same = sum(
         1 for _ in takewhile(lambda pair: pair[0] == pair[1], zip(one.sides, other.sides, strict=False))
     )
@@ -638,17 +639,29 @@ def _ground(work: Work, start: str, end: str) -> tuple[LoopSide, complex]:
     return LoopSide(Symbol("R", index, bold=True), vector), work.place(start)
 
 
-def _from_ground(route: Route, work: Work) -> _Chain:
-    """Return the whole way to where a route leads, from a fixed pin."""
-    sides, at = [], work.place(route.start)
-    for side in route.sides:
-        sides.append((side, at))
-        at += _value(side)
-    further = KINDS[type(work.linkage.joint(route.start))].route
-    if further is None:
-        return _Chain(route.start, tuple(sides))
-    before = _from_ground(further(work.linkage.joint(route.start), work), work)
-    return _Chain(before.root, (*before.sides, *sides))
+class _WaysFromGround:
+    """The whole ways to joints from a fixed pin, each found once."""
+
+    def __init__(self, work: Work) -> None:
+        self.work = work
+        self._found: dict[str, _Chain] = {}
+
+    def along(self, route: Route) -> _Chain:
+        """Return the whole way to where a route leads."""
+        sides, at = [], self.work.place(route.start)
+        for side in route.sides:
+            sides.append((side, at))
+            at += _value(side)
+        before = self._to(route.start)
+        return _Chain(before.root, (*before.sides, *sides))
+
+    def _to(self, name: str) -> _Chain:
+        """Return the way to a joint by the bar that its kind chooses; none to a fixed pin."""
+        if name not in self._found:
+            joint = self.work.linkage.joint(name)
+            further = KINDS[type(joint)].route
+            self._found[name] = self.along(further(joint, self.work)) if further else _Chain(name, ())
+        return self._found[name]
 
 
 def _value(side: LoopSide) -> complex:
