@@ -168,6 +168,8 @@ class Checked:
             yield f"it is about what rests, or runs evenly: {velocity}, {along}"
         elif self.right.text != ("it speeds up" if along > 0 else "it slows down"):
             yield f"its acceleration along its velocity is {along}"
+        elif abs(along) < SEEN * abs(acceleration):
+            yield f"it hardly changes its speed: {along} of {abs(acceleration)}"
         yield from self.told(r"(\S+) \S+/s²", along)
 
     def doubled(self) -> Iterator[str]:

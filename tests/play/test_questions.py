@@ -151,6 +151,17 @@ def test_at_a_limit_the_input_is_about_to_turn_back() -> None:
     assert pose_words(question).endswith("15 swings/min counterclockwise")
 
 
+def test_a_joint_that_hardly_changes_its_speed_is_not_asked_about() -> None:
+    scene, asked = load("drag-link"), 0
+    for step in range(90):
+        question = KINDS["speeding"].make(Puzzle("speeding", scene, tau * step / 90, Random(step)))
+        if question is not None:
+            pose, asked = scene.pose(question.phase), asked + 1
+            speed, gained = (complex(*of[question.subject]) for of in (pose.velocity, pose.acceleration))
+            assert abs((speed.conjugate() * gained).real) > 0.05 * abs(speed) * abs(gained)
+    assert asked > 60
+
+
 def test_what_is_rigid_with_its_guide_is_not_asked_about_as_if_it_slid() -> None:
     slotted = {"slot": {"pivot": "O2", "through": "A"}, "length": 10}
     bodies = {"2": {"joints": ["O2", "A"]}, "3": {"joints": ["O2", "P"]}}
