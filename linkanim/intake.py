@@ -439,7 +439,7 @@ def _is_heading(cells: list[str]) -> bool:
 
 
 def _plain(cell: str) -> str:
-    return cell.strip().removesuffix("°").replace("−", "-").replace("\N{NO-BREAK SPACE}", "")
+    return cell.strip().removesuffix("°").replace("−", "-").replace("\u00a0", "")
 
 
 def _row(line: int, cells: list[str], columns: str, where: str, comma: bool) -> NumberRow:

@@ -175,8 +175,9 @@ def _signals_raise() -> Iterator[None]:
         signal.signal(number, arrived)
     try:
         yield
-    except (ImportError, SystemError) as error:
-        # numpy takes what arrives while it is loaded for a failure of its own; closing a buffer loses it
+    except (ImportError, SyntaxError, SystemError) as error:
+        # numpy takes what arrives while it is loaded for a failure of its own, Python what arrives while the
+        # compiler looks up a letter's name; closing a buffer loses it
         if ends:
             raise ends[-1] from error
         raise

@@ -368,12 +368,25 @@ def test_a_signal_while_a_class_is_made_ends_us_as_any_other(
     assert "unexpected" not in capsys.readouterr().err
 
 
-def test_an_interrupt_that_foreign_code_loses_is_one(capsys: pytest.CaptureFixture[str]) -> None:
+LOST = {
+    "while a buffer is closed": SystemError("error return without exception set"),
+    "while numpy is loaded": ImportError("Importing the numpy C-extensions failed."),
+    "while a letter's name is compiled": SyntaxError("(unicode error) can't load unicodedata module"),
+}
+
+
+@pytest.mark.parametrize("error", LOST.values(), ids=LOST)
+@pytest.mark.parametrize(
+    ("number", "code", "said"), [(signal.SIGINT, 130, "interrupted"), (signal.SIGTERM, 143, "terminated")]
+)
+def test_a_signal_that_foreign_code_loses_ends_us_as_any_other(
+    number: signal.Signals, code: int, said: str, error: Exception, capsys: pytest.CaptureFixture[str]
+) -> None:
     def work() -> None:
         try:
-            signal.raise_signal(signal.SIGINT)
-        except KeyboardInterrupt as ending:
-            raise SystemError("error return without exception set") from ending
+            signal.raise_signal(number)
+        except (KeyboardInterrupt, Ended):
+            raise error from None
 
-    assert guarded(work) == 130
-    assert capsys.readouterr().err == "linkanim: interrupted\n"
+    assert guarded(work) == code
+    assert capsys.readouterr().err == f"linkanim: {said}\n"
