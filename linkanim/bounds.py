@@ -10,6 +10,8 @@ MOST_GEARED_TURNS = 20_000
 """Turns of the quickest crank in those."""
 MOST_DYAD_TURNS = 2_000
 """The same times the dyads, each of which is looked at all along."""
+MOST_CHANGE_POINTS = 100
+"""Of one dyad in those: next to each its formulas are others, which are compiled with all the rest."""
 MOST_PROBLEMS = 100
 """Problems of one scene file that are printed."""
 LONGEST_TEXT = 1_000

@@ -227,6 +227,27 @@ def test_where_dyads_just_fall_into_line_is_settled_of_each_once_and_at_last_of_
     assert Counter(asked).most_common(1)[0][1] <= 3
 
 
+def geared_slot(ratio: int, further: int | str = "1/3") -> dict[str, object]:
+    """Return a slot through a crank on a crank, whose gear makes it pass change point after change point."""
+    return {
+        "ground": {"O2": [0, 0], "O4": [1e-28, 0]},
+        "joints": {
+            "A": {"crank": "O2", "length": 30},
+            "B0": {"crank": "A", "length": 20, "gear": {"with": "A", "ratio": -1, "offset": "30 deg"}},
+            "B1": {"crank": "O4", "length": 1e-6, "gear": {"with": "B0", "ratio": ratio}},
+            "B2": {"crank": "B0", "length": 20, "gear": {"with": "B1", "ratio": further, "offset": "90 deg"}},
+            "S": {"slot": {"pivot": "A", "through": "B2"}, "length": 40},
+        },
+    }
+
+
+@pytest.mark.slow
+def test_a_dyad_with_more_change_points_than_are_worked_out_is_refused() -> None:
+    refusal = r"joint S: it passes [34]\d\d change points, or .* 100 are the most here; give its gears"
+    with Limits(10, 400).held(), pytest.raises(LinkanimError, match=refusal):
+        scene_from(geared_slot(-100, 4), name="gears", where="gears")
+
+
 def test_how_far_each_of_many_change_points_is_takes_a_look_at_each(monkeypatch: pytest.MonkeyPatch) -> None:
     looks, distance = list[Touch](), Touch.distance
 
@@ -234,17 +255,7 @@ def test_how_far_each_of_many_change_points_is_takes_a_look_at_each(monkeypatch:
         looks.append(touch)
         return distance(touch, state)
 
-    document: dict[str, object] = {
-        "ground": {"O2": [0, 0], "O4": [1e-28, 0]},
-        "joints": {
-            "A": {"crank": "O2", "length": 30},
-            "B0": {"crank": "A", "length": 20, "gear": {"with": "A", "ratio": -1, "offset": "30 deg"}},
-            "B1": {"crank": "O4", "length": 1e-6, "gear": {"with": "B0", "ratio": -5}},
-            "B2": {"crank": "B0", "length": 20, "gear": {"with": "B1", "ratio": "1/3", "offset": "90 deg"}},
-            "S": {"slot": {"pivot": "A", "through": "B2"}, "length": 40},
-        },
-    }
-    assembly = scene_from(document, name="gears", where="gears").mechanism.assembly
+    assembly = scene_from(geared_slot(-5), name="gears", where="gears").mechanism.assembly
     assert len(assembly.chain["S"].zeros) == 8
     monkeypatch.setattr(Touch, "distance", noted)
     walk_at(assembly, 1.0, Slope(1.0))

@@ -18,6 +18,7 @@ from functools import cache, cached_property, partial
 import numpy as np
 from numpy.typing import NDArray
 
+from linkanim.bounds import MOST_CHANGE_POINTS
 from linkanim.errors import AssemblyError
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.angles import FULL_TURN, Sum
@@ -958,6 +959,11 @@ def _through(assembly: Assembly, name: str, found: Separations) -> Assembly:
     root = ChainRoot((*known.zeros, *touches), found.scales[name] * LEAST, dips=dips)
     if not (root.zeros or dips):
         return assembly
+    if (passed := len(root.zeros) + len(dips)) > MOST_CHANGE_POINTS:
+        raise AssemblyError(
+            f"joint {name}: it passes {passed:,} change points, or comes near them, until every joint is "
+            f"back, and {MOST_CHANGE_POINTS} are the most here; give its gears smaller ratios"
+        )
     side = root.side(path.state(JUST_AFTER, Slope(1.0)))
     assert isinstance(side, float)
     if len(touches) % 2:
