@@ -124,17 +124,25 @@ class Centres:
         """Which centres there are."""
         return CentrePairs(self.setting.figure)
 
-    def layers(self, pose: Pose) -> Iterator[Layer]:
+    def drawn(self, pose: Pose, places: Places, taken: Iterable[Rect]) -> tuple[list[Layer], list[Caption]]:
+        """Return what is drawn of a pose's centres, and the names of those that are no joints.
+
+        Names stand off what is `taken`, each other and bars.
+        """
+        found = self.known.of(pose)
+        seen = [*self._seen(found)]
+        return [*self._layers(found, seen)], [*self._captions(seen, places, taken)]
+
+    def _layers(self, found: dict[tuple[str, str], Centre], all_seen: Iterable[Seen]) -> Iterator[Layer]:
         """Yield Kennedy's lines, a cross at each centre in sight that is no joint, an arrow to each other."""
         gauge, theme = self.setting.gauge, self.setting.theme
-        found = self.known.of(pose)
         lines = [line for step in self.known.steps for line in self._lines(step, found)]
         if lines:
             faint = mixed(theme.warning, theme.background, _FAINT)
             width = 0.8 * gauge.line
             yield Layer(faint, [loop for ends in lines for loop in dashes(*ends, 9 * width, width)])
         reach, marks, width = _CROSS * gauge.bar, list[Loop](), 1.4 * gauge.line
-        for seen in self.seen(pose):
+        for seen in all_seen:
             if seen.direction:
                 long = _ARROW * self.setting.layout.small_size
                 marks += arrows([seen.at - long * seen.direction], [long * seen.direction], width)
@@ -143,11 +151,10 @@ class Centres:
                 marks += segments(seen.at - ends, seen.at + ends, width)
         yield Layer(theme.warning, marks)
 
-    def captions(self, pose: Pose, places: Places, taken: Iterable[Rect]) -> Iterator[Caption]:
-        """Yield the names of the centres that are no joints, off what is `taken`, each other and bars."""
+    def _captions(self, seen: Iterable[Seen], places: Places, taken: Iterable[Rect]) -> Iterator[Caption]:
         theme, size = self.setting.theme, self.setting.layout.small_size
         halo = Halo(theme.background, max(1.4 * self.setting.gauge.line, 1.5))
-        named = [seen for seen in self.seen(pose) if not seen.jointed]
+        named = [one for one in seen if not one.jointed]
         if not named:
             return
         wide = [self.setting.type.width(seen.label, size, strong=True) for seen in named]
@@ -210,7 +217,9 @@ class Centres:
 
     def seen(self, pose: Pose) -> Iterator[Seen]:
         """Yield the centres as they show: those in the picture, then the directions of the others."""
-        found = self.known.of(pose)
+        return self._seen(self.known.of(pose))
+
+    def _seen(self, found: dict[tuple[str, str], Centre]) -> Iterator[Seen]:
         view, room, (named, pin) = self.setting.view, self.setting.layout.reach, self._pin
         inner, far = room.inset(6 * self.setting.layout.unit), list[Seen]()
         foot, unit_ = room.inset(1).nearest(pin), self.setting.figure.scene.length_unit

@@ -178,8 +178,7 @@ class Drawing:
             yield Group(kind.words, layers, symbols_, made_of=kind)
             taken += [line.around(self.setting.type) for line in symbols_]
         if centres := parts.centres:
-            words = [*centres.captions(pose, places, taken)]
-            yield Group("instant-centres", [*centres.layers(pose)], words, made_of=centres)
+            yield Group("instant-centres", *centres.drawn(pose, places, taken), made_of=centres)
 
     def _turning(self, pose: Pose, places: Places) -> Iterator[Layer]:
         """Yield the way the input turns, and its angle."""
