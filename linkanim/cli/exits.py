@@ -154,6 +154,7 @@ def _print_anything() -> None:
 def _signals_raise() -> Iterator[None]:
     """Turn what is to end us into an exception meanwhile, once: clean-up is not cut short by a second one.
 
+    One that arrives while an object is let go is lost there, for Python goes on; it is raised again then.
     What is ignored, as SIGHUP under nohup, stays so; other threads than the main one cannot, and do not.
     """
     threading = sys.modules.get("threading")  # where nobody has loaded it there is one thread
@@ -162,17 +163,28 @@ def _signals_raise() -> Iterator[None]:
         return
     raised = [-_ONE_AND_THE_SAME]
     ends: list[BaseException] = []
+    numbers: list[signal.Signals] = []
+    told = sys.unraisablehook
 
     def arrived(number: int, frame: FrameType | None) -> None:
         if time.monotonic() - raised[0] >= _ONE_AND_THE_SAME:
             raised[0] = time.monotonic()
+            numbers.append(signal.Signals(number))
             ends.append(KeyboardInterrupt() if number == signal.SIGINT else Ended(128 + number))
             raise ends[-1]
+
+    def lost(what: sys.UnraisableHookArgs) -> None:
+        if what.exc_value is None or what.exc_value not in ends:
+            told(what)
+            return
+        raised[0] = -_ONE_AND_THE_SAME
+        _soon(numbers[ends.index(what.exc_value)])
 
     before = {number: signal.getsignal(number) for number in _ENDING}
     ours = {number: old for number, old in before.items() if old not in (signal.SIG_IGN, None)}
     for number in ours:
         signal.signal(number, arrived)
+    sys.unraisablehook = lost
     try:
         yield
     except (ImportError, SyntaxError, SystemError) as error:
@@ -182,5 +194,17 @@ def _signals_raise() -> Iterator[None]:
             raise ends[-1] from error
         raise
     finally:
+        sys.unraisablehook = told
         for number, old in ours.items():
             signal.signal(number, old)
+
+
+def _soon(number: signal.Signals) -> None:
+    """Have a signal arrive a moment later, when Python is out of what would lose it again."""
+    import _thread
+
+    def arrive() -> None:
+        time.sleep(0.01)
+        _thread.interrupt_main(number)
+
+    _thread.start_new_thread(arrive, ())

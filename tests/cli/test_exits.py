@@ -7,6 +7,8 @@ import shlex
 import signal
 import subprocess
 import sys
+import time
+import weakref
 from collections.abc import Callable
 from pathlib import Path
 
@@ -124,6 +126,25 @@ def test_a_second_signal_does_not_cut_the_clean_up_short(second: signal.Signals)
 
     assert guarded(work) == 143
     assert cleaned == ["cleaned"]
+
+
+@pytest.mark.parametrize(("number", "code"), ENDING)
+def test_a_signal_while_an_object_is_let_go_ends_us_all_the_same(
+    number: signal.Signals, code: int, capsys: pytest.CaptureFixture[str]
+) -> None:
+    class Thing:
+        """Something that can be let go."""
+
+    def work() -> None:
+        thing = Thing()
+        told = weakref.ref(thing, lambda _: signal.raise_signal(number))
+        del thing
+        for _ in range(500):
+            time.sleep(0.01)
+        raise AssertionError(told)
+
+    assert guarded(work) == code
+    assert capsys.readouterr().err.count("\n") == 1
 
 
 def test_a_signal_that_is_ignored_stays_so() -> None:
