@@ -626,6 +626,10 @@ class Checked:
                 off = float(place) - purpose.output[n]
                 if abs(off - (0 if sliding else 2 * pi * round(off / (2 * pi)))) > 1e-9 * self.motion.size:
                     yield f"the output is {off} off"
+        listed = self.question.why.partition(";")[0].removeprefix("Its precision points are ")
+        told = [number(word.removeprefix("x = ")) for word in re.split(", | and ", listed)]
+        if len(told) != len(purpose.x) or not np.allclose(told, purpose.x, rtol=SAME, atol=1e-9):
+            yield f"its reason lists {listed} of {purpose.x}"
 
     @cached_property
     def two_poses(self) -> tuple[complex, complex, complex]:
