@@ -136,6 +136,14 @@ def test_a_reason_is_one(token: str, said: str) -> None:
     assert faults(question, ExactMotion(question.scene)) == []
 
 
+def test_a_transmission_angle_below_a_degree_is_no_change_point() -> None:
+    document = {"slider-crank": {"crank": 50, "rod": 50.005}}
+    scene = scene_from(document, name="near", where="near.toml")
+    question = KINDS["input range"].make(Puzzle("input range", scene, 1.0, Random(0)))
+    assert question is not None
+    assert question.why.endswith("here none is ever less than 0.8°.")
+
+
 @pytest.mark.thinned(2)
 @pytest.mark.parametrize("phase", [0.0, 3.1416, pi, tau])
 def test_a_question_at_a_limit_holds(phase: float) -> None:

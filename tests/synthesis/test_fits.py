@@ -62,7 +62,9 @@ def distances(fit: Fit, points: Complex) -> Real:
 def verify(fit: Fit, points: Complex, *, closed: bool = True) -> None:
     """Hold what a fit says of itself against the solver's own motion."""
     # of a shape that is not followed, what is nearest is not always where a point is passed
-    nearest, passed = distances(fit, points), np.abs(traced(fit, angle=fit.angles) - points)
+    passed = np.abs(traced(fit, angle=fit.angles) - points)
+    # where two stretches of a curve all but touch the nearest of its samples may lie on the other one
+    nearest = np.minimum(distances(fit, points), passed)
     size = np.hypot(np.ptp(points.real), np.ptp(points.imag))
     for said, least, most in (
         (fit.rms, math.sqrt(np.mean(nearest**2)), math.sqrt(np.mean(passed**2))),
