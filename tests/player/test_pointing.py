@@ -144,6 +144,8 @@ def test_the_card_is_within_the_picture_and_beside_the_joint(size: tuple[int, in
     assert corners.real.max() <= size[0] + 1.0
     assert corners.imag.min() >= -1.0
     assert corners.imag.max() <= size[1] + 1.0
+    for line in card.captions:
+        assert corners.imag.min() < line.at[1] < corners.imag.max() - line.size
     at = picture.view.place(place)
     inside = (
         corners.real.min() < at.real < corners.real.max()
