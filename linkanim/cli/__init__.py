@@ -18,7 +18,7 @@ from collections.abc import Sequence
 
 from linkanim.cli.exits import guarded
 
-_SPARED = 10_000
+SPARED = 10_000
 """So many more things are made than go before rubbish is looked for: at the start nearly all of them stay."""
 
 
@@ -32,7 +32,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _run(argv: Sequence[str] | None) -> None:
-    gc.set_threshold(_SPARED)
+    gc.set_threshold(SPARED)
     # Imported here so that Ctrl-C during start-up is answered like any other.
     from linkanim.cli import command_table as commands
 

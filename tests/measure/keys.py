@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import gc
 import sys
 import time
 from collections.abc import Iterable, Iterator
@@ -10,7 +9,7 @@ from dataclasses import replace
 from statistics import median
 from typing import NamedTuple
 
-from window import dummy
+from window import dummy, spare
 
 from linkanim.bench.result import this_machine
 from linkanim.export import columns
@@ -55,8 +54,7 @@ def measured(size: tuple[int, int], scenes: Iterable[str], keys: str = KEYS) -> 
 
     A key over a bound is pressed up to `AGAIN` times more, and the least of each figure counts.
     """
-    gc.collect()
-    gc.freeze()  # as the window does once it is open
+    spare()
     costs = []
     for name in scenes:
         for key in keys:

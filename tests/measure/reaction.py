@@ -12,7 +12,7 @@ from collections import deque
 from statistics import median
 
 import pygame
-from window import dummy
+from window import dummy, spare
 
 from linkanim.bench.result import this_machine
 from linkanim.player import screen as display
@@ -50,6 +50,7 @@ def reactions(scene: str, size: tuple[int, int], presses: int = PRESSES) -> list
     found: list[float] = []
     with display.opened(size):
         window = Window(begin(load(scene)))
+        spare()
         coming, at = deque[tuple[float, str]](), clock.now()
         for n in range(presses):
             at += chance.uniform(*APART)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import subprocess
 import sys
@@ -15,6 +16,7 @@ from tempfile import TemporaryDirectory
 from fidelity import frame_decibels, jitter
 
 from linkanim.bench.result import Machine, this_machine
+from linkanim.cli import SPARED
 from linkanim.errors import WorkFailed
 from linkanim.export import columns
 from linkanim.picture.look import Look
@@ -140,6 +142,13 @@ def _started(compiled: str) -> float:
     if not done.stdout:
         raise WorkFailed(f"the window did not start: {done.stderr.strip() or 'it drew nothing'}")
     return float(done.stdout.split()[-1]) - start
+
+
+def spare() -> None:
+    """Look for rubbish as seldom as the program does, and not among what is there by now."""
+    gc.set_threshold(SPARED)
+    gc.collect()
+    gc.freeze()
 
 
 @contextmanager
