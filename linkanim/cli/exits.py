@@ -203,8 +203,13 @@ def _soon(number: signal.Signals) -> None:
     """Have a signal arrive a moment later, when Python is out of what would lose it again."""
     import _thread
 
+    main = _thread.get_ident()  # signals are handled in no other thread
+
     def arrive() -> None:
         time.sleep(0.01)
-        _thread.interrupt_main(number)
+        if sys.platform == "win32":
+            _thread.interrupt_main(number)
+        else:  # it wakes the program where that waits for another
+            signal.pthread_kill(main, number)
 
     _thread.start_new_thread(arrive, ())

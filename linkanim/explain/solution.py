@@ -219,13 +219,13 @@ def centre_name(body: Body, rates: Rates) -> str:
 def strut(item: Spring | Damper, rates: Rates) -> Iterator[Outcome]:
     """Add the length of a spring or damper, its rate and its force, and yield them."""
     work, (start, end), name = rates.work, item.between, item.name
-    between, moving = work.points[end] - work.points[start], rates.of(end, 1) - rates.of(start, 1)
-    length = work.let(Symbol("L", name), sqrt(square(between.x) + square(between.y)), LENGTH)
+    span, moving = work.points[end] - work.points[start], rates.of(end, 1) - rates.of(start, 1)
+    length = work.let(Symbol("L", name), sqrt(square(span.x) + square(span.y)), LENGTH)
     yield work.scale.outcome(f"{name}.length", length, LENGTH)
     if length.value == 0:
         work.say("Its ends meet here, so its rate does not follow from this.")
         return
-    rate = rates.let(Symbol("L", name, "˙"), dot(between, moving) / length, Powers(1, 1))
+    rate = rates.let(Symbol("L", name, "˙"), dot(span, moving) / length, Powers(1, 1))
     yield work.scale.outcome(f"{name}.rate", rate, Powers(1, 1))
     if item.forceful:
         force = work.let_plain(Symbol("F", name), _force(item, rates, length, rate), "N")
@@ -278,12 +278,12 @@ def _pace(rates: Rates) -> Formula:
     """Return the rate of what drives: an angular velocity, or a velocity in m/s."""
     work, drive = rates.work, rates.work.linkage.drive
     if drive.actuator.along:
-        between, moving = (
+        span, moving = (
             work.points[drive.actuator.along[1]] - work.points[drive.actuator.along[0]],
             rates.of(drive.actuator.along[1], 1) - rates.of(drive.actuator.along[0], 1),
         )
-        length = sqrt(square(between.x) + square(between.y))
-        return rates.let(Symbol("ℓ", "", "˙"), dot(between, moving) / length, Powers(1, 1)) * _metre(rates)
+        length = sqrt(square(span.x) + square(span.y))
+        return rates.let(Symbol("ℓ", "", "˙"), dot(span, moving) / length, Powers(1, 1)) * _metre(rates)
     pace = rates.rate(work.driver, 1)
     return pace if isinstance(work.driver, int) else pace * _metre(rates)
 
