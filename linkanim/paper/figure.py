@@ -15,7 +15,7 @@ from linkanim.paper.sentences import of_pose
 from linkanim.paper.svg import svg
 from linkanim.picture.items import Group
 from linkanim.picture.look import Look
-from linkanim.picture.overlay import Overlay
+from linkanim.picture.overlay import NOTHING_OVER, Overlay
 from linkanim.picture.picture import Picture
 from linkanim.picture.quantities import driven_words
 from linkanim.picture.raster import Colour, offscreen
@@ -41,7 +41,7 @@ class Figured:
     speed: float | None = None
     acceleration: float = 0.0
     as_seen: bool = False
-    overlay: Overlay = Overlay()
+    overlay: Overlay = NOTHING_OVER
 
     @cached_property
     def shown_phase(self) -> float:

@@ -21,7 +21,7 @@ from linkanim.mechanics.linkage import Point
 from linkanim.picture.bodies import mark_stamp, pin_stamp
 from linkanim.picture.figure import DrawSetting
 from linkanim.picture.fittings import Coil, Damping, StrutSpan, block_layers, damping, hatched, pedestal
-from linkanim.picture.items import Caption, Group, Halo
+from linkanim.picture.items import SHEET, Caption, Group, Halo
 from linkanim.picture.layout import Gauge, Layout, gauge, tool_cells
 from linkanim.picture.marks import beside, measure
 from linkanim.picture.motion_marks import turning_arrow
@@ -39,8 +39,6 @@ from linkanim.units import significant
 # A path that is drawn: the sheet, the pencil's line, and then the stroke behind its trace, with handles.
 
 HINT = "draw a path in one stroke"
-SHEET = "sheet"
-"""The name of the group that is drawn on."""
 _GRID = 36
 """The least distance of the sheet's lines, in units."""
 _DASH, _GAP = 3.2, 2.2

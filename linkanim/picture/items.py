@@ -53,6 +53,10 @@ class Caption(NamedTuple):
 Item = Layer | Caption
 
 
+SHEET = "sheet"
+"""The name of the group that is drawn on."""
+
+
 class Group(NamedTuple):
     """Shapes that belong together, under a name, and the words over them.
 

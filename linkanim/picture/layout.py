@@ -6,7 +6,6 @@ from dataclasses import replace
 from functools import cached_property
 from math import ceil
 
-from linkanim.build.tools import TOOLS
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.picture.view import Rect
 
@@ -270,6 +269,8 @@ def tool_cells(layout: Layout) -> tuple[Rect, ...]:
 
     Beside an open list it is the left, or the foot, of what that leaves.
     """
+    from linkanim.build.tools import TOOLS
+
     edge, count, upright = 10.8 * layout.unit, len(TOOLS), layout.size[0] < layout.size[1]
     x, y, width, height = layout.room or Rect(0, 0, *layout.size)
     long = width - 2 * edge if upright else height - 2 * edge

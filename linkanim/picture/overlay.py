@@ -11,16 +11,16 @@ from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Literal, TypeVar
 
-from linkanim.build.draft import Photo
-from linkanim.build.places import Shape
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.linkage import Point
-from linkanim.picture.layered import Layered
 from linkanim.picture.look import ThemeName
 from linkanim.scenes import chapter_of, titles
 from linkanim.scenes.scene import Scene
 
 if TYPE_CHECKING:
+    from linkanim.build.draft import Photo
+    from linkanim.build.places import Shape
+    from linkanim.picture.layered import Layered
     from linkanim.synthesis.answers import PathAnswer
     from linkanim.synthesis.curves import DrawnCurve
     from linkanim.synthesis.guidance import PoseAnswer
@@ -562,3 +562,7 @@ class Overlay:
         """Whether a chart is not to be seen: on blank paper, under a draft or among parts in layers."""
         blank = (self.path and self.path.blank) or (self.poses and self.poses.blank)
         return bool(blank or (self.build and self.build.draft) or (self.layers and self.layers.parts))
+
+
+NOTHING_OVER = Overlay()
+"""The empty overlay, of pictures outside of a window."""

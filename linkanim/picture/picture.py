@@ -13,32 +13,17 @@ import numpy as np
 from linkanim.frozen import NamedTuple
 from linkanim.mechanics.motion import Pose
 from linkanim.picture.arrangement import FitRequest, SceneFit, Subject, arranging, fitted, request_of
-from linkanim.picture.build_sheet import (
-    dashed,
-    drafted,
-    drawn_line,
-    hand,
-    handles,
-    home_view,
-    loose,
-    paper,
-    sheet,
-    worded,
-)
 from linkanim.picture.chart import ChartStrips, chart_strips, pen_for
 from linkanim.picture.drawing import Drawing
 from linkanim.picture.figure import DrawSetting, Figure, figure
 from linkanim.picture.hud import Hud, Legend, caption_lines, legend_for, measured
 from linkanim.picture.items import Caption, Group, Item, grouped
-from linkanim.picture.layered import Layered, LayerView, lifted
 from linkanim.picture.layout import CAPTION_STEP, NOTHING_DOCKED, Docked, Gauge, Layout, gauge
 from linkanim.picture.look import Look
-from linkanim.picture.marks import glow, grip, measure, spots
 from linkanim.picture.motion_marks import motion_of
-from linkanim.picture.overlay import Lane, LayersShown, Overlay, PathShown, SliderShown
+from linkanim.picture.overlay import NOTHING_OVER, Lane, LayersShown, Overlay, PathShown, SliderShown
 from linkanim.picture.quantities import chart_tokens, quantity
 from linkanim.picture.shapes import Part
-from linkanim.picture.slider import slider
 from linkanim.picture.text import Type
 from linkanim.picture.theme import Theme, on_paper, theme_of
 from linkanim.picture.view import Box, Rect, View, moved
@@ -48,6 +33,7 @@ from linkanim.scenes.scene import Scene
 if TYPE_CHECKING:
     from linkanim.build.draft import Photo
     from linkanim.picture.labels import Names
+    from linkanim.picture.layered import Layered
     from linkanim.picture.polygons import Polygon
     from linkanim.synthesis.curves import DrawnCurve
 
@@ -232,7 +218,11 @@ class Picture:
     @property
     def _of_sheet(self) -> View | None:
         """The view of the sheet that it is built on."""
-        return home_view(self.sheet, self.layout) if self.sheet else None
+        if self.sheet is None:
+            return None
+        from linkanim.picture.build_sheet import home_view
+
+        return home_view(self.sheet, self.layout)
 
     def fits(
         self,
@@ -266,14 +256,14 @@ class Picture:
     def groups(
         self,
         pose: Pose,
-        overlay: Overlay = Overlay(),  # noqa: B008 -- frozen
+        overlay: Overlay = NOTHING_OVER,
         *,
         faint: Sequence[Pose] = (),
     ) -> Iterator[Group]:
         """Yield all that is drawn of a pose, back to front, with `faint` poses behind it."""
         path = overlay.path
         if path and path.blank:
-            yield from (self._sheet, drawn_line(self.drawing.setting, path))
+            yield from self._blank(path)
             return
         if overlay.poses and overlay.poses.blank:
             yield self._sheet
@@ -281,10 +271,12 @@ class Picture:
             return
         if overlay.layers and overlay.layers.parts:
             yield from self._layers(pose, overlay.layers, overlay.layers.parts)
-            yield from slider(self.drawing.setting, overlay.slider) if overlay.slider else ()
+            yield from self._slider(overlay.slider)
             return
         build = overlay.build
         if build and build.draft:
+            from linkanim.picture.build_sheet import drafted
+
             yield self._paper(build.photo)
             yield from drafted(build, build.draft, self.drawing.setting)
             return
@@ -314,6 +306,18 @@ class Picture:
             yield from self._words(pose, noted=overlay.noted)
         yield from self._handled(pose, overlay)
 
+    def _blank(self, path: PathShown) -> Iterator[Group]:
+        """Yield the empty sheet and the pencil's line."""
+        from linkanim.picture.build_sheet import drawn_line
+
+        yield from (self._sheet, drawn_line(self.drawing.setting, path))
+
+    def _slider(self, shown: SliderShown | None) -> Iterator[Group]:
+        if shown:
+            from linkanim.picture.slider import slider
+
+            yield from slider(self.drawing.setting, shown)
+
     def _posed(self, overlay: Overlay) -> Iterator[Group]:
         """Yield poses that were set down."""
         from linkanim.picture.poses import posed
@@ -323,6 +327,7 @@ class Picture:
 
     def _constructed(self, steps: int, pose: Pose, leading: SliderShown | None) -> Iterator[Group]:
         """Yield the first steps of what is constructed, what is done in the last of them, and a slider."""
+        from linkanim.picture.build_sheet import worded
         from linkanim.picture.constructed import shown_at
         from linkanim.picture.construction import construction_items
 
@@ -335,7 +340,7 @@ class Picture:
         rooms = _ROOMS_OF_WORDS[1:] if leading else _ROOMS_OF_WORDS
         choices = [worded(self.drawing.setting, shown.steps[-1].words, [facts], room=room) for room in rooms]
         yield next((one for one in choices if not self._covers(one, pose)), choices[0])
-        yield from slider(self.drawing.setting, leading) if leading else ()
+        yield from self._slider(leading)
 
     def _covers(self, words: Group, pose: Pose) -> bool:
         """Return whether words on their backing lie on a link at a pose."""
@@ -347,6 +352,9 @@ class Picture:
 
     def _layers(self, pose: Pose, shown: LayersShown, parts: Layered) -> Iterator[Group]:
         """Yield the parts in their layers, in the room that is left below the words on them."""
+        from linkanim.picture.build_sheet import worded
+        from linkanim.picture.layered import LayerView, lifted
+
         layout, stage = self.layout, self.layout.stage
         words = layout.margin + _LINES_OF_LAYERS * layout.text_size
         stage = stage._replace(y=stage.y + words, height=stage.height - words).inset(2 * layout.margin)
@@ -392,11 +400,15 @@ class Picture:
 
     @cached_property
     def _sheet(self) -> Group:
+        from linkanim.picture.build_sheet import sheet
+
         return sheet(self.drawing.setting)
 
     def _paper(self, photo: Photo | None) -> Group:
         """Return the sheet that it is built on, the same one while nothing of it changes."""
         if self._papered is None or self._papered[0] != photo:
+            from linkanim.picture.build_sheet import paper
+
             self._papered = photo, paper(self.drawing.setting, photo)
         return self._papered[1]
 
@@ -417,6 +429,8 @@ class Picture:
     def _still_behind(self, speed: float, path: PathShown | None) -> Iterator[Group]:
         yield from self._within([self._discs])
         if path and path.curve:
+            from linkanim.picture.build_sheet import dashed
+
             yield from self._within([dashed(self.drawing.setting, path)])
         if not self._moves_behind:
             yield from self._standing
@@ -456,6 +470,8 @@ class Picture:
     def _read(self, chart: ChartStrips, pose: Pose, *, grasped: bool) -> Iterator[Group]:
         items: list[Item] = [*chart.cursor(pose)]
         if grasped:
+            from linkanim.picture.marks import grip
+
             items += grip(chart.foot(pose), self.layout.unit, self.theme)
         yield grouped("reading", [*items, *chart.readings(pose)])
 
@@ -500,6 +516,11 @@ class Picture:
 
     def _handled(self, pose: Pose, overlay: Overlay) -> Iterator[Group]:
         """Yield what is there for the hand: the chosen bar, and the joint to be dragged."""
+        if overlay == NOTHING_OVER:
+            return
+        from linkanim.picture.build_sheet import hand, handles, loose, worded
+        from linkanim.picture.marks import glow, measure, spots
+
         if overlay.build:
             if overlay.build.loose:
                 yield from loose(overlay.build.loose, self.drawing.setting)

@@ -6,19 +6,21 @@ from collections.abc import Hashable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from itertools import groupby
 from operator import attrgetter
+from typing import TYPE_CHECKING
 
 import pygame
 
 from linkanim.mechanics.motion import Pose
 from linkanim.picture.board import Board
-from linkanim.picture.build_sheet import SHEET
-from linkanim.picture.items import Caption, Group, flat
+from linkanim.picture.items import SHEET, Caption, Group, flat
 from linkanim.picture.layout import Layout
-from linkanim.picture.overlay import Overlay
-from linkanim.picture.panels import Panels
+from linkanim.picture.overlay import NOTHING_OVER, Overlay
 from linkanim.picture.picture import Picture
 from linkanim.picture.raster import Cover, Shapes, covers, in_turn, is_clear, keep_memory, paints
 from linkanim.picture.text import Lettering, Type
+
+if TYPE_CHECKING:
+    from linkanim.picture.panels import Panels
 
 _MOST_PICTURES, _MOST_BYTES = 8, 100_000_000
 """What is kept of shapes that come again takes no more memory than so many pictures, nor than so much."""
@@ -60,7 +62,7 @@ class SurfacePrinter:
         surface: pygame.Surface,
         picture: Picture,
         pose: Pose,
-        overlay: Overlay = Overlay(),  # noqa: B008 -- frozen
+        overlay: Overlay = NOTHING_OVER,
         *,
         faint: Sequence[Pose] = (),
     ) -> None:
@@ -84,7 +86,8 @@ class SurfacePrinter:
                     cover.put(canvas)
             self._words(canvas, picture.type, run, whole=picture.held)
         self._labels.let_go()
-        self._panels_of(picture).draw(canvas, overlay)
+        if overlay != NOTHING_OVER:
+            self._panels_of(picture).draw(canvas, overlay)
         if canvas is not surface:
             surface.blit(canvas, (0, 0))
 
@@ -109,6 +112,8 @@ class SurfacePrinter:
 
         They are those of a picture like this one in the layout `place`.
         """
+        from linkanim.picture.panels import Panels
+
         panels = self._panels_of(picture)
         board = replace(panels.board, layout=place)
         every = panels, *self._expected
@@ -200,6 +205,8 @@ class SurfacePrinter:
                 type_.draw(canvas, text, at, size=size, colour=colour, anchor=anchor, strong=strong)
 
     def _panels_of(self, picture: Picture) -> Panels:
+        from linkanim.picture.panels import Panels
+
         before = self._panels.board if self._panels else Board(picture.layout, picture.type, picture.theme)
         board = replace(before, layout=picture.layout, type=picture.type, theme=picture.theme)
         if self._panels is None or before != board:

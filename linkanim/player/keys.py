@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from functools import cache
 from typing import get_args
 
 from linkanim.build.tools import TOOLS, Tool
@@ -669,6 +670,7 @@ _WRITTEN = {
 }
 
 
+@cache
 def commands(mode: Mode) -> tuple[tuple[str, str, Action], ...]:
     """Return all that keys ask for in a mode, each but once: in words, by its first key, as an action.
 

@@ -6,6 +6,7 @@ import cmath
 import re
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import lru_cache
 from math import atan2, degrees, dist, hypot, isfinite, isnan
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -676,7 +677,7 @@ def _panel(state: State, items: tuple[Dimension, ...]) -> Panel:
     begun |= {item.key: f"{editing.typed}_" for n, item in enumerate(items) if n == at and editing.typed}
     shown = (begun.get(item.key) or _valued(item, _digits(state)) for item in items)
     rows = (
-        EditRow(_label(item), value, chosen=n == at, draft=item.key in begun)
+        EditRow(_subscripted(item.label), value, chosen=n == at, draft=item.key in begun)
         for n, (item, value) in enumerate(zip(items, shown, strict=True))
     )
     return Panel(
@@ -704,10 +705,7 @@ def _panel_of_draft(building: Building) -> Panel:
     return Panel(tuple(rows), facts=(), error=error, hint=_HINT)
 
 
-def _label(item: Dimension) -> str:
-    return _subscripted(item.label)
-
-
+@lru_cache(maxsize=512)
 def _subscripted(words: str) -> str:
     return re.sub(_NAME, lambda name: subscripted(name[0]), words)
 

@@ -231,8 +231,13 @@ def dimensions(scene: Scene) -> tuple[Dimension, ...]:
     """Return what can be edited, in the order of the scene file's form.
 
     Only what the file says is there, and always the drive's speed; nothing of a scene without a document.
+    They are worked out once a scene: a window whose list is open asks for them in every frame.
     """
-    return tuple(_dimension(number, scene) for number in numbers(scene.document)) if scene.document else ()
+    kept: dict[str, Any] = vars(scene)
+    if "_dimensions" not in kept:
+        found = numbers(scene.document) if scene.document else ()
+        kept["_dimensions"] = tuple(_dimension(number, scene) for number in found)
+    return kept["_dimensions"]  # type: ignore[no-any-return]
 
 
 def with_dimensions(scene: Scene, values: Mapping[Key, float | str]) -> Scene:

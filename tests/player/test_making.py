@@ -191,7 +191,7 @@ def test_a_tape_that_begins_amid_layers_has_them(shown: State) -> None:
 
 @pytest.mark.parametrize("mode", ["play", "paused", "pencil", "build", "layers"])
 def test_the_list_of_commands_makes_the_parts_in_every_mode(mode: str) -> None:
-    assert Action("make") in [action for *_, action in commands(mode)]  # type: ignore[arg-type]
+    assert Action("make") in [action for *_, action in commands(mode)]
 
 
 @pytest.mark.parametrize("apart", [0.0, 0.3, 1.0])
