@@ -183,6 +183,8 @@ USAGE = [
     # options that do not go together
     (["solve", "press", "--angle", "1 deg", "--phase", "1 deg"], "one of"),
     (["solve", "press", "--angle", "1 deg", "--sweep", "0:1:1"], "--sweep"),
+    (["solve", "press", "--phase", "1 deg", "--sweep", "0:1:1"], "no other angle"),
+    (["solve", "press", "--angle", "1 deg", "--phase", "--sweep", "0:1:1"], "no other angle"),
     (["solve", "press", "--angle", "1 deg", "--csv", "a.csv"], "--sweep"),
     (["solve", "press", "--phase"], "--phase"),
     (["solve", "press", "--sweep", "0:1:1", "--csv", "a.csv", "--json"], "--json"),

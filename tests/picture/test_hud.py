@@ -73,6 +73,27 @@ def test_the_class_stands_right_below_the_title() -> None:
     assert 0 <= said.at[1] - title.at[1] - title.size < 0.5 * said.size
 
 
+# nothing lies on the words, and what they do not need is left to the linkage
+@pytest.mark.parametrize("vectors", [0, 2])
+@pytest.mark.parametrize("name", ["press", "excavator"])
+def test_words_take_the_room_that_they_stand_in(name: str, vectors: int) -> None:
+    scene, type_ = load(name), Type()
+    found = fitted(scene, None, FitRequest((640, 360), False, vectors, True), type_).arrangement
+    layout = found.layout
+    assert layout.hud
+    assert found.block
+    hud = Hud(scene, found.block, layout.hud, type_, LIGHT)
+    lines = [*hud.still(), *hud.values(scene.pose(1.0))]
+    assert found.block.rows
+    for line in lines:
+        place = place_of(line, type_)
+        assert any(
+            one.holds(place.x, place.y) and one.holds(place.right, place.bottom) for one in layout.words
+        ), line.text
+    *_, last = layout.words
+    assert last.bottom == pytest.approx((layout.legend or layout.hud).bottom)
+
+
 @pytest.mark.parametrize("noted", [False, True])
 def test_what_is_special_is_said_where_it_is_asked_for(noted: bool) -> None:
     scene, surface = load("double-rocker"), offscreen((640, 360))
