@@ -174,11 +174,11 @@ def _signals_raise() -> Iterator[None]:
             raise ends[-1]
 
     def lost(what: sys.UnraisableHookArgs) -> None:
-        if what.exc_value is None or what.exc_value not in ends:
+        if what.exc_value in ends:
+            raised[0] = -_ONE_AND_THE_SAME
+            _soon(numbers[ends.index(what.exc_value)])
+        elif not any(one in ends for one in _behind(what.exc_value)):  # what breaks on its way is no news
             told(what)
-            return
-        raised[0] = -_ONE_AND_THE_SAME
-        _soon(numbers[ends.index(what.exc_value)])
 
     before = {number: signal.getsignal(number) for number in _ENDING}
     ours = {number: old for number, old in before.items() if old not in (signal.SIG_IGN, None)}
@@ -197,6 +197,12 @@ def _signals_raise() -> Iterator[None]:
         sys.unraisablehook = told
         for number, old in ours.items():
             signal.signal(number, old)
+
+
+def _behind(error: BaseException | None) -> Iterator[BaseException]:
+    """Yield what an error was raised from, or while it was handled, the nearest first."""
+    while error := error and (error.__cause__ or error.__context__):
+        yield error
 
 
 def _soon(number: signal.Signals) -> None:

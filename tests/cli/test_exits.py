@@ -89,6 +89,10 @@ def test_work_that_ends_well_is_silent(capsys: pytest.CaptureFixture[str]) -> No
     assert capsys.readouterr() == ("", "")
 
 
+class Thing:
+    """Something that can be let go."""
+
+
 ENDING = [(signal.SIGINT, 130), (signal.SIGTERM, 143)]
 ENDING += [(signal.SIGHUP, 129)] if hasattr(signal, "SIGHUP") else []
 
@@ -131,9 +135,6 @@ def test_a_second_signal_does_not_cut_the_clean_up_short(second: signal.Signals)
 def test_a_signal_while_an_object_is_let_go_ends_us_all_the_same(
     number: signal.Signals, code: int, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    class Thing:
-        """Something that can be let go."""
-
     def work() -> None:
         thing = Thing()
         told = weakref.ref(thing, lambda _: signal.raise_signal(number))
@@ -148,6 +149,25 @@ def test_a_signal_while_an_object_is_let_go_ends_us_all_the_same(
     finally:
         signal.signal(number, before)
     assert capsys.readouterr().err.count("\n") == 1
+
+
+def test_what_breaks_on_a_signals_way_out_is_not_told(capsys: pytest.CaptureFixture[str]) -> None:
+    """So it is with a buffer that is closed while the signal passes."""
+
+    def close(_: object) -> None:
+        raise SystemError("returned a result with an exception set")
+
+    def work() -> None:
+        thing = Thing()
+        told = weakref.ref(thing, close)
+        try:
+            signal.raise_signal(signal.SIGTERM)
+        finally:
+            del thing
+        raise AssertionError(told)
+
+    assert guarded(work) == 143
+    assert capsys.readouterr().err == "linkanim: terminated\n"
 
 
 def test_a_signal_that_is_ignored_stays_so() -> None:
