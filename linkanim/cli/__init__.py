@@ -6,6 +6,7 @@ From the ground up; a module imports from those before it only:
     options          the arguments of each command, and what their texts mean
     picture_options  what commands that write pictures are asked alike
     alternative      what a picture shows, in a paragraph beside it
+    progress         a bar that says how far long work is
     answers          answers of a synthesis, as files and as a table
     command_table    every command: what it does, what it takes, which file does its work
     commands         a command a file: what it does once its options are read

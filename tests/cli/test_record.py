@@ -16,8 +16,8 @@ from tqdm import tqdm
 import linkanim
 from linkanim.cli import main
 from linkanim.cli.command_table import parse
-from linkanim.cli.commands.record import advance, bar
 from linkanim.cli.picture_options import look_of
+from linkanim.cli.progress import advance, bar
 from linkanim.player import tape_file
 from linkanim.player.action import Action
 from linkanim.player.state import begin

@@ -5,7 +5,7 @@ from __future__ import annotations
 from argparse import Namespace
 
 from linkanim.bench import command
-from linkanim.cli.commands.record import bar
+from linkanim.cli.progress import bar
 
 
 def run(options: Namespace) -> None:

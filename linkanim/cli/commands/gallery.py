@@ -8,7 +8,7 @@ from pathlib import Path
 
 from tqdm import tqdm
 
-from linkanim.cli.commands.record import advance
+from linkanim.cli.progress import advance
 from linkanim.recorder.gallery import Gallery, make_gallery
 from linkanim.recorder.recording import Progress
 from linkanim.scenes import names

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from linkanim.atomic_files import checked_target, write_text
 from linkanim.cli.answers import deliver, target_of
-from linkanim.cli.commands.record import bar
+from linkanim.cli.progress import bar
 from linkanim.errors import BadInput
 from linkanim.export import csv_head, csv_rows
 from linkanim.intake import named

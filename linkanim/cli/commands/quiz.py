@@ -8,8 +8,8 @@ from pathlib import Path
 
 from linkanim.atomic_files import checked_target, replacing
 from linkanim.bounds import MOST_ASKED
-from linkanim.cli.commands.record import bar
 from linkanim.cli.options import inputs_of
+from linkanim.cli.progress import bar
 from linkanim.errors import BadInput
 from linkanim.export import json_text
 from linkanim.play.games import ALL

@@ -4,13 +4,9 @@ from __future__ import annotations
 
 import sys
 from argparse import Namespace
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from functools import partial
 from pathlib import Path
-from typing import NoReturn
-
-from tqdm import tqdm
 
 from linkanim.cli import main
 from linkanim.cli.alternative import alternative
@@ -18,11 +14,12 @@ from linkanim.cli.command_table import parse
 from linkanim.cli.exits import DONE, FAILED
 from linkanim.cli.options import DEFAULT, PRESETS, inputs_of
 from linkanim.cli.picture_options import look_of, refuse_photograph
+from linkanim.cli.progress import bar
 from linkanim.errors import BadInput
 from linkanim.manifest import checked_output
 from linkanim.picture.look import TOGGLES
 from linkanim.picture.quantities import speed_words
-from linkanim.recorder.recording import SUFFIXES, Progress, Recording, record
+from linkanim.recorder.recording import SUFFIXES, Recording, record
 from linkanim.scenes import load
 from linkanim.scenes.scene import Scene
 
@@ -110,25 +107,6 @@ def _word(name: str, found: object) -> str:
     options = TOGGLES[name].options if name in TOGGLES else ()
     option = next((option.name for option in options if option.step in (None, found)), name)
     return f"--no-{option}" if found is False and option == name else f"--{option}"
-
-
-@contextmanager
-def bar(*, shown: bool = False, unit: str = " frames") -> Iterator[Progress]:
-    """Give a function that is told (frames done, frames in all), and draws a bar of it on stderr.
-
-    Nothing is drawn where stderr is no terminal, unless it is to be `shown` all the same.
-    """
-    # its watch over slow bars is a thread, and a process with threads is not copied for drawing
-    tqdm.monitor_interval = 0
-    # tqdm takes None for "not on a terminal"
-    with tqdm(unit=unit, leave=False, disable=False if shown else None, file=sys.stderr) as drawn:
-        yield lambda done, total: advance(drawn, done, total)
-
-
-def advance(drawn: tqdm[NoReturn], done: int, total: int) -> None:
-    """Draw a bar at `done` of `total`."""
-    drawn.total = total
-    drawn.update(done - drawn.n)
 
 
 def record_all(words: list[str]) -> int:
