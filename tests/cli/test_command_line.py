@@ -57,6 +57,26 @@ def test_the_version_is_told(capsys: pytest.CaptureFixture[str]) -> None:
     assert all(re.match(r"[\w-]+ \S*\d", line) for line in said)
 
 
+# Words before a value, the most that it may be, and the next.
+MOST = [
+    (["report", "press", "-o", "r", "--digits"], "15", "16"),
+    (["draw", "press", "--poses"], "360", "361"),
+    (["draw", "press", "--size"], "16384x1", "1x16385"),
+    (["path", "c.csv", "--count"], "999999", "1000000"),
+    (["quiz", "press", "--seed"], "9" * 18, "1" + "0" * 18),
+    (["solve", "press", "--sweep"], "0:999999:1", "0:1000000:1"),
+    (["solve", "press", "--sweep"], "1e12:1e12:1", "1000000000001:1000000000001:1"),
+    (["report", "press", "-o", "r", "--speeds"], ",".join(36 * ["1 rpm"]), ",".join(37 * ["1 rpm"])),
+]
+
+
+@pytest.mark.parametrize(("words", "most", "beyond"), MOST, ids=[" ".join(words) for words, *_ in MOST])
+def test_a_value_is_read_up_to_its_bound(words: list[str], most: str, beyond: str) -> None:
+    parse([*words, most])
+    with pytest.raises(BadInput, match=words[-1]):
+        parse([*words, beyond])
+
+
 LONG = "9" * 5_000
 """More digits than Python turns into a number, and than anyone reads."""
 

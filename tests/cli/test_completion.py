@@ -55,3 +55,13 @@ def test_every_command_option_scene_and_chapter_is_completed(
     written = {f"-l {option[2:]}" for option in options} if shell == "fish" else options
     wanted = {*COMMANDS, *names(), *(name for name in chapters() if " " not in name), *written}
     assert {word for word in wanted if word not in script} == set()
+
+
+def test_fish_completes_a_command_and_a_scene_at_once(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["completion", "fish"]) == 0
+    first = "complete -c linkanim -n __fish_use_subcommand -a "
+    lines = [line for line in capsys.readouterr().out.splitlines() if line.startswith(first)]
+    offered = {
+        word for line in lines for word in line.removeprefix(first).partition(" -d ")[0].strip("'").split()
+    }
+    assert offered == {*COMMANDS, *names()}

@@ -96,6 +96,9 @@ def test_linkages_of_five_poses_that_are_longer_than_allowed_are_told(
     printed = capsys.readouterr()
     assert len(printed.out.splitlines()) == 7
     assert "--largest" not in printed.err
+    # as many as were asked for: that there are more is no news
+    assert main(["guide", "five.csv", "--count", "3"]) == 0
+    assert "--largest" not in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(
