@@ -52,9 +52,9 @@ def solving_steps(linkage: Linkage) -> Mapping[str, int]:
 # The transmission angle of every dyad: the worst over the motion and where it is, and the best.
 #
 # It is 90° where the force in a dyad does nothing but drive what follows, and 0 where it drives nothing: see
-# Uicker, Pennock and Shigley, Theory of Machines and Mechanisms. One past 90° between two bars counts as
-# what is left to 180°, here as everywhere: as good as it is near 90°. Each kind of dyad says what it is for
-# the factors U and W of its root; it is at its extremes where what closes the dyad is, and where U = W.
+# Uicker, Pennock and Shigley, Theory of Machines and Mechanisms. An angle past 90° between two bars counts as
+# its supplement, here as everywhere. Each kind of dyad gives the angle from the factors U and W of its root;
+# the angle is extreme where the dyad's separation is extreme, and where U = W.
 
 NEARLY = 2.0**-40
 """How near to an extreme, as a share of the phase: the angle there is off by the square of that."""
@@ -65,7 +65,7 @@ RIGID = 2.0**-44
 
 
 _FOUND = 1e-9
-"""To so much of phase a search finds the least angle."""
+"""How closely a search finds the phase of the least angle (rad)."""
 
 
 class Transmission(NamedTuple):
@@ -80,7 +80,7 @@ class Transmission(NamedTuple):
 def transmission(mechanism: Mechanism) -> Transmission | None:
     """Return the least and greatest transmission angle over all dyads; None where there is no dyad.
 
-    Both are exact; of several phases at which the least is reached it is one.
+    Both are exact. Where the least angle is reached at several phases, one of them is returned.
     """
     joint = mechanism.assembly.linkage.joint
     angles = [
@@ -133,7 +133,7 @@ def _of_chain(mechanism: Mechanism) -> Iterator[tuple[str, Array]]:
     factors = batch({"x": True}, [closing.u for closing in closings] + [closing.w for closing in closings])
 
     def moving(phases: Array) -> Array:
-        """Return each separation, its rate, none where the ends are carried by one body, and U - W."""
+        """Return each separation, its rate, 0 where one body carries both ends, and U - W."""
         values = turning(phases)
         rates = values[1::3]
         rates[np.abs(rates) <= RIGID * np.abs(values[::3])] = 0.0
@@ -156,7 +156,7 @@ def _reaches_its_end(mechanism: Mechanism, name: str) -> bool:
 
 
 def _emptied(factors: Array, *, at_end: bool) -> list[list[float]]:
-    """Return the factors without what rounding leaves of one that vanishes."""
+    """Return the factors, with 0 for what rounding leaves of a factor that vanishes."""
     least = factors.max(axis=0) * (NONE_LEFT if at_end else 0.0)
     found: list[list[float]] = np.where(factors > least, factors, 0.0).tolist()
     return found
@@ -180,7 +180,7 @@ GRASHOF = {
 }
 
 _PARTS = re.compile(r"(crank|rocker|coupler|drag)\d*")
-"""The names of bodies that say what they do."""
+"""Names by which a scene says what a body does."""
 _ORDINALS = {2: "second", 3: "third"}
 _ENDINGS = {1: "st", 2: "nd", 3: "rd"}
 
@@ -188,7 +188,7 @@ _ENDINGS = {1: "st", 2: "nd", 3: "rd"}
 class FourBar(NamedTuple):
     """The four links of a four-bar by their part, seen from its input, and which of two closures it has.
 
-    `joint` is the one in which coupler and output meet.
+    `joint` is the joint of coupler and output.
     """
 
     joint: str
@@ -198,7 +198,7 @@ class FourBar(NamedTuple):
 
     @property
     def shortest(self) -> str:
-        """The part of the shortest link, the output as the link that it drives."""
+        """The part of the shortest link."""
         part = _part(self, min)
         return "driven link" if part == "output" else part
 
@@ -367,7 +367,7 @@ def _windings(mechanism: Mechanism, bodies: list[Body]) -> list[bool]:
 
 
 def _crossings(vectors: Array) -> NDArray[np.intp]:
-    """Return how often directions (D, N, 2) cross the x axis ahead to the left, less how often back."""
+    """Return how often directions (D, N, 2) cross the positive x axis counter-clockwise, less clockwise."""
     (x, x1), (y, y1) = ((vectors[:, :-1, n], vectors[:, 1:, n]) for n in (0, 1))
     below, left = y < 0, x * y1 > y * x1
     up, down = below & left & (y1 >= 0), ~below & ~left & (y1 < 0)
@@ -375,11 +375,11 @@ def _crossings(vectors: Array) -> NDArray[np.intp]:
 
 
 def link_names(mechanism: Mechanism, turning: Collection[str]) -> dict[str, str]:
-    """Return what each body is called; one that the scene calls crank, rocker or coupler, by what it does.
+    """Return each body's name; a body that the scene calls crank, rocker or coupler is named by what it does.
 
-    `turning` are those that turn fully. A crank turns fully about a fixed pin, a rocker swings about one, a
-    coupler has none. Of cranks the input is the crank, others are driven cranks; of rockers the input is the
-    input rocker. Further ones of a sort are counted: second coupler. Every other name stays.
+    `turning` are the bodies that turn fully. A crank turns fully about a fixed pin, a rocker swings about
+    one, a coupler has no fixed pin. The input is the crank or the input rocker; other cranks are driven
+    cranks. Further bodies of a sort are counted: second coupler. Every other name stays.
     """
     full_turn = mechanism.full_turn
     parts = {body.name: _part_of(mechanism, body, turning) for body in mechanism.linkage.bodies}
@@ -471,7 +471,7 @@ class Info:
 
     @cached_property
     def ends(self) -> tuple[float, float]:
-        """Where an input that does not turn fully turns back: at phase 0, and half a period on."""
+        """Where an input that does not turn fully turns back: at phase 0, and half a drive period later."""
         first, last = self.mechanism.assembly.path.coordinates(np.array([0.0, math.pi])).tolist()
         return first, last
 
@@ -488,7 +488,7 @@ class Info:
 
     @property
     def toggles(self) -> tuple[float, ...]:
-        """The input's limits; an end at which it merely turns back is none."""
+        """The input's places at its limits, without an end at which it merely turns back."""
         path, touched = self.mechanism.assembly.path, tuple(self.mechanism.assembly.change_points)
         ends = (end for end in path.dead_ends if any(path.same(place, end) for place in touched))
         return (*path.limits, *ends)
@@ -535,7 +535,7 @@ class Info:
 
     @property
     def time_ratio(self) -> float | None:
-        """The output's slow way's time over its quick way's; None where that is no slider and no rocker."""
+        """The time of the output's slow stroke over its quick one's; None without a slider or a rocker."""
         found = self.swing or self._slider
         return found.time_ratio if found else None
 
@@ -554,7 +554,8 @@ class Info:
     def counts(self) -> Counts:
         """How many links, the ground among them, and joints there are, and the mobility by Grübler.
 
-        A crank or a driven slider is a link and a joint, a dyad or a driving cylinder are two and three.
+        A crank or a driven slider counts as one link and one joint, a dyad or a driving cylinder as two links
+        and three joints.
         """
         linkage = self.mechanism.linkage
         inputs = len(tuple(linkage.cranks)) + isinstance(linkage.driven.joint, DrivenSlider)
@@ -581,7 +582,7 @@ class Info:
 
     @cached_property
     def usual_effort(self) -> float | None:
-        """The size that the effort at the input has half of the time; None where `demand` is."""
+        """The median size of the effort at the input over time; None where `demand` is None."""
         if not self.mechanism.linkage.forceful:
             return None
         return usual_effort(self._driven, self.mechanism.phases)
@@ -648,17 +649,17 @@ class Counts(NamedTuple):
 
 
 _BESIDE = 1e-4
-"""In phase: what turns back so near to an end of the input turns back with it."""
+"""In phase: a body that turns back this near to an end of the input turns back with it."""
 _AWAY, _FLAT = 0.1, 1e-5
-"""A rate that beside a place is so small a share of what it is so far away vanishes there more than once."""
+"""A rate beside a place of less than `_FLAT` times that at `_AWAY` from it has a multiple zero there."""
 _ONE_PLACE = 1e-5
-"""In phase: places that are told by so few digits may be one."""
+"""In phase: places that are known to few digits only, and differ by less, may be one."""
 
 
 class _ToAndFro(NamedTuple):
     """How a slider or rocker goes to and fro: its time ratio and the phases of its dead centres.
 
-    Both are None where it rests.
+    Time ratio and phases are None where it rests.
     """
 
     stroke: float
@@ -667,16 +668,16 @@ class _ToAndFro(NamedTuple):
 
 
 def _to_and_fro(mechanism: Mechanism, name: str, place: str, rate: str) -> _ToAndFro:
-    """Return how a body goes to and fro; its time ratio is the slow way's over the quick way's.
+    """Return how a body goes to and fro; its time ratio is the slow stroke's time over the quick stroke's.
 
-    In a longer true period it goes so more than once: each way ends at the next dead centre.
+    In a longer true period it goes to and fro more than once: each stroke ends at the next dead centre.
     """
     whole = 2 * math.pi * mechanism.periods
     samples = mechanism.sampled
     if _rests(mechanism, name, rate, samples):
         return _ToAndFro(0.0, None, None)
     turning = reversals(mechanism, name, rate, samples)
-    # Among the samples, along which an angle is continuous.
+    # Dead centres stand among the samples, along which an angle is continuous.
     order = np.argsort(np.concatenate((turning, samples)))
     phases = np.concatenate((turning, samples))[order]
     along = getattr(mechanism.solve(phase=phases, speed=1.0, derivatives=0), place)[name]
@@ -693,11 +694,11 @@ def _to_and_fro(mechanism: Mechanism, name: str, place: str, rate: str) -> _ToAn
 
 
 def reversals(mechanism: Mechanism, name: str, rate: str, phases: Array) -> Array:
-    """Return the phases between others at which a body turns back, by a motion's name for its rate.
+    """Return the phases, between those given, at which a body turns back; `rate` names its rate in a motion.
 
     Where the input turns back and everything with it, that is at a multiple of π. Where a toggle is straight
-    as what drives it turns back, the body's own rate vanishes as a third power, and tells the place by a
-    third of its digits: what drives it tells it by all of them.
+    just as its driver turns back, the body's own rate vanishes as a third power, and gives the place to a
+    third of its digits only: the rate of the driver gives it to all of them.
     """
 
     def turning(near: Array) -> Array:
@@ -715,7 +716,7 @@ def reversals(mechanism: Mechanism, name: str, rate: str, phases: Array) -> Arra
 
 
 def _steepest(mechanism: Mechanism, place: float) -> float:
-    """Return where next to a phase a body turns back, the one whose turning changes most; else the phase."""
+    """Return the phase beside a place at which the body with the steepest rate turns back, else the place."""
 
     def turning(near: Array) -> Mapping[str, Array]:
         return mechanism.solve(phase=near, speed=1.0, derivatives=1).angular_velocity

@@ -42,8 +42,8 @@ POLES = (
 )
 """zₖ and cₖ of tan r ≈ r + r³ Σ cₖ/(zₖ - r²), the nearest of that form on ±π/4: 2e-17 of it at most.
 
-It is the tangent's expansion in poles, cut after three and the three moved to where the worst error
-is least (found by Remez's exchange at 60 digits). All terms are positive, so nothing cancels.
+It is the tangent's expansion in poles, cut off after three terms, whose poles are moved to where the worst
+error is least (found by Remez's exchange at 60 digits). All terms are positive, so nothing cancels.
 """
 NUMERATOR = (
     0.011257044481653348,
@@ -58,7 +58,7 @@ DENOMINATOR = (1.0, -1215.4805641571577, 330009.01549134793, -22584873.118746653
 Highest powers first. Times one factor, ψ N is the sine and D the cosine of half the angle.
 """
 STATED = 2.0**-51
-"""Share of a phase, or of half a turn where that is more, by which one that is stated may be off."""
+"""Share of a phase, or of half a turn where that is more, by which a stated phase may be off."""
 
 
 def reduced(angle: Value, rest: Value, turns: float) -> Pair:
@@ -101,14 +101,15 @@ class Squares(NamedTuple):
 class Half:
     """Half an angle, worked out as far as it is read.
 
-    `sides` gives sine and cosine, signed over two turns, `times` what is free of that sign, times a factor.
+    `sides` gives its sine and cosine, whose signs change with every turn of the whole angle; `times` gives
+    the squares and the product of both, which do not, times a factor.
     """
 
     sides: Callable[[], Pair]
     times: Callable[[float], Squares]
 
     def squares(self, factor: float) -> Squares:
-        """Return what is free of the sign, times a factor."""
+        """Return sin², cos² and sin × cos of the half angle, times a factor."""
         found = self._squares.get(factor)
         if found is None:
             found = self._squares[factor] = self.times(factor)
@@ -134,12 +135,12 @@ class Half:
 
 
 def _left(angle: Value, rest: Value, quarters: int | None) -> Pair:
-    """Return n and what whole turns leave of angle + rest; all of it where `quarters` are off already."""
+    """Return n and angle + rest less n turns; 0 and the sum itself where `quarters` were taken off before."""
     return reduced(angle, rest, 2.0) if quarters is None else (0.0, angle + rest)
 
 
 def _quartered(half: Half, quarters: int | None) -> Half:
-    """Return half an angle that many quarter turns on."""
+    """Return half an angle, advanced by that many quarter turns."""
 
     def sides() -> Pair:
         sine, cosine = half.sine, half.cosine
@@ -166,9 +167,9 @@ def half_angle(angle: Value, rest: Value = 0.0, size: float = 1.0, quarters: int
 
     With B/A the tangent, sin², cos² and sin × cos are B², A² and A B over A² + B². Squares times `size` cost
     no more than those alone. Sine and cosine are those of `signed_half_angle`.
-    Where `quarters` are given, angle + rest lies within half a turn of zero, and the half is that of it and
-    of so many half turns beside it: the sine is then right to its own last digit (the cosine, of an odd
-    number) however small what was given is.
+    Where `quarters` are given, angle + rest lies within half a turn of zero, and the result is half of it
+    plus that many quarter turns: the sine (with an odd number, the cosine) is then right to its own last
+    digit, however small angle + rest is.
     """
     if _is_exact(angle):
         return _exact_half(angle, rest, quarters)
@@ -177,7 +178,7 @@ def half_angle(angle: Value, rest: Value = 0.0, size: float = 1.0, quarters: int
         _, left = _left(angle, rest, quarters)
         square = left * left
         b, a = left * _polynomial(NUMERATOR, square), _polynomial(DENOMINATOR, square)
-        # The product first: then the squares are written over what they are squares of.
+        # The product comes first: then each square can be written over its own root.
         product, b_square, a_square = a * b, b * b, a * a
         share = size / (a_square + b_square) * (factor / size)
         return Squares(b_square * share, a_square * share, product * share)
@@ -219,7 +220,7 @@ def _signed_half(angle: Value, rest: Value, size: float, quarters: int | None) -
 
     def squares(factor: float) -> Squares:
         share = 64.0 * size / (norm * norm) * (factor / size)
-        # cos² of its own: 1 - sin² would hand its error on doubled to cos² - sin².
+        # cos² is computed on its own: with 1 - sin² the error would be doubled in cos² - sin².
         cosine_square = rest_of_norm * rest_of_norm * share * (1 / 64)
         return Squares(square * share, cosine_square, t * share * rest_of_norm * 0.125)
 
@@ -239,10 +240,10 @@ def sharp_half_angle(angle: Value, rest: Value = 0.0, *, quarters: int | None = 
 
 
 def stated(side: Value, phase: Value, share: float = 1.0) -> Value:
-    """Return a sine or cosine of that share of a phase: 0 where the phase is that of its zero, as stated.
+    """Return `side`, a sine or cosine of that share of a phase; 0 where the phase stands for its zero.
 
-    A phase is stated in floats, of which none is π: within two to four of its last digits of a multiple of
-    half a turn it is that. There what vanishes is nothing, and what is over it is not bounded.
+    A phase is stated as a float, and no float is π: within two to four of its last digits of a multiple of
+    half a turn it counts as that. There a vanishing sine is exactly 0, and a quotient over it is unbounded.
     """
     if _is_exact(phase):
         return side
@@ -270,7 +271,7 @@ def _sign(n: Value) -> Value:
 
 
 def _sharp_sides(angle: Value, rest: Value) -> Pair:
-    """Return sine and cosine of half an angle from those of what is left to the nearest quarter turn.
+    """Return sine and cosine of half an angle, by those of the remainder from the nearest quarter turn.
 
     n quarter turns are k half turns and f ∈ {-1, 0, 1} quarters.
     """
@@ -417,7 +418,7 @@ def _right_angles(angle: float) -> int | None:
 def exact_angle(angle: float) -> Sum:
     """Return the angle as a sum; the float nearest a multiple of a right angle stands for that multiple.
 
-    One that was written keeps what the float lacks of it.
+    A constant keeps what its float lacks of the angle as it was written.
     """
     if (count := _right_angles(angle)) is not None:
         return quarter_turns(count)
@@ -434,7 +435,8 @@ def unit(angle: float) -> tuple[float, float]:
 def snapped(number: Sum, marks: Iterable[float], reach: float) -> Sum:
     """Return the mark from which a number differs by rounding alone, else the number.
 
-    It was worked out from coordinates that reach so far, with a direction's sine and cosine.
+    `reach` is the size of the coordinates from which the number was computed, with a direction's sine and
+    cosine.
     """
     return next((Sum(mark) for mark in marks if abs(float(number) - mark) <= reach * 2.0**-51), number)
 

@@ -20,10 +20,10 @@ from linkanim.frozen import NamedTuple
 
 # Constants of the formulas: floats that know which number they stand for.
 #
-# Worked out in floats, a constant is right to its last digit, and so is what is made of it. Not so a limit
-# that is found in many digits: the way that is left to it may be as small as that last digit. So what is
-# made of constants by + - × ÷ and square roots keeps the number, too, for the formulas that are run in many
-# digits.
+# In floats a constant is right to its last digit, and so is what is computed from it. That is not enough next
+# to a limit that is found in many digits: the distance left to it may be as small as that last digit. So a
+# result of + - × ÷ and square roots of constants keeps its exact number as well, for formulas that are run in
+# many digits.
 
 DIGITS = 50
 
@@ -34,7 +34,7 @@ Number = Fraction | Decimal | float
 def _arithmetic(
     operate: Callable[[Any, Any], Any],
 ) -> tuple[Callable[[Any, Any], Any], Callable[[Any, Any], Any]]:
-    """Return what an operation makes of floats and of the numbers they stand for, and it turned round."""
+    """Return an operation on floats and the numbers they stand for, and the same with operands swapped."""
 
     def apply(a: Any, b: Any) -> Any:
         if not (isinstance(a, int | float) and isinstance(b, int | float)):
@@ -47,15 +47,15 @@ def _arithmetic(
 class Constant(float):
     """A float, and the `number` that it stands for: itself, where none is given.
 
-    Equal to what is the same float and stands for the same; `Fraction` takes the number. That is worked out
-    when it is first asked for, which it seldom is.
+    Equal to a constant of the same float and number; `Fraction` takes the number. The number is worked out
+    when it is first asked for, which is seldom.
     """
 
     __slots__ = ("_known",)
     _known: Callable[[], Number] | Number
 
     def __new__(cls, nearest: float, number: Callable[[], Number] | Number | None = None) -> Constant:
-        """Return the constant of a number, or of what finds it."""
+        """Return the constant of a float and its number, or of a function that works the number out."""
         constant = super().__new__(cls, nearest)
         constant._known = nearest if number is None else number
         return constant
@@ -110,7 +110,7 @@ def root(square: float) -> float:
 
 
 def digits_of(number: float) -> Decimal:
-    """Return a float with all its digits, of a constant fifty of its number's."""
+    """Return a float with all its digits; of a constant, fifty digits of its number."""
     if not isinstance(number, Constant):
         return Decimal(number)
     numerator, denominator = number.as_integer_ratio()
@@ -133,7 +133,7 @@ class Graph:
 
     def __init__(self, *, exact: bool = False) -> None:
         self.exact = exact
-        """Whether it will be run in many digits, on functions that are right in all of them."""
+        """Whether it will be run in many digits, with functions that are right to all of them."""
         self._nodes: dict[tuple[object, ...], Expr] = {}
         self._count = 0
 
@@ -144,7 +144,7 @@ class Graph:
         return found
 
     def constant(self, number: float) -> float:
-        """Return a number as it is recorded: with the one that it stands for where digits are to be many."""
+        """Return a number as it is recorded: a `Constant` where the graph is `exact`, else a plain float."""
         return Constant(number) if self.exact else float(number)
 
     def node(self, op: str, *args: Expr | float | str) -> Expr:
@@ -163,7 +163,7 @@ class Graph:
         return found
 
     def forget(self) -> None:
-        """Let go of the nodes, which are whole without it, so that they are freed as their last user is.
+        """Forget the nodes, which do not need the graph, so that each is freed with its last user.
 
         An operation that is recorded again later is a new node.
         """
@@ -173,8 +173,8 @@ class Graph:
 class Expr:
     """One recorded operation; its arguments are nodes of the same graph or constants.
 
-    A `uniform` one has the same value along an array, so it is worked out once; products draw
-    uniform factors together.
+    A `uniform` one has the same value along an array, so it is worked out once; in products, uniform
+    factors are collected into one.
     """
 
     __slots__ = ("args", "graph", "index", "op", "positive", "uniform")
@@ -190,7 +190,7 @@ class Expr:
                 self.uniform = False
         negated = args[0] if op == "neg" else None
         self.positive = negated if isinstance(negated, Expr) else None
-        """What is recorded as -x knows x."""
+        """x, where this operation is -x."""
 
     def __add__(self, other: Value) -> Value:
         if not isinstance(other, Expr):
@@ -236,7 +236,8 @@ class Expr:
         if self.positive is not None:
             return self.positive
         factor, rest = _factored(self)
-        # A sign is free where it meets a sum; only into a number known late is it drawn.
+        # A sum absorbs a sign at no cost; so a sign goes into a factor only where that varies along the
+        # array.
         late = isinstance(factor, Expr) and not self.uniform
         return -factor * rest if late and factor is not None else self.graph.node("neg", self)
 
@@ -281,7 +282,7 @@ def _recorded(graph: Graph, value: Value) -> Value:
 
 
 def _scale(a: Expr, factor: float) -> Value:
-    """Return a × constant, drawing a constant already inside into one."""
+    """Return a × factor, merged with a constant factor that `a` has already."""
     if factor == 0:
         return 0.0
     if factor == 1:
@@ -309,7 +310,7 @@ def _divide(a: Value, b: Value) -> Value:
 
 
 def beside(number: float, value: Value) -> float:
-    """Return a number as it is recorded with a value; with a float that computes, as a float."""
+    """Return a number as the value's graph records it; unchanged where the value is a float."""
     return value.graph.constant(number) if isinstance(value, Expr) else float(number)
 
 
@@ -333,7 +334,7 @@ rint = _function("rint", nearest_whole)
 minimum = _function("minimum", min)
 maximum = _function("maximum", max)
 arctan2 = _function("arctan2", math.atan2)
-"""The angle of (x, y), from y and x, by the C library: for one that is shown, not used."""
+"""The angle of (x, y), from y and x, by the C library: for angles that are shown, not computed with."""
 select = _function("select", lambda a, b, below, otherwise: below if a < b else otherwise)
 """Of a, b, c and d: c where a < b, else d."""
 

@@ -27,23 +27,23 @@ Link = Body | None
 
 
 class Centre(NamedTuple):
-    """Where two links move alike: at a place (x + yi), or infinitely far in a direction, of length 1."""
+    """An instant centre: a place (x + yi), or a unit vector towards a centre that is infinitely far."""
 
     place: complex | None
     direction: complex = 0j
 
 
 class KennedyStep(NamedTuple):
-    """Two links, and the third links by which their centre is found: it lies on a line for each of them."""
+    """Two links, and the third links that lead to their centre: each of these gives a line through it."""
 
     pair: tuple[str, str]
     by: tuple[str, ...]
 
 
 def blocks(linkage: Linkage) -> tuple[Body, ...]:
-    """Return the blocks that slide on a link, or on the ground, and that no named body is.
+    """Return the blocks that slide on a link, or on the ground, and that are no named body.
 
-    Of a pin in two slots there is one, which turns with the first of its guides.
+    A pin in two slots has one block, which turns with the first of its guides.
     """
     named = {body.slider for body in linkage.bodies}
     points = dict.fromkeys(slide.point for joint in linkage.joints for slide in joint.slides)
@@ -81,7 +81,7 @@ def joint_between(linkage: Linkage, one: Link, other: Link) -> str | None:
 def slide_between(linkage: Linkage, one: Link, other: Link) -> Slide | None:
     """Return the slide by which one of two links slides on the other; None where neither does.
 
-    What is in a second slot by the same pin turns in it, and so has its centre elsewhere.
+    A block whose pin runs in a second slot, too, turns against that slot, so its centre lies elsewhere.
     """
     for block, guide in ((one, other), (other, one)):
         if block is not None and block.slider is not None:
@@ -100,9 +100,9 @@ def touch(linkage: Linkage, one: Link, other: Link) -> bool:
 def kennedy(linkage: Linkage, links: Mapping[str, Link]) -> tuple[KennedyStep, ...]:
     """Return the centres that Kennedy's theorem leads to, in the order in which they can be found.
 
-    Those of links that share a joint, slide on each other or are geared to each other on fixed pins are
-    known. Each of the others is found by two links whose centres with both are known by then; at the end
-    those stand that only one such link leads to.
+    Centres of links that share a joint, slide on each other or are geared to each other on fixed pins are
+    known. Each other centre is found by two links whose centres with both are known by then. Centres to which
+    only one such link leads stand at the end.
     """
     pairs = list(combinations(links, 2))
     known = {(one, other) for one, other in pairs if touch(linkage, links[one], links[other])}
@@ -175,9 +175,9 @@ def _direction(motion: Any, slide: Slide) -> complex:
 def pole(motion: Any, body: Body, other: Link = None) -> tuple[Any, Any]:
     """Return a body's instant centre to another link: x and y, of a pose or of a motion.
 
-    There both move alike: P = A + i·(v_A - v)/(ω - ω′) with v and ω′ of the other's plane at A, a joint of
-    the body. Infinite where they turn alike. A fixed pin is the centre of what turns about it, and at rest
-    they are those of the motion by the input.
+    Both links move alike there: P = A + i·(v_A - v)/(ω - ω′) with A a joint of the body, and v and ω′ those
+    of the other link's plane at A. Infinite where both turn alike. A fixed pin is the centre of a body that
+    turns about it. At rest, rates by the input are used.
     """
     linkage, still = motion.mechanism.linkage, 0.0 * motion.phase
     pin = linkage.pivot(body.joints) if other is None and body.slider is None else None
@@ -201,7 +201,7 @@ def _moving_pole(motion: Any, body: Body, other: Link) -> tuple[Any, Any]:
 
 
 def _velocity_between(motion: Any, body: Body, other: Link) -> tuple[Any, Any, Any]:
-    """Return how fast a body turns against another link, and how its first joint moves against that."""
+    """Return how fast a body turns against another link, and its first joint's velocity against that link."""
     rate, (x, y) = _rate(motion, body), components(motion.position[_point(body)])
     vx, vy = components(motion.velocity[_point(body)])
     if other is None:
@@ -216,7 +216,7 @@ def _point(body: Body) -> str:
 
 
 def _rate(motion: Any, body: Body) -> Any:
-    """Return a body's angular velocity: of what slides that of its guide."""
+    """Return a body's angular velocity; a block turns with its guide."""
     if body.slider is None:
         return motion.angular_velocity[body.name]
     guide = _slide_of(motion.mechanism.linkage, body.slider)

@@ -6,8 +6,8 @@ Uicker, Pennock and Shigley, Theory of Machines and Mechanisms), tension F posit
     Q q' = Σ (m a·v + I α ω) + Σ m g v_y + Σ F dL/dt
 
 where q is the crank's angle, the cylinder's length or the slider's travel, and Q its torque or its push.
-Where everything rests for an instant all velocities are in proportion to q', and accelerations stand for
-them: v/q' = a/q".
+Where everything rests for an instant, accelerations stand in for velocities, which are all in proportion to
+q': v/q' = a/q".
 """
 
 from __future__ import annotations
@@ -38,19 +38,19 @@ from linkanim.mechanics.program import Array
 from linkanim.mechanics.search import highest, in_blocks
 
 _ROUNDING = 1e-13
-"""A mean below this share of what it is the mean of is rounding."""
+"""A mean below this share of the mean size of its values is rounding."""
 _ENDING = 1e-6
-"""Within that phase of where the input turns back, what power and pace have in common may have no digits."""
+"""Within this phase of where the input turns back, the quotient of power and pace may have no digits."""
 _IDLE = 1e-12
-"""Power below that share of its terms is rounding."""
+"""Power below this share of its terms is rounding."""
 _ASIDE = 1e-3, (4.0, -6.0, 4.0, -1.0)
-"""In what steps of phase an effort is read aside of where it is nothing over nothing, and their weights."""
+"""Where effort is 0/0: the steps of phase beside the place at which it is read instead, and their weights."""
 _TOPS = 8
 """How many of the highest samples are followed to a peak of their own."""
 
 
 class _Rates(NamedTuple):
-    """Under which names a motion holds how everything moves, and of which derivative that is."""
+    """The names under which a motion holds the rates of all that moves, and which derivative they are."""
 
     points: str
     centres: str
@@ -59,7 +59,7 @@ class _Rates(NamedTuple):
     order: int
 
     def rounding(self, motion: Any, unit: str) -> Any:
-        """Return the rounding errors of how something moves that is measured in a unit, as `rounding_of`."""
+        """Return the rounding errors of the rate of a quantity in that unit, as `rounding_of` does."""
         return rounding_of(motion, f"{unit}/s{'²' if self.order == 2 else ''}", self.order)
 
 
@@ -103,7 +103,7 @@ def input_effort(motion: Any) -> Any:
 
 
 def _aside(motion: Any, effort: Array, ends: NDArray[np.bool_]) -> Array:
-    """Return efforts with those read aside that are next to an end of the input that takes no power."""
+    """Return efforts, those next to an end of the input that takes no power extrapolated from beside it."""
     phase, speed, second = (
         np.broadcast_to(value, effort.shape)[ends]
         for value in (motion.phase, motion.input_speed, motion.input_acceleration)
@@ -126,7 +126,7 @@ def _aside(motion: Any, effort: Array, ends: NDArray[np.bool_]) -> Array:
 class _Power(NamedTuple):
     """The power of all forces and inertia, in W, its weight, and its rounding errors.
 
-    The weight is the sum of its terms' sizes, each as if what moves ran with the input's speed as well.
+    The weight is the sum of the terms' sizes, each as if everything moved at the input's speed as well.
     """
 
     total: Any
@@ -135,7 +135,7 @@ class _Power(NamedTuple):
 
 
 def _power(motion: Any, rates: _Rates) -> _Power:
-    """Return what forces and inertia take, in W; of what starts from rest per second."""
+    """Return the power that forces and inertia take (W); from rest, the rate at which it grows (W/s)."""
     linkage = motion.mechanism.linkage
     struts = _strut_power(motion, rates, linkage.springs + linkage.dampers)
     nothing = 0.0 * motion.phase
@@ -152,7 +152,7 @@ def _strut_power(
     metre, usual = linkage.metre, linkage.extent * abs(motion.input_speed)
     blur = rates.rounding(motion, "{}")
     for strut in struts:
-        # what keeps its length takes nothing
+        # a strut that keeps its length takes no power
         if strut.forceful and holding(linkage.rigid_bodies, strut.between) is None:
             kind = motion.damper if isinstance(strut, Damper) else motion.spring
             force, moving = kind[strut.name].force, between(points, strut.between)
@@ -218,7 +218,7 @@ class Demand(NamedTuple):
 
 
 def usual_effort(solved: Callable[[Array], Any], phases: Array) -> float:
-    """Return the size that the effort has half of a true period, at these phases of it; NaN without one.
+    """Return the median size of the effort at these phases of a true period; NaN where it is nowhere bounded.
 
     `solved` gives the motion at phases; where the effort is not bounded it does not count.
     """
@@ -229,10 +229,11 @@ def usual_effort(solved: Callable[[Array], Any], phases: Array) -> float:
 
 
 def demand(solved: Callable[[Array], Any], phases: Array) -> Demand:
-    """Return what a true period asks, at these phases of it from 0 on; `solved` gives the motion at phases.
+    """Return what a true period asks of the input; `phases` cover it from 0 at equal steps.
 
-    The means are those of equal weights on a closed curve, which lose nothing of a smooth one. Where the
-    effort is not bounded is an end of the input, which is among the phases.
+    `solved` gives the motion at phases. All phases have equal weight in a mean, which is exact to rounding
+    for a smooth periodic function. Effort is unbounded only at an end of the input, which is among the
+    phases.
     """
     parts = [_needs_of(cycle := solved(part)) for part in in_blocks(phases)]
     effort, used = (np.concatenate(rows) for rows in zip(*parts, strict=True))
@@ -255,7 +256,7 @@ def _needs_of(cycle: Any) -> tuple[Array, Array]:
 
 
 def _peak(effort: Callable[[Array], Array], phases: Array, known: Array) -> float:
-    """Return the effort of the greatest size: of the highest samples each is followed to its own peak."""
+    """Return the effort of the greatest size: each of the highest samples is followed to its own peak."""
     sizes = np.abs(known)
     tops = np.flatnonzero((sizes >= np.roll(sizes, 1)) & (sizes >= np.roll(sizes, -1)))
     tops = tops[np.argsort(-sizes[tops])][:_TOPS]

@@ -34,18 +34,18 @@ RigidBody = dict[str, complex]
 
 
 class Stated:
-    """What is stated by lengths: the fields named `sized` hold them, or what is itself made of them."""
+    """A value that lengths define: its fields named in `sized` hold lengths, or values of this kind."""
 
     __slots__ = ()
     sized: ClassVar[tuple[str, ...]] = ()
 
     @property
     def stated_lengths(self) -> tuple[float, ...]:
-        """All of them, of either sign."""
+        """All its lengths, of either sign."""
         return tuple(length for name in self.sized for length in _lengths_in(getattr(self, name)))
 
     def scaled(self, factor: float) -> Self:
-        """Return the same with every length times a factor."""
+        """Return the same value with every length multiplied by a factor."""
         return replace(self, **{name: _times(getattr(self, name), factor) for name in self.sized})  # type: ignore[type-var]
 
 
@@ -68,8 +68,8 @@ def _times(value: Any, factor: float) -> Any:
 class Line(Stated):
     """A line of travel: through the joint `through`, at `angle`, shifted by `offset` to its left.
 
-    A fixed line runs through a fixed pin, its angle is absolute. One that is carried names two joints of
-    the body that carries it, `on`; `through` is a joint of that body, and the angle is from on[0] -> on[1].
+    A fixed line runs through a fixed pin, and its angle is absolute. A line that a body carries names two
+    joints of that body in `on`; `through` is a joint of the body, and the angle is from on[0] -> on[1].
     """
 
     through: str
@@ -95,7 +95,7 @@ class Line(Stated):
 
 
 class Slide(NamedTuple):
-    """What slides: the joint `point`, along a line; `start` is a joint of the guide, None of the ground."""
+    """A joint, `point`, that slides along a line; `start` is a joint of its guide, None for the ground."""
 
     point: str
     start: str | None
@@ -103,7 +103,7 @@ class Slide(NamedTuple):
 
     @property
     def axis(self) -> tuple[str, str] | None:
-        """Two joints of the guide; None where it does not turn, and its angle is absolute."""
+        """Two joints of the guide; None for a guide that does not turn: the line's angle is then absolute."""
         return self.line.on
 
     @property
@@ -117,7 +117,7 @@ class Joint(Stated):
     """A joint: how it is found from joints before it.
 
     A `dyad` is closed from two constraints, which meet in two points as a rule: `sides` names the two
-    closures, +1 first. One that `travels` moves along a line. `fixed` ones belong to the ground.
+    closures, +1 first. A joint that `travels` moves along a line. A `fixed` one belongs to the ground.
     """
 
     name: str
@@ -144,43 +144,43 @@ class Joint(Stated):
 
     @property
     def spans(self) -> tuple[tuple[str, ...], ...]:
-        """The joints of every rigid length that the joint's definition states."""
+        """The sets of joints that the joint's definition keeps at fixed distances."""
         return tuple((start, self.name) for start, _ in self.bars)
 
     @property
     def pins(self) -> tuple[str, ...]:
-        """The joints in which the definition makes bars turn on each other: its bars' ends."""
+        """The joints about which the definition lets bars turn on each other: its bars' ends."""
         return (*(start for start, _ in self.bars), self.name) if self.bars else ()
 
     @property
     def slides(self) -> tuple[Slide, ...]:
-        """What the definition makes slide, and along what."""
+        """The joints that the definition lets slide, and along what."""
         return ()
 
     @property
     def named_sign(self) -> int | None:
-        """The sign of the closure's root where the closure named holds; None where there is no root."""
+        """The sign of the root in the closure that is named; None where there is no root."""
         return None
 
     @property
     def named_from(self) -> tuple[int, str, str, str] | None:
-        """What names the closure, if not its own side: (+1 left or -1, b, p, q) of b beside p -> q."""
+        """(+1 or -1, b, p, q) where the closure is named by b lying left or right of p -> q; else None."""
         return None
 
     def placed(self, bodies: tuple[RigidBody, ...]) -> tuple[RigidBody, ...]:
-        """Return the rigid bodies with the joint in them: a body of its own for each of its bars."""
+        """Return the rigid bodies with this joint added: each of its bars is a further body."""
         return (*bodies, *({start: 0j, self.name: complex(length)} for start, length in self.bars))
 
     def why_apart(self, u: float, w: float, unit: str) -> str:
         """Say in words and numbers why it cannot be assembled at any angle of the input.
 
-        `u` and `w` are the greatest that its root's factors come to.
+        `u` and `w` are the greatest values that the factors of its root reach.
         """
         return "it cannot be assembled"
 
     @property
     def at_limit(self) -> str:
-        """How a dyad stands where it closes no farther, as a clause; empty for what always closes."""
+        """How the dyad stands at the limit of closing, as a clause; empty for a joint that always closes."""
         return ""
 
     def transmission(self, u: float, w: float) -> float | None:
@@ -253,7 +253,7 @@ class RRR(Joint):
 
     @property
     def named_sign(self) -> int:
-        """The sign of the root: left of the line, or of the closure that another joint's side names."""
+        """The sign of the root: `side`, or against it where another joint's side names the closure."""
         return -self.side if self.side_of else self.side
 
     @property
@@ -323,9 +323,9 @@ class RRP(Guided):
         return f"the bar {self.end}–{self.name} stands straight across the line of travel of {self.name}"
 
     def transmission(self, u: float, w: float) -> float:
-        """Return the angle from its bar to the normal of its line: as much less than 90° as the bar leans.
+        """Return the angle from its bar to the normal of its line: 90° less the bar's angle to the line.
 
-        The bar leans asin(|e|/b), where U = b - e and W = b + e.
+        The bar's angle to the line is asin(|e|/b), where U = b - e and W = b + e.
         """
         return math.pi / 2 - abs(2 * math.atan2(math.sqrt(w), math.sqrt(u)) - math.pi / 2)
 
@@ -393,13 +393,13 @@ class RPR(Joint):
 
     @property
     def at_limit(self) -> str:
-        """The pin is where the slot is nearest to its pivot."""
+        """The pin is at the point of the slot that is nearest to its pivot."""
         return f"{self.through} is as near to {self.pivot} as the offset of the slot lets it come"
 
     def transmission(self, u: float, w: float) -> float:
         """Return the angle from the slot's normal, along which the pin pushes, to the bar's motion there.
 
-        90° of a slot that runs through its pivot: the pin's push then does nothing but turn the bar.
+        It is 90° for a slot that runs through its pivot: the pin's push then does nothing but turn the bar.
         """
         return math.atan2(math.sqrt(w), abs(self.offset))
 
@@ -412,7 +412,7 @@ class RPR(Joint):
         arm = np.sqrt(x * x + y * y)
         if not self.offset:
             return np.arccos(0.0 * arm)
-        with np.errstate(divide="ignore"):  # the pin on the pivot, where rounding brings it
+        with np.errstate(divide="ignore"):  # rounding may put the pin on the pivot
             return np.arccos(np.minimum(abs(self.offset) / arm, 1.0))
 
     def why_apart(self, u: float, w: float, unit: str) -> str:
@@ -456,7 +456,7 @@ class RPP(Guided):
 
 # Rigid bodies: which joints keep their distances, where they lie in the body's own frame, and its points.
 #
-# Points of a body, beside its pins, are coupler points, third pins of a plate, corners of a rigid triangle.
+# Points of a body other than its pins: coupler points, third pins of a plate, corners of a rigid triangle.
 
 _ONE_POINT = 1e-12
 
@@ -472,7 +472,7 @@ def rigid_bodies(joints: Iterable[Joint]) -> tuple[RigidBody, ...]:
 
 
 def holding(bodies: Iterable[RigidBody], names: Iterable[str]) -> int | None:
-    """Return which frame has all these joints; None where they are on different bodies."""
+    """Return the index of the first frame that has all these joints; None where no frame has."""
     joints = set(names)
     return next((n for n, frame in enumerate(bodies) if joints <= frame.keys()), None)
 
@@ -484,7 +484,7 @@ def coincide(frame: RigidBody, first: str, second: str) -> bool:
 
 
 def share_of(frame: RigidBody, on: tuple[str, str], at: tuple[float, float]) -> complex:
-    """Return the point `at` along on[0] -> on[1] and to its left, in lengths of that line."""
+    """Return the point `at`, along on[0] -> on[1] and to its left, as x + yi in lengths of that line."""
     return complex(*at) / abs(frame[on[1]] - frame[on[0]])
 
 
@@ -513,7 +513,10 @@ class Rigid(Joint):
         return ((*self.on, self.name),)
 
     def placed(self, bodies: tuple[RigidBody, ...]) -> tuple[RigidBody, ...]:
-        """Return the bodies with the point on its body; as they are where the two joints show none."""
+        """Return the bodies with the point on its body; unchanged where the two joints are on no one body.
+
+        Unchanged, too, where the two joints are one point.
+        """
         n = holding(bodies, self.on)
         if n is None or coincide(bodies[n], *self.on):
             return bodies
@@ -537,7 +540,7 @@ class Brace(Rigid):
 
     @property
     def spans(self) -> tuple[tuple[str, ...], ...]:
-        """Its two bars; the body may show them otherwise."""
+        """Its two bars, which may be drawn as part of its body instead."""
         return tuple((start, self.name) for start in self.on)
 
 
@@ -637,7 +640,7 @@ class DrivenSlider(Guided):
 
 
 class Coordinate(NamedTuple):
-    """What tells where the input is: an angle in radians, or a travel in the scene's unit of length.
+    """The coordinate of the input: an angle in radians, or a travel in the scene's unit of length.
 
     `name` is its word and its key in JSON, `letter` its symbol, `velocity` the words for its rate. In `unit`,
     `{}` stands for the unit of length.
@@ -677,11 +680,11 @@ TRAVEL = Coordinate("travel", "s", "{}", "velocity")
 
 @frozen
 class Actuator(Stated):
-    """What drives the input: as it is, a motor on the crank.
+    """What drives the input; this class itself is a motor on the crank.
 
-    `effort` is what it delivers, and its unit. `noun` is the input's name where it is no bar that turns;
-    `moves` says what an input does that turns back, `cycles` what each way there and back is counted as;
-    `linkage_name` is the class of a linkage that has nothing else.
+    `effort` is what it delivers, and its unit. `noun` is the input's name where no bar turns; `moves` is the
+    verb of an input that turns back, `cycles` the plural by which its ways there and back are counted;
+    `linkage_name` is the class of a linkage without dyads.
     """
 
     coordinate: ClassVar[Coordinate] = ANGLE
@@ -697,7 +700,7 @@ class Actuator(Stated):
         return None
 
     def at_ends(self, unit: str) -> str:
-        """Return how it ends the way of an input that turns, as a clause; empty for what has no stroke."""
+        """Return how its stroke stops the input at both ends, as a clause; empty where it has no stroke."""
         return ""
 
 
@@ -776,7 +779,7 @@ class Drive(Stated):
         return self.start if self.start or self.at_zero else None
 
     def check_angle(self, scene: str, way_out: str) -> None:
-        """Raise BadInput for the angle of an input that has none."""
+        """Raise BadInput where the input has no angle to be set; `way_out` says what to ask for instead."""
         if not self.coordinate.is_angle:
             noun = self.actuator.noun
             raise BadInput(f"{scene}: its input is a {noun}, which has no angle; {way_out}")
@@ -793,7 +796,7 @@ class Body(Stated):
 
     `com` is (along first -> second joint, to the left of it) from the first joint. A body with
     `slider` instead of joints is the block that travels with that joint along its line. `mass` is in kg,
-    `inertia` in kg·m² about the centre of mass; what is None is left out of all forces.
+    `inertia` in kg·m² about the centre of mass; where one of them is None, forces leave it out.
     """
 
     name: str
@@ -846,7 +849,8 @@ class Damper:
 class Driven(NamedTuple):
     """What the drive moves: a crank about its pivot, or a slider.
 
-    `body` is the crank's, None where it has no name; a slider has no such body, and its pivot is "".
+    `body` is the crank's body, None where no named body has the crank. Of a slider `body` is None and `pivot`
+    "".
     """
 
     joint: Crank | DrivenSlider
@@ -866,7 +870,7 @@ class Linkage(Stated):
     metre: float = field(default=1.0)
     """One unit of length in metres (0.001 for mm); forces need it."""
     gravity: float = 0.0
-    """How fast masses fall, in m/s², down; 0 where nothing is said of it."""
+    """The acceleration of gravity (m/s², downwards); 0 where the scene states none."""
 
     sized: ClassVar[tuple[str, ...]] = ("joints", "bodies", "drive")
 
@@ -889,7 +893,7 @@ class Linkage(Stated):
         return "damper" if strut.forceful else "cylinder"
 
     def strut_words(self, strut: Spring | Damper) -> str:
-        """Return what a strut is called with its name: "return spring"; a name that says it stands alone."""
+        """Return a strut's name and sort, "return spring"; the name alone where it has that word in it."""
         word = self.strut_word(strut)
         return strut.name if word in strut.name.lower().split() else f"{strut.name} {word}"
 
@@ -911,13 +915,13 @@ class Linkage(Stated):
 
     @property
     def longest(self) -> float:
-        """The longest length that the definition of a joint states; without any that of the drive, or 1."""
+        """The longest length that a joint's definition states; where none does, the drive's longest, or 1."""
         stated = max((abs(length) for joint in self.joints for length in joint.stated_lengths), default=0.0)
         return stated or max(map(abs, self.drive.actuator.stated_lengths), default=0.0) or 1.0
 
     @cached_property
     def extent(self) -> float:
-        """How far from the origin any joint may come: all lengths together; 1 without any."""
+        """The sum of all lengths, which bounds every joint's distance from the origin; 1 without any."""
         return math.fsum(map(abs, self.stated_lengths)) or 1.0
 
     @cached_property
@@ -941,7 +945,7 @@ class Linkage(Stated):
 
     @cached_property
     def unsized(self) -> Linkage:
-        """The linkage with every length 0: what those have in common that differ in lengths alone."""
+        """The linkage with every length 0, which is equal for linkages that differ in lengths alone."""
         return self.scaled(0.0)
 
     @cached_property
@@ -959,7 +963,7 @@ class Linkage(Stated):
         return {name: radius for name, radius in found.items() if radius}
 
     def pivot(self, names: Iterable[str]) -> str | None:
-        """Return the fixed pin about which a rigid body turns that has joints; None of others, and of two."""
+        """Return the fixed pin of the rigid body with these joints; None where it has none, or several."""
         n = holding(self.rigid_bodies, names)
         pins = [pin.name for pin in self.pins if n and pin.name in self.rigid_bodies[n]]
         return pins[0] if len(pins) == 1 else None

@@ -1,8 +1,8 @@
-"""Measure what follows from solved quantities, and say what such a number is worth.
+"""Measure what follows from solved quantities, and tell what a computed number means.
 
 Its parts, in reading order:
 
-- What a solved number says at a phase: a number, that it is not bounded, 0, or nothing.
+- What a solved number says at a phase: a value, 0, unbounded, or no value at all.
 - Measures: what follows from solved quantities, and what is known of each joint, body and strut.
 """
 
@@ -19,39 +19,40 @@ from linkanim.frozen import NamedTuple
 from linkanim.mechanics.angles import STATED
 from linkanim.mechanics.linkage import Body, Crank, Damper, Linkage, Spring, holding, share_of
 
-# What a solved number says at a phase: a number, that it is not bounded, 0, or nothing.
+# What a solved number says at a phase: a value, 0, unbounded, or no value at all.
 #
 # **How to ask.** `scene.quantities[token].read(motion)`, of a Motion or a Pose, and `.shown(motion)` with
-# angles in degrees. Every output asks them, so that all say the same of the same:
+# angles in degrees. Every output asks in this way, so that all outputs agree:
 #
-# - a finite number: that is its value; - `0.0`, without a sign: it is nothing, by geometry or to all digits
-# that it could have; - `math.inf`, without a sign: it is not bounded there, such as a rate by the input at a
-# limit of the input; - `nan`: there is no such thing there, such as the direction of a strut of no length
-# (None: it is not known).
+# - a finite number is the value;
+# - `0.0`, without a sign: exactly zero, by geometry or to all digits that it could have;
+# - `math.inf`, without a sign: unbounded, such as a rate by the input at a limit of the input;
+# - `nan`: no value, such as the direction of a strut of no length;
+# - None: not known.
 #
-# Motion's own attributes hold what was computed. Three things make a float say what is not so.
+# Motion's own attributes hold the computed floats. These are wrong in three cases, which are put right here.
 #
-# **At a limit.** A limit is at a multiple of π in phase, of which no float is one but 0. A phase within its
-# own last digits of one is that limit (`formulas.circular.stated`): there a vanishing rate is 0.0, and what
-# is over it infinite. An angle is held to the limit's own digits (`LimitDistances`).
+# **At a limit.** A limit lies at a multiple of π in phase, and no float but 0 is such a multiple. A phase
+# within its own last digits of one counts as the limit (`angles.stated`): there a vanishing rate is 0.0, and
+# a quotient over it is infinite. An angle is compared with the limit's own digits (`LimitDistances`).
 #
-# **By rounding.** What vanishes comes out as the rounding errors of what it is made of: so many digits down
-# from the linkage's extent, moved at the input's speed. What is no larger is 0.
+# **By rounding.** A quantity that vanishes is computed as the rounding errors of its terms: a fixed share of
+# the linkage's extent, moved at the input's speed. What is no larger is 0.
 #
 # **By geometry.** A point that keeps its distance from a fixed pin runs on a circle, one that slides on a
 # fixed line runs straight (`Linkage.radii`); a body with a fixed pin turns about it (`Linkage.pivot`); a
 # strut between two joints of one rigid body keeps its length. That holds at rest, too, where velocities say
-# nothing. How other paths bend and where other poles are follows there from the rates by the input, which
-# are the same however fast it runs.
+# nothing. At rest, how other paths bend and where other poles are follows from the rates by the input, which
+# do not depend on its speed.
 
 ROUNDING = 1e-13
-"""Of what is as large as the linkage's extent, moved at the input's speed."""
+"""Share of the linkage's extent, moved at the input's speed, below which a number is rounding."""
 
 
 def settled(found: Any, rounding: Any) -> Any:
-    """Return numbers with 0.0 for what is no larger than rounding errors, and one infinity for both.
+    """Return numbers with 0.0 for those no larger than rounding errors, and +inf for both infinities.
 
-    Floats, pairs of them, or arrays with which `rounding` goes together.
+    `found` is a float, a pair of floats, or an array against which `rounding` broadcasts.
     """
     if isinstance(found, tuple):
         return tuple(settled(part, rounding) for part in found)
@@ -62,7 +63,7 @@ def settled(found: Any, rounding: Any) -> Any:
 
 
 def said(motion: Any, found: Any, unit: str, order: int) -> Any:
-    """Return solved numbers of a motion, vectors in arrays (..., 2) or pairs, as they are told."""
+    """Return solved numbers of a motion as every output shows them; vectors are arrays (..., 2) or pairs."""
     rounding = rounding_of(motion, unit, order)
     vectors = np.ndim(found) == np.ndim(rounding) + 1 if isinstance(rounding, np.ndarray) else False
     return settled(found, rounding[..., None] if vectors else rounding)
@@ -71,7 +72,7 @@ def said(motion: Any, found: Any, unit: str, order: int) -> Any:
 def rounding_of(motion: Any, unit: str, order: int) -> Any:
     """Return how large rounding errors of a quantity may be, from the linkage's extent and the input's speed.
 
-    An array where the speed is one; 0 of what is neither an angle nor a length, nor a rate of one.
+    An array where the speed is an array; 0 for a unit other than of angles, lengths and their rates.
     """
     size = _size(unit, motion.mechanism.linkage.extent)
     if not order:
@@ -81,16 +82,16 @@ def rounding_of(motion: Any, unit: str, order: int) -> Any:
 
 
 def unbounded(rate: Any, phase: Any) -> Any:
-    """Return a rate, infinite where it is NaN at a phase that is known: there it is not bounded."""
+    """Return a rate, infinite where it is NaN though the phase is known: there it is unbounded."""
     if isinstance(rate, float):
         return math.inf if math.isnan(rate) and not math.isnan(phase) else rate
     return np.where(np.isnan(rate) & ~np.isnan(phase), np.inf, rate)[()]
 
 
 def stands(motion: Any) -> Any:
-    """Tell where the input stands: at an end where it turns back, as well as a phase can say it, or at rest.
+    """Tell where the input stands still: at rest, or at an end where it turns back.
 
-    There q' is as small as a phase's last digits beside q".
+    An end is told to the last digits of a phase: q' is no larger there than these times q".
     """
     phase, rate, second = motion.phase, motion.coordinate_rate, motion.coordinate_second
     return np.abs(rate * motion.input_speed) <= STATED * np.hypot(phase, math.pi) * np.abs(second)
@@ -110,14 +111,14 @@ def _size(unit: str, extent: float) -> float:
 # Measures: what follows from solved quantities, and what is known of each joint, body and strut.
 #
 # Every function takes a Motion, and works on arrays, or a Pose, and works on floats: by + - × ÷ and roots of
-# components, and numpy's functions, so that both have the same bits. What has no value at an instant is NaN,
-# what is not bounded is infinite (`settled`). Symbols are those of the textbooks on mechanisms: ω, α, v, a;
+# components, and numpy's functions, so that both have the same bits. NaN stands for no value at an instant,
+# infinity for an unbounded one (`settled`). Symbols are those of the textbooks on mechanisms: ω, α, v, a;
 # h and f for first kinematic coefficients.
 
 _STRAIGHT = 1e-12
 """Below this share a cross product of velocity and acceleration, or of the input's rate, is rounding."""
 _FLAT = 1e-2
-"""Of the rounding errors of accelerations: what they are where all terms of one are small."""
+"""Share of an acceleration's usual rounding errors that is left where all its terms are small."""
 _SHARP = 1e-3
 """Above this share such a product keeps its digits."""
 
@@ -190,7 +191,7 @@ def normal(velocity: Any, acceleration: Any) -> Any:
 def curvature_radius(velocity: Any, acceleration: Any, least: Any) -> Any:
     """Return the radius of curvature of a point's path, ρ = |v|³/|v × a|; infinite where it is straight.
 
-    Of an acceleration less is known than `least`.
+    An acceleration is known to within `least` only.
     """
     speed, bend = size(velocity), abs(cross(velocity, acceleration))
     straight = bend <= speed * np.maximum(_STRAIGHT * size(acceleration), least)
@@ -238,13 +239,13 @@ def output_slider(linkage: Linkage) -> Body | None:
 
 
 def coupler_body(linkage: Linkage) -> Body | None:
-    """Return the body that turns about nothing fixed: the first one without a fixed pin, None without one."""
+    """Return the first body without a fixed pin; None where every body has one."""
     turning = (body for body in linkage.bodies if body.slider is None)
     return next((body for body in turning if not pivots_of(linkage, body)), None)
 
 
 def pivots_of(linkage: Linkage, body: Body) -> tuple[str, ...]:
-    """Return the fixed pins of a body that turns, those of what is rigid with it among them."""
+    """Return the fixed pins of a body that turns, with those of all that is rigidly joined to it."""
     frame = holding(linkage.rigid_bodies, body.joints)
     return tuple(pin.name for pin in linkage.pins if frame and pin.name in linkage.rigid_bodies[frame])
 
@@ -288,10 +289,10 @@ def input_rate(motion: Any) -> Any:
 class Measure(NamedTuple):
     """What is known of each part of one sort, such as the angular velocity of a body.
 
-    `name` ends the token, and is Motion's attribute where that holds it; `key` is the name in JSON and
-    `heading` in a table of plain letters. In `unit`, `{}` stands for the unit of length. `order` counts
-    derivatives in time. `read` takes a Motion or a Pose and the part's name, and says what `settled` tells.
-    Where its `divisor` changes sign it may be unbounded.
+    `name` ends the token, and is the attribute of Motion that holds it, if one does; `key` is the name in
+    JSON and `heading` that in a table of plain letters. In `unit`, `{}` stands for the unit of length.
+    `order` counts derivatives in time. `read` takes a Motion or a Pose and the part's name, and returns
+    values as `settled` does. Where its `divisor` changes sign the measure may be unbounded.
     """
 
     name: str
@@ -369,7 +370,7 @@ def measures_of(linkage: Linkage, body: Body) -> tuple[tuple[Measure, ...], tupl
 
 
 def _strut(motion: Any, item: Spring | Damper, found: Any, name: str) -> Any:
-    """Return what of a strut has that name; of one between two joints of one rigid body the length stays."""
+    """Return a strut's quantity of that name; between two joints of one rigid body its length is constant."""
     value = getattr(found, name)
     if value is None:
         return None
@@ -415,7 +416,7 @@ SPRING, DAMPER = _of_struts("spring"), _of_struts("damper")
 
 
 def _radius(motion: Any, prefix: str, part: str) -> float | None:
-    """Return the radius of the circle on which a joint, or a centre of mass, runs; None where on none."""
+    """Return the radius of the circle on which a joint, or a centre of mass, runs; None for other paths."""
     linkage = motion.mechanism.linkage
     if not prefix:
         found: float | None = linkage.radii.get(part)
@@ -437,10 +438,11 @@ def _rates(motion: Any, prefix: str, part: str) -> tuple[Vector, Vector]:
 
 
 def _radius_of_curvature(motion: Any, prefix: str, part: str) -> Any:
-    """Return how a path bends: known by geometry, or from the rates in time or by the input.
+    """Return a path's radius of curvature: known by geometry, or from rates in time or by the input.
 
-    The path is the same by either. Where the input stops those in time lose their digits, at a limit of it
-    the others: those are taken that keep more, which the angle between velocity and acceleration tells.
+    Both kinds of rates describe the same path. Rates in time lose their digits where the input stops, rates
+    by the input at a limit of it. The kind that keeps more is taken: the angle between velocity and
+    acceleration tells which.
     """
     radius = _radius(motion, prefix, part)
     if radius is not None:
@@ -460,7 +462,7 @@ def _curved(motion: Any, rates: tuple[Vector, Vector]) -> Any:
 
 
 def _share(velocity: Vector, acceleration: Vector) -> Any:
-    """Return the sine of the angle between velocity and acceleration; 0 at rest, and of unbounded ones."""
+    """Return the sine of the angle between velocity and acceleration; 0 where one is zero or unbounded."""
     with np.errstate(invalid="ignore", over="ignore"):
         share = over(abs(cross(velocity, acceleration)), size(velocity) * size(acceleration))
     return np.where(np.isnan(share), 0.0, share)
@@ -509,7 +511,7 @@ PATH, CENTRE_PATH = _of_paths(""), _of_paths("com_")
 FAMILIES = tuple(
     tuple(measure.name for measure in family) for family in (POINT, CENTRE, TURNING[1:], TRAVELLING)
 )
-"""What is solved, in the families that are worked out together, derivatives after what they are of."""
+"""The solved quantities in families that are worked out together, each before its derivatives."""
 VECTORS = tuple(measure.name for measure in (*POINT, *CENTRE))
 NUMBERS = tuple(measure.name for measure in (*TURNING[1:], *TRAVELLING))
 DERIVATIVE_OF = {measure.name: measure.order for measure in (*POINT, *CENTRE, *TURNING, *TRAVELLING)}

@@ -47,16 +47,16 @@ from linkanim.mechanics.solver.loop import Gearing
 
 # Where solved quantities lie in rows, and how they are read from there.
 #
-# How far a direction turns from instant to instant is known by directions alone, not by rates, which near a
-# dead centre grow without bound: between two less than half a turn apart the way is known, so instants are
-# put between neighbours until they are near, in the input and in direction.
+# How far a direction turns from instant to instant follows from directions alone, not from rates, which grow
+# without bound near a dead centre. Between two directions less than half a turn apart the turn is known, so
+# further instants are put between neighbours until these are close in the input and in direction.
 
 Pair = tuple[float, float]
 
 
 @frozen
 class Place:
-    """The first row of a quantity and how many it has; a `fixed` pair has none."""
+    """The first row of a quantity and how many rows it has; a `fixed` pair (x, y) takes none."""
 
     row: int
     count: int
@@ -157,9 +157,9 @@ def turned(
 ) -> Array:
     """Return how far a direction turns on each of N ways from one instant to another, in radians (N,).
 
-    `inputs` are those of the two instants, `angles` the direction's there in any turn; `at` gives them at
-    other inputs; `ratio` is how many times as fast as the input the quickest crank turns. 0 where an angle
-    is NaN.
+    `inputs` are the input's angles at the two instants, `angles` the direction's, whole turns left open; `at`
+    gives the direction's angle at other inputs; `ratio` is how many times as fast as the input the quickest
+    crank turns. 0 where an angle is NaN.
     """
     (low, high), (first, last) = inputs, angles
     row, total = np.arange(len(low)), np.zeros(len(low))
@@ -194,10 +194,10 @@ def _shortest(turn: Array) -> Array:
 # scene's unit, angles in radians, time in seconds, forces in newtons (tension positive).
 
 COORDINATE = ("coordinate", "coordinate_rate", "coordinate_second")
-"""The input's angle, or travel, and its rates: one that does not turn fully moves in its own way."""
+"""The input's angle, or travel, and its two rates, which are not the phase's where it does not turn fully."""
 NOTHING: Mapping[str, Any] = MappingProxyType({})
 LOWER = {kind: family[:n] for family in FAMILIES for n, kind in enumerate(family)}
-"""The quantities of its family with fewer derivatives, of each."""
+"""For each quantity, those of its family with fewer derivatives."""
 ORDER: Mapping[str, int] = {**DERIVATIVE_OF, **dict(zip(COORDINATE, range(3), strict=True)), "phase": 0}
 
 
@@ -216,8 +216,8 @@ class Variant(NamedTuple):
 class Strut(NamedTuple):
     """Length, its rate, and the force (None where it is not known) of a spring or damper; its direction.
 
-    The direction is that of its first joint to its second, the rate of it in rad/s; where they meet both are
-    NaN, and the rate of the length is that with which it is about to grow.
+    The direction runs from its first joint to its second (rad), its rate is in rad/s. Where the joints meet,
+    both are NaN, and the length's rate is that at which it is about to grow.
     """
 
     length: Any
@@ -228,11 +228,11 @@ class Strut(NamedTuple):
 
 
 class Instants(NamedTuple):
-    """Instants (N,) with rates w and a, the shape in which to answer, and how many derivatives at most.
+    """Instants (N,) with their `rates`, the shape of the answer, and the greatest order of derivatives.
 
-    `distances` are those of angles of an input that swings from its limits; `phases` those of one that comes
-    back by the way it came, where x are the phases of its way up, and `back` where it is on its way back, at
-    rates of the other sign.
+    `distances` tells, for the angles of an input that swings, how far they are from its limits. Where the
+    input comes back through the same poses, `phases` are the phases asked for, `x` those of the same poses on
+    the way up, and `back` says which are on the way back: there the rates have the other sign.
     """
 
     variant: Variant
@@ -250,7 +250,7 @@ Number = TypeVar("Number")
 
 
 class Derived(ABC, Generic[Vector, Number]):
-    """What is solved, for a motion and a pose alike, and what follows from it; vectors are x and y.
+    """What a motion and a pose have in common: solved quantities, and those that follow from them.
 
     `coordinate` is the input's: its angle, or a driving slider's travel.
     """
@@ -291,8 +291,8 @@ class Derived(ABC, Generic[Vector, Number]):
     def angle(self) -> Mapping[str, Any]:
         """Each body's angle, first -> second joint.
 
-        A crank's own angle counts its turns. The others' are in one turn at one instant, and of many
-        instants without jumps along the first axis.
+        A crank's own angle counts its turns. Any other body's angle lies within one turn at a single instant;
+        over many instants it has no jumps along the first axis.
         """
         bodies = tuple(body.name for body in self.mechanism.linkage.bodies if body.slider is None)
         return Lazy(bodies, self._angle)
@@ -312,8 +312,8 @@ class Derived(ABC, Generic[Vector, Number]):
     def coefficient(self) -> Mapping[str, tuple[Any, Any]]:
         """Each body's kinematic coefficients, (dq/dθ, d²q/dθ²) with q its angle or travel.
 
-        They are the rates by the input's angle, or a driving slider's travel: at any speed the same. Infinite
-        where a limit of the input leaves them unbounded.
+        They are derivatives by the input's angle, or by a driving slider's travel: the same at any speed.
+        Infinite where a limit of the input leaves them unbounded.
         """
         known = self.per_input
         return Lazy((*known.angular_acceleration, *known.travel_acceleration), self._coefficient)
@@ -398,7 +398,7 @@ class Motion(Derived[Array, Array]):
         raise FrozenInstanceError(f"a motion is what was solved: its {name} cannot be set")
 
     def _read(self, name: str) -> dict[str, Any]:
-        """Return a quantity with what comes out of the same pass, but for what is known."""
+        """Return a quantity and those that the same pass gives, without those that are known already."""
         if name not in DERIVATIVE_OF:
             return self._input()
         if DERIVATIVE_OF[name] > self.instants.derivatives:
@@ -415,7 +415,7 @@ class Motion(Derived[Array, Array]):
         return found
 
     def _worked_out(self, kinds: tuple[str, ...]) -> dict[str, Any]:
-        """Return these quantities."""
+        """Return these kinds of quantities by name."""
         places, results = self._run(kinds)
         return {kind: columns(names, results, self.instants.shape) for kind, names in places.places.items()}
 
@@ -493,7 +493,7 @@ class Motion(Derived[Array, Array]):
 
 
 class _Paced(Motion):
-    """A motion run some times as fast: its quantities, each times its power of the factor."""
+    """A motion run `factor` times as fast: each quantity is multiplied by its own power of the factor."""
 
     def __init__(self, motion: Motion, factor: float) -> None:
         speed, acceleration = motion.input_speed * factor, motion.input_acceleration * factor**2
@@ -525,7 +525,7 @@ def _mark_limits(places: ResultLayout, results: Array, snapped: Array, at_limit:
 
 
 def _before_stretch(whole: Array, gap: NDArray[np.bool_]) -> Array:
-    """Return for each row what stood in the last row of the gap before it, 0 where there is none."""
+    """Return for each row the value in the last row of a gap up to it, 0 where there is no gap so far."""
     rows = np.arange(len(gap)).reshape(-1, *[1] * (gap.ndim - 1))
     last = np.maximum.accumulate(np.where(gap, rows, -1), axis=0)
     return np.where(last < 0, 0.0, np.take_along_axis(whole, np.maximum(last, 0), axis=0))
@@ -581,8 +581,8 @@ Traced = tuple[tuple[str, ...], Rows]
 class Mechanism:
     """A linkage with its loops, path and signs, and the programs that solve it.
 
-    One that is `passing` is solved at a few instants only: they come from the program over arrays, which
-    its cycle needs anyway, since a program of their own would cost more than it saves.
+    A mechanism that is `passing` is solved at a few instants only. They come from the program over arrays,
+    which its cycle needs anyway: a program of one instant would cost more than it saves.
     """
 
     linkage: Linkage
@@ -600,20 +600,20 @@ class Mechanism:
 
     @property
     def phases(self) -> Array:
-        """Phases over one true period, from 0 on at equal steps, as near as what turns fastest needs."""
+        """Phases over one true period, from 0 at equal steps, dense enough for the quickest crank."""
         count = self.assembly.samples * self.periods
         phases: Array = np.arange(count, dtype=np.float64) * (2 * math.pi * self.periods / count)
         return phases
 
     @property
     def sampled(self) -> Array:
-        """As many phases, half a step off the start, where a swing's rates vanish: to search between them."""
+        """Phases around one true period for a search: half a step off 0, where a swing's rates vanish."""
         return around(self.periods, self.assembly.samples)
 
     def count(self, least: int, *, a_turn: int = 24) -> int:
-        """Return at how many phases of one true period its course is seen: `least`, more of quick gears.
+        """Return how many phases show the course of one true period: `least`, or more with quick gears.
 
-        Of each turn of the quickest crank it is `a_turn` of them, as far as that is not too many.
+        There are `a_turn` phases to each turn of the quickest crank, up to a greatest number.
         """
         return max(least, min(math.ceil(a_turn * self.assembly.quickest * self.periods), _MOST_SEEN))
 
@@ -861,7 +861,7 @@ def _quantities(walk: Walk, unscale: float) -> Iterator[tuple[str, Mapping[str, 
 
 @lru_cache(maxsize=1)
 def _assembled(linkage: Linkage) -> tuple[Assembly, Separations | None]:
-    """Return the linkage put together, and how its dyads on moving points fare, if it has any."""
+    """Return the linkage put together, and the margins of its dyads on moving points, if it has any."""
     assembly = assemble(linkage)
     chained = not assembly.signs.keys() <= assembly.loops.keys()
     return assembly, separations(assembly) if chained else None
@@ -890,6 +890,6 @@ def mechanism(linkage: Linkage) -> Mechanism:
 def passing(linkage: Linkage) -> Mechanism:
     """Return a linkage on the way between two whose dyads down the chain close all along.
 
-    They are not looked at: where one does not close after all, its joints are NaN.
+    Those dyads are not checked: where one does not close after all, its joints are NaN.
     """
     return Mechanism(linkage, assemble(linkage), passing=True)

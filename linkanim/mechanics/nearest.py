@@ -1,9 +1,9 @@
-"""Find the phase at which a moving point is nearest to a place: what the input is solved for by a hand.
+"""Find the phase at which a moving point is nearest to a place: a hand drags the point, the input follows.
 
-A point's course over one true period is sampled once. Of a place all minima of the distance are bracketed
-there and then solved in plain floats, so that the answer is the nearest pose of all, and not only the nearest
-of those close by. One true period holds every pose that the input reaches: both ranges of a swing that comes
-back on the other closure, and what lies behind a change point.
+A point's course over one true period is sampled once. For each place, all minima of the distance are
+bracketed among the samples and then solved in plain floats, so that the answer is the nearest pose of all,
+and not only of those close by. One true period holds every pose that the input reaches: both closures of a
+swing that comes back on the other one, and all poses beyond a change point.
 """
 
 from __future__ import annotations
@@ -21,16 +21,16 @@ from linkanim.mechanics.motion import Mechanism
 from linkanim.mechanics.program import Array
 
 _TURNING = math.cos(math.radians(30.0))
-"""Between samples whose directions differ by more, the distance may have several minima."""
+"""Cosine of 30°: between samples whose directions differ by more, the distance may have several minima."""
 _PARTS = 16
-"""Into so many such a step is divided."""
+"""The number of parts into which such a step is divided."""
 _EXACT = 1e-13
-"""How narrow a bracket ends, in radians of phase."""
+"""The width at which a bracket is narrow enough, in radians of phase."""
 _ROUNDS = 100
 _EQUAL = 1e-9
-"""Distances that differ by less than so much of the course's size are equal."""
+"""Distances that differ by less than this share of the course's size are equal."""
 _BACK = 1.5
-"""So many times as far a pose counts that is on the way back: past a dead centre the motion goes on."""
+"""The factor by which a pose counts as farther that lies backwards: past a dead centre the motion goes on."""
 
 Complex = NDArray[np.complex128]
 
@@ -50,7 +50,7 @@ class PointPath:
 
     @property
     def size(self) -> float:
-        """The diagonal of the box around the course; 0 of a joint that does not move."""
+        """The diagonal of the box around the course; 0 for a joint that does not move."""
         return float(math.hypot(np.ptp(self.places.real), np.ptp(self.places.imag)))
 
     @property
@@ -61,9 +61,9 @@ class PointPath:
     def nearest(self, place: Point, near: float, *, slack: float = 0.0, forward: bool = True) -> float:
         """Return the phase at which the joint is nearest to a place (the scene's unit), in any turn.
 
-        Of several equally near it is the one nearest to the phase `near`, what is on the way on, `forward` or
-        not, before what is on the way back. A minimum that is farther by at most `slack` counts as equally
-        near. `near` itself for a joint that does not move.
+        Of several equally near poses it is the one nearest to the phase `near`; a pose ahead is preferred to
+        one behind, ahead being towards greater phases where `forward`. A minimum that is farther by at most
+        `slack` counts as equally near. `near` itself for a joint that does not move.
         """
         target, period = complex(*place), 2 * math.pi * self.mechanism.periods
         found = list(self._minima(target, slack))
@@ -109,7 +109,7 @@ class PointPath:
                 yield abs(self._at(phase, target)[0]), phase
 
     def _at(self, phase: float, target: complex) -> tuple[complex, complex]:
-        """Return the vector from a place to the joint, and that joint's derivative by the phase."""
+        """Return the vector from a place to the joint, and its derivative by the phase."""
         pose = self.mechanism.pose(phase, 1.0, 0.0, 1)
         return complex(*pose.position[self.joint]) - target, complex(*pose.velocity[self.joint])
 

@@ -65,9 +65,9 @@ def image(motion: Any, joint: str, order: Order) -> Any:
 def chains(motion: Any, linkage: Linkage, order: Order, points: Collection[str] = ()) -> tuple[Chain, ...]:
     """Return a polygon's chains: the absolute vectors, then those of bars and of what slides.
 
-    Of points of bodies those are in it from which others are found, and the `points`, such as coupler points.
-    The point of a guide that lies under what slides on it is marked by a dash, B′. Where everything rests no
-    side has a length; where rates are unbounded the ends are not finite.
+    A point of a body is included where other joints are found from it, or where it is one of `points`, such
+    as coupler points. The point of a guide that lies under the sliding joint B is B′. Where everything rests
+    all sides have no length; where rates are unbounded the ends are not finite.
     """
     return tuple(_Images(motion, linkage, order, points).chains())
 
@@ -100,7 +100,7 @@ class _Images:
             yield from (self._slid(slide) for slide in joint.slides)
 
     def _turned(self, start: str, end: str) -> Chain:
-        """Return the way along a bar; about a fixed pin the velocity is the absolute one."""
+        """Return the chain along a bar; about a fixed pin its velocity is absolute."""
         fixed = self.linkage.joint(start).fixed
         steps = self._carried(self._arm(start, end), self._turning((start, end)))
         if fixed and self.order == 1:
@@ -109,7 +109,7 @@ class _Images:
         return Chain(None if fixed else start, end, self._laid(self._image(start), label, steps))
 
     def _slid(self, slide: Slide) -> Chain:
-        """Return the way of what slides: with the point of the guide under it, then along the guide."""
+        """Return the chain of a sliding joint: with the guide's point under it, then along the guide."""
         point, start = slide.point, slide.start
         if start is None:
             return Chain(None, point, self._laid(0j, point, [("absolute", self._image(point))]))

@@ -1,4 +1,4 @@
-"""Fifty digits, for what is worked out once: where roots vanish, and the smooth functions next to there."""
+"""Fifty digits, for what is worked out once: the zeros of roots, and the smooth functions next to them."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from linkanim.mechanics.arithmetic import DIGITS, Constant, digits_of
 PI = Decimal("3.14159265358979323846264338327950288419716939937510582097494459")
 
 _SPARE = 10
-"""Digits that sums have beside those that are asked for."""
+"""Digits that sums have in addition to those asked for."""
 
 
 def context() -> Context:
-    """Return a context of fifty digits, in which what cannot be computed is NaN or infinite."""
+    """Return a context of fifty digits, in which what cannot be computed gives NaN or infinity, no error."""
     return Context(prec=DIGITS, traps=[])
 
 
@@ -32,7 +32,7 @@ def nearest_sum(number: Decimal) -> Sum:
 
 
 def square_root(number: Decimal) -> Decimal:
-    """Return the square root; 0 of what is below zero, at most by rounding."""
+    """Return the square root; 0 for a number below zero, which is so by rounding only."""
     return max(number, Decimal(0)).sqrt()
 
 
@@ -55,16 +55,16 @@ def sine_and_cosine(angle: Decimal) -> tuple[Decimal, Decimal]:
 
 @lru_cache(maxsize=8)
 def _fixed_point(digits: int) -> tuple[int, Decimal]:
-    """Return how many bits of a whole number stand for so many digits and some more, and that unit."""
+    """Return how many binary places hold so many digits and some more, and the whole number that means 1."""
     bits = math.ceil((digits + _SPARE) * math.log2(10))
     return bits, Decimal(1 << bits)
 
 
 @lru_cache(maxsize=64)
 def _series(angle: Decimal, digits: int) -> tuple[Decimal, Decimal]:
-    """Return sine and cosine in the context's digits; formulas ask for the one and then for the other.
+    """Return sine and cosine in the context's digits; cached, since formulas ask for one after the other.
 
-    The sums are of whole numbers, each of so many `bits` a unit: Python's are ten times as fast as Decimals.
+    The sums are of whole numbers with so many binary places: Python's are ten times as fast as Decimals.
     """
     bits, unit = _fixed_point(digits)
     count = int((2 * angle / PI).to_integral_value())

@@ -2,7 +2,7 @@
 
 Its parts, in reading order:
 
-- Where the values of a block live while its passes run: in result rows, and in buffers beside them.
+- Where the values of a block are held while its passes run: in result rows, and in buffers beside them.
 - Compile symbolic expressions into a function of floats and into passes over blocks of arrays.
 """
 
@@ -26,20 +26,20 @@ from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.arithmetic import WHOLE, Expr, Value, digits_of
 from linkanim.mechanics.precise import cosine, sine, square_root
 
-# Where the values of a block live while its passes run: in result rows, and in buffers beside them.
+# Where the values of a block are held while its passes run: in result rows, and in buffers beside them.
 #
-# A pass costs what it fetches and stores. So what is in use at once has to stay in the cache, and a result
-# is written over one of its arguments wherever one ends there.
+# A pass costs what it fetches and stores. So values that are in use at the same time have to fit in the
+# cache, and a result is written over one of its arguments wherever that is not needed any more.
 
 Operation = tuple[int, str, tuple[int | str, ...]]
-"""A node as its index, what it does, and with what: other nodes' indices, names of inputs and of numbers.
+"""A node: its index, its operation and its arguments: other nodes' indices, names of inputs and of numbers.
 
-Linkages of other lengths mostly have the same ones, and with them the same program.
+Linkages that differ in lengths alone mostly have the same operations, and so the same program.
 """
 
 
 class Allocation(NamedTuple):
-    """The variable that holds each node's values, what is left to be copied into rows, how many buffers."""
+    """The variable of each node's values, the outputs still to be copied into rows, the number of buffers."""
 
     held: Mapping[int | str, str]
     copies: tuple[tuple[int, int | str], ...]
@@ -47,10 +47,10 @@ class Allocation(NamedTuple):
 
 
 def allocated(operations: Sequence[Operation], outputs: Sequence[int | str]) -> Allocation:
-    """Return where the values of nodes live, which stand in the order in which they are worked out.
+    """Return where the values of nodes are held; the operations are given in the order of their work.
 
-    Outputs live in their own rows, `o0` on; the others in rows that are not filled yet and in buffers, `b0`
-    on. An output that is no node, or one of an earlier row, is to be copied.
+    Outputs are held in their own rows, named o0, o1, …; other values in rows that are not filled yet, and in
+    buffers, b0, b1, …. An output that is no node, or that has an earlier row, is to be copied.
     """
     nodes = [index for index, *_ in operations]
     held, copies = _rows(set(nodes), outputs)
@@ -85,7 +85,7 @@ def _rows(
 def _heirs(
     nodes: Sequence[int], held: Mapping[int | str, str], last: Mapping[int | str, int]
 ) -> dict[int, tuple[int, str]]:
-    """Return of each inner value until when its place can be handed on, and the row in which that ends."""
+    """Return for each inner value until when its row may pass from value to value, and which row it is."""
     heirs: dict[int, tuple[int, str]] = {}
     for node in reversed(nodes):
         if node not in held:
@@ -100,13 +100,13 @@ class _Free:
     def __init__(self, filled: Mapping[str, int]) -> None:
         self.filled = filled
         self.rows = sorted((at, row) for row, at in filled.items())
-        """Those never used, with when they are filled: the first one to be filled first."""
+        """Rows not used so far, with the pass that fills each; the first to be filled comes first."""
         self.places: list[str] = []
-        """Those given back, the last one last."""
+        """Places that were given back, the latest last."""
         self.buffers = 0
 
     def take(self, at: int, last: int, heir: tuple[int, str]) -> str:
-        """Take the row to which a value is handed down, one free that long, or one free while used."""
+        """Take the heir's row, else a place that is free as long as that, else one free while it is used."""
         until, row = heir
         return self._row(row) or self._until(at, until) or self._until(at, last) or self._new()
 
@@ -150,7 +150,7 @@ BLOCK = 16384
 CACHE_LINE = 64
 """Bytes."""
 _FEW, _NOTED = 200_000, 2
-"""So many numbers in all are worked out so often without compiling."""
+"""A program runs uncompiled for up to this many numbers in all, and up to this many times."""
 
 FORMULAS = {
     "add": "{} + {}",
@@ -169,7 +169,7 @@ FORMULAS = {
 }
 """In floats and Decimals; only graphs that are `exact` have sines and cosines."""
 _IN_PLACE = frozenset({"add", "sub", "mul", "div", "neg", "sqrt"})
-"""In what a formula may stand as an argument: others are longer, or use theirs twice."""
+"""Operations into which a formula may be inlined: the others are longer, or use an argument twice."""
 UFUNCS: Mapping[str, Callable[..., Any]] = {
     "add": np.add,
     "sub": np.subtract,
@@ -187,8 +187,8 @@ UFUNCS: Mapping[str, Callable[..., Any]] = {
 def needed(outputs: Sequence[Value]) -> list[Expr]:
     """Return the nodes that the outputs depend on, arguments before their users.
 
-    They stand as they were recorded, joint by joint: few values wait long for their use, so that what is in
-    use stays in the cache.
+    They stand in the order of recording, joint by joint: few values wait long for their use, so those in use
+    stay in the cache.
     """
     found: dict[int, Expr] = {}
     stack: list[Expr | float | str] = list(outputs)
@@ -201,7 +201,7 @@ def needed(outputs: Sequence[Value]) -> list[Expr]:
 
 
 class _Constants:
-    """Numbers by the names that stand for them in a program, whose text is the same with other numbers."""
+    """Numbers, and names that stand for them in a program: its text is the same for other numbers."""
 
     def __init__(self) -> None:
         self._names: dict[object, str] = {}
@@ -226,7 +226,7 @@ class _Constants:
 
     @property
     def floats(self) -> dict[str, float]:
-        """The numbers as plain floats: one that knows what it stands for computes many times as long."""
+        """The numbers as plain floats: a `Constant` takes many times as long to compute with."""
         return {name: float(number) for name, number in self.numbers.items()}
 
 
@@ -235,7 +235,7 @@ def _variable(value: int | str) -> str:
 
 
 def _compiled(name: str, inputs: Iterable[str], lines: Iterable[str]) -> CodeType:
-    """Return the code that defines the function of that name, inputs and lines, which this module wrote."""
+    """Return the code that defines a function of that name, inputs and lines, all written by this module."""
     source = "\n    ".join([f"def {name}({', '.join(inputs)}):", *lines])
     return compile(source, f"<linkanim {name}>", "exec")
 
@@ -251,9 +251,9 @@ def _function(code: CodeType, name: str, names: Mapping[str, Any]) -> FunctionTy
 FLOAT_NAMES = {"sqrt": math.sqrt, "atan2": lambda y, x: float(np.arctan2(y, x))}
 """An arc tangent is numpy's in floats as in arrays: a C library's has other bits."""
 DEEPEST = 40
-"""Brackets in brackets; Python reads 200."""
+"""The most levels of nested brackets; Python reads 200."""
 _KEPT = 128
-"""Programs whose code is kept, of each sort: a linkage of other lengths mostly has the same."""
+"""Programs of each sort whose code is cached: a linkage of other lengths mostly has the same code."""
 
 
 def scalar(inputs: Sequence[str], outputs: Sequence[Value], layout: str) -> Callable[..., Any]:
@@ -276,8 +276,8 @@ _APART = 2.0**8
 def _mark(name: str) -> float:
     """Return the number that stands in a pose's code where the constant of that name is to be put.
 
-    Arguments, or names, would be fetched one by one at every call. No operation has constants alone, so that
-    none is worked out with a mark.
+    Arguments, or names, would be fetched one by one at every call. No operation has only constants as its
+    arguments, so none is folded with a mark in it.
     """
     return _FIRST_MARK + _APART * int(name.removeprefix("k"))
 
@@ -307,10 +307,10 @@ def _scalar_code(
 def _inlined(
     operations: Sequence[Operation], outputs: Sequence[int | str], inputs: Set[str]
 ) -> tuple[list[str], dict[int | str, str]]:
-    """Return assignments to variables, and what stands for each value but the inputs.
+    """Return assignments to variables, and the text that stands for each value but the inputs.
 
-    That is a mark for a constant, and for a node a name, or in brackets its formula: one that is used at one
-    place only stands there.
+    For a constant that is a mark; for a node its name, or, where it is used in one place only, its formula in
+    brackets.
     """
     uses = Counter(outputs)
     for _, op, arguments in operations:
@@ -386,7 +386,7 @@ class Batch:
         return results
 
     def _numbers(self, values: Sequence[Any]) -> list[Array]:
-        """Return what is the same along the array, without a dimension."""
+        """Return the values that are the same along the array, as arrays without a dimension."""
         return [*(np.array(value, np.float64) for value in self.prelude(*values)), *self.constants]
 
     def _buffers(self, size: int) -> list[Array]:
@@ -411,7 +411,7 @@ def aligned_rows(rows: int, count: int) -> Array:
 
 
 def _block_size(count: int) -> int:
-    """Return the size of equal blocks, whole cache lines of them; all where one is enough."""
+    """Return the size of blocks: whole cache lines, and all of the array where one block is enough."""
     if count <= BLOCK:
         return count
     return -(-count // (-(-count // BLOCK) * CACHE_LINE)) * CACHE_LINE
@@ -434,7 +434,7 @@ def batch(inputs: Mapping[str, bool], outputs: Sequence[Value]) -> Batch:
 def _prelude(
     inputs: tuple[str, ...], used: Sequence[str], nodes: Sequence[Expr]
 ) -> tuple[Callable[..., tuple[float, ...]], list[str]]:
-    """Return the function that computes from the uniform inputs what is the same along arrays; its names."""
+    """Return the function of the uniform inputs that computes all uniform values, and the values' names."""
     constants = _Constants()
     operations = constants.operations(nodes)
     outputs: tuple[int | str, ...] = (*used, *(index for index, *_ in operations))
@@ -443,10 +443,10 @@ def _prelude(
 
 
 class _Passes:
-    """The operations on one block, of its inputs, in their order, and which values are results.
+    """The operations on one block in their order, with the block's inputs and the values that are results.
 
-    For few poses the operations are run one by one, twice at the most: to compile them takes as long as
-    several hundred poses, and many a program is for one pose only, with its rates in time and by the input.
+    For few poses the operations are run one by one, up to twice: compiling takes as long as several hundred
+    poses, and many programs are for one pose only, with its rates in time and by the input.
     """
 
     def __init__(
@@ -456,7 +456,7 @@ class _Passes:
         self._runs = 0
 
     def run_as_noted(self, given: Sequence[Array], results: Array) -> bool:
-        """Fill the results (outputs, N) of the inputs, and return whether that was done."""
+        """Fill the results (outputs, N) without compiling; return False where they are left to `block`."""
         if self._runs == _NOTED or results.shape[1] * len(self._operations) > _FEW:
             return False
         self._runs += 1
@@ -474,7 +474,7 @@ class _Passes:
 
     @cached_property
     def block(self) -> Callable[..., None]:
-        """What runs one block, of its inputs, result rows and buffers."""
+        """The function that runs one block, given its inputs, result rows and buffers."""
         rows = (f"o{row}" for row in range(len(self._outputs)))
         buffers = (f"b{n}" for n in range(self.buffers))
         lines = [*_calls(self._operations, self._places)] or ["pass"]
@@ -492,7 +492,7 @@ class _Passes:
 
 
 _passes = lru_cache(maxsize=_KEPT)(_Passes)
-"""Linkages of one form share theirs."""
+"""The passes of equal operations, which linkages of one form share."""
 
 
 def _calls(operations: Sequence[Operation], places: Allocation) -> Iterator[str]:
@@ -504,7 +504,7 @@ def _calls(operations: Sequence[Operation], places: Allocation) -> Iterator[str]
             a, b, below, otherwise = given
             yield f"{place}[...] = where({a} < {b}, {below}, {otherwise})"
         else:
-            # By keyword costs time at every call; numpy asks it only of these two.
+            # A keyword costs time at every call; numpy requires it of these two only.
             target = f"out={place}" if op in ("minimum", "maximum") else place
             yield f"{op}({', '.join(given)}, {target})"
     for row, value in places.copies:

@@ -64,7 +64,7 @@ _SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 _NOUN = 3
 """A name of fewer letters is no noun."""
 _ADJECTIVES = frozenset({"upper", "lower", "left", "right", "large", "small", "short", "upright"})
-"""What bodies are called that is no noun."""
+"""Names of bodies that are adjectives: "the upper link"."""
 
 
 def indexed(symbol: str, index: str) -> str:
@@ -93,7 +93,7 @@ def link_labels(linkage: Linkage) -> dict[str, str]:
 def called(body: Body, names: Mapping[str, str]) -> str:
     """Return what a body is called in words, by its name in `names`: "Rocker", "Link 3", "Slider 5".
 
-    One with a letter is "Link b": the letter alone would be read as a joint's.
+    A body named by one letter is "Link b": the letter alone would be read as a joint's.
     """
     if body.name.isdecimal():
         return f"{'Slider' if body.slider else 'Link'} {body.name}"
@@ -124,7 +124,7 @@ _NEAREST = 10
 _LONG = 60
 """Characters of a token: more take long to compare, and none has them."""
 _LEVEL = 1e-9
-"""Of a quantity's greatest size; what changes less stands still."""
+"""Share of a quantity's greatest size; a quantity that changes by less stands still."""
 
 
 Path = tuple[str | int, ...]
@@ -135,9 +135,9 @@ class Quantity:
     """A quantity of one linkage: `rocker.angular_velocity`, ω₄, "Rocker: angular velocity", rad/s.
 
     `read` takes a Motion (arrays) or a Pose (floats) and says what it is, in radians and the scene's unit of
-    length: one value an instant, or one in each of `columns`; 0.0 is nothing, `inf` not bounded, `nan` none
-    (`motion.settled`). `unit`, `order` and `divisor` are as in `Measure`. `path` is where it stands in JSON,
-    numbers being places in a list; what follows from others there has none.
+    length: one value an instant, or one in each of `columns`; 0.0 is exactly nothing, `inf` unbounded, `nan`
+    no value (`measures.settled`). `unit`, `order` and `divisor` are as in `Measure`. `path` is its place in
+    JSON, numbers being places in a list; it is empty for a quantity that follows from others in JSON.
     """
 
     token: str
@@ -158,7 +158,8 @@ class Quantity:
     def unbounded_between(self, cycle: Motion) -> Array:
         """Return the phases between the instants of a cycle, at equal steps, at which it is not bounded.
 
-        They lie where what it is over changes its sign; what is unbounded all along is so at the instants.
+        They lie where its divisor changes sign; a quantity that is unbounded throughout is so at the
+        instants.
         """
         divisor, phases = self.divisor, cycle.phase
         if divisor is None or len(phases) < 2:
@@ -191,7 +192,7 @@ class Quantity:
 
     @property
     def named(self) -> str:
-        """What it is called, and its symbol: "Rocker: angular velocity ω₄", "B: x-position, x_{B}"."""
+        """Its words and its symbol: "Rocker: angular velocity ω₄", "B: x-position, x_{B}"."""
         return f"{self.words}{self._joint}{self.symbol}"
 
     @property
@@ -220,7 +221,7 @@ def _registered(linkage: Linkage, names: tuple[tuple[str, str], ...]) -> Mapping
 
 
 def recorded(linkage: Linkage) -> Iterator[Quantity]:
-    """Yield what JSON and CSV hold: fixed pins and forces that are not known as well."""
+    """Yield the quantities of JSON and CSV, with those of fixed pins and with forces that are not known."""
     return (quantity for quantity in _quantities(linkage, NO_NAMES, still=True) if quantity.path)
 
 
@@ -237,7 +238,7 @@ def look_up(known: Mapping[str, Quantity], token: str, of: str) -> Quantity:
 
 
 def _nearest(known: Iterable[str], token: str) -> list[str]:
-    """Return the tokens most like another: of the same part and of words like its, then those like it."""
+    """Return the tokens most like another: first those of the same part with similar words, then the rest."""
     from difflib import SequenceMatcher
 
     token = token.casefold().replace("speed", "velocity")
@@ -309,7 +310,7 @@ def _of_whole(linkage: Linkage) -> Iterator[Quantity]:
 
 
 def _of_input(linkage: Linkage) -> Iterator[Quantity]:
-    """Yield how fast the input moves, how long its cylinder is, and what it delivers."""
+    """Yield the input's velocity, its cylinder's length, and the torque or force that it delivers."""
     coordinate, actuator = linkage.drive.coordinate, linkage.drive.actuator
     symbol, words = "ω_{in}" if coordinate.is_angle else "v_{in}", f"Input: {coordinate.velocity}"
     yield _whole(coordinate.rate_token, symbol, words, f"{coordinate.unit}/s", 1, input_rate)
@@ -349,7 +350,7 @@ def _of_body(linkage: Linkage, body: Body, label: str, words: str) -> Iterator[Q
 
 
 def _bound(measure: Measure, part: str, symbol: str, words: str, path: Path) -> Quantity:
-    """Return the quantity that a measure is of one part."""
+    """Return a measure of one part as a quantity."""
     token, words = f"{part}.{measure.name}", f"{words}: {measure.words}"
     known = (token, symbol, words, measure.unit, measure.order)
     divisor = measure.divisor_of(part)
@@ -410,7 +411,7 @@ def _of_strut(strut: Spring | Damper, index: str, words: str, *, every: bool) ->
 
 _LEAST, _MOST = 6, 10
 _IN_STEP = 2
-"""So many quantities are looked at in a step."""
+"""The number of quantities that are looked at in a step."""
 
 
 def key_quantities(cycle: Motion, traced: tuple[str, ...] = ()) -> tuple[str, ...]:

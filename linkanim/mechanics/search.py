@@ -17,7 +17,7 @@ from linkanim.mechanics.program import Array, Bools
 Indices = NDArray[np.intp]
 
 SAMPLES_A_TURN, SAMPLES_A_GEARED_TURN = 1440, 96
-"""At which a true period is looked at, for each drive period; at least so many for a turn of any crank."""
+"""Phases at which each drive period is looked at, and the least number for a turn of any crank."""
 BLOCK, AT_ONCE = 1024, 1 << 16
 """Places worked out at a time where a function has many rows, and where it has few."""
 
@@ -26,9 +26,9 @@ FINEST = 2.0**-70
 
 _ROUNDS = 5
 _AHEAD = 64
-"""So many places are worked out at a time where brackets are fewer."""
+"""Places that are worked out in a call where there are fewer brackets than that."""
 _DEEPEST = 4
-"""Halvings."""
+"""The most halvings that are prepared in one call."""
 
 
 def samples_a_turn(quickest: float) -> int:
@@ -55,7 +55,7 @@ def highest(
 ) -> float:
     """Return where a function is highest within `reach` of a place and between `ends`; NaN counts as least.
 
-    To some 1e-6 of the reach: its value there is that of the peak to about the square of that.
+    The place is right to some 1e-6 of the reach, the function's value to about the square of that.
     """
     for _ in range(_ROUNDS):
         near = np.clip(place + reach * np.linspace(-1, 1, 21), *ends)
@@ -72,11 +72,11 @@ def ends_of(
     *,
     ahead: int = _AHEAD,
 ) -> Array:
-    """Return the last places at which a condition holds, each between one where it does and one where not.
+    """Return the last places (N,) at which a condition holds, between places where it does and does not.
 
-    `holds` takes places (M, N), M in each of the N brackets, and returns whether it holds at each. No
-    bracket is halved below that `share` of its places. Of few brackets all places that several halvings may
-    come to are asked for at once, `ahead` of them at the most: a call costs more than a place.
+    `holds` takes places (M, N), M in each of the N brackets, and returns whether the condition holds at each.
+    No bracket is halved below that `share` of its places. With few brackets, all places that several halvings
+    may reach are asked for in one call, `ahead` of them at the most: a call costs more than a place.
     """
     finest, each = share * np.maximum(np.abs(inside), np.abs(outside)), np.arange(len(inside))
     deep = min(max(int(math.log2(ahead / max(len(inside), 1) + 1)), 1), _DEEPEST)
@@ -93,7 +93,7 @@ def ends_of(
 
 
 def _middles(inside: Array, outside: Array, deep: int) -> Array:
-    """Return the middles of `deep` halvings, a row for each way that the halvings before may have gone."""
+    """Return the middles of `deep` halvings, one row for each outcome of the halvings before."""
     rows: list[Array] = []
     halves = [(inside, outside)]
     for _ in range(deep):
@@ -107,7 +107,7 @@ def _middles(inside: Array, outside: Array, deep: int) -> Array:
 def sign_changes(function: Callable[[Array], Array], places: Array, share: float = FINEST) -> Array:
     """Return where a function changes its sign between neighbouring places; none where it is NaN there.
 
-    To that `share` of the places.
+    Each is found to that `share` of its place.
     """
     return changes_by_row(lambda x: function(x)[np.newaxis], places, share)[1]
 

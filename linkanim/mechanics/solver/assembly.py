@@ -45,7 +45,7 @@ def _find_loops(linkage: Linkage, gears: Mapping[str, Gearing]) -> dict[str, Loo
 
 
 def precise(assembly: Assembly) -> Assembly:
-    """Return the assembly with lengths that stand for themselves in what is made of them, for many digits."""
+    """Return the assembly for many digits: its lengths stay exact in all constants computed from them."""
     linkage = assembly.linkage.scaled(Constant(1.0))
     return replace(assembly, linkage=linkage, loops=_find_loops(linkage, gearings(linkage)))
 
@@ -58,8 +58,8 @@ def resigned(assembly: Assembly) -> Assembly:
 def _named(assemblies: Iterable[Assembly]) -> Assembly:
     """Return the first assembly on which the dyads can lie as they are named, with the signs for it.
 
-    Where the joint that a name goes by lies on one side whatever the signs, they are the first
-    assembly's first: then the name is that of the dyad's own side.
+    Where another joint's side names a dyad but is the same for all signs, the first signs of the first
+    assembly are taken: the name is then read as the dyad's own side.
     """
     found = [
         replace(assembly, signs=signs)
@@ -93,7 +93,7 @@ def _paths(
 
 
 def _rounds(linkage: Linkage, loops: Mapping[str, Loop], arc: Swing) -> int:
-    """Return 2 where one loop sets both ends of a range and another is at its limit at one of them, too."""
+    """Return 2 where one loop sets both ends of a range and another is at its limit at one, too; else 1."""
     first, last = arc.ends
     others = {name: loop for name, loop in loops.items() if name != first and loop.pin == linkage.drive.joint}
     if first != last:
@@ -117,7 +117,7 @@ def _rank(arc: Swing, linkage: Linkage, loops: Mapping[str, Loop]) -> tuple[bool
 
 
 def _runs_back(linkage: Linkage, name: str, loop: Loop) -> bool:
-    """Tell whether a loop's ground runs from the pin that is stated later, so that right of it is above."""
+    """Tell whether a loop's ground starts at the pin stated later, so that its right side is above."""
     ends = {loop.crank.pivot, *linkage.joint(name).pins}
     first = next(pin.name for pin in linkage.pins if pin.name in ends)
     return loop.ground is not None and first != loop.crank.pivot
@@ -153,7 +153,7 @@ def turns_to_return(linkage: Linkage, loops: Mapping[str, Loop]) -> int:
 
 
 def most_turns(linkage: Linkage) -> int:
-    """Return after how many turns of the input every joint has to be back: with many dyads, fewer."""
+    """Return the most turns of the input within which every joint has to be back: fewer with many dyads."""
     dyads = sum(joint.dyad for joint in linkage.joints)
     return min(MOST_TURNS, MOST_DYAD_TURNS // max(dyads, 1))
 

@@ -92,24 +92,24 @@ from linkanim.mechanics.solver.signed_root import (
 
 # The signed root of a dyad on moving points that limits the input, or passes change points.
 #
-# Its margin F = U·W is a difference of rounded coordinates, without digits of its own where it vanishes:
-# q = √F would keep half of them. So each zero has a smooth signed way z to it: the root of half the way to
-# a limit, or the sine of half the way to a change point. There F = z²·R² with R smooth and positive, and
-# next to the zero q = z·R, R being a polynomial fitted once in fifty digits (`fitting`). Then
+# Its margin F = U·W is a difference of rounded coordinates, and has no digits left where it vanishes: q = √F
+# would keep half of them. So each zero has a smooth signed distance z: the root of half the distance to a
+# limit, or the sine of half the distance to a change point. There F = z²·R² with R smooth and positive, and
+# next to the zero q = z·R, R being a polynomial fitted once in fifty digits (in `limits`). Then
 #
 #     q' = d(zR)/dz z'        ρ = q'/((U - W)/2)
 #
 # need no digits of F or of its rates, and stay finite through limits and change points. Between the zeros
-# F keeps its digits: there q = ±√F, and the signs of all the ways are its sign on the smooth path.
+# F keeps its digits: there q = ±√F, its sign on the smooth path being the product of the signs of all z.
 #
 # Where F comes near zero and turns back, at an extreme of the separation, its least value F₀ is found in
-# fifty digits, too, and R² is fitted: there q = ±√(F₀ + r²), r = z·R, z the sine of half the way from there,
-# and
+# fifty digits, too, and R² is fitted: there q = ±√(F₀ + r²), r = z·R, z the sine of half the distance from
+# that place, and
 #
 #     q' = r r'/q        q'' = (r r'' + r'² F₀/q²)/q
 
 BESIDE_AN_END = 1e-3
-"""Sine of the phase below which half the way to an end of a swing has the digits of that to a place."""
+"""Sine of a place's phase below which half the way to the swing's end gives all digits of the distance."""
 
 
 class PolynomialFit(NamedTuple):
@@ -135,9 +135,9 @@ class PolynomialFit(NamedTuple):
 
 
 class SignedDistance(NamedTuple):
-    """A signed distance z from a zero, and the argument of what is fitted there; `share` is z over it.
+    """A signed distance z from a zero, and the argument of the polynomial there; `share` is z over it.
 
-    The argument is the same a turn later, where z is -z.
+    A turn later the argument is the same and z has the other sign.
     """
 
     z: Moving
@@ -146,9 +146,9 @@ class SignedDistance(NamedTuple):
 
 
 class Near(NamedTuple):
-    """What is fitted next to a zero: R, and D over the argument where the ends of equal bars meet there.
+    """The fits next to a zero: R, and D over the argument where the ends of equal bars meet there.
 
-    `least` is what the margin comes down to where that is not zero: then R² is fitted.
+    `least` is the margin's least value where that is not zero: then R² is fitted.
     """
 
     root: PolynomialFit
@@ -167,10 +167,10 @@ class Near(NamedTuple):
 
 @frozen
 class End:
-    """A limit that the dyad sets, at the swing's upper or its lower end: z² is half the way to it.
+    """A limit that the dyad sets, at the swing's upper or its lower end: z² is half the distance to it.
 
-    Where the dyad fails to close on a short stretch only, of which half is the `stretch`, z² is that times
-    half the way to its other end.
+    Where the dyad fails to close on a short stretch only, z² is that times half the distance to the other end
+    of the stretch; `stretch` is half its length.
     """
 
     upper: bool
@@ -178,7 +178,7 @@ class End:
     stretch: float = 0.0
 
     def distance(self, state: InputState) -> SignedDistance:
-        """Return the way to the limit."""
+        """Return the signed distance to the limit."""
         assert state.ends is not None
         ends = state.ends
         z, half = (ends.root_u, ends.u) if self.upper else (ends.root_v, ends.v)
@@ -192,11 +192,11 @@ class End:
 
 @frozen
 class Stationary:
-    """A change point, or a dip: z is the sine of half the way from it, and the argument that tangent.
+    """A change point, or a dip: z is the sine of half the distance from it, the argument the tangent of that.
 
-    `place` is an angle of an input that turns; of one that swings it is a phase, since its two ways may
-    run on different closures before this one, and `amplitude` is that of the swing. It repeats after
-    `turns` drive periods (a power of two, of a swing).
+    `place` is an angle for an input that turns, a phase for one that swings: there the dyads before this one
+    may be on different closures on the two ways. `amplitude` is that of the swing. The place repeats after
+    `turns` drive periods (for a swing, a power of two).
     """
 
     place: Sum
@@ -205,7 +205,7 @@ class Stationary:
     near: Near | None = None
 
     def distance(self, state: InputState) -> SignedDistance:
-        """Return the way from there."""
+        """Return the signed distance from the place."""
         turn = self._on_turn(state) if self.amplitude is None else self._on_swing(state, self.amplitude)
         sine, cosine = turn
         return SignedDistance(sine, _quotient(sine, cosine), cosine.value)
@@ -262,7 +262,7 @@ def _turning(sine: Value, cosine: Value, rate: Slope) -> SineAndCosine:
 
 
 def _quotient(a: Moving, b: Moving) -> Moving:
-    """Return a quotient of what moves."""
+    """Return the quotient of two moving numbers, with its rates."""
     value = a.value / b.value
     rate = (a.rate - value * b.rate) / b.value
     return Moving(value, rate, (a.second - value * b.second - rate * b.rate * 2.0) / b.value)
@@ -291,11 +291,11 @@ Fitted = Zero | Dip
 
 
 class Closing(NamedTuple):
-    """What closes a dyad on moving points: U, W, what they change by, and its ends' way D where it has two.
+    """What closes a dyad on moving points: U, W, the separation they depend on, and D where it has two ends.
 
-    `separation` is L² of two ends (`squared`), or how far a single one lies beside its line; W' is its rate,
-    U' less it.
-    `half_difference` is (U - W)/2, or 1/2 of a `single` root, which has no U.
+    `separation` is L² between two ends (`squared`), or how far a single end lies beside its line. W' is the
+    separation's rate, U' is minus that. `half_difference` is (U - W)/2, or 1/2 for a `single` root, which has
+    no U.
     """
 
     u: Value
@@ -312,12 +312,12 @@ class Closing(NamedTuple):
 
     @property
     def size(self) -> Value:
-        """What the margin is beside: (U + W)², which is 16a²b² of two bars, or L²."""
+        """The scale of the margin: (U + W)², which is 16a²b² for two bars, or L²."""
         return self.separation.value if self.single else (self.u + self.w) * (self.u + self.w)
 
     @property
     def gap(self) -> Value:
-        """How much longer, or shorter, the separation may still become: its nearer factor as a length."""
+        """How far the dyad is from its nearer limit, as a length: by how much its ends may still move."""
         if not self.squared:
             return minimum(self.u, self.w)
         distance = sqrt(self.separation.value)
@@ -329,9 +329,9 @@ class Closing(NamedTuple):
         return minimum(self.u / maximum(distance + most, SMALLEST), folded)
 
     def rates(self, q: Moving) -> Slope:
-        """Return ρ of a root that is known with its rates: from q', or where U and W are alike from (L²)'.
+        """Return ρ of a root that is known with its rates: from q', or from (L²)' where U and W are alike.
 
-        There q is at its greatest, and q'/((U - W)/2) nothing over nothing.
+        Where U = W, q is at its greatest, and q'/((U - W)/2) is 0/0.
         """
         half, (rate, second) = self.half_difference, (self.separation.rate, self.separation.second)
         if self.single:
@@ -361,7 +361,7 @@ class ChainRoot:
 
     @property
     def change_points(self) -> Iterator[Sum]:
-        """What names the places at which the root changes its sign and the input goes on."""
+        """The places (see `InputPath.place`) at which the root changes its sign and the input goes on."""
         return (zero.place for zero in self.zeros if isinstance(zero, Touch))
 
     def root(self, closing: Closing, state: InputState) -> SignedRoot:
@@ -386,7 +386,7 @@ class ChainRoot:
         return self._sides([zero.distance(state) for zero in self.zeros])[0]
 
     def _sides(self, away: Sequence[SignedDistance]) -> tuple[Value, list[Value]]:
-        """Return the sign of the closure on the smooth path, and what it is but for each of the zeros."""
+        """Return the sign of the closure on the smooth path, and for each zero the sign without its share."""
         signs = [_sign(distance.z.value) for distance in away]
         before = [*accumulate(signs, mul, initial=self.sign)]
         after = [*accumulate(reversed(signs), mul, initial=1.0)]
@@ -398,7 +398,7 @@ def _beside(
 ) -> SignedRoot:
     """Return the root from its fit next to a zero, else the one from `far` of it.
 
-    `there` has the distance from the zero, and the sign of the closure but for that.
+    `there` has the distance from the zero, and the sign of the closure without that zero's share.
     """
     distance, others = there
     fitted = near.root.at(distance.argument)
@@ -424,7 +424,7 @@ def _beside(
 
 
 def _root(x: Moving, more: float = 0.0) -> Moving:
-    """Return the root of what moves and some more, which is positive."""
+    """Return the root of a moving number plus `more`, with its rates; the sum is positive."""
     root = sqrt(x.value + more)
     rate = x.rate * 0.5 / root
     return Moving(root, rate, (x.second * 0.5 - rate * rate) / root)
@@ -441,8 +441,8 @@ def _sign(value: Value) -> Value:
 
 # A linkage put together, as data, and one walk over it: what is known of its joints so far.
 #
-# Joints come in their order, each closed from those before it. What turns as one piece is kept beside its
-# frame: a bar, the arms along which its joints are carried, and how fast it turns.
+# Joints come in their order, each closed from those before it. For every rigid body the walk keeps how fast
+# it turns, and the arms between its joints.
 #
 # Seen from a line of travel, fixed or carried by a body, a point lies f forward of the line's base and e to
 # its left. Where the line turns at Ω with its body, u along it and w from its base to the point,
@@ -450,8 +450,8 @@ def _sign(value: Value) -> Value:
 #     f = u·w      f' = Ω (u×w) + u·w'
 #     e = u×w      e' = -Ω (u·w) + u×w'
 #
-# and what travels at s along the line has the guide's motion, s' along it, and Coriolis' 2Ω s' across it
-# (Uicker, Pennock and Shigley, Theory of Machines and Mechanisms, on points moving in moving frames).
+# and a point that travels at s along the line has the guide's motion, s' along it, and Coriolis' 2Ω s' across
+# it (Uicker, Pennock and Shigley, Theory of Machines and Mechanisms, on points moving in moving frames).
 
 
 @frozen
@@ -468,7 +468,7 @@ class Assembly:
     signs: Mapping[str, int]
     unscale: float = 1.0
     chain: Mapping[str, ChainRoot] = field(default_factory=dict)
-    """The roots of dyads on moving points that vanish on the way."""
+    """The roots, of dyads on moving points, that vanish somewhere on the path."""
 
     @property
     def change_points(self) -> Iterator[float]:
@@ -490,7 +490,7 @@ class Assembly:
 
     @property
     def samples(self) -> int:
-        """At how many phases of a drive period it is looked at: as near as what turns fastest needs."""
+        """The number of phases at which a drive period is looked at: enough for the quickest crank."""
         return samples_a_turn(self.quickest)
 
     @property
@@ -507,7 +507,7 @@ AT_ITS_LIMIT = (
 
 @frozen
 class Piece:
-    """How one rigid body turns, and the arms between its joints that are known as they were closed."""
+    """How one rigid body turns, and the vectors between its joints that closing them gave."""
 
     turning: Slope = field(default_factory=lambda: Slope(0.0))
     arms: dict[tuple[str, str], Vec] = field(default_factory=dict)
@@ -545,12 +545,12 @@ class Walk:
 
     @property
     def exact(self) -> bool:
-        """Whether what is noted will be run in many digits."""
+        """Whether the recorded formulas will be run in many digits."""
         return isinstance(self.state.angle, Expr) and self.state.angle.graph.exact
 
     @property
     def linkage(self) -> Linkage:
-        """What is walked over."""
+        """The linkage that is walked over."""
         return self.assembly.linkage
 
     def pace(self, gearing: Gearing) -> Slope:
@@ -559,7 +559,7 @@ class Walk:
         return Slope(self.state.rate * ratio, self.state.second * ratio)
 
     def add_piece(self, turning: Slope, ends: tuple[str, str], arm: Vec) -> None:
-        """Add the bar between two joints, the vector from the first to the second known as `arm`."""
+        """Add the bar between two joints; `arm` is the vector from the first to the second."""
         self.pieces.append(Piece(turning, {ends: arm}))
 
     def loop_root(self, loop: Loop, sign: int) -> tuple[SignedRoot, Half, Slope]:
@@ -594,7 +594,7 @@ class Walk:
         """Return the root of a dyad on moving points, and keep what closes it."""
         margin = closing.u * closing.w
         if isinstance(margin, float) and margin <= 0:
-            # Its end keeps its distance from the line: what does not change is no formula, but a number.
+            # Its end keeps its distance from the line, so its factors are plain numbers instead of formulas.
             raise AssemblyError(f"joint {name}: {self._why_shut(name, closing)}")
         self.closings[name] = closing
         root = self.assembly.chain.get(name)
@@ -630,7 +630,7 @@ class Walk:
         return self._arm(self.pieces[n], *on).scaled(1.0 / self._length(n, on)), self.pieces[n].turning
 
     def _length(self, n: int, ends: tuple[str, str]) -> Value:
-        """Return how far two joints of one body are apart: known, or for many digits worked out."""
+        """Return how far two joints of one body are apart: as known, or worked out in many digits."""
         if self.exact:
             arm = self._arm(self.pieces[n], *ends)
             return sqrt(arm.dot(arm))
@@ -730,7 +730,7 @@ def place_pin(pin: Pin, walk: Walk) -> None:
 def place_crank(crank: Crank, walk: Walk) -> None:
     """Add r e^{iψ}, ψ = ratio × θ + offset, as r (cos² - sin²) and 2r sin cos of ψ/2.
 
-    The difference is right to 2.3 eps of r, where r - 2r sin² is to 3.6: that is taken where a loop
+    The difference is right to 2.3 eps of r. The form r - 2r sin², right to 3.6 eps, is taken where a loop
     against a fixed pin needs 2r sin² anyway.
     """
     gearing = walk.assembly.gears[crank.name]
@@ -794,7 +794,7 @@ def _turned(joint: RRR, swapped: bool) -> tuple[tuple[str, str], tuple[float, fl
 
 
 _Bar = tuple[Slope, Vec]
-"""How a bar turns, and it as a vector."""
+"""How a bar turns, and the bar as a vector."""
 
 
 def _meet(
@@ -802,8 +802,8 @@ def _meet(
 ) -> tuple[MovingPoint, _Bar, _Bar]:
     """Return where two bars meet, and both bars.
 
-    The shorter bar carries the joint, since its direction is sharper; the longer one, which turns
-    less, has its rate worked out, and the shorter one's is ρ away.
+    The shorter bar carries the joint, since its direction is sharper. The rate of the longer bar, which turns
+    less, is worked out; the shorter one's differs from it by ρ.
     """
     d, t, rho = triangle.across, triangle, triangle.ratio
     if lengths[0] < lengths[1]:
@@ -835,7 +835,7 @@ def loop_of_slider(joint: RRP, linkage: Linkage, gears: Mapping[str, Gearing]) -
 
 
 def close_slider(joint: RRP, walk: Walk) -> None:
-    """Add the slider: its way along the line is that of the bar's end and the root q = ±√(b² - e²).
+    """Add the slider: its travel along the line is that of the bar's end plus the root q = ±√(b² - e²).
 
     With e how far the end lies left of the line and ρ = e'/q the bar turns at -ρ, seen from the line.
     """
@@ -912,7 +912,7 @@ def slot_name(joint: RPR, assembly: Assembly) -> str:
 
 
 def _turning_kinds(turn: Slope, root: SignedRoot, offset: float) -> Slope:
-    """Return how a slotted bar turns: e, and what the sliding adds where the slot misses the pivot."""
+    """Return how a slotted bar turns: e, plus the effect of sliding where the slot misses the pivot."""
     inverse = 1.0 / (root.q * root.q + offset * offset)
     slide = root.ratio.value * (0.5 * offset) * inverse
     growth = root.ratio.value * root.q * inverse
@@ -941,7 +941,7 @@ def _direction(across: Vec, s: Value, offset: float) -> Vec:
 
 
 def close_yoke(joint: RPP, walk: Walk) -> None:
-    """Add where the slot crosses the line: s = f - e cot σ, and its derivatives alike."""
+    """Add the point where the slot crosses the line: s = f - e cot σ, derivatives in the same way."""
     rail, point = guide(joint.line, walk), walk.points[joint.pin]
     cosine, sine = direction(joint.slot)
     forward, aside, lean = rail.forward(point), rail.aside(point), cosine / sine

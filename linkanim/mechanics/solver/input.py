@@ -47,16 +47,16 @@ from linkanim.mechanics.program import Array
 # √u and √v keep their signs, so the motion runs through both limits and back on the other closure.
 
 HalfForm = Callable[..., Half]
-"""Returns half of an angle that is the sum of two numbers; `quarters=` are half turns beside it."""
+"""Returns half of an angle, the sum of two numbers; `quarters=` are half turns to be added to the angle."""
 NOTHING = 2.0**-100
-"""What is less is left of equal sums of two floats."""
+"""The difference of two sums of two floats is rounding below this."""
 
 
 @frozen
 class Ends:
-    """The two limits of a swing: half the way left to each, and its root, which may be `signed`.
+    """The two limits of a swing: half the distance left to each, and its root, which may be `signed`.
 
-    They lie at the angles `low` and `high`; `pace` is the derivative of what drives the input.
+    They lie at the angles `low` and `high`; `pace` is the rate of the phase, or of the angle, that is given.
     """
 
     u: Slope
@@ -85,10 +85,10 @@ class Ends:
 class InputState:
     """What the input does at one instant.
 
-    `angle` is θ without `origin`; `rate` and `second` are its derivatives in time; `pace` is the
-    derivative of what drives it (φ' or θ') with its own derivative; `phase` is φ where a swing is
-    driven by it. `within` is how far from zero `angle` comes, where that is known, and `rest` what the float
-    lacks of it. `stated` is the origin as it was stated: its last digit may be another than that of the sum.
+    `angle` is θ less `origin`; `rate` and `second` are its derivatives in time; `pace` is φ' or θ', whichever
+    is given, with its own derivative; `phase` is φ where a swing is given by it. `within` is how far from
+    zero `angle` comes, where that is known, and `rest` is what the float `angle` lacks. `stated` is the
+    origin as it was stated: its last digit may differ from that of the sum.
     """
 
     angle: Value
@@ -103,7 +103,7 @@ class InputState:
     stated: float | None = None
 
     def coordinate(self, unscale: float) -> tuple[Value, Value, Value]:
-        """Return the input's coordinate with its rates: its angle; of a slider its travel, `unscale`d."""
+        """Return the input's coordinate and its two rates: an angle, or a slider's travel times `unscale`."""
         origin = float(self.origin) if self.stated is None else self.stated
         return self.angle + origin, self.rate, self.second
 
@@ -121,8 +121,8 @@ class InputState:
     def half_shifted(self, ratio: Fraction, shift: Sum, form: HalfForm) -> Half:
         """Return half of ratio × angle + shift.
 
-        Half turns of the shift are kept apart where the angle stays near: a small way from where a sine or
-        cosine vanishes has more digits than the angle there.
+        Half turns of the shift are kept apart where the angle stays near zero: a small distance from the zero
+        of a sine or cosine has more digits than the whole angle.
         """
         scaled, low = _scaled(self.angle, ratio)
         quarters, rest = _half_turns(shift)
@@ -132,7 +132,7 @@ class InputState:
 
 
 def _reach(form: HalfForm) -> float:
-    """Return how far from whole half turns a form may be used without reduction."""
+    """Return how far from zero an angle may be for a form to take it without reduction (rad)."""
     return 0.75 * math.pi if form is sharp_half_angle else math.pi
 
 
@@ -153,12 +153,12 @@ def _summed(angle: Value, low: Value, shift: Sum) -> tuple[Value, Value]:
 
 @frozen
 class TravelState(InputState):
-    """The state where a slider drives: `angle` is the phase that runs its travel, `half` is that of it."""
+    """The state where a slider drives: `angle` is the phase of its travel, and `half` halves that phase."""
 
     travel: Moving = field(default_factory=lambda: Moving(0.0, 0.0, 0.0))
 
     def coordinate(self, unscale: float) -> tuple[Value, Value, Value]:
-        """Return the slider's travel, with its rates, `unscale`d."""
+        """Return the slider's travel and its two rates, each times `unscale`."""
         return self.travel.value * unscale, self.travel.rate * unscale, self.travel.second * unscale
 
 
@@ -200,7 +200,7 @@ def swing_by_phase(phase: Value, pace: Slope, low: Sum, high: Sum) -> InputState
     )
     rate = (both + both) * pace.value
     second = (both + both) * pace.rate + (u - v) * (pace.value * pace.value)
-    # A cosine of its own, not v - u: near the middle of the swing it keeps all its digits.
+    # The cosine itself instead of v - u: near the middle of the swing it keeps all its digits.
     return InputState(cosine_of(phase) * -amplitude, ends.middle, rate, second, pace, ends, phase, amplitude)
 
 
@@ -220,8 +220,8 @@ def swing_by_angle(
 ) -> InputState:
     """Return the state of a swing driven by its angle.
 
-    `ways` are the angle from the middle, of which a float lacks the `rest`, and half of what is left to the
-    upper and the lower limit.
+    `ways` are the angle from the middle, and half the distances to the upper and the lower limit. `rest` is
+    what the float lacks of that angle.
     """
     angle, u, v = ways
     root_u, root_v = (_rated(sqrt(way), sign, pace) for way, sign in ((u, -1.0), (v, 1.0)))
@@ -238,25 +238,26 @@ def half_way(low: Sum, high: Sum) -> float:
 
 
 def _rated(root: Value, sign: float, pace: Slope) -> Moving:
-    """Return a root of half the way to a limit with its rates."""
+    """Return a root of half the distance to a limit, with its rates."""
     rate = pace.value * (0.25 * sign) / root
     return Moving(root, rate, (pace.rate * (0.25 * sign) - rate * rate) / root)
 
 
 # The path of the input: how far it goes, how its phase moves it, when everything is back.
 #
-# A path is found once for a linkage; every pose is computed from it. `InputPath` is what all of them answer;
-# `ThereAndBack` and `Stroke` are what those have in common that turn back, and that a length drives.
+# A path is found once for a linkage; every pose is computed from it. `InputPath` says what every path
+# answers, `ThereAndBack` is the base of paths that turn back, `strokes.Stroke` that of paths that a length
+# drives.
 
 SAME_PLACE = 1e-9
-"""Angles that differ by less, in radians, are one; travels by less than this share of the whole."""
+"""Places that differ by less are one: angles by this in radians, travels by this share of the whole."""
 
 Limit = tuple[Sum, str | None]
 """The phase of a limit, and the dyad that sets it; None where the path itself ends."""
 
 
 Shortened = tuple[Sum, Sum, tuple[str, str], int]
-"""The angles between which a path is cut back, the dyads that limit it there, and its repeats."""
+"""What a path is cut back to: its two end angles, the dyads that limit it there, and its `repeats`."""
 
 
 @frozen
@@ -294,7 +295,7 @@ class InputPath(ABC):
 
     @abstractmethod
     def holds(self, place: float, turns: int = 1) -> bool:
-        """Tell whether the input comes to a place; to an angle also by `turns` turns, or twice as many …"""
+        """Tell whether the input comes to a place; for an angle, whole multiples of `turns` turns aside."""
 
     @abstractmethod
     def phase_of(self, place: float, near: float) -> float:
@@ -314,14 +315,14 @@ class InputPath(ABC):
 
     @abstractmethod
     def beside(self, start: float, phases: Array, rows: NDArray[Any]) -> tuple[Array, NDArray[Any], int]:
-        """Return phases around the start and what is known there (D, N), and the start's index."""
+        """Return phases around the start, the `rows` (D, N) for these phases, and the start's index."""
 
     @abstractmethod
     def cut(self, low: Limit, high: Limit) -> Shortened:
         """Return the part of the path between two phases; AssemblyError where it may not be shorter."""
 
     def place(self, phase: Sum) -> Sum:
-        """Return what names the place at a phase: the phase, for one that is passed there and back."""
+        """Return what names the place at a phase: the phase itself where the two ways are distinct."""
         return phase
 
     def coordinate_at(self, place: Sum) -> float:
@@ -364,7 +365,7 @@ class InputPath(ABC):
         return ("x",), turn(graph.input("x"), pace, Sum(0.0))
 
     def solved_from(self, distances: LimitDistances) -> tuple[Array, ...]:
-        """Return what the program by angle takes: the angle, and what else its state is known by."""
+        """Return the arguments of the program by angle: the angle, and what else gives the state."""
         return (distances.angle,)
 
     def same(self, place: float, other: float) -> bool:
@@ -391,29 +392,28 @@ class ThereAndBack(InputPath):
         return self.phase_of(start, 0.0)
 
     def beside(self, start: float, phases: Array, rows: NDArray[Any]) -> tuple[Array, NDArray[Any], int]:
-        """Return phases of the way to the far end and what is known there (D, N), and the start's index."""
+        """Return the phases of the way to the far end, the `rows` (D, N) for these, and the start's index."""
         up = (phases >= 0) & (phases <= math.pi)
         return phases[up], rows[:, up], int(np.abs(phases[up] - self.home(start)).argmin())
 
 
 def nearer_way(forth: float, near: float) -> float:
-    """Return of ±forth, whole turns aside, the phase nearest to `near`: of a place passed there and back."""
+    """Return the phase nearest to `near` among ±forth, whole turns aside: of a place passed both ways."""
     ways = (near + math.remainder(phase - near, 2 * math.pi) for phase in (forth, -forth))
     return min(ways, key=lambda phase: abs(phase - near))
 
 
 def retraced(phases: Any) -> tuple[Any, Any]:
-    """Return the phases on the way up where an input is that comes back by the way it came, and +1 or -1.
+    """Return the phases of the same poses on the way up, for an input that retraces its way, and +1 or -1.
 
-    The sign is that of its rates: +1 on the way up and at both ends, where they change it, -1 on the way
-    back. A float of any multiple of π is an end, as exact as it is itself, and so is what its last digits
-    leave of one (`stated`).
+    The sign is that of its rates: +1 on the way up and at both ends, -1 on the way back. A phase within its
+    last digits of a multiple of π is an end (`stated`).
     """
     within = np.fmod(phases, 2 * math.pi)
     within = np.where(np.abs(within) > math.pi, within - np.copysign(2 * math.pi, within), within)
     near, at = STATED * np.hypot(phases, math.pi), np.abs(within)
     back = np.where((within < -near) & (within > near - math.pi), -1.0, 1.0)
-    # of many turns a phase's last digits are more than those of the end that is left
+    # after many turns a phase's last digits are coarser than those of the end
     ended = np.where(at <= near, 0.0, np.where(at >= math.pi - near, math.pi, at))
     return np.where(np.abs(phases) > 2 * math.pi, ended, at), back
 
@@ -422,8 +422,9 @@ def retraced(phases: Any) -> tuple[Any, Any]:
 class LimitDistances:
     """How far angles are from the limits of a swing.
 
-    `angle` is that from its middle, and `rest` what the float lacks of it; `u` and `v` are half of what is
-    left to its upper and its lower limit; angles lie `outside`, or are a limit as well as a float can say it.
+    `angle` is measured from the swing's middle, and `rest` is what the float lacks of it; `u` and `v` are
+    half the distances to its upper and its lower limit. An angle is `outside` the swing, or `at_limit`: as
+    near to a limit as a float can be.
     """
 
     angle: Array
@@ -435,7 +436,7 @@ class LimitDistances:
 
     @property
     def snapped(self) -> LimitDistances:
-        """The same, the smaller one of u and v zero for angles that are a limit."""
+        """The same distances, with the smaller of u and v set to zero for angles at a limit."""
         pairs = (self.u, self.v), (self.v, self.u)
         u, v = (np.where(self.at_limit & (way <= other), 0.0, way) for way, other in pairs)
         return replace(self, u=u, v=v)
@@ -484,7 +485,7 @@ class Turn(InputPath):
         return 0.0
 
     def beside(self, start: float, phases: Array, rows: NDArray[Any]) -> tuple[Array, NDArray[Any], int]:
-        """Return phases and what is known there (D, N), coming round on both sides; the start's index."""
+        """Return phases continued on both sides of the start, their `rows` (D, N), and the start's index."""
         once, period = (phases >= 0) & (phases < 2 * math.pi * self.periods), 2 * math.pi * self.periods
         one, count = phases[once], int(once.sum())
         return np.concatenate([one - period, one, one + period]), np.tile(rows[:, once], 3), count
@@ -515,7 +516,7 @@ class Turn(InputPath):
 
 SOLVED_FROM = ("x", "u", "v", "rest")
 NEARLY_ZERO = 1e-8
-"""Half a last digit of this is more than a limit is off by."""
+"""Half a last digit of this number is more than the error of a limit."""
 
 
 @frozen
@@ -555,12 +556,12 @@ class Swing(ThereAndBack):
 
     @property
     def input_range(self) -> tuple[float, float]:
-        """How far the input goes; what the last digits of its sums leave of 0 is 0."""
+        """How far the input goes (rad); an end that differs from 0 by rounding alone is 0."""
         low, high = (float(end) for end in (self.low, self.high))
         return low if abs(low) > STATED * math.pi else 0.0, high if abs(high) > STATED * math.pi else 0.0
 
     def holds(self, place: float, turns: int = 1) -> bool:
-        """Tell whether the input comes to an angle, or to one that many turns away, or twice as many …"""
+        """Tell whether the input comes to an angle, whole multiples of `turns` turns aside."""
         return abs(math.remainder(place - float(self.middle), 2 * math.pi * turns)) <= self.amplitude
 
     def phase_of(self, place: float, near: float) -> float:
@@ -587,7 +588,7 @@ class Swing(ThereAndBack):
         return first, last, (low[1] or self.ends[0], high[1] or self.ends[1]), self.repeats
 
     def _angle(self, phase: Sum) -> Sum:
-        """Return the angle at a phase on the way up, from the nearer end: twice the way is known exactly."""
+        """Return the angle at a phase on the way up, from the nearer end: so it is exact next to both."""
         with localcontext(context()):
             way = 2 * exactly(self.amplitude)
             if float(phase) < math.pi / 2:
@@ -616,7 +617,7 @@ class Swing(ThereAndBack):
         return SOLVED_FROM, swing_by_angle((x, u, v), pace, self.low, self.high, rest)
 
     def solved_from(self, distances: LimitDistances) -> tuple[Array, ...]:
-        """Return what the program by angle takes: the angle from the middle, half the ways left, the rest."""
+        """Return the arguments of the program by angle: `angle`, `u`, `v` and `rest` of the distances."""
         return distances.angle, distances.u, distances.v, distances.rest
 
     @np.errstate(all="ignore")
@@ -624,8 +625,8 @@ class Swing(ThereAndBack):
         """Return how far angles are from the low end, the middle and the high end, whole turns aside.
 
         After `repeats` turns of the input the linkage is the same; they are taken off without rounding.
-        The float nearest a limit is the limit as well as a float can say it: it is never outside, nor is 0
-        where a limit is what its own last digits leave of 0.
+        The float nearest a limit counts as the limit and is never outside; nor is 0 where a limit differs
+        from 0 by rounding alone.
         """
         turns = self.repeats * np.rint((angle - float(self.middle)) / (2 * math.pi * self.repeats))
         whole, lost = two_product(-turns, FULL_TURN.high)

@@ -52,7 +52,7 @@ from linkanim.mechanics.solver.loop import ONE_PLACE
 # Where the root of a dyad on moving points vanishes, or nearly, and what is smooth there, in fifty digits.
 #
 # The formulas of the linkage are compiled for decimals, so a margin has digits left wherever it matters:
-# its zeros come from Newton's method, and R with margin = z²·R² (`chain`) from interpolation.
+# its zeros come from Newton's method, and R with margin = z²·R² (see `closing`) from interpolation.
 
 Decimals = tuple[Decimal, ...]
 
@@ -70,7 +70,7 @@ TURNING_BACK = (
 
 
 class Sample(NamedTuple):
-    """A place next to a zero: the argument of what is fitted, z, and there the margin and D."""
+    """A place next to a zero: the argument of the fit, z, and the margin and D there."""
 
     argument: Decimal
     z: Decimal
@@ -79,32 +79,32 @@ class Sample(NamedTuple):
 
 
 STEPS, SLOW = 40, 12
-"""The steps at the most, and those after which they are taken for a series whose sum is told from two."""
+"""The most steps of Newton's method, and the count after which they are summed as a geometric series."""
 NUDGE = Decimal(10) ** -15
 CONVERGED = Decimal(10) ** -25
 NEARBY = 1e-6
-"""How far a zero may lie from where floats have found it."""
+"""How far a zero may lie from where floats found it, in phase."""
 POINTS = 20
 POINTS_OF_A_DIP = 32
-"""Its fit is to hold as far as the margin lacks digits, which may be far."""
+"""Samples of a dip's fit, which has to hold as far as the margin lacks digits: that may be far."""
 WIDEST = 0.5
 NARROWEST = 1e-4
-"""Beyond a narrower stretch than this the margin itself would have lost its digits."""
+"""The narrowest stretch of a fit: beside a narrower one the margin itself would have no digits."""
 NARROWEST_AT_A_LIMIT = 1e-12
-"""A margin grows the faster beside a limit, the nearer another one lies behind it."""
+"""The same at a limit, beside which the margin grows the faster, the nearer another limit lies behind it."""
 TRIES = 16
 SHORT = 0.05
 """Half the longest stretch on which a dyad fails to close that is taken as one place."""
 LAST = 1e-17
 TOLERABLE = 1e-13
-"""What the last coefficients of a fit should be beside the first one, and what they may be.
+"""The share of the first coefficient that a fit's last ones should not exceed, and the one they must not.
 
 Rounded constants leave kinks of 1e-16 in the margin, where the formula of a loop changes its side.
 """
 
 
 class ExactWalk:
-    """A linkage's dyads in many digits; a walk over it goes as far as they are asked for, once for all."""
+    """A linkage's dyads in many digits, from one walk that goes only as far as the dyads asked for."""
 
     def __init__(self, assembly: Assembly) -> None:
         self.assembly = assembly
@@ -127,10 +127,10 @@ class ExactWalk:
 
 
 def refining(exact: ExactWalk, name: str) -> Callable[[Sum], Sum]:
-    """Return what finds the phase at which a dyad's margin vanishes, from one nearby (Newton's method).
+    """Return the function from a phase to the nearby one at which a dyad's margin vanishes (Newton's method).
 
-    Slopes are differences: the formulas' own rates have constants that are rounded otherwise than the
-    margin's.
+    Slopes are taken from differences: the constants in the formulas of the rates are rounded differently from
+    the margin's.
     """
     run = decimals(("x",), _outputs(exact.closing(name))[:1])
 
@@ -143,10 +143,10 @@ def refining(exact: ExactWalk, name: str) -> Callable[[Sum], Sum]:
 
 
 def extremes(exact: ExactWalk, name: str) -> Callable[[float], tuple[Sum, float, float]]:
-    """Return what finds the extreme of a dyad's separation from a phase in floats (Newton's method).
+    """Return the function from a phase in floats to the extreme of a dyad's separation (Newton's method).
 
-    With its phase comes by how much of a length the dyad closes there; where that is negative it does not
-    within so far, the last, of the phase.
+    It returns the extreme's phase, the length by which the dyad closes there, and, where that is negative,
+    how far to both sides of the phase it does not close.
     """
     closing = exact.closing(name)
     run = decimals(("x",), (closing.u * closing.w, closing.gap))
@@ -176,7 +176,7 @@ def _newton(phase: Sum, step: Callable[[Decimal], Decimal]) -> Decimal | None:
     last = Decimal(0)
     for count in range(STEPS):
         change = step(place)
-        # Beside a kink differences are of both its sides, and steps are each a share of the one before.
+        # Beside a kink differences mix both of its sides, and each step is a fixed share of the one before.
         share = change / last if count > SLOW and count % 2 else Decimal(0)
         last = change
         change /= 1 - share if abs(share) < 1 else 1
@@ -195,7 +195,7 @@ def _outputs(closing: Closing) -> tuple[Value, ...]:
 
 
 def fitted(assembly: Assembly) -> Assembly:
-    """Return the assembly with what is smooth next to the zeros of every dyad on moving points."""
+    """Return the assembly with a fit next to every zero of the dyads on moving points."""
     exact = ExactWalk(assembly)
     chain = {name: _fitted_root(exact, name, root) for name, root in assembly.chain.items()}
     return replace(assembly, chain=chain)
@@ -214,7 +214,7 @@ def _fitted_root(exact: ExactWalk, name: str, root: ChainRoot) -> ChainRoot:
 
 
 def _settled(exact: ExactWalk, name: str, dips: Sequence[Dip]) -> list[Dip]:
-    """Return dips at the extremes themselves, which floats have found to half their digits."""
+    """Return the dips moved to the exact extremes, which floats found to half their digits."""
     if not dips:
         return []
     extreme = extremes(exact, name)
@@ -281,14 +281,14 @@ _Stretch = tuple[float, float, float]
 
 
 def _fit(stretch: _Stretch, samples: list[Sample], values: list[Decimal]) -> PolynomialFit:
-    """Return the polynomial through the values at the samples' ways."""
+    """Return the polynomial through the values at the samples' arguments."""
     _, centre, half = stretch
     places = [(sample.argument - Decimal(centre)) / Decimal(half) for sample in samples]
     return PolynomialFit(*stretch, tuple(interpolated(places, values)))
 
 
 def _squares(samples: list[Sample], rest: Decimal) -> list[Decimal]:
-    """Return R², NaN beyond another zero; at the zero itself rounding has left a `rest` of the margin."""
+    """Return R², NaN beyond another zero; `rest` is what rounding leaves of the margin at the zero itself."""
     squares = [(sample.margin - rest) / sample.z**2 for sample in samples]
     return [square if square > 0 else Decimal("NaN") for square in squares]
 
@@ -300,13 +300,13 @@ def _shares(samples: list[Sample], zeroth: Sample, component: int) -> list[Decim
 
 
 def _meet(across: Decimals, samples: list[Sample]) -> bool:
-    """Tell whether D is nothing at the zero itself, beside what it is around."""
+    """Tell whether D at the zero itself is negligible beside D around it."""
     around = max((abs(value) for sample in samples for value in sample.across), default=Decimal(0))
     return bool(across) and all(abs(value) <= around * Decimal(NEARBY) for value in across)
 
 
 def _last(fits: list[PolynomialFit]) -> float:
-    """Return the last coefficients beside the greatest first one, as they stand to Chebyshev polynomials."""
+    """Return the last coefficients over the greatest first one, in terms of Chebyshev polynomials."""
     size = max((abs(c) for fit in fits for c in fit.coefficients[:2]), default=1.0)
     last = max(
         (abs(c) / 2.0 ** (len(fit.coefficients) - 2) for fit in fits for c in fit.coefficients[-2:]),
@@ -316,12 +316,12 @@ def _last(fits: list[PolynomialFit]) -> float:
 
 
 def _start(path: InputPath, place: Stationary) -> Sum:
-    """Return what names a place at phase 0."""
+    """Return the coordinate of phase 0 in the terms of a place: 0, or the angle of an input that turns."""
     return Sum(0.0) if place.amplitude else path.place(Sum(0.0))
 
 
 def _samplers(exact: ExactWalk, name: str) -> Callable[[Fitted], tuple[Callable[[Decimal], Sample], float]]:
-    """Return what gives, of a zero, the margin and D by the way to it, and how far that way may go."""
+    """Return the function from a zero to its samples by the distance from it, and the greatest distance."""
     path = exact.assembly.path
 
     @cache
@@ -347,7 +347,7 @@ def _samplers(exact: ExactWalk, name: str) -> Callable[[Fitted], tuple[Callable[
 
 
 def _by_way(assembly: Assembly, path: Swing, name: str, end: End) -> Callable[[Decimal], Sample]:
-    """Return the margin as a function of half the way to a limit."""
+    """Return the margin as a function of half the distance to a limit."""
     graph = Graph(exact=True)
     u, v = graph.input("u"), graph.input("v")
     state = swing_by_angle((v - u, u, v), Slope(0.0), path.low, path.high)
@@ -372,14 +372,14 @@ def _by_way(assembly: Assembly, path: Swing, name: str, end: End) -> Callable[[D
 TOUCHING = 1e-12
 """Share of a margin's scale within which floats cannot tell its sign, where the pins are near the origin."""
 OFF = 2.0**-46
-"""That share for pins as far from the origin as the longest bar is long, where that is more: it grows with
-what coordinates lose of a bar's digits."""
+"""The same share for pins as far from the origin as the longest bar is long, taken where it is the larger: it
+grows with that distance, as coordinates lose digits of a bar."""
 BARELY = 1 / 64
-"""Share of its greatest value below which a margin that turns back costs what is made of it its digits."""
+"""Share of its greatest value below which a margin that turns back costs results their digits."""
 MOST_TOUCHING = 24
 """Extremes in a turn of the fastest crank at which floats cannot tell a margin's sign."""
 ROUNDING = 2.0**-48
-"""Share of the longest bar that rounded lengths make: within it bars just fall into line."""
+"""Share of the longest bar by which rounded lengths may be off: within it bars just fall into line."""
 UNEVEN = 0.1
 """How far the change of a rate may be off the one that its slopes make, where it has no sharper bend."""
 FLAT = 2.0**-52
@@ -389,10 +389,10 @@ AHEAD = 512
 """Places at a time where extremes are bracketed: each call works the whole linkage out."""
 HALVINGS = 32
 MOST_UNCLEAR = 500_000
-"""Cells of all dyads in which extremes could be missed: where halving makes more, and more than there were
-samples at first, they are rounding on a stretch of next to nothing, and have no end."""
+"""The most cells, of all dyads, in which extremes could be missed. Where halving makes more, and more than
+there were samples at first, the margin is rounding alone on a whole stretch, and halving would not end."""
 AT_END = 1e-6
-"""At its own limit, where the input turns back, a separation is extreme by phase: that is no touching."""
+"""In phase: at a dyad's own limit, where the input turns back, its separation is extreme without touching."""
 
 
 class Sampled(NamedTuple):
@@ -406,11 +406,11 @@ class Sampled(NamedTuple):
     blur: float
 
     def at(self, index: NDArray[np.intp] | slice) -> Sampled:
-        """Return some of them."""
+        """Return the samples at these indices."""
         return self._replace(phases=self.phases[index], rows=self.rows[..., index])
 
     def followed(self, other: Sampled) -> Sampled:
-        """Return these, then the others."""
+        """Return these samples followed by the others."""
         return self._replace(
             phases=np.concatenate([self.phases, other.phases]),
             rows=np.concatenate([self.rows, other.rows], axis=-1),
@@ -433,23 +433,23 @@ class Extreme(NamedTuple):
     place: Sum
     closes: int
     reach: float
-    """How far to both sides it does not close."""
+    """How far to both sides the dyad does not close, in phase."""
 
 
 @frozen
 class Separations:
-    """The margins of the dyads on moving points along a path, at samples among which are all that decide."""
+    """The margins of the dyads on moving points along a path, sampled wherever they decide what closes."""
 
     scales: Mapping[str, float]
-    """What the margin of each dyad is beside."""
+    """The scale of each dyad's margin."""
     samples: Sampled
     settled: Callable[[str], tuple[Extreme, ...]]
     """Returns the extremes of a dyad at which floats cannot tell its margin from nothing.
 
-    They take their time, which grows with the dyads before it: they are worked out when they are asked for.
+    They are worked out when asked for: that is slow, the slower the more dyads stand before this one.
     """
     barely: Mapping[str, tuple[float, ...]]
-    """Of every dyad, the phases of others at which it barely closes."""
+    """For every dyad, the phases of further extremes, at which it barely closes."""
     margins: Callable[[Array], Array]
     """Returns the margins over their scale at phases (D, N)."""
 
@@ -465,7 +465,7 @@ class Separations:
 
     @cached_property
     def shut(self) -> Bools:
-        """Of every dyad at every phase, whether it does not close there (D, N)."""
+        """Whether each dyad fails to close at each phase (D, N)."""
         return _shut(self.samples, [self.settled(name) for name in self.names])
 
     @property
@@ -474,7 +474,7 @@ class Separations:
         return not self.shut.any()
 
     def beside(self, phase: float, name: str, side: int) -> Sum | None:
-        """Return where a stretch about an extreme ends, on that side, in which floats see the dyad close."""
+        """Return the end, on that side, of a stretch without closure that floats miss; None without one."""
         for found in self.settled(name):
             turns = round((phase - found.phase) / (2 * math.pi))
             if found.closes < 0 and abs(phase - found.phase - turns * 2 * math.pi) <= found.reach:
@@ -492,10 +492,10 @@ class Separations:
 
 
 def separations(assembly: Assembly) -> Separations:
-    """Return how the dyads that come near their limits fare along the path, over its true period.
+    """Return the margins along the path, over its true period, of the dyads that come near their limits.
 
-    AssemblyError where one is at its limit all along: where so many extremes are next to nothing that they
-    are rounding on a stretch of it.
+    AssemblyError where a dyad is at its limit on a whole stretch: its margin has so many extremes next to
+    zero that they are rounding.
     """
     phases = _phases(assembly)
     scales = _scales(assembly, phases)
@@ -570,19 +570,19 @@ def _compiled(rows: Sequence[Sequence[Value]]) -> Callable[[Array], Array]:
 
 
 def _phases(assembly: Assembly) -> Array:
-    """Return phases over the true period, as near to each other as what turns fastest needs.
+    """Return phases over the true period, dense enough for the quickest crank.
 
-    The start is among them, and the ends of a way there and back.
+    The start is among them, and so are both ends of a path there and back.
     """
     marks = 0.0, math.pi, assembly.path.home(assembly.linkage.drive.start)
     return np.sort(np.concatenate([assembly.sampled, marks]))
 
 
 def _scales(assembly: Assembly, phases: Array) -> Mapping[str, tuple[float, float]]:
-    """Return what the margin of each dyad that comes near its limits is beside: its greatest, or its bars'.
+    """Return the scale of the margin for each dyad near its limits, and the share at which it barely closes.
 
-    And the share of it below which the dyad barely closes. One whose margin is all along more than that, and
-    than it changes between three samples at the most, keeps away from them.
+    The scale is the greatest margin, or that of its bars. A dyad keeps away from its limits, and is left out,
+    where its margin always exceeds that share, and the most that it changes between three samples.
     """
     closings = walk_at(assembly, Graph().input("x"), Slope(0.0)).closings
     found = closings.values()
@@ -595,7 +595,7 @@ def _scales(assembly: Assembly, phases: Array) -> Mapping[str, tuple[float, floa
         raise AssemblyError(f"joint {name}: {AT_ITS_LIMIT}")
     scale = np.minimum(most, size)
     changes = np.fmax.reduce(np.abs(np.diff(margins, axis=1)), axis=1)
-    # A greatest margin of bars is a quarter of their size; where it never comes near that, all are low.
+    # The margin of two bars is at most a quarter of their size; where it never comes near that, all is low.
     low = BARELY * np.maximum(scale, size / 4)
     near = np.fmin.reduce(margins, axis=1) <= np.maximum(3 * changes, low)
     with np.errstate(all="ignore"):
@@ -604,7 +604,7 @@ def _scales(assembly: Assembly, phases: Array) -> Mapping[str, tuple[float, floa
 
 
 def _behind(shut: Bools) -> Bools:
-    """Tell of every dyad where one before it in the chain does not close: it is but rounding there (D, N)."""
+    """Tell for each dyad where an earlier one does not close (D, N): its values there are rounding."""
     before = np.logical_or.accumulate(shut, axis=0)
     return np.concatenate([np.zeros_like(shut[:1]), before[:-1]])
 
@@ -612,13 +612,14 @@ def _behind(shut: Bools) -> Bools:
 def _halved(names: Sequence[str], sampled: Callable[[Array], Sampled], samples: Sampled) -> Sampled:
     """Return the samples with others between them wherever a second extreme could lie there.
 
-    AssemblyError where there would be no end of them: the dyad rests at its limit, but for rounding.
+    AssemblyError where halving would not end: the dyad rests at its limit, rounding aside.
     """
     left, right, found = samples.at(slice(None, -1)), samples.at(slice(1, None)), samples
     fastest = _fastest_change(samples)[:, None] / 4
     most = max(len(samples.phases), MOST_UNCLEAR // len(names))
     for _ in range(HALVINGS):
-        # At first a margin may change faster than at both neighbours; the nearer they are, the less.
+        # At first a margin may change faster between neighbours than at both; the nearer these are, the less
+        # so.
         with np.errstate(all="ignore"):
             unclear = _unclear(left, right, fastest)
         index = np.flatnonzero(unclear.any(axis=0))
@@ -634,9 +635,9 @@ def _halved(names: Sequence[str], sampled: Callable[[Array], Sampled], samples: 
 
 
 def _speed(samples: Sampled) -> Array:
-    """Return how fast the margins change: by s' (U - W), since U' = -s' and W' = s'.
+    """Return how fast the margins change: s' (U - W), since U' = -s' and W' = s'.
 
-    NaN where an unbounded rate meets no difference: that is nowhere taken for slow.
+    NaN where an unbounded rate meets a difference of 0, which never counts as slow.
     """
     rates, _, _, differences = samples.rows
     with np.errstate(invalid="ignore"):
@@ -653,7 +654,7 @@ def _fastest_change(samples: Sampled) -> Array:
 
 
 def _near_separation(left: Sampled, right: Sampled, fastest: Array | float = 0.0) -> Bools:
-    """Tell where a margin could be nothing between neighbours (D, N), changing so fast at least."""
+    """Tell where a margin could vanish between neighbours (D, N) if it changes as fast as `fastest`."""
     before, after = left.rows[2], right.rows[2]
     speed = np.maximum(np.maximum(_speed(left), _speed(right)), fastest)
     least = np.maximum(2 * (right.phases - left.phases) * speed, left.blur)
@@ -664,7 +665,7 @@ def _near_separation(left: Sampled, right: Sampled, fastest: Array | float = 0.0
 def _unclear(left: Sampled, right: Sampled, fastest: Array) -> Bools:
     """Tell between which neighbours a margin near nothing could have two extremes (D, N).
 
-    Where neither has a rate, at a limit of the dyad before it, floats cannot tell, nor closer by.
+    Where neither has a rate, at a limit of the dyad before, floats cannot tell, and closer samples would not.
     """
     step = right.phases - left.phases
     (r, b, _, d), (s, c, _, e) = left.rows, right.rows
@@ -682,7 +683,7 @@ def _turning(samples: Sampled, barely: Array) -> Bools:
     positive, margins = samples.rows[0] > 0, samples.rows[2]
     low = (np.minimum(margins[:, 1:], margins[:, :-1]) > 0) & (margins[:, 1:] <= barely[:, None])
     near = _near_separation(*_neighbours(samples)) | low
-    # Between two cranks that turn alike the separation stays as it is: what changes there is rounding.
+    # Between two cranks that turn alike the separation is constant, and its changes are rounding.
     moves = _fastest_change(samples)[:, None] > samples.blur
     return np.asarray(near & moves & (positive[:, 1:] != positive[:, :-1]))
 
@@ -715,7 +716,7 @@ def _places(sampled: Callable[[Array], Sampled], samples: Sampled, cells: Bools,
 def _low(
     assembly: Assembly, name: str, extremes: tuple[Array, Array], between: tuple[float, float]
 ) -> tuple[Array, Array]:
-    """Return of extremes, phases and margins, those with a margin that barely closes a dyad, if it does."""
+    """Return the extremes (phases, margins) with a margin `between` two, but not at the dyad's own limit."""
     phases, margins = extremes
     inside = [not _at_own_end(assembly.path, name, phase) for phase in phases.tolist()]
     low = (margins >= between[0]) & (margins <= between[1]) & np.array(inside, bool)
@@ -739,7 +740,7 @@ def _at_own_end(path: InputPath, name: str, phase: float) -> bool:
 
 
 def _shut(samples: Sampled, settled: Sequence[Sequence[Extreme]]) -> Bools:
-    """Tell of every dyad at every sample whether it does not close there (D, N)."""
+    """Tell whether each dyad fails to close at each sample (D, N)."""
     shut = ~(samples.rows[2] >= -samples.blur)
     for row, extremes in enumerate(settled):
         for found in extremes:
@@ -750,29 +751,29 @@ def _shut(samples: Sampled, settled: Sequence[Sequence[Extreme]]) -> Bools:
 # Limits and change points of dyads further down the chain, found on the cycle.
 #
 # Both ends of such a dyad move, so there is no closed form: where it closes follows from its separation's
-# extremes (`separation`). The zero of its margin U·W next to the start is bracketed and bisected, and the
-# input then swings between the limits like any other. Next to a limit U·W itself has only half a float's
-# digits left; there its quotient by the way to the limit, which is smooth, is taken from a polynomial
-# (`fitting`).
+# extremes (the part before this one). The zero of its margin U·W next to the start is bracketed and bisected,
+# and the input then swings between the limits like any other. Next to a limit U·W itself has only half a
+# float's digits left; there its quotient by the distance to the limit, which is smooth, is taken from a
+# polynomial (the first part).
 #
 # At a change point the margin touches zero without crossing it, as the dyad's bars fall into one line for an
 # instant; what drives the dyad is at an extreme there.
 
 USED_UP = 1e-10
-"""A margin below this share of its greatest value is one at its limit."""
+"""A margin below this share of its greatest value is at its limit."""
 NO_WAY = 1e-5
-"""A swing of less than this is what rounding leaves of one place."""
+"""A swing narrower than this is a single place, but for rounding."""
 NO_RANGE = "the input has no range on which every dyad can be closed"
 STOPPED_SHORT = 1 / 64
 """Share of its range by which a swing stops short of a limit that it cannot pass."""
 CUTS = 8
-"""A dyad may show where it does not close only when the one before it no longer leaves its own range."""
+"""The most times a path is cut back: a dyad may show its limit only once the one before keeps its range."""
 
 
 def stopped(assembly: Assembly, linkage: Linkage, found: Separations) -> Assembly:
     """Return the assembly on the path that its dyads leave to its input.
 
-    It says how far the input goes; nothing can be solved on it. Arguments and errors are `restricted`'s.
+    It tells how far the input goes, but nothing can be solved on it. Arguments and errors as in `restricted`.
     """
     return assembly if found.closes else _cut_back(assembly, linkage, found)
 
@@ -780,8 +781,8 @@ def stopped(assembly: Assembly, linkage: Linkage, found: Separations) -> Assembl
 def restricted(assembly: Assembly, linkage: Linkage, found: Separations) -> Assembly:
     """Return the assembly with its input's path cut back to what every dyad allows.
 
-    `linkage` is the one that was given, with its own lengths, to be named in an AssemblyError; `found` is how
-    the dyads on moving points fare.
+    `linkage` has the lengths as given, for the text of an AssemblyError; `found` are the margins of the dyads
+    on moving points.
     """
     if not found.names:
         return assembly
@@ -790,7 +791,7 @@ def restricted(assembly: Assembly, linkage: Linkage, found: Separations) -> Asse
     if closes and (whole is assembly or _runs_through(whole, on_whole)):
         return fitted(whole)
     if closes:
-        # It is on the closures behind a change point that a dyad cannot be closed.
+        # A dyad cannot be closed only on the closures beyond a change point.
         assembly, found = whole, on_whole
     return fitted(_cut_back(assembly, linkage, found))
 
@@ -804,7 +805,7 @@ def _cut_back(assembly: Assembly, linkage: Linkage, found: Separations) -> Assem
             if path is not swing:
                 limited, on_limited = _limited(assembly, path)
             limited, on_limited = through_change_points(limited, on_limited)
-        except AssemblyError as error:  # behind one limit a dyad may rest at its own
+        except AssemblyError as error:  # beyond one limit another dyad may rest at its own
             refusal = error
             continue
         if _runs_through(limited, on_limited):
@@ -813,7 +814,7 @@ def _cut_back(assembly: Assembly, linkage: Linkage, found: Separations) -> Assem
 
 
 def _cut(assembly: Assembly, linkage: Linkage, found: Separations) -> tuple[Swing, Assembly, Separations]:
-    """Return the swing around the start on which every dyad closes on the way up, and how they fare on it."""
+    """Return the swing around the start on which every dyad closes on the way up, and the margins on it."""
     first = found.shut.argmax(axis=0)
     if found.shut.any(axis=0).all():
         name = found.names[int(first.max())]
@@ -832,7 +833,7 @@ def _cut(assembly: Assembly, linkage: Linkage, found: Separations) -> tuple[Swin
 
 
 def _limited(assembly: Assembly, path: Swing) -> tuple[Assembly, Separations]:
-    """Return the assembly on another path, its closures named anew, and how its dyads fare there."""
+    """Return the assembly on another path, its closures named anew, and its dyads' margins there."""
     dyads = [name for name in dict.fromkeys(path.ends) if name and name not in assembly.loops]
     ends = {name: tuple(End(upper) for upper in (False, True) if path.ends[upper] == name) for name in dyads}
     chain = {name: ChainRoot(ends[name], 0.0) for name in dyads}
@@ -841,7 +842,7 @@ def _limited(assembly: Assembly, path: Swing) -> tuple[Assembly, Separations]:
 
 
 def _most(assembly: Assembly, name: str, phases: Array) -> tuple[float, float]:
-    """Return the greatest that the factors U and W of a dyad come to, in squares of the scene's unit."""
+    """Return the greatest values of the factors U and W of a dyad, in squares of the scene's unit."""
     closing = walk_at(assembly, Graph().input("x"), Slope(0.0)).closings[name]
     with np.errstate(all="ignore"):
         u, w = (float(np.nanmax(values)) for values in batch({"x": True}, [closing.u, closing.w])(phases))
@@ -851,8 +852,8 @@ def _most(assembly: Assembly, name: str, phases: Array) -> tuple[float, float]:
 def _smooth_paths(swing: Swing) -> Iterator[Swing]:
     """Yield the swing, then the same stopped short of one limit or both.
 
-    Where one dyad stands on another, its range changes when the first passes its limit: the input
-    then has to turn back before that, on the closure that was named.
+    Where one dyad stands on another, its range changes when that other one passes its limit: the input then
+    has to turn back before the limit, on the closure that was named.
     """
     yield swing
     short = (swing.high - swing.low).times(STOPPED_SHORT)
@@ -923,7 +924,7 @@ def _limit(
 def _first_shut(shut: NDArray[np.bool_], margins: Array) -> int:
     """Return the first dyad of the chain that does not close at a phase.
 
-    One whose margin is no number stands on another that does not close, if only by rounding.
+    A dyad whose margin is NaN stands on another that does not close, if only by rounding.
     """
     row = int(shut.argmax())
     before = np.flatnonzero(margins[:row] < 0)
@@ -935,10 +936,10 @@ LEAST = 1e-40
 
 
 def through_change_points(assembly: Assembly, found: Separations) -> tuple[Assembly, Separations]:
-    """Return the assembly with the zeros of the dyads on moving points, and how they fare on it.
+    """Return the assembly with the zeros of the dyads on moving points, and the margins on it.
 
-    In the chain's order: where one passes onto its other closure, what stands on it goes another way, and
-    may no longer come near its limits.
+    The dyads are taken in the chain's order: where one passes onto its other closure, those that stand on it
+    move differently, and may no longer come near their limits.
     """
     names = found.names
     for name in names:

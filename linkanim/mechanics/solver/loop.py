@@ -49,8 +49,8 @@ from linkanim.mechanics.solver.signed_root import (
 # P + D·(p + i q)/(2L²), p = L² + a² - b². D turns at e = D × D'/L², and the bars' rates differ from e by
 # shares of ρ = (L²)'/q.
 #
-# **Next to a kite**, where both pins of a dyad nearly meet, and so do its bars' lengths. Crank r, coupler a
-# and rocker b on the ground g; ψ the crank's angle from the ground line. With T = g r sin ψ, d = r² - g r
+# **Next to a kite** both pins of a dyad nearly meet, and its bars are nearly of one length. Crank r, coupler
+# a and rocker b on the ground g; ψ the crank's angle from the ground line. With T = g r sin ψ, d = r² - g r
 # cos ψ, L² = g² + r² - 2 g r cos ψ, p = L² + a² - b² and the signed root q the rocker turns at
 #
 #     ω = (T p + q d)/(L² q) = r² F G/(q (T p - q d))         per unit of the crank's rate
@@ -60,19 +60,19 @@ from linkanim.mechanics.solver.signed_root import (
 # F and G vanish where crank and coupler lie in one line. Next to a kite L² is small and the first sum
 # cancels over most of the turn; the second form has then a sum of two terms of one sign.
 #
-# ω' is ω (ln ω)'. Of T p - q d and of each other factor with sin²(ψ/2) in it the logarithm changes by about
-# cot(ψ/2) times a simple fraction, as far as sin²(ψ/2) outweighs its constant, and these sum to zero: only
-# what the constants make is formed. Where the constant of F or G outweighs, what the square makes is.
+# ω' is ω (ln ω)'. Where sin²(ψ/2) outweighs the constant in T p - q d and in the other factors, the rate of
+# each logarithm is about cot(ψ/2) times a simple fraction, and these fractions sum to zero: only the share of
+# the constants is formed. Where the constant of F or G outweighs the square, the square's share is formed.
 
 ALIKE = 1 / 4
 """Share of the longest by which ground and crank, and the two bars, differ at most next to a kite."""
 
 CANCELLED = 16.0
-"""Square of the share of its terms' difference below which their sum counts as cancelled."""
+"""A sum counts as cancelled where its square times this is below the square of its terms' difference."""
 
 
 class Links(NamedTuple):
-    """Ground, crank, coupler and rocker, and what the ground is longer than the crank in small parts."""
+    """Ground, crank, coupler and rocker, and ground less crank as small parts to be summed."""
 
     ground: float
     crank: float
@@ -87,13 +87,13 @@ class Links(NamedTuple):
         return max(abs(math.fsum(self.short)), abs(self.coupler - self.rocker)) <= ALIKE * longest
 
     def inverted(self) -> Links:
-        """Return the links as the crank sees them: it is the ground, which turns as far the other way."""
+        """Return the links seen from the crank: crank and ground swap places, as do coupler and rocker."""
         short = tuple(-part for part in self.short)
         return Links(self.crank, self.ground, self.rocker, self.coupler, short)
 
 
 class Closure(NamedTuple):
-    """ψ/2, q and what it changes by beside cot(ψ/2); lengths squared are over `unit`, 4 g r."""
+    """ψ/2, q and its `slack` (see `SignedRoot`); lengths squared are divided by `unit`, 4 g r."""
 
     half: Half
     q: Value
@@ -124,7 +124,7 @@ def turning(links: Links, closing: Closure) -> tuple[Value, Value]:
     terms = _terms(links, closing)
     first, second = terms.t * terms.p.value, closing.q * terms.d.value
     total, other = first + second, first - second
-    # A sum that keeps a fair share of its terms does without the other's differences.
+    # A sum that keeps a fair share of its terms needs no differences, which the other form does.
     cancelled = total * total * CANCELLED
     summed, product = _as_sum(links, terms, closing), _as_product(links, terms, closing)
     omega, bend = (select(cancelled, other * other, b, a) for a, b in zip(summed, product, strict=True))
@@ -149,13 +149,13 @@ def _terms(links: Links, closing: Closure) -> _Terms:
 
 
 def _left(terms: _Terms, closing: Closure, sign: float) -> Value:
-    """Return what T p ± q d changes by beside what its squares and constants make."""
+    """Return the rate of T p ± q d without the shares of its squares and constants."""
     own = closing.half.sine * closing.half.sine * terms.p.value * 0.25
     return own + closing.q * terms.d.value * closing.slack * (0.5 * sign)
 
 
 def _of_constants(links: Links, terms: _Terms, closing: Closure, sign: float) -> Value:
-    """Return what the constants of p and d make of T p ± q d: over the other sign's, where it cancels."""
+    """Return the constants' share in T p ± q d; where that cancels, over the sum with the other sign."""
     x, (constant, linear, square) = closing.half.sine * closing.half.sine, _difference_of_squares(links)
     first, second = terms.t * terms.p.least, closing.q * (terms.d.least * sign)
     product = ((x * square + linear) * x + constant) / (first - second)
@@ -217,7 +217,7 @@ class Triangle(NamedTuple):
 
     `near` = p/(2L²) and `far` = 1 - near are the shares of D under each bar; `lift` runs from D to
     the corner, i D q/(2L²); `turn` is e and, as its rate, e' + ρ near'. `longer` is how the longer bar turns,
-    where e and ρ's share would cancel.
+    given where e and the share of ρ would cancel.
     """
 
     across: Vec
@@ -238,7 +238,7 @@ class Triangle(NamedTuple):
 
 @frozen
 class PinLoop:
-    """A crank pin against a fixed pin: ground vector (length, direction), crank, and the pin's ψ.
+    """A crank pin against a fixed pin: the ground's length and direction, the crank, and ψ.
 
     `half` is ψ/2, `pace` is ψ' with its derivative; K and the unit of lengths squared are the root's.
     """
@@ -274,7 +274,7 @@ def pin_triangle(loop: PinLoop, lengths: tuple[float, float], root: SignedRoot) 
     unit, squares = loop.unit, loop.half.squares(loop.spread)
     square = squares.sine
     share = 0.5 / (square + short * short / unit)
-    # (L²)'/(4 L⁴): what the shares of D and e both change with.
+    # (L²)'/(4 L⁴), which is in the rates of both e and the shares of D.
     change = squares.product * w * share * share
     excess, outer = 2.0 * (b - a) * (b + a) / unit, 2.0 * short * total / unit
     turn = Slope(*(_turn(loop, square, share, rate) for rate in (w, wd)))
@@ -310,9 +310,9 @@ def _longer(loop: PinLoop, links: Links, root: SignedRoot, turn: Slope) -> Slope
 
 
 def _turn(loop: PinLoop, square: Value, share: Value, rate: Value) -> Value:
-    """Return e for a rate of ψ, (r² - g r cos ψ)/L² of it: half, and a share where g and r are alike.
+    """Return e for a rate of ψ, (r² - g r cos ψ)/L² times it; of like g and r, as a half and a share.
 
-    Where one is much the longer, the half would cancel and leave few digits of a small rest.
+    Where one of them is much longer, the half would cancel and leave few digits of a small remainder.
     """
     g, r, unit = loop.ground.high, loop.crank, loop.unit
     if g < 8 * r and r < 8 * g:
@@ -336,7 +336,8 @@ def _near_constant(gap: float, near: float, far: float) -> float:
 def moving_triangle(across: MovingPoint, lengths: tuple[float, float], signed: SignedRoot) -> Triangle:
     """Return the triangle on two points that both move, D apart.
 
-    Where equal bars' ends meet, D and q vanish together: what is left of both gives the lift and the turn.
+    Where the ends of equal bars meet, D and q vanish together: with the common zero divided out they give the
+    lift and the turn.
     """
     a, b = lengths
     reduced = signed.lift or Reduced(across, signed.q)
@@ -483,8 +484,8 @@ def pin_against_pin(
 ) -> tuple[Crank, Ground, bool] | None:
     """Return a crank whose pin is one of two joints, and the ground link from its pivot to the other one.
 
-    Last, whether the pin is the second of the two. None where the other one, or the pivot, is not fixed, or
-    both are one point.
+    The last value says whether the pin is the second of the two. None where neither is a crank's pin with the
+    other one and the pivot fixed, or where these two are one point.
     """
     for swapped, (moving, fixed) in enumerate((ends, ends[::-1])):
         crank = linkage.crank(moving) if moving in gears else None
@@ -553,7 +554,7 @@ def _way(start: tuple[Decimal, Decimal], end: tuple[Decimal, Decimal]) -> tuple[
         dx, dy = end[0] - start[0], end[1] - start[1]
         near = Decimal(math.atan2(dy, dx))
         sine, cosine = sine_and_cosine(near)
-        # What a float lacks of the angle is so small that it is its own tangent.
+        # The error of a float angle is so small that it equals its own tangent.
         rest = (dy * cosine - dx * sine) / (dx * cosine + dy * sine)
         return nearest_sum((dx * dx + dy * dy).sqrt()), nearest_sum(near + rest)
 
@@ -570,7 +571,7 @@ def _written(pin: Pin, *, turned: bool) -> Ground:
     direction = Vec(*direction_of(pin.polar.angle))
     angle = exact_angle(pin.polar.angle)
     if turned:
-        # At most half a turn, as that of coordinates: the input's range counts from it.
+        # At most half a turn, as an angle from coordinates would be: the input's range is counted from it.
         back = angle - HALF_TURN if float(angle) > 0 else angle + HALF_TURN
         return Ground(pin.polar.length, -direction, back)
     return Ground(pin.polar.length, direction, angle)
@@ -603,7 +604,7 @@ def open_arcs(linkage: Linkage, loops: Mapping[str, Loop]) -> list[Swing] | None
 
 
 def arcs_of(joint: Joint, root: LoopRoot, unit: str, unscale: float = 1.0) -> list[Swing] | None:
-    """Return a loop's open ranges in the crank's own angle; times `unscale` its lengths are the joint's."""
+    """Return a loop's open ranges in the crank's own angle; `unscale` times its lengths gives the joint's."""
     if min(root.u.most, root.w.most) == 0:
         raise AssemblyError(f"joint {joint.name}: {ONE_PLACE}")
     if min(root.u.most, root.w.most) < 0:

@@ -3,7 +3,7 @@
 Its parts, in reading order:
 
 - Where the signed root of a loop closed from a crank pin vanishes: its two factors U and W.
-- Signed roots: how a dyad closes without losing digits, or its way, where its bars fall into one line.
+- Signed roots: how a dyad closes where its bars fall into one line, with all its digits and a smooth motion.
 """
 
 from __future__ import annotations
@@ -48,10 +48,10 @@ from linkanim.mechanics.solver.input import Ends
 #     U = cU + K cos²(ψ/2)        W = cW + K sin²(ψ/2)
 #
 # with ψ the crank's angle from the ground line (or a quarter turn behind the normal of a line of travel).
-# `signed` derives them, and says what a factor does at c > 0, c = 0 and c < 0.
+# The part on signed roots below derives them, and says what a factor does at c > 0, c = 0 and c < 0.
 
 _STEPS, _SETTLED = 8, Decimal("1e-24")
-"""Newton's steps at the most, and one after which the next is below all digits of the sum."""
+"""The most steps of Newton's method, and the size of a step after which the next is below all digits."""
 ALIKE = 2.0**-51
 """Share of the perimeter that rounded lengths of a kite may differ by."""
 WIDE = 1 / 16
@@ -69,9 +69,9 @@ class Kind(Enum):
 class Factor(NamedTuple):
     """One factor of the root: `least` + K·cos² (or sin²), between `least` and `most`.
 
-    `reach` is how far ψ may go from the factor's own best position (0 for U, π for W), and
-    `short` what is missing to π; both are sums of two floats, since a rounded limit costs the
-    velocity next to it half its digits.
+    `reach` is how far ψ may go from the place of the factor's greatest value (0 for U, π for W), and `short`
+    is π less that; both are sums of two floats, since a rounded limit costs the velocity next to it half its
+    digits.
     """
 
     least: float
@@ -111,7 +111,7 @@ class LoopRoot:
 
     @property
     def wide(self) -> bool:
-        """True where U stays so far from zero that its digits do not hang on those of a small cosine."""
+        """True where U stays so far from zero that its digits do not depend on those of a small cosine."""
         return self.u.least >= WIDE * self.spread or self.single
 
     @property
@@ -129,9 +129,10 @@ def factor(least: float, most: float, spread: Fraction, exact_most: Fraction) ->
 
 
 def _twice_arcsine_of_root(square: Fraction, half_guess: float) -> Sum:
-    """Return x with sin²(x/2) = square as a sum of two floats: Newton's steps from a float.
+    """Return x with sin²(x/2) = square as a sum of two floats: Newton's method from a float.
 
-    One is enough but next to a right angle, where what is missing to it is to be right to its own digits.
+    One step is enough, except next to a right angle, where the difference from it has to be right to its own
+    digits.
     """
     with localcontext(context()):
         target = Decimal(square.numerator) / Decimal(square.denominator)
@@ -147,9 +148,9 @@ def _twice_arcsine_of_root(square: Fraction, half_guess: float) -> Sum:
 def four_bar_root(ground: Sum, crank: float, bars: tuple[float, float], reference: Sum) -> LoopRoot:
     """Return the root of crank pin against fixed pin: ground r1, crank r2, bars r3, r4.
 
-    cU = (r3+r4-r1-r2)(r3+r4+r1+r2) and cW = (r1-r2-r3+r4)(r1-r2+r3-r4). Where neither root vanishes they
-    are taken over 2 r1, as q is: K is 2 r2, which the crank's pin needs anyway. Else over 4 r1 r2: K is 1,
-    of which the root is exact.
+    cU = (r3+r4-r1-r2)(r3+r4+r1+r2) and cW = (r1-r2-r3+r4)(r1-r2+r3-r4). Where neither factor vanishes, both
+    are divided by 2 r1, as q is: K is then 2 r2, which the crank's pin needs anyway. Otherwise they are
+    divided by 4 r1 r2: K is then 1, whose root is exact.
     """
     coupler, rocker = bars
     g, r, a, b = ground.fraction, *(Fraction(length) for length in (crank, coupler, rocker))
@@ -207,7 +208,7 @@ def slot_root(ground: Sum, crank: float, offset: float, reference: Sum) -> LoopR
 
 
 def _unless(touching: bool, most: Fraction) -> float:
-    """Return the greatest value of a factor; none where the bars just reach each other, once a turn."""
+    """Return the greatest value of a factor; 0 where the bars just reach each other, once a turn."""
     return 0.0 if touching else nearest(most)
 
 
@@ -219,10 +220,10 @@ def _unless(touching: bool, most: Fraction) -> float:
 #     B = P + D (p + i q)/(2 L²)      q = ±√(U·W)      U = (a + b)² - L²      W = L² - (a - b)²
 #
 # |q| is four times the triangle's area, its sign the side of D on which B lies: the assembly. U vanishes
-# where the bars lie stretched in one line, W where they lie folded. Worked out as written, U is there a
-# difference of rounded numbers: an error of 1e-16 makes 1e-8 under the root, or a negative U no pose at all,
-# and whoever picks the sign pose by pose picks it by chance. So q is not the root of a product here, but the
-# product of two roots, each of them a smooth function of the crank's angle that has a sign of its own.
+# where the bars lie stretched in one line, W where they lie folded. Computed as written, U is there a
+# difference of rounded numbers: an error of 1e-16 in U becomes 1e-8 in its root, a negative U gives no pose
+# at all, and a sign chosen pose by pose is chosen by chance. So here q is not the root of a product, but the
+# product of two roots, each of them a smooth function of the crank's angle with a sign of its own.
 #
 # **The two factors.** P is the pin of a crank r on a fixed pivot, Q a fixed pin at g from that pivot, ψ the
 # crank's angle from the line of the two. L² = g² + r² - 2 g r cos ψ, in half angles (Uicker, Pennock and
@@ -232,9 +233,9 @@ def _unless(touching: bool, most: Fraction) -> float:
 #     W = cW + K sin²(ψ/2)      cW = (g - r - a + b)(g - r + a - b)      K = 4 g r
 #
 # The c are products of sums of lengths as they were given, so nothing cancels. A slider (U, W = b ∓ e, with
-# e = e₀ - r cos ψ and K = 2 r) and a slot (W alone) have the same form; `roots` has all three, there a
-# four-bar's over 2 g, so that its K is 2 r, or over 4 g r where a factor vanishes: its K is 1. What a factor
-# does is the sign of its c:
+# e = e₀ - r cos ψ and K = 2 r) and a slot (W alone) have the same form; `four_bar_root`, `slider_root` and
+# `slot_root` return them, the four-bar's over 2 g, so that its K is 2 r, or over 4 g r where a factor
+# vanishes: its K is then 1. The sign of c tells what a factor does:
 #
 # - c > 0: it never vanishes. Where both are positive the crank turns fully, each closure on its own.
 # - c = 0: a **change point**. √U is √K cos(ψ/2), with the cosine's sign: it goes through zero as smoothly as
@@ -245,10 +246,10 @@ def _unless(touching: bool, most: Fraction) -> float:
 #
 #       U = K (cos²(ψ/2) - cos²(ψm/2)) = K sin x sin y,      x, y = (ψm - ψ)/2, (ψm + ψ)/2
 #
-#   are half the ways left to the two limits. The input swings, θ = mid - amp cos φ, so half its ways are
+#   are half the distances left to the two limits. The input swings, θ = mid - amp cos φ, so these halves are
 #   u = amp cos²(φ/2) and v = amp sin²(φ/2), and their roots √u = √amp cos(φ/2) and √v = √amp sin(φ/2) have
 #   signs. √U = √K √u √v √(sin u/u) √(sin v/v): smooth in φ, through both limits and back on the other
-#   closure. (A limit that another dyad keeps the input from gives √sin x, which stays positive.)
+#   closure. (A limit that the input does not reach, because of another dyad, gives √sin x, always positive.)
 #
 # **Rates.** The two bars turn differently by ρ = (L²)'/q, and (L²)' = K sin(ψ/2) cos(ψ/2) ψ'. Where q
 # vanishes, so does something above it: at a change point the same cosine or sine, at a limit the rate ψ' = 2
@@ -256,7 +257,7 @@ def _unless(touching: bool, most: Fraction) -> float:
 # quotient of regular functions, finite wherever the phase stands; `Slope` carries its derivative along. By
 # angle instead of phase the rate does not vanish at a limit: ρ is infinite there, as it ought to be.
 #
-# Dyads whose both ends move have no such factors; `chain` says what stands in for them.
+# A dyad whose ends both move has no such factors; `closing` says what stands in for them.
 
 SMALLEST = 1e-300
 LAMBERT_DEPTH = 23
@@ -265,7 +266,7 @@ OWN_LIMIT = 1e-15
 
 
 class Reduced(NamedTuple):
-    """D between the two ends of a dyad, and q, both over what vanishes where its ends meet."""
+    """D between the two ends of a dyad, and q, both divided by what vanishes where the ends meet."""
 
     across: MovingPoint
     q: Value
@@ -275,8 +276,8 @@ class Reduced(NamedTuple):
 class SignedRoot:
     """q, the ratio ρ = (L²)'/q, and the signed √U where q is a product of two roots.
 
-    `lift` is what a dyad is closed with whose two ends meet on the way. `slack` is cot(ψ/2) - 2 q'/q by
-    the angle of a crank that W limits: q, which would be sin(ψ/2) for equal bars on pins that meet at ψ = 0.
+    `lift` closes a dyad whose two ends meet on the way. `slack` is cot(ψ/2) - 2 q'/q, by the angle of a crank
+    that W limits: it tells how far q is from sin(ψ/2), its form for equal bars on pins that meet at ψ = 0.
     """
 
     q: Value
@@ -317,7 +318,7 @@ def signed_root(root: LoopRoot, half: Half, pace: Slope, swing: Ends | None) -> 
 
 
 def _turning_root(root: LoopRoot, half: Half, pace: Slope) -> SignedRoot:
-    """Return q and ρ where neither factor vanishes, the digits of ρ' kept however near they come to it.
+    """Return q and ρ where neither factor vanishes; ρ' keeps its digits however near zero they come.
 
     At a steady pace ρ' = K ψ'² (cW c²/W - cU s²/U)/(2 q), as in `_root_by_angle`.
     """
@@ -352,7 +353,7 @@ def factor_values(root: LoopRoot, half: Half) -> tuple[Value, Value]:
 
 @frozen
 class _Ways:
-    """Half the ways x and y to a factor's own two limits, and which of them are ends of the swing.
+    """Half the distances x and y to a factor's own two limits, and which of these are ends of the swing.
 
     `short` completes x + y to π; `sign` is that of cos(ψ/2) (sin(ψ/2) for W) over the whole swing.
     """
@@ -372,7 +373,7 @@ class _Ways:
 
     @property
     def sign_of_root(self) -> Value:
-        """The sign of the factor's root: that of the roots of the ways to those ends that it sets."""
+        """The sign of the factor's root: the product of the signs of √u and √v at the ends that it sets."""
         sign: Value = 1.0
         for held, root in ((self.upper, self.ends.root_u), (self.lower, self.ends.root_v)):
             if held and self.ends.signed:
@@ -387,7 +388,7 @@ class _Ways:
 
 
 def _ways(root: LoopRoot, factor: Factor, swing: Ends | None) -> _Ways | None:
-    """Return the ways to the limits that a factor sets; None where it sets none."""
+    """Return half the distances to the limits that a factor sets; None where it sets none."""
     if swing is None or factor.kind is not Kind.LIMIT:
         return None
     best = root.reference if factor is root.u else root.reference + HALF_TURN
@@ -409,7 +410,7 @@ def _ways(root: LoopRoot, factor: Factor, swing: Ends | None) -> _Ways | None:
 
 
 def sharpened(root: LoopRoot, half: Half, swing: Ends | None) -> Half:
-    """Return ψ/2 with the sine or cosine that a limit keeps from vanishing right to its own last digit."""
+    """Return ψ/2, its sine or cosine right to the last digit where a limit keeps that from vanishing."""
     ways_u, ways_w = _ways(root, root.u, swing), _ways(root, root.w, swing)
     cosine = ways_u.touching if ways_u else half.cosine
     if ways_w:
@@ -441,8 +442,8 @@ def _product_root(root: LoopRoot, half: Half, pace: Slope, swing: Ends | None) -
 def _root_by_angle(root: LoopRoot, half: Half, pace: Slope, swing: Ends) -> SignedRoot:
     """Return q and ρ where the input's angle is given, so that nothing vanishes above a limit's root.
 
-    ρ = K s c ψ'/(√U √W) with s, c of ψ/2, and at a steady pace ρ' = ρ ψ' (cW c/(s W) - cU s/(c U))/2: of what
-    U, W, s and c change by, nearly all cancels next to a change point, and is not formed.
+    ρ = K s c ψ'/(√U √W) with s, c of ψ/2, and at a steady pace ρ' = ρ ψ' (cW c/(s W) - cU s/(c U))/2: next to
+    a change point the rates of U, W, s and c nearly cancel, and the terms that do are not formed.
     """
     scale, (u, w) = root_of(root.spread), factor_values(root, half)
     part_u = _part_by_angle(root.u, _ways(root, root.u, swing), u, (half.cosine, half.sine), scale)
@@ -458,7 +459,10 @@ def _root_by_angle(root: LoopRoot, half: Half, pace: Slope, swing: Ends) -> Sign
 
 
 class _PartByAngle(NamedTuple):
-    """One signed root: F, whole, its regular part, what is left of sin or cos(ψ/2), and c/F of the other."""
+    """A factor F and its signed root: whole, its regular part, what is left of sin or cos(ψ/2), and c/F.
+
+    `bend` is c/F times the other one of sin and cos(ψ/2).
+    """
 
     value: Value
     whole: Value
@@ -470,7 +474,7 @@ class _PartByAngle(NamedTuple):
 def _part_by_angle(
     factor: Factor, ways: _Ways | None, value: Value, sides: tuple[Value, Value], scale: float
 ) -> _PartByAngle:
-    """Return the root of a factor F; `sides` are what vanishes with it, if it does, and the other one."""
+    """Return the root of a factor F; `sides` are the side of ψ/2 that vanishes with F, and the other one."""
     touching, other = sides
     if factor.kind is Kind.CHANGE_POINT:
         return _PartByAngle(value, touching * scale, scale, 1.0, 0.0)
@@ -490,7 +494,7 @@ class _Part(NamedTuple):
 
 
 def _part(factor: Factor, value: Slope, touching: Slope, scale: float, ways: _Ways | None) -> _Part:
-    """Return the root of a factor; its `value` may have no digits left where a limit's root is used."""
+    """Return the root of a factor; where the root comes from a limit, `value` need not have digits."""
     if factor.kind is Kind.CHANGE_POINT:
         return _Part(touching.value * scale, Slope(scale), Slope(1.0))
     if ways is None:

@@ -5,12 +5,12 @@ the crank's pivot, whose sides g and r do not change. With ψ its angle at the p
 
     4 g r sin²(ψ/2) = (ℓ - g + r)(ℓ + g - r)      4 g r cos²(ψ/2) = (g + r - ℓ)(g + r + ℓ)
 
-without cancellation, since half the phase tells how far ℓ is from its ends, so half of ψ has its sine and
-cosine without an arc function; and ψ' = ℓ ℓ'/(g r sin ψ).
+Nothing cancels in the brackets, since half the phase gives ℓ's distances from its ends. So the sine and
+cosine of ψ/2 need no arc function; and ψ' = ℓ ℓ'/(g r sin ψ).
 
 **A slider** has no angle: there the phase itself stands for one. Where a dyad is at its limit at an end of
-the travel, such as a piston's rod and crank at a dead centre, that is a change point of the phase's, and the
-motion runs on through it to the other closure.
+the travel, such as a piston's rod and crank at a dead centre, that is a change point in terms of the phase,
+and the motion runs on through it to the other closure.
 """
 
 from __future__ import annotations
@@ -61,8 +61,8 @@ NO_ANGLE = "the input is a slider, which has no angle; take the phase"
 class Stroke(ThereAndBack):
     """The input's path where a length drives it, which is mid - amp·cos φ.
 
-    It starts at `first`, is at `last` half a period on, and comes back. Times `unscale` it is in the scene's
-    unit.
+    The length starts at `first`, is at `last` half a period later, and comes back. Times `unscale` it is in
+    the scene's unit.
     """
 
     first: float
@@ -72,11 +72,11 @@ class Stroke(ThereAndBack):
     """The scene's unit of length, as in sentences."""
 
     runs: ClassVar[str]
-    """What runs to and fro, in words."""
+    """The noun for what runs to and fro."""
 
     @property
     def periods(self) -> int:
-        """One there-and-back, times what a chain that passes a change point needs."""
+        """One there-and-back, or more where the chain passes change points."""
         return self.rounds
 
     def lengths(self, phases: Array) -> Array:
@@ -98,7 +98,7 @@ class Stroke(ThereAndBack):
         return Moving(length, rate, second)
 
     def cut(self, low: Limit, high: Limit) -> NoReturn:
-        """Raise AssemblyError with the lengths between which everything closes: it may not be shorter."""
+        """Raise AssemblyError with the lengths between which everything closes: a stroke is not cut back."""
         dyad = next(name for _, name in (low, high) if name is not None)
         ends = [float(self.lengths(np.array(float(phase)))) * self.unscale for phase, _ in (low, high)]
         least, most = sorted(ends)
@@ -116,7 +116,7 @@ class HalfState(InputState):
     own: Half | None = None
 
     def half_shifted(self, ratio: Fraction, shift: Sum, form: HalfForm) -> Half:
-        """Return half of ratio × angle + shift, turned from the half that is known where ratio is ±1."""
+        """Return half of ratio × angle + shift; where ratio is ±1, from the known half by a rotation."""
         assert self.own is not None
         if abs(ratio) != 1:
             return InputState.half_shifted(self, ratio, shift, form)
@@ -131,7 +131,7 @@ class CylinderStroke(Stroke):
     """The input's path where a cylinder drives it; θ = base + side × ψ."""
 
     sides: tuple[float, float]
-    """Of the triangle, from the crank's pivot: to the cylinder's fixed pin, and to its joint on the crank."""
+    """The triangle's sides from the crank's pivot: to the cylinder's fixed pin, to its joint on the crank."""
     base: Sum
     side: int
     lost: float = 0.0
@@ -141,7 +141,7 @@ class CylinderStroke(Stroke):
 
     @property
     def swing(self) -> Swing:
-        """How the crank swings, by no dyad's limits."""
+        """The crank's swing, whose ends are no dyad's limits."""
         low, high = sorted(self.angle_of(length) for length in (self.first, self.last))
         return Swing(Sum(low), Sum(high))
 
@@ -157,7 +157,7 @@ class CylinderStroke(Stroke):
         return float(self.base) + self.side * 2 * math.atan2(math.sqrt(sine), math.sqrt(cosine))
 
     def holds(self, place: float, turns: int = 1) -> bool:
-        """Tell whether the crank comes to an angle, or to one that many turns away, or twice as many …"""
+        """Tell whether the crank comes to an angle, whole multiples of `turns` turns aside."""
         return self.swing.holds(place, turns)
 
     def around(self, angle: float) -> CylinderStroke:
@@ -220,7 +220,7 @@ class CylinderStroke(Stroke):
         return HalfState(angle, self.base, 1.0, 0.0, Slope(1.0), own=half)
 
     def _half(self, phase: Value, length: Value) -> Half:
-        """Return half of the triangle's angle at the crank's pivot, `side` times."""
+        """Return half of the triangle's angle at the crank's pivot, times `side`."""
         g, r = self.sides
         beyond, short = self._ways(sharp_half_angle(phase))
         sine, cosine = sqrt(beyond * (length + abs(g - r))), sqrt(short * (g + r + length))
@@ -230,7 +230,7 @@ class CylinderStroke(Stroke):
     def _ways(self, half: Half) -> tuple[Value, Value]:
         """Return ℓ - |g - r| and g + r - ℓ from half the phase.
 
-        Both are sums of what is not negative: near the least and the most of ℓ nothing cancels.
+        Both are sums of terms that are not negative: near the least and the greatest ℓ nothing cancels.
         """
         g, r = self.sides
         stroke, sine, cosine = self.last - self.first, half.sine, half.cosine
@@ -254,7 +254,7 @@ class CylinderStroke(Stroke):
 def cylinder_stroke(linkage: Linkage, unscale: float, arcs: list[Swing] | None) -> CylinderStroke:
     """Return the path of a linkage that a cylinder drives, `arcs` being left open by the loops on its crank.
 
-    AssemblyError where its triangle does not close, or runs beyond them.
+    AssemblyError where its triangle does not close, or the crank would leave these ranges.
 
     Of the two triangles it is the one whose range contains the stated start, or else the one in which the
     cylinder's joint lies left of the line from the crank's pivot to the fixed pin.
@@ -348,11 +348,11 @@ class SliderStroke(Stroke):
         return TravelState(phase, Sum(0.0), rate, second, Slope(rate, second), travel=travel)
 
     def distances(self, angle: Array) -> NoReturn:
-        """Raise BadInput: it has no angle."""
+        """Raise BadInput: a slider has no angle."""
         raise BadInput(NO_ANGLE)
 
     def phases(self, angles: Array, distances: LimitDistances | None) -> NoReturn:
-        """Raise BadInput: it has no angle."""
+        """Raise BadInput: a slider has no angle."""
         raise BadInput(NO_ANGLE)
 
     def same(self, place: float, other: float) -> bool:
@@ -374,4 +374,4 @@ STROKES: Mapping[type[Actuator], Callable[[Linkage, float, list[Swing] | None], 
     Cylinder: cylinder_stroke,
     Travel: slider_stroke,
 }
-"""Which path what drives runs on; else it is that of a crank, which its loops may limit."""
+"""The path of each actuator; any other drives a crank, whose path its loops may limit."""
