@@ -120,12 +120,12 @@ def cards(state: State, numbers: tuple[float, ...]) -> State:
     if sketch and sketch.picked and isinstance(sketch.answer, tuple):
         found = (*found, *([] if sketch.answer in found else [sketch.answer]))
         first = found.index(sketch.answer)
-    state = taken(state, first, found)
-    known = all(one.size > 0 for one in found)
-    if not known or state.drawing is None or state.drawing.answers[-len(found) :] != found:
-        return state
-    own = len(state.drawing.answers) - len(found)
-    return sketching(state, names=(*own * ("",), *names_of([one.figures for one in found])))
+    after = taken(state, first, found)
+    if after is state or after.drawing is None or not all(one.size > 0 for one in found):
+        return after
+    kept = [one for one in after.drawing.answers if not isinstance(one, Scene)]
+    own = len(after.drawing.answers) - len(kept)
+    return sketching(after, names=(*own * ("",), *names_of([one.figures for one in kept])))
 
 
 def way(state: State, numbers: tuple[float, ...]) -> State:

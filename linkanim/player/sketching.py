@@ -70,19 +70,21 @@ def come(state: State) -> State:
 def taken(state: State, first: int, found: tuple[Any, ...]) -> State:
     """Return the state with other answers, one of them shown.
 
-    A scene whose own trace was taken stays the first.
+    A scene whose own trace was taken stays the first, and the answer that is shown beside it stays shown.
     """
     sketch = state.sketch
     if sketch is None or not sketch.is_asked or sketch.held is not None:
         return state
     if not 0 <= first < len(found):
         return state
+    before = sketch.answer
     if isinstance(sketch, PathSketch) and sketch.answers and isinstance(sketch.answers[0], Scene):
         assert sketch.curve
         own = in_unit(sketch.answers[0], sketch.unit)
-        others = tuple(one for one in found if not _stands_on(own, one.row, sketch.curve.size))
-        return sketching(state, answers=(sketch.answers[0], *others))
-    was_none, before = not sketch.answers, sketch.answer
+        others = (one for one in found if one == before or not _stands_on(own, one.row, sketch.curve.size))
+        answers = sketch.answers[0], *others
+        return sketching(state, answers=answers, chosen=answers.index(before) if before in answers else 0)
+    was_none = not sketch.answers
     state = sketching(state, answers=found, chosen=first)
     if before == found[first]:
         return state

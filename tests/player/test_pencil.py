@@ -23,7 +23,7 @@ from linkanim.player.state import FADE_FRAMES, FRAMES, TOAST_FRAMES, PathSketch,
 from linkanim.player.tape import Tape, Taping
 from linkanim.player.tape_file import read, write
 from linkanim.scenes import load
-from linkanim.synthesis.answers import NUMBERS, PathAnswer
+from linkanim.synthesis.answers import EARLIER, NUMBERS, PathAnswer
 from linkanim.synthesis.follower import Reply
 
 ROW = (9.0, 7.0, 30.0, 90.0, 45.0, 30.0, 100.0, 0.0, 80.0)
@@ -478,6 +478,58 @@ def test_an_answer_that_was_taken_by_hand_stays_when_more_come(answered: State) 
     again = after(taken, Action("cards", (0.0, *FIRST, *BETTER)))
     assert sketch_of(again).answer == sketch_of(taken).answer
     assert len(sketch_of(again).answers) == 3
+
+
+# more of them and fewer: its place among them is another, or was the last
+@pytest.mark.parametrize(("number", "later"), [(2, (*OTHER, *FIRST)), (3, FIRST), (0, FIRST)])
+def test_an_answer_taken_beside_the_scene_whose_trace_it_follows_stays_when_others_come(
+    plain: State, number: int, later: tuple[float, ...]
+) -> None:
+    three = after(plain, "own_trace", Action("cards", (0.0, *FIRST, *BETTER, *OTHER)))
+    taken = after(three, Action("answer", number))
+    again = after(taken, Action("cards", (0.0, *later)))
+    assert sketch_of(again).answer == sketch_of(taken).answer
+    assert again.scene == taken.scene
+    row = overlay(again).row
+    assert row
+    assert row.entries[row.chosen] == sketch_of(taken).answer
+
+
+OWN, EXACT, COMPACT = (
+    ("", "its own"),
+    ("most exact", "0.12 % · ×1.1 · 29°"),
+    ("most compact", "0.4 % · ×0.9 · 40°"),
+)
+
+
+def _said(state: State) -> list[tuple[str, str]]:
+    """Return the words on the cards."""
+    row = overlay(state).row
+    assert row
+    return [*zip(row.names, row.words, strict=True)]
+
+
+def test_a_card_says_what_its_answer_is_among_them(plain: State, answered: State) -> None:
+    assert _said(answered) == [EXACT, COMPACT]
+    own = after(plain, "own_trace", Action("cards", (0.0, *BETTER, *OTHER)))
+    assert _said(own) == [OWN, EXACT, COMPACT]
+
+
+def test_cards_say_so_too_where_the_scene_itself_was_found_for_its_trace(plain: State) -> None:
+    pins = [plain.scene.linkage.pin(name).position for name in ("O2", "O4")]
+    same = PathAnswer(0.0, 1.0, 0.3, 1.0, (*pins[0], *ROW[2:6], *pins[1], ROW[8]), 0.9, 0.7).numbers
+    own = after(plain, "own_trace", Action("cards", (0.0, *same, *BETTER, *OTHER)))
+    assert _said(own) == [OWN, EXACT, COMPACT]
+    later = after(own, Action("cards", (0.0, *same, *OTHER, *BETTER)))
+    assert _said(later) == [OWN, COMPACT, EXACT]
+
+
+def test_cards_of_an_older_tape_say_how_far_each_is_off(stroke: State) -> None:
+    bare = [one[:EARLIER] for one in (BETTER, OTHER)]
+    assert _said(after(stroke, Action("answers", (0.0, *bare[0], *bare[1])))) == [
+        ("", "0.12 %"),
+        ("", "0.4 %"),
+    ]
 
 
 def test_a_cognate_takes_the_place_of_the_answer_and_traces_the_same_curve(answered: State) -> None:
