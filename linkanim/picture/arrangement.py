@@ -1,6 +1,6 @@
-"""Arrange a picture: the scene as large as it can be, and the words where its motion leaves room.
+"""Arrange a picture: the scene as large as possible, and the words where its motion leaves room.
 
-What a linkage sweeps in a cycle is measured once. It outlasts pans, zooms and themes.
+The area that a linkage sweeps in a cycle is measured once, and kept through pans, zooms and changes of theme.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ from linkanim.picture.view import Box, Rect, View, joined
 from linkanim.scenes.scene import Scene
 from linkanim.steps import at_once
 
-# What a linkage sweeps in a cycle: how far it reaches, and which parts of the plane it leaves free.
+# What a linkage sweeps in a cycle: how far it extends, and which parts of the plane it leaves free.
 
 _MOMENTS = 120
 _ALONG = np.linspace(0.0, 1.0, 13)
@@ -59,10 +59,10 @@ Sides = tuple[Numbers, Numbers, Numbers, Numbers]
 
 @frozen
 class Sweep:
-    """Points x + yi of the plane, in the scene's unit, so close that nothing of size lies between them.
+    """Points x + yi that a linkage passes, in the scene's unit, so close that no gap between them matters.
 
-    `feet` are those points about which more is drawn than a bar's width: pedestals, guides, pads. `solid`
-    are those about which nothing is drawn: the rims of wheels.
+    `feet` are points about which more is drawn than a bar's width: pedestals, guides, pads. `solid` are
+    points about which nothing more is drawn: the rims of wheels.
     """
 
     points: Points
@@ -71,7 +71,7 @@ class Sweep:
 
     @cached_property
     def parts(self) -> tuple[tuple[Box, int], ...]:
-        """Boxes of points, and of which width what is drawn about them is: 0 none, 1 a bar's, 2 a foot's."""
+        """The boxes of points, and how wide the drawing about them is: 0 for none, 1 a bar's, 2 a foot's."""
         kinds = ((self.solid, 0), (self.points, 1), (self.feet, 2))
         return tuple((_box(points), kind) for points, kind in kinds if points.size)
 
@@ -85,7 +85,7 @@ class Sweep:
         return whole
 
     def touches(self, sides: Sides, bar: Numbers, foot: Numbers) -> NDArray[np.bool_]:
-        """Return whether anything is drawn in rectangles: a bar's half width or a foot about the points."""
+        """Return whether anything is drawn in rectangles: within `bar` or `foot` of a point, or on a rim."""
         return self._bars.holds(sides, bar) | self._feet.holds(sides, foot) | self._rims.holds(sides, 0.0)
 
     @cached_property
@@ -101,7 +101,7 @@ class Sweep:
         return _Grid.of(self.solid)
 
     def __or__(self, other: Sweep) -> Sweep:
-        """Return what either sweeps."""
+        """Return the union of two sweeps."""
         mine, theirs = (self.points, self.feet, self.solid), (other.points, other.feet, other.solid)
         return Sweep(*(np.concatenate(both) for both in zip(mine, theirs, strict=True)))
 
@@ -166,7 +166,7 @@ def _swept(figure: Figure) -> Iterator[Points]:
 
 
 def _fitted(figure: Figure) -> Iterator[Points]:
-    """Yield where slotted bars and guides pass."""
+    """Yield the points that slotted bars and guides pass."""
     for outline, places, turns in outlines(figure):
         yield (places[:, None] + turns[:, None] * _edged(outline)).ravel()
 
@@ -180,7 +180,7 @@ def _edged(loop: Points) -> Points:
 
 
 def _rims(figure: Figure) -> Iterator[Points]:
-    """Yield circles over each wheel, wherever it goes."""
+    """Yield points on each wheel's rim wherever the wheel goes."""
     for centre, reach in _round(figure):
         path = _path(figure, centre)
         still = bool(np.all(np.abs(path - path[0]) <= 1e-9 * reach))
@@ -196,7 +196,7 @@ def _round(figure: Figure) -> Iterator[tuple[str, float]]:
 
 
 def _body_wheels(figure: Figure) -> Iterator[tuple[str, float]]:
-    """Yield the centre of each body that is drawn as a wheel, and how far it reaches from there."""
+    """Yield the centre and the radius of each body that is drawn as a wheel."""
     for body in figure.linkage.bodies:
         if figure.scene.style(body.name).outline in WHEELS:
             yield body.joints[0], figure.wheel_reach(body)
@@ -220,37 +220,36 @@ def _box(points: Points) -> Box:
     return Box(float(x.min()), float(y.min()), float(x.max()), float(y.max()))
 
 
-# The arrangement: the scene as large as its stage lets it be, and the words where its motion leaves room.
+# The arrangement: the scene as large as its stage allows, and the words where its motion leaves room.
 #
 # Words stand in the upper left corner, whatever else is shown: nothing that is switched on moves them. Of all
-# ways to put them there the one is taken that costs least: a smaller scene and a title in more lines cost
-# something. The scene keeps to its least size,
-# `HIGH` of the stage's height or `WIDE` of its width; before it gets smaller, words get smaller, and before
-# they get too small to read, the least important ones are left out.
+# arrangements the one of the least cost is taken: a smaller scene and a title in more lines cost something.
+# The scene has a least size, `HIGH` of the stage's height or `WIDE` of its width; before it gets smaller,
+# words get smaller, and before they get too small to read, the least important ones are left out.
 
 HIGH, WIDE = 0.86, 0.7
 """The least share of the stage that a scene takes, of its height or of its width."""
 _TIGHT = 0.8
-"""So much of that where it otherwise leaves no room for a single row of words, or for the key."""
+"""The factor on that least size where there would else be no room for a row of words, or for the key."""
 _STEPS = 10
 _LINE = 0.03
 """What each further line of the title costs."""
 _AWAY = (0.0, 0.25, 0.5)
 """How far the scene gives way to the words, in shares of the room that it leaves."""
 _PLACES = tuple((0.5 + across, 0.5 + down) for across, down in sorted(product(_AWAY, _AWAY), key=sum))
-"""How far to the right and down a scene stands that gives way to the words, the middle first."""
+"""How far right and down (0 to 1) a scene may stand to give way to the words, the middle first."""
 _MARKS = (7.2, 2.5)
 """How wide and high the marks are, in sizes of the text."""
 _SIGN = 1.2
-"""How wide and high the sign of a pause is, at their right end, on which nothing else lies."""
+"""The side of the sign of a pause, in sizes of the text; at the right end of the marks nothing covers it."""
 _HINTS = (27.0, 19.0, 13.0, 5.4)
-"""How wide the hint bar may be, in sizes of its text: with all its words, and with ever fewer."""
+"""The widths of the hint bar, in sizes of its text: with all its words, then with fewer and fewer."""
 _THINNEST = 0.68
-"""What is drawn is no thinner than this on a small stage, in thicknesses of the whole window's."""
+"""The least thickness of a drawing on a small stage, as a share of that for the whole window."""
 _EDGE = 9.0
-"""From the stage's edge to what is drawn, in units."""
+"""The distance of the drawing from the stage's edge, in units."""
 _EDGE_OF_STILL = 22.0
-"""Likewise in a still, which nothing leaves."""
+"""The same in a still."""
 _ROOM_FOR_LINES = 3.6
 """What dimension lines need on each side of a still, in heights of their text."""
 
@@ -279,9 +278,9 @@ def arranged(
 ) -> Arrangement:
     """Return the arrangement of a scene with this sweep and `shortest` bar, in the scene's unit.
 
-    `blocks` are the words, set in several ways: the first group of which one finds its place is taken.
-    `shapes` are those of the sentence that is shown for a while, the best first. What is drawn keeps `edge`
-    pixels from the stage's edge, the usual distance without it.
+    `blocks` are the words, set in several ways: the first group with a block that finds a place is taken.
+    `shapes` are the sizes of the sentence that is shown for a while, the best first. The drawing keeps `edge`
+    pixels from the stage's edge; without `edge`, the usual distance.
     """
     return at_once(_arranging(parts, sweep, shortest, blocks, shapes, edge))
 
@@ -294,7 +293,7 @@ def _arranging(
     shapes: Iterable[tuple[float, float]],
     edge: float | None,
 ) -> Generator[None, None, Arrangement]:
-    """Return the same in steps: one for each way in which words are set."""
+    """Return the arrangement as `arranged` does, yielding after each way of setting the words."""
     ways_ = _WaysToArrange(parts, sweep, shortest, _EDGE * parts.unit if edge is None else edge)
     groups, tried = iter(blocks), list[Sequence[WordBlock]]()
     found = None
@@ -319,14 +318,14 @@ def _arranging(
 
 
 def _lacks(found: Arrangement, keyed: bool) -> bool:
-    """Return whether words have no row, or not the key to the arrows that there should be."""
+    """Return whether the words have no row, or lack a key to the arrows though one is wanted."""
     if found.block is None or (keyed and found.layout.legend is None):
         return True
     return bool(found.block.lines) and not found.block.rows
 
 
 class _WaysToArrange:
-    """What all ways to arrange one scene have in common."""
+    """The data that all arrangements of one scene share."""
 
     def __init__(self, parts: Layout, sweep: Sweep, shortest: float, edge: float) -> None:
         self.parts, self.sweep = parts, sweep
@@ -345,7 +344,7 @@ class _WaysToArrange:
     def placed(self, group: Sequence[WordBlock], tight: float = 1.0) -> Iterator[Arrangement]:
         """Yield arrangements with a group's words in the corner, off the scene, the cheapest first.
 
-        The scene keeps so much of its least size.
+        The scene keeps at least `tight` times its least size.
         """
         clear: dict[int, NDArray[np.bool_]] = {}
         share = min(tight * self.least / self.largest, 1.0)
@@ -374,7 +373,7 @@ class _WaysToArrange:
         return Rect(right - edge - side, edge, side, side)
 
     def marks(self, arrangement: Arrangement) -> Rect:
-        """Return where the marks stand: from the sign of a pause to the left, as far as no words are."""
+        """Return where the marks stand: from the sign of a pause leftwards, up to the words."""
         sign, high = self.sign, self.parts.text_size
         line = Rect(0.0, sign.y, sign.x, _MARKS[1] * high)
         begin = max((one.right for one in arrangement.layout.words if one.meets(line)), default=0.0)
@@ -382,16 +381,16 @@ class _WaysToArrange:
         return Rect(left, sign.y, sign.right - left, _MARKS[1] * high)
 
     def hint(self, arrangement: Arrangement) -> Rect:
-        """Return where the hint bar stands: at the stage's foot or head, on nothing, as wide as it can be.
+        """Return where the hint bar stands: at the stage's foot or head, on nothing, as wide as possible.
 
-        Nowhere is a rectangle without width.
+        A rectangle of width 0 where there is no room.
         """
         size, stage = arrangement.layout.small_size, self._edges(arrangement)
         shapes = ((min(wide * size, stage.width), 1.6 * size) for wide in _HINTS)
         return self.free(arrangement, shapes) or Rect(stage.x, stage.bottom, 0.0, 0.0)
 
     def free(self, arrangement: Arrangement, shapes: Iterable[tuple[float, float]]) -> Rect | None:
-        """Return the first of some shapes at the stage's foot or head that lies on nothing; None for none."""
+        """Return a free place for the first of some sizes, at the stage's foot or head; None without one."""
         parts, stage = arrangement.layout, self._edges(arrangement)
         others = [one for one in (parts.hud, parts.legend, parts.marks) if one]
         for wide, high in shapes:
@@ -408,7 +407,7 @@ class _WaysToArrange:
         return None
 
     def _clear(self, rects: Sequence[Rect], view: View, size: int) -> Rect | None:
-        """Return the first rectangle in which nothing is drawn; None for none."""
+        """Return the first rectangle in which nothing is drawn; None where there is none."""
         views = np.array(view.scale), np.array(view.x), np.array(view.y)
         drawn = self._drawn_in(rects, views, size) if rects else ()
         return next((rect for rect, taken in zip(rects, drawn, strict=True) if not taken), None)
@@ -417,13 +416,13 @@ class _WaysToArrange:
         return arrangement.layout.stage.inset(6 * arrangement.layout.unit)
 
     def view(self, scale: float, at: tuple[float, float]) -> View:
-        """Return the view of a scale, so far to the right and down in the room there is (0 to 1)."""
+        """Return the view of a scale; `at` is how far right and down it stands in the room left (0 to 1)."""
         left, top, right, bottom = self._extent(scale)
         x = self.room.x - left + at[0] * (self.room.width - (right - left))
         return View(scale, x, self.room.y - top + at[1] * (self.room.height - (bottom - top)))
 
     def _views(self, scales: Sequence[float]) -> Views:
-        """Return the views (scales, places) that give way to the words."""
+        """Return the views (scales, places) in which the scene gives way to the words."""
         extents = np.array([self._extent(scale) for scale in scales])
         left, top, right, bottom = extents.T[:, :, None]
         across, down = np.array(_PLACES).T
@@ -472,7 +471,7 @@ class _WaysToArrange:
 
 
 def _ways_through(shares: Sequence[float], group: Sequence[WordBlock]) -> list[tuple[float, int, int]]:
-    """Return cost, and the numbers of the scale and of the words, the cheapest first."""
+    """Return the cost and the indices of scale and words for each combination, the cheapest first."""
     choices = [
         (1.0 - share + _LINE * block.turns, step, turn)
         for (step, share), (turn, block) in product(enumerate(shares), enumerate(group))
@@ -480,18 +479,18 @@ def _ways_through(shares: Sequence[float], group: Sequence[WordBlock]) -> list[t
     return sorted(choices, key=lambda choice: choice[0])
 
 
-# A scene fitted into a window: what of it is measured once, and outlasts pans, zooms and themes.
+# A scene fitted into a window: measured once, and kept through pans, zooms and changes of theme.
 
 _BETTER = 1.25
-"""So much larger a scene must be with its chart beside it, for the chart to stand there."""
+"""The factor by which a scene must be larger with its chart beside it for the chart to stand there."""
 _MOST_KEPT = 24
-"""So many arrangements of a subject are kept."""
+"""The most arrangements of a subject that are kept."""
 _WIDE_ENOUGH = 420
 """The least width of a window that has its chart beside the scene, in pixels."""
 
 
 class FitRequest(NamedTuple):
-    """What of a window and a look an arrangement depends on."""
+    """The properties of a window and a look on which an arrangement depends."""
 
     size: tuple[int, int]
     charts: int
@@ -506,11 +505,11 @@ class FitRequest(NamedTuple):
     """How many rows a table beside the figure has, and how wide they are."""
     caption: bool = False
     still: bool = False
-    """Whether it is of one pose, which keeps farther from the edge than what moves."""
+    """Whether it is of one pose, which keeps farther from the edge than a moving scene."""
     lined: bool = False
     """Whether that pose has dimension lines or arrows."""
     also: tuple[complex, ...] = ()
-    """Further places, in the scene's unit, that the view has to hold."""
+    """Further places, in the scene's unit, that the view has to include."""
     type_scale: float = 1.0
 
     @property
@@ -532,7 +531,7 @@ def request_of(
 
 @frozen
 class Subject:
-    """A scene's figure, what it sweeps together with the scene beside it, and the words about them."""
+    """A scene's figure, and perhaps a second scene beside it: what both sweep, and the words about them."""
 
     figure: Figure
     beside: Scene | None
@@ -551,12 +550,12 @@ class Subject:
 
     @cached_property
     def arrangements(self) -> dict[FitRequest, Arrangement]:
-        """How they are arranged for the last requests: a look comes back, or was thought of beforehand."""
+        """The arrangements for the latest requests, since looks recur, and for looks that are expected."""
         return {}
 
     @cached_property
     def expected(self) -> list[Subject]:
-        """Those that a key may put in its place."""
+        """The subjects that a key may put in place of this one."""
         return []
 
     @property
@@ -585,7 +584,7 @@ class SceneFit:
         )
 
     def view_of(self, shown: Figure) -> View:
-        """Return the view of the subject's figure; one on the way to it is as large, in the same place."""
+        """Return the view of the subject's figure; a figure on its way to it has the same scale and place."""
         view, whole = self.arrangement.view, self.subject.figure
         if shown is whole:
             return view
@@ -610,8 +609,9 @@ def fitted(
 ) -> SceneFit:
     """Return how a scene fits its picture, together with the scene beside it where there is one.
 
-    What `before` has of the same scenes is taken over, all of it where the same is requested. What the hand
-    changes while it is `held` stays in its place, as long as it has room there, and for a `late` frame.
+    What `before` has measured of the same scenes is reused, all of it where the request is the same. While a
+    hand has `held` something, the scene that it changes keeps its view as long as it has room there, and in
+    any case for a `late` frame.
     """
     known = before.subject if before else None
     if known is None or known.figure.scene is not scene or known.beside is not beside:
@@ -630,7 +630,7 @@ def fitted(
 
 
 def arranging(subject: Subject, request: FitRequest) -> Generator[None, None, Arrangement]:
-    """Return the arrangement with the chart where it leaves the scene larger, and room for most words.
+    """Return the arrangement with the chart where the scene is larger and more words have room.
 
     It is found in steps of a few milliseconds, and kept with the subject.
     """

@@ -1,4 +1,4 @@
-"""What every panel is drawn on: framed sheets, rows of text in columns, a bar behind what is chosen."""
+"""What every panel is drawn on: framed sheets, rows of text in columns, a bar behind the chosen row."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from linkanim.picture.text import Anchor, Type
 from linkanim.picture.theme import Theme, mixed
 
 STEP = 1.42
-"""From line to line of a list, in heights of its text."""
+"""The step from line to line of a list, in heights of its text."""
 
 _POINTED = 0.5
-"""How much of the chosen row's colour a row has that the mouse is over."""
+"""The share of the chosen row's colour in the row under the mouse."""
 
 _KEPT_BARS = 8
 _KEPT_SHEETS = 4
-"""A list has as many heights: without a refusal, and with one of one to three lines."""
+"""The number of empty sheets kept, one for each height of a list: with a refusal of none to three lines."""
 
 
 @frozen
@@ -34,17 +34,17 @@ class Board:
     type: Type
     theme: Theme
     _sheets: dict[object, pygame.Surface] = field(default_factory=dict, compare=False)
-    """The last empty panels: a list that changes has few sizes."""
+    """The latest empty panels: a list that changes has few sizes."""
     _bars: dict[object, Cover] = field(default_factory=dict, compare=False)
-    """The last bars behind rows: a list that changes mostly keeps its chosen one."""
+    """The latest bars behind rows: a list that changes mostly keeps its chosen row."""
 
     @property
     def margin(self) -> int:
-        """How far a panel stays from the window's edge."""
+        """How far a panel keeps from the window's edge, in pixels."""
         return round(10.8 * self.layout.unit)
 
     def sheet(self, width: float, height: float) -> pygame.Surface:
-        """Return an empty panel: a framed sheet with round corners on nothing."""
+        """Return an empty panel: a framed sheet with round corners on a clear surface."""
         size = round(width), round(height)
         key = size, self.layout.unit, self.theme
         if key not in self._sheets:
@@ -90,7 +90,7 @@ class Board:
         self._bars[key].put(sheet)
 
     def behind(self, row: int, chosen: int | None, pointed: int | None) -> Colour | None:
-        """Return the colour behind a row that is chosen, or that the mouse is over; None of any other."""
+        """Return the colour behind a row that is chosen, or under the mouse; None for any other row."""
         if row == chosen:
             return self.theme.chosen
         return mixed(self.theme.panel, self.theme.chosen, _POINTED) if row == pointed else None
@@ -111,7 +111,7 @@ class Board:
         return next((text for text in kept if self.type.width(text, size) <= room), "")
 
     def ending(self, text: str, size: int, room: float) -> str:
-        """Return a strong line; where it does not fit the room, the end of it."""
+        """Return a line in semibold; where it does not fit the room, only its end."""
         if self.type.width(text, size, strong=True) <= room:
             return text
         kept = (f"…{text[n:]}" for n in range(1, len(text)))
@@ -130,7 +130,7 @@ class Rows(NamedTuple):
     high: float
 
     def at(self, y: float) -> int | None:
-        """Return the row so far down on the sheet; None above and below them all."""
+        """Return the row at that height of the sheet; None above and below all rows."""
         place = floor((y - self.top) / self.high)
         return self.shown[place] if 0 <= place < len(self.shown) else None
 

@@ -22,7 +22,8 @@ from linkanim.picture.shapes import Part, Stamp, directions, disc, glazed, hull,
 from linkanim.picture.theme import Theme, mixed
 from linkanim.picture.view import View
 
-# How bodies are drawn that say how: bars, plates, wheels, slotted bars, hooks. `SHAPES` is the one table.
+# How bodies that state a look are drawn: bars, plates, wheels, slotted bars, hooks. `SHAPES` is the one
+# table.
 #
 # Each is drawn about its first joint at 0, its second on the positive real axis, y down.
 
@@ -30,13 +31,13 @@ Colours = tuple[Colour, Colour]
 """Of an edge and of what it encloses."""
 
 _BROAD = 1.5
-"""Half the width of a plate of two joints, in those of a bar."""
+"""Half the width of a plate of two joints, in half widths of a bar."""
 _CLEAR = 1.2
 """How far from the joints a slot ends, in half widths of a bar."""
 _HOOK, _BENT = 2.6, 4.2
 """A hook's radius at most, in half widths of a bar, and its bend in radians."""
 _ROUND = 1.0
-"""How far a wheel reaches round its furthest joint, in half widths of a bar."""
+"""How far a wheel extends beyond its furthest joint, in half widths of a bar."""
 _PAD = (3.6, 2.2)
 """A pad's width between its round ends and how far from its bar's middle it lies, in half widths of a bar."""
 _BACK, _TOOTH = 0.2, 2.6
@@ -44,9 +45,9 @@ _BACK, _TOOTH = 0.2, 2.6
 WHEELS = ("wheel", "railwheel")
 """The looks of bodies that are wheels about their first joint."""
 ENDED = ("hook", "pad", "bucket")
-"""The looks of bodies of which more is drawn about their last joint than a bar's width."""
+"""The looks of bodies that are wider than a bar around their last joint."""
 RIM, _GLASS = 0.8, 0.35
-"""How wide a wheel's rim is in half widths of a bar, and how much its disc covers."""
+"""The width of a wheel's rim in half widths of a bar, and the opacity of its disc."""
 
 
 def _bar(points: list[complex], gauge: Gauge, colours: Colours) -> list[Layer]:
@@ -133,9 +134,9 @@ SHAPES: Mapping[str, Callable[..., list[Layer]]] = {
     "bucket": _bucket,
     "none": lambda *_: [],
 }
-"""How a body is drawn that says its `look`."""
+"""How a body is drawn, by the `look` that it states."""
 BEYOND = ("bucket", "hook", "pad")
-"""Of these what reaches beyond the body's joints."""
+"""The looks that extend beyond the body's joints."""
 
 
 # Bodies: rounded bars and plates, the pins on top of them, centres of mass.
@@ -144,7 +145,7 @@ BEYOND = ("bucket", "hook", "pad")
 def body_parts(context: DrawContext) -> tuple[Part, ...]:
     """Return every body with its joints' fittings, back to front: plates, then bars, in the scene's order.
 
-    Plates are clear enough to show what lies behind them: on a locomotive bars that come before its wheels.
+    Plates are translucent enough to show what lies behind them, as on a locomotive with bars behind wheels.
     """
     figure, view, _, theme = context.known
     colours = colours_of(figure, theme)
@@ -164,9 +165,9 @@ def body_parts(context: DrawContext) -> tuple[Part, ...]:
 
 
 def colours_of(figure: Figure, theme: Theme) -> dict[str, Colour]:
-    """Return each body's colour: its own, or the theme's; the driven part's is the first of these.
+    """Return each body's colour: its own, or the theme's; the driven body has the theme's first.
 
-    One without a name is metal.
+    A body without a name is metal.
     """
     drive = figure.linkage.drive.joint
     named = [body for body in figure.linkage.bodies if len(body.joints) > 1]
@@ -251,17 +252,17 @@ def mark_stamp(colour: Colour, gauge: Gauge, theme: Theme) -> Stamp:
     return Stamp((Layer(theme.outline, [disc(radius)]), Layer(colour, [disc(radius - gauge.outline)])))
 
 
-# The causal chain in colour: the input's colour fades from step to step in which joints are solved.
+# The causal chain in colour: the input's colour fades with each step in which joints are solved.
 
 _FADED = 0.8
-"""How much of the background is in the colour of the last step."""
+"""The share of the background in the colour of the last step."""
 
 
 @frozen
 class CausalChain:
     """Each joint's step in the order of solving, 0 on the ground, and the colours that stand for the steps.
 
-    One hue that only gets nearer to the background, so that it reads without telling hues apart.
+    The colours are one hue that fades towards the background, so that no hues need to be told apart.
     """
 
     steps: Mapping[str, int]
@@ -278,13 +279,13 @@ class CausalChain:
         return tuple(self._colour(step) for step in range(1, self.last + 1))
 
     def pins(self, gauge: Gauge) -> dict[str, Stamp]:
-        """Return the joints' pins, their eyes in the colour of their step; those of the ground as ever."""
+        """Return the joints' pins, with eyes in the colour of their step; pins of the ground as usual."""
         eyes = [self.theme.pin, *self.colours]
         stamps = [pin_stamp(gauge, replace(self.theme, pin=eye)) for eye in eyes]
         return {name: stamps[step] for name, step in self.steps.items()}
 
     def coloured(self, parts: tuple[Part, ...], figure: Figure) -> Iterator[Part]:
-        """Yield bodies and their fittings in colours between those of the joints by which they move."""
+        """Yield bodies and fittings in a colour midway between those of the joints by which they move."""
         usual = colours_of(figure, self.theme)
         for part in parts:
             own = {usual.get(part.name, self.theme.metal), self.theme.metal}

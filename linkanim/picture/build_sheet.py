@@ -1,4 +1,4 @@
-"""Draw the sheet that is drawn on: its grid, a linkage that is being built, the pencil's path.
+"""Draw the sheet of paper: its grid, a linkage that is being built on it, the pencil's path.
 
 A draft that does not move yet is drawn as bars and plates, pins with their feet, guides, struts and wheels.
 A path is the pencil's line, and then the stroke behind its trace, with handles.
@@ -42,7 +42,7 @@ HINT = "draw a path in one stroke"
 _GRID = 36
 """The least distance of the sheet's lines, in units."""
 _DASH, _GAP = 3.2, 2.2
-"""Along the stroke, in its widths."""
+"""The lengths of dashes and gaps of the stroke, in widths of it."""
 _HANDLES = 12
 """Points of a stroke that are marked; every one can be dragged."""
 
@@ -79,7 +79,7 @@ def pencil(layout: Layout, theme: Theme) -> pygame.Surface:
 
 
 def drawn_line(setting: DrawSetting, shown: PathShown) -> Group:
-    """Return the pencil's line, or the stroke while nothing follows it; words where there is neither."""
+    """Return the pencil's line, or the stroke while no linkage follows it; words where there is neither."""
     points = (
         np.array(shown.pen) if shown.pen else shown.curve.polyline if shown.curve else np.zeros(0, complex)
     )
@@ -129,7 +129,7 @@ _COILS = 10
 _GUIDE = 11.0
 """How far a guide is drawn about a place, in half widths of a bar."""
 _WHEELS = 0.55
-"""How much of what lies behind a wheel it covers."""
+"""The opacity of a wheel."""
 
 
 def draft_gauge(layout: Layout, view: View, draft: DraftShown) -> Gauge:
@@ -146,7 +146,7 @@ class DraftDrawing:
         self._draft, self._view, self._gauge, self._theme = draft, view, gauge_, theme
 
     def groups(self) -> Iterator[Group]:
-        """Yield all of it but the names, back to front."""
+        """Yield the draft without its names, back to front."""
         drawn = {"gears": self._wheels, "guides": self._guide, "pins": self._foot}
         behind = [layer for kind, draw in drawn.items() for one in self._of(kind) for layer in draw(one)]
         yield Group("draft-ground", behind)
@@ -162,7 +162,7 @@ class DraftDrawing:
         return [self._view.place(point) for point in places]
 
     def _guide(self, guide: Shape) -> Iterator[Layer]:
-        """Yield a line along a guide's two places, some way to either side of what slides on it."""
+        """Yield a line through a guide's two places, extended on both sides of the slider on it."""
         start, beside, *blocks = self._placed(guide.places)
         along, reach = unit(beside - start), _GUIDE * self._gauge.bar
         places = [((at - start) * along.conjugate()).real for at in blocks] or [0.0]
@@ -194,7 +194,7 @@ class DraftDrawing:
         return draw(points, self._gauge.bar, self._gauge.outline, colours)
 
     def _block(self, block: Shape) -> Iterator[Layer]:
-        """Yield what slides, along the way from its first place to its second."""
+        """Yield a slider's block, along the line from its first place to its second."""
         at, *beside = self._placed(block.places)
         turn = unit(beside[0] - at) if beside else 1 + 0j
         share = 1.0 if block.kind == "sliders" else 0.62
@@ -221,7 +221,7 @@ class DraftDrawing:
             yield from turning_arrow(pivot, pin, self._gauge, self._theme)
 
     def names(self, size: int) -> Iterator[Caption]:
-        """Yield the joints' names at a size, each where the bars of its joint leave most room."""
+        """Yield the joints' names at a size, each where the bars at its joint leave most room."""
         halo = Halo(self._theme.background, 0.12 * size)
         for joint in self._of("pins", "joints"):
             here, aside = self._placed(joint.places)[0], self._aside(joint)
@@ -263,13 +263,13 @@ _ROOM = 0.86
 _LINES = 2.4
 """The room for words above, in heights of their text."""
 _LIT, _FAINT = 0.45, 0.55
-"""How strongly what is chosen is lit, and how much of what the hand draws shows."""
+"""The opacities of the light on the chosen shape, and of what the hand is drawing."""
 _BACKING = 0.8
-"""How little of what lies under the words shows."""
+"""The opacity of the backing under the words."""
 _ARROW = (0j, 17j, 4 + 13j, 7 + 20j, 10 + 18.7j, 7 + 12j, 12.5 + 12j)
 """The corners of a pointer, in units."""
 _ALONG = ("begin", "end")
-"""The frame of what is measured along itself."""
+"""The frame of a length that is measured from its begin to its end."""
 
 
 def home_view(home: Box, layout: Layout) -> View:
@@ -294,7 +294,7 @@ def paper(setting: DrawSetting, photo: Photo | None) -> Group:
 
 
 def drafted(shown: BuildShown, draft: DraftShown, setting: DrawSetting) -> Iterator[Group]:
-    """Yield a draft that does not move, what the hand does to it, and the words."""
+    """Yield a draft that does not move yet, what the hand does to it, and the words."""
     thick = draft_gauge(setting.layout, setting.view, draft)
     drawing = DraftDrawing(draft, setting.view, thick, setting.theme)
     yield from drawing.groups()
@@ -302,14 +302,14 @@ def drafted(shown: BuildShown, draft: DraftShown, setting: DrawSetting) -> Itera
 
 
 def loose(draft: DraftShown, setting: DrawSetting) -> Iterator[Group]:
-    """Yield what is drawn beside a linkage that moves: guides and pins that nothing holds on to yet."""
+    """Yield what is drawn beside a moving linkage: guides and pins that nothing is attached to yet."""
     drawing = DraftDrawing(draft, setting.view, setting.gauge, setting.theme)
     yield from drawing.groups()
     yield Group("draft-names", (), [*drawing.names(setting.layout.small_size)])
 
 
 def hand(shown: BuildShown, setting: DrawSetting, names: Sequence[Caption] = ()) -> Iterator[Group]:
-    """Yield what is chosen, with names on it, what the hand draws and joins, and the words on it all."""
+    """Yield the light on the chosen shape, names, what the hand draws and snaps to, and the words."""
     if shown.dots:
         yield Group("dots", [*_dots(shown.dots, setting)], over=True)
     yield _grid_words(shown, setting)
@@ -350,7 +350,7 @@ def _grid_words(shown: BuildShown, setting: DrawSetting) -> Group:
 
 
 def _chosen(shown: BuildShown, setting: DrawSetting) -> Iterator[Group]:
-    """Yield the light on what is chosen, and its number beside it."""
+    """Yield the light on the chosen shape, and its number beside it."""
     if shown.chosen is None:
         return
     loops = [*lit(shown.chosen, setting.view, 1.5 * setting.gauge.bar)]
@@ -421,7 +421,7 @@ def worded(
 ) -> Group:
     """Return a sentence and facts below it, at the top, off the cells of tools, on a backing.
 
-    They take that share of the stage's width at the most.
+    They take at most the share `room` of the stage's width.
     """
     layout, theme = setting.layout, setting.theme
     is_wide = layout.size[0] >= layout.size[1]

@@ -23,30 +23,30 @@ from linkanim.picture.theme import mixed
 from linkanim.picture.view import Rect
 from linkanim.units import three_digits
 
-# Instant centres with Kennedy's lines, and the curves that the coupler's runs along: both centrodes.
+# Instant centres with Kennedy's lines, and the curves of the coupler's instant centre: both centrodes.
 
 _CLOSE = 3.0
-"""Points of a curve that are nearer to each other, in pixels, are not all needed."""
+"""Points of a curve that are nearer to each other than this, in pixels, are thinned out."""
 _MOST = 5
-"""Of so many links, the ground among them, all centres are marked, of more those to the ground alone."""
+"""With up to this many links, ground included, all centres are marked; with more, those to the ground."""
 _FAR = 3.0
-"""A centre is within the view of a still that is no farther from its middle, in sizes of the linkage."""
+"""The view of a still holds centres up to this far from its middle, in sizes of the linkage."""
 _BEYOND = 4.0
-"""How far a line runs towards a centre that is infinitely far, in sizes of the picture."""
+"""How far a line is drawn towards a centre that is infinitely far, in sizes of the picture."""
 _FAINT = 0.45
-"""How much of the background is in Kennedy's lines."""
+"""The share of the background in the colour of Kennedy's lines."""
 _ARROW = 2.2
 """The length of an arrow at the edge, in heights of the text."""
 _CROSS, _BLOCK = 0.8, 2.4
-"""How far a centre's cross reaches, and what keeps names off a slider's block, in half widths of a bar."""
+"""The arm of a centre's cross, and how far names keep from a slider's middle, in half widths of a bar."""
 _MARGIN = 6.0
-"""How far names stay off the picture's edge, in its unit."""
+"""How far names keep from the picture's edge, in its unit."""
 _AROUND = np.exp(-0.25j * np.pi * np.array([1, -1, 3, -3, 0, 4, 2, -2]))
 """The directions from a centre to its name, the best first."""
 
 
 class NamedPair(NamedTuple):
-    """Two links by their numbers, and what their instant centre is called: P_{24}."""
+    """Two links by their numbers, and the name of their instant centre: P_{24}."""
 
     links: tuple[str, str]
     label: str
@@ -60,24 +60,24 @@ class CentrePairs:
 
     @cached_property
     def pairs(self) -> tuple[NamedPair, ...]:
-        """All pairs of few links, of more those with the ground."""
+        """All pairs where links are few; else the pairs with the ground."""
         links = self.figure.by_number
         pairs = combinations(links, 2) if self.all_shown else (("1", other) for other in [*links][1:])
         return tuple(NamedPair(pair, label_of(*pair)) for pair in pairs)
 
     @property
     def all_shown(self) -> bool:
-        """Whether there are so few links that all of their centres are shown."""
+        """Whether links are few enough for all their centres to be shown."""
         return len(self.figure.by_number) <= _MOST
 
     @cached_property
     def steps(self) -> tuple[KennedyStep, ...]:
-        """How Kennedy's theorem leads to the centres; of many links nothing."""
+        """The steps by which Kennedy's theorem leads to the centres; empty with many links."""
         return kennedy(self.figure.linkage, self.figure.by_number) if self.all_shown else ()
 
     @cached_property
     def at_joints(self) -> dict[str, tuple[str, ...]]:
-        """The names of the centres that lie in a joint all the time, by its name."""
+        """The names of the centres that always lie in a joint, by the joint's name."""
         found: dict[str, tuple[str, ...]] = {}
         for (one, other), label in self.pairs:
             links = self.figure.by_number
@@ -86,26 +86,26 @@ class CentrePairs:
         return found
 
     def of(self, pose: Pose) -> dict[tuple[str, str], Centre]:
-        """Return the centres of a pose by their links, without links that do not move against each other."""
+        """Return the centres of a pose by their pairs of links, for pairs that move against each other."""
         links = self.figure.by_number
         known = {pair: centre(pose, *(links[number] for number in pair)) for pair, _ in self.pairs}
         return {pair: found for pair, found in known.items() if found}
 
     def near(self, pose: Pose) -> tuple[complex, ...]:
-        """Return the centres of a pose, in the scene's unit, that its picture is to hold."""
+        """Return the centres of a pose, in the scene's unit, that its picture has to include."""
         middle = complex(*self.figure.box.middle)
         places = [found.place for found in self.of(pose).values() if found.place is not None]
         return tuple(place for place in places if abs(place - middle) <= _FAR * self.size)
 
     @property
     def size(self) -> float:
-        """The size of the linkage: the longer side of what it sweeps, in the scene's unit."""
+        """The size of the linkage: the longer side of the box that it sweeps, in the scene's unit."""
         box = self.figure.box
         return max(box.right - box.left, box.high - box.low)
 
 
 class Seen(NamedTuple):
-    """A centre in pixels: its name, its place, whether it is a joint's; or its direction from `at`."""
+    """A centre in pixels: its name, its place, whether it is in a joint; if invisible, its direction."""
 
     label: str
     at: complex
@@ -125,16 +125,16 @@ class Centres:
         return CentrePairs(self.setting.figure)
 
     def drawn(self, pose: Pose, places: Places, taken: Iterable[Rect]) -> tuple[list[Layer], list[Caption]]:
-        """Return what is drawn of a pose's centres, and the names of those that are no joints.
+        """Return the drawing of a pose's centres, and the names of those that are not in joints.
 
-        Names stand off what is `taken`, each other and bars.
+        Names keep off what is `taken`, off each other and off bars.
         """
         found = self.known.of(pose)
         seen = [*self._seen(found)]
         return [*self._layers(found, seen)], [*self._captions(seen, places, taken)]
 
     def _layers(self, found: dict[tuple[str, str], Centre], all_seen: Iterable[Seen]) -> Iterator[Layer]:
-        """Yield Kennedy's lines, a cross at each centre in sight that is no joint, an arrow to each other."""
+        """Yield Kennedy's lines, crosses at visible centres outside joints, arrows to invisible ones."""
         gauge, theme = self.setting.gauge, self.setting.theme
         lines = [line for step in self.known.steps for line in self._lines(step, found)]
         if lines:
@@ -162,7 +162,7 @@ class Centres:
         room = self.setting.layout.reach.inset(_MARGIN * self.setting.layout.unit)
         rects = about(middles, np.array(wide)[:, None], size, room)
         marks = rect_rows(map(self._mark, named))
-        # a name may touch its own cross, not its own arrow
+        # a name may touch its own cross, but not its own arrow
         own = np.array([not seen.direction for seen in named])[:, None] & overlap(rects, marks[..., None])
         busy = met(rects, np.column_stack((rect_rows(taken), marks))) - own
         solid = crossed(rects, self._bars(places)) + met(rects, rect_rows(self._solid(places)))
@@ -177,7 +177,7 @@ class Centres:
         return tuple((one.at - half, one.at + half) for one in seen for half in (reach, 1j * reach))
 
     def _mark(self, seen: Seen) -> Rect:
-        """Return what a centre's cross covers, or its arrow."""
+        """Return the rectangle of a centre's cross, or of its arrow."""
         reach, long = _CROSS * self.setting.gauge.bar, _ARROW * self.setting.layout.small_size
         foot = seen.at - long * seen.direction
         (left, right), (top, bottom) = (
@@ -186,7 +186,7 @@ class Centres:
         return Rect(left, top, right - left, bottom - top).inset(-0.5 * reach if seen.direction else -reach)
 
     def _solid(self, places: Places) -> Iterator[Rect]:
-        """Yield what pins and blocks cover."""
+        """Yield the rectangles of pins and blocks."""
         for joint in self.setting.figure.shown:
             travels = self.setting.figure.linkage.joint(joint).travels
             half, at = (_BLOCK if travels else 1.0) * self.setting.gauge.bar, places[joint]
@@ -200,7 +200,7 @@ class Centres:
     def _around(self, seen: Seen, wide: float) -> Loop:
         """Return 24 places for the middle of a name: round a cross, or beside and behind an arrow.
 
-        Of those about an arrow the last six are one.
+        At an arrow the last six places are one and the same.
         """
         size, off = self.setting.layout.small_size, 0.8 * self.setting.gauge.bar
         if not seen.direction:
@@ -216,7 +216,7 @@ class Centres:
         return np.array([*beside, *[beside[-1]] * (3 * len(_AROUND) - len(beside))])
 
     def seen(self, pose: Pose) -> Iterator[Seen]:
-        """Yield the centres as they show: those in the picture, then the directions of the others."""
+        """Yield the visible centres, then the directions of the others."""
         return self._seen(self.known.of(pose))
 
     def _seen(self, found: dict[tuple[str, str], Centre]) -> Iterator[Seen]:
@@ -230,7 +230,7 @@ class Centres:
             place, direction = found[pair]
             if place is None:
                 direction = direction.conjugate()
-                if (-direction.imag, direction.real) <= (1e-9, 0.0):  # it is told upwards, or to the right
+                if (-direction.imag, direction.real) <= (1e-9, 0.0):  # a direction points up, or to the right
                     direction = -direction
                 far.append(Seen(f"{label} at ∞", foot + inner.ahead(foot, direction) * direction, direction))
                 continue
@@ -245,7 +245,7 @@ class Centres:
 
     @property
     def _pin(self) -> tuple[str, complex]:
-        """What it is from which distances to centres out of sight are told, and where it lies in pixels."""
+        """The name of the place from which distances to invisible centres are given, and its pixel."""
         figure, view = self.setting.figure, self.setting.view
         if not figure.fixed:
             return "the origin", view.place((0.0, 0.0))
@@ -254,7 +254,7 @@ class Centres:
     def _lines(
         self, step: KennedyStep, found: dict[tuple[str, str], Centre]
     ) -> Iterator[tuple[complex, complex]]:
-        """Yield what shows of the lines on which a centre lies, each for a third link."""
+        """Yield the visible parts of the lines on which a centre lies, one for each third link."""
         for third in step.by:
             far = _BEYOND * max(self.setting.layout.size) / self.setting.view.scale
             if ends := kennedy_line(step.pair, third, found, far):
@@ -268,7 +268,7 @@ class Centres:
         return self._stroked(view.place((0.0, 0.0)) + view.scale * self._curves[0].conj(), theme.warning)
 
     def moving(self, places: Places) -> Layer:
-        """Return the curve that moves with the coupler and rolls on the other."""
+        """Return the curve that moves with the coupler and rolls on the fixed one."""
         figure, view, _, theme = self.setting.known
         body = coupler_body(figure.linkage)
         if body is None:
@@ -294,14 +294,14 @@ class Centres:
 
 
 def _thinned(run: Loop) -> Loop:
-    """Return a path without those of its points that lie close together."""
+    """Return a path thinned out where its points lie close together."""
     steps = np.floor(np.cumsum(np.abs(np.diff(run))) / _CLOSE)
     kept: Loop = run[np.r_[True, np.diff(steps) > 0, True][: len(run)]]
     return kept
 
 
 def label_of(one: str, other: str) -> str:
-    """Return what the centre of two links is called, the lower number first."""
+    """Return the name of the centre of two links, the lower number first."""
     first, second = sorted((one, other), key=lambda number: (len(number), number))
     apart = "," if len(first) + len(second) > 2 else ""
     return f"P_{{{first}{apart}{second}}}"
@@ -312,7 +312,7 @@ def kennedy_line(
 ) -> tuple[complex, complex] | None:
     """Return the ends of the line through the centres that two links have with a third, and their own.
 
-    It runs so far towards what is infinitely far; None where it has no direction.
+    Towards a centre that is infinitely far it runs `reach`; None where it has no direction.
     """
     one, other = pair
     centres = [found.get(key) or found.get(key[::-1]) for key in ((one, third), (third, other), (one, other))]

@@ -43,13 +43,13 @@ from linkanim.units import stepped
 # Charts: a frame with axes, curves and points.
 
 _ASYMPTOTE, _ASYMPTOTE_DASHES = 0.6, (8.0, 6.0)
-"""How thin an asymptote is, in thin lines, and its dashes and gaps, in widths of it."""
+"""The width of an asymptote, in thin lines, and its dashes and gaps, in widths of the asymptote."""
 _RIM = 1e-6
-"""A curve's points so far outside of a plot, in pixels, are on its edge."""
+"""Points of a curve that are outside a plot by less than this, in pixels, are on its edge."""
 _FOOT = 1.6
 """From the plot down to the title of the horizontal axis, in heights of small text."""
 _WITH_FOOT, _NO_FOOT, _FOR_FOOT = 1.2, 1.6, 9.0
-"""The height of that title; what is below a plot that has none; how high a chart is that has one."""
+"""In heights of small text: that title; the room below a plot without one; the least chart that has one."""
 
 
 @frozen
@@ -61,7 +61,7 @@ class Plot:
     y: Axis
 
     def place(self, x: ArrayLike, y: ArrayLike) -> Loop:
-        """Return pixels for values; above and below the axis they stay at its edge, NaN stays NaN."""
+        """Return pixels for values; values beyond the vertical axis are put at its edge, NaN stays NaN."""
         across, up = self.x.share(x), np.minimum(np.maximum(self.y.share(y), -0.0), 1.0)
         pixels: Loop = (self.area.x + across * self.area.width) + 1j * (
             self.area.bottom - up * self.area.height
@@ -71,7 +71,7 @@ class Plot:
 
 @frozen
 class Pen:
-    """What a chart is drawn with."""
+    """The sizes, letters and colours with which a chart is drawn."""
 
     type: Type
     theme: Theme
@@ -88,9 +88,9 @@ def pen_for(layout: Layout, type_: Type, theme: Theme) -> Pen:
 def plot_area(
     rect: Rect, y: Axis, pen: Pen, *, foot: bool = False, left: float = 0.0, low: float | None = None
 ) -> Rect:
-    """Return what of a rectangle is left for curves beside tick labels, a title above and one at the foot.
+    """Return the part of a rectangle for curves: without tick labels, a title above and one at the foot.
 
-    At the `left` it leaves so much at least; with `low` so much at the foot.
+    At least `left` pixels stay free at the left; with `low`, so many at the foot.
     """
     left, top = max(left, room_for_ticks(y, pen)), 1.5 * pen.text
     usual = (_FOOT + _WITH_FOOT if foot else _NO_FOOT) * pen.small
@@ -130,7 +130,7 @@ def right_axis(plot: Plot, pen: Pen) -> Iterator[Item]:
 
 
 def _levels(plot: Plot, pen: Pen) -> Iterator[tuple[float, str]]:
-    """Yield how far down ticks of a vertical axis lie, and their labels, but for those that have no room."""
+    """Yield how far down the ticks of a vertical axis lie, and their labels where there is room."""
     below = np.inf
     for value, label in plot.y.ticks:
         y = complex(plot.place(plot.x.low, value)).imag
@@ -146,7 +146,7 @@ def x_title(plot: Plot, title: str, pen: Pen, *, foot: bool = True) -> Caption:
 
 
 def beside_title(plot: Plot, title: str, pen: Pen) -> Plot:
-    """Return a plot without the labels of the ticks that its title would stand on, which it stands beside."""
+    """Return a plot without those tick labels that its title, beside them, would cover."""
     free = plot.area.right - pen.type.width(title, pen.small) - 0.6 * pen.small
     ticks = []
     for value, label in plot.x.ticks:
@@ -158,7 +158,7 @@ def beside_title(plot: Plot, title: str, pen: Pen) -> Plot:
 def marked(
     plot: Plot, marks: Sequence[tuple[float, str]], values: NDArray[np.float64], pen: Pen
 ) -> Iterator[Item]:
-    """Yield a dashed line at each mark, its label at the end that is further from the curve's value there."""
+    """Yield a dashed line at each mark, with its label at the end further from the curve."""
     area = plot.area
     for (x, label), value in zip(marks, values, strict=True):
         foot, wide = complex(plot.place(x, plot.y.low)), pen.type.width(label, pen.small)
@@ -179,12 +179,12 @@ def _lines(feet: Loop, reach: complex, pen: Pen) -> list[Loop]:
 def curve_layer(
     plot: Plot, x: ArrayLike, y: ArrayLike, colour: Colour, width: float, dashes: Sequence[float] = ()
 ) -> Layer:
-    """Return a curve, dashed in widths of its line; it is broken where a value is not finite, or outside."""
+    """Return a curve, broken where a value is not finite or outside; `dashes` are in widths of its line."""
     return line_layer(paths(plot, x, y), colour, width, dashes)
 
 
 def paths(plot: Plot, x: ArrayLike, y: ArrayLike) -> Iterator[Loop]:
-    """Yield in pixels what of a curve lies between the lower and the upper edge of a plot."""
+    """Yield, in pixels, the parts of a curve between the lower and the upper edge of a plot."""
     area = plot.area
     across = area.x + plot.x.share(x) * area.width
     pixels = across + 1j * (area.bottom - plot.y.share(np.where(np.isfinite(y), y, np.nan)) * area.height)
@@ -197,7 +197,7 @@ def paths(plot: Plot, x: ArrayLike, y: ArrayLike) -> Iterator[Loop]:
 
 
 def _with_crossings(path: Loop, level: float) -> Loop:
-    """Return a path in pixels with a point more wherever it crosses a level."""
+    """Return a path in pixels with a point added wherever it crosses a level."""
     above = path.imag - level
     at = np.flatnonzero(above[:-1] * above[1:] < 0)
     part = above[at] / (above[at] - above[at + 1])
@@ -232,13 +232,13 @@ def line_layer(runs: Iterable[Loop], colour: Colour, width: float, dashes: Seque
 
 
 def dot(colour: Colour, pen: Pen) -> Stamp:
-    """Return a dot about 0 in a ring of the background."""
+    """Return a dot about 0, in a ring of the background's colour."""
     ring = Layer(pen.theme.background, [disc(3.6 * pen.line)])
     return Stamp((ring, Layer(colour, [disc(2.7 * pen.line)])))
 
 
 def runs_of(held: NDArray[np.bool_]) -> Iterator[NDArray[np.intp]]:
-    """Yield the numbers of neighbours that are all held."""
+    """Yield the indices of each run of neighbours that are all true."""
     numbers = np.flatnonzero(held)
     parts = np.split(numbers, np.flatnonzero(np.diff(numbers) > 1) + 1)
     return (run for run in parts if run.size)
@@ -247,22 +247,22 @@ def runs_of(held: NDArray[np.bool_]) -> Iterator[NDArray[np.intp]]:
 # The chart beside the scene: one quantity over one true period of the motion as it runs, and its cursor.
 
 _TITLE = 1.35
-"""From the plot up to the line above it, in heights of its text."""
+"""From the plot up to the line of text above it, in heights of that text."""
 _GAP = 1.2
-"""Between two things in that line, in heights of its text."""
+"""The gap between two things in that line, in heights of its text."""
 _LEAST_PLOT = 2.0
-"""The least height of a plot among others, in heights of small text."""
+"""The least height of one of several plots, in heights of small text."""
 _BETWEEN = 0.7
-"""Below a plot that has another one below it, in heights of small text."""
+"""The gap between two plots, in heights of small text."""
 
 
 @frozen
 class ChartPanel:
-    """A quantity of a motion that runs at `speed` (rad/s, negative: the phase runs back), `over` an axis.
+    """A quantity of a motion that runs at `speed` (rad/s, negative: the phase decreases), `over` an axis.
 
-    Among others at the same axis `left` is the room that the widest of their tick labels takes; one that is
-    not the `lowest` leaves it to that to tell what they run over. `counted` says of how many it is which,
-    where not all have room.
+    Where several charts share the axis, `left` is the room that the widest of their tick labels takes, and
+    only the `lowest` chart names the axis. Where not all charts have room, `counted` says which of how many
+    this one is.
     """
 
     figure: Figure
@@ -281,7 +281,7 @@ class ChartPanel:
 
     @cached_property
     def course(self) -> Course:
-        """What the values are shown over."""
+        """The axis over which the values are shown."""
         scene = self.figure.scene
         return course(scene, self.speed, axis_of(scene, self.over))
 
@@ -335,7 +335,7 @@ class ChartPanel:
         return 1.3 * self.pen.line
 
     def frame(self) -> Iterator[Item]:
-        """Yield what stands still but for the curves."""
+        """Yield what stands still, without the curves."""
         title, pen = self.course.title, self.pen
         bare = self._has_foot or not self.lowest
         yield from axes(self.plot if bare else beside_title(self.plot, title, pen), pen)
@@ -349,7 +349,7 @@ class ChartPanel:
 
     @cached_property
     def title(self) -> Caption:
-        """Return the vertical axis' title: words, symbol and unit, as much as leaves room for the reading."""
+        """Return the vertical axis' title: words, symbol and unit, as far as the reading leaves room."""
         pen, area = self.pen, self.plot.area
         room = area.width - self._widest_reading - _GAP * pen.text
         full = self.quantity.title(self.figure.scene.length_unit)
@@ -369,7 +369,7 @@ class ChartPanel:
         return (self.pen.theme.velocity, self.pen.theme.acceleration)[n % 2]
 
     def values_at(self, pose: Pose) -> Floats:
-        """Return the pose's own values; of an angle the turn in which the curve stands there."""
+        """Return the pose's own values; an angle is given in the turn of the curve there."""
         found: Floats = np.atleast_1d(np.asarray(self.quantity.shown(pose), float))
         if self.series.unit != "°":
             return found
@@ -403,7 +403,7 @@ class ChartPanel:
         )
 
     def readings(self, pose: Pose) -> Iterator[Item]:
-        """Yield the pose's values at the right above the plot, of several curves each with its colour."""
+        """Yield the pose's values at the right above the plot; with several curves, each with its colour."""
         pen, words = self.pen, self.reading(self.values_at(pose))
         widths = self._widths(words)
         y, x = self.plot.area.y - _TITLE * pen.text, self.plot.area.right - sum(widths)
@@ -420,7 +420,7 @@ class ChartPanel:
         return 1.1 * self.pen.text
 
     def _widths(self, words: tuple[str, ...]) -> list[float]:
-        """Return how much of the line each value takes, with its colour where there are several."""
+        """Return the width of each value in the line, with its colour where there are several."""
         colours = self._swatch + (0.4 + _GAP) * self.pen.text if len(words) > 1 else 0.0
         return [self.pen.type.width(text, self.pen.text) + colours for text in words]
 
@@ -487,8 +487,8 @@ def chart_strips(
 ) -> ChartStrips:
     """Return the charts of quantities as `chart_panel` returns one, in strips of equal plots.
 
-    Where not all can be read below each other it has the last ones, which say so. BadInput where the scene
-    has no such quantity, and for more than there are at once.
+    Where not all have room below each other, only the last ones are there and say which of how many they are.
+    BadInput where the scene has no such quantity, and for more than `MOST_CHARTS`.
     """
     if len(tokens) > MOST_CHARTS:
         raise BadInput(f"{len(tokens)} quantities in charts: there is room for {MOST_CHARTS}")
@@ -511,7 +511,7 @@ def chart_strips(
 
 
 def _aligned(panels: Sequence[ChartPanel]) -> tuple[ChartPanel, ...]:
-    """Return charts with plots that begin below each other, beside the widest of all tick labels."""
+    """Return charts whose plots have one left edge, beside the widest of all tick labels."""
     if len(panels) == 1:
         return tuple(panels)
     left = max(room_for_ticks(panel.y_axis, panel.pen) for panel in panels)
@@ -519,9 +519,9 @@ def _aligned(panels: Sequence[ChartPanel]) -> tuple[ChartPanel, ...]:
 
 
 def _high(rect: Rect, count: int, pen: Pen) -> float:
-    """Return how high each of so many strips is in a rectangle but for the lowest one's foot.
+    """Return the height of each of so many strips in a rectangle, without the foot of the lowest one.
 
-    Of the lowest one's room its plot has as much as the others have of theirs.
+    So all plots, the lowest one's included, are equally high.
     """
     rests = [(low - _BETWEEN) * pen.small for low in (_FOOT + _WITH_FOOT, _NO_FOOT)]
     highs = [((rect.height - rest) / count, rest) for rest in rests]

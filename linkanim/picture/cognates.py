@@ -16,7 +16,7 @@ _SLIM, _PIN = 0.8, 0.5
 """Half the width of a bar and the radius of a pin, in half widths of the linkage's bars."""
 _JOINTS = ("O2", "O4", "A", "B", "P")
 _FAINT, _PANE = 0.35, 0.07
-"""How much of the ink is in an outline, and how strongly a bar is filled."""
+"""The share of the ink in an outline, and the opacity of a bar's fill."""
 
 
 def cognate_group(setting: DrawSetting, pose: Pose, numbers: Sequence[int]) -> Group:
@@ -33,7 +33,7 @@ def cognate_group(setting: DrawSetting, pose: Pose, numbers: Sequence[int]) -> G
 
 
 def cognate_bars(pose: Pose, number: int) -> tuple[tuple[complex, ...], ...]:
-    """Return the joints of a cognate's crank, coupler and rocker, as x + yi; nothing for no four-bar."""
+    """Return the joints of a cognate's crank, coupler and rocker, as x + yi; empty for no four-bar."""
     if not {*_JOINTS} <= pose.position.keys():
         return ()
     o2, o4, a, b, p = (complex(*pose.position[name]) for name in _JOINTS)
@@ -43,7 +43,7 @@ def cognate_bars(pose: Pose, number: int) -> tuple[tuple[complex, ...], ...]:
 
 
 def cognate_sides(pose: Pose, number: int) -> Iterator[tuple[complex, complex]]:
-    """Yield the sides of a cognate's bars, by which it is taken."""
+    """Yield the sides of a cognate's bars: a click on one takes the cognate."""
     for bar in cognate_bars(pose, number):
         corners = hull(bar)
         yield from zip(corners, [*corners[1:], corners[0]], strict=True)

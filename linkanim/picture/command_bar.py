@@ -1,4 +1,4 @@
-"""The bar of commands at the scene's foot: where its buttons are, how they are drawn, what each is called."""
+"""The bar of commands at the scene's foot: its buttons' places, their drawing, and their names."""
 
 from __future__ import annotations
 
@@ -19,17 +19,17 @@ from linkanim.picture.theme import Theme, mixed
 from linkanim.picture.view import Rect
 
 _GAP, _BETWEEN = 0.06, 0.3
-"""Between buttons and between their groups, in sides, as what follows."""
+"""The gaps between buttons and between their groups, in sides of a button, as the sizes below."""
 _FRAME = 0.14
 _ABOVE, _BELOW = 0.3, 0.2
-"""How far the buttons of a chart stand out of it, and how far off its foot they are below it."""
+"""How far a chart's buttons extend above its head; how far below its foot they are where they stand there."""
 _READING = 7.5
-"""The room of what is read at a chart's head, in heights of text."""
+"""The room of the values at a chart's head, in heights of text."""
 _SLIDER = 3.0
 _WITHIN = 0.35
-"""From a slider's end to where its knob can go."""
+"""From a slider's end to the end of its knob's range."""
 _GREY = 0.68
-"""How much of the panel's colour is in what cannot be done."""
+"""The share of the panel's colour in a button that cannot be used."""
 _POINTED = 0.5
 
 
@@ -51,8 +51,8 @@ def bar_cells(layout: Layout, buttons: Sequence[Button]) -> tuple[Rect | None, .
 def _at_chart(chart: Rect, wide: float, layout: Layout) -> tuple[Rect, float]:
     """Return the room of a chart's buttons across, and its top.
 
-    At the chart's head that is all its width, or what its title leaves before a reading; in a chart too
-    narrow for that it is below its foot, where there is room.
+    At the chart's head this is its whole width, or the part between its title and its reading. For a chart
+    too narrow for that, it is below the chart's foot, where there is room.
     """
     side, head = layout.button, chart.y - _ABOVE * layout.button
     reading = _READING * layout.text_size
@@ -74,7 +74,7 @@ def _numbers(buttons: Sequence[Button], *, on_chart: bool) -> list[int]:
 def _row(
     buttons: Sequence[Button], kept: list[int], room: Rect, top: float, layout: Layout
 ) -> dict[int, Rect]:
-    """Return where buttons stand in a row, in the middle of a room, those without room left out."""
+    """Return where buttons stand in a row in the middle of a room, without buttons that have no room."""
     side = layout.button
     while len(kept) > 1 and _wide(buttons, kept) * side > room.width - 2 * _FRAME * side - 2 * _edge(layout):
         kept.remove(max(kept, key=lambda n: buttons[n].rank))
@@ -88,7 +88,7 @@ def _row(
 
 
 def button_at(layout: Layout, buttons: Sequence[Button], x: float, y: float) -> int | None:
-    """Return the number of the button under a pixel, -1 between them on the bar; None beside it."""
+    """Return the number of the button under a pixel; -1 on the bar between buttons, None off the bar."""
     cells = bar_cells(layout, buttons)
     if not any(frame.holds(x, y) for frame in _frames(layout, buttons, cells)):
         return None
@@ -96,12 +96,12 @@ def button_at(layout: Layout, buttons: Sequence[Button], x: float, y: float) -> 
 
 
 def bar_place(layout: Layout, bar: CommandBar | None) -> Rect | None:
-    """Return what of the window the bar at the foot takes; None where there is none."""
+    """Return the rectangle of the bar at the foot; None where there is none."""
     return next(iter(_frames(layout, bar.buttons, bar_cells(layout, bar.buttons))), None) if bar else None
 
 
 def share_at(layout: Layout, buttons: Sequence[Button], number: int, x: float) -> float:
-    """Return how far along a slider a pixel is, 0 to 1, also where the slider is gone or has no room."""
+    """Return how far along a slider a pixel is, 0 to 1, even where the slider is gone or has no room."""
     cells = bar_cells(layout, buttons)
     cell = cells[number] if number < len(cells) else None
     begin, end = _rail(cell) if cell else (0.0, 1.0)
@@ -117,7 +117,7 @@ def _foot(layout: Layout) -> Rect:
 
 
 def _edge(layout: Layout) -> float:
-    """Return how far the bar stays off the stage's edges."""
+    """Return how far the bar keeps from the stage's edges, in pixels."""
     return 6.0 * layout.unit
 
 
@@ -148,12 +148,12 @@ def _frames(layout: Layout, buttons: Sequence[Button], cells: Sequence[Rect | No
 
 
 def _rail(cell: Rect) -> tuple[float, float]:
-    """Return from where to where a slider's knob goes."""
+    """Return the left and the right end of a slider's knob's range."""
     return cell.x + _WITHIN * cell.height, cell.right - _WITHIN * cell.height
 
 
 class BarPrinter:
-    """Paints the bar; it is kept as it was last, and so is each button in each of its states."""
+    """Paints the bar; its last drawing is cached, and so is each button in each of its states."""
 
     def __init__(self) -> None:
         self._type = Type()
@@ -163,7 +163,7 @@ class BarPrinter:
         self._tooltips: dict[object, pygame.Surface] = {}
 
     def draw(self, surface: pygame.Surface, layout: Layout, theme: Theme, bar: CommandBar | None) -> None:
-        """Draw the bar over the picture, and above it what the command under the mouse is called."""
+        """Draw the bar over the picture, and above it the name of the command under the mouse."""
         if bar is None or not bar.buttons:
             return
         if self._board is None or (self._board.layout, self._board.theme) != (layout, theme):
@@ -198,7 +198,7 @@ class BarPrinter:
         return sheet
 
     def _tell(self, surface: pygame.Surface, board: Board, cell: Rect, button: Button) -> None:
-        """Write what a command is called above it, on a chart below it."""
+        """Write a command's name above its button; on a chart, below it."""
         words = button.name, button.key, button.lack
         if words not in self._tooltips:
             self._tooltips[words] = _tooltip(board, button)
@@ -213,7 +213,7 @@ class BarPrinter:
 
 
 def _over_caption(layout: Layout, theme: Theme) -> Iterator[tuple[Rect, pygame.Surface]]:
-    """Yield what hides a caption that stands where the bar comes and goes."""
+    """Yield a sheet that hides a caption where the bar comes and goes."""
     caption = layout.caption
     if caption and layout.bar and layout.bar.meets(caption):
         place = Rect(caption.x, layout.bar.y, caption.width, layout.bar.height)

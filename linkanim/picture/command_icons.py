@@ -17,7 +17,7 @@ from linkanim.picture.theme import DARK, GREEN, ORANGE, SKY, Theme
 from linkanim.picture.tools import ICONS, Icon
 
 _THIN = 1.7
-"""The width of a line, in thin lines of the gauge, as all that follows."""
+"""The width of a line, in thin lines of the gauge, as all sizes below."""
 
 
 def _line(gauge: Gauge, colour: Colour, *paths: list[complex], closed: bool = False) -> Layer:
@@ -35,7 +35,7 @@ def _filled(gauge: Gauge, colour: Colour, *loops: list[complex]) -> Layer:
 
 
 def _arc(middle: complex, radius: float, begin: float, end: float) -> list[complex]:
-    """Return points along an arc, from one angle to another in parts of a turn, clockwise as it is seen."""
+    """Return points along an arc from one angle to another, in turns, clockwise on the screen."""
     angles: NDArray[np.float64] = np.linspace(2 * np.pi * begin, 2 * np.pi * end, 24)
     return [complex(middle + radius * way) for way in directions(angles)]
 

@@ -1,4 +1,4 @@
-"""Which constructions are drawn of a scene, and their steps: its synthesis, its centres, its dead centres."""
+"""The constructions that a scene has, and their steps: its synthesis, its centres, its dead centres."""
 
 from __future__ import annotations
 
@@ -51,15 +51,15 @@ _LOWERED = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 _BEYOND = 0.06
 """How far Kennedy's lines run beyond their centres, in their lengths."""
 _REACH = 3.0
-"""How long lines towards what is infinitely far are, in sizes of the linkage."""
+"""The length of lines towards an infinitely far centre, in sizes of the linkage."""
 _POSES, _CLOSE = 72, 0.08
-"""So many poses are looked at for one whose centres are as near as can be, yet no nearer to each other."""
+"""The number of poses among which the clearest is chosen, and how near to each other its centres may be."""
 _SHORT = 0.3
-"""How long the mark of a way there is."""
+"""The length of the mark that points to an infinitely far centre."""
 
 
 class ConstructionShown(NamedTuple):
-    """Those steps of a construction that are shown, from its first on, and how many it has in all."""
+    """The steps of a construction that are shown, from its first on, and how many it has in all."""
 
     kind: ConstructionKind
     steps: tuple[ConstructionStep, ...]
@@ -78,7 +78,7 @@ def kinds_of(scene: Scene) -> tuple[ConstructionKind, ...]:
 
 
 def title_of(scene: Scene, kind: ConstructionKind) -> str:
-    """Return what a figure of a construction shows."""
+    """Return the title of a construction's figure."""
     return f"{scene.title}: {_TITLES[kind]}"
 
 
@@ -94,7 +94,7 @@ def usual_kind(scene: Scene) -> ConstructionKind:
 
 
 def steps_of(scene: Scene, kind: ConstructionKind, phase: float = 0.0) -> tuple[ConstructionStep, ...]:
-    """Return the steps of a construction, that of the centres at a phase; BadInput where there is none."""
+    """Return the steps of a construction, of centres at that phase; BadInput where there is none."""
     _refuse_lacking(scene, kind)
     match kind:
         case "synthesis":
@@ -117,13 +117,13 @@ def all_steps(scene: Scene) -> int:
 
 
 def steps_before(scene: Scene, kind: ConstructionKind) -> int:
-    """Return how many steps those constructions have that come before one."""
+    """Return how many steps the constructions before this one have."""
     kinds = kinds_of(scene)
     return sum(len(steps_of(scene, one)) for one in kinds[: kinds.index(kind)])
 
 
 def places_of(scene: Scene, kind: ConstructionKind, phase: float) -> tuple[complex, ...]:
-    """Return places in the scene's unit that a picture of a construction has to hold."""
+    """Return places in the scene's unit that a picture of a construction has to include."""
     if kind == "centres":
         return CentrePairs(figure(scene)).near(scene.pose(phase, 1))
     marks = [mark for step in steps_of(scene, kind, phase) for mark in step.marks if mark.spreads]
@@ -131,7 +131,7 @@ def places_of(scene: Scene, kind: ConstructionKind, phase: float) -> tuple[compl
 
 
 def shown_at(scene: Scene, at: int, phase: float) -> ConstructionShown:
-    """Return what is shown in a step, counted from 1 through all constructions of a scene."""
+    """Return the construction and its steps at a step counted from 1 through all constructions of a scene."""
     *earlier, last = kinds_of(scene)
     for kind in earlier:
         count = len(steps_of(scene, kind, phase))
@@ -143,9 +143,9 @@ def shown_at(scene: Scene, at: int, phase: float) -> ConstructionShown:
 
 
 def clear_phase(scene: Scene) -> float:
-    """Return the phase of the pose whose instant centres are nearest to the linkage, and apart.
+    """Return the phase of the pose whose instant centres are nearest to the linkage, yet apart.
 
-    Of several such poses it is the first; one in which every centre is infinitely far is the last choice.
+    Of several such poses it is the first; a pose in which every centre is infinitely far is the last choice.
     BadInput where no centres are constructed.
     """
     _refuse_lacking(scene, "centres")
@@ -164,7 +164,7 @@ def clear_phase(scene: Scene) -> float:
 
 
 def linkage_marks(scene: Scene, phase: float) -> tuple[Mark, ...]:
-    """Return the linkage in a pose as a construction's figure has it: bars, plates, pins, links' numbers."""
+    """Return the linkage in a pose as in a construction's figure: bars, plates, pins, links' numbers."""
     shown, pose = figure(scene), scene.pose(phase, 0)
     numbers = shown.numbers | {body: number for number, body in shown.by_number.items() if body}
     marks = list[Mark]()
@@ -181,7 +181,7 @@ def linkage_marks(scene: Scene, phase: float) -> tuple[Mark, ...]:
     return (*marks, *rings)
 
 
-# Kennedy's construction: what adjacent links share, then each further centre where two lines meet.
+# Kennedy's construction: the centres of adjacent links, then each further centre where two lines meet.
 
 
 def _centre_steps(shown: Figure, phase: float) -> tuple[ConstructionStep, ...]:
@@ -238,7 +238,7 @@ def _given_words(shown: Figure, found: dict[tuple[str, str], Centre], given: lis
 def _given_mark(
     shown: Figure, pose: Pose, pair: tuple[str, str], found: Centre, near: set[complex], size: float
 ) -> Mark:
-    """Return the mark of a centre that is known by how links touch: of one at infinity the way to it."""
+    """Return the mark of a centre that is known by how links touch; of one at infinity, its direction."""
     place, way = found
     if place is not None:
         return Mark("dot", np.array([place]), _named(pair), "first", place in near)

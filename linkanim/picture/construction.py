@@ -18,25 +18,25 @@ from linkanim.picture.view import Box, Rect, View
 from linkanim.synthesis.constructions import Mark
 
 _WIDTHS = {"bar": 2.4, "line": 1.1, "thin": 0.8, "dashed": 0.8, "arc": 1.1, "frame": 1.3}
-"""Of lines, in a chart's line; a plate's are a bar's or thin."""
+"""Widths of lines, in a chart's lines; those of a plate are as of a bar, or thin."""
 _DASHES = (7.0, 5.0)
 _DOT, _RING, _CROSS = 3.0, 2.4, 3.2
-"""How large points are, in lines."""
+"""The sizes of points, in widths of a line."""
 _POINTS = ("dot", "ring", "cross")
-"""What lies over all lines."""
+"""The marks that lie over all lines."""
 _CUT, _JUMP = 1e-6, 4.0
-"""How far pieces of one curve may be apart (pixels), and which step goes through infinity (widths)."""
+"""How far apart pieces of one curve may be (pixels); a step of more widths goes through infinity."""
 _ROOM = 0.12
-"""Of the marks' width and height, left free at every side."""
+"""Share of the marks' width and height that is left free at every side."""
 _AROUND = np.exp(1j * np.pi * np.array([0.25, 0.75, -0.25, -0.75, 0.0, 1.0, 0.5, -0.5]))
 _FARTHER = (1.0, 1.9)
 _BEYOND = (1.0, 1.9, 2.8)
 _FAR_OFF = (2.8, 3.7, 4.6, 5.5)
-"""How far from its point a name stands, in letters: as a rule, along a tick, and where that is taken."""
+"""How far from its point a name stands, in letters: usually, along a tick, and where those are taken."""
 
 
 def box_of(marks: Sequence[Mark]) -> Box:
-    """Return the rectangle that holds what counts of marks, with room around it."""
+    """Return the rectangle that holds all marks that count, with room around it."""
     points = np.concatenate([mark.points for mark in marks if mark.spreads] or [np.zeros(1, np.complex128)])
     points = points[np.isfinite(points)]
     left, right = float(points.real.min()), float(points.real.max())
@@ -54,7 +54,7 @@ def view_of(box: Box, rect: Rect) -> View:
 
 
 def construction_items(marks: Sequence[Mark], view: View, area: Rect, pen: Pen) -> Iterator[Item]:
-    """Yield marks, the later over the earlier, and then their names, where they stand free."""
+    """Yield marks, later ones over earlier ones, then their names where there is room."""
 
     def pixels(points: Loop) -> Loop:
         return np.asarray(view.x + view.scale * points.real + 1j * (view.y - view.scale * points.imag))
@@ -125,7 +125,7 @@ def _clipped(at: Loop, area: Rect) -> Iterator[Loop]:
 
 
 def _pieces(at: Loop, area: Rect) -> Iterator[Loop]:
-    """Yield what of a curve lies in the picture: stretches that do as they are, segments at its edges cut."""
+    """Yield the parts of a curve in the picture: whole stretches inside, and segments cut at its edges."""
     x, y = at.real, at.imag
     within = (x >= area.x) & (x <= area.right) & (y >= area.y) & (y <= area.bottom)
     beyond = ((x < area.x), (x > area.right), (y < area.y), (y > area.bottom), ~np.isfinite(at))
@@ -146,14 +146,14 @@ def _pieces(at: Loop, area: Rect) -> Iterator[Loop]:
 
 
 def _inside(one: complex, other: complex, area: Rect) -> tuple[complex, complex] | None:
-    """Return what of a segment lies in a rectangle; None where nothing does, or it runs through infinity."""
+    """Return the part of a segment in a rectangle; None where none is, or where it runs through infinity."""
     if not (cmath.isfinite(one) and cmath.isfinite(other)) or abs(other - one) > _JUMP * area.width:
         return None
     return area.crossed(one, other)
 
 
 def _names(marks: Sequence[Mark], pixels: Callable[[Loop], Loop], area: Rect, pen: Pen) -> Iterator[Item]:
-    """Yield each mark's name beside it, where it meets no other name and as few points as can be."""
+    """Yield each mark's name beside it, where it meets no other name and as few points as possible."""
     points = [pixels(mark.points) for mark in marks if mark.spreads]
     busy = np.concatenate(points) if points else np.empty(0, np.complex128)
     placed: list[Rect] = []
@@ -178,7 +178,7 @@ def _names(marks: Sequence[Mark], pixels: Callable[[Loop], Loop], area: Rect, pe
             foot = complex(at[len(at) // 2 if mark.shape == "arc" else 0])
             tries = [_about(foot + off, wide, high) for off in _offsets(_FARTHER, pen)]
             if met(rect_rows(rect for rect in tries if _within(rect, area)), taken).all():
-                # the room about it is taken: a thin line leads to a name that stands off
+                # the room around the mark is taken: a thin line leads to a name farther off
                 away = (_about(foot + off, wide, high) for off in _offsets(_FAR_OFF, pen))
                 far = [rect for rect in away if _within(rect, area)]
                 free = np.flatnonzero(met(rect_rows(far), taken) == 0)

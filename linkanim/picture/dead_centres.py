@@ -1,4 +1,4 @@
-"""A slider's two dead centres as ticks on its guide, the input's angle at each; its stroke and time ratio."""
+"""A slider's two dead centres as ticks on its guide with the input's angles; its stroke and time ratio."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ from linkanim.picture.shapes import arrows, segments
 from linkanim.units import short, stepped, typeset
 
 _TICK = 1.6
-"""How far a tick reaches beyond the rail, in half widths of a bar."""
+"""How far a tick extends beyond the rail, in half widths of a bar."""
 _VISIBLE = 1e-3
-"""Pixels that a slider travels at the least for its ends to be marked."""
+"""The least travel of a slider, in pixels, for its ends to be marked."""
 _WIDE = 3.0
-"""Beside a guide whose rails lie further off, in half widths of a bar, ticks do not cross it."""
+"""Ticks do not cross a guide whose rails are further aside than this, in half widths of a bar."""
 _NEAR = 0.3
-"""What passes the guide no further off its ends, in strokes, is in the way of the words."""
+"""Bars that pass the guide no further than this off its ends, in strokes, are in the way of the words."""
 _FEW = 1e-6
 
 
@@ -34,7 +34,8 @@ _FEW = 1e-6
 class DeadCentres:
     """The dead centres of a figure's output slider, which slides on the ground.
 
-    `ends` is where the slider is in pixels, furthest back and forward, `rail` how far its rails lie aside.
+    `ends` are the slider's places furthest back and furthest forward, `rail` how far aside its rails lie, all
+    in pixels.
     """
 
     setting: DrawSetting
@@ -89,7 +90,7 @@ class DeadCentres:
         return along / abs(along), out if self._fits(out) or not self._fits(-out) else -out
 
     def _passed(self) -> Iterator[Loop]:
-        """Yield pixels that bars pass through in the cycle, but for the slider's own track."""
+        """Yield pixels that bars pass through in the cycle, except for the slider's own track."""
         figure, view = self.setting.figure, self.setting.view
         for body in figure.bodies:
             for ends in pairwise(body.joints):
@@ -103,7 +104,7 @@ class DeadCentres:
 
     @property
     def _reach(self) -> float:
-        """How far the ticks reach from the line of travel."""
+        """How far the ticks extend from the line of travel, in pixels."""
         return self.rail + _TICK * self.setting.gauge.bar
 
     def _angle(self, phase: float) -> str:
@@ -115,7 +116,7 @@ class DeadCentres:
 
     @cached_property
     def ticks(self) -> tuple[tuple[complex, complex], ...]:
-        """The lines across the guide, or beside a cylinder, and with the stroke the one between them."""
+        """The lines across the guide, or beside a cylinder, and the one between where the stroke is shown."""
         (_, out), bar = self._frame, self.setting.gauge.bar
         level = out * (self._reach - 0.4 * bar)
         begin = -self._reach if self.rail < _WIDE * bar else self.rail

@@ -1,7 +1,7 @@
 """Name and measure dimensions: r₁ for the ground, r₂ for the crank, and so on, with lines and arcs.
 
-What each symbol measures comes from the linkage. Dimension lines are arrows from end to end beside what is
-measured, with lines that lead there, and arcs of angles.
+What each symbol measures follows from the linkage. Dimension lines have arrows at both ends and stand beside
+what they measure, with extension lines (leads) from it; angles have arcs.
 """
 
 from __future__ import annotations
@@ -22,18 +22,18 @@ from linkanim.picture.text import subscripted
 from linkanim.picture.view import View
 from linkanim.units import short, typeset
 
-# Dimension lines: arrows from end to end beside what is measured, lines that lead there, arcs of angles.
+# Dimension lines with arrows at both ends beside what is measured, the leads to them, and arcs of angles.
 
 _OVER = 2.5
-"""How far a lead goes beyond the line that it leads to, in widths of it."""
+"""How far a lead extends beyond its dimension line, in widths of that line."""
 _OFF = 1.2
-"""Where a lead begins, in half widths of a bar."""
+"""Where a lead begins, in half widths of a bar from what is measured."""
 
 
 class MeasureLine(NamedTuple):
-    """A dimension line from `begin` to `end`, in a frame whose unit reaches from joint to joint, y down.
+    """A dimension line from `begin` to `end`, in a frame where 1 is the vector from joint to joint, y down.
 
-    It lies `reach` pixels aside. In a frame of one joint twice, 1 is the scene's unit to the right.
+    It lies `reach` pixels aside. In a frame that names one joint twice, 1 is the scene's unit to the right.
     """
 
     frame: tuple[str, str]
@@ -42,16 +42,16 @@ class MeasureLine(NamedTuple):
     reach: float
 
     def part(self, span: float, gauge: Gauge, colour: Colour) -> Part:
-        """Return it drawn, with the frame `span` pixels long."""
+        """Return the drawn line, for a frame `span` pixels long."""
         away = 1j * self.reach * unit(self.end - self.begin)
         ends = span * self.begin, span * self.end
         at, head = self.frame
         return Part(at, at, head, (Layer(colour, dimension_line(*ends, away, gauge)),))
 
     def tracks(self, at: Loop, span: Loop, gauge: Gauge) -> Loop:
-        """Return its line and its leads, begin and end of each (n moments, 3, 2), for a frame at `at`.
+        """Return the line and its leads, begin and end of each (n moments, 3, 2), for a frame at `at`.
 
-        `span` leads from the frame's first joint to its second.
+        `span` is the vector from the frame's first joint to its second.
         """
         begin, end = at + self.begin * span, at + self.end * span
         along = end - begin
@@ -70,7 +70,7 @@ class AngleArc(NamedTuple):
     radius: float
 
     def part(self, span: float, gauge: Gauge, colour: Colour) -> Part:
-        """Return it drawn: the arc, and a lead along each of its sides."""
+        """Return the drawn angle: the arc, and a lead along each of its sides."""
         sweep = float(np.angle(self.end / self.begin))
         path = self.radius * unit(self.begin) * directions(np.linspace(0, sweep, 2 + round(12 * abs(sweep))))
         leads = [side * (self.radius + _OVER * gauge.line) for side in map(unit, (self.begin, self.end))]
@@ -79,7 +79,7 @@ class AngleArc(NamedTuple):
         return Part(at, at, head, (Layer(colour, loops),))
 
     def tracks(self, at: Loop, span: Loop, gauge: Gauge) -> Loop:
-        """Return what it draws in straight lines, begin and end of each (n moments, 4, 2)."""
+        """Return the arc's chords and its leads, begin and end of each (n moments, 4, 2)."""
         turn = (span / np.maximum(np.abs(span), 1e-9))[:, None] * self.radius * unit(self.begin)
         shares = np.linspace(0, float(np.angle(self.end / self.begin)), 5)
         points = at[:, None] + turn * directions(shares)
@@ -88,7 +88,7 @@ class AngleArc(NamedTuple):
 
 
 def dimension_line(begin: complex, end: complex, away: complex, gauge: Gauge) -> list[Loop]:
-    """Return a line `away` from its ends, with an arrow at both, and the leads to it."""
+    """Return a dimension line, `away` from what it measures, with arrows at both ends and its leads."""
     width, side = 0.9 * gauge.line, unit(away)
     feet = np.array([begin, end])
     near = min(_OFF * gauge.bar, 0.5 * abs(away))
@@ -100,15 +100,15 @@ def dimension_line(begin: complex, end: complex, away: complex, gauge: Gauge) ->
 # The textbook's symbols: r₁ for the ground, r₂ for the crank, and so on; what each one measures.
 
 _NONE = 1e-9
-"""Of a figure's extent, and in radians: what is less is not stated."""
+"""Share of a figure's extent, or angle in radians, below which a dimension is not stated."""
 
 
 class Measurement(NamedTuple):
     """A length between two places of a body or the ground, or the `angle` between two directions.
 
-    `begin` and `end` are in a frame whose unit reaches from joint to joint, y down; of one joint twice, 1 is
-    the scene's unit to the right. A length is in that unit, an angle in degrees. `own` are the joints whose
-    bodies it lies on; of a `bare` one nothing but its own bar runs from end to end.
+    `begin` and `end` are in a frame where 1 is the vector from joint to joint, y down; where the frame names
+    one joint twice, 1 is the scene's unit to the right. A length is in the scene's unit, an angle in degrees.
+    `own` are the joints whose bodies it lies on; where it is `bare`, only its own bar runs from end to end.
     """
 
     symbol: str
@@ -122,12 +122,12 @@ class Measurement(NamedTuple):
     angle: bool = False
 
     def written(self, unit: str) -> str:
-        """Return it as it is set: r₂ = 40 mm."""
+        """Return the dimension in words: r₂ = 40 mm."""
         return typeset(f"{self.symbol} = {short(self.value)}{'°' if self.angle else ' ' + unit}")
 
 
 class Symbols(NamedTuple):
-    """A figure's dimensions, the points that are stated along a body and to its side, its input's angle."""
+    """A figure's dimensions, the points stated along a body and to its side, and the symbol of its input."""
 
     dimensions: tuple[Measurement, ...]
     points: tuple[Rigid, ...]
@@ -137,10 +137,11 @@ class Symbols(NamedTuple):
 def symbols(figure: Figure) -> Symbols:
     """Number a figure's lengths: links that the scene calls by numbers keep them; else in their order.
 
-    r₁ is the ground from the driven pivot to the next, r₂ the first body's bar; a further ground length
-    comes after the body on whose pivot it begins, a body's second length after that, β with its number the
-    angle between the two. Then come points of bodies: one length in line with the body, else along it and to
-    its side; e is how far a guide is from the first pivot. A span that several bodies have is stated once.
+    r₁ is the ground from the driven pivot to the next one, r₂ the first body's bar. A further ground length
+    comes after the body on whose pivot it begins; then a body's second length, with β of its number for the
+    angle between the two. Points of bodies come last: one length for a point in line with the body, else a
+    length along it and one to its side. e is how far a guide is from the first pivot. A length that several
+    bodies share is stated once.
     """
     bodies = [body for body in figure.bodies if body.name or not figure.linkage.bodies]
     ground = (*_ground(figure), *_offsets(figure))
@@ -173,7 +174,7 @@ def pivots(figure: Figure) -> list[str]:
 
 
 def _ground(figure: Figure) -> Iterator[Measurement]:
-    """Yield the length of the ground, and its angle where it does not lie level."""
+    """Yield the length of the ground, and its angle where it is not horizontal."""
     for first, second in pairwise(pivots(figure)[:2]):
         yield _bar(figure, "1", first, second, bare=True)
         span = figure.start(second) - figure.start(first)
@@ -188,7 +189,7 @@ def _ground(figure: Figure) -> Iterator[Measurement]:
 
 
 def _offsets(figure: Figure) -> Iterator[Measurement]:
-    """Yield how far the guides on the ground are from the first pivot, where they run through none."""
+    """Yield how far guides on the ground are from the first pivot, for those that run through no pivot."""
     found, names = [], pivots(figure)
     lines = [(joint, line) for joint in figure.linkage.joints if (line := getattr(joint, "line", None))]
     for joint, line in lines if names else ():
@@ -216,7 +217,7 @@ def _numbered(figure: Figure, found: Iterable[Measurement]) -> Iterator[Measurem
 
 
 def _span(figure: Figure, one: Measurement) -> frozenset[complex]:
-    """Return where the ends of a length stand as the cycle begins, to a small part of the figure."""
+    """Return where a length's ends are as the cycle begins, rounded to a small part of the figure."""
     at, head = (figure.start(name) for name in one.frame)
     span, grain = head - at if one.frame[0] != one.frame[1] else 1 + 0j, _NONE * figure.extent
     ends = (at + complex(place).conjugate() * span for place in (one.begin, one.end))
@@ -243,7 +244,7 @@ def _measured(figure: Figure, bodies: list[Body]) -> Iterator[Measurement]:
 def _with_angle(
     figure: Figure, at: str, side: str, name: str, *, bare: bool = False
 ) -> Iterator[Measurement]:
-    """Yield the length from joint to joint, and the angle there from another of its body, if it has one."""
+    """Yield the length from `at` to `name`, and the angle there from `side`, unless other lengths give it."""
     yield _bar(figure, "", at, name, bare=bare)
     if figure.start(side) == figure.start(at):
         return
@@ -260,7 +261,7 @@ def _points(figure: Figure) -> list[Rigid]:
 
 
 def _legs(figure: Figure, point: Rigid) -> Iterator[Measurement]:
-    """Yield a point's distance from its body's first joint; off the body's line, along it and aside."""
+    """Yield a point's distance from its body's first joint; for a point off the axis, along it and aside."""
     (first, second), (along, left), name = point.on, point.at, point.name
     span, own = abs(figure.start(second) - figure.start(first)), frozenset((first, second, name))
     corner, there = complex(along) / span, complex(along, -left) / span

@@ -40,10 +40,10 @@ if TYPE_CHECKING:
     from linkanim.picture.dead_centres import DeadCentres
     from linkanim.picture.ink import Ink
 
-# What only some looks ask for is imported where they do: the first frame does not wait for it.
+# What only some looks need is imported where it is used: the first frame does not wait for it.
 
 _FAINT = 0.78
-"""How much of the background is in the colours of what is drawn faintly."""
+"""The share of the background in the colours of what is drawn faintly."""
 
 
 @frozen
@@ -70,8 +70,8 @@ class Parts:
 class Drawing:
     """A scene's linkage at one view and look, at any pose.
 
-    With `apart` each joint has a group of its own; else pins of one depth share one, which prints faster.
-    Arrows are to the scale of the cycle, or of a still's one `moment`.
+    With `apart` each joint has a group of its own; else pins of one depth share a group, which prints faster.
+    Arrows have the scale of the cycle, or that of a still's one `moment`.
     """
 
     def __init__(self, setting: DrawSetting, *, apart: bool = False, moment: float | None = None) -> None:
@@ -102,9 +102,9 @@ class Drawing:
         return dead_centres_of(replace(self.setting, view=view))
 
     def places(self, pose: Pose) -> Places:
-        """Return where all joints lie in pixels; one that is nowhere (NaN) lies far outside.
+        """Return where all joints lie in pixels; a joint without a place (NaN) lies far outside.
 
-        Those of the last pose are kept: all that is drawn of a frame asks for them.
+        The places of the last pose are cached: everything drawn in a frame asks for them.
         """
         if self._placed is None or self._placed[0] is not pose:
             view = self.setting.view
@@ -117,13 +117,13 @@ class Drawing:
         return Group("wheels", wheel_layers(self.setting), still=True)
 
     def wheels(self, places: Places) -> Iterator[Group]:
-        """Yield what turns on them; what only turns looks the same again after some teeth."""
+        """Yield the turning parts of wheels; a wheel that stays in place looks the same after every tooth."""
         for n, part in enumerate(self.parts.wheels):
             key = (n, part.turn(places)) if part.fold > 1 else None
             yield Group(f"wheel-{part.head}", part.placed(places), key=key, made_of=part)
 
     def faint(self, pose: Pose) -> list[Layer]:
-        """Return a pose's bodies and pins, mostly background."""
+        """Return a pose's bodies and pins in faint colours."""
         back = self.setting.theme.background
         layers = (layer for group in self._pinned(self.places(pose)) for layer in group.layers)
         return [Layer(mixed(layer.colour, back, _FAINT), layer.loops, layer.alpha) for layer in layers]
@@ -145,11 +145,11 @@ class Drawing:
 
     @property
     def _rolling(self) -> Centres | None:
-        """The centres, where their curves are shown."""
+        """The instant centres, where their centrodes are shown."""
         return self.parts.centres if self.setting.look.centres > 1 else None
 
     def moving(self, pose: Pose, taken: Iterable[Rect] = ()) -> Iterator[Group]:
-        """Yield all that moves before it, back to front; names of arrows and centres off what is `taken`."""
+        """Yield all that moves, back to front; names of arrows and centres keep off what is `taken`."""
         places, parts = self.places(pose), self.parts
         if self._rolling:
             yield Group("moving-centrode", [self._rolling.moving(places)])
@@ -170,7 +170,7 @@ class Drawing:
             self.setting.layout.reach.inset(2),
         )
         taken = list(taken) if parts.arrows or parts.centres else []
-        # in motion a name would leap from one side of a bar to the other
+        # in a moving picture a name would jump from one side of a bar to the other
         bodies = self.setting.figure.bodies if parts.arrows and self._moment is not None else ()
         bars = [(places[one], places[other]) for body in bodies for one, other in pairwise(body.joints)]
         names = arrow_names(*known, letters, inside, taken, bars) if parts.arrows else ()
@@ -181,7 +181,7 @@ class Drawing:
             yield Group("instant-centres", *centres.drawn(pose, places, taken), made_of=centres)
 
     def _turning(self, pose: Pose, places: Places) -> Iterator[Layer]:
-        """Yield the way the input turns, and its angle."""
+        """Yield the arrow of the input's motion, and its angle."""
         turning, drive = self.parts.turning, self.setting.figure.linkage.drive
         if isinstance(turning, Turning) and self.setting.look.names > 1:
             yield from turning.angle(places)
@@ -198,7 +198,7 @@ class Drawing:
                 yield Group(part.title, part.placed(places), made_of=part)
 
     def _pin(self, names: tuple[str, ...]) -> Part | None:
-        """Return what is drawn of a joint as a part; None of those that share a group."""
+        """Return the part that draws a single joint; None for joints that share a group."""
         if not self._apart:
             return None
         (name,) = names

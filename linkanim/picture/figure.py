@@ -30,23 +30,23 @@ SAMPLES = 720
 _MOST_PERIODS = 4
 _STILL = 1e-9
 DOWN = np.array([1, -1j])
-"""Times a vector (x, y) with y up: x + yi with y down, as pixels count."""
+"""The product of this with a vector (x, y), y up, is x + yi with y down, as in pixels."""
 
 
 Parts = dict[Body, tuple[str, ...]]
-"""Every body that is drawn, with the names of those that it stands for."""
+"""Every body that is drawn, with the names of the scene's bodies that it stands for."""
 
 
 @frozen
 class Figure:
-    """A scene and one cycle of it, from which everything that is drawn once takes its measures."""
+    """A scene and one cycle of it, from which drawing takes all its measures."""
 
     scene: Scene
     cycle: Motion
 
     @property
     def linkage(self) -> Linkage:
-        """What is drawn."""
+        """The linkage that is drawn."""
         return self.scene.linkage
 
     @cached_property
@@ -71,7 +71,7 @@ class Figure:
     def numbers(self) -> dict[Body, str]:
         """The links with their numbers: the scene's own, or in its order from 2; the ground is 1.
 
-        What cannot move against each other has one number.
+        Bodies that cannot move against each other share a number.
         """
         if all(body.name.isdecimal() for body in self.links):
             return {body: body.name for body in self.links}
@@ -91,9 +91,9 @@ class Figure:
 
     @cached_property
     def _parts(self) -> Parts:
-        """Every body that is drawn, with the names of those that it stands for."""
+        """Every body that is drawn, with the names of the scene's bodies that it stands for."""
         named = [body for body in self.linkage.bodies if len(body.joints) > 1]
-        # A length that a spring or damper shows, such as a cylinder's that is held, needs no bar.
+        # A length that a spring or damper shows, such as that of a locked cylinder, needs no bar.
         held = [*(set(body.joints) for body in named), *(set(strut.between) for strut in self.struts)]
         spans = [ends for joint in self.linkage.joints for ends in joint.spans]
         bare = [ends for ends in spans if not any(set(ends) <= joints for joints in held)]
@@ -104,7 +104,7 @@ class Figure:
 
     @cached_property
     def pins(self) -> tuple[str, ...]:
-        """The joints that are pins: those in which bars meet or which something is hung on."""
+        """The joints that are drawn as pins: bars meet in them, or a spring or damper is attached."""
         used = {name for joint in self.linkage.joints for name in joint.pins}
         hung = {name for strut in self.struts for name in strut.between}
         ends = {name for body in self.bodies for name in body.joints}
@@ -113,9 +113,10 @@ class Figure:
         return tuple(joint.name for joint in self.linkage.joints if joint.name in names)
 
     def riding(self, body: Body) -> tuple[str, ...]:
-        """Return the ends of bare bars that keep their place on a body all the same, such as a trammel's.
+        """Return the ends of unnamed bars that keep their place on a body though they are not in it.
 
-        Those bars lie in line with it at every moment: what is drawn of them is the body.
+        Such bars, for example a trammel's, lie in line with the body all the time: the body is drawn for
+        them.
         """
         ends = sorted({end for joint in body.joints for end in self._bare_ends.get(joint, ())})
         return tuple(
@@ -126,7 +127,7 @@ class Figure:
 
     @cached_property
     def _bare_ends(self) -> dict[str, list[tuple[int, str]]]:
-        """The far ends of the bare bars at each joint, each with its bar's number."""
+        """The far ends of the unnamed bars at each joint, each with its bar's number."""
         found: dict[str, list[tuple[int, str]]] = {}
         for number, body in enumerate(self.bodies):
             if not body.name:
@@ -147,7 +148,7 @@ class Figure:
 
     @cached_property
     def cylinders(self) -> tuple[Damper, ...]:
-        """What is drawn as cylinder and piston: the dampers, and the cylinder that drives."""
+        """The struts drawn as cylinder and piston: the dampers, and the cylinder that drives."""
         along = self.linkage.drive.actuator.along
         return (*self.linkage.dampers, *((Damper("cylinder", along),) if along else ()))
 
@@ -166,7 +167,7 @@ class Figure:
 
     @cached_property
     def moving(self) -> tuple[str, ...]:
-        """The joints that move, one of those that lie on each other all the time."""
+        """The joints that move; of several that always coincide, one."""
         found: dict[str, NDArray[np.float64]] = {}
         for name in self.shown:
             path = np.atleast_2d(self.cycle.position[name])
@@ -187,14 +188,15 @@ class Figure:
 
     @cached_property
     def clearest(self) -> float:
-        """The phase at which its joints are farthest `apart`, the first of several; 0 where it is rigid."""
+        """The phase at which the joints are farthest `apart`, the first of several; 0 for a rigid linkage."""
         return float(self.cycle.phase[self.apart.argmax()])
 
     @cached_property
     def apart(self) -> NDArray[np.float64]:
-        """How far apart its joints are at each moment of the cycle: the two nearest, or bars from one line.
+        """How distinct the joints are at each moment of the cycle, as a share of the extent.
 
-        In parts of its extent; what keeps its distance does not count; 1 for one that is rigid.
+        It is the least distance of two joints, or of the end of a bar from the line of a bar that it meets.
+        Distances that do not change are left out; 1 for a rigid linkage.
         """
         places = {name: np.atleast_2d(self.cycle.position[name]) @ DOWN for name in self.shown}
         far = [np.abs(places[one] - places[other]) for one, other in combinations(places, 2)]
@@ -202,7 +204,7 @@ class Figure:
             for joint in {*one} & {*other}:
                 ways = [places[end] - places[joint] for pair in (one, other) for end in {*pair} - {joint}]
                 longer = np.max(np.abs(ways), axis=0)
-                # how far the end of the shorter bar is from the line of the longer
+                # the distance of the shorter bar's end from the longer bar's line
                 far += [
                     np.abs(np.imag(ways[0] * np.conj(ways[-1]))) / np.maximum(longer, _STILL * self.extent)
                 ]
@@ -213,18 +215,18 @@ class Figure:
 
     @cached_property
     def polygon_boxes(self) -> tuple[Box, Box]:
-        """What the cycle's velocity and acceleration polygons take up about the pole, at the own speed."""
+        """The boxes, about the pole, of the cycle's velocity and acceleration polygons at its own speed."""
         return self.polygon_box(self.cycle, 1), self.polygon_box(self.cycle, 2)
 
     def polygon_box(self, motion: Motion | Pose, order: Order) -> Box:
-        """Return what a motion's polygons of an order take up about the pole."""
+        """Return the box, about the pole, of a motion's polygons of an order."""
         ends = np.concatenate([np.atleast_1d(side.end) for side in self.polygon_sides(motion, order)])
         ends = np.append(ends[np.isfinite(ends)], 0.0)
         x, y = ends.real, ends.imag
         return Box(float(x.min()), float(y.min()), float(x.max()), float(y.max()))
 
     def polygon_sides(self, motion: Motion | Pose, order: Order) -> list[Side]:
-        """Return the vectors of a motion's polygon, those of the traced coupler points among them."""
+        """Return the vectors of a motion's polygon, including those of traced coupler points."""
         from linkanim.mechanics.polygons import chains
 
         found = chains(motion, self.linkage, order, self.scene.trace)
@@ -232,7 +234,7 @@ class Figure:
 
     @property
     def extent(self) -> float:
-        """The width of that rectangle and its height together."""
+        """The sum of the width and the height of `box`."""
         return self.box.right - self.box.left + self.box.high - self.box.low
 
     @cached_property
@@ -274,13 +276,13 @@ class DrawContext:
 
     @property
     def known(self) -> tuple[Figure, View, Gauge, Theme]:
-        """The same as a tuple, for a function that reads most of it."""
+        """Figure, view, gauge and theme as a tuple, for a function that reads most of them."""
         return self.figure, self.view, self.gauge, self.theme
 
 
 @frozen
 class DrawSetting(DrawContext):
-    """The same within a whole picture: how it is laid out, what its look asks for, and its letters."""
+    """A drawing context within a whole picture, with its layout, its look and its letters."""
 
     layout: Layout
     look: Look
@@ -298,7 +300,7 @@ def _with_plate(
 ) -> dict[Body, tuple[str, ...]]:
     """Return the bodies with a brace's two bars and the body that they stand on as one plate.
 
-    They stay as they are where one of them is not shown, or says itself how it looks.
+    They are unchanged where one of the three is not shown, or states its own look.
     """
     free = [body for body in parts if scene.style(body.name) == FREE_STYLE]
     bars = [body for body in free if len(body.joints) == 2]

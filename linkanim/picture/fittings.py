@@ -1,8 +1,7 @@
-"""Draw what joints need beside bars and pins, springs and dampers, and what stands still.
+"""Draw what joints need in addition to bars and pins, springs and dampers, and what stands still.
 
-A joint's fittings are such as a slider's block and its guide. A spring's pitch follows its length, a
-damper's piston slides. The ground has pedestals with their hatching under fixed pins, and the guides of
-sliders.
+A joint's fittings are, for example, a slider's block and its guide. A spring's pitch follows its length, a
+damper's piston slides. The ground has hatched pedestals under fixed pins, and the guides of sliders.
 """
 
 from __future__ import annotations
@@ -46,15 +45,15 @@ from linkanim.picture.view import View
 # Springs, whose pitch follows their length, and dampers, whose piston slides.
 
 _COILS = (4, 20)
-"""Of how few and how many coils a spring has, as its shortest length allows."""
+"""The least and the greatest number of coils of a spring; its shortest length decides."""
 TILT = 0.15
 """How far a coil's front stands forward of its side, as a share of its radius."""
 BACK, EDGE, CORE = 1.9, 2.6, 1.5
-"""How wide far halves are drawn, and near ones with and without their outline, in widths of the wire."""
+"""Widths of the far halves of coils, and of the near ones with and without outline, in widths of the wire."""
 _WOUND = 8.5
-"""From coil to coil where a spring is shortest, in widths of a thin line."""
+"""The least step from coil to coil where a spring is shortest, in widths of a thin line."""
 _CYLINDER = 0.6
-"""How long a cylinder that holds or drives is at the least, in lengths of it drawn in."""
+"""The least length of the barrel of a cylinder that holds or drives, as a share of its retracted length."""
 _BARREL = 0.95
 """The half width of a damper's or cylinder's barrel, in half widths of a bar."""
 
@@ -95,7 +94,7 @@ class Coil:
         along, round_ = self._halves
         halves = turn * (pitch * along + round_)
         far, near = zip(halves, offsets(halves), strict=True)
-        # the near halves' outlines hide where the far ones end
+        # the outlines of the near halves hide the ends of the far ones
         shade = mixed(self.theme.metal, self.theme.background, 0.3)
         layers = [Layer(shade, [cut_ribbon(*far, BACK * wire)]).repeated(feet)]
         for colour, width in ((self.theme.outline, EDGE * wire), (self.theme.metal, CORE * wire)):
@@ -107,12 +106,12 @@ class Coil:
 
     @property
     def wire(self) -> float:
-        """How wide its wire is reckoned, in pixels."""
+        """The width of the spring's wire, in pixels."""
         return 1.5 * self.gauge.line
 
     @cached_property
     def _halves(self) -> tuple[Loop, Loop]:
-        """A coil's far half and its near one, the spring along the real axis: along it, and about it."""
+        """The far and the near half of a coil, for a spring along the real axis."""
         along = np.add.outer([0.5, 0.0], np.linspace(0, 0.5, 13))
         facing = directions(2 * pi * along - pi / 2)
         about = self.radius * (TILT * facing.real + 1j * facing.imag)
@@ -121,7 +120,7 @@ class Coil:
 
 @lru_cache(maxsize=16)
 def _leads(lead: float, radius: float, width: float) -> tuple[Loop, Loop]:
-    """Return a spring's wire at its start and at its end, each about 0, the spring along the real axis."""
+    """Return the wire at both ends of a spring along the real axis, each drawn about 0."""
     share = np.linspace(0.0, 1.0, 13)
     rise = share * share * (3 - 2 * share)
     (first,) = stroke(lead * share - 1j * radius * rise, width)
@@ -130,7 +129,7 @@ def _leads(lead: float, radius: float, width: float) -> tuple[Loop, Loop]:
 
 @frozen
 class Damping:
-    """A damper to draw: how far it reaches, its cylinder's length and where that begins, in pixels.
+    """A damper to draw: its shortest and longest length, its cylinder's length and start, in pixels.
 
     `cylinder` lies along the real axis from its closed end at 0, `head` about 0.
     """
@@ -174,7 +173,7 @@ def coils(context: DrawContext) -> tuple[Coil, ...]:
 
 
 def dampings(context: DrawContext) -> tuple[Damping, ...]:
-    """Return the scene's dampers and driving cylinder, each as long as its stroke needs, if there is room."""
+    """Return the scene's dampers and driving cylinder; each barrel takes the stroke where there is room."""
     figure, view, gauge, theme = context.known
     found = []
     for item in figure.cylinders:
@@ -190,7 +189,7 @@ def dampings(context: DrawContext) -> tuple[Damping, ...]:
 def damping(
     between: tuple[str, str], span: StrutSpan, size: tuple[float, float], gauge: Gauge, theme: Theme
 ) -> Damping:
-    """Return a damper whose cylinder has a length and begins so far from the first joint, in pixels."""
+    """Return a damper; `size` is its cylinder's length and distance from the first joint, in pixels."""
     (length, foot), radius = size, _BARREL * gauge.bar
     cylinder = barrel(0.0, length, radius, gauge, theme)
     head = piston(0.16 * length, radius, gauge, theme)
@@ -211,36 +210,36 @@ def piston(length: float, radius: float, gauge: Gauge, theme: Theme) -> Layer:
     return Layer(theme.metal, [box(length, 2 * radius - 3 * gauge.outline, 0.1 * radius)])
 
 
-# Fittings: what a joint needs beside bars and pins, such as a slider's block and its guide.
+# Fittings: what a joint needs in addition to bars and pins, such as a slider's block and its guide.
 #
-# They follow from what slides along what, whatever the joint's kind.
+# They follow from what slides along what, not from the joint's kind.
 
 _TRIED = 90
-"""Poses of a cycle at which is looked how far a fitting reaches."""
+"""The number of poses of a cycle that tell how far a fitting extends."""
 _LARGE = 20
-"""Powers of two in the size of a scene that is taken as it is; a larger one is scaled down."""
+"""A scene larger than 2 to this power, in its unit, is scaled down first."""
 _BLOCK = (4.6, 3.2)
 """A slider block's length and height in half widths of a bar."""
 SLOTTED, SLOT = 1.35, 0.5
-"""Half the widths of a slotted bar and of its slot, in those of a bar."""
+"""Half the widths of a slotted bar and of its slot, in half widths of a bar."""
 ROD, BARREL = 0.6, 1.2
-"""Half the widths of a rod that slides through a swivel, and of the cylinder that it slides in."""
+"""Half the widths of a rod that slides through a swivel, and of its cylinder, in half widths of a bar."""
 PISTON = 1.1
-"""The length of the piston at its end, in half widths of a bar."""
+"""The length of the piston at the rod's end, in half widths of a bar."""
 _BORE = 1.5
-"""How wide an engine's cylinder is, in widths that its rod sweeps where it is open."""
+"""The width of an engine's cylinder, in widths that the rod sweeps at its open end."""
 _CROWN, _SKIRT = 0.8, 0.55
-"""How far an engine's piston reaches beyond its pin and back, in half widths of its cylinder."""
+"""How far an engine's piston extends ahead of its pin and behind it, in half widths of its cylinder."""
 _RINGS, _HEAD = (0.5, 0.72), 1.3
-"""Where its rings and, as it is furthest out, the cylinder's head are between its pin and its crown."""
+"""Where a piston's rings are, and the cylinder's head at the outer dead centre, in pin-to-crown lengths."""
 
 
 @frozen
 class Bar:
-    """What a joint makes of the bar from one joint to another: a slotted bar, or a rod with a piston.
+    """How a joint changes the bar between two joints: into a slotted bar, or a rod with a piston.
 
-    `slot` has the slot's ends in pixels from the first joint, the other on the real axis. Without a
-    slot the bar is a rod, with a `piston` at its end or not.
+    `slot` has the slot's ends in pixels, the bar's first joint at 0 and the other one on the real axis.
+    Without a slot the bar is a rod, with or without a `piston` at its end.
     """
 
     ends: tuple[str, str]
@@ -251,8 +250,8 @@ class Bar:
 class GuideRails(NamedTuple):
     """Two lines on the ground and the joint that travels between them: `along`, y down, has length 1.
 
-    They lie `aside` of its line of travel, and begin and end so far `beyond` its ends; with a `head` they
-    are a cylinder that is closed at their end.
+    The lines lie `aside` of the line of travel, and extend `beyond` its two ends, all in pixels; with a
+    `head` they are a cylinder that is closed at its far end.
     """
 
     joint: str
@@ -266,7 +265,7 @@ class GuideRails(NamedTuple):
 class Fitting:
     """What a joint adds to the picture: parts behind the bodies and before them, its guide on the ground.
 
-    `bar` is what it makes of its bar.
+    `bar` is how it changes its bar.
     """
 
     behind: tuple[Part, ...] = ()
@@ -293,7 +292,8 @@ def _fitting(joint: Joint, context: DrawContext) -> Fitting:
 def outlines(figure: Figure) -> Iterator[tuple[Loop, Loop, Loop]]:
     """Yield the outlines of slotted bars and guides, drawn thin, and the places and directions of each.
 
-    x + yi in the scene's unit, y up, at some of the cycle's moments; where a joint is nowhere none.
+    All are x + yi in the scene's unit, y up, at some of the cycle's moments, without those at which a joint
+    is NaN.
     """
     # A power of two keeps every digit; arcs have as many points as their size in pixels asks for.
     scale = 2.0 ** -max(frexp(figure.extent)[1] - _LARGE, 0)
@@ -334,7 +334,7 @@ def hatched(begin: complex, end: complex, gauge: Gauge, side: int) -> Iterator[L
 def _slider(joint: Joint, line: Line, context: DrawContext) -> Fitting:
     """Return a block between rails on the ground, or a small one in the slot of a body that carries it.
 
-    One that drives is in the colour of what drives.
+    A slider that drives has the colour of the driven part.
     """
     along, name = complex(directions(-line.angle)), joint.name
     if line.on is not None:
@@ -352,12 +352,12 @@ def _slider(joint: Joint, line: Line, context: DrawContext) -> Fitting:
 
 
 def _cylindered(name: str, far: str, along: complex, context: DrawContext) -> Fitting:
-    """Return a piston in a cylinder that its rod to `far` stays within; its head is where the rod is not."""
+    """Return a piston in a cylinder, wide enough for its rod to `far`; its head is at the other end."""
     gauge, paths = context.gauge, (context.figure.path(end, context.view) for end in (name, far))
     place, end = (path * np.conj(along) for path in paths)
     out = along if np.nanmean((place - end).real) > 0 else -along
     slid, rod = place * np.conj(out / along), (end - place) * np.conj(out / along)
-    # how far aside the rod is where the cylinder is open
+    # the rod's offset from the axis at the open end of the cylinder
     share = np.minimum((slid.real - np.nanmin(slid.real)) / np.maximum(-rod.real, 1e-9), 1.0)
     aside = max(_BORE * float(np.nanmax(np.abs(share * rod.imag))), _reach_of_rails(gauge))
     crown, skirt, edge = _CROWN * aside, _SKIRT * aside, gauge.outline
@@ -393,7 +393,7 @@ def _block(context: DrawContext, turn: complex = 1 + 0j, share: float = 1.0) -> 
 
 
 def block_layers(gauge: Gauge, theme: Theme, turn: complex, share: float = 1.0) -> tuple[Layer, ...]:
-    """Return what slides about 0, along the direction `turn`: the block between rails, or a share of it."""
+    """Return a slider's block about 0 that slides along the direction `turn`; `share` scales its size."""
     length, height = (share * side * gauge.bar for side in _BLOCK)
     edge, corner = 2 * share * gauge.outline, share * gauge.bar
     outer, inner = box(length, height, 0.4 * corner), box(length - edge, height - edge, 0.3 * corner)
@@ -430,9 +430,9 @@ _Line = tuple[complex, complex]
 
 
 class _Channel(NamedTuple):
-    """A guide in its place, in pixels: the middles of its ends, how far aside it reaches, and its lines.
+    """A guide in its place, in pixels: the middles of its ends, half its width, and its lines.
 
-    With each line comes the side that is hatched.
+    Each line stands with the side of it that is hatched.
     """
 
     begin: complex
@@ -454,7 +454,7 @@ def _placed(guide: GuideRails, context: DrawContext) -> _Channel:
 
 
 def _opened(line: _Line, others: Iterable[_Channel]) -> list[_Line]:
-    """Return what is left of a line outside of other guides."""
+    """Return the parts of a line outside other guides."""
     parts = [line]
     for other in others:
         parts = [part for whole in parts for part in _outside(*whole, other)]
@@ -462,7 +462,7 @@ def _opened(line: _Line, others: Iterable[_Channel]) -> list[_Line]:
 
 
 def _outside(begin: complex, end: complex, other: _Channel) -> Iterator[_Line]:
-    """Yield what of a line lies before a channel and beyond it; all of it where it does not cross it."""
+    """Yield the parts of a line before and beyond a channel; the whole line where the two do not cross."""
     along, long = unit(other.end - other.begin), abs(other.end - other.begin)
     first, last = ((place - other.begin) / along for place in (begin, end))
     if first.imag * last.imag >= 0 or min(abs(first.imag), abs(last.imag)) < other.aside:
@@ -478,7 +478,7 @@ def _outside(begin: complex, end: complex, other: _Channel) -> Iterator[_Line]:
 
 
 def _facing(line: Line, context: DrawContext) -> Loop:
-    """Return the direction of a line's axis over the cycle, y down; 1 of one on the ground."""
+    """Return the direction of a line's axis over the cycle, y down; 1 for a line on the ground."""
     if line.on is None:
         return np.ones(1, np.complex128)
     start, end = (context.figure.cycle.position[name] for name in line.on)
@@ -490,7 +490,7 @@ def _facing(line: Line, context: DrawContext) -> Loop:
 def _slotted(slide: Slide, context: DrawContext) -> Fitting:
     """Return the slot in the bar, and the collar that slides in it and turns with it.
 
-    About a joint of the ground it is the bar that slides: a rod through a swivel.
+    Where the collar is on the ground, the bar slides instead: a rod through a swivel.
     """
     assert slide.axis is not None
     collar = Part(slide.point, *slide.axis, _block(context, share=0.62), (slide.point,))
@@ -500,7 +500,7 @@ def _slotted(slide: Slide, context: DrawContext) -> Fitting:
 
 
 def _swivelled(slide: Slide, bar: tuple[str, str], collar: Part, context: DrawContext) -> Fitting:
-    """Return what makes of the bar a rod; in a cylinder, with a piston, where its end is free."""
+    """Return the fitting that makes the bar a rod; where its end is free, with a piston in a cylinder."""
     if bar[1] in context.figure.pins:
         return Fitting(before=(collar,), bar=Bar(bar))
     gauge, (near, far) = context.gauge, _slot_ends(slide, context)
@@ -556,7 +556,7 @@ def ground_layers(context: DrawContext) -> list[Layer]:
 
 
 def rails_under(context: DrawContext) -> Iterator[list[Loop]]:
-    """Yield the outlines of each rail that wheels on fixed pins stand on, one under all of a level."""
+    """Yield the outlines of the rails under wheels on fixed pins, one rail for all wheels of one level."""
     figure, view, gauge, _ = context.known
     feet: dict[float, list[complex]] = {}
     for body in figure.bodies:
@@ -569,7 +569,7 @@ def rails_under(context: DrawContext) -> Iterator[list[Loop]]:
 
 
 def away(figure: Figure, name: str) -> complex:
-    """Return a pedestal's direction: down, or away from its pull where it only holds springs and dampers."""
+    """Return a pedestal's direction: down; away from their pull where it holds only springs and dampers."""
     struts = [strut for strut in figure.struts if name in strut.between]
     jointed = any(name in body.joints for body in figure.bodies)
     if jointed or not struts:

@@ -1,4 +1,4 @@
-"""What a game shows in the room of a list: its heading, a question, answers, bars, what has come of it."""
+"""What a game shows in the room of a list: its heading, a question, answers, bars, the verdict."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ from linkanim.picture.theme import Theme
 _LEAST = 9
 """The smallest text that can be read, in pixels."""
 _LEFT = 1.0
-"""From the sheet's edge to its words, in heights of the text, as all that follows."""
+"""From the sheet's edge to its words, in heights of the text, as all sizes below."""
 _STEP = 1.3
 _GAP = 0.65
-"""Between one part and the next."""
+"""The gap between one part and the next."""
 _LARGE = 2.3
-"""A title's heading."""
+"""The size of a title's heading."""
 _INSET = 0.45
-"""Of an answer's words in its frame, above and below."""
+"""The margin above and below an answer's words in its frame."""
 _CURVE = 2.6
 """The height of a curve."""
 _BAR = 0.5
@@ -34,7 +34,7 @@ _BAR = 0.5
 
 
 class _PanelPart(NamedTuple):
-    """A part: how high it is, how it is drawn with its top at a height, whether it is an answer."""
+    """A part: its height, the function that draws it with its top at a height, whether it is an answer."""
 
     high: float
     draw: Callable[[pygame.Surface, float], None]
@@ -42,7 +42,7 @@ class _PanelPart(NamedTuple):
 
 
 def game_panel(board: Board, panel: GamePanel) -> pygame.Surface:
-    """Return the panel, its text as large as lets it stand in its room."""
+    """Return the panel, its text as large as its room allows."""
     size, parts = _fitting(board, panel)
     sheet = board.sheet(board.layout.lists.width, _height(parts, size))
     for part, top in _placed(parts, size):
@@ -51,12 +51,12 @@ def game_panel(board: Board, panel: GamePanel) -> pygame.Surface:
 
 
 class AnswerRows(NamedTuple):
-    """Between which heights of the panel's sheet each of its answers stands."""
+    """The top and the bottom of each answer on the panel's sheet."""
 
     heights: tuple[tuple[float, float], ...]
 
     def at(self, y: float) -> int | None:
-        """Return the answer so far down on the sheet; None between them."""
+        """Return the answer at that height of the sheet; None between answers."""
         return next((n for n, (top, end) in enumerate(self.heights) if top <= y < end), None)
 
 
@@ -72,7 +72,7 @@ def mood_colour(theme: Theme, mood: Mood) -> Colour:
 
 
 def _fitting(board: Board, panel: GamePanel) -> tuple[int, list[_PanelPart]]:
-    """Return the largest text at which all fits; at the smallest less and less besides the answers."""
+    """Return the largest text at which all parts fit; at the smallest, answers and as much else as fits."""
     least, less = min(_LEAST, board.layout.text_size), replace(panel, hint="", aside="")
     ways = [(size, panel) for size in range(board.layout.text_size, least - 1, -1)]
     ways += [(least, less), (least, replace(less, scores=(), lines_after=()))]
@@ -129,7 +129,7 @@ def _words(
     strong: bool = False,
     gap: str = " ",
 ) -> _PanelPart:
-    """Return words in lines, as wide as the panel; `left` is their place where the size does not say it."""
+    """Return words in lines, as wide as the panel; `left` is their left edge, without it the usual one."""
     left = _LEFT * (min(size, board.layout.text_size) if left is None else left)
     room = board.layout.lists.width - 2 * left
     lines = board.type.wrapped(text, size, 0.97 * room, gap=gap)

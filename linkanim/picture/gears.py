@@ -25,20 +25,20 @@ from linkanim.picture.view import View
 # Gear pairs: wheels that mesh, planets on the wheel they roll on, pulleys where both turn the same way.
 
 _TEETH = 48
-"""Of about how many teeth two wheels of one size have together, if they turn slowly enough."""
+"""About the number of teeth that two wheels of one size have together, if they turn slowly enough."""
 _PASSING = 25 / 3
-"""So many teeth pass in a second at the most: a third of a pitch from frame to frame, so that none seem
-to turn back."""
+"""The most teeth that pass in a second: a third of a pitch from frame to frame, so that wheels do not seem
+to turn backwards."""
 _FEWEST = 9
 _DWARFED = 2.0
-"""A pair both of whose wheels have radii of more than so many cranks is drawn as quiet rims; as pitch
-circles where one is wider than the linkage."""
+"""Where both wheels of a pair have radii of more than this many crank lengths, they are drawn as quiet rims;
+where one is wider than the linkage, as pitch circles."""
 TIP, FOOT = 0.85, 1.0
 """How far a tooth reaches beyond the pitch circle and the gap below it, in modules."""
 _QUIET_TIP, _QUIET_FOOT, _QUIET_RIM = 0.4, 0.5, 0.45
-"""Likewise of a quiet rim, whose teeth are low; and how broad it is below its gaps."""
+"""The same for a quiet rim, whose teeth are low; and the rim's width below its gaps, in modules."""
 _TOGETHER = 1e-9
-"""How far pivots that have nothing between them to show are apart, as a share of the picture."""
+"""Share of the picture below which two pivots count as one, with no gears between them to show."""
 _BELT = 0.3
 """The larger pulley's radius, as a share of the distance between the pivots."""
 
@@ -47,10 +47,10 @@ _BELT = 0.3
 class Wheel:
     """A wheel about a joint, its radius in the scene's unit; `teeth` is 0 for a pulley.
 
-    It turns with the direction from its centre to the joint `arm`, or not at all without one. `tooth` is
-    the angle of a tooth ahead of that direction, in radians, counter-clockwise. The teeth of a `ring`
-    point inwards: `tooth` is then the angle of a gap. Of one that is but its `pitch` circle it is that of
-    a mark. One that is `quiet` would dwarf what it drives: it is but a faint rim with low teeth.
+    It turns with the direction from its centre to the joint `arm`; without an arm it does not turn. `tooth`
+    is the angle of a tooth from that direction, in radians, counter-clockwise. The teeth of a `ring` point
+    inwards: `tooth` is then the angle of a gap. Where only the `pitch` circle is drawn, it is the angle of a
+    mark. A `quiet` wheel would dwarf what it drives: only a faint rim with low teeth is drawn.
     """
 
     centre: str
@@ -64,7 +64,7 @@ class Wheel:
 
     @property
     def reach(self) -> float:
-        """How far it reaches from its middle, in the scene's unit: to its tips, or a ring's outer edge."""
+        """The wheel's outer radius in the scene's unit: at its tips, or at a ring's outer edge."""
         beyond = 7.0 if self.ring else 2 * (_QUIET_TIP if self.quiet else TIP)
         return self.radius * (1 + beyond / self.teeth) if self.teeth else self.radius
 
@@ -78,7 +78,7 @@ class WheelPair:
 
     @property
     def wheels(self) -> tuple[Wheel, Wheel]:
-        """Both of them, the one behind first."""
+        """Both wheels, the one behind first."""
         return self.driver, self.driven
 
     @property
@@ -95,8 +95,8 @@ class WheelPair:
 def pairs(figure: Figure) -> tuple[WheelPair, ...]:
     """Return the gear pairs with pivots apart, sized so that their pitch circles roll on each other.
 
-    A crank that is geared to the one whose pin it turns on is a planet: what makes it turn as it does is
-    a wheel about that crank's own pivot which stands still, a ring around it where it turns the other way.
+    A crank that is geared to the crank on whose pin it turns is a planet. It rolls on a wheel that stands
+    still about that crank's pivot: a sun, or a ring around the planet where it turns the other way.
     """
     cranks = {crank.name: crank for crank in figure.linkage.cranks}
     found = (_pair(figure, crank, cranks) for crank in cranks.values())
@@ -144,17 +144,17 @@ def _meshing(figure: Figure, cranks: tuple[Crank, Crank], apart: complex) -> Whe
 
 
 def _teeth(one: int, other: int, turns: float) -> tuple[int, int]:
-    """Return the numbers of teeth of two wheels whose radii are as these, the other at `turns` a second."""
+    """Return the teeth of two wheels whose radii are as `one` to `other`, the latter at `turns` a second."""
     many = min(_TEETH / (one + other), _PASSING / max(other * turns, 1e-9))
     many = max(ceil(_FEWEST / min(one, other)), floor(many))
     return many * one, many * other
 
 
 def _planet(figure: Figure, planet: Crank, arm: Crank) -> WheelPair | None:
-    """Return the still wheel and the planet that rolls on it: r and R of radius, the arm d long.
+    """Return the still wheel, of radius R, and the planet, of radius r, that rolls on it; the arm is d long.
 
-    Rolling on it makes the planet turn 1 - R/r times as often as its arm inside a ring, where R - r = d,
-    and 1 + R/r times outside a sun, where R + r = d; a belt from it, 1 - R/r times.
+    The planet turns 1 - R/r times as often as its arm inside a ring, where R - r = d; 1 + R/r times outside a
+    sun, where R + r = d; and 1 - R/r times where a belt joins the two.
     """
     assert planet.gear is not None
     ratio, long, inside = planet.gear.ratio, arm.length, planet.gear.ratio < 0
@@ -175,7 +175,7 @@ def _angle(figure: Figure, crank: Crank) -> float:
 
 
 def teeth_a_second(figure: Figure) -> float:
-    """Return how many teeth of the fastest wheel turn past a direction in a second at the scene's speed."""
+    """Return how many teeth of the fastest wheel pass a fixed direction in a second at the scene's speed."""
     turned = (wheel for wheel in wheels(figure) if wheel.arm)
     cranks = {crank.name: crank for crank in figure.linkage.cranks}
     return max((wheel.teeth * _turns(figure, cranks[str(wheel.arm)]) for wheel in turned), default=0.0)
@@ -198,17 +198,17 @@ def wheels(figure: Figure) -> Iterator[Wheel]:
 # How gear pairs are drawn: discs that stay, teeth, outlines and holes that turn, belts between pulleys.
 
 _PRESSURE = radians(25)
-"""Steep enough for a wheel of the fewest teeth, whose flanks would be undercut at the usual 20 degrees."""
+"""The pressure angle: at the usual 20° the flanks of a wheel of the fewest teeth would be undercut."""
 _FADED = 0.45
-"""How much of the background's colour is in a quiet rim."""
+"""The share of the background's colour in a quiet rim."""
 _SHADED = 0.3
-"""How much of the ground's colour is in the driven wheel's."""
+"""The share of the ground's colour in the driven wheel's."""
 _MARK = (1.7, 0.55)
 """The length of a pitch circle's mark and half its width, in half widths of a bar."""
 _DASHES = ((0.0, 0.5, 4), (0.72, 0.78, 2))
 """Where the dash and the dot of a pitch circle begin and end, in steps, and their points."""
 _HOLES, _HOLED, _HOLE = 5, 0.62, 0.19
-"""How many holes a wheel has, how far from its middle, and how large: shares of what is within its teeth."""
+"""How many holes a wheel has, their distance from its middle and their radius, in radii within its teeth."""
 
 
 def wheel_layers(context: DrawContext) -> list[Layer]:
@@ -277,7 +277,7 @@ def _quiet(wheel: Wheel, pair: WheelPair, drawn: tuple[View, Gauge, Theme]) -> I
 def _wheel(
     wheel: Wheel, pair: WheelPair, drawn: tuple[View, Gauge, Theme], *, moving: bool
 ) -> tuple[Layer, ...]:
-    """Return a wheel about the origin; one that only turns without its disc, which is drawn once."""
+    """Return a wheel about the origin; one that stays in place has no disc here, which is drawn once."""
     view, gauge, theme = drawn
     tone = _tone(wheel, pair, theme)
     edge = theme.ground if wheel is pair.driver else mixed(theme.ground, theme.outline, 0.5)
@@ -298,7 +298,7 @@ def _pitch_circle(radius: float, gauge: Gauge) -> list[Loop]:
     ways = directions(np.arange(0, 2 * pi - step / 2, step))
     inner, outer = radius - 0.4 * gauge.line, radius + 0.4 * gauge.line
     arcs = [directions(np.linspace(*ends) * step) for ends in _DASHES]
-    # Ends that are not round: there are many, and a file holds each point.
+    # The ends are square: there are many, and a file holds every point of a round one.
     marks = [np.concatenate([inner * arc, outer * arc[::-1]]) for arc in arcs]
     return [way * mark for way in ways for mark in marks]
 
@@ -322,7 +322,7 @@ def _root(wheel: Wheel, view: View, gauge: Gauge) -> float:
 
 
 def _rim(wheel: Wheel, view: View, gauge: Gauge, *, moving: bool) -> list[Loop]:
-    """Return the outline; with a hole where the disc shows, and of a ring the outer edge before it."""
+    """Return the outline, with a hole where the disc shows; for a ring, its outer edge comes first."""
     radius = wheel.radius * view.scale
     if wheel.ring:
         return [disc(wheel.reach * view.scale), _toothed(wheel, radius, TIP, FOOT)[::-1]]

@@ -1,7 +1,7 @@
 """Tell about a scene in words: its title, its numbers of this instant, the key to its colours.
 
-`measured` has the rows of numbers and what is special about a pose. `Hud` draws them. The legend says how
-much the longest arrow stands for. The blocks of words are what an arrangement has to place.
+`rows_of` has the rows of numbers, `note` what is special about a pose. `Hud` draws them. The legend says how
+much an arrow of its length stands for. An arrangement places the words as blocks.
 """
 
 from __future__ import annotations
@@ -33,28 +33,28 @@ from linkanim.units import stepped, three_digits
 if TYPE_CHECKING:
     from linkanim.picture.ink import InkScale
 
-# What the HUD tells of a pose: its rows of numbers, and what is special about it.
+# What the HUD says about a pose: its rows of numbers, and what is special about it.
 
 _NEAR_LIMIT = 0.06 * pi
-"""How near to a limit, in phase, the HUD says so: there the input has 1 % of its swing left."""
+"""How near to a limit, in phase, the HUD notes it: there 1 % of the input's swing is left."""
 _NEAR_CHANGE = pi / 45
 _HELD, _EASED = 0.2, 0.5
-"""How long a note stands before and after the instant it is about, and how long it comes and goes, in s."""
+"""How long a note stands before and after its instant, and how long it fades in and out, in s."""
 _READ = 0.36
-"""A note is not read where the next follows in this time (s), and well where it does in twice of it."""
+"""A note cannot be read if the next one follows within this time (s); after twice this time it can."""
 
 
 class Reading(NamedTuple):
-    """A name and its value; the name stays while the value moves."""
+    """A name and its value; the name stays the same while the value changes."""
 
     label: str
     value: str
 
 
 class Row(NamedTuple):
-    """A name and what tells its value at a pose, None where it is not known there.
+    """A name, and the function from a pose to its value in words, None where it is not known.
 
-    Rows of the highest ranks are the first to go where there is no room.
+    Rows of the highest ranks are the first to be left out where there is no room.
     """
 
     rank: int
@@ -76,12 +76,12 @@ def ranked(known: Iterable[Row], pose: Pose) -> Iterator[tuple[int, Reading]]:
 
 
 def rows_of(scene: Scene) -> tuple[Row, ...]:
-    """Return the rows of a scene; what of them is the same at every pose is put into words here, once.
+    """Return the rows of a scene; parts that are the same at every pose are put into words only once.
 
-    The input's speed is the pose's: of an input that swings, how often it does and its angular velocity
-    at this instant. Speeds are in the unit that the scene states its own in; forces appear where they are
-    known; a damper without a coefficient is a cylinder, told by its length; lengths are in the scene's
-    unit, forces in newtons, tension positive.
+    The input's speed is that of the pose; an input that swings has its swings per minute and its angular
+    velocity at this instant. Speeds are in the unit in which the scene states its own. Forces appear where
+    they are known, in newtons, tension positive. A damper without a coefficient is a cylinder, with its
+    length. Lengths are in the scene's unit.
     """
     return *_input_rows(scene), *(_row(one, scene.length_unit) for one in measured(scene))
 
@@ -106,7 +106,7 @@ def _input_rows(scene: Scene) -> Iterator[Row]:
 
 
 def _live(scene: Scene) -> Callable[[Pose], str]:
-    """Return what tells the driven bar's angular velocity, or the slider's, always with as many decimals."""
+    """Return what words the driven bar's angular velocity, or the slider's velocity, with fixed decimals."""
     known = register(scene.linkage)
     coordinate = scene.linkage.drive.coordinate
     read = known[coordinate.rate_token].read
@@ -119,7 +119,7 @@ def _live(scene: Scene) -> Callable[[Pose], str]:
 
 
 class MeasuredRow(NamedTuple):
-    """A row that tells a quantity to a step."""
+    """A row that shows a quantity rounded to a step."""
 
     rank: int
     label: str
@@ -128,7 +128,7 @@ class MeasuredRow(NamedTuple):
 
 
 def measured(scene: Scene) -> Iterator[MeasuredRow]:
-    """Yield the quantities that a scene's rows tell: of its struts, and what the input has to deliver."""
+    """Yield the quantities in a scene's rows: those of its struts, and what the input has to deliver."""
     yield from _of_struts(scene)
     usual = scene.info.usual_effort
     if usual is not None:
@@ -153,7 +153,7 @@ def _of_struts(scene: Scene) -> Iterator[MeasuredRow]:
 
 
 def charted(scene: Scene) -> dict[str, str]:
-    """Return the tokens of the quantities that rows tell, by their labels: what a click on a row charts."""
+    """Return the tokens of rows' quantities by the rows' labels: a click on a row charts its quantity."""
     linkage, info = scene.linkage, scene.info
     drive, coordinate = linkage.drive, linkage.drive.coordinate
     cranks = (body for body in linkage.bodies if linkage.crank_of(body) and drive.joint in body.joints)
@@ -177,7 +177,7 @@ def _row(one: MeasuredRow, length_unit: str) -> Row:
 
 
 class Note(NamedTuple):
-    """What is special about a pose, and how clearly it is said, in eighths: 0 is not at all."""
+    """What is special about a pose, and its opacity in eighths: 0 is invisible."""
 
     words: str
     eighths: int
@@ -186,8 +186,8 @@ class Note(NamedTuple):
 def note(scene: Scene, pose: Pose) -> Note:
     """Return what is special at a pose: the nearest limit of the input, or change point.
 
-    It is eased in before and out after, in time as in angle, and gives way where another is as near.
-    Where they follow each other too fast to be read, none is said.
+    The note fades in before and out after, in time as in angle, and gives way where another place is as near.
+    Where notes would follow each other too fast to be read, there is none.
     """
     known = [(_nearness(pose, away, near), words) for away, near, words in _special(scene, pose)]
     (most, words), (next_most, _), *_ = (*sorted(known, reverse=True), (0.0, ""), (0.0, ""))
@@ -196,7 +196,7 @@ def note(scene: Scene, pose: Pose) -> Note:
 
 
 def _nearness(pose: Pose, away: float, near: float) -> float:
-    """Return 1 at a special phase, 0 far `away` (rad of phase), eased between, at the speed it runs by."""
+    """Return 1 at a special phase, 0 far `away` from it (rad), smooth in between, for the pose's speed."""
     by_angle = eased(2.0 - 2.0 * away / near)
     seconds = away / abs(pose.input_speed) if pose.input_speed else inf
     return max(by_angle, eased(1.0 + (_HELD - seconds) / _EASED))
@@ -208,7 +208,7 @@ def notes(scene: Scene) -> tuple[str, ...]:
 
 
 def _special(scene: Scene, pose: Pose) -> Iterator[tuple[float, float, str]]:
-    """Yield the input's limits and change points: how far away, how far is near (rad of phase), in words."""
+    """Yield the input's limits and change points: how far off, what distance is near (rad), and words."""
     info = scene.info
     if not info.full_turn:
         for limit, at in zip(info.ends, (0.0, pi), strict=True):
@@ -218,7 +218,7 @@ def _special(scene: Scene, pose: Pose) -> Iterator[tuple[float, float, str]]:
 
 
 def _turned(angle: float) -> str:
-    """Return an angle within one turn, rounded first, so that none reads 360°."""
+    """Return an angle within one turn in words; it is rounded first, so that none reads 360°."""
     return f"{stepped(round(degrees(angle) % 360, 1) % 360, 0.1)}°"
 
 
@@ -226,16 +226,16 @@ def _apart(one: float, other: float) -> float:
     return abs((one - other + pi) % tau - pi)
 
 
-# The head-up display: what scene it is, and the numbers of this instant, in words.
+# The head-up display: the scene's title, and the numbers of this instant, in words.
 
 STEP = 1.4
-"""From row to row, in heights of their text."""
+"""The step from row to row, in heights of their text."""
 _BACKING = 0.82
-"""How little of what lies under the words shows through their backing."""
+"""The opacity of the backing under the words."""
 
 
 class WordLine(NamedTuple):
-    """A line that stands still: its text, how far down, size, whether it is a title, how wide it is."""
+    """A line that stands still: its text, how far down it is, its size, whether it is a title, its width."""
 
     text: str
     y: float
@@ -246,19 +246,19 @@ class WordLine(NamedTuple):
 
 @frozen
 class WordBlock:
-    """Words at one size, all places from the block's top left corner."""
+    """Words at one size; all places are measured from the block's top left corner."""
 
     size: int
     lines: tuple[WordLine, ...]
-    """The title's and the class's."""
+    """The lines of the title and of the class."""
     turns: int
-    """How many lines more than one the title takes."""
+    """How many lines the title takes beyond the first."""
     rows: frozenset[str]
     """The names of the rows that are shown."""
     first: float
     """The top of the first row."""
     note: float
-    """The top of what is special."""
+    """The top of the note on what is special."""
     key: float
     """The top of the key to the arrows."""
     column: int
@@ -285,7 +285,7 @@ class WordBlock:
 
 @frozen
 class Hud:
-    """The words about a scene where they stand: what keeps still is drawn once, values at every frame."""
+    """The words about a scene in their place: still words are drawn once, values at every frame."""
 
     scene: Scene
     block: WordBlock
@@ -310,7 +310,7 @@ class Hud:
         ]
 
     def label_at(self, x: float, y: float) -> str | None:
-        """Return the label of the row under a pixel, "" on the class; None beside them."""
+        """Return the label of the row under a pixel, "" for the class, None elsewhere."""
         if not self.place.x <= x <= self.place.x + max(self.block.column, self.block.width):
             return None
         if any(self.place.y + one.y <= y <= self.place.y + one.y + 1.2 * one.size for one in self._classed):
@@ -330,7 +330,7 @@ class Hud:
         return tuple(row for row in rows_of(self.scene) if row.label in self.block.rows)
 
     def backing(self, key: Rect | None) -> Layer:
-        """Return what lets the words and their key be read where something lies under them."""
+        """Return the backing that makes words and key readable where something lies under them."""
         bottom = key.bottom if key else self.place.bottom
         room = self.place._replace(height=bottom - self.place.y).inset(-0.5 * self.block.size)
         middle = complex(room.x + room.width / 2, room.y + room.height / 2)
@@ -338,7 +338,7 @@ class Hud:
         return Layer(self.theme.background, [plate], _BACKING)
 
     def notes(self, pose: Pose) -> Iterator[Caption]:
-        """Yield what is special at a pose, as clearly as it is shown."""
+        """Yield the note on what is special at a pose, with its opacity."""
         words, eighths = note(self.scene, pose)
         size, colour = self.block.size, mixed(self.theme.background, self.theme.dim, eighths / 8)
         lines = self.type.wrapped(words, size, self.block.column) if eighths else []
@@ -350,16 +350,16 @@ class Hud:
         return self.place.y + self.block.first + STEP * self.block.size * row
 
 
-# The key to the colours: of arrows with how much the one shown there stands for, of the causal chain.
+# The key to the colours: of arrows, with the value of the sample arrow; of the ink; of the causal chain.
 
 INK_LINES = 2
-"""Of the key to the ink: its colours, its dots."""
+"""The lines of the key to the ink: one for its colours, one for its dots."""
 KEY_STEP = 1.5
-"""From line to line of the key to the arrows."""
+"""The step from line to line of the key to the arrows, in heights of its text."""
 _SMALLEST = 8
 _ENDS = ("input", "output")
 _DISC_STEP = 1.2
-"""From the colour of a step to the next one's, in heights of the text."""
+"""The step from one disc of colour to the next, in heights of the text."""
 
 
 @frozen
@@ -383,7 +383,7 @@ class Legend:
         return grouped("key", [*self._arrows(speed), *inked, *chained], still=True)
 
     def _inked(self, scale: InkScale, line: int, speed: float) -> Iterator[Item]:
-        """Yield what the ink says: its colours up to the greatest speed, and the time between its dots."""
+        """Yield the key to the ink: its colours up to the greatest speed, and the time between its dots."""
         size, dim, left = self.size, self.theme.dim, self.column.x
         words = (("speed", scale.greatest_words(speed)), ("dots every", scale.interval_words(speed)))
         for n, (name, meaning) in enumerate(words):
@@ -398,7 +398,7 @@ class Legend:
             yield Caption(meaning, (self.column.right, top), size, dim, "right")
 
     def _arrows(self, speed: float) -> Iterator[Item]:
-        """Yield the arrows, what they are called, and how much each stands for."""
+        """Yield the sample arrows, their names, and how much each stands for."""
         size, dim = self.size, self.theme.dim
         for n, kind in enumerate(self.kinds):
             top = self._top(n)
@@ -465,7 +465,7 @@ def legend_for(
     chain: tuple[Colour, ...] = (),
     ink: InkScale | None = None,
 ) -> Legend | None:
-    """Return the key to arrows, ink and chain, its text as large as fits; None without any or a place."""
+    """Return the key to arrows, ink and chain, its text as large as fits; None without content or room."""
     column = layout.legend
     if column is None or not (kinds or chain or ink):
         return None
@@ -480,24 +480,24 @@ _TITLE = 1.43
 """The title's size, in sizes of the rows."""
 _SMALLEST_TYPE = 10
 _SHRUNK = 0.72
-"""The rows' least size, in pixels and in the size that a window's is as a rule."""
+"""The rows' least size: in pixels, and as a share of the usual size in the window."""
 _CLASS_RANK = 4
-"""The class goes after the rows of higher ranks."""
+"""The class is left out after the rows of higher ranks."""
 _CLASS_WIDTH = 17.0
-"""As wide as this, in sizes, a class is not broken."""
+"""A class up to this wide, in sizes of the text, is not broken into lines."""
 _GAP = 0.9
-"""Between the name and the value of a row, in sizes."""
+"""The gap between the name and the value of a row, in sizes of the text."""
 _MOST_LINES = 4
 _TRIED = 24
 _SENTENCE_LINES = (1, 2, 3, 4)
 _MEASURED = 21
-"""The size at which values are compared; the widest is so at any size."""
+"""The size at which widths of values are compared; the widest value is the widest at any size."""
 _FASTEST = -10.0
 """The fastest that a scene is run at, backwards for the minus sign."""
 
 
 class WidestRow(NamedTuple):
-    """A row as it needs the most room, with its rank."""
+    """A row with the value that needs the most room, and its rank."""
 
     rank: int
     row: Reading
@@ -514,7 +514,7 @@ def widest_rows(scenes: Sequence[Scene], type_: Type) -> tuple[WidestRow, ...]:
 
 
 def _over_a_cycle(scene: Scene) -> Iterator[WidestRow]:
-    """Yield the rows over a cycle, at the fastest speed."""
+    """Yield the rows with their values over a cycle, at the fastest speed."""
     known, speed = rows_of(scene), _FASTEST * scene.linkage.drive.speed
     for step in range(_TRIED):
         for rank, row in ranked(known, scene.pose(scene.period * step / _TRIED, speed=speed)):
@@ -524,10 +524,10 @@ def _over_a_cycle(scene: Scene) -> Iterator[WidestRow]:
 def blocks(
     scenes: Sequence[Scene], rows: tuple[WidestRow, ...], layout: Layout, keys: int, type_: Type
 ) -> Iterator[list[WordBlock]]:
-    """Yield the words in groups, each with the title in ever more lines; those to be preferred first.
+    """Yield the words in groups, the preferred ones first; a group has the title in one line, two, and so on.
 
-    First all `rows`, ever smaller, then ever less of it, then without the key. `keys` is how many
-    lines the key has. The words are the first scene's; there is room for those of the others in their place.
+    First come all `rows` in decreasing sizes, then fewer and fewer rows, then no key. `keys` is how many
+    lines the key has. The words are the first scene's, with room for those of the others in their place.
     """
     setter = _Setter(scenes, layout, keys, type_)
     smallest = max(_SMALLEST_TYPE, round(_SHRUNK * layout.text_size))
@@ -558,7 +558,7 @@ def caption_lines(layout: Layout, text: str, type_: Type) -> list[str]:
 
 
 def shapes_of(text: str, layout: Layout, type_: Type) -> Iterator[tuple[float, float]]:
-    """Yield how wide and high a sentence is on a sheet of its own, in one line and in more."""
+    """Yield the width and height of a sentence on a backing of its own, in one line and in more."""
     size = layout.small_size
     whole = type_.width(text, size)
     for count in _SENTENCE_LINES if text else ():
@@ -614,7 +614,7 @@ class _Setter:
         return self._type.wrapped(words, size, column) if column else []
 
     def _column(self, size: int, rows: tuple[WidestRow, ...]) -> int:
-        """Return how wide the rows are, and the key to the colours."""
+        """Return the width of the column of rows and of the key to the colours."""
         width = self._type.width
         wide = [
             width(one.row.label, size) + width(one.row.value, size, strong=True) + _GAP * size for one in rows
@@ -627,7 +627,7 @@ class _Setter:
         return WordLine(text, y, size, strong, self._type.width(text, size, strong=strong))
 
     def _broken(self, count: int, big: int) -> tuple[str, ...]:
-        """Return the title in at most `count` lines, between its words, as narrow as they can be."""
+        """Return the title in at most `count` lines, broken between words, as narrow as possible."""
         room = self._layout.stage.width - 2 * self._layout.margin
         narrowest = self._type.narrowest(self._title, big, count)
         width = narrowest if narrowest < int(room) else room

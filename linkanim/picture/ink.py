@@ -1,7 +1,7 @@
-"""Ink a trace by speed: the faster a joint passes through its curve, the thicker and warmer that is.
+"""Ink a trace by speed: the faster a joint moves along its curve, the thicker and warmer the curve is.
 
-All of a curve's width lies to the left of the way that is gone, so that a curve which is gone there and back
-shows both ways side by side. Dots on it are equal times apart.
+All of a curve's width lies to the left of the motion, so that a curve which is passed there and back shows
+both ways side by side. Dots on it are equal times apart.
 """
 
 from __future__ import annotations
@@ -23,14 +23,14 @@ from linkanim.units import three_digits
 
 _SHADES = 18
 _THIN, _THICK = 1.0, 6.5
-"""The width of the curve where the joint stands and where it is fastest, in lines."""
+"""The width of the curve where the joint rests and where it is fastest, in widths of a thin line."""
 _DOTS = (24, 12, 8, 6, 4, 3, 2, 1)
 _MOST_DOTS = 96
-"""Dots of a drive period, and the most of a true period."""
+"""The numbers of dots in a drive period, and the most in a true period."""
 _APART = 7.0
-"""How far dots are apart at the least, on the whole, in lines."""
+"""The least distance between dots, on average, in widths of a thin line."""
 _DOT, _RIM = 1.6, 0.7
-"""The radius of a dot and its rim, in lines."""
+"""The radius of a dot and the width of its rim, in widths of a thin line."""
 
 
 def ramp(theme: Theme, share: float) -> Colour:
@@ -41,10 +41,10 @@ def ramp(theme: Theme, share: float) -> Colour:
 
 
 class InkScale(NamedTuple):
-    """What the ink of all traced joints is measured by: the greatest speed of the cycle, and the dots.
+    """The scale of the ink of all traced joints: the greatest speed of the cycle, and the dots' interval.
 
-    `most` is in the scene's unit a second at its own input speed `drive` (rad/s of phase); `gap` is the phase
-    from dot to dot (rad).
+    `most` is in the scene's unit per second at its own input speed `drive` (rad/s of phase); `gap` is the
+    phase from dot to dot (rad).
     """
 
     most: float
@@ -62,10 +62,10 @@ class InkScale(NamedTuple):
         return f"{three_digits(self.gap / abs(speed))} s" if speed and self.most else "–"
 
     def wedge(self, begin: complex, reach: float, size: float, theme: Theme) -> Iterator[Layer]:
-        """Yield the colours from standing still to the greatest speed, along a line that thickens."""
+        """Yield the colours from rest to the greatest speed, along a line that thickens."""
         step = reach / _SHADES
         for n in range(_SHADES):
-            # each reaches a little under the next, so that no seam shows
+            # each part extends a little below the next one, so that no seam shows
             low, high = (begin + step * at for at in (n, min(n + 1.5, _SHADES)))
             thick = 0.35 * size * (_THIN + (_THICK - _THIN) * (n + 0.5) / _SHADES) / _THICK
             corners = (low + 1j * thick, low - 1j * thick, high - 1j * thick, high + 1j * thick)
@@ -77,7 +77,7 @@ class InkScale(NamedTuple):
 
 
 def ink_scale(context: DrawContext) -> InkScale:
-    """Return what a scene's ink is measured by; its dots are as many as have room on the longest curve."""
+    """Return the scale of a scene's ink, with as many dots as have room on the longest curve."""
     figure, view, gauge, _ = context.known
     scene, periods = figure.scene, figure.scene.mechanism.periods
     speeds = [_speed(figure, joint) for joint in scene.trace]
@@ -100,7 +100,8 @@ def _speed(figure: Figure, joint: str) -> NDArray[np.float64]:
 class Ink:
     """The curve of one joint in pixels at equal steps of phase (N,), and its `share` of the greatest speed.
 
-    `dots` are the places that lie equal times apart, and `numbers` the points of the curve next to them.
+    `dots` are places that are equal times apart, and `numbers` the indices of the curve's points next to
+    them.
     """
 
     joint: str
@@ -124,7 +125,7 @@ class Ink:
         loops: dict[int, list[Loop]] = {}
         ends = [*np.flatnonzero(shade != np.roll(shade, 1)).tolist()] or [0]
         for begin, end in zip(ends, [*ends[1:], ends[0] + count], strict=True):
-            # each part runs on below its neighbour, so that no seam shows between them
+            # each part extends below its neighbour, so that no seam shows between them
             part = np.arange(begin, end + 2) % count
             loops.setdefault(int(shade[begin]), []).append(np.concatenate((right[part], left[part][::-1])))
         curve = [Layer(ramp(self.theme, n / (_SHADES - 1)), loops[n]) for n in sorted(loops)]
@@ -132,7 +133,7 @@ class Ink:
 
     @property
     def _side(self) -> Loop:
-        """The way to the left, 1 long."""
+        """The unit vectors to the left of the motion."""
         return sides_of(self.path)
 
     @property
@@ -140,7 +141,7 @@ class Ink:
         return np.asarray((_THIN + (_THICK - _THIN) * self.share) * self.gauge.line, np.float64)
 
     def _dotted(self) -> list[Layer]:
-        """Return the dots, each in a rim that parts it from the curve."""
+        """Return the dots, each in a rim that sets it off from the curve."""
         line = self.gauge.line
         sizes = ((self.theme.background, _DOT + _RIM), (self.theme.ink, _DOT))
         middle = (0.5 * self._side * self._width)[self.numbers]

@@ -22,7 +22,7 @@ class Underlay(Protocol):
 
 
 class Halo(NamedTuple):
-    """A rim round letters that parts them from what is below: its colour and width in pixels."""
+    """A rim round letters that sets them off from what is below: its colour and width in pixels."""
 
     colour: Colour
     width: float
@@ -31,7 +31,7 @@ class Halo(NamedTuple):
 class Caption(NamedTuple):
     """One line of text; `at` is its top, at its left, middle or right as `anchor` says.
 
-    One in a halo shows as strongly as `strength` says, 0 to 1.
+    A caption in a halo has the opacity `strength`, 0 to 1.
     """
 
     text: str
@@ -44,7 +44,7 @@ class Caption(NamedTuple):
     strength: float = 1.0
 
     def around(self, type_: Type) -> Rect:
-        """Return what it takes up."""
+        """Return the rectangle that the caption takes up."""
         wide = type_.width(self.text, self.size, strong=self.strong)
         left = self.at[0] - {"left": 0.0, "centre": 0.5, "right": 1.0}[self.anchor] * wide
         return Rect(left, self.at[1], wide, self.size)
@@ -54,17 +54,17 @@ Item = Layer | Caption
 
 
 SHEET = "sheet"
-"""The name of the group that is drawn on."""
+"""The name of the group on which the others are drawn."""
 
 
 class Group(NamedTuple):
     """Shapes that belong together, under a name, and the words over them.
 
-    Groups lie over each other in their order, but that words lie over the shapes of all groups up to the
-    next that is `over` them. A `still` group is the same object at every frame. Nothing of a group shows
-    outside of what it is `within`. Groups of one picture with equal keys have equal shapes. `made_of` is
-    what puts the shapes where a pose has them, for printers of all poses at once. What lies `under`
-    a sheet is on surfaces alone.
+    Groups lie over each other in their order, except that words lie over the shapes of all groups up to the
+    next group that is `over` them. A `still` group is the same object at every frame. A group shows only
+    inside the rectangle `within`. Groups of one picture with equal keys have equal shapes. `made_of` is the
+    object that places the shapes in a pose, for printers of all poses at once. What lies `under` a sheet is
+    drawn on surfaces alone.
     """
 
     name: str
@@ -91,7 +91,7 @@ def flat(groups: Iterable[Group]) -> Iterator[Layer]:
 
 
 def clipped(group: Group) -> Iterator[Layer]:
-    """Yield the shapes of a group without what of them reaches right of or below what it is within."""
+    """Yield the shapes of a group, cut off at the right and lower edge of the rectangle it is within."""
     if group.within is None:
         yield from group.layers
         return

@@ -1,7 +1,7 @@
 """Put names and dimensions on a picture, each in one place for the whole cycle.
 
-Candidates for a label's place lie round joints, on links and beside what is measured; what is in their way
-is solid or only clutter. `placing` chooses among them.
+Candidates for a label's place lie round joints, on links and beside what is measured. `placing` chooses among
+them, and keeps labels off what is drawn.
 """
 
 from __future__ import annotations
@@ -40,56 +40,56 @@ from linkanim.steps import at_once
 Size = tuple[float, float]
 """How wide and high a label is, in pixels."""
 Own = frozenset[int]
-"""The numbers of things that are a label's own."""
+"""The numbers of those things on which a label may lie."""
 
 _ALONG = (0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8)
 """Where along a bar its name may stand."""
 _SIDES = (0, 1, -1, 1.8, -1.8)
-"""On a bar, and how far to its sides, in heights of the name."""
+"""How far to a bar's sides its name may stand, in heights of the name; 0 is on the bar."""
 _INSIDE = (0.3, 0.5, 0.65)
-"""How far from a plate's middle to its corners and sides its name may stand."""
+"""Where a plate's name may stand, in shares of the way from its middle to its corners and sides."""
 _BESIDE = 0.4
-"""What a place beside a bar costs, where one on it is free."""
+"""What a place beside a bar costs; a place on the bar costs nothing."""
 _FARTHER = 1.0
 """What a place farther from its joint costs."""
 _ROUND = 16
-"""So many places lie round a joint."""
+"""The number of places in a ring round a joint."""
 _CLEAR = 1.3
-"""How far off a bar's middle a label beside it begins, in half widths of a bar."""
+"""How far from a bar's axis a label beside it begins, in half widths of a bar."""
 _BLOCK = 2.7
-"""How far a slider's block reaches, in half widths of a bar."""
+"""How far a slider's block extends, in half widths of a bar."""
 _MIDDLE, _ON_GROUND = (0.5, 0.42, 0.58), (0.33, 0.67)
-"""Where along its own bar a length may stand, and where one of the ground besides."""
+"""Where along its own bar a length may stand, and further places for a length of the ground."""
 _LEVELS = 8
-"""So many dimension lines may lie beside each other, on either side."""
+"""The most dimension lines beside each other, on either side."""
 _TIER = 1.4
-"""From one to the next, in heights of their text."""
+"""The step from one dimension line to the next, in heights of their text."""
 _ON_LINE = (0.5, 0.3, 0.7, 0.15, 0.85)
 """Where along a dimension line its text may stand."""
 _TEXT_OFF, _GAP = 0.2, 0.55
 """How far a dimension's text is from its line, and other lines from that line, in heights of its text."""
 _RINGS = (3, 6)
-"""In so many rings a name may stand round a joint, and round a slider's block."""
+"""The number of rings of places round a joint, and round a slider's block."""
 _AROUND_PLATE = (0.5, 0.3, 0.7)
-"""Where along a plate's side its name may stand outside it."""
+"""Where along a plate's side its name may stand outside the plate."""
 _ONE_CORNER = 0.8
-"""Corners round a body that are nearer to each other count as one, in half widths of a bar."""
+"""Corners of a body that are nearer to each other than this, in half widths of a bar, count as one."""
 _PIECES = 32
-"""In so many straight pieces labels keep off a wheel's rim."""
+"""The number of straight pieces that stand for a wheel's rim, off which labels keep."""
 _ARC_RINGS = 2
-"""In so many rings the input's angle may stand outside its arc."""
+"""The number of rings outside its arc in which the input's angle may stand."""
 _ROOMY = (1.0, 1.7, 2.6, 3.6)
-"""The radii of an angle's arc, in those of the smallest."""
+"""The radii of an angle's arc, in radii of the smallest one."""
 _ON_ARC = (0.5, 0.25, 0.75)
 """Where along the arc its angle may stand."""
 
 
 class Spots(NamedTuple):
-    """Places (k,) in the frame of the joint `at`, whose x axis, and its unit, reach to the joint `head`.
+    """Places (k,) in the frame of the joint `at`, in which 1 is the vector to the joint `head`.
 
-    A place lies so far along the line from `begin` to `end` in that frame, `aside` of it (+1 or -1: off the
-    line and `further` pixels more; 0: on it), and then `off` in pixels. In a frame of one joint twice the
-    unit is the scene's, to the right.
+    A place is a `share` along the line from `begin` to `end` in that frame, then `aside` of it (+1 or -1:
+    beside the line and `further` pixels more; 0: on it), and then `off` in pixels. In a frame that names one
+    joint twice, 1 is the scene's unit to the right.
     """
 
     at: str
@@ -102,7 +102,7 @@ class Spots(NamedTuple):
     off: Loop
 
     def picked(self, which: int) -> Spots:
-        """Return one of them."""
+        """Return one of the places."""
         return Spots(self.at, self.head, *(part[which] for part in self[2:]))
 
     def middles(self, at: ArrayLike, span: ArrayLike, sides: ArrayLike, bar: float) -> Loop:
@@ -123,7 +123,7 @@ def stacked(spots: Sequence[Spots]) -> Spots:
 
 @frozen
 class LabelSpots:
-    """Where a label may stand, what is to be placed of it, and the lines that may go with it."""
+    """Where a label may stand: its spots, their places over the moments, and the lines that go with it."""
 
     spots: Spots
     candidates: LabelPlaces
@@ -131,7 +131,7 @@ class LabelSpots:
 
 
 class Thing(NamedTuple):
-    """What labels keep off, and the joints that are its own."""
+    """A thing that labels keep off, and the joints that are its own."""
 
     joints: frozenset[str]
     solid: Solid
@@ -175,14 +175,14 @@ class Surroundings:
         return np.broadcast_to(cycle.coordinate_rate, cycle.phase.shape)[:: SAMPLES // MOMENTS]
 
     def _frame(self, frame: tuple[str, str]) -> tuple[Loop, Loop]:
-        """Return where a frame lies and what 1 is in it, in pixels."""
+        """Return where a frame's origin is, and its unit vector, in pixels."""
         at, head = (self._paths[name] for name in frame)
         return at, head - at if frame[0] != frame[1] else np.full_like(at, self.setting.view.scale)
 
     def around(self, name: str, size: Size, *, slider: bool = False) -> LabelSpots:
-        """Return places all round a joint, in rings ever farther; up and to the right is best.
+        """Return places all round a joint, in rings of growing radius; up and to the right is best.
 
-        They had better not lie on the bars that meet there, and must not round a slider's block.
+        They should not lie on the bars that meet there; round a slider's block they must not.
         """
         rings = _RINGS[slider]
         turns = np.exp(-2j * pi * np.arange(_ROUND) / _ROUND)
@@ -193,7 +193,7 @@ class Surroundings:
         return self._spots((name, name), size, price, beside=beside, off=np.concatenate(rounds))
 
     def is_plate(self, body: Body) -> bool:
-        """Tell whether a body's joints lie in no line."""
+        """Tell whether a body's joints are not all in one line."""
         return len(self._corners(body)) > 2
 
     def on(self, body: Body, size: Size) -> LabelSpots:
@@ -228,7 +228,7 @@ class Surroundings:
         return self._spots(body.joints, size, price, own=own, share=share, **where)
 
     def dimension(self, about: Measurement, size: Size) -> Iterator[LabelSpots]:
-        """Yield places for a length by its own bar if that has room, and by dimension lines beside it."""
+        """Yield places for a length on its own bar if that has room, and at dimension lines beside it."""
         if about.angle:
             yield self._by_angle(about, size)
             return
@@ -255,7 +255,7 @@ class Surroundings:
         drawn, share = np.array([*product(range(len(arcs)), _ON_ARC)]).T
         ways = directions(np.angle(about.begin) + np.angle(about.end / about.begin) * share)
         further = np.array(radii)[drawn.astype(int)] + 0.2 * size[1] - _CLEAR * self.setting.gauge.bar
-        # lines across the ways, whose sides those are
+        # lines across these directions, so that the places lie to their sides
         where: dict[str, Any] = {"end": -1j * ways, "aside": 1, "further": further}
         price, own = 0.3 * drawn + 0.6 * abs(share - 0.5), self._numbers(about.own)
         return self._lined(self._spots(about.frame, size, price, own=own, **where), arcs, drawn)
@@ -263,7 +263,7 @@ class Surroundings:
     def _lined(
         self, found: LabelSpots, lines: Sequence[MeasureLine | AngleArc], drawn: NDArray[Any]
     ) -> LabelSpots:
-        """Return them with the lines that go with them."""
+        """Return the spots with the lines that go with them."""
         tracks = (line.tracks(*self._frame(line.frame), self.setting.gauge) for line in lines)
         mine = found.candidates._replace(lines=tuple(tracks), drawn=drawn.astype(np.int64))
         return LabelSpots(found.spots, mine, tuple(lines))
@@ -281,7 +281,7 @@ class Surroundings:
         return self._spots((turning.pivot, turning.pivot), size, price, off=off)
 
     def still(self, places: Loop, size: Size) -> LabelSpots:
-        """Return places in pixels that stand still on the ground, the best first."""
+        """Return fixed places, given in pixels, the best first."""
         name = next(iter(self.setting.figure.linkage.pins)).name
         begin = (places - self._paths[name][0]) / self.setting.view.scale
         return self._spots((name, name), size, 0.5 * np.arange(len(places)), begin=begin, end=begin)
@@ -289,7 +289,7 @@ class Surroundings:
     def _line(
         self, frame: Sequence[str], line: tuple[complex, complex], size: Size, tried: Iterable[Any], own: Own
     ) -> LabelSpots:
-        """Return places on a line and beside it: `tried` are how far aside and at which share of it."""
+        """Return places on a line and beside it; `tried` has pairs of how far aside, and at which share."""
         aside, share = np.array([*tried]).T
         price = _BESIDE * np.abs(aside) + np.abs(share - 0.5)
         where: dict[str, Any] = {"begin": line[0], "end": line[1], "share": share, "aside": np.sign(aside)}
@@ -306,7 +306,7 @@ class Surroundings:
         beside: Own = frozenset(),
         **parts: ArrayLike,
     ) -> LabelSpots:
-        """Return places with their prices, at each moment; of the parts of spots what is left out is 0."""
+        """Return places with their prices at each moment; fields of `Spots` that are not given are 0."""
         first, second = frame[:2]
         whole = np.broadcast_arrays(price, *(parts.get(part, 0.0) for part in Spots._fields[2:]))
         spots = Spots(first, second, *whole[1:])
@@ -315,7 +315,7 @@ class Surroundings:
         return LabelSpots(spots, LabelPlaces(size, middles, price, own, beside))
 
     def _radius(self, name: str) -> float:
-        """Return how far what is drawn at a joint reaches."""
+        """Return the radius of what is drawn at a joint, in pixels."""
         if not self.setting.figure.linkage.joint(name).travels:
             return self.setting.gauge.bar
         return max(_BLOCK * self.setting.gauge.bar, rail_reach(self.setting, name) + self.setting.gauge.bar)
@@ -339,7 +339,7 @@ class Surroundings:
         )
 
     def _links(self) -> Iterator[Thing]:
-        """Yield what each of the bodies covers, and each spring and damper."""
+        """Yield what each body, spring and damper covers."""
         figure, bar = self.setting.figure, self.setting.gauge.bar
         shaped = {body for body in figure.bodies if figure.scene.style(body.name).outline in BEYOND}
         parts = {part.name: part for part in body_parts(self.setting)} if shaped else {}
@@ -389,7 +389,7 @@ class Surroundings:
                 joints, linked = frozenset((part.at, part.tail, part.head)), part.tail != part.head
                 block = framed(np.concatenate(part.layers[0].loops))
                 yield Thing(joints, self._moving(part, block), linked)
-                # a yoke's bar reaches beyond its block
+                # a yoke's bar extends beyond its block
                 whole = framed(np.concatenate([loop for layer in part.layers for loop in layer.loops]))
                 if np.ptp(whole.real) + np.ptp(whole.imag) > 1.5 * (np.ptp(block.real) + np.ptp(block.imag)):
                     yield Thing(joints, self._moving(part, whole), linked)
@@ -405,14 +405,14 @@ class Surroundings:
             yield Thing(frozenset(), Solid(np.array([ends]), self.setting.gauge.line))
 
     def _arrow(self) -> Iterator[Thing]:
-        """Yield what shows how the input moves."""
+        """Yield the mark of the input's motion."""
         if self.turning:
             for points, half in self.turning.tracks(self._paths, self._rates, angled=self.angled):
                 for n in range(points.shape[1] - 1):
                     yield Thing(frozenset(), Solid(points[:, n : n + 2], half))
 
     def _numbers(self, joints: Set[str]) -> frozenset[int]:
-        """Return the numbers of the links that have all these joints; of none where there are none."""
+        """Return the numbers of the links that have all these joints; none where no joints are given."""
         things = enumerate(self.things)
         return frozenset(n for n, thing in things if joints and thing.linked and joints <= thing.joints)
 
@@ -423,7 +423,7 @@ class Surroundings:
 
 
 def _thinned(corners: Sequence[complex], apart: float) -> Loop:
-    """Return the corners of a hull, one of those that are nearer to each other."""
+    """Return the corners of a hull; of corners nearer to each other than `apart`, one."""
     kept = list[complex]()
     for corner in corners:
         if all(abs(corner - other) >= apart for other in kept[-1:]):
@@ -432,7 +432,7 @@ def _thinned(corners: Sequence[complex], apart: float) -> Loop:
 
 
 def _off(turns: Loop, size: tuple[float, float], radius: float | NDArray[np.float64]) -> Loop:
-    """Return where the middle of a label lies that stays off a disc about 0, in these directions."""
+    """Return where the middle of a label that touches a disc about 0 lies, in each of these directions."""
     off: Loop = turns.real * (radius + size[0] / 2) + 1j * turns.imag * (radius + size[1] / 2)
     return off
 
@@ -440,37 +440,37 @@ def _off(turns: Loop, size: tuple[float, float], radius: float | NDArray[np.floa
 # Names on the picture: of joints and links, then their dimensions, each in one place for the whole cycle.
 
 _ROOM = 0.6
-"""The part of a bar that its link's name may take."""
+"""The share of a bar that its link's name may take."""
 _HIGH = 0.94
-"""The height of letters that are placed, in heights of their line."""
+"""The height of a placed label's letters, in heights of their line."""
 _UNSEEN = 0.05
 _ENOUGH = 0.5
-"""A name that shows for so much of it is preferred to a number."""
+"""A name that shows for this share of the cycle is preferred to a number."""
 _LEAST_SHOWN = 0.2
-"""A name that would show for less of the cycle is left out."""
+"""A name that would show for a smaller share of the cycle is left out."""
 _LEAST_AGAIN = 0.08
-"""Likewise a name in one more place."""
+"""The same for a name in a second place."""
 _SEEN = 0.5
-"""How far a label shows at the least that shows all the time."""
+"""The least opacity of a label that shows all the time."""
 _PLACES_ON_LINKS, _PLACES_ON_ALL = 3, 3
-"""So many places more has what shows all the time: on links, then on all that is not a pin."""
+"""The further places that a label which shows all the time may have: on links, then on all but pins."""
 _LASTING = 0.2
-"""The part of the picture's room that labels showing all the time may take; more would hide the linkage."""
+"""The share of the picture's room that labels showing all the time may take; more would hide the linkage."""
 _LEAST_MEASURED = 0.4
-"""A dimension likewise: it then stands in the table."""
+"""A dimension that would show for a smaller share of the cycle stands in the table instead."""
 _ROW = 1.3
-"""From row to row of the table, in heights of its text."""
+"""The step from row to row of the table, in heights of its text."""
 TRIES = 3
-"""So many orders more are tried for what has no place yet, after the best."""
+"""The number of further orders in which labels are placed, after the best one, where some have no place."""
 _GRID = (9, 9)
-"""So many places are tried for the table, across and down."""
+"""The number of places that are tried for the table, across and down."""
 
 
 @frozen
 class Label:
-    """A line of text with its place; what measures has its `symbol`, and maybe a line drawn with it.
+    """A line of text with its place; a dimension has its `symbol`, and perhaps a line drawn with it.
 
-    In the table it stands with what it is `about`.
+    In the table it stands with the words for what it is `about`.
     """
 
     text: str
@@ -478,15 +478,15 @@ class Label:
     """The height of its line."""
     colour: Colour
     size: tuple[float, float]
-    """Of its letters in their halo."""
+    """The width and height of its letters in their halo."""
     symbol: str = ""
     about: str = ""
     spot: Spots | None = None
     shown: NDArray[np.float64] | None = None
-    """How far it shows over the cycle, at equal steps of phase."""
+    """Its opacity (0 to 1) over the cycle, at equal steps of phase."""
     drawn: MeasureLine | AngleArc | None = None
     always: bool = False
-    """Whether it shows at every moment: where nothing else is free it lies on a link."""
+    """Whether it shows at every moment: where no other place is free it lies on a link."""
 
     @property
     def row(self) -> str:
@@ -515,7 +515,7 @@ class DimensionTable:
 
 @frozen
 class Names:
-    """All labels of a picture, in their halo, and a table of what is not on the picture all the time."""
+    """All labels of a picture, in their halo, and a table of those that it does not show all the time."""
 
     labels: tuple[Label, ...]
     period: float
@@ -538,7 +538,7 @@ class Names:
         return found
 
     def standing(self, pose: Pose, places: Places) -> Iterator[tuple[Label, complex, float]]:
-        """Yield every label with its middle in pixels, and how far it shows (0 to 1)."""
+        """Yield every label with its middle in pixels, and its opacity (0 to 1)."""
         if not self.labels:
             return
         spots, sides = self._stacked
@@ -549,7 +549,7 @@ class Names:
         yield from zip(self.labels, middles.tolist(), self._shown(pose.phase), strict=True)
 
     def lines(self, pose: Pose, places: Places, parts: Mapping[str, Part]) -> Iterator[Layer]:
-        """Yield the dimension lines that show, of `parts` by their symbols."""
+        """Yield the dimension lines that show; `parts` has them by their symbols."""
         for label, shown in zip(self.labels, self._shown(pose.phase), strict=True) if parts else ():
             if label.drawn and shown > _UNSEEN:
                 layers = parts[label.symbol].placed(places)
@@ -566,13 +566,13 @@ class Names:
         return found
 
     def measuring(self, known: Symbols | None, unit: str, scale: float) -> Names:
-        """Return the labels in their places in a view of this scale, with the lengths as they are now."""
+        """Return the labels in their places in a view of this scale, with the present lengths."""
         values = {one.symbol: one.written(unit) for one in known.dimensions} if known else {}
         table = self.table and replace(self.table, rows=_reread(self.table.rows, values))
         return replace(self, labels=_reread(self.labels, values), table=table, scale=scale)
 
     def in_theme(self, one: Theme, other: Theme) -> Names:
-        """Return the names, which have the colours of one theme, where they are in those of another."""
+        """Return the names in their places, with the colours of `one` theme replaced by the other's."""
         colours = {one.ink: other.ink, one.dim: other.dim, one.warning: other.warning}
         halo = self.halo._replace(colour=other.background)
 
@@ -586,7 +586,7 @@ class Names:
         return replace(self, labels=labels, halo=halo, table=table, unlisted=unlisted)
 
     def _shown(self, phase: float) -> list[float]:
-        """Return how far each label shows at a phase."""
+        """Return the opacity of each label at a phase."""
         steps = [label.shown for label in self.labels if label.shown is not None]
         count = max(map(len, steps), default=1)
         share = phase / self.period % 1.0 * count
@@ -604,7 +604,7 @@ class Names:
 
 
 def _reread(labels: Iterable[Label], values: Mapping[str, str]) -> tuple[Label, ...]:
-    """Return labels with the lengths as they are now, by their symbols."""
+    """Return labels with the present lengths, which `values` has by their symbols."""
     return tuple(replace(label, text=values.get(label.symbol, label.text)) for label in labels)
 
 
@@ -614,7 +614,7 @@ def _joint_size(layout: Layout) -> int:
 
 
 def _halo(setting: DrawSetting) -> Halo:
-    """Return what parts letters from what is below."""
+    """Return the halo that sets letters off from what is below."""
     return Halo(setting.theme.background, max(1.4 * setting.gauge.line, 1.5))
 
 
@@ -635,11 +635,11 @@ Forms = Iterator[tuple[Form, ...]]
 def names_of(
     ground: Surroundings, known: Symbols | None, dead_centres: DeadCentres | None, tries: int = TRIES
 ) -> Generator[None, None, Names]:
-    """Place the names of joints, and links; where the symbols are known, dimensions and input's angle, too.
+    """Place the names of joints and links; where symbols are known, dimensions and the input's angle, too.
 
-    Lengths that do not stand on the picture at all times go into a table. What is in the way of names is a
-    step, and each place that is looked for. Of a single moment `tries` other orders are tried for what has
-    no place yet.
+    Lengths that do not stand on the picture all the time go into a table. The generator yields after finding
+    what is in the way of names, and after each search for a place. For a single moment, `tries` further
+    orders are tried where some labels have no place.
     """
     setting = ground.setting
     every, clutter = _every(ground, known, dead_centres), ground.clutter()
@@ -652,7 +652,7 @@ def names_of(
 
 
 def _every(ground: Surroundings, known: Symbols | None, dead_centres: DeadCentres | None) -> Forms:
-    """Yield all labels of a picture, those with the first choice first."""
+    """Yield all labels of a picture in the order in which they choose their places."""
     look, fixed = ground.setting.look, ground.setting.figure.fixed
     moving = [name for name in ground.setting.figure.shown if name not in fixed]
     yield from _joints(ground, fixed, always=True)
@@ -669,7 +669,7 @@ Lacking = tuple[int, int]
 
 
 class StillLabels:
-    """The labels of a picture of one moment, of which no more is asked than how many have no place."""
+    """The labels of a picture of one moment, to be asked only how many of them have no place."""
 
     def __init__(self, ground: Surroundings, known: Symbols | None, dead_centres: DeadCentres | None) -> None:
         self._every, self._clutter = [*_every(ground, known, dead_centres)], ground.clutter()
@@ -677,17 +677,17 @@ class StillLabels:
 
     @cached_property
     def least(self) -> Lacking:
-        """How many have none at the least: none is free even where no other label stands."""
+        """How many have no place at the least: no place is free even without other labels."""
         return _lacking([forms[0][0] for forms in _hopeless(self._every, self._clutter)])
 
     def lacking(self, tries: int) -> Lacking:
-        """Return how many have none, the best of `tries` further orders after the best one before."""
+        """Return how many have no place, the best of `tries` further orders after the best one before."""
         *_, left = at_once(_attempts(self._every, self._clutter, tries))
         return _lacking(left)
 
 
 Attempt = tuple[Placer, tuple[Label, ...], tuple[Label, ...]]
-"""What has been placed, where, and what is left over for some of the time or for all of it."""
+"""The placer with its placed labels, those labels, and those left over for part of the time or all of it."""
 
 
 def _attempts(
@@ -695,7 +695,7 @@ def _attempts(
 ) -> Generator[None, None, Attempt]:
     """Return the best of some attempts to place labels, in `tries` orders after the best one before.
 
-    What was left over has the first choice the next time.
+    Labels that were left over choose first in the next order.
     """
     best, seen, order = None, list[tuple[Form, ...]](), every
     lasting: list[tuple[Form, list[Label]]] = []
@@ -720,7 +720,7 @@ def _attempts(
         without = {id(forms) for forms in left}
         order, more = [*left, *(forms for forms in seen if id(forms) not in without)], more - 1
         hopeful = tuple(id(forms) for forms in order if id(forms) not in hopeless)
-        if hopeful in before:  # what comes of that is known
+        if hopeful in before:  # this order was tried already
             break
         before.add(hopeful)
     further: list[Label] = []
@@ -731,7 +731,7 @@ def _attempts(
 
 
 def _hopeless(every: Iterable[tuple[Form, ...]], clutter: Clutter) -> list[tuple[Form, ...]]:
-    """Return the labels that have no place at one moment, whatever the others have."""
+    """Return the labels that have no place at one moment, wherever the others stand."""
     return [forms for forms in every if not any(clutter.has_place(spots.candidates) for _, spots in forms)]
 
 
@@ -741,7 +741,7 @@ def _lacking(left: Sequence[Label]) -> Lacking:
 
 
 def _placed(placer: Placer, forms: tuple[Form, ...]) -> Generator[None, None, list[Label]]:
-    """Return a label in its place; a name again in another for the time at which it cannot be there."""
+    """Return a label in its place; for the time when that is not free, a name in a second place, too."""
     found: list[Label] = []
     but = None
     measures = bool(forms[0][0].about)
@@ -757,14 +757,14 @@ def _placed(placer: Placer, forms: tuple[Form, ...]) -> Generator[None, None, li
             spot = spots.spots.picked(placed.which)
             found.append(replace(label, spot=spot, shown=placed.shown, drawn=drawn))
         but = placed.shown > 0 if but is None else but | (placed.shown > 0)
-        nowhere = least == _LEAST_AGAIN and not placed.shown.any()  # nor would it be a second time
-        if nowhere or but.all() or len(but) == 1:  # of one moment there is no second time
+        nowhere = least == _LEAST_AGAIN and not placed.shown.any()  # a further try would fail, too
+        if nowhere or but.all() or len(but) == 1:  # a single moment needs no second place
             break
     return found
 
 
 def _all_along(placer: Placer, form: Form, found: Sequence[Label]) -> Generator[None, None, list[Label]]:
-    """Return a label in further places than where it was found, so that it shows all the time."""
+    """Return a label in further places, so that it shows all the time."""
     (label, spots), clutter, further = form, placer.clutter, list[Label]()
     all_but_pins = frozenset(range(len(clutter.solids))) - clutter.pins
     covered = sum(
@@ -778,7 +778,7 @@ def _all_along(placer: Placer, form: Form, found: Sequence[Label]) -> Generator[
         if placed.shown.any():
             covered = covered + placed.shown
             further.append(replace(label, spot=spots.spots.picked(placed.which), shown=placed.shown))
-    if further and covered.min() < _SEEN:  # everywhere is something else: there it lies on that
+    if further and covered.min() < _SEEN:  # no place is free all the time: it then lies on something else
         last = further[-1]
         further[-1] = replace(
             last, shown=np.asarray(last.shown) + np.where(covered < _SEEN, 1.0 - covered, 0.0)
@@ -795,7 +795,7 @@ def table_width(rows: Iterable[str], setting: DrawSetting) -> float:
 def _tabled(
     ground: Surroundings, placer: Placer, rows: tuple[Label, ...]
 ) -> Generator[None, None, DimensionTable | None]:
-    """Return the table where it has been given room, or where there is some; None where there is none."""
+    """Return the table in the room given to it, or in a free place; None where there is no room."""
     setting = ground.setting
     size, strip = setting.layout.small_size, setting.layout.table
     wide = table_width((label.row for label in rows), setting)
@@ -829,9 +829,9 @@ def _tabled(
 
 
 def _joints(ground: Surroundings, names: Iterable[str], *, always: bool = False) -> Forms:
-    """Yield joints' names, which show at every moment or as long as they find room.
+    """Yield joints' names, which show `always` or as long as they find room.
 
-    With it, or alone where joints are not named, stand the instant centres that are in a joint.
+    A joint's instant centres stand with its name, or alone where joints are not named.
     """
     setting = ground.setting
     look, theme, centred = setting.look, setting.theme, _centred(setting)
@@ -854,10 +854,10 @@ def _centred(setting: DrawSetting) -> Mapping[str, tuple[str, ...]]:
 
 
 def _links(ground: Surroundings) -> Forms:
-    """Yield the links' names, their numbers where there is no room for those.
+    """Yield the links' names, or their numbers where there is no room for names.
 
-    Bodies that cannot move against each other share a number: they have their names. Where instant centres
-    are shown, which go by numbers, each link has its number, and a block without a name, too.
+    Bodies that cannot move against each other share a number, so they have their names. Where instant centres
+    are shown, which are named by numbers, each link has its number, and so has each block without a name.
     """
     setting = ground.setting
     figure, size = setting.figure, setting.layout.small_size
@@ -878,7 +878,7 @@ def _links(ground: Surroundings) -> Forms:
 
 
 def _called(ground: Surroundings, body: Body) -> tuple[str, ...]:
-    """Return what a link may be called: its name where that has room, its number where no other has that."""
+    """Return a link's possible labels: its name where that has room, its number where it is the only one."""
     figure = ground.setting.figure
     number = figure.numbers[body]
     if [*figure.numbers.values()].count(number) > 1:
@@ -916,7 +916,7 @@ def _dead_centres(ground: Surroundings, found: DeadCentres) -> Forms:
 def _dimensions(ground: Surroundings, known: Symbols) -> Forms:
     """Yield the lengths and angles beside what they measure, those of the ground first.
 
-    Of the others the shorter come first: of two lines beside each other the longer is the outer one.
+    Among the others shorter ones come first, so that of two parallel lines the longer is the outer one.
     """
     setting = ground.setting
     unit, size = setting.figure.scene.length_unit, setting.layout.small_size
@@ -926,7 +926,7 @@ def _dimensions(ground: Surroundings, known: Symbols) -> Forms:
 
 
 def _order(figure: Figure, one: Measurement) -> tuple[bool, float]:
-    """Return in which order a dimension is placed: with a body's after the ground's, the shorter first."""
+    """Return the key by which dimensions are ordered: the ground's before bodies', shorter ones first."""
     at, head = map(figure.start, one.frame)
     way = abs(head - at) if one.frame[0] != one.frame[1] else 1.0
     return bool(one.own), 0.0 if one.angle else round(way * abs(one.end - one.begin) / figure.extent, 9)

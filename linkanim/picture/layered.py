@@ -1,6 +1,6 @@
 """A linkage as flat parts in layers, at a pose: from above, or lifted off each other and seen aslant.
 
-Plates and pins are told in millimetres, each in a frame that it moves with.
+Plates and pins are in millimetres, each in a frame that it moves with.
 """
 
 from __future__ import annotations
@@ -24,24 +24,24 @@ from linkanim.scenes.scene import Scene
 from linkanim.units import metre
 
 _LEAN, _FLAT = 0.42, 0.5
-"""Of parts seen aslant: how far right a step back goes, and how far up."""
+"""For parts seen aslant: how far right, and how far up, a unit towards the back is drawn."""
 _THICK, _EDGE = 5.0, 24.0
-"""How thick a plate is drawn, and what is left free around all, in pixels of a page."""
+"""The drawn thickness of a plate, and the margin around all, in pixels of a page."""
 _SHADOW = ((2 + 2.5j, 0.16), (3.5 + 4.5j, 0.1))
 """How far a plate's shadow lies from it, in such pixels, and how dark it is: twice, for its soft edge."""
 _SHADE = (0, 0, 0)
 _LIFTED = 0.62
-"""The share of the height for layers to be lifted in."""
+"""The share of the height in which layers are lifted."""
 _PHASES = 48
-"""At which it is looked how far parts reach."""
+"""The number of phases that tell how far parts extend."""
 _NUMBERED = 0.5
-"""Numbers stand on plates while they are lifted less than that."""
+"""Numbers stand on plates while these are lifted by less than this."""
 _CORNERS, _TOWARDS = 16, (0.25, 0.45, 0.65, 0.8)
-"""A number that is hidden, or on another, stands so far on its way to so many corners of its plate."""
+"""A number that is hidden, or on another, is tried at these shares of the way to so many of its corners."""
 
 
 class Frame(NamedTuple):
-    """How a piece moves: the joint that its origin is, and its x axis, `turn` from one joint to another.
+    """How a piece moves: the joint at its origin, and its x axis, which runs along `turn`, joint to joint.
 
     None stands for the origin and the x axis of the ground.
     """
@@ -52,7 +52,7 @@ class Frame(NamedTuple):
 
 
 class LayeredPlate(NamedTuple):
-    """A plate: its layer from the ground, 0, up, its number and where that stands, its edge and its cuts."""
+    """A plate: its layer, 0 being the ground, its number and where that stands, its edge and its cuts."""
 
     frame: Frame
     layer: int
@@ -88,7 +88,7 @@ class Layered:
 
     @cached_property
     def reach(self) -> Loop:
-        """Corners of the plane, in mm, within which all plates stay over the whole period."""
+        """The corners of a rectangle, in mm, that holds all plates over the whole period."""
         motion = self.scene.cycle(self.scene.mechanism.count(_PHASES), derivatives=0)
         scale = self._scale(self.scene.length_unit)
         found = []
@@ -106,7 +106,7 @@ class Layered:
         return np.array(hull(np.concatenate(found).tolist()))
 
     def lying(self, frames: Sequence[Frame], pose: Pose, unit: str) -> list[tuple[complex, complex]]:
-        """Return where frames lie at a pose in a unit of length: origins in mm, and directions."""
+        """Return where frames lie at a pose in a `unit` of length: origins in mm, and directions."""
         return [self._lying(frame, pose, self._scale(unit)) for frame in frames]
 
     def _scale(self, unit: str) -> float:
@@ -120,7 +120,7 @@ class Layered:
 
 
 class LayerView(NamedTuple):
-    """How parts are seen: by how much they are lifted and aslant, and where the plane lies in pixels."""
+    """How parts are seen: how far they are lifted and aslant, and where the plane lies in pixels."""
 
     apart: float
     scale: float
@@ -146,7 +146,7 @@ class LayerView(NamedTuple):
         return np.asarray(self.origin + np.conj(flat) - 1j * self.lift * layer)
 
     def moved(self, about: complex, zoom: float, pan: complex) -> LayerView:
-        """Return it zoomed about a pixel, and shifted."""
+        """Return the view zoomed about a pixel, then shifted by `pan` in pixels."""
         origin = about + (self.origin - about) * zoom + pan
         return self._replace(scale=self.scale * zoom, origin=origin, lift=self.lift * zoom)
 
@@ -162,7 +162,7 @@ def layer_colour(layer: int, theme: Theme) -> Colour:
 
 
 def _aslant(places: Loop, apart: float) -> Loop:
-    """Return places in the plane as they are seen from above, and the more from aside the more apart."""
+    """Return places in the plane as seen from above, and the more aslant the further layers are `apart`."""
     return np.asarray(
         places.real + apart * _LEAN * places.imag + 1j * (1 - apart * (1 - _FLAT)) * places.imag
     )
@@ -173,8 +173,8 @@ def lifted(
 ) -> Iterator[Item]:
     """Yield parts at a pose in a unit of length, layer by layer, and the names of their pins.
 
-    Each plate throws a shadow on what is below. Names have that height, in pixels; lines and edges are drawn
-    for a page whose pixel is so large.
+    Each plate throws a shadow on what is below. Names have the height `text`, in pixels; lines and edges are
+    drawn for a page whose pixel has the size `pixel`.
     """
     places = parts.lying([plate.frame for plate in parts.plates], pose, unit)
     flat = [
@@ -226,10 +226,10 @@ def _numbers(
     words: Sequence[complex],
     text: int,
 ) -> Iterator[tuple[int, complex]]:
-    """Yield the plates whose numbers are shown, and where: on what of them is seen, off words and each other.
+    """Yield the plates whose numbers are shown, and where: on visible parts, off words and each other.
 
-    That is where they stand by themselves, or else as near to it as may be. A plate that lies below others
-    has none.
+    Each number stands at its usual place, or else as near to it as possible. A plate without a visible place
+    for its number has none.
     """
     taken, around = [*words], 0.4 * text * np.array([0, 1, -1, 1j, -1j])
     for n in sorted(range(len(plates)), key=lambda n: -plates[n].layer):
@@ -262,7 +262,7 @@ def _inside(edge: Loop, places: Loop) -> NDArray[np.bool_]:
 def _plate(
     plate: LayeredPlate, loops: Sequence[Loop], theme: Theme, thick: float, pixel: float
 ) -> Iterator[Item]:
-    """Yield a plate, and below it the edge that is seen of one that lies aslant."""
+    """Yield a plate, and below it the visible edge of a plate that is seen aslant."""
     colour = layer_colour(plate.layer, theme)
     if thick:
         below = loops[0] + 1j * thick

@@ -15,7 +15,7 @@ TEXT, SMALL = 21.0, 17.0
 _EDGE = 10.8
 """From the window's edge to the edit list, in units."""
 _SHARES_BELOW, _SHARE_BESIDE = (0.27, 0.41, 0.52), 0.45
-"""The share of the height that charts take, by how many there are, or of the width."""
+"""The share of the height that one, two or three charts below take; that of the width beside the scene."""
 _ROW_OF_ANSWERS = 0.17
 """The height of a row of small pictures, in heights of the window."""
 _SLIDER = 1.9
@@ -23,11 +23,11 @@ _SLIDER = 1.9
 _BUTTON, _LEAST_BUTTON = 40.0, 28.0
 """The side of a button in units, and the least in pixels: a finger has to find it."""
 _BAR = 1.6
-"""The height of a bar of buttons with the air about it, in their sides."""
+"""The height of a bar of buttons with its margins, in sides of a button."""
 _SHARE_OF_BAR = 0.3
-"""The most of the height that it takes."""
+"""The greatest share of the height that the bar takes."""
 _LITTLE_FOR_BAR = 0.13
-"""Where it would take more of the height for good, it lies over the scene's foot while it shows."""
+"""Where the bar would take a greater share of the height, it has no room but lies over the scene's foot."""
 _NARROW = 30
 """A window narrower than so many heights of its text has a list at its foot, not at its left."""
 _SHARE_LISTED = 0.42
@@ -37,27 +37,27 @@ _HEAD_OF_MARKS = 1.5
 _TALLEST = 0.42
 """The height of a chart beside the scene, in widths of the window; of several below each other twice that."""
 HEAD_OF_CHART = 25.5
-"""The room of a chart's title and of what is read there, in heights of text."""
+"""The room of a chart's title and of the values read from the chart, in heights of text."""
 _BUTTONS, _ROW_OF_BUTTONS = 5.2, 1.5
 """The room of a chart's buttons across, and below its foot where its head has none, in sides of one."""
 _ROW = 1.3
-"""From row to row of a table, in heights of its text."""
+"""The step from row to row of a table, in heights of its text."""
 _SMALLEST_ROW = 8
 _SHARE_OF_TABLE = 0.27
-"""A table that would take more of the stage's width, or height, is set smaller, down to that size."""
+"""A table that would take a greater share of the stage's width, or height, is set smaller, to that size."""
 CAPTION_STEP = 1.25
-"""From line to line of a caption, in heights of its text."""
+"""The step from line to line of a caption, in heights of its text."""
 _SHARE_OF_CAPTION = 0.16
 """The greatest share of the stage's height that a caption takes."""
 _SHARES_OF_POLYGONS = (0.38, 0.6)
-"""The polygons' share of what is left beside a chart: of its width, or of its height if that is greater.
+"""The polygons' share of the room that a chart leaves: of its width, or of its height if that is greater.
 
-That of a large one comes second.
+The second number is the share of a single large polygon.
 """
 
 
 class Docked(NamedTuple):
-    """What has room of its own in a window, beside the scene and its charts."""
+    """What has room of its own in a window, apart from the scene and its charts."""
 
     listed: int = 0
     """1 for an open list, instead of the HUD; 2 for one with tools beside it."""
@@ -72,12 +72,12 @@ NOTHING_DOCKED = Docked()
 
 @frozen
 class Layout:
-    """The parts of a window; `unit` is one pixel of a window of 1280 × 720, or upright."""
+    """The parts of a window; `unit` is the size of a pixel of a window of 1280 × 720, or of 720 × 1280."""
 
     size: tuple[int, int]
     unit: float
     stage: Rect
-    """What chart and edit list leave to the scene and the words about it."""
+    """The room that chart and edit list leave to the scene and the words about it."""
     hud: Rect | None
     legend: Rect | None
     """The key to the vectors, at the foot of the HUD."""
@@ -88,11 +88,11 @@ class Layout:
     """Where the edit list or that of quantities stands, if one is open."""
     polygons: Rect | None = None
     hint: Rect | None = None
-    """Where the words on what there is to press stand; without width where there is no room for them."""
+    """Where the words on which keys to press stand; without width where there is no room for them."""
     row: Rect | None = None
     """Where a row of small pictures stands, if there is one."""
     dial: Rect | None = None
-    """Where a slider stands above that row."""
+    """Where a slider stands above the row of small pictures."""
     bar: Rect | None = None
     """Where the bar of commands stands, if it has room of its own; else it lies over the stage's foot."""
     table: Rect | None = None
@@ -100,23 +100,23 @@ class Layout:
     caption: Rect | None = None
     """Where the sentence on what to watch for stands, if it is given room."""
     passing: Rect | None = None
-    """Where it may stand for a while, on nothing that is drawn; None where there is no such place."""
+    """Where that sentence may stand for a while, off all that is drawn; None where there is no such place."""
     room: Rect | None = None
-    """What an open list leaves of the window; None where none is open."""
+    """What an open list leaves of the window; None where no list is open."""
     words: tuple[Rect, ...] = ()
-    """What of the HUD and the key holds words: names stay off these."""
+    """The parts of the HUD and of the key that hold words: names keep off these."""
     type_scale: float = 1.0
-    """How many times larger words are than in a window of that size."""
+    """How many times larger words are than usual in a window of that size."""
 
     @cached_property
     def above_bar(self) -> float:
-        """How far down the window goes without the bar of commands, where that has room at the foot."""
+        """The height of the window above the bar of commands, where that has room at the foot."""
         low = self.size[1]
         return self.bar.y if self.bar and self.bar.bottom >= low - 1 else low
 
     @cached_property
     def reach(self) -> Rect:
-        """How far the scene may be drawn when it is zoomed: to chart and polygons, under the edit list."""
+        """The room in which a zoomed scene is drawn: up to chart and polygons, and under the edit list."""
         right, bottom = self.size
         for beside in (self.chart, self.polygons):
             if beside and beside.x >= self.stage.right:
@@ -143,7 +143,7 @@ class Layout:
 
     @property
     def margin(self) -> float:
-        """How far words stay off the stage's edges."""
+        """How far words keep from the stage's edges, in pixels."""
         return max(20 * self.unit, 6.0)
 
 
@@ -160,12 +160,11 @@ def layout(
 ) -> Layout:
     """Divide a window: `chart` charts along the bottom, or `beside` the scene; the stage is what is left.
 
-    `listed` leaves room for a list, on the left or in a narrow window at the foot, where it is 2 for tools
-    beside it, too, `polygons` for those, on
-    the right or below, for 2 more of it, and a `row` for small pictures at the foot, with the bar of
-    commands below it. The `bar` has room at the foot without a row, too, where that takes little of it. The
-    HUD has no place yet: that depends on the scene.
-    Words are `type_scale` times as large as usual.
+    `listed` leaves room for a list, on the left or, in a narrow window, at the foot; where it is 2, also for
+    tools beside the list. `polygons` leaves room for polygons, on the right or below, and more where it is 2,
+    for a large one. `row` leaves room for small pictures at the foot, with the bar of commands below them.
+    The `bar` has room at the foot without a row, too, where that takes little height. The HUD has no place
+    yet: that depends on the scene. Words are `type_scale` times as large as usual.
     """
     unit = min(max(size) / _DRAWN_FOR[0], min(size) / _DRAWN_FOR[1])
     whole = Rect(0, 0, *size)
@@ -176,7 +175,7 @@ def layout(
     stage, edge, share = parts.stage, 20 * parts.unit, _SHARES_OF_POLYGONS[polygons - 1]
     if stage.width >= stage.height:
         wide = share * stage.width
-        # in a window with its bar they begin below the mark of pause
+        # in a window that has a bar, charts begin below the mark of pause
         top = edge + (_HEAD_OF_MARKS * parts.text_size if bar else 0.0)
         place = Rect(stage.right - wide, top, wide - edge, stage.height - top - edge)
         return replace(parts, polygons=place, stage=stage._replace(width=stage.width - wide - 0.6 * edge))
@@ -186,9 +185,9 @@ def layout(
 
 
 def with_table(parts: Layout, rows: int, wide: float, head: float = 0.0) -> Layout:
-    """Return a layout with room for a table, beside the stage or below it, where it takes less.
+    """Return a layout with room for a table beside the stage or below it, whichever takes less of it.
 
-    Beside the stage it begins so far below the `head` of the window, where the marks stand.
+    Beside the stage the table begins `head` pixels down, below the marks.
     """
     stage, edge = parts.stage, parts.margin
     for size in range(parts.small_size, _SMALLEST_ROW - 1, -1):
@@ -209,7 +208,7 @@ def with_table(parts: Layout, rows: int, wide: float, head: float = 0.0) -> Layo
 def with_caption(parts: Layout, lines: int) -> Layout:
     """Return a layout with room for `lines` of text where the bar comes and goes, or at the stage's foot.
 
-    There it has room only where it takes little of it.
+    At the stage's foot there is room only where the lines take little of it.
     """
     stage, edge, size = parts.stage, parts.margin, parts.small_size
     deep, bar = lines * CAPTION_STEP * size, parts.bar
@@ -223,7 +222,7 @@ def with_caption(parts: Layout, lines: int) -> Layout:
 
 
 def _charted(empty: Layout, *, chart: int, beside: bool, listed: int, row: bool, bar: bool) -> Layout:
-    """Return an empty layout with its chart and without polygons."""
+    """Return a layout with chart, list, row and bar placed, but without polygons."""
     unit, whole, edge = empty.unit, empty.stage, 20 * empty.unit
     empty = replace(empty, lists=_lists(empty))
     room = _beside(empty.lists, whole) if listed else whole
@@ -259,15 +258,15 @@ def _charted(empty: Layout, *, chart: int, beside: bool, listed: int, row: bool,
 # The tools beside a list of dimensions, and on a sheet.
 
 _SIDE, _LEAST, _FEWEST = 40.0, 22.0, 12.0
-"""The side of an icon in units; the least in pixels, and where they are more than one row can hold."""
+"""The side of an icon in units; the least in pixels; the least where icons need more than one row."""
 _GAP = 0.12
-"""Between icons, in their sides."""
+"""The gap between icons, in sides of an icon."""
 
 
 def tool_cells(layout: Layout) -> tuple[Rect, ...]:
-    """Return where the tools stand: in columns at the left, in rows at the foot if it is upright.
+    """Return where the tools stand: in columns at the left, in rows at the foot of an upright window.
 
-    Beside an open list it is the left, or the foot, of what that leaves.
+    Beside an open list it is the left, or the foot, of the room that the list leaves.
     """
     from linkanim.build.tools import TOOLS
 
@@ -326,11 +325,11 @@ class Gauge:
 
     @property
     def around(self) -> tuple[float, float, float]:
-        """How far drawing reaches about a wheel's rim, about a joint, and about a foot."""
+        """How far drawing extends around a wheel's rim, around a joint, and around a pedestal, in pixels."""
         return self.line, self.bar + self.outline, 3.3 * self.bar + 2 * self.outline
 
 
 def gauge(unit: float, shortest: float) -> Gauge:
-    """Return the thicknesses for a window and its shortest bar in pixels, thinner where that is short."""
+    """Return the thicknesses for a window's unit and the shortest bar, in pixels; thinner for a short bar."""
     bar = min(10.5 * unit, max(0.2 * shortest, 5.5 * unit))
     return Gauge(bar=bar, outline=1.7 * unit, pin=0.5 * bar, line=1.8 * unit)

@@ -1,7 +1,7 @@
 """What is shown of a scene, apart from the pose; each field says how users change it.
 
-`TOGGLES` is the one table of that: keys, the help sheet, what the window answers, tapes and the options of
-the commands read it, so that a field added here is in all of them.
+`TOGGLES` is the one table of these changes: keys, the help sheet, the window's answers, tapes and the options
+of the commands read it, so that a field added here is in all of them.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from linkanim.units import LENGTH_UNITS
 
 ThemeName = Literal["light", "dark"]
 Over = Literal["angle", "time", "phase"]
-"""What a chart's values are shown over."""
+"""The horizontal axis of a chart."""
 ConstructionKind = Literal["synthesis", "centres", "dead-centres"]
 """What is drawn in steps: how a linkage was found, its instant centres, its dead centres."""
 Default = TypeVar("Default")
@@ -27,8 +27,8 @@ ACCELERATION: Literal["a"] = "a"
 class Option(NamedTuple):
     """An option of the command line, written `--name`: its help, and the commands that take it.
 
-    `step` is what it stands for; without one each mention goes a step further, and one of two steps has its
-    `--no-name`. With a `metavar` it takes a value.
+    `step` is the value that it stands for. Without one each mention of the option goes a step further, and a
+    toggle of two steps has a `--no-name`, too. With a `metavar` the option takes a value.
     """
 
     name: str
@@ -41,8 +41,8 @@ class Option(NamedTuple):
 class Toggle(NamedTuple):
     """How one field of `Look` is changed; its name is that of the action and of the tape's key, too.
 
-    `steps` are its values in the order in which its key goes through them, those of a set its members, each
-    with a key of its own; without any it is free text. `answers` is what the window says at each step. In
+    `steps` are its values in the order in which its key goes through them; for a set, its members, each with
+    a key of its own; without steps the value is free text. `answers` is what the window says at each step. In
     the help sheet its keys stand with their `title` under a `subject`; without one, in a line with others.
     """
 
@@ -55,12 +55,12 @@ class Toggle(NamedTuple):
 
     @property
     def members(self) -> tuple[str | None, ...]:
-        """What its action names for each key: of a set the member, else nothing."""
+        """What the action of each key names: for a set its member, else None."""
         return self.steps if len(self.keys) > 1 else (None,)
 
 
 def _toggle(default: Default, *options: Option, **how: Any) -> Default:
-    """Return a field of `Look` that is changed so."""
+    """Return a field of `Look` with a default, and how users change it."""
     return field(default=default, metadata={"toggle": Toggle(options=options, **how)})
 
 
@@ -231,12 +231,12 @@ class Look:
 
     @property
     def named(self) -> bool:
-        """Whether something on the linkage has a name: its parts, or the centres in joints."""
+        """Whether names are drawn on the linkage: of its parts, or of instant centres in joints."""
         return self.joints_named or self.centres > 0
 
     @property
     def joints_named(self) -> bool:
-        """Whether joints have their names: the vectors of polygons go by them, too."""
+        """Whether joints' names are drawn: also for polygons, whose vectors are named by joints."""
         return self.names > 0 or self.polygons_shown == 1
 
     @property
@@ -262,7 +262,7 @@ def toggled(look: Look, name: str, member: str | None = None) -> Look:
 
 
 def answer(before: Look, after: Look, name: str) -> str | None:
-    """Return in a word or two what has become of a field; None where it is as it was."""
+    """Return in a word or two the new value of a field; None where it has not changed."""
     was, now = getattr(before, name), getattr(after, name)
     words: dict[Any, str] = dict(zip(TOGGLES[name].steps, TOGGLES[name].answers, strict=True))
     if was == now:

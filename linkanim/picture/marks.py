@@ -22,16 +22,14 @@ from linkanim.picture.shapes import Stamp, box, disc, segments, stroke, unit
 from linkanim.picture.theme import ORANGE, Theme, mixed
 from linkanim.picture.view import Rect
 
-# What only the window shows on the picture: the bar being edited with its dimension line, and handles.
+# Marks that only the window shows: the bar being edited with its dimension line, and handles.
 
 _LIT = 0.45
-"""How strongly the bar being edited is lit."""
+"""The opacity of the light on the bar being edited."""
 
 
 def measure(setting: DrawSetting, begin: complex, end: complex, shown: DimensionLine) -> Iterator[Group]:
-    """Yield the light on what is measured, its dimension line beside it, and the value on the line.
-
-    It lies from `begin` to `end`, in pixels.
+    """Yield the light on a length from `begin` to `end` (pixels), its dimension line, and the value on that.
     """
     if not 1.0 <= abs(end - begin) < np.inf:
         return
@@ -51,7 +49,7 @@ def measure(setting: DrawSetting, begin: complex, end: complex, shown: Dimension
 
 
 def beside(setting: DrawSetting, begin: complex, end: complex, words: str) -> Group:
-    """Return words that measure nothing there, beside what lies from `begin` to `end`, in pixels."""
+    """Return words without a dimension line, beside what lies from `begin` to `end`, in pixels."""
     gauge, layout, size = setting.gauge, setting.layout, setting.layout.small_size
     away = 1j * unit(end - begin)
     away *= (2.0 * gauge.bar + 14 * layout.unit) * (-1 if away.imag > 0 else 1)
@@ -63,14 +61,14 @@ def beside(setting: DrawSetting, begin: complex, end: complex, words: str) -> Gr
 
 
 def _clear(away: complex, gauge: Gauge, wide: float, high: float) -> complex:
-    """Return how far from a bar's middle that of a label of this size lies, off the bar, by its line."""
+    """Return the vector from a bar's middle to that of a label of this size at its dimension line."""
     side = unit(away)
     reach = abs(side.real) * wide / 2 + abs(side.imag) * high / 2 + 1.7 * gauge.bar
     return side * max(abs(away), reach)
 
 
 def _inside(stage: Rect, middle: complex, wide: float, high: float) -> complex:
-    """Return the middle of a label of this size, moved onto the stage where it would reach beyond."""
+    """Return the middle of a label of this size, moved so that the label stays on the stage."""
     x = min(max(middle.real, stage.x + wide / 2), stage.right - wide / 2)
     return complex(x, min(max(middle.imag, stage.y + high / 2), stage.bottom - high / 2))
 
@@ -89,7 +87,7 @@ def glow(setting: DrawSetting, pose: Pose, joint: str) -> Iterator[Layer]:
 
 
 def spots(setting: DrawSetting, shown: Sequence[Spot]) -> Iterator[tuple[list[Layer], Caption]]:
-    """Yield what marks the places of answers: a ring, and beside it, off the others, the key on a disc."""
+    """Yield the marks of answers' places: a ring, and beside it, off the others, the key on a disc."""
     theme, layout, size = setting.theme, setting.layout, setting.layout.text_size
     places = [setting.view.place(spot.at) for spot in shown]
     middle = sum(places) / max(len(places), 1)
@@ -113,7 +111,7 @@ def grip(foot: complex, unit_: float, theme: Theme) -> list[Layer]:
 
 @lru_cache(maxsize=4)
 def _grip(unit_: float, ink: Colour, back: Colour) -> Stamp:
-    """Return the grip about 0: the same at every frame."""
+    """Return the grip about 0; cached, since it is the same at every frame."""
     begin, end = ([unit_ * (side + way) for side in (-1.8, 1.8)] for way in (-3.5j, 3.5j))
     ribs = segments(begin, end, 1.2 * unit_)
     return Stamp((Layer(ink, [box(11 * unit_, 15 * unit_, 4 * unit_)]), Layer(back, ribs)))
@@ -122,7 +120,7 @@ def _grip(unit_: float, ink: Colour, back: Colour) -> Stamp:
 # The lane of a ram: two lines on paper that scrolls across its guide.
 
 _DEEPEST = 0.62
-"""How far the paper reaches before the ram at the most, in heights of the stage."""
+"""How far the paper extends ahead of the ram at the most, in heights of the stage."""
 
 
 def lane(setting: DrawSetting, shown: Lane) -> Group:

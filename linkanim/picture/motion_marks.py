@@ -45,13 +45,13 @@ RECENT = 0.3 * 2 * pi
 """How much phase the recent part covers."""
 _SHADES = 10
 _ORDER = (0, *(shade + step for shade in range(1, _SHADES - 1, 2) for step in (1, 0)), _SHADES - 1)
-"""In which shades are painted: the odd ones after both neighbours, else from the oldest on."""
+"""The order in which shades are painted: the oldest first, but odd ones after both neighbours."""
 SWELL = 1.7
-"""How much wider than the whole curve the recent part ends."""
+"""The width of the recent part at its end, in widths of the whole curve."""
 _FAINT = 0.5
-"""How much of the background is in the whole curve's colour."""
+"""The share of the background in the whole curve's colour."""
 _NEAR, _LONGEST_RUN = 0.01, 16
-"""How far off a straight piece may points lie that it passes over, in pixels, and so many in all."""
+"""A straight piece may replace points that lie this near to it, in pixels, and this many at the most."""
 
 
 @frozen
@@ -75,11 +75,11 @@ class Trace:
         return Layer(self.back, stroke(self.path, self.width, closed=True))
 
     def recent(self, phase: float, place: complex, *, forward: bool) -> list[Layer]:
-        """Return what the joint, now at `place`, has passed through last, brighter towards it."""
+        """Return the part of the curve that the joint, now at `place`, has just passed, brightest there."""
         count = len(self.path)
         here = phase / self.period * count
         tail = max(round(RECENT / self.period * count), _SHADES)
-        # run backwards, the curve is passed through from its end
+        # a motion that runs backwards passes through the curve from its end
         last, share = (floor(here), here % 1) if forward else (-ceil(here) - 1, -here % 1)
         first = (last - tail) % count
         course, (cuts, needed) = self._courses[not forward], _cuts(tail + 2)
@@ -91,9 +91,9 @@ class Trace:
         return list(self._shaded(path - side, path + side, ends))
 
     def _shaded(self, right: Loop, left: Loop, ends: list[int]) -> Iterator[Layer]:
-        """Yield what lies between two edges in the shades: every other one runs on below its neighbours.
+        """Yield the area between two edges in its shades; every other shade extends below its neighbours.
 
-        So few lie over each other. Where the curve crosses itself, the younger part is still on top.
+        So only a few shades overlap. Where the curve crosses itself, the younger part is still on top.
         """
         for shade in _ORDER:
             under = 1 - shade % 2
@@ -110,7 +110,7 @@ class Trace:
 
 
 class _Course(NamedTuple):
-    """A curve's points, the way from each to the left edge of a line 2 wide, and which ones are corners."""
+    """A curve's points, the vector from each to the left edge of a line 2 wide, and which are corners."""
 
     path: Loop
     side: Loop
@@ -125,9 +125,9 @@ def _swelling(count: int, width: float) -> NDArray[np.float64]:
 
 @lru_cache(maxsize=16)
 def _cuts(count: int) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
-    """Return where a part of so many points is cut into shades, and its end; and which points that needs.
+    """Return where a part of so many points is cut into shades, its end included, and the points needed.
 
-    Those are the points at the cuts, the ones before and after, which two shades share, and the last two.
+    These are the points at the cuts, those before and after, which two shades share, and the last two.
     """
     cuts = np.array([round(count * shade / _SHADES) for shade in range(_SHADES + 1)])
     needed = np.zeros(count, np.bool_)
@@ -137,7 +137,7 @@ def _cuts(count: int) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
 
 
 def sides_of(path: Loop) -> Loop:
-    """Return the vectors from a closed path to the left edge of a line 2 wide; 0 where nothing moves."""
+    """Return the vectors from a closed path to the left edge of a line 2 wide; all 0 for a single place."""
     moved = path != np.roll(path, 1)
     points = path[moved]
     if not points.size:
@@ -148,9 +148,9 @@ def sides_of(path: Loop) -> Loop:
 
 
 def _corners(edges: Loop) -> NDArray[np.bool_]:
-    """Return which points of closed lines (n, points) are needed for straight pieces to be as good.
+    """Return which points of closed lines (n, points) are needed so that straight pieces still fit them.
 
-    Runs of 2, 4, 8 and 16 points are left out where all lie near the places that they have on a piece.
+    In runs of 2, 4, 8 and 16 points the inner ones are left out where all are near their places on one piece.
     """
     corner, step = np.ones(edges.shape[1], np.bool_), 2
     while step <= _LONGEST_RUN and not len(corner) % step:
@@ -180,18 +180,18 @@ def traces(context: DrawContext) -> tuple[Trace, ...]:
 Angles = TypeVar("Angles", float, NDArray[np.float64])
 
 SWEEP = 1.25
-"""How much of a turn the arrow covers where the input is fastest, in radians."""
+"""The angle that the arrow covers where the input is fastest, in radians."""
 AHEAD = 0.3
 """How far ahead of the bar it begins, in radians."""
 _CLEAR, _LONGEST = 3.0, 6.0
-"""How far from a slider's middle a straight one begins, and its length at most, in half widths of a bar."""
+"""How far from a slider's middle a straight arrow begins, and its longest length, in half widths of a bar."""
 
 
 @frozen
 class Turning:
     """What shows how the bar from `pivot` to `pin` turns; radii in pixels, `fastest` in rad/s.
 
-    Its angle is told within half a turn of `middle` (rad), as the HUD tells it.
+    Its angle is given within half a turn of `middle` (rad), as in the HUD.
     """
 
     pivot: str
@@ -204,7 +204,7 @@ class Turning:
     middle: float = pi
 
     def turned(self, angle: Angles) -> Angles:
-        """Return the bar's angle (rad) as it is told."""
+        """Return the bar's angle (rad) within half a turn of `middle`."""
         return self.middle + (angle - self.middle + pi) % tau - pi
 
     def tracks(
@@ -224,7 +224,7 @@ class Turning:
             yield centre[:, None] + np.array([0, 1.5 * self.arc]), self.gauge.line
 
     def direction(self, pose: Pose, places: Places, rate: float) -> list[Layer]:
-        """Return the arrow, shorter as the bar slows down; `rate` is the scene's speed over this one's."""
+        """Return the arrow, shorter as the bar slows down; `rate` is the scene's speed over the pose's."""
         turning = -pose.coordinate_rate * rate / self.fastest
         sweep = SWEEP * min(max(turning, -1.0), 1.0)
         if not abs(sweep) > 0.02:
@@ -247,16 +247,16 @@ class Turning:
 
 @lru_cache(maxsize=16)
 def _dashes(begin: complex, room: float, thick: float) -> list[Loop]:
-    """Return a dashed line to the right; a pivot mostly stands still: the last ones are kept."""
+    """Return a dashed line to the right; the latest results are cached, since most pivots stand still."""
     return dashes(begin, begin + room, 3.5 * thick, 0.8 * thick, ((0.0, 2.2 / 3.5),))
 
 
 @lru_cache(maxsize=16)
 def _bent(sweep: float, radius: float, thick: float, colours: tuple[Colour, Colour]) -> tuple[Layer, ...]:
-    """Return an arrow about the pivot, the bar along the real axis, in its rim and without.
+    """Return an arrow about the pivot, the bar along the real axis: its rim, and the arrow on it.
 
-    It bends by `sweep` (rad, negative to the left); its head is smaller where it is short. An input of
-    steady speed has the same arrow at every frame: the last ones are kept.
+    It bends by `sweep` (rad, negative to the left); the head of a short arrow is smaller. The latest results
+    are cached: an input of steady speed has the same arrow at every frame.
     """
     side, line, rim = 1 if sweep > 0 else -1, 1.7 * thick, 0.9 * thick
     bend: Loop = radius * directions(side * AHEAD + sweep * np.linspace(0, 1, 16))
@@ -270,7 +270,7 @@ def _bent(sweep: float, radius: float, thick: float, colours: tuple[Colour, Colo
 
 @frozen
 class Sliding:
-    """What shows how a slider that drives runs along its guide, y down; `fastest` in the scene's unit/s."""
+    """What shows how a driving slider moves along its guide, y down; `fastest` in the scene's unit/s."""
 
     joint: str
     along: complex
@@ -281,7 +281,7 @@ class Sliding:
     gauge: Gauge
 
     def direction(self, pose: Pose, places: Places, rate: float) -> list[Layer]:
-        """Return the arrow ahead of the slider, shorter as it slows down; `rate` as of a `Turning`."""
+        """Return the arrow ahead of the slider, shorter as it slows down; `rate` as in `Turning`."""
         share = pose.coordinate_rate * rate / self.fastest
         reach = self.along * self.longest * min(max(share, -1.0), 1.0)
         if not abs(reach) > 0.02 * self.longest:
@@ -301,7 +301,7 @@ class Sliding:
 
 
 def motion_of(context: DrawContext) -> Turning | Sliding | None:
-    """Return what shows how the input moves: its bar's turning, or its slider's travel along the guide.
+    """Return the mark of the input's motion: its bar's turning, or its slider's travel along the guide.
 
     None where the input is neither a slider nor a crank on a pivot.
     """
@@ -337,13 +337,13 @@ def turning_arrow(pivot: complex, pin: complex, gauge: Gauge, theme: Theme) -> l
 
 Kind = Literal["v", "a"]
 LONGEST, _LEAST = 0.22, 0.02
-"""The longest arrow of a cycle, as a share of the window's height; and the least share of it that a still's
-largest value counts for: less is all but rest."""
+"""The longest arrow of a cycle, as a share of the window's height; and the least share of its largest value
+to which a still's arrows are scaled: below it the linkage is nearly at rest."""
 ORDER = {"v": 1, "a": 2}
 _ASIDE = complex(directions(1.1))
-"""The way to a name beside an arrow's head, where there is none beyond it."""
+"""The direction to a name beside an arrow's head, where there is no room beyond the head."""
 _OFF_HEAD = 0.4 + np.array([0.0, 1.0, 2.0])
-"""How far a name may be off its arrow's head, in heights of the text."""
+"""How far from its arrow's head a name may be, in heights of the text."""
 
 
 class SeenArrow(NamedTuple):
@@ -356,9 +356,9 @@ class SeenArrow(NamedTuple):
 
 @frozen
 class Arrows:
-    """Arrows of one kind, all to one scale over the whole cycle.
+    """Arrows of one kind at one scale over the whole cycle.
 
-    `most` is the largest value of the cycle at the scene's own speed; it is drawn `longest` pixels long.
+    `most` is the cycle's largest value at the scene's own speed; it is drawn `longest` pixels long.
     """
 
     kind: Kind
@@ -374,8 +374,8 @@ class Arrows:
     def scale(self, speed: float) -> float:
         """Return pixels for one unit of length and second at this input speed (rad/s of phase).
 
-        It changes with the input's speed and with nothing else, so that an arrow's length tells
-        where in the cycle the motion is fast, whatever the speed.
+        It depends on the input's speed alone, so that an arrow's length shows where in the cycle the motion
+        is fast, at any speed.
         """
         faster = abs(speed / self.drive) ** ORDER[self.kind]
         return self.longest / (self.most * faster) if self.most > 0 and faster > 0 else 0.0
@@ -393,7 +393,7 @@ class Arrows:
 def arrow_layers(
     kinds: Sequence[Arrows], pose: Pose, view: View, joints: tuple[str, ...]
 ) -> list[list[Layer]]:
-    """Return the arrows of a pose, kind by kind, each in a halo that parts them from what is below.
+    """Return the arrows of a pose, kind by kind, each in a halo that sets it off from what is below.
 
     All kinds go through the arithmetic together.
     """
@@ -424,8 +424,8 @@ def arrow_names(
 ) -> list[list[Caption]]:
     """Return the names of the arrows of a pose, kind by kind: each beyond its head, off `busy` places.
 
-    Each is off the names before it, too, and where it can be off `bars`; an arrow shorter than its name is
-    high has none. Names stay in the picture where their arrows leave it.
+    Each name also keeps off the names before it and, where possible, off `bars`. An arrow shorter than the
+    height of its name has none. Names stay in the picture where their arrows leave it.
     """
     from linkanim.picture.placing import about, crossed, least_met, met, rect_rows, widened
 
@@ -452,7 +452,7 @@ def arrow_names(
 
 
 def _beyond_heads(seen: Sequence[SeenArrow], wide: NDArray[np.float64], high: float) -> Loop:
-    """Return where the middles of n names so wide (n, 1) may stand (n, k): beyond their arrows' heads."""
+    """Return where the middles of n names of widths (n, 1) may stand (n, k): beyond their arrows' heads."""
     turns = (1, _ASIDE, _ASIDE.conjugate())
     headings = np.array([[[unit(arrow.reach) * turn] for turn in turns] for arrow in seen])
     away = np.abs(headings.real) * wide[..., None] / 2 + np.abs(headings.imag) * high / 2 + _OFF_HEAD * high
@@ -471,7 +471,7 @@ def arrows_of(
 ) -> Arrows:
     """Return the arrows of one kind, scaled to the largest finite value of the cycle.
 
-    Those of one moment are scaled to its largest value, where that is no small part of the cycle's.
+    Arrows of one `moment` are scaled to its own largest value, unless that is a small share of the cycle's.
     """
     colour = theme.velocity if kind == "v" else theme.acceleration
     most = _most(figure.cycle, kind, figure.moving)

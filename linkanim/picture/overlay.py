@@ -1,6 +1,6 @@
 """Describe what lies over the picture: lists, help, a toast, marks of state, a linkage being built.
 
-These are data only, in the scene's unit and y up where they are places; `panels`, `game_panel`, `marks`,
+These are data only; places are in the scene's unit, y up. Modules such as `panels`, `game_panel`, `marks`,
 `build_sheet` and `tools` draw them.
 """
 
@@ -31,14 +31,14 @@ Key = TypeVar("Key")
 
 
 class Snap(NamedTuple):
-    """What is under the hand: a joint, or a line or bar with its ends, and where that is met."""
+    """What is under the hand: a joint, or a line or bar with its ends; and the place on it."""
 
     at: Point
     ends: tuple[Point, Point] | None = None
 
 
 class Rubber(NamedTuple):
-    """What the hand draws from place to place with a tool, and its measures in words."""
+    """What the hand is drawing from place to place with a tool, and its measures in words."""
 
     tool: str
     begin: Point
@@ -48,9 +48,9 @@ class Rubber(NamedTuple):
 
 @frozen
 class ToolBar:
-    """The bar of tools: the number of the tool in hand, and of the tool that the mouse is over.
+    """The bar of tools: the number of the tool in hand, and of the tool under the mouse.
 
-    Where letters and digits are `typed` their keys take Ctrl.
+    Where letters and digits are `typed`, the tools' keys need Ctrl.
     """
 
     chosen: int = 0
@@ -62,8 +62,8 @@ class ToolBar:
 class DraftShown:
     """A draft that does not move yet: its shapes from the back to the front.
 
-    `crank` are the pivot and the pin of the driven one; a bar's colour is that of its place among the bars,
-    the crank first. The joints `traced` bear marks.
+    `crank` are the pivot and the pin of the driven crank; a bar has the colour of its place among the bars,
+    the crank first. The joints `traced` have marks.
     """
 
     shapes: tuple[Shape, ...] = ()
@@ -72,9 +72,9 @@ class DraftShown:
 
 
 class RowsShown(NamedTuple):
-    """A list on the sheet: a title, rows of a label and a value, which is lit, and the place it stands at.
+    """A list on the sheet: a title, rows of a label and a value, the lit row, and the list's place.
 
-    Without a place it stands at the upper right. Of the rows `options` another click takes the next value.
+    Without a place it stands at the upper right. A click on one of the rows `options` takes its next value.
     """
 
     title: str
@@ -86,14 +86,14 @@ class RowsShown(NamedTuple):
 
 @frozen
 class BuildShown:
-    """A sheet with what is built on it: the `draft`, or the linkage itself and what is `loose` beside it.
+    """A sheet and what is built on it: the `draft`, or the linkage itself and what is `loose` beside it.
 
-    `sentence` says what it is or what is missing, as a warning or not, `facts` what it can do. What is
-    `chosen` is lit, with its number in words or as it is typed, on a dimension line where it is the length
-    there, as `measures` tells. The `cursor` is that of the keys. Where
-    there are no tools, as in a recording, the place of the `hand` is shown. The `panel` has all numbers of
-    what is chosen, `offers` what the last gesture can mean; `dots` are points of bodies. Lengths are in
-    `unit`. A `photo` lies behind, and its `anchor` stays where it is.
+    `sentence` says what it is or what is missing, perhaps as a warning, and `facts` what it can do. The shape
+    `chosen` is lit, with its number as it is or as it is typed; where `measures` says so the number is a
+    length on a dimension line. `cursor` is the keys' cursor. Without tools, as in a recording, the place of
+    the `hand` is shown. `panel` has all numbers of the chosen shape, `offers` what the last gesture can mean;
+    `dots` are points of bodies. Lengths are in `unit`. A `photo` lies behind, and its `anchor` stays in
+    place.
     """
 
     draft: DraftShown | None = None
@@ -120,19 +120,19 @@ class BuildShown:
 # Poses that were set down.
 
 NEAR = 0.022
-"""How near to a thing counts as on it, in the window's height."""
+"""How near to a thing counts as on it, as a share of the window's height."""
 AXIS = 3.4
-"""How long the x axis of a frame is, in those."""
+"""How long the x axis of a frame is, in lengths of `NEAR`."""
 
 
 @frozen
 class PosesShown:
-    """Poses that were set down: `frames` of x, y and angle (rad), fixed `pins` that are asked for.
+    """Poses that were set down: `frames` of x, y and angle (rad), and the fixed `pins` that are asked for.
 
-    `handles` are what of the linkage can be dragged, `bodies` its coupler in each pose. The thing that was
-    `taken` last is lit: "pose" or "pin" with its number. With `curves` what the theory has of the poses is
-    drawn, in short while something is `held`. While it is `blank` no linkage is shown. The
-    `cursor` is that of the keys.
+    `handles` are the points of the linkage that can be dragged, `bodies` its coupler in each pose. The thing
+    that was `taken` last is lit: "pose" or "pin" with its number. With `curves` poles and Burmester's curves
+    are drawn, coarsely while something is `held`. While it is `blank` no linkage is shown. `cursor` is the
+    keys' cursor.
     """
 
     frames: tuple[tuple[float, float, float], ...] = ()
@@ -154,9 +154,9 @@ class PosesShown:
 
 @frozen
 class LayersShown:
-    """Parts in layers instead of the linkage, lifted off each other by a share of what has room.
+    """Parts in layers instead of the linkage, lifted off each other by a share of the room for it.
 
-    Without `parts` a sentence says what is waited for, or as a warning why there are none.
+    Without `parts` a sentence says what it waits for, or warns why there are none.
     """
 
     parts: Layered | None = None
@@ -167,7 +167,7 @@ class LayersShown:
 
 
 class SliderShown(NamedTuple):
-    """A slider: what it is about, what its ends stand for, how many steps it has, and where it stands."""
+    """A slider: its subject, the meaning of its two ends, how many steps it has, and its present step."""
 
     label: str
     low: str
@@ -176,14 +176,15 @@ class SliderShown(NamedTuple):
     at: int
 
 
-# The bar of commands at the foot: what is on it, and how each of it is.
+# The bar of commands at the foot: its commands, and the state of each.
 
 
 class Button(NamedTuple):
     """A command on the bar: its icon, its name and key, whether it is on, and why it cannot be done.
 
-    Where there is no room those of the highest `rank` are left out first. One that `leads` begins a group.
-    With a `share` (0 to 1) it is a slider, three times as wide. One `on_chart` stands at the chart's head.
+    Where room is short, buttons of the highest `rank` are left out first. A button that `leads` begins a
+    group. With a `share` (0 to 1) it is a slider, three times as wide. With `on_chart` it stands at the
+    chart's head.
     """
 
     icon: str
@@ -198,7 +199,7 @@ class Button(NamedTuple):
 
 
 class CommandBar(NamedTuple):
-    """The bar: its commands, the number of the one under the mouse, how strongly it shows in eighths."""
+    """The bar: its commands, the number of the one under the mouse, its opacity in eighths."""
 
     buttons: tuple[Button, ...]
     pointed: int | None = None
@@ -212,7 +213,7 @@ class CommandBar(NamedTuple):
 class EditRow:
     """One dimension in the edit list: its name, its value as written, and whether it is chosen.
 
-    A `draft` is a value that was typed and is not judged yet.
+    A `draft` is a typed value that has not been checked yet.
     """
 
     label: str
@@ -223,10 +224,10 @@ class EditRow:
 
 @frozen
 class Panel:
-    """The edit list; `error` is the reason, in words, why the chosen value is refused.
+    """The edit list; `error` says why the chosen value is refused.
 
-    `facts` are what the lengths make of the linkage; they stand out while `flash` (0 to 1) is above 0. The
-    mouse is over the row `pointed`. Where rows are `counted` the head says which is the chosen one.
+    `facts` say what linkage the lengths make; they stand out while `flash` (0 to 1) is above 0. The mouse is
+    over the row `pointed`. Where rows are `counted`, the head says which of how many is chosen.
     """
 
     rows: tuple[EditRow, ...]
@@ -241,7 +242,7 @@ class Panel:
 
 @frozen
 class Quantities:
-    """A list, as of quantities: rows of words and symbol, the chosen one's number, what has been typed.
+    """A list, for example of quantities: rows of words and symbol, the chosen row's number, the typed text.
 
     The mouse is over the row `pointed`. Rows with `boxes` have one each, ticked or not.
     """
@@ -302,10 +303,10 @@ def _searched(entries: Sequence[Scene | str]) -> Iterator[str]:
 
 @frozen
 class Browsing:
-    """The open shelf: its mechanisms as the state has them, the one that is chosen, the frame of opening.
+    """The open shelf: its mechanisms, the chosen one, and the frame at which it was opened.
 
-    Letters sift it; it is scrolled to the row numbered `top`. The files of one's `own` have the places behind
-    those of the mechanisms.
+    Typed letters filter it; it is scrolled to the row numbered `top`. The user's `own` files have the places
+    after those of the mechanisms.
     """
 
     entries: tuple[Scene | str, ...]
@@ -317,7 +318,7 @@ class Browsing:
 
     @cached_property
     def found(self) -> tuple[int, ...]:
-        """The places of those that have all the sieve's words."""
+        """The places of the mechanisms and files that have all the sieve's words."""
         texts = (f"{one.title} {one.written} {MINE}" for one in self.own)
         return found_among(self.entries, self.sieve) + sifted(
             dict(enumerate(texts, start=len(self.entries))), self.sieve
@@ -329,7 +330,7 @@ class Browsing:
         return self.own[behind] if 0 <= behind < len(self.own) else None
 
     def sifted(self, sieve: str) -> Browsing:
-        """Return it with other letters, at the first that is found where the chosen one is not."""
+        """Return the shelf with another sieve; if the chosen entry is not found, the first one is chosen."""
         other = replace(self, sieve=sieve, top=0)
         return other if self.chosen in other.found else replace(other, chosen=(*other.found, self.chosen)[0])
 
@@ -337,7 +338,7 @@ class Browsing:
 class Shelf(NamedTuple):
     """The open shelf in its theme, and how many frames it has been open; `still` while paused.
 
-    The places of `edited` are not as their files have them.
+    The mechanisms at the places `edited` differ from their files.
     """
 
     browsing: Browsing
@@ -349,11 +350,11 @@ class Shelf(NamedTuple):
 
 @frozen
 class PathShown:
-    """A path that is drawn: the `pen`'s points while it is down, then the curve that was meant, as x + yi.
+    """A drawn path: the `pen`'s points while it is down, then the curve that was meant, as x + yi.
 
-    While it is `blank` no linkage is shown. `off` says how far off the shown one is; of the curve's points,
-    which are `marked` where they can be dragged, one may be `held`, and so may fixed `pins`. The `cognates`
-    of these numbers, 0 and 1, are drawn faintly.
+    While it is `blank` no linkage is shown. `off` says how far the shown linkage is from the path. A point of
+    the curve may be `held`, and so may fixed `pins`; points are `marked` where they can be dragged. The
+    cognates numbered `cognates`, 0 and 1, are drawn faintly.
     """
 
     curve: DrawnCurve | None
@@ -378,10 +379,10 @@ class DialShown(NamedTuple):
 
 @frozen
 class AnswerRow:
-    """Linkages for a path or poses, as answers or scenes, what is said of each, and which one is shown.
+    """Linkages for a path or for poses, as answers or scenes, words about each, and which one is shown.
 
-    Those for poses have `poses`. Lengths are in `unit`; pictures are those of a `frame`, and `still` while
-    paused. A `dial` stands above.
+    Linkages for poses come with these `poses`. Lengths are in `unit`. The pictures are those of a `frame`,
+    and `still` while paused. A `dial` stands above.
     """
 
     entries: tuple[PathAnswer | PoseAnswer | Scene, ...]
@@ -398,16 +399,16 @@ class AnswerRow:
 
 @frozen
 class Fading:
-    """Words that come and go, and how strongly they are shown, in eighths."""
+    """Words that come and go, and their opacity in eighths."""
 
     text: str
     eighths: int = 8
 
 
 class DimensionLine(NamedTuple):
-    """A length in words, from place to place in a frame: 1 reaches from joint to joint, 1j to its left.
+    """A length in words, from place to place in a frame: 1 is the vector from joint to joint, 1j its left.
 
-    Of one joint twice, 1 is the scene's unit, level. The `chosen` one is lit.
+    In a frame that names one joint twice, 1 is the scene's unit to the right. A `chosen` line is lit.
     """
 
     frame: tuple[str, str]
@@ -423,11 +424,11 @@ class DimensionLine(NamedTuple):
 
 
 Mood = Literal["", "right", "wrong", "faint"]
-"""How an answer is shown: as any other, as right, as wrong, as one that no longer counts."""
+"""How an answer is shown: plain, as right, as wrong, or as one that no longer counts."""
 
 
 class Choice(NamedTuple):
-    """An answer, or a door: the key that takes it, its words, what stands small below them, how it is shown.
+    """An answer, or an entry of a menu: its key, its words, the small words below them, and its mood.
 
     A `curve` of values from −1 to 1 is drawn instead of words.
     """
@@ -449,7 +450,7 @@ class ScoreBar(NamedTuple):
 
 
 class Spot(NamedTuple):
-    """The place of an answer on the picture, in the unit that is shown, and what marks it."""
+    """The place of an answer on the picture, in the unit shown, and its mark."""
 
     key: str
     at: Point
@@ -458,11 +459,11 @@ class Spot(NamedTuple):
 
 @frozen
 class GamePanel:
-    """What a game shows in the room of a list: from its heading down to what there is to press.
+    """What a game shows in the room of a list, from its heading down to the keys to press.
 
-    A title's heading is `large`; what stands `aside` below the lines is dim. `chosen` is the answer that
-    Enter takes, the mouse is over `pointed`. `verdict` says what has come of an answer, well or not,
-    `lines_after` why. A `subject` stands over them.
+    The title's heading is `large`; the words `aside` below the lines are dim. `chosen` is the answer that
+    Enter takes; the mouse is over `pointed`. `verdict` says whether an answer was right, `lines_after` why. A
+    `subject` stands above all of these.
     """
 
     heading: str
@@ -484,8 +485,9 @@ class GamePanel:
 class Lane(NamedTuple):
     """Two lines across a ram's guide, from its `back` to its `forward` dead centre, in the unit shown.
 
-    `middle` has how far before the ram, in shares of all that is in sight, and where between the dead centres
-    (0 to 1) the ram has to be then, `half_width` to either side; `well` says that it is between them now.
+    `middle` has pairs: how far ahead, as a share of the visible paper, and where between the dead centres (0
+    to 1) the ram has to be then, within `half_width` to either side. `well` says that it is between the lines
+    now.
     """
 
     back: Point
@@ -496,7 +498,7 @@ class Lane(NamedTuple):
 
 
 class Told(NamedTuple):
-    """What is told of a thing under the mouse, `at` a place of the scene; a `joint` has its arrows."""
+    """The words about a thing under the mouse, `at` a place of the scene; a `joint` also has its arrows."""
 
     lines: tuple[str, ...]
     at: Point
@@ -511,14 +513,14 @@ Help = tuple[tuple[str, tuple[tuple[str, str], ...]], ...]
 class Overlay:
     """What one frame shows beside the scene; the empty one shows nothing.
 
-    So many steps of the scene's `construction` are drawn.
-    Answers that are places have `spots` on the picture, in their order, a ram that is followed its `lane`.
-    The joints `handles` can be dragged. With `noted` the HUD says where a limit or a change point is near.
-    `chip` answers a key, `hint` says what there is to press, `watch` what to watch for. `measured` is
-    what the chosen dimension and those beside it measure, `glow` the joint under the mouse, `told` what
-    is there, `instant` the phase that the mouse points at on a curve; with `grip` the chart's cursor has
-    one. `shutter` is how white the picture is, in eighths. The `bar` has the commands, and beside a list
-    of dimensions there are the `tools` of a sheet.
+    `construction` is how many steps of the scene's construction are drawn. Answers that are places have
+    `spots` on the picture, in their order; a ram that is followed has its `lane`. The joints `handles` can be
+    dragged. With `noted` the HUD says that a limit or a change point is near. `chip` answers a key, `hint`
+    says which keys to press, `watch` what to watch for. `measured` are the lines of the chosen dimension and
+    of those beside it, `glow` is the joint under the mouse, `told` the words about the thing there, `instant`
+    the phase that the mouse points at on a curve; with `grip` the chart's cursor has a grip. `shutter` is how
+    white the picture is, in eighths. The `bar` has the commands; `tools` are those of a sheet, beside a list
+    of dimensions.
     """
 
     paused: bool = False
@@ -559,7 +561,7 @@ class Overlay:
 
     @property
     def hides_chart(self) -> bool:
-        """Whether a chart is not to be seen: on blank paper, under a draft or among parts in layers."""
+        """Whether no chart is shown: on blank paper, under a draft or among parts in layers."""
         blank = (self.path and self.path.blank) or (self.poses and self.poses.blank)
         return bool(blank or (self.build and self.build.draft) or (self.layers and self.layers.parts))
 

@@ -25,11 +25,11 @@ from linkanim.picture.theme import ORANGE, mixed
 from linkanim.picture.view import Rect
 from linkanim.steps import at_once
 
-# Words that come and go: a chip that answers a key, what there is to press, sentences; and where.
+# Words that come and go, and their places: a chip that answers a key, the keys to press, sentences.
 
 _GAP = "   ·   "
 _LITTLE = 0.12
-"""A sentence that takes more of the stage's height is shown on nothing that is drawn, or not at all."""
+"""A sentence that takes a greater share of the stage's height is shown only where nothing is drawn."""
 
 
 def chip(board: Board, text: str) -> pygame.Surface:
@@ -41,7 +41,7 @@ def chip(board: Board, text: str) -> pygame.Surface:
 
 
 def hint_bar(board: Board, text: str) -> pygame.Surface | None:
-    """Return the hint bar with as many of its parts, the last ones, as fit; None where none does."""
+    """Return the hint bar with as many of its last parts as fit; None where none does."""
     size, parts = board.layout.small_size, text.split(" · ")
     place = board.layout.hint or board.layout.stage
     room = place.width - 2 * size
@@ -56,7 +56,7 @@ def hint_bar(board: Board, text: str) -> pygame.Surface | None:
 
 
 def sentence(board: Board, text: str) -> tuple[pygame.Surface, tuple[float, float] | None]:
-    """Return what to watch for on a sheet where nothing is drawn, or off the words; None for nowhere."""
+    """Return the sentence on what to watch for, and its place off the drawing, or off words; else None."""
     free, stage = board.layout.passing, board.layout.stage
     sheet = _lines(board, text, board.layout.small_size, (free or stage).width + 1, board.theme.dim)
     if free or sheet.get_height() > _LITTLE * stage.height:
@@ -80,7 +80,7 @@ def toast(board: Board, text: str) -> tuple[pygame.Surface, tuple[float, float]]
 
 
 def _lines(board: Board, text: str, size: int, room: float, colour: Colour | None = None) -> pygame.Surface:
-    """Return words on a sheet, in lines no wider than some room, in ink unless a colour is given."""
+    """Return words on a sheet, in lines no wider than `room`, in ink unless a colour is given."""
     lines = board.type.wrapped(text, size, room - 2 * size)
     sheet = board.sheet(board.widest(lines, size) + 2 * size, (1.25 * len(lines) + 0.75) * size)
     for n, line in enumerate(lines):
@@ -92,7 +92,7 @@ def _lines(board: Board, text: str, size: int, room: float, colour: Colour | Non
 def off_words(
     layout: Layout, drawn: pygame.Surface, places: Iterable[tuple[float, float]]
 ) -> tuple[float, float] | None:
-    """Return the first of some places at which a sheet lies on no word about the scene; else None."""
+    """Return the first of some places at which a sheet covers no word about the scene; else None."""
     busy = (*layout.words, *([layout.legend] if layout.legend else []))
     size = drawn.get_size()
     return next((at for at in places if not any(Rect(*at, *size).meets(one) for one in busy)), None)
@@ -107,7 +107,7 @@ def edges(board: Board, drawn: pygame.Surface) -> Iterator[tuple[float, float]]:
 
 
 def put(surface: pygame.Surface, drawn: pygame.Surface, at: tuple[float, float], shown: Fading) -> None:
-    """Blit what has been drawn, its top left corner at a place, as strongly as it is shown."""
+    """Blit a drawn surface, its top left corner at a place, with the opacity of `shown`."""
     drawn.set_alpha(round(255 * shown.eighths / 8))
     surface.blit(drawn, (round(at[0]), round(at[1])))
 
@@ -115,15 +115,15 @@ def put(surface: pygame.Surface, drawn: pygame.Surface, at: tuple[float, float],
 # The list of dimensions: what the linkage is, the values, and why one is refused.
 
 _FRAME = 2.7
-"""How many lines high the list is without its rows and what stands above and below them."""
+"""The height of the list's frame, without its rows and the text above and below them, in lines."""
 _FEWEST = 4
-"""As many rows are shown before hints and facts give way."""
+"""Where fewer rows than this would be shown, hints and facts are left out."""
 _NAME = 4.5
-"""So much of a row's name is seen where its value is too long, in heights of the text."""
+"""The part of a row's name that is shown where its value is too long, in heights of the text."""
 _ROWS_IN_STEP = 3
-"""So many rows are drawn in a step where a list is drawn beforehand."""
+"""The rows that are drawn in one step where a list is drawn beforehand."""
 _FLASH = 0.45
-"""How much of the flash's colour is in the bar behind the facts at its brightest."""
+"""The share of the flash's colour in the bar behind the facts at its brightest."""
 
 
 @frozen
@@ -138,17 +138,17 @@ class _Division:
 
     @property
     def lines(self) -> float:
-        """The height of the whole in lines."""
+        """The height of the whole list, in lines."""
         return len(self.facts) + len(self.rows) + len(self.foot) + _FRAME
 
     @property
     def top(self) -> float:
-        """How far down the first row's text begins, in its heights."""
+        """How far down the first row's text begins, in heights of the text."""
         return 0.9 + STEP * (1 + len(self.facts)) + (0.25 if self.facts else 0.0)
 
 
 def edit_list(board: Board, panel: Panel) -> pygame.Surface:
-    """Return the list; where it would not fit at a size that reads, the rows around the chosen one."""
+    """Return the list; where it would not fit at a readable size, only the rows around the chosen one."""
     return at_once(_edit_list_in_steps(board, panel))
 
 
@@ -176,7 +176,7 @@ def edit_rows(board: Board, panel: Panel) -> Rows:
 
 
 def _fitting(board: Board, panel: Panel) -> _Division:
-    """Return the largest text at which all fits; else the smallest, without the hint, then the facts."""
+    """Return the largest text at which all fits; else the smallest, without the hint, then without facts."""
     sizes = range(board.layout.text_size, board.layout.small_size - 1, -1)
     for size in (size for size in sizes if len(panel.rows) <= _room(board, size)):
         parts = _divided(board, panel, size, (panel.facts, panel.hint))
@@ -207,7 +207,7 @@ def _needed(board: Board, panel: Panel, size: int) -> float:
 
 
 def _room(board: Board, size: int) -> float:
-    """Return how many lines of text there is room for beside the list's frame."""
+    """Return how many lines of text have room within the list's frame."""
     return board.layout.lists.height / STEP / size - _FRAME
 
 
@@ -216,7 +216,7 @@ def _chosen(panel: Panel) -> int | None:
 
 
 def _head(board: Board, sheet: pygame.Surface, panel: Panel, parts: _Division) -> None:
-    """Draw the title, which of the rows is the chosen one, and the facts, lit up while they flash."""
+    """Draw the title, the number of the chosen row, and the facts, lit up while they flash."""
     size, chosen = parts.size, _chosen(panel)
     count = "" if chosen is None or not panel.counted else f"{chosen + 1} of {len(panel.rows)}"
     board.head(sheet, size, panel.title, count, board.theme.ink)
@@ -244,17 +244,17 @@ def _row(board: Board, sheet: pygame.Surface, panel: Panel, n: int, y: float, si
 
 _STEP = 1.32
 _HELP_GAP = 1.1
-"""Between the keys and what they do, and between columns twice as much, in heights of the text."""
+"""The gap between keys and what they do, in heights of the text; it is twice that between columns."""
 _WIDEST = 0.97
-"""The most of its room that the help takes."""
+"""The greatest share of its room's width that the help takes."""
 _LEAST = 9
 """The smallest text that can be read, in pixels."""
 _LINES_IN_STEP = 4
-"""So many lines are drawn in a step where it is drawn beforehand."""
+"""The lines that are drawn in one step where the help is drawn beforehand."""
 
 
 class _Line(NamedTuple):
-    """A line of a column: a subject, or a key and what it does; an empty one parts subjects."""
+    """A line of a column: a subject, or a key and what it does; an empty line separates subjects."""
 
     keys: str
     does: str
@@ -278,9 +278,9 @@ class _Laid(NamedTuple):
 
 
 def help_sheet(board: Board, shown: tuple[Help, int]) -> pygame.Surface:
-    """Return the help, its text as large as fits so wide a room above the bar of commands.
+    """Return the help, its text as large as fits above the bar of commands in a room of that width.
 
-    Where not all of it can be read there, it has the window's height; what has no room there is left out.
+    Where that would be too small to read, it has the window's height; lines without room there are left out.
     """
     return at_once(_help_in_steps(board, shown))
 
@@ -305,7 +305,7 @@ def help_line_at(board: Board, shown: tuple[Help, int], x: float, y: float) -> s
     for column, left in _help_columns(laid):
         inside = left <= x <= left + column.keys + column.does + _HELP_GAP * laid.size
         if inside and 0 <= number < len(column.lines) and not column.lines[number].heading:
-            # what its keys do may be broken into lines, of which the first has the keys
+            # the text of keys may be broken into lines; only the first of these has the keys
             whole = (line.keys for line in reversed(column.lines[: number + 1]) if line.keys)
             return next(whole, None) if column.lines[number].does else None
     return None
@@ -354,9 +354,9 @@ def _laid(board: Board, groups: Help, size: int, room: float | None = None) -> _
 
 
 def _two_columns(groups: Help) -> list[tuple[_Line, ...]]:
-    """Return the lines of two columns, as equally high as whole subjects let them be; one group's of one.
+    """Return the lines of two columns of whole subjects, as equal as possible; of one column for one subject.
 
-    An empty line is below each subject but the last of a column.
+    An empty line is below each subject except the last of a column.
     """
     blocks = [
         (_Line(subject.capitalize(), "", heading=True), *(_Line(*line) for line in lines), _Line("", ""))
@@ -377,7 +377,7 @@ def _measured(board: Board, lines: tuple[_Line, ...], size: int, room: float | N
 
 
 def _broken(board: Board, line: _Line, size: int, room: float) -> Iterator[_Line]:
-    """Yield a line as several where what its keys do is wider than a room."""
+    """Yield a line as several where its text is wider than a room."""
     first, *rest = board.type.wrapped(line.does, size, max(room, 6.0 * size)) or [""]
     yield line._replace(does=first)
     yield from (_Line("", more) for more in rest)
@@ -397,10 +397,10 @@ def _draw(
     board.write(sheet, line.does, beside, size=size, colour=board.theme.dim)
 
 
-# The list of quantities: their words and symbols, what has been typed to sift them, the chosen one.
+# The list of quantities: their words and symbols, the text typed to filter them, the chosen one.
 
 _QUANTITY_FRAME = 2.6
-"""How many lines high the list is without its rows and hint."""
+"""The height of the list's frame, without its rows and hint, in lines."""
 _BOX = 2.5
 """Where the words of rows with boxes begin, in heights of their text."""
 
@@ -440,7 +440,7 @@ def _quantity_list_in_steps(board: Board, shown: Quantities) -> Generator[None, 
 
 
 def scroll_track(board: Board, shown: Quantities) -> Rect | None:
-    """Return where on its sheet a list is scrolled; None where all of it is in sight."""
+    """Return the track of a list's scroll bar on its sheet; None where all rows are visible."""
     size, (rows, _) = board.layout.small_size, _rows_and_hint(board, shown)
     if len(rows) == len(shown.rows):
         return None
@@ -450,7 +450,7 @@ def scroll_track(board: Board, shown: Quantities) -> Rect | None:
 
 
 def _scroll_bar(board: Board, sheet: pygame.Surface, track: Rect, rows: range, count: int) -> None:
-    """Draw which part of a list's rows is in sight."""
+    """Draw the scroll bar, which shows the part of a list's rows that is visible."""
     wide, x = 0.32 * board.layout.small_size, track.x + 0.6 * track.width
     begin, end = (track.y + track.height * row / count for row in (rows.start, rows.stop))
     whole, part = (
@@ -512,11 +512,11 @@ def _boxes(board: Board, sheet: pygame.Surface, rows: Sequence[tuple[float, bool
 
 _VEIL = 170
 _BACKING = 0.7
-"""How little of what lies under a mark shows through its backing."""
+"""The opacity of a mark's backing."""
 
 
 class Panels:
-    """Draws overlays; the last panel of each kind is kept, so that an open one costs one blit."""
+    """Draws overlays; the last panel of each kind is cached, so that an open panel costs one blit."""
 
     def __init__(self, board: Board) -> None:
         self.board = board
@@ -538,7 +538,7 @@ class Panels:
             surface.blit(*self._toasted(overlay, overlay.toast))
 
     def _helped(self, shown: Help, left: int) -> tuple[pygame.Surface, Rect]:
-        """Return the help and its place, right of a list that takes so much of the window's left."""
+        """Return the help and its place, right of a list that takes `left` pixels of the window's left."""
         wide, whole = self.board.layout.size
         drawn = self._keep(help_sheet, (shown, wide - left))
         above = self.board.layout.above_bar
@@ -572,7 +572,7 @@ class Panels:
         return help_line_at(self.board, (overlay.help, room), x - place.x, y - place.y) or ""
 
     def prepared(self, overlay: Overlay) -> Iterator[None]:
-        """Draw help, lists and chip of an overlay in steps, so that they take less when they are shown."""
+        """Draw help, lists and chip of an overlay in steps, so that showing them later takes less time."""
         if overlay.help:
             yield from self._ahead(help_sheet, (overlay.help, self.board.layout.size[0]), _help_in_steps)
         if overlay.panel:
@@ -584,12 +584,12 @@ class Panels:
             self._keep(chip, overlay.chip.text)
 
     def _ahead(self, make: Any, shown: Any, steps: Any) -> Iterator[None]:
-        """Draw a panel in steps, and keep it as it is kept when it is shown."""
+        """Draw a panel in steps, and cache it as when it is shown."""
         drawn = yield from steps(self.board, shown)
         self._kept[make, None] = shown, drawn
 
     def _list(self, surface: pygame.Surface, make: Any, shown: object) -> int:
-        """Draw a list, if one is open; return how much of the window's left it takes at the top."""
+        """Draw a list, if one is open; return the width that it takes at the window's top left."""
         if shown is None:
             return 0
         drawn = self._keep(make, shown)
@@ -597,13 +597,13 @@ class Panels:
         return self._beside(drawn)
 
     def _beside(self, drawn: pygame.Surface) -> int:
-        """Return how much of the window's left a list takes at the top."""
+        """Return the width that a list takes at the window's top left."""
         return self.board.margin + drawn.get_width() if self._listed(drawn)[1] <= self.board.margin else 0
 
     def row_at(self, overlay: Overlay, x: float, y: float) -> int | None:
-        """Return the row of the open list under a pixel, -1 on the list beside them; None off it.
+        """Return the row of the open list under a pixel; -1 elsewhere on the list, None off it.
 
-        A game's answers have None beside them.
+        Between a game's answers it is None.
         """
         for make, rows_of, shown in (
             (game_panel, answer_rows, overlay.game),
@@ -628,9 +628,9 @@ class Panels:
         return x < left + _BOX * self.board.layout.small_size
 
     def scrolled_at(self, overlay: Overlay, x: float, y: float, *, held: bool) -> int | None:
-        """Return the row to which the scroll bar of the open list leads at a pixel; None beside the bar.
+        """Return the row to which the scroll bar of the open list leads at a pixel; None off the bar.
 
-        One that is `held` is led by places beside it, too.
+        While the bar is `held`, places beside it count, too.
         """
         shown = overlay.quantities
         track = scroll_track(self.board, shown) if shown else None
@@ -656,7 +656,7 @@ class Panels:
             drawn = self._keep(chip, overlay.chip.text)
             marks = 1.5 * self.board.layout.text_size
             docked = (self.board.layout.chart, self.board.layout.polygons)
-            # their words stand at their head
+            # charts and polygons have their words at their head
             is_beside = any(one is not None and one.x >= room.right for one in docked)
             right = room.inset(self.board.margin).right if is_beside else place.right
             beside = right - drawn.get_width(), place.y + marks
@@ -678,21 +678,21 @@ class Panels:
     def _above_bar(
         self, overlay: Overlay, drawn: pygame.Surface, at: tuple[float, float]
     ) -> tuple[float, float]:
-        """Return the place of words that come and go: above the bar of commands, not under it."""
+        """Return the place of words that come and go, moved above the bar of commands where need be."""
         bar = bar_place(self.board.layout, overlay.bar)
         if bar is None or not bar.meets(Rect(*at, *drawn.get_size())):
             return at
         return at[0], max(bar.y - self.board.margin / 2 - drawn.get_height(), 0.0)
 
     def _keep(self, make: Any, value: Any, slot: object = None) -> Any:
-        """Return what is made of a value on the board, kept until another is asked for in the same slot."""
+        """Return `make` of the board and a value, cached until the slot is asked for another value."""
         kept = self._kept.get((make, slot))
         if kept is None or kept[0] != value:
             kept = self._kept[make, slot] = (value, make(self.board, value))
         return kept[1]
 
     def _marks(self, surface: pygame.Surface, overlay: Overlay) -> None:
-        """Draw the sign of a pause in its corner, those of recording and a stroke beside it, with words."""
+        """Draw the sign of a pause in its corner; those of recording and a stroke, with words, beside it."""
         size, place, theme = self.board.layout.text_size, self.board.layout.marks, self.board.theme
         if overlay.paused:
             sheet = self._keep(_sign, theme.ink)
@@ -709,7 +709,7 @@ class Panels:
 
 
 def _veil(board: Board, size: tuple[int, int]) -> pygame.Surface:
-    """Return what lets the picture recede behind the help."""
+    """Return the veil that makes the picture recede behind the help."""
     veil = pygame.Surface(size, pygame.SRCALPHA, 32)
     veil.fill((*board.theme.background, _VEIL))
     return veil

@@ -1,7 +1,7 @@
-"""A photograph behind a sheet: read once, and laid as it is moved, scaled and turned.
+"""A photograph behind a sheet: read once, and placed as it is moved, scaled and turned.
 
-Its size is known from its header before a pixel is read, and bounded: a file of some kilobytes may say that
-it holds gigabytes. A camera's note on how it was held (EXIF) is heeded.
+Its size is read from its header before any pixel, and bounded: a file of some kilobytes may claim to hold
+gigabytes. A camera's note on how it was held (EXIF) is followed.
 """
 
 from __future__ import annotations
@@ -32,14 +32,14 @@ if TYPE_CHECKING:
 
 Pixels = NDArray[np.uint8]
 _SHOWN = 0.45
-"""How much of a photograph shows through the paper."""
+"""The share of a photograph that shows through the paper."""
 _MOST_BYTES = 60_000_000
 _LONGEST = 1600
-"""The longer side of what is kept of a photograph, in pixels."""
+"""The longer side of a photograph as it is kept, in pixels."""
 _MILLIONS = {"JPEG": 65, "PNG": 40, "BMP": 40, "WEBP": 16}
-"""Millions of pixels by format: so many take some 400 MB. A JPEG is read smaller, WebP takes most."""
+"""The most millions of pixels, by format: each takes some 400 MB to read; JPEG is read at a reduced size."""
 _BAND = 2_000_000
-"""Pixels that are made red, green and blue at once."""
+"""The pixels that are converted to red, green and blue at a time."""
 SUFFIXES = (".png", ".jpg", ".jpeg", ".webp", ".bmp")
 
 
@@ -58,14 +58,14 @@ def refuse_lacking(file: str) -> None:
 
 @frozen
 class Photograph:
-    """A photograph as it lies in a view, on paper of a colour."""
+    """A photograph in its place in a view, on paper of a colour."""
 
     photo: Photo
     view: View
     paper: Colour
 
     def draw(self, surface: pygame.Surface) -> None:
-        """Lay it on a surface, faded; one that is not there any more, or is none, is left out."""
+        """Draw the photograph on a surface, faded; a file that is gone, or is no picture, is left out."""
         file = self.photo.file
         picture = _faded(file, _stamp(file), self.paper, surface.get_shifts())
         if picture is None:
@@ -84,7 +84,7 @@ class Photograph:
 
 
 Stamp = tuple[int, int] | str
-"""When a file was written last and its size, or why there is none to be read."""
+"""When a file was last written and its size, or why it cannot be read."""
 
 
 def _stamp(file: str) -> Stamp:
@@ -105,7 +105,7 @@ def _stamp(file: str) -> Stamp:
 def _faded(
     file: str, stamp: Stamp, paper: Colour, shifts: tuple[int, int, int, int]
 ) -> NDArray[np.uint32] | None:
-    """Return a photograph as it shows through paper of a colour, in pixels as a surface has them."""
+    """Return a photograph as it shows through paper of a colour, as a surface's pixels."""
     picture = _read(file, stamp)
     if isinstance(picture, str):
         return None
@@ -134,9 +134,9 @@ def _read(file: str, stamp: Stamp) -> Pixels | str:
     except UnidentifiedImageError:
         return f"{where}: is no picture; a photograph is one of {', '.join(SUFFIXES)}"
     except Image.DecompressionBombError:
-        form = Path(file).suffix[1:].upper()  # .jpg is the one that is not called as its format
+        form = Path(file).suffix[1:].upper()  # only .jpg differs from its format's name
         return f"{where}: is far too large; {_too_large(_MILLIONS.get(form, _MILLIONS['JPEG']))}"
-    except Exception:  # a decoder raises whatever a damaged file brings it to
+    except Exception:  # a decoder may raise anything on a damaged file
         return f"{where}: cannot be read to its end; save it again"
 
 
@@ -145,9 +145,9 @@ def _too_large(most: int) -> str:
 
 
 def _shrunk(picture: Image.Image) -> Image.Image:
-    """Return a picture in red, green and blue, what is clear white, its longer side at most `_LONGEST`.
+    """Return a picture in red, green and blue, clear parts white, its longer side at most `_LONGEST`.
 
-    It is gone through in bands: whole, in another form too, it might be twice as large.
+    It is converted in bands: a second, converted copy of the whole would double the memory.
     """
     from PIL import Image
 
@@ -178,10 +178,10 @@ def _flat(picture: Image.Image) -> Image.Image:
 
 
 def _upright(small: Image.Image, picture: Image.Image) -> Image.Image:
-    """Return a picture turned as the camera noted in its file; as it is where that note is damaged."""
+    """Return a picture turned as the camera noted in its file; unchanged where that note is damaged."""
     from PIL import ImageOps
 
     small.info = picture.info
-    with suppress(Exception):  # as a decoder
+    with suppress(Exception):  # as for a decoder, any error is possible
         return ImageOps.exif_transpose(small)
     return small

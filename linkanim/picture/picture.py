@@ -1,4 +1,4 @@
-"""The one description of a picture: a scene at a size and look, its poses in groups for every printer."""
+"""The one description of a picture: a scene at a size and look; its poses as groups for every printer."""
 
 from __future__ import annotations
 
@@ -41,26 +41,26 @@ _NOTHING_STILL = Group("nothing", (), still=True)
 _LINES_OF_LAYERS = 2.0
 """The room for words above parts in layers, in heights of their text."""
 _THIN = 0.6
-"""The thinnest that parts are drawn, in pixels of a page."""
+"""The least thickness of lines of parts, in pixels of a page."""
 _ROOM_BESIDE_SLIDER = 0.52
 """The share of the stage's width that words beside a slider take."""
 _ROOMS_OF_WORDS = (0.93, _ROOM_BESIDE_SLIDER, 0.4, 0.3)
-"""The shares of it that words on a construction may take: the widest that is off the linkage."""
+"""The shares of the stage's width for words on a construction: the widest that is off the linkage."""
 
 
 class Earlier(NamedTuple):
-    """What stood still as it was drawn last: its size, view, layout, theme and chart, and groups by name."""
+    """The still part of an earlier picture: size, view, layout, theme and chart, and groups by name."""
 
     place: tuple[tuple[int, int], View, Layout, Theme, str | None]
     groups: dict[str, tuple[Group, ...]]
 
 
 class Deferral(NamedTuple):
-    """What of a picture waits for a later frame: nothing, unless a hand leads it.
+    """What a picture leaves to a later frame: nothing, unless a hand is dragging.
 
-    While the hand `holds` something names keep the places that they have. New places for them are found at
-    once; with "as before" they stay where they were in the picture before, and with "in steps" they are there
-    when `place_names` has found them all. What stood still `earlier` is drawn as it was, where it has the
+    While the hand `holds` something, names keep their places. Otherwise `names` says when new places are
+    found: at once; "as before" for none, so that names stay as in the picture before; or "in steps", when
+    `place_names` has found them all. The still part of the picture `earlier` is drawn again where it has the
     same place.
     """
 
@@ -73,17 +73,17 @@ AT_ONCE = Deferral()
 
 
 class Picture:
-    """A scene at one pixel size and look: what stands where is measured once, `groups` is a pose of it.
+    """A scene at one pixel size and look: places are worked out once, and `groups` describes a pose.
 
     The view fits what is shown: the scene, its other closure where the look shows that, and the places `also`
-    (in the scene's unit). Instead it is a `kept` one, or the one of the `sheet`, a rectangle of the scene, on
-    which a linkage is built; the look zooms and pans it. What is `docked` in the window has its room.
+    (in the scene's unit). With `kept` it is that view; with `sheet`, the rectangle of the scene on which a
+    linkage is built. The look zooms and pans it. What is `docked` in the window has room of its own.
 
     With a `moment` names stand as is best at that phase alone, else as is best over the cycle. With `apart`
-    each joint has a group of its own. What the picture `before` measured of the same scene is taken over;
-    its names keep their places where only the zoom differs, or while the scene turns into another. `later`
-    says what waits for a later frame. The attribute `scene` is in the look's unit.
-    Raises BadInput where the look's chart is no quantity of the scene.
+    each joint has a group of its own. What the picture `before` measured of the same scene is reused; its
+    names keep their places where only the zoom differs, or while the scene turns into another. `later` says
+    what waits for a later frame. The attribute `scene` is in the look's unit. Raises BadInput where the
+    look's chart is no quantity of the scene.
     """
 
     def __init__(
@@ -124,13 +124,13 @@ class Picture:
             same = follows or before._goal is self._goal
             request = request._replace(table=before.fit.request.table) if same else request
         self.late = earlier is not None
-        """Whether what stands still is that of an earlier picture."""
+        """Whether its still part is that of an earlier picture."""
         self._arrange(request, before, held=held)
         anew = before is not None and not self._named_as(before, held=held)
         self.hurried: bool = later.names == "as before" and look.named and anew
-        """Whether its names are those of another picture."""
+        """Whether its names have the places of another picture."""
         self.waits: bool = self.hurried and before is not None and not before.has_polygons
-        """Whether polygons that were not there before come with the names, once room is made for them."""
+        """Whether polygons that are new wait for the names, until there is room for them."""
         tabled = look.names > 1 and before and before.fit.request.table[0]
         if self.hurried and tabled and before and before._goal is self._goal:
             self._arrange(request._replace(table=self._table_size()), before, held=held)
@@ -140,11 +140,11 @@ class Picture:
             self.place_names()
 
     def place_names(self, most: int | None = None) -> bool:
-        """Place names in `most` more steps, or in all that are left; return whether all have their places."""
+        """Place names in up to `most` more steps, or in all that are left; return whether all are placed."""
         return not any(step == most for step, _ in enumerate(islice(self._steps, most), start=1))
 
     def _named(self, before: Picture | None, earlier: Earlier | None, *, held: bool) -> Iterator[None]:
-        """Give it names, and room for the table that they need, in steps; then what stands still."""
+        """Give the picture names, and room for their table, in steps; then update its still part."""
         if self.look.named:
             yield from self._placed(before, held=held)
         if self.names and self.names.unlisted:
@@ -167,7 +167,7 @@ class Picture:
         self._settled = earlier is None or self.fit.has_room
 
     def preparing(self, look: Look, docked: Docked) -> Generator[None, None, Layout]:
-        """Find in steps what a picture of the scene in another look needs to know; return its layout."""
+        """Work out in steps what a picture of the scene in another look needs; return its layout."""
         tokens = chart_tokens(self.scene, look.chart)
         for token in tokens:
             quantity(self.scene, token).read(self.figure.cycle)
@@ -178,7 +178,7 @@ class Picture:
         return (yield from arranging(self.fit.subject, request)).layout
 
     def expecting(self, other: Scene) -> Iterator[None]:
-        """Find in steps what a picture of another scene in the same look needs to know, and keep it."""
+        """Work out in steps, and keep, what a picture of another scene in the same look needs."""
         subject = Subject(figure(in_unit(other, self.look.unit)), None, self.type)
         yield
         yield from arranging(subject, self.fit.request)
@@ -186,17 +186,17 @@ class Picture:
 
     @property
     def has_polygons(self) -> bool:
-        """Whether polygons are drawn beside it."""
+        """Whether polygons are drawn beside the scene."""
         return self.layout.polygons is not None and not self.waits
 
     def catch_up(self) -> None:
-        """Have what stands still as it is, not as it was in an earlier picture."""
+        """Bring the still part up to date where it is that of an earlier picture."""
         if self.late:
             self.late, self._behind = False, None
             self.__dict__.pop("_standing", None)
 
     def _arrange(self, request: FitRequest, before: Picture | None, *, held: bool) -> None:
-        """Fit the scene into what is requested."""
+        """Fit the scene as requested."""
         scene, look, last = self.scene, self.look, before.fit if before else None
         self.fit: SceneFit = fitted(
             self._goal, self._beside, request, self.type, before=last, held=held, late=self.late
@@ -204,7 +204,7 @@ class Picture:
         self.figure: Figure = figure(scene) if scene.towards else self.fit.subject.figure
         self.layout: Layout = self.fit.arrangement.layout
         self.fitted: View = self._kept or self._of_sheet or self.fit.view_of(self.figure)
-        """The view before it is zoomed and panned."""
+        """The view before zoom and pan."""
         (width, height), (right, down) = self.size, look.pan
         about, shift = (width / 2, height / 2), (right * height, down * height)
         self.view: View = moved(self.fitted, about, zoom=look.zoom, pan=shift)
@@ -217,7 +217,7 @@ class Picture:
 
     @property
     def _of_sheet(self) -> View | None:
-        """The view of the sheet that it is built on."""
+        """The view of the sheet on which the linkage is built; None without a sheet."""
         if self.sheet is None:
             return None
         from linkanim.picture.build_sheet import home_view
@@ -234,7 +234,7 @@ class Picture:
         held: bool = False,
         sheet: Box | None = None,
     ) -> bool:
-        """Return whether it is the picture of these; a late one whose scene has no room is of none."""
+        """Return whether it is the picture of these; never for a late picture whose scene lacks room."""
         same = self._made_for[0] is scene and self._made_for[1:] == (size, look, docked, held, sheet)
         return same and self._settled
 
@@ -302,7 +302,7 @@ class Picture:
             yield (polygon.standing(pose.phase) if stands else polygon).group(pose)
         yield from self._on_chart(pose, grasped=overlay.grip)
         yield from self._within(self._named_groups(pose, named))
-        if not overlay.construction:  # whose words stand there
+        if not overlay.construction:  # the words of a construction stand in this place
             yield from self._words(pose, noted=overlay.noted)
         yield from self._handled(pose, overlay)
 
@@ -326,7 +326,7 @@ class Picture:
         yield from posed(self.drawing.setting, overlay.poses)
 
     def _constructed(self, steps: int, pose: Pose, leading: SliderShown | None) -> Iterator[Group]:
-        """Yield the first steps of what is constructed, what is done in the last of them, and a slider."""
+        """Yield the first steps of a construction, the words on the last of them, and a slider."""
         from linkanim.picture.build_sheet import worded
         from linkanim.picture.constructed import shown_at
         from linkanim.picture.construction import construction_items
@@ -378,9 +378,9 @@ class Picture:
 
     @property
     def edge(self) -> Rect | None:
-        """What the scene is kept within; None where that is the whole picture.
+        """The rectangle to which the scene is cut; None for the whole picture.
 
-        While polygons wait nothing stands in their place, and the scene that makes room for them is not cut.
+        While polygons wait, nothing stands in their place, and the scene is not cut there.
         """
         reach, polygons = self.layout.reach, self.layout.polygons
         if self.waits and polygons:
@@ -389,7 +389,7 @@ class Picture:
         return None if (reach.right, reach.bottom) == self.size else reach
 
     def _within(self, groups: Iterable[Group]) -> Iterator[Group]:
-        """Yield groups of the scene, which end where something stands beside it; words end before, or go."""
+        """Yield the scene's groups cut off at `edge`; a line of words that would cross it is left out."""
         edge = self.edge
         if edge is None:
             yield from groups
@@ -405,7 +405,7 @@ class Picture:
         return sheet(self.drawing.setting)
 
     def _paper(self, photo: Photo | None) -> Group:
-        """Return the sheet that it is built on, the same one while nothing of it changes."""
+        """Return the sheet on which the linkage is built; the same object while nothing of it changes."""
         if self._papered is None or self._papered[0] != photo:
             from linkanim.picture.build_sheet import paper
 
@@ -413,7 +413,7 @@ class Picture:
         return self._papered[1]
 
     def _behind_at(self, speed: float, path: PathShown | None) -> tuple[Group, ...]:
-        """Return what stands still behind all that moves; the chart and the key go by the speed."""
+        """Return what stands still behind all that moves; the chart and the key depend on the speed."""
         known, curve = self._behind, path.curve if path else None
         if not known or known[1] is not curve or (known[0] != speed and (self._chart or self._legend)):
             self._behind = speed, curve, self._as_earlier("behind", self._still_behind(speed, path))
@@ -421,7 +421,7 @@ class Picture:
         return self._behind[2]
 
     def _as_earlier(self, name: str, groups: Iterable[Group]) -> tuple[Group, ...]:
-        """Keep groups under a name and return them; of a late picture those that the earlier one kept."""
+        """Keep groups under a name and return them; for a late picture, the earlier one's of that name."""
         if not self.late or name not in self.earlier.groups:
             self.earlier.groups[name] = tuple(groups)
         return self.earlier.groups[name]
@@ -454,7 +454,7 @@ class Picture:
 
     @cached_property
     def _standing(self) -> tuple[Group, ...]:
-        """What stands still before all that moves behind."""
+        """What stands still in front of the parts that move behind it."""
         return self._as_earlier("standing", self._within(self.drawing.standing()))
 
     @cached_property
@@ -463,7 +463,7 @@ class Picture:
         return self._apart or bool(self.drawing.parts.wheels) or self.look.ghost
 
     def _on_chart(self, pose: Pose, *, grasped: bool) -> Iterator[Group]:
-        """Yield the chart's cursor and what is read there, and its grip where it can be grasped."""
+        """Yield the chart's cursor with the values there, and its grip where it can be grasped."""
         if self._chart:
             yield from self._as_earlier("reading", self._read(self._chart, pose, grasped=grasped))
 
@@ -489,7 +489,7 @@ class Picture:
         return self.names.parts(self.figure, self.view, self.gauge, self.theme.dim)
 
     def _ends_before(self, edge: Rect, line: Caption) -> bool:
-        """Return whether a line of text ends before what stands beside the scene."""
+        """Return whether a line of text ends before that edge."""
         around = line.around(self.type)
         return around.right <= edge.right and around.bottom <= edge.bottom
 
@@ -515,7 +515,7 @@ class Picture:
         return Group("backing", [self._hud.backing(self.layout.legend)], still=True, over=True)
 
     def _handled(self, pose: Pose, overlay: Overlay) -> Iterator[Group]:
-        """Yield what is there for the hand: the chosen bar, and the joint to be dragged."""
+        """Yield the marks for the hand: on the chosen bar, and on the joint to be dragged."""
         if overlay == NOTHING_OVER:
             return
         from linkanim.picture.build_sheet import hand, handles, loose, worded
@@ -542,13 +542,13 @@ class Picture:
             yield from self._posed(overlay)
         for layers, words in spots(self.drawing.setting, overlay.spots):
             yield Group("spot", layers, [words], over=True)
-        if overlay.glow:  # the joint and what it changes are apart: they are drawn at once
+        if overlay.glow:  # the joint and the length that it changes do not overlap: they are filled together
             light = list(glow(self.drawing.setting, pose, overlay.glow))
             yield Group("glow", light, over=not overlay.measured)
         yield from self._pointed(pose, overlay)
 
     def _pointed(self, pose: Pose, overlay: Overlay) -> Iterator[Group]:
-        """Yield what the mouse points at: an instant on curves and chart, a thing in its own words."""
+        """Yield what the mouse points at: an instant on curves and chart, and a thing's card of words."""
         if overlay.instant is None and overlay.told is None:
             return
         from linkanim.picture import told
@@ -565,7 +565,7 @@ class Picture:
             yield from told.card(self.drawing.setting, pose, overlay.told, self._greatest(overlay.told.joint))
 
     def _greatest(self, joint: str) -> tuple[float, float] | None:
-        """Return the greatest speed and acceleration of a joint; those of the last one are kept."""
+        """Return the greatest speed and acceleration of a joint; cached for the last joint."""
         from linkanim.picture.told import greatest
 
         if joint and (self._fastest is None or self._fastest[0] != joint):
@@ -596,7 +596,7 @@ class Picture:
         return ghost_of(self.scene) if self.scene.towards else self._beside
 
     def label_at(self, x: float, y: float) -> str | None:
-        """Return the label of the row of numbers under a pixel, "" on the class; None beside them."""
+        """Return the label of the row of numbers under a pixel, "" for the class; None elsewhere."""
         return self._hud.label_at(x, y) if self._hud else None
 
     @cached_property
@@ -635,10 +635,10 @@ class Picture:
         return next((one.order for one in self._polygons if one.rect.holds(px, py)), None)
 
     def _placed(self, before: Picture | None, *, held: bool) -> Iterator[None]:
-        """Place the names of joints and links, and their dimensions, as the scene fits the window, in steps.
+        """Place the names of joints and links, and their dimensions, for the fitted view, in steps.
 
-        Those of a picture `before` keep their places where it differs by its zoom, its pan and its theme
-        alone, while the scene is on its way to another, and in a hurry.
+        The names of a picture `before` keep their places where that differs only by zoom, pan and theme,
+        while the scene is on its way to another one, and where new places wait for a later frame.
         """
         if before and (self.hurried or self._named_as(before, held=held)):
             names = before.names if self.figure.shown == before.figure.shown else None
@@ -649,7 +649,7 @@ class Picture:
             return
         from linkanim.picture.labels import Surroundings, names_of
 
-        # placed in the view as it fits; a zoom only carries them along
+        # names are placed in the fitted view; a zoom only moves them along
         known, setting = self.drawing.symbols, replace(self.drawing.setting, view=self.fitted)
         centres = self.drawing.dead_centres_in(self.fitted) if self.look.names else None
         marks = centres.ticks if centres else ()
@@ -672,7 +672,7 @@ class Picture:
         return len(rows), table_width(rows, self.drawing.setting)
 
     def _named_as(self, other: Picture, *, held: bool) -> bool:
-        """Return whether names may stay where they stand on another picture."""
+        """Return whether names may keep the places that they have on another picture."""
         both = (self, other)
         looks = ((one.look.names, one.look.joints_named, one.look.centres > 0, one.size) for one in both)
         same = (self.scene, self.fitted, self.layout) == (other.scene, other.fitted, other.layout)

@@ -1,9 +1,9 @@
-"""One place for each label: near what it names, off all else for as much of a cycle as there is.
+"""One place for each label: near what it names, and clear of all else for as much of a cycle as possible.
 
-Every label has a few places to choose from, each of which goes along with what it names. The one is taken
-that costs least over the cycle: for being far, and most of all for touching what it must not. At the moments
-at which it would all the same, it is gone. What is placed is in the way of the labels after it. On a picture
-of one moment, such as a chart or a figure, a label stands there or not at all.
+Every label has a few places to choose from, each of which moves with what it names. It takes the place of the
+least cost over the cycle: a place costs for being far, and most of all for touching what it must not touch.
+At the moments at which it would still touch that, the label is hidden. A placed label is an obstacle for
+those after it. On a picture of one moment, such as a chart or a figure, a label is shown there or not at all.
 """
 
 from __future__ import annotations
@@ -24,46 +24,47 @@ from linkanim.picture.view import Rect
 _Floats = NDArray[np.float64]
 _Bools = NDArray[np.bool_]
 Moments = slice | NDArray[np.intp]
-"""Which of the moments are looked at."""
+"""Some of a cycle's moments."""
 
 MOMENTS = 144
-"""Of one drive period, at which is looked whether a label lies on something."""
+"""The moments of one drive period at which labels are checked for lying on something."""
 _STEP = 4
-"""At every fourth of them a place is chosen."""
+"""Places are chosen by every fourth of these moments."""
 _FORBIDDEN = 20.0
 """What a place costs at a moment at which it is forbidden; its price is added to the mean over the cycle."""
 _BESIDE = 2.0
 """What it costs at a moment to lie on a solid that matters little to the label."""
 _CROSSING, _THROUGH_LINK = 0.4, 0.8
-"""What it costs a line to cross a solid, and so much more a link."""
+"""What it costs a line to cross a solid, and what it costs in addition where that is a link."""
 _THICK = 1.0
-"""Half the width that lines which go with labels are taken to have, in pixels."""
+"""Half the assumed width of lines that go with labels, in pixels."""
 _MOST_CROSSED = 1
 """A line crosses no more links than this."""
 _NEARER = 1.0
-"""A word is by so much nearer to its own dimension line than to any other, in pixels."""
+"""By how much a word is nearer to its own dimension line than to any other, in pixels."""
 _OFF_PINS = 2.0
-"""How far a dimension's arrowheads stay off pins, in radii of these."""
+"""How far a dimension's arrowheads keep from pins, in radii of a pin."""
 _CHAINED = 0.5
-"""Lines whose ends are so near to each other, in pixels, follow each other."""
+"""Lines whose ends are within this distance of each other, in pixels, form a chain."""
 _GONE = 3
-"""How many moments before it would lie on something a label is gone."""
+"""How many moments before a label would lie on something it is hidden."""
 _SOFT = 3
-"""Over so many moments it fades away, and comes back."""
+"""The number of moments over which a label fades out, and in again."""
 _MANY = 500
-"""Of more pairs of a place and a solid a few edges, or solids, are tried first."""
+"""With more pairs of a place and a solid than this, a few edges, or solids, are tried first."""
 _EDGES = 4
-"""Every so many-th of a shape's edges is tried first to part it from a label."""
+"""One in this many of a shape's edges is tried first for separating the shape from a label."""
 _SURE = 1e-6
-"""How much larger, in pixels, boxes are taken to be that tell only what is near: rounding loses nothing."""
+"""By how much boxes for a first rough test are enlarged, in pixels, so that rounding loses nothing."""
 _FIRST = 6
-"""So many solids are looked at first: where many lie about one place, they leave few places to the others."""
+"""The number of solids that are tried first: in a crowded place these leave few places to the others."""
 
 
 class Solid(NamedTuple):
-    """What a thing covers: all within its corners (n moments, c), convex and in order, and `half` round it.
+    """What a thing covers: its convex shape, with corners (n moments, c) in order, and `half` around that.
 
-    One corner is a disc, two are a bar. Labels keep off one that matters `little` where that costs nothing.
+    One corner is a disc, two are a bar. A solid that matters `little` is avoided only where that costs
+    nothing.
     """
 
     corners: Loop
@@ -71,30 +72,30 @@ class Solid(NamedTuple):
     little: bool = False
 
     def at(self, moments: Moments) -> Solid:
-        """Return it at some of the moments."""
+        """Return the same at some of the moments."""
         return self._replace(corners=self.corners[moments]) if len(self.corners) > 1 else self
 
 
 class Solids(NamedTuple):
-    """Solids of one number of corners: the corners (n or 1 moments, m, c), and `half` (m,)."""
+    """m solids with equal numbers of corners: the corners (n or 1 moments, m, c), and `half` (m,)."""
 
     corners: Loop
     half: _Floats
 
     @classmethod
     def of(cls, solids: Sequence[Solid]) -> Solids:
-        """Return solids in one."""
+        """Return solids with equal numbers of corners as one value."""
         corners = np.broadcast_arrays(*(solid.corners for solid in solids))
         return cls(np.stack(corners, axis=1), np.array([solid.half for solid in solids]))
 
     def picked(self, which: NDArray[np.intp]) -> Solids:
-        """Return some of them."""
+        """Return the solids at these indices."""
         return Solids(self.corners.take(which, axis=1), self.half[which])
 
 
 @frozen
 class Clutter:
-    """What labels must stay off: all that is not `inside`, rectangles, and solids."""
+    """What labels must not touch: all that is not `inside`, rectangles, and solids."""
 
     inside: Rect
     rects: tuple[Rect, ...] = ()
@@ -102,7 +103,7 @@ class Clutter:
     links: frozenset[int] = frozenset()
     """The numbers of the solids that are links."""
     pins: frozenset[int] = frozenset()
-    """Likewise of the pins, on which nothing ever lies."""
+    """The numbers of the solids that are pins, on which no label may lie."""
 
     @cached_property
     def boxes(self) -> tuple[_Floats, ...]:
@@ -117,7 +118,7 @@ class Clutter:
 
     @cached_property
     def alike(self) -> tuple[tuple[NDArray[np.intp], Solids], ...]:
-        """The solids in groups of as many corners, each with their numbers."""
+        """The solids grouped by their number of corners, each group with the solids' numbers."""
         counts = np.array([solid.corners.shape[1] for solid in self.solids])
         groups = (np.flatnonzero(counts == count) for count in np.unique(counts))
         return tuple((group, Solids.of([self.solids[n] for n in group])) for group in groups)
@@ -129,18 +130,18 @@ class Clutter:
 
     @cached_property
     def some(self) -> Clutter:
-        """The same at the moments at which places are chosen."""
+        """The clutter at the moments by which places are chosen."""
         return self.at(slice(None, None, _STEP))
 
     def standing(self, label: LabelPlaces) -> Standing:
-        """Return what of a label on a picture of one moment depends on nothing but this clutter."""
+        """Return what is known of a label on a picture of one moment from this clutter alone."""
         self.learn([label])
         return self._of_labels[id(label)][1]
 
     def learn(self, labels: Sequence[LabelPlaces]) -> None:
-        """Keep what of labels on a picture of one moment depends on nothing but this clutter.
+        """Work out and keep what is known of labels, on a picture of one moment, from this clutter alone.
 
-        They are tried in several orders. Many at once take little longer than one.
+        It is kept because labels are tried in several orders. Many at once take little longer than one.
         """
         new = [label for label in labels if id(label) not in self._of_labels]
         if new:
@@ -149,7 +150,7 @@ class Clutter:
 
     @cached_property
     def sizes(self) -> _Floats:
-        """How wide and how high its rectangles are (2, m)."""
+        """The widths and heights of the rectangles (2, m)."""
         return np.array([(rect.width, rect.height) for rect in self.rects]).reshape(-1, 2).T
 
     def has_place(self, label: LabelPlaces) -> bool:
@@ -162,21 +163,21 @@ class Clutter:
 
     @cached_property
     def _of_labels(self) -> dict[int, tuple[LabelPlaces, Standing]]:
-        """The same by the label's identity; it is kept, so that no other one has that."""
+        """What `learn` keeps, by the label's identity; the label is kept, too, so that its identity stays."""
         return {}
 
     def at(self, moments: Moments) -> Clutter:
-        """Return it at some of the moments."""
+        """Return the same at some of the moments."""
         return replace(self, solids=tuple(solid.at(moments) for solid in self.solids))
 
 
 class LabelPlaces(NamedTuple):
     """A label: how large, and where its middle may stand at each of n moments (n, k), at which price.
 
-    It may lie on the solids of the numbers `own`, and had better not on those `beside` it. With a place go
-    some `lines` (n moments, lines, begin and end): those whose number `drawn` has for it, -1 for none. The
-    first of them is a dimension line where the label has a `gap`: so far, in pixels, such lines stay off
-    each other, and words off the lines of others.
+    It may lie on the solids whose numbers are `own`, and rather not on those `beside` it. Some `lines` (n
+    moments, lines, begin and end) are drawn with a place: those whose numbers stand in its row of `drawn`, -1
+    for none. With a `gap` the first of them is a dimension line: such lines keep this distance, in pixels,
+    from each other, and words from the lines of other labels.
     """
 
     size: tuple[float, float]
@@ -189,7 +190,7 @@ class LabelPlaces(NamedTuple):
     gap: float = 0.0
 
     def at(self, moments: Moments, which: slice = slice(None)) -> LabelPlaces:
-        """Return it with some of the moments, and of the places."""
+        """Return the label with some of the moments and some of the places."""
         lines = tuple(line[moments] for line in self.lines)
         drawn = None if self.drawn is None else self.drawn[which]
         places, price = self.places[moments, which], self.price[which]
@@ -197,10 +198,10 @@ class LabelPlaces(NamedTuple):
 
 
 class Standing(NamedTuple):
-    """What of a label's k places and g lines depends on no other label, at one moment.
+    """What is known of a label's k places and g groups of lines at one moment, without other labels.
 
-    Which places have something on them, what each costs (1, k), and how far the dimension lines of others
-    stay off; the lines (1, g, lines, 2), which of them are barred, and their price (1, g).
+    Which places are `forbidden`, what each costs (1, k), and how far others' dimension lines must keep `off`;
+    the lines (1, g, lines, 2), which groups are barred, and their price (1, g).
     """
 
     forbidden: _Bools
@@ -212,7 +213,7 @@ class Standing(NamedTuple):
 
 
 class Placed(NamedTuple):
-    """Which of its places a label has, and how far it shows at each moment (0 to 1)."""
+    """The place that a label has, and its opacity at each moment (0 to 1)."""
 
     which: int
     shown: _Floats
@@ -227,7 +228,7 @@ class Placer:
         self._sizes = np.array([(rect.width, rect.height) for rect in clutter.rects]).reshape(-1, 2).T
         self._lines = self._measures = np.zeros((1, 0, 2), np.complex128)
         self._far = np.zeros((1, len(clutter.rects)))
-        """How far words are from their own dimension lines."""
+        """How far placed words are from their own dimension lines."""
 
     def first(
         self,
@@ -237,9 +238,10 @@ class Placer:
         least: float = 0.0,
         but: _Bools | None = None,
     ) -> tuple[int, Placed]:
-        """Place the first of several forms of a label that shows enough of the cycle, else the best.
+        """Place the first of several forms of a label that shows for `enough` of the cycle, else the best.
 
-        One that shows for less of it than the `least` shows nowhere. None shows at the moments `but` for.
+        Shares of the cycle are 0 to 1. A label that would show for less than `least` is not shown at all.
+        None shows at the moments `but`.
         """
         found = []
         for label in labels:
@@ -253,9 +255,9 @@ class Placer:
         return best, found[best]
 
     def rest(self, label: LabelPlaces, covered: _Floats, *, on: frozenset[int]) -> Placed:
-        """Place a label once more, for what is left of the time for which it is `covered` (0 to 1) already.
+        """Place a label a second time, for the moments at which it is not `covered` (0 to 1) by the first.
 
-        It may lie `on` the solids of these numbers then.
+        This time it may lie `on` the solids of these numbers, too.
         """
         label = label._replace(own=label.own | on)
         bare = np.flatnonzero(covered < 1.0)
@@ -307,7 +309,7 @@ class Placer:
                 self._measures = _joined(self._measures, label.lines[number][:, :1])
 
     def _cost(self, label: LabelPlaces, moments: Moments, clutter: Clutter) -> _Floats:
-        """Return what each place costs at each moment: `_FORBIDDEN` for touching what it must not."""
+        """Return what each place costs at each moment: `_FORBIDDEN` where it touches what it must not."""
         places, size = label.places, label.size
         taken, lines, measures = (
             all_[moments] if len(all_) > 1 else all_ for all_ in (self._taken, self._lines, self._measures)
@@ -358,9 +360,9 @@ def _met(groups: Loop, middles: Loop, sizes: _Floats) -> _Bools:
 
 
 def _pricing(firsts: Loop, clutter: Clutter, barred: _Bools, gapped: _Bools) -> _Floats:
-    """Return what lines (n, g, 2) cost for what they cross (n, g); more are `barred` then.
+    """Return what lines (n, g, 2) cost for crossing solids (n, g), and set further lines in `barred`.
 
-    Of dimension lines, which are `gapped` (g,), none ends at a pin or crosses many links.
+    Dimension lines, which are `gapped` (g,), may not end at a pin or cross many links.
     """
     barred |= gapped & _ends_at_pins(firsts, clutter)
     open_ = np.flatnonzero(~barred.all(axis=0))
@@ -372,7 +374,7 @@ def _pricing(firsts: Loop, clutter: Clutter, barred: _Bools, gapped: _Bools) -> 
 
 
 def _standings(labels: Sequence[LabelPlaces], clutter: Clutter) -> Iterator[Standing]:
-    """Yield what of each label of one moment depends on nothing but the clutter."""
+    """Yield what is known of each label of one moment from the clutter alone."""
     counts = [label.places.shape[1] for label in labels]
     places = np.concatenate([label.places[0] for label in labels])
     size = np.repeat(np.array([label.size for label in labels]).T, counts, axis=1)
@@ -416,7 +418,7 @@ def _lines_of(labels: Sequence[LabelPlaces], clutter: Clutter) -> Iterator[tuple
 
 
 def _off_own(labels: Sequence[LabelPlaces], places: Loop, size: _Floats) -> _Floats:
-    """Return how far each place of labels of one moment stays off others' dimension lines (k,)."""
+    """Return how far each place of labels of one moment keeps from others' dimension lines (k,)."""
     counts = [label.places.shape[1] for label in labels]
     gaps = np.repeat([label.gap for label in labels], counts)
     starts = np.cumsum([0, *(len(label.lines) for label in labels)])
@@ -437,9 +439,9 @@ def _off_own(labels: Sequence[LabelPlaces], places: Loop, size: _Floats) -> _Flo
 def _meeting(
     places: Loop, size: _Floats, clutter: Clutter, wanted: _Bools
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return which boxes (k,) of sizes (2, k) meet which solids at one moment, as the numbers of pairs.
+    """Return which boxes (k,) of sizes (2, k) meet which solids at one moment: the numbers of both.
 
-    Only those are asked for that are `wanted` (k, m).
+    Only pairs that are `wanted` (k, m) are tested.
     """
     if not clutter.solids:
         return np.zeros(0, np.intp), np.zeros(0, np.intp)
@@ -458,7 +460,7 @@ def _meeting(
 
 
 def _covering(label: LabelPlaces, clutter: Clutter, forbidden: _Bools) -> _Floats:
-    """Return what places cost for solids below them (n, k); what they must not lie on is `forbidden`, too."""
+    """Return what places cost for solids below them (n, k); `forbidden` says where nothing may lie anyway."""
     places, size = label.places, label.size
     cost = np.zeros(places.shape)
     minor = clutter.little.copy()
@@ -468,7 +470,7 @@ def _covering(label: LabelPlaces, clutter: Clutter, forbidden: _Bools) -> _Float
     for solids in _some(places, clutter, near & minor):
         cost += _BESIDE * touching(places, size, solids).sum(axis=2)
     for solids in _some(places, clutter, near & ~minor):
-        # where a label is too large for its room all of its places are out
+        # a label too large for its room has no place at all
         open_ = np.ix_(~forbidden.all(axis=1), ~forbidden.all(axis=0))
         if open_[0].size:
             left = Solids(
@@ -479,7 +481,7 @@ def _covering(label: LabelPlaces, clutter: Clutter, forbidden: _Bools) -> _Float
 
 
 def place(labels: Sequence[LabelPlaces], clutter: Clutter) -> list[Placed]:
-    """Return a place for each label; the first have the first choice. One without room shows nowhere."""
+    """Return a place for each label; earlier ones choose first. A label without room is not shown."""
     placer = Placer(clutter)
     return [placer.first([label])[1] for label in labels]
 
@@ -489,8 +491,8 @@ def placed_among(
 ) -> list[tuple[int, bool]]:
     """Return which of its places each label of one moment takes, and whether it has room there.
 
-    All are within the `room`, off the `rects`, off lines (1, m, 2) that are `half` so thick, and off each
-    other; the first have the first choice. What all may stand on is looked at at once.
+    All are within the `room`, off the `rects`, off lines (1, m, 2) of half the width `half`, and off each
+    other; earlier labels choose first. The clutter is tested for all labels at once.
     """
     if not labels:
         return []
@@ -512,7 +514,7 @@ def placed_among(
     return found
 
 
-# Names of one pose that have to stand somewhere: where they meet least.
+# Names in one pose that have to be shown: where they overlap least.
 
 
 def rect_rows(rects: Iterable[Rect]) -> _Floats:
@@ -582,10 +584,10 @@ def holding(rects: _Floats, points: Loop) -> NDArray[np.int64]:
 def least_met(rects: _Floats, meets: NDArray[np.int64], crosses: NDArray[np.int64]) -> list[int]:
     """Return which of its k places (4, n, k) each of n names takes: the first of those that meet least.
 
-    What it `meets` at each place (n, k) counts first, and the names before it with that; of places that meet
-    as much, that which crosses less is better.
+    The number of things that it `meets` at each place (n, k) counts first, with the names before it; of equal
+    places the one that `crosses` fewer lines is better.
     """
-    # in one number, as one crossed never counts as much as one met
+    # both counts in one number: all crossed lines together count less than one thing met
     whole = 1 + int(crosses.max(initial=0))
     counts, found = whole * meets + crosses, list[int]()
     for n in range(len(counts)):
@@ -595,7 +597,7 @@ def least_met(rects: _Floats, meets: NDArray[np.int64], crosses: NDArray[np.int6
 
 
 def _pairs_touch(places: Loop, size: _Floats, solids: Solids) -> _Bools:
-    """Return whether each box (p,) of sizes (2, p) touches the one of as many solids that has its number."""
+    """Return whether each box (p,) of sizes (2, p) touches the solid (p,) of the same number."""
     corners, half, (wide, high) = solids.corners[0], solids.half, size
     if corners.shape[1] == 1:
         away = places - corners[:, 0]
@@ -615,8 +617,8 @@ def _pairs_touch(places: Loop, size: _Floats, solids: Solids) -> _Bools:
 def touching(places: Loop, size: tuple[float, float], solids: Solids, but: _Bools | None = None) -> _Bools:
     """Return whether boxes of a size about places (n, k) touch each of the solids (n, k, m).
 
-    Two convex shapes are apart where one of their edges parts them; a bar's ends count as square. It need not
-    be told of the places `but` (n, k).
+    Two convex shapes are apart where the line of one of their edges separates them; a bar's ends count as
+    square. At the places `but` (n, k) the answer does not matter.
     """
     (wide, high), (corners, half) = size, solids
     if corners.shape[2] == 1:
@@ -636,12 +638,13 @@ def touching(places: Loop, size: tuple[float, float], solids: Solids, but: _Bool
 
 
 def _overlapping(near: Loop, size: tuple[float, float] | _Floats, half: _Floats) -> _Bools:
-    """Return whether shapes (p, c), each with so much round it, overlap boxes about the origin (p,).
+    """Return whether shapes (p, c), each with `half` around it, overlap boxes about the origin (p,).
 
     The boxes are of one size, or of sizes (2, p).
     """
     ends, together, sides = np.arange(near.shape[1]), np.arange(len(near)), np.asarray(size)
-    # of many, a few of the edges part most of those that are apart: what is left is held to all of them
+    # with many shapes, a few edges separate most of those that are apart; the rest are tested against all
+    # edges
     few = (ends[::_EDGES], np.delete(ends, slice(None, None, _EDGES)))
     for some in few if len(near) > _MANY else (ends,):
         these = sides if sides.ndim == 1 else sides[:, together]
@@ -652,7 +655,7 @@ def _overlapping(near: Loop, size: tuple[float, float] | _Floats, half: _Floats)
 
 
 def _parted(near: Loop, size: _Floats, half: _Floats, edges: NDArray[np.intp]) -> _Bools:
-    """Return whether one of some edges of shapes (p, c) parts them from a box about the origin (p,)."""
+    """Return whether one of some edges of shapes (p, c) separates them from a box about the origin (p,)."""
     parted, corners = np.zeros(len(near), bool), np.ascontiguousarray(near.T)
     for end in edges.tolist():
         along = corners[end] - corners[end - 1]
@@ -664,7 +667,7 @@ def _parted(near: Loop, size: _Floats, half: _Floats, edges: NDArray[np.intp]) -
 
 
 def _some(places: Loop, clutter: Clutter, wanted: _Bools) -> Iterator[Solids]:
-    """Yield the solids that are wanted, some after some: of many a few first, which may bar most places."""
+    """Yield the wanted solids in parts: of many solids a few come first, which may forbid most places."""
     for numbers, solids in clutter.alike:
         which = np.flatnonzero(wanted[numbers])
         first = _FIRST if which.size * places.size > _MANY else which.size
@@ -674,7 +677,7 @@ def _some(places: Loop, clutter: Clutter, wanted: _Bools) -> Iterator[Solids]:
 
 
 def _off_others(label: LabelPlaces) -> _Floats:
-    """Return how far each place of a label stays off others' dimension lines (n, k)."""
+    """Return how far each place of a label must keep from others' dimension lines (n, k)."""
     if not label.gap:
         return np.full(label.places.shape, _THICK)
     return np.asarray(np.maximum(_from_own(label), label.gap))
@@ -756,7 +759,7 @@ def _run_through(lines: Loop, solids: Solids) -> _Bools:
     corners, half = solids
     turn = units(lines[..., 1] - lines[..., 0])[:, :, None, None].conj()
     apart = _apart(lines[:, :, None] * turn, corners[:, None] * turn, half)
-    # most lie apart in the line's own frame: only the others are looked at along the solids' edges
+    # most are apart in the line's own frame: only the others are tested along the solids' edges
     moment, line, solid = np.logical_not(apart).nonzero()
     ends = lines[moment if len(lines) > 1 else 0, line]
     corners = corners[moment if len(corners) > 1 else 0, solid]
@@ -769,7 +772,7 @@ def _run_through(lines: Loop, solids: Solids) -> _Bools:
 
 
 def _apart(ends: Loop, corners: Loop, half: _Floats) -> _Bools:
-    """Return whether lines (..., 2) lie apart, across or down, from corners (..., c) and half round them."""
+    """Return whether lines (..., 2) are apart, in x or y, from corners (..., c) with `half` around them."""
     apart = np.zeros((), np.bool_)
     for one, other in ((ends.real, corners.real), (ends.imag, corners.imag)):
         apart = apart | (one.min(axis=-1) >= other.max(axis=-1) + half)
@@ -780,7 +783,7 @@ def _apart(ends: Loop, corners: Loop, half: _Floats) -> _Bools:
 def _too_near(lines: Loop, others: Loop, gap: float) -> _Bools:
     """Return which lines (n, k, 2) come nearer than a gap to one of some others (n, m, 2), as (n, k).
 
-    One that follows another in the same line, end to end, is not too near.
+    A line that continues another one, end to end, is not too near.
     """
     if not others.shape[1]:
         return np.zeros(lines.shape[:2], np.bool_)
@@ -802,7 +805,7 @@ def _too_near(lines: Loop, others: Loop, gap: float) -> _Bools:
 
 
 def _ends_at_pins(lines: Loop, clutter: Clutter) -> _Bools:
-    """Return which lines (n, k, 2) end at a pin, to which they would seem to measure (n, k)."""
+    """Return which lines (n, k, 2) end at a pin (n, k): they would seem to measure to it."""
     found = np.zeros(lines.shape[:2], np.bool_)
     for _, solids in clutter.alike:
         if solids.corners.shape[2] == 1:
@@ -812,13 +815,13 @@ def _ends_at_pins(lines: Loop, clutter: Clutter) -> _Bools:
 
 
 def _straddles(corners: _Floats, middle: _Floats, reach: _Floats | float) -> _Bools:
-    """Return whether what lies between corners (n, m, c) comes so near to middles in one direction."""
+    """Return whether the span of corners (n, m, c) comes within `reach` of middles in one direction."""
     low, high = corners.min(axis=2)[:, None], corners.max(axis=2)[:, None]
     return np.asarray((low - middle < reach) & (middle - high < reach), np.bool_)
 
 
 def _near(places: Loop, size: tuple[float, float], clutter: Clutter) -> _Bools:
-    """Return which solids come near to boxes of a size about one of the places at some moment."""
+    """Return which solids come near a box of that size about any of the places at any moment."""
     if not clutter.solids:
         return np.zeros(0, np.bool_)
     near, boxes = np.ones((1, 1), np.bool_), clutter.boxes
@@ -840,7 +843,7 @@ def _over(away: Loop, size: tuple[float, float] | _Floats, other: _Floats) -> _B
 
 
 def _eased(forbidden: _Bools, gone: int = _GONE) -> _Floats:
-    """Return how far a label shows that must not at some moments; it is `gone` in time for each."""
+    """Return a label's opacity; it is hidden from `gone` moments before those that are forbidden."""
     if len(forbidden) == 1 or not forbidden.any():
         return np.where(forbidden, 0.0, 1.0)
     clear = _around(forbidden, gone + _SOFT) == 0

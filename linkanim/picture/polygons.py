@@ -23,30 +23,30 @@ from linkanim.units import three_digits
 
 _TITLES = {1: ("velocity polygon", "velocities", "/s"), 2: ("acceleration polygon", "accelerations", "/s²")}
 _NOTHING = 1e-9
-"""Of a polygon's greatest extent: what is shorter has no direction."""
+"""Share of a polygon's greatest extent below which a vector has no direction."""
 _LABELLED = 0.3
 """The shortest vector that has its symbol beside it, in heights of the text."""
 _ASIDE = (0.0, 0.3, 1.1, 2.0, 3.0, 4.2)
-"""How far off its vector a symbol may stand, in heights of the text."""
+"""How far from its vector a symbol may stand, in heights of the text."""
 _SHARES = (0.5, 0.35, 0.65)
-"""Where along it."""
+"""Where along its vector a symbol may stand."""
 _LED = 1.0
-"""A symbol so far off or farther has a thin line to its vector."""
+"""A symbol this far off or farther, in heights of the text, has a thin line to its vector."""
 _BEYOND = 5.0
-"""How far outside of the polygon's place symbols may stand, in widths of a thin line."""
+"""How far outside the polygon's place symbols may stand, in widths of a thin line."""
 _TITLE = 0.6
 """The largest share of the width that a title takes beside the bar of the scale."""
 _BARS = 5
-"""How many bars of the scale, at the most, go into the width."""
+"""The most bars of the scale that fit into the width."""
 _LARGEST = 1e300
-"""The most pixels for a unit: with more the bar of the scale would stand for less than a number can say."""
+"""The most pixels for a unit: with more the bar of the scale would stand for less than a float can hold."""
 _ROW = 1.2
-"""From row to row of a list, in heights of its text."""
+"""The step from row to row of a list, in heights of its text."""
 _GUIDED: frozenset[Sort] = frozenset({"coriolis", "sliding"})
 
 
 class Arrow(NamedTuple):
-    """A side in pixels."""
+    """A side of a polygon, in pixels."""
 
     side: Side
     foot: complex
@@ -54,7 +54,7 @@ class Arrow(NamedTuple):
 
     @property
     def middle(self) -> complex:
-        """The middle of it."""
+        """The middle of the arrow."""
         return self.foot + self.reach / 2
 
     @property
@@ -63,7 +63,7 @@ class Arrow(NamedTuple):
         return self.side.sort == "absolute"
 
     def is_on(self, other: Arrow) -> bool:
-        """Whether the two lie on each other, as a vector and the only part that it has do."""
+        """Whether the two coincide, as a vector and its only part do."""
         return abs(self.foot - other.foot) + abs(self.reach - other.reach) < 1e-3
 
 
@@ -79,10 +79,10 @@ class PlacedSymbols(NamedTuple):
 class Polygon:
     """One polygon of a figure in its place: all poses of the cycle at one scale, about one pole.
 
-    With a `moment` the scale is such that the pose at that phase, which is the one `shown`, fills the place.
-    Its vectors that have no room for their symbols are then listed in a corner, or in a column so wide
-    `aside` of the polygon where no corner is free; of too many the largest, and none where it `lists` none.
-    `says` is what the bar of the scale says besides its length, where it has room.
+    With a `moment` the scale lets the pose at that phase, the one `shown`, fill the place. Vectors without
+    room for their symbols are then listed in a corner or, where no corner is free, in a column of width
+    `aside` beside the polygon; of too many the largest ones, and none unless it `lists` them. `says` is what
+    the bar of the scale says besides its length, where it has room.
     """
 
     figure: Figure
@@ -96,7 +96,7 @@ class Polygon:
     lists: bool = True
 
     def standing(self, phase: float) -> Polygon:
-        """Return it at the scale at which the pose at a phase fills its place; the bar says so."""
+        """Return the polygon at the scale at which the pose at a phase fills its place; its bar says so."""
         return replace(self, moment=phase, says="at this pose")
 
     def group(self, pose: Pose) -> Group:
@@ -136,7 +136,7 @@ class Polygon:
 
     @cached_property
     def _title(self) -> Caption:
-        """The title, as long and as large as there is room for, beside the bar of the scale if it can be."""
+        """The title, as long and as large as there is room for, if possible beside the bar of the scale."""
         pen, (full, brief, _) = self.pen, _TITLES[self.order]
         rooms = (self._beside_bar, self.rect.width)
         choices = [
@@ -158,14 +158,14 @@ class Polygon:
 
     @property
     def _usual(self) -> float:
-        """How wide what the bar of the scale stands for is, as a rule."""
+        """The usual width of the words at the bar of the scale."""
         per = _TITLES[self.order][2]
         return self.pen.type.width(f"1000 {self.figure.scene.length_unit}{per}", self.pen.small)
 
     def scale(self, speed: float) -> float:
         """Return pixels for one unit of length and second at this input speed; 0 where nothing moves or fits.
 
-        It changes with the speed and with nothing else, so that a polygon's size tells where it is fast.
+        It depends on the speed alone, so that a polygon's size shows where the motion is fast.
         """
         faster = 1.0 if self.shown else abs(speed / self.figure.linkage.drive.speed) ** self.order
         box, room = self._box, self._room
@@ -184,7 +184,7 @@ class Polygon:
 
     @property
     def _room(self) -> Rect:
-        """What of its place is left for the vectors: between symbols, title and foot."""
+        """The part of its place that symbols, title and foot leave to the vectors."""
         rect, side, top = self.rect, 1.6 * self.pen.small, 2.4 * self.pen.text
         foot = (1.2 if self._barred else 2.8) * self.pen.small
         width, height = max(rect.width - 2 * side - self.aside, 1.0), max(rect.height - top - foot, 1.0)
@@ -192,7 +192,7 @@ class Polygon:
 
     @cached_property
     def _box(self) -> Box:
-        """What the polygons of the cycle take up about the pole, at the scene's own speed."""
+        """The box of the cycle's polygons about the pole, at the scene's own speed."""
         scene, pose = self.figure.scene, self.shown
         if self.moment is not None and pose is None:
             pose = scene.pose(self.moment, speed=scene.linkage.drive.speed)
@@ -201,7 +201,7 @@ class Polygon:
         return self.figure.polygon_boxes[self.order - 1]
 
     def _arrows(self, pose: Pose, pole: complex, scale: float) -> list[Arrow]:
-        """Return what is drawn in pixels: all that has a length; nothing where one is unbounded."""
+        """Return the arrows in pixels: all that have a length; none at all where one is unbounded."""
         sides = self.figure.polygon_sides(pose, self.order)
         if not np.isfinite([side.end for side in sides]).all():
             return []
@@ -281,9 +281,9 @@ class Polygon:
     def _rows(
         self, left: list[Arrow], scale: float, per: str, most: int | None = None
     ) -> list[tuple[str, Colour]]:
-        """Return symbols and sizes of vectors beside which no symbol stands: of more than `most` the largest.
+        """Return symbols and sizes of vectors without a symbol beside them: the largest, `most` of them.
 
-        By itself that is as many as have room below each other.
+        Without `most` these are as many as have room below each other.
         """
         rows, unit_ = list[tuple[str, Colour]](), f"{self.figure.scene.length_unit}{per}"
         room = max(int((self.rect.height - 2.4 * self.pen.text) / (_ROW * self.pen.small)), 1)
@@ -317,7 +317,7 @@ class Polygon:
             yield Caption(words, (corner.x, corner.y + _ROW * n * small), small, colour)
 
     def _bar(self, scale: float, per: str) -> tuple[Layer, Caption]:
-        """Return the bar of the scale, beside the title or at the foot, and what it stands for."""
+        """Return the bar of the scale, beside the title or at the foot, and its words."""
         rect, small, ink = self.rect, self.pen.small, self.pen.theme.ink
         step = round_step(rect.width / scale, _BARS)
         long, tick = step * scale, 0.35j * small
@@ -369,7 +369,7 @@ def polygons_of(
 ) -> tuple[Polygon, ...]:
     """Return both polygons in a rectangle: over each other where it is tall, else side by side.
 
-    Of 1 or 2 `only` the velocity or the acceleration polygon.
+    With `only` 1 or 2 it is the velocity or the acceleration polygon alone.
     """
     if only:
         return (Polygon(figure, 1 if only == 1 else 2, rect, pen, moment),)

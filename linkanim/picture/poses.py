@@ -30,7 +30,7 @@ _WORDS = 0.5
 
 
 def posed(setting: DrawSetting, shown: PosesShown) -> Iterator[Group]:
-    """Yield all that is drawn of poses: curves and couplers, the words, what can be dragged, and the axes."""
+    """Yield the drawing of poses: curves and couplers, the words, the points to drag, and the axes."""
     view, theme, layout = setting.view, setting.theme, setting.layout
     line = max(1.8 * layout.unit, 1.2)
     if shown.curves and len(shown.frames) > 1:
@@ -42,7 +42,7 @@ def posed(setting: DrawSetting, shown: PosesShown) -> Iterator[Group]:
     yield Group(
         "couplers", [Layer(faint, [loop for one in ghosts for loop in stroke(one, 0.6 * line, closed=True)])]
     )
-    # what can be taken hold of lies over the words, whose backing would hide it
+    # what can be grasped lies over the words, whose backing would hide it
     yield worded(setting, shown.sentence, shown.facts, is_warning=shown.is_warning, room=_WORDS)
     yield Group("handles", [*_handles(setting, shown, line)], over=True)
     yield Group("poses", [*_frames(setting, shown, line)], [*_numbers(setting, shown)], over=True)
@@ -80,7 +80,7 @@ def _numbers(setting: DrawSetting, shown: PosesShown) -> Iterator[Caption]:
 
 
 def _handles(setting: DrawSetting, shown: PosesShown, line: float) -> Iterator[Layer]:
-    """Yield pins that are asked for, and rings about what of the linkage can be dragged."""
+    """Yield pins that are asked for, and rings about the linkage's points that can be dragged."""
     view, theme = setting.view, setting.theme
     for place in shown.handles:
         ring = view.place(place) + disc(5.5 * line)
@@ -96,9 +96,9 @@ def _handles(setting: DrawSetting, shown: PosesShown, line: float) -> Iterator[L
 
 @lru_cache(maxsize=4)
 def _marks(frames: tuple[tuple[float, float, float], ...], count: int) -> tuple[Mark, ...]:
-    """Return poles and Burmester's curves of poses, `count` points a circuit; nothing of poses without any.
+    """Return poles and Burmester's curves of poses, `count` points a circuit; empty for poses without any.
 
-    While a hand changes them, which few points tell, they have no names, and the poles no lines between them.
+    While a hand changes the poses, which a low `count` says, there are no names, and no lines between poles.
     """
     rows = np.array(frames)
     try:
@@ -111,7 +111,7 @@ def _marks(frames: tuple[tuple[float, float, float], ...], count: int) -> tuple[
 
 
 def _joined(marks: Sequence[Mark]) -> Iterator[Mark]:
-    """Yield the lines of each tone as one mark, so that they are filled together; NaN parts them."""
+    """Yield the lines of each tone as one mark, so that they are filled together; NaN separates them."""
     for tone in dict.fromkeys(mark.tone for mark in marks if mark.shape == "line"):
         parts = [(*mark.points, np.nan) for mark in marks if mark.shape == "line" and mark.tone == tone]
         yield Mark("line", np.concatenate([np.array(part) for part in parts]), tone=tone)

@@ -8,7 +8,7 @@ from __future__ import annotations
 from linkanim.frozen import NamedTuple
 
 USUAL_SIZE = (1280, 720)
-"""The size in pixels of a figure that is for none of these."""
+"""The size in pixels of a figure for no stated purpose."""
 _INCH, _POINTS = 25.4, 72.0
 _EM = 1.08
 """The face's size in heights of a line of its text, about."""
@@ -43,4 +43,4 @@ PURPOSES = {
     "page": Purpose(160.0, 10.0, 16 / 9, 1890, ground=False, words="160 mm wide, letters of 10 pt"),
     "slide": Purpose(338.67, 20.0, 16 / 9, 1920, ground=True, words="16:9, letters for the last row"),
 }
-"""What `--for` takes."""
+"""The values of `--for`."""

@@ -1,7 +1,7 @@
-"""A scene's quantities over one true period, what they are shown over, and axes with few round ticks.
+"""A scene's quantities over one true period, the axis they are shown over, and axes with few round ticks.
 
-They are shown over the driven bar's angle, time, or phase. The words for the input and for its speed are
-here, too.
+Quantities are shown over the driven bar's angle, time, or phase. The words for the input and for its speed
+are here, too.
 """
 
 from __future__ import annotations
@@ -25,14 +25,14 @@ from linkanim.units import SPEED, short, split, stepped, typeset
 # What a chart shows of a scene: quantities by name, and their values over one true period.
 
 MOST_CHARTS = 3
-"""So many charts have room below each other."""
+"""The most charts that have room below each other."""
 
 
 class Series(NamedTuple):
     """A quantity over one true period: phases (n,), values (n, k), and what the k columns are called.
 
-    Angles are in degrees here, for the eye; `unit` says so. A value that is not bounded is infinite, and
-    one that is nothing but rounding errors is 0.
+    Angles are in degrees, as people read them; `unit` says so. An unbounded value is infinite, and a value of
+    rounding errors alone is 0.
     """
 
     phases: NDArray[np.float64]
@@ -42,7 +42,7 @@ class Series(NamedTuple):
 
 
 def quantity(scene: Scene, token: str) -> Quantity:
-    """Return the quantity of a token, in which a body has its name in the scene or the one that is shown.
+    """Return the quantity of a token, which may name a body as the scene does, or as it is shown.
 
     BadInput, with the nearest tokens and the list of all, where the scene has no such quantity.
     """
@@ -58,9 +58,9 @@ def _own_token(scene: Scene, token: str) -> str | None:
 
 
 def chart_tokens(scene: Scene, charted: str | None) -> tuple[str, ...]:
-    """Return the tokens in a look's `chart`, where commas part several; a name may hold a comma itself.
+    """Return the tokens in a look's `chart`, separated by commas; a name may itself hold a comma.
 
-    What is left at the end and is no quantity comes last, for the caller to refuse.
+    Text at the end that is no quantity comes last, for the caller to refuse.
     """
     if charted is None or "," not in charted or charted in scene.quantities:
         return () if charted is None else (charted,)
@@ -75,7 +75,7 @@ def chart_tokens(scene: Scene, charted: str | None) -> tuple[str, ...]:
 
 
 def broken(series: Series, quantity: Quantity, cycle: Motion) -> Series:
-    """Return a cycle's series with an infinite value more wherever it is unbounded between two instants."""
+    """Return a cycle's series with an infinite value added wherever it is unbounded between two instants."""
     places = quantity.unbounded_between(cycle)
     if not len(places):
         return series
@@ -91,7 +91,7 @@ def series_of(scene: Scene, quantity: Quantity, cycle: Motion) -> Series:
     return Series(cycle.phase, columns, quantity.shown_unit(scene.length_unit), quantity.columns)
 
 
-# What the input is called, and the unit in which its speed is told.
+# The words for the input, and the unit in which its speed is shown.
 
 _PER_RADIAN = {"rad/s": 1.0, "rpm": 30 / pi, "deg/s": 180 / pi}
 _SIGNS = {"deg/s": "°/s"}
@@ -99,7 +99,7 @@ _SPELT = {"°/s": "deg/s"}
 
 
 def driven_words(scene: Scene, value: float) -> str:
-    """Return where the input is in words: its angle, 87.0°; of a slider that drives its travel, 12.5 mm."""
+    """Return where the input is, in words: its angle, 87.0°, or a driving slider's travel, 12.5 mm."""
     coordinate = scene.linkage.drive.coordinate
     return coordinate.text(value, scene.length_unit, 0.1 if coordinate.is_angle else scene.length_step)
 
@@ -111,7 +111,7 @@ def speed_unit(scene: Scene) -> str:
 
 @lru_cache(maxsize=64)
 def _unit_of(stated: str) -> str:
-    """Return the unit of a speed as it is stated; asked for at every frame, the last ones are kept."""
+    """Return the unit of a stated speed; cached, since every frame asks for it."""
     try:
         unit = split(stated)[1]
     except UnitError:
@@ -121,7 +121,7 @@ def _unit_of(stated: str) -> str:
 
 
 def speed_in(unit: str, speed: float) -> float:
-    """Return an angular speed, given in rad/s, as a number of a unit: "rpm", "rad/s" or "deg/s"."""
+    """Return an angular speed (rad/s) as a number in a unit: "rpm", "rad/s" or "deg/s"."""
     return speed * _PER_RADIAN[unit]
 
 
@@ -131,9 +131,9 @@ def sign_of(unit: str) -> str:
 
 
 def speed_words(scene: Scene, speed: float) -> str:
-    """Return the input's speed (rad/s) in words: "20 rpm", clockwise negative; of a swing "15 swings/min".
+    """Return the input's speed (rad/s) in words: "20 rpm", negative clockwise, or "15 swings/min".
 
-    One there-and-back of a slider is a cycle.
+    One there-and-back of a driving slider is called a cycle.
     """
     if not scene.info.full_turn:
         there_and_back = scene.linkage.drive.actuator.cycles
@@ -145,11 +145,11 @@ def speed_words(scene: Scene, speed: float) -> str:
 # Axes of a chart: where values lie along them, and few ticks at round numbers.
 
 _WILD = 8.0
-"""A peak this many times the span of the middle nine tenths is cut off, or all else would be a line."""
+"""A peak this many times the span of the middle nine tenths is cut off; else the rest would look flat."""
 _LITTLE = 0.06
 """The share of the values' span that an axis leaves free at either end."""
 _COMMON = (0.08, 0.92)
-"""Where values go to infinity an axis holds what lies between these quantiles, and half as much beyond."""
+"""Where values go to infinity, an axis holds those between these quantiles, and half that span beyond."""
 
 
 @frozen
@@ -161,21 +161,21 @@ class Axis:
     ticks: tuple[tuple[float, str], ...]
 
     def share(self, values: ArrayLike) -> NDArray[np.float64]:
-        """Return where values lie, 0 at the low end and 1 at the high one."""
+        """Return where values lie on the axis, 0 at its low end and 1 at its high one."""
         share: NDArray[np.float64] = (np.asarray(values, float) - self.low) / (self.high - self.low)
         return share
 
     @property
     def unlabelled(self) -> Axis:
-        """The same with ticks alone."""
+        """The same axis with ticks but no labels."""
         return replace(self, ticks=tuple((value, "") for value, _ in self.ticks))
 
 
 def linear(low: float, high: float, *, most: int = 5, unit: str = "", least: int = 0) -> Axis:
     """Return an axis from `low` to `high` with at most `most` ticks, at 1, 2 or 5 times a power of ten.
 
-    In degrees (`unit` "°") ticks lie at parts of a turn; no other unit stands with their numbers. Where they
-    are fewer than `least` they lie closer, even if that is more than `most`.
+    In degrees (`unit` "°") ticks lie at fractions of a turn; no other unit is written at ticks. Where there
+    would be fewer than `least`, they are closer, even if they are then more than `most`.
     """
     found = _ticks(low, high, most, unit)
     for closer in range(most + 1, 3 * max(most, least)):
@@ -195,7 +195,7 @@ def _ticks(low: float, high: float, most: int, unit: str) -> tuple[tuple[float, 
 def around(
     values: NDArray[np.float64], *, most: int = 5, unit: str = "", room: float = _LITTLE, least: int = 0
 ) -> Axis:
-    """Return a linear axis that holds the finite values, with a little room; wild peaks run out of it.
+    """Return a linear axis that holds the finite values, with a little room; wild peaks exceed it.
 
     Without a finite value it has no ticks.
     """
@@ -206,9 +206,9 @@ def around(
 
 
 def range_around(values: NDArray[np.float64], room: float = _LITTLE) -> tuple[float, float]:
-    """Return from where to where an axis runs that holds the finite values, with a little room.
+    """Return the range of an axis that holds the finite values, with a little room.
 
-    Of a column that goes to infinity it holds what is common, and what is near that.
+    Of a column that goes to infinity it holds the common values, and those near them.
     """
     columns = [column[np.isfinite(column)] for column in (values.T if values.ndim > 1 else [values])]
     finite = np.concatenate(columns)
@@ -225,10 +225,10 @@ def range_around(values: NDArray[np.float64], room: float = _LITTLE) -> tuple[fl
 
 
 def zeros_level(ranges: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
-    """Return two ranges about zero stretched, both by one factor, until their zeros lie at one height.
+    """Return two ranges that include zero, both stretched by one factor until their zeros are at one height.
 
-    Below zero lie the shares a < b of the two. With the zero at s the one is stretched (1 - a) / (1 - s)
-    times and the other b / s times, which is alike where s = b / (1 - a + b).
+    The shares a < b of the two ranges lie below zero. With the common zero at s, the first is stretched
+    (1 - a) / (1 - s) times and the second b / s times; both factors are equal for s = b / (1 - a + b).
     """
     shares = sorted(-low / (high - low) for low, high in ranges)
     zero = shares[1] / (1 - shares[0] + shares[1])
@@ -252,7 +252,7 @@ def _common_span(finite: NDArray[np.float64]) -> tuple[float, float]:
 
 
 def unbounded_places(x: ArrayLike, values: ArrayLike) -> Floats:
-    """Return where a curve goes to infinity: at an infinite value that has a finite one beside it."""
+    """Return where a curve goes to infinity: at each infinite value beside a finite one."""
     x, values = np.asarray(x, float), np.asarray(values, float)
     beside = np.pad(np.isfinite(values), 1)
     found: Floats = x[np.isinf(values) & (beside[:-2] | beside[2:])]
@@ -279,17 +279,17 @@ def _degrees(span: float, most: int) -> float:
     return next((part for part in parts if span / part <= most), 360.0 * ceil(span / most / 360.0))
 
 
-# What a chart's values are shown over: the driven bar's angle, time, or phase, over one true period.
+# The horizontal axis of a chart: the driven bar's angle, time, or phase, over one true period.
 
 Floats = NDArray[np.float64]
 
 
 @frozen
 class Course:
-    """Where phases lie along a chart: at `x = (phase - origin) / scale`, from 0 to `span`, then from 0 again.
+    """Where phases lie along a chart: at `x = (phase - origin) / scale`, modulo `span`.
 
-    `period` is the true period in phase; `scale` is negative where the phase runs back over time.
-    `marks` are places along it that have a name.
+    `period` is the true period in phase; `scale` is negative where the phase decreases with time. `marks` are
+    named places along the axis.
     """
 
     title: str
@@ -306,7 +306,7 @@ class Course:
         return x
 
     def phase_of(self, x: ArrayLike) -> Floats:
-        """Return the phases at places, without jumps from 0 to `span`."""
+        """Return the phases at places x, which may lie outside 0 … `span`: without jumps there."""
         phase: Floats = self.origin + self.scale * np.asarray(x, float)
         return phase
 
@@ -315,7 +315,7 @@ class Course:
         return linear(0.0, self.span, most=most, unit=self.unit)
 
     def laid(self, series: Series) -> tuple[Floats, Floats]:
-        """Return a series along the course and at its two ends: x (n + 2,) rising, values (n + 2, k)."""
+        """Return a series along the course, with both ends added: x (n + 2,) rising, values (n + 2, k)."""
         gain = gain_of(series)
         x = self.x_of(series.phases)
         turns = np.rint((self.phase_of(x) - series.phases) / self.period)
@@ -330,7 +330,7 @@ class Course:
 
 
 def gain_of(series: Series) -> Floats:
-    """Return by how much each column grows in a period: whole turns for an angle, else nothing."""
+    """Return by how much each column grows in a period: whole turns for an angle, else 0."""
     values = series.values
     if series.unit != "°" or len(values) < 2:
         return np.zeros(values.shape[1])
@@ -341,21 +341,21 @@ def gain_of(series: Series) -> Floats:
 
 
 def axes_of(scene: Scene) -> tuple[Over, ...]:
-    """Return over what a chart beside the scene may run, the usual first; not an angle that swings."""
+    """Return the axes that a chart beside the scene may have, the usual one first; no angle that swings."""
     return ("angle", "time", "phase") if scene.info.full_turn else ("time", "phase")
 
 
 def axis_of(scene: Scene, over: Over | None) -> Over:
-    """Return over what the chart beside the scene runs: `over` where that may be, else the usual."""
+    """Return the axis of the chart beside the scene: `over` where that is possible, else the usual one."""
     axes = axes_of(scene)
     return over if over in axes else axes[0]
 
 
 def course(scene: Scene, speed: float, over: Over | None = None) -> Course:
-    """Return the course of a scene that runs at `speed` (rad/s, negative: the phase runs back).
+    """Return the course of a scene that runs at `speed` (rad/s, negative: the phase decreases).
 
-    An input that turns is shown over its absolute angle, one that swings over time, unless `over` says.
-    BadInput for the angle of an input that is a slider.
+    Without `over`, an input that turns is shown over its absolute angle, one that swings over time. BadInput
+    for the angle of an input that is a slider.
     """
     if over == "angle":
         scene.linkage.drive.check_angle(scene.name, "show it over time or phase")
@@ -374,12 +374,12 @@ def course(scene: Scene, speed: float, over: Over | None = None) -> Course:
 
 
 def input_title(scene: Scene) -> str:
-    """Return what an axis of the driven bar's angle is titled: "crank angle θ₂ (°)"."""
+    """Return the title of an axis of the driven bar's angle: "crank angle θ₂ (°)"."""
     return f"{scene.info.input_name} angle {input_symbol(scene.linkage)} (°)"
 
 
 def _limits(scene: Scene, pace: float) -> Iterator[tuple[float, str]]:
-    """Yield when in a period a swing is at its limits, each with its angle."""
+    """Yield the times in a period at which a swing is at its limits, each with the angle there."""
     for half in range(round(scene.period / pi) + 1):
         angle = scene.pose(half * pi, 0).coordinate
         yield half * pi / abs(pace), driven_words(scene, angle)

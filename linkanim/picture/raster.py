@@ -31,7 +31,7 @@ from linkanim.frozen import NamedTuple
 Loop = NDArray[np.complex128]
 Floats = NDArray[np.float64]
 Singles = NDArray[np.float32]
-"""Enough for whole numbers up to the grid's width, and for rounding to a step of it."""
+"""Single precision: exact for whole numbers up to the grid's width, and fine enough to round to its steps."""
 Ints = NDArray[np.int64]
 Counts = NDArray[np.int32]
 
@@ -39,14 +39,14 @@ _BITS = 10
 _STEPS = 1 << _BITS
 """Steps of the grid to a pixel."""
 WHOLE_BITS = 2 * _BITS + 1
-"""A pixel that is covered whole counts 2 to the power of it."""
+"""The coverage of a whole pixel is 2 to the power of this."""
 _FAR = float(1 << 31)
-"""Corners further off, in steps, are drawn there."""
+"""Corners further off than this, in steps, are moved to this distance."""
 _COLUMN_BITS = 15
 _COLUMNS = (1 << _COLUMN_BITS) - 1
 _WHOLE = 1 << WHOLE_BITS
 _NOTHING = _WHOLE >> 9
-"""Less does not show."""
+"""Coverage below this does not show."""
 
 
 class Edges(NamedTuple):
@@ -60,8 +60,9 @@ class Edges(NamedTuple):
 class Room(NamedTuple):
     """Where on a surface each layer may lie: its first row, how many rows, and the column it ends before.
 
-    A line is a row of one layer; the lines of all layers are counted through. `first` has each layer's
-    first line and how many lines there are, `starts` where each line begins among the surface's pixels.
+    A line is one row of one layer; the lines of all layers are numbered in one sequence. `first` has the
+    number of each layer's first line, then the number of all lines; `starts` is the index of each line's
+    first pixel among the surface's.
     """
 
     top: Ints
@@ -88,7 +89,7 @@ class Runs(NamedTuple):
 
 
 class _Rows(NamedTuple):
-    """Pieces of edges, each within one line: its height, and from where to where it leads, in steps."""
+    """Pieces of edges, each within one line: its height, and its left and right end, in steps."""
 
     line: Ints
     height: Floats
@@ -106,7 +107,7 @@ class _Pieces(NamedTuple):
 
 
 def on_grid(points: Loop) -> Loop:
-    """Return points in steps of the grid; what is not a number lies far outside."""
+    """Return points in steps of the grid; a point that is not a number lies far outside."""
     steps = np.rint(points.view(np.float64) * _STEPS)
     near: Loop = np.fmin(np.fmax(steps, -_FAR), _FAR).view(np.complex128)
     return near
@@ -150,7 +151,7 @@ def _ends(within: Room, layer: Ints, edge: Ints) -> Floats | float:
 
 
 def _by_column(rows: _Rows) -> _Pieces:
-    """Cut what lies in one row at pixel columns; the layer's end collects what lies further right."""
+    """Cut pieces within one row at pixel columns; those beyond a layer's last column add up there."""
     # upright pieces lean by a step, so that all are cut in one way
     right = np.maximum(rows.right, rows.left + 1)
     steep = (rows.height / (right - rows.left)).astype(np.float32)
@@ -190,7 +191,7 @@ def _resolved(pieces: _Pieces, within: Room) -> tuple[Runs, Runs]:
 
 
 def _sorted(pieces: _Pieces, lines: int) -> Ints:
-    """Return the order of pieces by line and column; short numbers are sorted by their digits, fast."""
+    """Return the order of pieces by line and column; numpy sorts short whole numbers by a fast radix sort."""
     line = pieces.line.astype(np.min_scalar_type(lines))
     return np.lexsort((pieces.column.astype(np.uint16), line))
 
@@ -212,15 +213,15 @@ def _spans(place: Ints, height: Counts) -> Runs:
     return Runs(begin >> _COLUMN_BITS, (begin & _COLUMNS) + 1, cover.take(seen), length)
 
 
-# Colours mixed into a surface's pixels, all four bytes of each alike.
+# Colours mixed into a surface's pixels; all four bytes of a pixel are treated alike.
 #
-# Numbers in single precision hold bytes and their shares far finer than they show; products and sums
-# of such are rounded alike on every machine.
+# Single precision holds bytes and their shares far finer than they show; its products and sums are rounded
+# alike on every machine.
 
 Words = NDArray[np.uint32]
 """Pixels or colours as a surface keeps them, four bytes each."""
 Shares = NDArray[np.uint16]
-"""How much of pixels is covered, 0 to `WHOLE`."""
+"""How much of each pixel is covered, 0 to `WHOLE`."""
 
 _SHARE_BITS = 15
 WHOLE = 1 << _SHARE_BITS
@@ -231,7 +232,7 @@ _HALF = np.float32(0.5)
 class Mix(NamedTuple):
     """What mixing does to n pixels: each byte keeps a share of itself, and a level is added (both 4n,).
 
-    The levels have a half in them, for rounding.
+    The levels include a half, for rounding.
     """
 
     place: Ints
@@ -255,9 +256,9 @@ def mixed_in(place: Ints, share: Shares, ink: Words) -> Mix:
 
 
 def mix(pixels: Words, what: Mix, begin: int, end: int, *, clear: bool) -> None:
-    """Mix into pixels what there is of a mix from `begin` to `end`.
+    """Mix into a surface's pixels the part of a mix from `begin` to `end`.
 
-    `clear` where the surface itself lets light through: its colours are kept straight.
+    `clear` says that the surface has transparency: its colours are kept straight, not multiplied by opacity.
     """
     place, bytes_ = what.place[begin:end], slice(4 * begin, 4 * end)
     keep, add = what.keep[bytes_], what.add[bytes_]
@@ -271,7 +272,7 @@ def mix(pixels: Words, what: Mix, begin: int, end: int, *, clear: bool) -> None:
 
 
 def _straight(below: Singles, keep: Singles, add: Singles) -> Singles:
-    """Return pixels (n, 4) whose opacity is their last byte, mixed: colours by their part in the opacity."""
+    """Return mixed pixels (n, 4), opacity last: colours are weighted by their share of the opacity."""
     add = add - _HALF
     opacity = below[:, 3:] * keep[:, 3:] + add[:, 3:]
     colours = below[:, :3] * (below[:, 3:] / np.float32(255)) * keep[:, :3] + add[:, :3]
@@ -287,20 +288,20 @@ def words(surface: pygame.Surface, colours: Iterable[tuple[int, int, int]]) -> W
 
 # Layers of outlines on a surface: what each covers is worked out for all together, then mixed in.
 #
-# That all layers of a frame go through the arithmetic together is what makes it fast enough in numpy.
-# Those that lie apart are mixed in together, too: each on the lowest level above all that it may lie on.
+# All layers of a frame go through the arithmetic together, which makes it fast enough in numpy. Layers that
+# lie apart are mixed in together, too: each stands on the lowest level above all layers that it may cover.
 
 Colour = tuple[int, int, int]
 
 _KEPT_BYTES = 16 << 20
-"""More than a frame's largest arrays take together."""
+"""Freed memory that is kept for the next frame: more than the largest arrays of a frame take together."""
 _MOST_AT_ONCE = 1 << 28
-"""So many layers times pixels of the surface are worked out together: thirty at 3840 × 2160."""
+"""The most layers times pixels that are worked out together: about thirty layers at 3840 × 2160."""
 _PIECES = 8
-"""Where there are more, the pieces are so many times smaller: they take a quarter of the memory."""
+"""Where there are more, they are worked out in pieces so many times smaller: a quarter of the memory."""
 
 _MOST_PAIRS = 1 << 24
-"""So many pairs of layers are looked at together: all of four thousand layers."""
+"""The most pairs of layers that are compared together: all pairs of four thousand layers."""
 
 
 class Outlines(Sequence[Loop]):
@@ -353,11 +354,11 @@ class Layer(NamedTuple):
     alpha: float = 1.0
 
     def placed(self, at: complex, turn: complex = 1 + 0j) -> Layer:
-        """Return it turned by a direction of length 1 about the origin, which then lies at `at`."""
+        """Return the layer turned by a direction of length 1 about the origin, which then lies at `at`."""
         return Layer(self.colour, outlines_of(self.loops).placed(at, turn), self.alpha)
 
     def repeated(self, places: Sequence[complex] | Loop) -> Layer:
-        """Return it about each of the places."""
+        """Return the layer repeated about each of the places."""
         return Layer(self.colour, outlines_of(self.loops).repeated(places), self.alpha)
 
 
@@ -371,7 +372,7 @@ class _Boxes(NamedTuple):
 
 
 class _Pixels(NamedTuple):
-    """Pixels, how much of an ink each is covered with, and where those of each level begin."""
+    """Pixels, the share and the ink that each is covered with, and where the pixels of each level begin."""
 
     place: Ints
     share: Shares
@@ -384,9 +385,9 @@ _NO_PIXELS = _Pixels(_NONE, _NONE.astype(np.uint16), _NONE.astype(np.uint32), _N
 
 
 class Shapes(NamedTuple):
-    """Layers in their order, cut off at a column and a row (`ends`), and layers `over` them, which are not.
+    """Layers in their order, cut off at a column and a row (`ends`), and layers `over` them that are not cut.
 
-    The column and the row, and all beyond them, are left as they are.
+    The pixels of that column and that row, and all beyond them, are left as they are.
     """
 
     layers: Iterable[Layer]
@@ -395,7 +396,7 @@ class Shapes(NamedTuple):
 
 
 class Cover:
-    """What layers do to every surface of a size and kind: worked out once, put on it any number of times."""
+    """What layers do to any surface of one size and kind: worked out once, applied any number of times."""
 
     def __init__(self, full: _Pixels, mixes: list[tuple[Mix, list[int]]], levels: range) -> None:
         self._full, self._mixes, self._levels = full, mixes, levels
@@ -431,8 +432,8 @@ def covers(surface: pygame.Surface, parts: Sequence[Shapes]) -> list[Cover]:
 def in_turn(surface: pygame.Surface, parts: Iterable[Shapes]) -> Iterator[Iterable[Cover]]:
     """Yield what each part does to surfaces like this one, to be put on it one after the other.
 
-    All go through the arithmetic together; where that would take too much memory, some layers at a time, as
-    they are asked for.
+    All go through the arithmetic together; where that would take too much memory, they are worked out some
+    layers at a time, as they are asked for.
     """
     known = [(list(layers), ends, list(over)) for layers, ends, over in parts]
     most = max(_MOST_AT_ONCE // max(math.prod(surface.get_size()), 1), 1)
@@ -447,9 +448,9 @@ def in_turn(surface: pygame.Surface, parts: Iterable[Shapes]) -> Iterator[Iterab
 
 
 def paint(surface: pygame.Surface, layers: Iterable[Layer]) -> None:
-    """Fill the layers in their order on a 32-bit surface whose rows touch; loops may leave it.
+    """Fill the layers in their order on a 32-bit surface without gaps between rows; loops may leave it.
 
-    Where the surface has alpha, it is kept straight (not multiplied into the colours).
+    Where the surface has alpha, colours are kept straight (not multiplied by it).
     """
     covers(surface, [Shapes(layers)])[0].put(surface)
 
@@ -457,14 +458,14 @@ def paint(surface: pygame.Surface, layers: Iterable[Layer]) -> None:
 def keep_memory() -> None:
     """Have the C library keep the memory that a frame frees for the next one.
 
-    glibc gives what is free at the heap's end back to the system where it is more than twice the largest
-    block that was ever freed; to get it back, page by page, took a quarter to a half of a frame.
+    glibc returns free memory at the heap's end to the system where it is more than twice the largest block
+    that was ever freed; getting it back page by page took a quarter to a half of a frame's time.
     """
     np.empty(_KEPT_BYTES, np.uint8)
 
 
 def is_clear(surface: pygame.Surface) -> bool:
-    """Return whether a surface lets light through."""
+    """Return whether a surface has transparency."""
     return bool(surface.get_flags() & pygame.SRCALPHA)
 
 
@@ -476,7 +477,7 @@ def paints(surface: pygame.Surface) -> bool:
 def _covered(surface: pygame.Surface, parts: Sequence[Shapes]) -> tuple[list[_Pixels], list[int]]:
     """Return the pixels that are covered in full, those on outlines, and those of spans covered in part.
 
-    Also how many levels each of the parts has.
+    The second value is the number of levels of each part.
     """
     size = surface.get_size()
     drawn: list[tuple[Layer, Outlines]] = []
@@ -534,13 +535,14 @@ def _boxes(points: Loop, starts: Ints, limits: Ints) -> _Boxes:
 
 
 def _levels(boxes: _Boxes, ends: Sequence[int]) -> tuple[Ints, list[int]]:
-    """Return a level for each layer: above all layers before it that it may touch, and else the lowest.
+    """Return a level for each layer: the lowest above all layers before it that it may touch.
 
-    Those of a part, up to its end, are above all of the part before. Also how many each part has.
+    The levels of a part, whose layers stop at its end, are above all of the part before. The second value is
+    the number of levels of each part.
     """
     count, taken = len(boxes.left), list[int]()
     levels, counts = [], []
-    # of tens of thousands of layers a byte for each pair would take too much memory
+    # with tens of thousands of layers a byte for each pair would take too much memory
     some = max(_MOST_PAIRS // count, 1)
     bits = b"".join(_meeting(boxes, slice(n, n + some)) for n in range(0, count, some))
     wide = -(-count // 8)
@@ -560,7 +562,7 @@ def _levels(boxes: _Boxes, ends: Sequence[int]) -> tuple[Ints, list[int]]:
 
 
 def _meeting(boxes: _Boxes, some: slice) -> bytes:
-    """Return for some layers, a row of bits for each, which of all layers they may touch."""
+    """Return a row of bits for each of some layers: which of all layers it may touch."""
     left, top, right, end = (side[some, None] for side in boxes)
     meet = (left < boxes.right) & (right > boxes.left) & (top < boxes.end) & (end > boxes.top)
     return np.packbits(meet, axis=1, bitorder="little").tobytes()
@@ -577,7 +579,7 @@ def _inked(runs: Runs, within: Room, drawn: tuple[Words, list[float]], begins: I
 
 
 def _spread(first: _Pixels, length: Ints, chosen: NDArray[np.bool_]) -> _Pixels:
-    """Return all pixels of the runs chosen; of runs that are covered whole the shares are left out."""
+    """Return all pixels of the runs chosen; for runs that are covered in full the shares are left out."""
     runs = np.flatnonzero(chosen)
     begin, share, counts = first.place.take(runs), first.share.take(runs), length.take(runs)
     bounds = np.concatenate(([0], np.cumsum(counts)))[np.searchsorted(runs, first.bounds)]
@@ -586,7 +588,7 @@ def _spread(first: _Pixels, length: Ints, chosen: NDArray[np.bool_]) -> _Pixels:
 
 
 def _places(begin: Ints, counts: Ints) -> Ints:
-    """Return the numbers from each beginning on, as many as its count says."""
+    """Return consecutive numbers from each beginning on, as many as its count says."""
     after = np.cumsum(counts)
     steps = np.ones(int(counts.sum()), np.int64)
     steps[:1] = begin[:1]

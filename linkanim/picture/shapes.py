@@ -21,18 +21,18 @@ from linkanim.picture.raster import Colour, Layer, Loop, outlines_of
 # Directions and lengths for outlines, out of + - × ÷, rint and square roots: the same on every machine.
 #
 # The C library and numpy's vector units differ from machine to machine in the last digit of a sine or of
-# an arctangent. What shapes are made of comes from here. Arctangents and arc cosines only say where an arc
-# begins and ends or how a tooth's flank bends, and exponentials where a label rests; such a digit is a
-# 1e-13th of a pixel, and corners are rounded to 1/1024 of one before anything is painted.
+# an arctangent. Shapes use the functions here instead. Arctangents and arc cosines only say where an arc
+# begins and ends or how a tooth's flank bends, and exponentials where a label rests; such a digit is 1e-13 of
+# a pixel, and corners are rounded to 1/1024 of a pixel before anything is painted.
 
 Directions = NDArray[np.complex128]
 
 _GRAIN = float(1 << 24)
-"""Steps to a radian that directions are rounded to."""
+"""Directions are rounded to this many steps a radian."""
 
 
 def directions(angles: ArrayLike) -> Directions:
-    """Return cos + i sin of angles in radians, by the formulas of the poses (`mechanics.circular`)."""
+    """Return cos + i sin of angles in radians, by the same formulas as poses (`mechanics.angles`)."""
     angle = np.asarray(angles, np.float64)
     quarters = np.rint(angle * (2 / pi))
     first, second, third, fourth = (0.5 * part for part in PI_PARTS)
@@ -46,10 +46,10 @@ def directions(angles: ArrayLike) -> Directions:
 
 
 def folded(turn: complex, fold: int) -> complex:
-    """Return the direction nearest to 1 of those that look alike: `fold` of them (3 or more) a turn.
+    """Return the direction nearest to 1 among those that look the same, `fold` of them (3 or more) a turn.
 
-    It is rounded to a step far below what shows, so that a direction that comes again after some such
-    parts of a turn is found again to the last digit.
+    It is rounded, far below what shows, so that a direction that recurs after parts of a turn is the same to
+    the last digit.
     """
     nearest = max((turn * alike for alike in _turns(fold)), key=lambda alike: alike.real)
     side = round(nearest.imag * _GRAIN) / _GRAIN
@@ -79,20 +79,20 @@ def length(vector: complex) -> float:
 # of length 1 and add a position.
 
 MOST_MARKS = 20_000
-"""Dashes of a line, strokes of a hatching or chords of an arc: the largest window has a tenth of them."""
+"""The most dashes of a line, strokes of a hatching or chords of an arc: ten times what a window shows."""
 
 
 @lru_cache(maxsize=64)
 def disc(radius: float) -> Loop:
-    """Return a circle about the origin, within 0.02 px of a true one; the last ones are kept."""
+    """Return a circle about the origin, within 0.02 px of a true one; the latest results are cached."""
     return _kept(_arc(0.0, 2 * pi, radius)[:-1])
 
 
 def rounded(points: Sequence[complex], radius: float) -> Loop:
     """Return the outline at this distance around the points' convex hull.
 
-    One point gives a circle, two a bar with round ends, more a plate with round corners. The last ones are
-    kept: under the hand one of a linkage's bars changes.
+    One point gives a circle, two a bar with round ends, more a plate with round corners. The latest results
+    are cached: while a hand drags, only one of a linkage's bars changes.
     """
     return _rounded(tuple(points), radius)
 
@@ -114,7 +114,7 @@ def _rounded(points: tuple[complex, ...], radius: float) -> Loop:
 
 @lru_cache(maxsize=64)
 def box(width: float, height: float, radius: float = 0.0) -> Loop:
-    """Return a rectangle about the origin, its corners rounded; the last ones are kept."""
+    """Return a rectangle about the origin, its corners rounded; the latest results are cached."""
     x, y = width / 2 - radius, height / 2 - radius
     return _kept(rounded([complex(-x, -y), complex(x, -y), complex(x, y), complex(-x, y)], radius))
 
@@ -156,7 +156,7 @@ def ribbon(path: Loop, sides: Loop, width: float) -> Loop:
 
 
 def cut_ribbon(path: Loop, sides: Loop, width: float) -> Loop:
-    """Return the same with its ends cut off: for a line whose ends something else hides."""
+    """Return the outline as `ribbon` does, with square ends: for a line whose ends something else hides."""
     edge = sides * (width / 2)
     return np.concatenate((path - edge, (path + edge)[::-1]))
 
@@ -175,7 +175,7 @@ def _cap(radius: float) -> Loop:
 
 
 def _kept(loop: Loop) -> Loop:
-    """Return an outline that many hold, not to be written to."""
+    """Return an outline made read-only, since several callers share it."""
     loop.flags.writeable = False
     return loop
 
@@ -191,7 +191,7 @@ def segments(begin: ArrayLike, end: ArrayLike, width: float) -> list[Loop]:
 DASH = ((0.0, 0.6),)
 """Where a plain dash begins and ends, in steps."""
 DASH_DOT = ((0.0, 5 / 9), (6.8 / 9, 7.7 / 9))
-"""Likewise a dash and a dot."""
+"""Where a dash and a dot begin and end, in steps."""
 
 
 def dashes(
@@ -201,9 +201,9 @@ def dashes(
     width: float,
     marks: Sequence[tuple[float, float]] = DASH,
 ) -> list[Loop]:
-    """Return a dashed line with square ends, the same `marks` in each step, which are shares of it.
+    """Return a dashed line with square ends; each step has the same `marks`, given as shares of the step.
 
-    The last mark is as long as the others. Of a line far beyond any window a few marks stand for all.
+    The last mark is as long as the others. A line far larger than any window has fewer and longer marks.
     """
     along, reach = unit(end - begin), length(end - begin)
     step = max(step, reach / MOST_MARKS)
@@ -213,7 +213,7 @@ def dashes(
 
 
 def dashed(run: Loop, dashes: NDArray[np.float64]) -> Iterator[Loop]:
-    """Yield the pieces of a path that dashes leave, each dash followed by a gap; the last ends with it."""
+    """Yield the pieces of a path cut into dashes, each followed by a gap; the last one ends with the path."""
     gone = np.concatenate(([0.0], np.cumsum(np.abs(np.diff(run)))))
     ends = np.concatenate(([0.0], np.cumsum(dashes)))
     for start in np.arange(0.0, gone[-1], ends[-1]):
@@ -224,7 +224,7 @@ def dashed(run: Loop, dashes: NDArray[np.float64]) -> Iterator[Loop]:
 
 
 def cut(loop: Loop, limit: float, *, down: bool = False) -> Loop:
-    """Return a closed loop without what reaches right of a limit, or below it (Sutherland, Hodgman 1974)."""
+    """Return a closed loop without its part right of a limit, or below it (Sutherland and Hodgman 1974)."""
     place = loop.imag if down else loop.real
     inside, after = place <= limit, np.roll(loop, -1)
     if inside.all():
@@ -312,7 +312,7 @@ def _turn(a: complex, b: complex, c: complex) -> float:
 
 
 def _arc(begin: float, sweep: float, radius: float) -> Loop:
-    """Return an arc about the origin; the chords stay within 0.02 px of it, but far beyond any window."""
+    """Return an arc about the origin; its chords stay within 0.02 px of it, unless it exceeds any window."""
     step = max(2 * np.arccos(max(1 - 0.02 / max(radius, 0.02), 0.5)), sweep / MOST_MARKS)
     count = max(int(np.ceil(sweep / step)), 2)
     arc: Loop = radius * directions(begin + sweep / count * np.arange(count + 1))
@@ -322,7 +322,7 @@ def _arc(begin: float, sweep: float, radius: float) -> Loop:
 def offsets(path: Loop) -> Loop:
     """Return from each point of paths (..., points) the vector to the left edge of a line 2 wide.
 
-    It is mitred up to twice its width.
+    Corners are mitred up to twice the line's width.
     """
     along = path[..., 1:] - path[..., :-1]
     normal = 1j * along / lengths(along)
@@ -335,7 +335,7 @@ def offsets(path: Loop) -> Loop:
 # Rigid things that move: their outlines are made once and then only turned and placed.
 
 _GLAZED = 0.6
-"""How much a plate covers of what lies behind it."""
+"""The opacity of a plate's fill."""
 
 Places = Mapping[str, complex]
 """Where the joints lie in pixels, as x + yi."""
@@ -343,10 +343,10 @@ Places = Mapping[str, complex]
 
 @frozen
 class Part:
-    """Layers about the joint `at`, drawn for the direction from `tail` to `head` being 1.
+    """Layers about the joint `at`, drawn as they lie where the direction from `tail` to `head` is 1.
 
-    Without a direction (`tail` == `head`) the part keeps its own. The pins of `joints` go through it.
-    One that looks the same `fold` times in a turn (3 or more) is turned by no more than to there.
+    Without a direction (`tail` == `head`) the part is not turned. The pins of `joints` go through it. A part
+    that looks the same `fold` times a turn (3 or more) is turned by the least equal angle only.
     """
 
     at: str
@@ -413,13 +413,13 @@ def by_depth(parts: Sequence[Part], names: Iterable[str]) -> tuple[tuple[str, ..
 
 
 def lined(points: list[complex], radius: float, width: float, colours: tuple[Colour, Colour]) -> list[Layer]:
-    """Return a rounded outline around points in (edge colour, fill colour), the edge inside the radius."""
+    """Return a rounded outline around points in `colours`, edge and fill; the edge lies inside the radius."""
     edge, fill = colours
     return [Layer(edge, [rounded(points, radius)]), Layer(fill, [rounded(points, max(radius - width, 0.1))])]
 
 
 def glazed(points: list[complex], radius: float, width: float, colours: tuple[Colour, Colour]) -> list[Layer]:
-    """Return the same with a fill that lets through what lies behind, and ends under the outline."""
+    """Return the same with a translucent fill that ends under the outline."""
     edge, fill = colours
     inner = rounded(points, max(radius - width, 0.1))
     pane = rounded(points, max(radius - width / 2, 0.1))
@@ -433,7 +433,7 @@ def slotted(
     width: float,
     colours: tuple[Colour, Colour],
 ) -> list[Layer]:
-    """Return the same with a slot from end to end in it, open to what lies behind.
+    """Return a rounded outline with a slot along a line in it, open to what lies behind.
 
     `radii` are half the widths of the bar and of its slot.
     """

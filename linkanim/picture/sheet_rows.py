@@ -1,4 +1,4 @@
-"""Rows of words on the sheet: the numbers of what is chosen, and what a gesture can mean."""
+"""Rows of words on the sheet: the numbers of the chosen shape, and what a gesture can mean."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from linkanim.picture.theme import mixed
 from linkanim.picture.view import Rect, View
 
 _HIGH, _LETTER, _EDGE = 1.5, 0.56, 0.7
-"""The height of a row, the width of a letter and the edge beside the words, in heights of text."""
+"""The height of a row, the width of a letter and the margin beside the words, in heights of text."""
 _ASIDE = 1.4
 """How far right of and below its place a list stands, in heights of text."""
 _CHOSEN = 0.35
@@ -35,7 +35,7 @@ def row_rects(layout: Layout, view: View, shown: RowsShown) -> tuple[Rect, ...]:
 
 
 def row_at(layout: Layout, view: View, shown: RowsShown, x: float, y: float) -> int | None:
-    """Return the row under a pixel, from 0; -1 on the title; None beside the list."""
+    """Return the row under a pixel, from 0; -1 on the title; None off the list."""
     rects = row_rects(layout, view, shown)
     return next((n - 1 for n, rect in enumerate(rects) if rect.holds(x, y)), None)
 

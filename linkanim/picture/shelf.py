@@ -36,22 +36,22 @@ if TYPE_CHECKING:
 # The shelf: all mechanisms as small live pictures with their titles, chapter by chapter, over the window.
 
 _SHAPE = 1.6
-"""How much wider than high a picture is."""
+"""The width of a picture over its height."""
 _WIDE = (185.0, 100.0)
 """The least width of a picture, in units and in pixels."""
 _LEAST = 8
-"""The least size of a title in pixels, at which what has no room is cut."""
+"""The least size of a title in pixels; at that size a title without room is cut."""
 _LINES = 2
 """The most lines of a title, and of the sentence at the foot."""
 _HEADING = 1.2
-"""The size of a heading, in that of a title."""
+"""The size of a heading, in sizes of a title."""
 _TRACK = 1.6
-"""The width of what the shelf is scrolled on, in heights of a title."""
+"""The width of the scroll bar's track, in heights of a title."""
 _CHOSEN_TURNS = 2
 _AT_ONCE = 5
-"""The chosen picture moves at every second frame; of the others so many at each, in turns."""
+"""The others that move at each frame, in turns; the chosen picture moves at every second frame."""
 _BESIDE_A_NEW_ONE = 2
-"""So many of the others move in a frame that makes the picture of a new one."""
+"""The number of other pictures that move in a frame in which a new picture is made."""
 _PER_SECOND = 60
 _NONE = "no title or chapter contains that"
 _TITLE = "Mechanisms"
@@ -59,10 +59,10 @@ _UNREAD = "cannot be read"
 
 
 class Grid(NamedTuple):
-    """Where what is in sight of a shelf stands: places by the numbers of their mechanisms, headings, words.
+    """The visible part of a shelf: places by the numbers of their mechanisms, headings, words.
 
-    `rows` are all rows of numbers, from top to bottom; the first in sight is that numbered `top`. What
-    reaches below the `room` is cut off there. On the `track` it is scrolled, if not all is in sight.
+    `rows` are all rows of numbers, from top to bottom; the first visible one is numbered `top`. What extends
+    below the `room` is cut off there. The `track` is that of the scroll bar, if not all is visible.
     """
 
     cells: dict[int, Rect]
@@ -82,7 +82,7 @@ class Grid(NamedTuple):
     def beside(self, place: int, rows: int) -> int:
         """Return the mechanism nearest to a place, `rows` further down; the first row follows the last.
 
-        The same one where there are none.
+        The same place where there are no rows.
         """
         if not self.rows:
             return place
@@ -92,43 +92,43 @@ class Grid(NamedTuple):
 
     @property
     def seen(self) -> range:
-        """The rows that are in sight, at least one of them from top to bottom."""
+        """The visible rows, at least one of them as a whole."""
         last = next((n for n in range(self.top, len(self.rows)) if not self.whole(self.rows[n][0])), None)
         return range(self.top, max(len(self.rows) if last is None else last, self.top + 1))
 
     @property
     def step(self) -> float:
-        """From row to row, in pixels."""
+        """The step from row to row, in pixels."""
         tops = sorted({cell.y for cell in self.cells.values()})
         return max(tops[1] - tops[0] if len(tops) > 1 else self.room.height, 1.0)
 
     def led_to(self, y: float) -> int:
-        """Return which row is the first in sight where the knob's middle is led down to a pixel."""
+        """Return which row is the first visible one when the knob's middle is dragged to a pixel's y."""
         track, count = self.track or self.room, len(self.rows)
         share = (y - track.y) / max(track.height, 1.0)
         return min(max(round(share * count - len(self.seen) / 2), 0), max(count - 1, 0))
 
     def whole(self, place: int) -> bool:
-        """Whether a mechanism's place is in sight from top to bottom."""
+        """Whether a mechanism's place is visible from top to bottom."""
         return place in self.cells and self.cells[place].bottom <= self.room.bottom + 1
 
 
 def grid(size: tuple[int, int], browsing: Browsing) -> Grid:
-    """Return where a shelf's mechanisms stand, scrolled no further than the chosen one is in sight."""
+    """Return where a shelf's mechanisms stand, scrolled so that the chosen one is visible."""
     shape = _Shape(size, browsing)
     last = len(shape.rows) - 1
     chosen = next((n for n, row in enumerate(shape.rows) if browsing.chosen in row), 0)
     top = min(max(browsing.top, 0), chosen, max(last, 0))
     while top < chosen and not shape.grid(top).whole(browsing.chosen):
         top += 1
-    # no further than that the last row stands at the foot
+    # it is scrolled at most until the last row stands at the foot
     while top > 0 and shape.grid(top - 1).whole(shape.rows[last][0]):
         top -= 1
     return shape.grid(top)
 
 
 class _Shape:
-    """How large things are on a shelf, and which mechanisms are in a row."""
+    """The sizes of things on a shelf, and which mechanisms are in each row."""
 
     def __init__(self, size: tuple[int, int], browsing: Browsing) -> None:
         parts = layout(size, bar=True)
@@ -173,7 +173,7 @@ class _Shape:
 
 def _chapter(browsing: Browsing, place: int) -> str:
     """Return what stands over a mechanism: its chapter, in capitals where it begins."""
-    if place == NEW:  # it leads the first chapter
+    if place == NEW:  # the empty sheet stands first in the first chapter
         return next((_chapter(browsing, n) for n in browsing.found if n != NEW), MINE)
     if browsing.file_at(place):
         return MINE
@@ -183,7 +183,7 @@ def _chapter(browsing: Browsing, place: int) -> str:
 
 
 class Live:
-    """A mechanism on the shelf, and its picture as of a turn."""
+    """A mechanism on the shelf, and its picture at the latest frame that it showed."""
 
     def __init__(self, picture: Picture) -> None:
         self.picture, self.printer = picture, SurfacePrinter()
@@ -198,7 +198,7 @@ class Live:
 
 
 class ShelfPrinter:
-    """Paints the open shelf: frames and titles at once, then a mechanism in sight a frame; these are kept."""
+    """Paints the open shelf: frames and titles first, then one visible mechanism a frame; all are cached."""
 
     def __init__(self) -> None:
         self._made_for: object = None
@@ -214,12 +214,12 @@ class ShelfPrinter:
         self._live, self._unread, self._read = {}, set(), None
 
     def prepared(self, size: tuple[int, int], shelf: Shelf) -> Iterator[None]:
-        """Draw the frames and titles of a shelf in steps, so that they take less when it is opened."""
+        """Draw the frames and titles of a shelf in steps, so that opening it later takes less time."""
         board = Board(layout(size), self._type, theme_of(shelf.theme))
         yield from _still(size, board, grid(size, shelf.browsing), shelf.browsing)
 
     def draw(self, surface: pygame.Surface, shelf: Shelf) -> None:
-        """Draw the shelf instead of the picture, once it is open with one mechanism more than before."""
+        """Draw the shelf instead of the picture; each frame after the first adds one mechanism."""
         size = surface.get_size()
         made_for = size, shelf.theme, shelf.browsing.entries, shelf.browsing.own
         opens = self._made_for != made_for
@@ -249,10 +249,10 @@ class ShelfPrinter:
         _foot(surface, board, found, shelf, self._live.get(shelf.browsing.chosen))
 
     def _join(self, found: Grid, shelf: Shelf) -> int:
-        """Read the next mechanism in sight, the chosen one first, or make the picture of the one just read.
+        """Read the next visible mechanism, the chosen one first, or make the picture of the one just read.
 
         A file that is no scene has no picture. Returns how many others may move in the rest of this frame:
-        to read one may take all of it.
+        reading a mechanism may take all of it.
         """
         order = sorted(found.cells, key=lambda n: n != shelf.browsing.chosen)
         n = next((n for n in order if n not in self._live and n not in self._unread and n != NEW), None)
@@ -296,7 +296,7 @@ def _turn(shelf: Shelf, n: int, count: int) -> int:
 def _still(
     size: tuple[int, int], board: Board, found: Grid, browsing: Browsing
 ) -> Generator[None, None, pygame.Surface]:
-    """Return what of a shelf keeps still: frames, titles, headings, and what has been typed; in steps."""
+    """Return the still part of a shelf, in steps: frames, titles, headings, and the typed text."""
     still = pygame.Surface(size, 0, 32)
     still.fill(board.theme.background)
     typed = f"{browsing.sieve}_" if browsing.sieve else ""
@@ -337,7 +337,7 @@ def _still(
 
 
 def _scroll_bar(board: Board, found: Grid, track: Rect) -> list[Layer]:
-    """Return which of the rows are in sight, on their track."""
+    """Return the scroll bar, which shows on its track which rows are visible."""
     wide, count, x = 0.34 * found.text, len(found.rows), track.middle.real
     begin, end = (track.y + track.height * row / count for row in (found.seen.start, found.seen.stop))
     whole, part = (
@@ -356,7 +356,7 @@ def _plus(cell: Rect, line: float, unit: float) -> list[Loop]:
 def _title(
     surface: pygame.Surface, board: Board, title: str, cell: Rect, found: Grid, below: str = ""
 ) -> None:
-    """Write a title in two lines below its picture, as large as fits; or what is `below` it in the second."""
+    """Write a title in two lines below its picture, as large as fits; or in one, and `below` under it."""
     room = cell.width - 0.5 * found.text
     if below:
         middle, foot = cell.x + cell.width / 2, cell.bottom - found.line + 0.1 * found.text
@@ -374,9 +374,9 @@ def _title(
 
 
 def titled(board: Board, title: str, text: int, room: float) -> tuple[list[str], int]:
-    """Return a title in two lines at the most, and the size at which it has room so.
+    """Return a title in at most two lines, and the size at which these have room.
 
-    A line ends at a space or a hyphen. Where no size that reads has room, the second ends in an ellipsis.
+    A line ends at a space or a hyphen. Where no readable size has room, the second ends in an ellipsis.
     """
     for size in range(text, _LEAST - 1, -1):
         lines = board.type.wrapped(title, size, room)
@@ -388,7 +388,7 @@ def titled(board: Board, title: str, text: int, room: float) -> tuple[list[str],
 
 
 def _cut(board: Board, words: str, room: float) -> str:
-    """Return as much of the beginning of some words as has room, with an ellipsis where they are cut."""
+    """Return as many of some words' first letters as have room, with an ellipsis where they are cut."""
     ways = (words, *(f"{words[:n].rstrip()}…" for n in range(len(words) - 1, 0, -1)))
     return next((way for way in ways if board.type.width(way, _LEAST) <= room), "")
 
@@ -420,7 +420,7 @@ def _foot(surface: pygame.Surface, board: Board, found: Grid, shelf: Shelf, live
 
 
 def frame_of(cell: Rect, board: Board, by: float) -> Loop:
-    """Return the outline of a place, so much wider on every side."""
+    """Return the outline of a place, `by` pixels larger on every side."""
     middle = complex(cell.x + cell.width / 2, cell.y + cell.height / 2)
     corner = 7 * board.layout.unit
     outline: Loop = middle + box(cell.width + 2 * by, cell.height + 2 * by, corner + by)
@@ -430,9 +430,9 @@ def frame_of(cell: Rect, board: Board, by: float) -> Loop:
 # A row of small live pictures at the window's foot: the linkages that follow a path, numbered.
 
 _ANSWER_SHAPE = 1.5
-"""How much wider than high a picture is."""
+"""The width of a picture over its height."""
 _TURNS = 6
-"""Every picture moves on in so many frames, one after the other."""
+"""The pictures take turns: each moves on once in this many frames."""
 _SMALLEST = 8
 """The least side of a picture, in pixels."""
 
@@ -448,7 +448,7 @@ def row_cells(layout: Layout, count: int) -> tuple[Rect, ...]:
 
 
 class RowPrinter:
-    """Paints rows; one picture more is made a frame, or all `at_once`, and kept while its answer is there."""
+    """Paints rows; each frame makes one more picture, or all `at_once`; they are kept with their answers."""
 
     def __init__(self, *, at_once: bool = False) -> None:
         self._at_once = at_once
@@ -457,7 +457,7 @@ class RowPrinter:
         self._type: Type | None = None
 
     def draw(self, surface: pygame.Surface, layout: Layout, row: AnswerRow | None) -> None:
-        """Draw a row over the picture's foot; without one forget the last."""
+        """Draw a row over the picture's foot; without a row, forget the last one."""
         if row is None or layout.row is None:
             self._live.clear()
             return
@@ -474,7 +474,7 @@ class RowPrinter:
             surface.blit(live.printed, (round(cell.x), round(cell.y)))
 
     def _shown(self, row: AnswerRow, cells: tuple[Rect, ...], line: float) -> Iterator[tuple[Live, Rect]]:
-        """Yield the pictures, as of this frame, with their places; of those that are missing make one."""
+        """Yield the pictures of this frame with their places; of those that are missing, make one."""
         making = True
         for n, (entry, cell) in enumerate(zip(row.entries, cells, strict=True)):
             size = round(cell.width), round(cell.height - line)

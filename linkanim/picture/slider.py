@@ -1,6 +1,6 @@
 """Sliders: a track with a knob and words at both ends.
 
-One stands at the upper right of the picture, its knob at a step; the dial stands above a row of answers.
+A slider stands at the upper right of the picture, its knob at a step; the dial stands above a row of answers.
 """
 
 from __future__ import annotations
@@ -20,9 +20,9 @@ from linkanim.picture.theme import Theme
 from linkanim.picture.view import Rect
 
 _WIDE, _SHARE = 250.0, 0.42
-"""How wide it is, in units, and at the most of the stage."""
+"""A slider's width in units, and the greatest share of the stage's width that it takes."""
 _BELOW = 2.4
-"""How far below the upper edge, in heights of text: marks stand above it."""
+"""How far a slider is below the upper edge, in heights of text: marks stand above it."""
 _BACKING = 0.8
 
 
@@ -62,7 +62,7 @@ def slider(setting: DrawSetting, shown: SliderShown) -> Iterator[Group]:
 def _track(
     left: complex, wide: float, share: float, radius: float, line: float, theme: Theme, filled: Colour
 ) -> list[Layer]:
-    """Return a track from its left end, and the knob at a share of it, filled with a colour."""
+    """Return a track from its left end on, and the knob at a share of it, filled with a colour."""
     knob = left + wide * share
     return [
         Layer(theme.rule, segments(left, left + wide, 2 * line)),
@@ -72,15 +72,15 @@ def _track(
 
 
 def _way(layout: Layout) -> tuple[float, float]:
-    """Return where the knob's way begins, and how long it is."""
+    """Return where the knob's range begins, and its length, in pixels."""
     rect, edge = slider_rect(layout), 0.9 * layout.small_size
     return rect.x + edge, rect.width - 2 * edge
 
 
 _DIAL = 0.34
-"""The share of its room that the track of a dial is wide."""
+"""The width of a dial's track, as a share of its room."""
 _BESIDE = 0.5
-"""How far beside its track a dial is still taken hold of, in heights of its room."""
+"""How far beyond its track's ends a dial can still be grasped, in heights of its room."""
 
 
 def dial_track(room: Rect) -> Rect:
@@ -90,7 +90,7 @@ def dial_track(room: Rect) -> Rect:
 
 
 def dial_value(room: Rect, x: float) -> float:
-    """Return the value at a pixel's x; beyond the ends of the track that of the end."""
+    """Return the value at a pixel's x; beyond the track's ends, the value of the nearer end."""
     track = dial_track(room)
     return min(max((x - track.x) / max(track.width, 1.0), 0.0), 1.0)
 

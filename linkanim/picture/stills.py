@@ -19,23 +19,23 @@ from linkanim.picture.purpose import USUAL_SIZE
 from linkanim.scenes.scene import Scene
 
 _USUAL = 60.0
-"""The input's angle that textbooks draw, in degrees."""
+"""The input's angle in textbooks' drawings, in degrees."""
 _POSES = 24
-"""So many poses of one turn are looked at."""
+"""The number of poses of one turn among which the still's is chosen."""
 _USUAL_POSES, _LOOKED_AT_AGAIN = 3, 9
-"""In so many of them, those nearest to the usual input and the best, names are tried in several orders."""
+"""The numbers of poses in which names are tried in several orders: nearest to the usual input, and best."""
 _NEAR_USUAL = 4
-"""So many poses nearest to the usual input are looked at where words are large: few have room in any pose."""
+"""Where words are large, only this many poses nearest to the usual input are tried: few have room anyway."""
 _MOST_NAMED = 30
-"""Of more joints and pins no pose has room for all names: the usual one is as good as any."""
+"""With more joints and pins no pose has room for all names: the usual pose is as good as any."""
 _HIDDEN = 0.02
-"""Joints nearer to each other than this part of the figure's extent hide each other."""
+"""Joints nearer to each other than this share of the figure's extent hide each other."""
 _RESTS = 1e-9
-"""Phases of a swing that are nearer to its end, in radians, are at its end."""
+"""Phases nearer than this to the end of a swing, in radians, are at its end."""
 
 
 def default_phase(scene: Scene) -> float:
-    """Return the phase of what is drawn or worked out without one: that of a still of usual size."""
+    """Return the phase for drawings and solutions that state none: that of a still of usual size."""
     return still_phase(scene, USUAL_SIZE)
 
 
@@ -43,12 +43,12 @@ def default_phase(scene: Scene) -> float:
 def still_phase(scene: Scene, size: tuple[int, int], type_scale: float = 1.0) -> float:
     """Return the phase, within one turn, of the pose that reads best in a picture of that size in pixels.
 
-    Its words are `type_scale` times as large as usual.
+    Words are `type_scale` times as large as usual.
 
-    That is the one in which most names and dimensions stand at what they name; of several such poses the one
+    It is the pose in which most names and dimensions stand at what they name; of several such poses, the one
     whose input is nearest to 60°, or to the middle of a range without that angle. A pose in which joints hide
-    each other is taken where there is no other, one in which the input rests never: nothing has a rate there.
-    The same pose is chosen whatever else the figure shows.
+    each other is taken only where there is no other. A pose in which the input rests is never taken, since
+    nothing moves there. The choice does not depend on what else the figure shows.
     """
     shown, tried = figure(scene), _tried(figure(scene))
     tried = tried[:_NEAR_USUAL] if type_scale > 1 else tried
@@ -58,7 +58,8 @@ def still_phase(scene: Scene, size: tuple[int, int], type_scale: float = 1.0) ->
     picture = Picture(scene, size, look, later=Deferral(names="in steps"), moment=tried[0])
     labels = dict[float, StillLabels]()
     left = dict[float, Lacking]()
-    # the poses at the usual input are looked at closely, then all, then the best of these closely
+    # the poses at the usual input are tried thoroughly, then all others quickly, then the best of all
+    # thoroughly
     for more, poses in ((True, tried[:_USUAL_POSES]), (False, tried[_USUAL_POSES:]), (True, None)):
         for phase in poses or sorted(tried, key=lambda phase: left[phase])[:_LOOKED_AT_AGAIN]:
             hidden = shown.apart[np.abs(shown.cycle.phase - phase).argmin()] < _HIDDEN * shown.extent
@@ -75,7 +76,7 @@ def still_phase(scene: Scene, size: tuple[int, int], type_scale: float = 1.0) ->
 
 
 def _may_be_best(phase: float, least: Lacking, worse: int, left: Mapping[float, Lacking]) -> bool:
-    """Return whether a pose that lacks so much at the least could be taken of all that were looked at."""
+    """Return whether a pose that lacks at least so many labels could still be the best of those tried."""
     best = min(left, key=lambda one: left[one])
     least = least[0] + worse, least[1]
     return least < left[best] or (least == left[best] and [*left].index(phase) < [*left].index(best))
@@ -106,7 +107,7 @@ def _tried(shown: Figure) -> list[float]:
 
 
 def _off(shown: Figure, value: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return how far the input is from its usual place: in degrees, or of a slider in its unit."""
+    """Return how far the input is from its usual place: in degrees, or for a slider in the scene's unit."""
     if isinstance(shown.linkage.driven.joint, DrivenSlider):
         return np.asarray(np.abs(value - (value.min() + value.max()) / 2))
     angle = np.degrees(value)

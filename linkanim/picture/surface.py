@@ -1,4 +1,4 @@
-"""The printer for surfaces: what stands still is one bitmap, what comes again is worked out once."""
+"""The printer for surfaces: still parts are one bitmap, and shapes that recur are worked out once."""
 
 from __future__ import annotations
 
@@ -23,19 +23,19 @@ if TYPE_CHECKING:
     from linkanim.picture.panels import Panels
 
 _MOST_PICTURES, _MOST_BYTES = 8, 100_000_000
-"""What is kept of shapes that come again takes no more memory than so many pictures, nor than so much."""
+"""The most memory for cached shapes: that of so many pictures, and so many bytes."""
 _MOST_EXPECTED = 6
-"""For so many layouts panels are kept that may be shown next."""
+"""The number of layouts for which panels that may be shown next are cached."""
 _WORDS_IN_STEP = 6
-"""So many lines of words are drawn in a step where a picture is drawn beforehand."""
+"""The lines of words that are drawn in one step where a picture is drawn beforehand."""
 _SPARE_LABELS = 8
-"""So many labels are kept that the last frame had not."""
+"""The number of cached labels that were not in the last frame."""
 
 
 class SurfacePrinter:
-    """Prints pictures on surfaces: the same pose of the same picture has the same bytes, whatever was before.
+    """Prints pictures on surfaces: one pose of one picture has the same bytes, whatever was printed before.
 
-    It keeps what comes again from picture to picture, which only saves time.
+    It caches what recurs from picture to picture, which only saves time.
     """
 
     def __init__(self) -> None:
@@ -52,7 +52,7 @@ class SurfacePrinter:
     def print(
         self, surface: pygame.Surface, picture: Picture, phase: float, speed: float, overlay: Overlay
     ) -> Pose:
-        """Print a phase of a picture, what it has of the other closure behind it; return its pose."""
+        """Print a phase of a picture, with its other closure faintly behind it if shown; return its pose."""
         pose, faint = picture.poses(phase, speed)
         self.paint(surface, picture, pose, overlay, faint=faint)
         return pose
@@ -68,7 +68,7 @@ class SurfacePrinter:
     ) -> None:
         """Print a pose of a picture, and what lies over it; changes the surface only.
 
-        A surface that is not as large as the picture is painted from its top left corner.
+        Picture and surface have the same top left corner where their sizes differ.
         """
         if picture is not self._picture:
             still = self._still if picture.late else None
@@ -92,7 +92,7 @@ class SurfacePrinter:
             surface.blit(canvas, (0, 0))
 
     def drawn_ahead(self, picture: Picture, phase: float, speed: float, overlay: Overlay) -> Iterator[None]:
-        """Draw in steps what is kept of a picture that is printed next: its words, and what stands still."""
+        """Draw in steps, and cache, the words and the still part of a picture that is printed next."""
         pose, faint = picture.poses(phase, speed)
         groups = [*picture.groups(pose, overlay, faint=faint)]
         yield
@@ -108,9 +108,9 @@ class SurfacePrinter:
             yield
 
     def prepared(self, picture: Picture, place: Layout, overlay: Overlay) -> Iterator[None]:
-        """Draw the panels of an overlay in steps, so that they take less when they are shown.
+        """Draw the panels of an overlay in steps, so that showing them later takes less time.
 
-        They are those of a picture like this one in the layout `place`.
+        They are drawn for a picture like this one in the layout `place`.
         """
         from linkanim.picture.panels import Panels
 
@@ -147,7 +147,7 @@ class SurfacePrinter:
     def _on_still(
         self, surface: pygame.Surface, picture: Picture, still: tuple[Group, ...]
     ) -> pygame.Surface:
-        """Return the surface, or where it is of another kind one to work on, with what stands still on it."""
+        """Return the surface, or a canvas where that is of another kind, with the still part on it."""
         if self._still is None or not _same(self._still[0], still):
             if self._next_still and _same(self._next_still[0], still):
                 self._still, self._next_still = self._next_still, None
@@ -162,7 +162,7 @@ class SurfacePrinter:
         return canvas
 
     def _bitmap(self, picture: Picture, still: tuple[Group, ...]) -> pygame.Surface:
-        """Return the background with what stands still on it."""
+        """Return the background with the still part on it."""
         filled = picture.look.background
         bitmap = pygame.Surface(picture.size, 0 if filled else pygame.SRCALPHA, 32)
         bitmap.fill((*picture.theme.background, 255 if filled else 0))
@@ -174,7 +174,7 @@ class SurfacePrinter:
         return bitmap
 
     def _papered(self, paper: Group, bare: pygame.Surface) -> pygame.Surface:
-        """Return the sheet that a linkage is built on, drawn once while that changes under the hand."""
+        """Return the sheet on which a linkage is built, drawn once while a hand changes the linkage."""
         if self._paper is None or self._paper[0] is not paper:
             drawn = bare.copy()
             if paper.under:
@@ -196,7 +196,7 @@ class SurfacePrinter:
     def _words(
         self, canvas: pygame.Surface, type_: Type, run: tuple[Group, ...], *, whole: bool = False
     ) -> None:
-        """Write the words of groups; in a halo to a part of a pixel, to glide, or to a `whole` one."""
+        """Write the words of groups; those in a halo to a fraction of a pixel, or to a `whole` pixel."""
         for line in (line for group in run for line in group.captions):
             if line.halo:
                 self._labels.draw(canvas, line, type_, whole=whole)
@@ -227,7 +227,7 @@ class _Labels:
         self._expected = {_label_key(line) for line in lines}
 
     def draw(self, surface: pygame.Surface, line: Caption, type_: Type, *, whole: bool) -> None:
-        """Draw a line in its halo, as strongly as it shows."""
+        """Draw a line in its halo, with its own opacity."""
         assert line.halo
         key = _label_key(line)
         self._drawn.add(key)
@@ -241,7 +241,7 @@ class _Labels:
         )
 
     def let_go(self) -> None:
-        """Forget what the frame that ends here had not, where that is more than a few."""
+        """Forget labels that the frame just ended did not draw, except a few."""
         needed = self._drawn | (self._expected & self._kept.keys())
         if len(self._kept) > len(needed) + _SPARE_LABELS:
             self._kept = {key: self._kept[key] for key in needed}
@@ -253,7 +253,7 @@ def _label_key(line: Caption) -> Hashable:
 
 
 def _runs(groups: Iterable[Group]) -> Iterator[tuple[Group, ...]]:
-    """Yield groups in runs, shapes of which are all below the words of the run; what stands still apart."""
+    """Yield groups in runs: all shapes of a run lie below all its words; still groups have own runs."""
     run: list[Group] = []
     for group in groups:
         if run and (group.over or group.still != run[-1].still):
@@ -271,7 +271,8 @@ def _same(one: tuple[Group, ...], other: tuple[Group, ...]) -> bool:
 def _parts(run: tuple[Group, ...]) -> list[tuple[Hashable, tuple[Group, ...]]]:
     """Return the groups of a run in parts that are filled one after the other, with their keys.
 
-    What stands still is known by its groups, which are kept; None is what is filled anew at every pose.
+    The key of a still part is its groups, which are kept; None marks a part that is filled anew at every
+    pose.
     """
     if run[0].still:
         return [(tuple(map(id, run)), run)]
@@ -279,7 +280,7 @@ def _parts(run: tuple[Group, ...]) -> list[tuple[Hashable, tuple[Group, ...]]]:
 
 
 def _shapes(groups: Sequence[Group]) -> Shapes:
-    """Return the shapes of groups, which end where what these are within does."""
+    """Return the shapes of groups, cut off where the rectangle `within` of these groups ends."""
     edge = next((group.within for group in groups if group.within), None)
     kept, free = ([group for group in groups if bool(group.within) is bounded] for bounded in (True, False))
     return Shapes(flat(kept), (int(edge.right), int(edge.bottom)) if edge else None, flat(free))

@@ -1,7 +1,7 @@
 """Set lines of text: one face in two weights and a few sizes, subscripts set as such.
 
 Each character comes from the bundled face or from the system's; what no font has is spelt or left out.
-Words that move are set once in a halo and put down to a quarter of a pixel, so that they glide.
+Words that move are set once in a halo and placed to a quarter of a pixel, so that they glide.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from linkanim.frozen import NamedTuple
 from linkanim.picture.raster import Colour, offscreen, pixel_view
 from linkanim.picture.shapes import directions
 
-# Which font has a character: the bundled face, or the system's; what none has is spelt or left out.
+# Which font has a character: the bundled face, or the system's; a character in no font is spelt or left out.
 #
 # The face is Source Sans Pro (Paul D. Hunt, SIL Open Font License 1.1), which lies in `faces`: Latin,
 # Greek and Cyrillic, subscripts, digits of one width, and the same glyphs on every machine.
@@ -36,7 +36,7 @@ REGULAR = "SourceSansPro-Regular.ttf"
 SEMIBOLD = "SourceSansPro-Semibold.ttf"
 
 _NOWHERE = "\ufdd0"
-"""Not a character: a font draws its sign for what it lacks."""
+"""Not a character: for it a font draws its sign for a missing glyph."""
 _WIDE = (
     *("notosanscjksc", "notosanscjkjp", "notosanscjk", "sourcehansanssc", "wenquanyimicrohei"),
     *("wenquanyizenhei", "droidsansfallback", "microsoftyahei", "simhei", "pingfangsc", "hiraginosansgb"),
@@ -48,7 +48,7 @@ _WIDE = (
 
 
 class Fonts:
-    """The bundled face in its two weights, and those of the system's fonts that were needed, by size."""
+    """The bundled face in its two weights, and the system's fonts that were needed so far, by size."""
 
     def __init__(self) -> None:
         pygame.font.init()
@@ -61,7 +61,7 @@ class Fonts:
         return self._font(REGULAR, em).get_ascent()
 
     def render(self, char: str, em: int, colour: tuple[int, int, int], *, face: str) -> pygame.Surface:
-        """Return a character on nothing, as high as the bundled face's line; of no width if it is left out.
+        """Return a character on a clear surface, as high as a line of the bundled face; 0 wide if left out.
 
         `em` is the face's size in pixels, `face` REGULAR or SEMIBOLD.
         """
@@ -78,7 +78,7 @@ class Fonts:
         return line
 
     def advance(self, char: str, em: int, *, face: str, after: str = "") -> int:
-        """Return how far the pen moves on over a character, in pixels; to a neighbour `after` it, kerned."""
+        """Return a character's advance in pixels, kerned to the character `after` it."""
         home, text = self._spelling(char)
         font = self._font(face if home == REGULAR else home, em)
         beside, neighbour = self._spelling(after) if after else (REGULAR, "")
@@ -92,7 +92,7 @@ class Fonts:
         return self._opened[path, em]
 
     def _source(self, path: str) -> str | BytesIO:
-        """Return what a font is read from: the bundled face, in many sizes, keeps no file open for each."""
+        """Return what a font is read from: the bundled face from memory, so that no file stays open."""
         if path not in (REGULAR, SEMIBOLD):
             return path
         if path not in self._faces:
@@ -117,12 +117,12 @@ class Fonts:
         return (home, char) if home else (REGULAR, self._likeness(char))
 
     def _likeness(self, char: str) -> str:
-        """Return what of a character's parts the bundled font has: Ǆ as DŽ, ﬁ as fi."""
+        """Return those parts of a character that the bundled font has: Ǆ as DŽ, ﬁ as fi."""
         parts = unicodedata.normalize("NFKC", char)
         return "".join(part for part in parts if part.isprintable() and _has(self._font(REGULAR, 24), part))
 
     def _system(self) -> Iterator[str]:
-        """Yield the files of the system's fonts, those that were needed before first."""
+        """Yield the files of the system's fonts, first those that were needed before."""
         used = tuple(dict.fromkeys(home for home, _ in self._spelt.values() if home != REGULAR))
         yield from used
         for path in _files():
@@ -137,9 +137,9 @@ def file_of(path: str) -> str:
 
 
 def _files() -> Iterator[str]:
-    """Yield the font files of the families with many characters that are there."""
+    """Yield the installed font files of the families with many characters."""
     with warnings.catch_warnings():
-        # where the system cannot list its fonts, there are none for us
+        # a system that cannot list its fonts counts as having none
         warnings.simplefilter("ignore")
         known = frozenset(pygame.font.get_fonts())
         found = [pygame.font.match_font(name) for name in _WIDE if name in known]
@@ -147,7 +147,7 @@ def _files() -> Iterator[str]:
 
 
 def _has(font: pygame.font.Font, char: str) -> bool:
-    """Tell whether a font has a character with something to be seen; else it draws its sign for none."""
+    """Tell whether a font has a visible glyph of a character, not only its sign for a missing one."""
     if font.size(char)[0] == 0:
         return False
     measured = font.metrics(char)
@@ -166,9 +166,9 @@ def _has(font: pygame.font.Font, char: str) -> bool:
 Anchor = Literal["left", "centre", "right"]
 
 _FINE = 4
-"""Glyphs are drawn so many times larger and averaged, and placed to such a part of a pixel."""
+"""Glyphs are drawn this many times larger and averaged; they are placed to this fraction of a pixel."""
 _X_HEIGHT = 0.486
-"""Of the face, in ems."""
+"""The face's height of an x, in ems."""
 _REACH = 0.51
 """The height of an x in heights of a line."""
 _BASE = 0.78
@@ -176,7 +176,7 @@ _BASE = 0.78
 _SUB, _LOWER, _LEAST = 0.72, 0.2, 8
 """A subscript's size and how far it is lowered, in sizes of its text; its least size in pixels."""
 _LOOSE = 7
-"""Where an x is no higher than this, in pixels, neighbours stand a part of a pixel further apart."""
+"""Where an x is no higher than this, in pixels, letters stand a fraction of a pixel further apart."""
 _SUBSCRIPT = re.compile(r"_\{([^{}]*)\}|([\u2080-\u209c\u1d62-\u1d6a\u2c7c]+)")
 _HYPHENED = re.compile(r"[^-]*-|[^-]+")
 _LOWERED = {ord("0") + n: 0x2080 + n for n in range(10)}
@@ -184,9 +184,9 @@ _INDEX = re.compile(r"(?<=[^\W\d_])_?(\d+)$")
 
 
 _KEPT = 2048
-"""How many lines are remembered, set: as many as a turn of a scene with a dozen values has."""
+"""How many typeset lines are remembered: as many as one turn of a scene with a dozen values shows."""
 _INKED_BYTES = 1_000_000
-"""How much memory new lines as they are drawn may take until those that were not drawn meanwhile go."""
+"""How many bytes new drawn lines may take until lines that were not drawn meanwhile are forgotten."""
 
 
 class Run(NamedTuple):
@@ -202,12 +202,12 @@ def runs(text: str) -> tuple[Run, ...]:
 
 
 class Typesetting(NamedTuple):
-    """How a line of a height is set elsewhere: the face's size and a subscript's in pixels, and shifts."""
+    """How a line is set by another printer: the sizes of face and subscript in pixels, and their shifts."""
 
     em: float
     small: float
     baseline: float
-    """How far below the line's top."""
+    """How far the baseline is below the line's top."""
     lower: float
     """How far a subscript stands below the baseline."""
 
@@ -224,11 +224,11 @@ def subscripted(name: str) -> str:
 
 
 _Place = tuple[str, int, int, int]
-"""A glyph of a line: which, at what size, how far right (in parts of a pixel) and how far down."""
+"""A glyph of a line: the character, its size, how far right (in fractions of a pixel) and how far down."""
 
 
 class Inked(NamedTuple):
-    """Letters on nothing, cut to their ink, and how far right and down of their place that is, in pixels."""
+    """Letters on a clear surface cut to their ink, and its offset right and down in pixels."""
 
     sprite: pygame.Surface
     right: int
@@ -268,9 +268,9 @@ class Type:
     ) -> int:
         """Draw one line whose top is at `at`, and return its width in pixels.
 
-        `text` may hold subscripts, as the module says; `strong` is the semibold weight. A line begins
-        at a whole pixel, for text that glides reads worse than text that steps; its glyphs stand
-        to a quarter of one, which spaces small text evenly.
+        `text` may hold subscripts, as written above; `strong` is the semibold weight. A line begins at a
+        whole pixel, since text that glides reads worse than text that steps; its glyphs are placed to a
+        quarter of a pixel, which spaces small text evenly.
         """
         width, inked = self._inked_of(text, size, colour, _face(strong))
         x, y = _left(at[0], width, anchor), round(at[1]) + round(_BASE * size)
@@ -278,9 +278,9 @@ class Type:
         return width
 
     def _inked_of(self, text: str, size: int, colour: Colour, face: str) -> tuple[int, list[Inked]]:
-        """Return a line's width and its letters: of one that comes again on as few surfaces as can be.
+        """Return a line's width and its letters; a line that recurs is joined on as few surfaces as possible.
 
-        So it blits fast; values that change with every frame are not worth that.
+        It is then drawn fast; values that change with every frame are not worth that work.
         """
         key = (text, size, face, colour)
         if key not in self._inked:
@@ -303,7 +303,7 @@ class Type:
         return self._inked[key]
 
     def _make_room(self, further: int) -> None:
-        """Forget the lines not drawn since this was last done where `further` bytes more are too many."""
+        """Forget lines that were not drawn since the last time, where `further` bytes more are too many."""
         self._inked_bytes += further
         if self._inked_bytes > _INKED_BYTES or len(self._inked) >= _KEPT:
             self._inked = {key: line for key, line in self._inked.items() if key in self._drawn}
@@ -311,7 +311,7 @@ class Type:
             self._inked_bytes = further
 
     def _glyph(self, char: str, size: int, colour: Colour, face: str, part: int) -> Inked:
-        """Return one character, anti-aliased, `part` quarters of a pixel further right of its own corner."""
+        """Return one anti-aliased character, shifted right by `part` quarters of a pixel."""
         key = (char, size, colour, face, part)
         if key not in self._glyphs:
             drawn = self._fonts.render(char, _em(size), colour, face=face)
@@ -321,7 +321,7 @@ class Type:
         return self._glyphs[key]
 
     def _set(self, text: str, size: int, face: str) -> tuple[_Place, ...]:
-        """Return where the glyphs of a line stand and its end; the last lines are kept, being drawn again."""
+        """Return where the glyphs of a line stand, and its end; cached, since most lines are drawn again."""
         key = (text, size, face)
         if key not in self._lines:
             if len(self._lines) >= _KEPT:
@@ -348,7 +348,7 @@ class Type:
         return -(-self._fonts.ascent(_em(size)) // _FINE)
 
     def _step(self, char: str, after: str, size: int, face: str) -> int:
-        """Return how far the pen moves from a character to the next of its run, in parts of a pixel."""
+        """Return the advance from a character to the next one of its run, in fractions of a pixel."""
         if _x_height(size) <= _LOOSE:
             return self._fonts.advance(char, _em(size), face=face) + 1
         return self._fonts.advance(char, _em(size), face=face, after=after)
@@ -356,10 +356,10 @@ class Type:
     def wrapped(
         self, text: str, size: int, width: float, *, gap: str = " ", strong: bool = False
     ) -> list[str]:
-        """Return the text in lines no wider than `width`, broken between its words, parted by `gap`.
+        """Return the text in lines no wider than `width`, broken between its words, which `gap` separates.
 
         A word that is wider is broken after a hyphen, else anywhere inside, as are scripts without spaces.
-        The last ones are kept: each look has the words about a scene set once more.
+        The latest results are cached: every change of the look sets the words about a scene again.
         """
         key = (text, size, width, gap, strong)
         if key not in self._wrapped:
@@ -379,7 +379,7 @@ class Type:
         return lines
 
     def narrowest(self, text: str, size: int, count: int) -> int:
-        """Return the least width in which a strong text has at most `count` lines, broken between words."""
+        """Return the least width in which a semibold text has at most `count` lines, broken between words."""
         key = (text, size, count)
         if key not in self._narrowest:
             words = text.split()
@@ -425,17 +425,17 @@ def _face(strong: bool) -> str:
 
 
 def _x_height(size: int) -> int:
-    """Return how high an x is for a line's height, in whole pixels: its edges lie between pixels."""
+    """Return how high an x is for a line's height, in whole pixels, so that its edges are sharp."""
     return max(round(_REACH * size), 1)
 
 
 def _em(size: int) -> int:
-    """Return the face's size in parts of a pixel for a line's height in pixels."""
+    """Return the face's size in fractions of a pixel for a line's height in pixels."""
     return round(_FINE * _x_height(size) / _X_HEIGHT)
 
 
 def _averaged(drawn: pygame.Surface, part: int, ascent: int, colour: Colour) -> pygame.Surface:
-    """Return a large glyph at its size, its baseline between two pixels, so many parts further right."""
+    """Return an enlarged glyph at its true size, shifted right by `part`; its baseline is a pixel's edge."""
     width, height = drawn.get_size()
     down = -ascent % _FINE
     room = (-(-(part + width) // _FINE) * _FINE, -(-(down + height) // _FINE) * _FINE)
@@ -447,9 +447,9 @@ def _averaged(drawn: pygame.Surface, part: int, ascent: int, colour: Colour) -> 
 
 
 def _apart(glyphs: Iterable[Inked]) -> Iterator[list[Inked]]:
-    """Yield a line's glyphs in runs within which each begins right of the last; where two touch is a break.
+    """Yield a line's glyphs in runs; in a run each begins right of the last one's end.
 
-    What lies over one another is blended with what is below it one by one, as rounding asks.
+    Glyphs that overlap are in different runs, so that they are blended, and rounded, one after the other.
     """
     run: list[Inked] = []
     end = 0
@@ -480,7 +480,7 @@ def _left(x: float, width: int, anchor: Anchor) -> int:
 
 # Words that move: set once in a halo, and put down to a quarter of a pixel, so that they glide.
 
-"""Words are set so many times larger and averaged, and placed to such a part of a pixel."""
+"""Words are set this many times larger and averaged; they are placed to this fraction of a pixel."""
 _RING = directions(np.linspace(0, 2 * np.pi, 24, endpoint=False))
 """Where a halo reaches from every point of a letter."""
 
@@ -501,15 +501,15 @@ class Lettering:
 
     @cached_property
     def _parts(self) -> NDArray[np.float32]:
-        """The words in their halo, worked out when drawn: many are measured and find no room."""
+        """The words in their halo, worked out when first drawn: many are measured but find no room."""
         return _haloed(self._cover, round(_FINE * self.halo[1]), (self.ink, self.halo[0]))
 
     def draw(
         self, surface: pygame.Surface, middle: complex, shown: float = 1.0, *, whole: bool = False
     ) -> None:
-        """Draw the words about a place in pixels, as strongly as 0 (not at all) to 1 says.
+        """Draw the words about a place in pixels, with an opacity of `shown` from 0 to 1.
 
-        They begin at a whole pixel where that is wanted, which draws many new places faster.
+        With `whole` they begin at a whole pixel, which is faster where many places are new.
         """
         if not self._meets(surface.get_size(), middle):
             return
@@ -523,12 +523,12 @@ class Lettering:
         surface.blit(sprite, (x // _FINE, y // _FINE))
 
     def _meets(self, size: tuple[int, int], middle: complex) -> bool:
-        """Whether the words about a place are seen on a surface so large, to a pixel."""
+        """Whether the words about a place lie on a surface of that size at least in part, to a pixel."""
         (wide, high), (x, y) = self.size, (middle.real, middle.imag)
         return -1 - wide / 2 < x < size[0] + 1 + wide / 2 and -1 - high / 2 < y < size[1] + 1 + high / 2
 
     def _sprite(self, right: int, down: int) -> pygame.Surface:
-        """Return the words moved right and down by so many parts of a pixel."""
+        """Return the words shifted right and down by so many fractions of a pixel."""
         if (right, down) not in self._drawn:
             wide, high = self.size
             size = ceil(wide + right / _FINE), ceil(high + down / _FINE)
@@ -537,9 +537,9 @@ class Lettering:
 
 
 def _letters(text: str, kind: Type, size: int) -> tuple[NDArray[np.uint8], int]:
-    """Return how far a large line of text covers (height, width), 0 to 255, without empty rows.
+    """Return the coverage of an enlarged line of text (height, width), 0 to 255, without empty rows.
 
-    Also how many rows of the line are left out above it.
+    The second value is the number of rows left out above it.
     """
     large = _FINE * size
     sheet = offscreen((kind.width(text, large, strong=True) + _FINE, 2 * large), alpha=True)
@@ -551,17 +551,17 @@ def _letters(text: str, kind: Type, size: int) -> tuple[NDArray[np.uint8], int]:
 
 
 def _haloed(cover: NDArray[np.uint8], halo: int, colours: tuple[Colour, Colour]) -> NDArray[np.float32]:
-    """Return letters in ink on a halo, in colours times opacity and opacity, 0 to 1, with nothing about.
+    """Return letters in ink on a halo: colours times opacity, and opacity, 0 to 1, with a clear margin.
 
-    They are parted by row and column within a pixel: (`_FINE`, `_FINE`, 4, height, width) in pixels, so that
-    an average is made of whole arrays, however far the line is shifted.
+    The axes are row and column within a pixel, channel, and pixel: (`_FINE`, `_FINE`, 4, height, width). So
+    an average is taken over whole arrays, however far the line is shifted.
     """
     begin, (high, wide) = _FINE + halo + 1, cover.shape
     room = tuple(-(-(side + 2 * begin + _FINE) // _FINE) * _FINE for side in cover.shape)
     letters = np.zeros(room, np.uint8)
     letters[begin : begin + high, begin : begin + wide] = cover
     around = letters.copy()
-    # what is empty about them lets whole rows be shifted at once, as they lie in memory
+    # the clear margin lets all rows be shifted at once, as they lie in memory
     first, end = begin * room[1], (begin + high) * room[1]
     inked, flat = letters.ravel()[first:end], around.ravel()
     ring = np.rint(halo * _RING)
@@ -585,7 +585,7 @@ def _haloed(cover: NDArray[np.uint8], halo: int, colours: tuple[Colour, Colour])
 def _averaged_down(
     parts: NDArray[np.float32], shift: tuple[int, int], size: tuple[int, int]
 ) -> pygame.Surface:
-    """Return a line in pixels, shifted by parts of one right and down."""
+    """Return a line in pixels, shifted right and down by fractions of a pixel."""
     (right, down), (width, height) = shift, size
     small = np.zeros((4, height, width), np.float32)
     for row, column in product(range(_FINE), repeat=2):

@@ -26,7 +26,7 @@ class Theme:
     dim: Colour
     """Names beside the numbers, ticks."""
     rule: Colour
-    """Frames, grid lines and other lines that stay back."""
+    """Frames, grid lines and other lines in the background."""
     outline: Colour
     ground: Colour
     gear: Colour
@@ -41,7 +41,7 @@ class Theme:
     bodies: tuple[Colour, ...]
     """The driven crank's first, then in the order of the scene."""
     traces: tuple[Colour, ...]
-    """For the joints traced, in their order, repeating."""
+    """The colours of traced joints in their order, used again from the first."""
     speeds: tuple[Colour, ...]
     """From standing still to the greatest speed."""
 
@@ -90,11 +90,11 @@ _THEMES = {"light": LIGHT, "dark": DARK}
 
 
 _PAPER = (255, 255, 255)
-"""What a light figure without a ground of its own lies on."""
+"""What a light figure with a transparent ground lies on."""
 
 
 def on_paper(theme: Theme) -> Theme:
-    """Return the theme for a figure without a ground: the light theme's rims are as white as paper."""
+    """Return the theme for a figure with a transparent ground: the light theme's rims are white as paper."""
     return replace(theme, background=_PAPER, pin=_PAPER) if theme == LIGHT else theme
 
 

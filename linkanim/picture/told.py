@@ -1,4 +1,4 @@
-"""What a thing under the mouse says of itself, on a card beside it, and a joint's two arrows."""
+"""The card of words about a thing under the mouse, beside it, and a joint's two arrows."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from linkanim.picture.view import Rect
 _LONGEST = 0.16
 """The longest arrow of a joint's cycle, in heights of the picture."""
 _STEP, _MARGIN, _OFF = 1.35, 0.6, 1.2
-"""Of the card, in sizes of its text: from line to line, its margin, how far off the thing it is."""
+"""The card's step from line to line, its margin, and its distance from the thing, in sizes of its text."""
 Greatest = tuple[float, float]
 """A joint's greatest speed and acceleration over the cycle."""
 
@@ -58,7 +58,7 @@ def card(setting: DrawSetting, pose: Pose, told: Told, most: Greatest | None) ->
 def _place(setting: DrawSetting, thing: complex, size: tuple[float, float], busy: Sequence[Rect]) -> complex:
     """Return the upper left corner of the card: beside the thing, within the picture, off what is `busy`.
 
-    Of one of the words it may stand beside them all.
+    For one of the words about the scene it may stand beside all of them.
     """
     (wide, high), (right, bottom) = size, setting.layout.size
     off, edge = _OFF * setting.layout.text_size, 0.3 * setting.layout.small_size

@@ -24,25 +24,25 @@ from linkanim.picture.theme import Theme, mixed
 from linkanim.picture.view import Rect
 
 _TAKEN = ("tool", "trace_on", "drive_by")
-"""Tools whose keys take Ctrl where letters and digits are typed."""
+"""Tools whose keys need Ctrl where letters and digits are typed."""
 Icon = Callable[[Gauge, Theme], list[Layer]]
 """Draws an icon about 0, within 10 thin lines each way."""
 
 
 def tool_at(layout: Layout, x: float, y: float) -> int | None:
-    """Return the number of the tool under a pixel; None beside them."""
+    """Return the number of the tool under a pixel; None elsewhere."""
     return next((n for n, cell in enumerate(tool_cells(layout)) if cell.holds(x, y)), None)
 
 
 class ToolPrinter:
-    """Paints the bar of tools; the bar without its tooltip is kept."""
+    """Paints the bar of tools; the drawn bar, without its tooltip, is cached."""
 
     def __init__(self) -> None:
         self._kept: tuple[object, pygame.Surface, tuple[int, int]] | None = None
         self._type = Type()
 
     def draw(self, surface: pygame.Surface, layout: Layout, theme: Theme, bar: ToolBar | None) -> None:
-        """Draw a bar over the picture, and what the tool under the mouse is called."""
+        """Draw a bar over the picture, and the name of the tool under the mouse."""
         if bar is None:
             return
         surface.blit(*self.prepare(layout, theme, bar))

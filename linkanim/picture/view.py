@@ -29,7 +29,7 @@ class Rect(NamedTuple):
         return complex(self.x + self.width / 2, self.y + self.height / 2)
 
     def inset(self, by: float) -> Rect:
-        """Return it without a border of that width; never smaller than one pixel."""
+        """Return the rectangle without a border of that width; never smaller than one pixel."""
         return Rect(self.x + by, self.y + by, max(self.width - 2 * by, 1), max(self.height - 2 * by, 1))
 
     def meets(self, other: Rect) -> bool:
@@ -44,14 +44,14 @@ class Rect(NamedTuple):
         return self.x <= x <= self.right and self.y <= y <= self.bottom
 
     def nearest(self, place: complex, half: complex = 0j) -> complex:
-        """Return the place nearest to one at which a rectangle of half this width and height lies inside."""
+        """Return the centre nearest to `place` of a rectangle inside; `half` is half its width and height."""
         x = min(max(place.real, self.x + half.real), max(self.right - half.real, self.x + half.real))
         return complex(
             x, min(max(place.imag, self.y + half.imag), max(self.bottom - half.imag, self.y + half.imag))
         )
 
     def ahead(self, at: complex, vector: complex) -> float:
-        """Return how far its edge is from a place along a vector, in lengths of that; 0 along none."""
+        """Return how far the edge is from a place along a vector, in lengths of it; 0 along a vector of 0."""
         gaps = [
             max(((high if step > 0 else low) - place) / step, 0.0)
             for place, step, low, high in (
@@ -63,7 +63,7 @@ class Rect(NamedTuple):
         return min(gaps, default=0.0)
 
     def crossed(self, one: complex, other: complex) -> tuple[complex, complex] | None:
-        """Return what of a segment lies in it, by Liang and Barsky's shares; None where nothing does."""
+        """Return the part of a segment that lies inside (Liang and Barsky); None where no part does."""
         along, first, last = other - one, 0.0, 1.0
         for step, gap in (
             (-along.real, one.real - self.x),
@@ -125,9 +125,9 @@ class View:
 
 
 def view_of(box: Box, room: Rect, share: float = 1.0) -> View:
-    """Return the view in which a box lies in the middle of a room, as large as fits, or a share of that.
+    """Return the view in which a box lies in the middle of a room, as large as fits times `share`.
 
-    A room without extent, as a tiny window leaves, counts as one of a pixel.
+    A room without extent, which a tiny window may leave, counts as one pixel.
     """
     wide, high = max(box.right - box.left, 1e-9), max(box.high - box.low, 1e-9)
     scale = share * min(max(room.width, 1.0) / wide, max(room.height, 1.0) / high)
