@@ -252,10 +252,10 @@ def _numbers(
 def _inside(edge: Loop, places: Loop) -> NDArray[np.bool_]:
     """Return which places lie within an edge."""
     one, other = edge, np.roll(edge, -1)
-    level, upward = other.imag == one.imag, np.where(other.imag == one.imag, 1.0, other.imag - one.imag)
+    upward = np.where(other.imag == one.imag, 1.0, other.imag - one.imag)  # what is level is crossed nowhere
     across = (places.imag[:, None] - one.imag) / upward
     right = places.real[:, None] < one.real + across * (other.real - one.real)
-    crossed = ((one.imag > places.imag[:, None]) != (other.imag > places.imag[:, None])) & ~level
+    crossed = (one.imag > places.imag[:, None]) != (other.imag > places.imag[:, None])
     return np.asarray((crossed & right).sum(axis=1) % 2 == 1)
 
 

@@ -249,7 +249,8 @@ class Window:
         """Yield what opens the shelf with the scene files of the current folder, or closes it."""
         yield Action("shelf")
         files = scene_files() if self.state.browsing else ()
-        yield from (Action("files", _listed(files)) for _ in files[:1])
+        if files:
+            yield Action("files", _listed(files))
 
     def _taking(self, _: Value) -> Iterator[Action]:
         """Yield what opens the dialog of a recording with places that are free, or closes it."""

@@ -15,7 +15,9 @@ from pictures import labelled
 
 from linkanim.mechanics.motion import Pose
 from linkanim.picture.bodies import WHEELS
+from linkanim.picture.dimensions import MeasureLine
 from linkanim.picture.labels import Label
+from linkanim.picture.layout import gauge
 from linkanim.picture.look import Look, ThemeName
 from linkanim.picture.picture import Picture
 from linkanim.picture.raster import Layer
@@ -192,6 +194,19 @@ def faults(name: str, size: tuple[int, int], theme: ThemeName, phase: float) -> 
     picture = Picture(load(name), size, Look(names=2, theme=theme), moment=phase)
     pose = picture.scene.pose(phase)
     return [*misread(picture, pose), *covered(picture, pose), *twice(picture)]
+
+
+# on either side, near and far
+@pytest.mark.parametrize("reach", [-30.0, 60.0])
+def test_words_keep_off_the_leads_that_are_drawn(reach: float) -> None:
+    thick, span = gauge(1.0, 200.0), 200.0
+    line = MeasureLine(("A", "B"), 0.2, 0.9 + 0.1j, reach)
+    (layer,) = line.part(span, thick, (0, 0, 0)).layers
+    _, *leads = line.tracks(np.zeros(1, complex), np.full(1, span, complex), thick)[0]
+    for kept_off, loop in zip(leads, layer.loops, strict=False):
+        near, far = (loop[0] + loop[3]) / 2, (loop[1] + loop[2]) / 2
+        assert near == pytest.approx(kept_off[0], abs=0.1)
+        assert far == pytest.approx(kept_off[1], abs=3 * thick.line)
 
 
 @pytest.mark.thinned(3)

@@ -227,6 +227,18 @@ def test_titles_have_room(size: tuple[int, int]) -> None:
         assert Type().width(title.text, title.size) <= panel.rect.width
 
 
+def test_a_title_without_room_is_the_smallest() -> None:
+    for panel in panels("press"):
+        narrower = [
+            replace(panel, rect=panel.rect._replace(width=width)) for width in (600.0, 130.0, 90.0, 9.0)
+        ]
+        titles = [drawn(one, 1.0).captions[0] for one in narrower]
+        wide = [Type().width(title.text, title.size) for title in titles]
+        assert wide == sorted(wide, reverse=True)
+        assert wide[-1] < 0.5 * wide[0]
+        assert titles[-1].size < titles[0].size
+
+
 def test_what_rests_says_so() -> None:
     for panel in panels("press"):
         group = drawn(panel, 1.0, 0.0)

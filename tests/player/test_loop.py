@@ -6,15 +6,17 @@ import os
 import subprocess
 import sys
 from collections.abc import Iterator
+from contextlib import nullcontext
 from dataclasses import replace
 from itertools import islice
 from pathlib import Path
 
 import pygame
 import pytest
+from playing import fake_start
 
 from linkanim.errors import BadInput, NoDisplay
-from linkanim.player import screen
+from linkanim.player import beside, screen
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
 from linkanim.player.screen import Connection
@@ -108,6 +110,29 @@ def test_run_returns_0_when_the_window_is_closed(monkeypatch: pytest.MonkeyPatch
     monkeypatch.setattr(Window, "tick", tick)
     assert run("press") == 0
     assert not pygame.display.get_init()
+
+
+@pytest.mark.parametrize("error", [None, NoDisplay("it is gone"), KeyboardInterrupt()], ids=repr)
+def test_whatever_ends_the_window_a_recording_that_runs_is_finished(
+    error: BaseException | None, here: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    started: list[list[str]] = []
+    monkeypatch.setattr(beside, "_start", fake_start(started))
+    real = Window.tick
+
+    def tick(window: Window, count: int) -> bool:
+        pygame.event.post(pygame.event.Event(pygame.KEYDOWN, key=pygame.K_g, mod=0, unicode="g"))
+        assert real(window, count)
+        assert window.state.recording
+        if error:
+            raise error
+        return False
+
+    monkeypatch.setattr(Window, "tick", tick)
+    with pytest.raises(type(error)) if error else nullcontext():
+        run("kite", size=(320, 180))
+    (command,) = started
+    assert "kite-1.gif" in {Path(word).name for word in command}
 
 
 def test_without_a_display_it_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
