@@ -18,15 +18,16 @@ the order in which they are read:
     paper      figures, charts and reports
     share      a page that moves in a browser
     player     the window: keys, state, tapes, the loop
-    play       what is asked about linkages, printed or played, and other games
+    play       questions about linkages, printed or played, and other games
     workshop   a linkage as flat parts and pins, in layers in which it can turn
     recorder   frames to GIF, MP4 and PNG
     bench      speed against error
     cli        the commands
     notebook   how a scene and a motion show themselves in a notebook
 
-The modules beside this one (`errors`, `frozen`, `units`, ...) and the `manual` stand above all rooms. How a
-frame and a recording come about, and the reason for each large choice, is in `manual/design.md`.
+The modules beside this one (`errors`, `frozen`, `units`, ...) and the `manual` belong to no room: every room
+may import them. How a frame and a recording come about, and the reason for each large choice, is in
+`manual/design.md`.
 
 A kind of joint is its data in `mechanics/linkage`, how it closes in `mechanics/solver/closing`, how it is
 written in `scenes/file_form`, how it is worked out in `explain/joints`; what is drawn of it follows from its
@@ -38,7 +39,8 @@ bars and from what slides. A kind of input is its data in `mechanics/linkage`, i
 import os
 import sys
 
-# Not typing's: whoever starts the command waits for this file before Ctrl-C is answered in one line.
+# Not imported from typing: before this file has run, Ctrl-C is not answered in one line, so it has to be
+# quick.
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from linkanim.errors import LinkanimError

@@ -23,12 +23,13 @@ from linkanim.errors import BadInput, WorkFailed
 
 # Files that appear under their name when they are whole, or not at all.
 #
-# Work goes into a scratch folder beside the target, `.linkanim-TOKEN.part`, and takes the target's name at
-# the end, when its bytes are on the disk. A lock held on `lock` in it says that its run is alive; what a
-# killed run left behind is cleared by the next one in that folder. Everything that is written goes through
-# here: `BadInput` for a target that is not ours to replace, `WorkFailed` where disk or folder refuse.
+# A file is written in a scratch folder beside its target, `.linkanim-TOKEN.part`, and takes the target's name
+# when its bytes are on the disk. A lock held on the file `lock` in that folder says that its run is alive;
+# what a killed run left behind is removed by the next run that writes beside it. Everything that is written
+# goes through here: `BadInput` for a target that is not ours to replace, `WorkFailed` where disk or folder
+# refuse.
 #
-# A file that several runs change is changed under a `Claim`: read, changed and written without another
+# A file that several runs change is changed under a `Claim`: read, changed and written with no other run in
 # between.
 
 if sys.platform == "win32":
@@ -45,9 +46,9 @@ _IN_USE = (5, 32)
 _PART = r"\.linkanim-[0-9a-f]{16}\.part"
 _LOCK = "lock"
 _FORSAKEN = 7 * 24 * 3600
-"""Seconds after which a scratch folder of another machine, whose locks we may not see, is left behind."""
+"""Seconds after which a scratch folder of another machine, whose locks may not show here, is abandoned."""
 _PATIENCE, _PAUSE = 2.0, 0.003
-"""Seconds for which a file that another run changes is waited for, and between looking."""
+"""How long to wait for a file that another run changes, and how long between two tries, in seconds."""
 
 
 def checked_target(
@@ -55,8 +56,9 @@ def checked_target(
 ) -> Path:
     """Return the path of a file that can be written.
 
-    `BadInput` where `path` has none of the suffixes, is a folder or a name of Windows' own, lies in a
-    folder that is not there, is taken as by `refuse_taken`, or is one of the `inputs`, which are read.
+    `BadInput` where `path` has none of the suffixes, is a folder or a name that Windows reserves, lies in a
+    folder that does not exist, is refused by `refuse_taken`, or is one of the `inputs`, the files that are
+    read.
     """
     target = Path(path)
     if target.is_dir():
@@ -77,7 +79,7 @@ def checked_target(
 def refuse_input(target: Path, inputs: Iterable[str | os.PathLike[str]]) -> None:
     """Refuse, as `BadInput`, a file to be written that is one of those that are read, by whatever name.
 
-    Names that differ in capitals alone are one: elsewhere they are one file.
+    Names that differ only in capitals count as one: on some systems they are one file.
     """
     for path in map(Path, inputs):
         if path.is_file() and (_alike(target, path) or (target.exists() and target.samefile(path))):
@@ -89,10 +91,10 @@ def _alike(one: Path, other: Path) -> bool:
 
 
 def refuse_taken(path: Path) -> None:
-    """Refuse a name under which something is that a file must not replace.
+    """Refuse a name that belongs to something that a file must not replace.
 
-    `BadInput` for a link, wherever it leads, a folder, a pipe, a device, and a file that is read-only, for
-    the superuser, too.
+    `BadInput` for a link, wherever it leads, a folder, a pipe, a device, and a read-only file, even for the
+    superuser.
     """
     try:
         mode = path.lstat().st_mode
@@ -108,7 +110,7 @@ def refuse_taken(path: Path) -> None:
 
 
 def checked_folder(path: Path) -> Path:
-    """Return a folder that is there, or of which only itself is missing; `BadInput` for any other."""
+    """Return a folder that exists, or whose parent does; `BadInput` for any other path."""
     if path.is_dir():
         return path
     if path.is_symlink():
@@ -121,7 +123,7 @@ def checked_folder(path: Path) -> Path:
 
 
 def made_folder(path: Path) -> Path:
-    """Return the folder, made where only it is missing; `BadInput` where a file or no parent is there."""
+    """Return the folder, made where only it is missing; errors as `checked_folder`, `WorkFailed` too."""
     with saying_why(checked_folder(path), "made"):
         path.mkdir(exist_ok=True)
     return path
@@ -131,8 +133,8 @@ def made_folder(path: Path) -> Path:
 def replacing(target: Path) -> Iterator[Path]:
     """Give the path of a new file, which takes the target's name when the block ends well.
 
-    A file that is there keeps its mode. Whatever ends the block otherwise, the new file goes and an old
-    one stays as it was. `BadInput` as `refuse_taken`.
+    It takes over the mode of an old file. If an exception ends the block, the new file is removed and an old
+    one stays as it was. `BadInput` as `refuse_taken`; `WorkFailed` where the system refuses.
     """
     refuse_taken(target)
     with scratch(target.parent, target) as folder:
@@ -155,7 +157,7 @@ def write_text(target: Path, text: str, *, folders: bool = False) -> None:
 def add(content: bytes, target: Path, others: Iterable[Path] = ()) -> Path:
     """Write a new file under the name, or the first of the others that is free; never over an old one.
 
-    Returns the name it took; all lie in one folder. `WorkFailed` where none is free, too.
+    Returns the name it took; all the names lie in one folder. `WorkFailed` also where none is free.
     """
     with scratch(target.parent, target) as folder:
         part = folder / "new"
@@ -168,7 +170,7 @@ def add(content: bytes, target: Path, others: Iterable[Path] = ()) -> Path:
 
 
 def _taken(part: Path, target: Path) -> bool:
-    """Give a part a name that is free, in one step; return whether it was."""
+    """Give the new file a name if that is free, in one step; return whether it was free."""
     try:
         target.hardlink_to(part)
     except FileExistsError:
@@ -179,7 +181,7 @@ def _taken(part: Path, target: Path) -> bool:
 
 
 def _moved(part: Path, target: Path) -> bool:
-    """Give a part a name that is free by reserving it first; return whether it was."""
+    """Give the new file a name if that is free, by reserving it first; return whether it was free."""
     try:
         target.touch(exist_ok=False)
     except FileExistsError:
@@ -189,7 +191,7 @@ def _moved(part: Path, target: Path) -> bool:
 
 
 def set_aside(path: Path) -> Path | None:
-    """Give a file of ours that is damaged another name, which is free; None where that cannot be."""
+    """Rename a damaged file of ours to a free name, and return that; None where it cannot be renamed."""
     names = (path.with_name(f"{path.stem}-aside-{n}{path.suffix}") for n in range(1, 10_000))
     with suppress(OSError):
         free = next(name for name in names if not os.path.lexists(name))
@@ -199,9 +201,9 @@ def set_aside(path: Path) -> Path | None:
 
 
 class Claim:
-    """The right to change a file: no other run of linkanim has it until it is released, or we are gone.
+    """The right to change a file: no other run of linkanim has it until it is released, or this run ends.
 
-    A file beside it is locked, `.NAME.lock`, and goes with the claim.
+    It is a lock on the file `.NAME.lock` beside the target, which is removed with the claim.
     """
 
     def __init__(self, path: Path, lock: int) -> None:
@@ -211,12 +213,13 @@ class Claim:
     def on(cls, target: Path) -> Claim | None:
         """Return the claim on a file, its folder made if it is not there; None where another run has it.
 
-        A file system that knows no locks gives it to everyone. `WorkFailed` where the folder refuses.
+        A file system that knows no locks gives it to everyone. `WorkFailed` where the folder cannot be
+        written.
         """
         path = target.with_name(f".{target.name}.lock")
         with saying_why(target):
             target.parent.mkdir(parents=True, exist_ok=True)
-            # of a file that is another user's no more than this may be asked
+            # opened for reading, which is all that another user's file may allow
             lock = os.open(path, os.O_RDONLY | os.O_CREAT, 0o666)
         try:
             hold(lock)
@@ -242,7 +245,7 @@ class Claim:
 
 @contextmanager
 def alone(target: Path) -> Iterator[None]:
-    """Have no other run of linkanim change a file meanwhile; `WorkFailed` where one does so for long."""
+    """Keep other runs of linkanim off a file during the block; `WorkFailed` where one has it for too long."""
     until = time.monotonic() + _PATIENCE
     while (claim := Claim.on(target)) is None:
         if time.monotonic() > until:
@@ -255,7 +258,7 @@ def alone(target: Path) -> Iterator[None]:
 
 
 def take_place(part: Path, target: Path) -> None:
-    """Have a file take the name, and the mode and owner of what is there; `BadInput` as `refuse_taken`."""
+    """Rename a file to the target, with the mode and owner of an old one; `BadInput` as `refuse_taken`."""
     refuse_taken(target)
     with suppress(FileNotFoundError):
         _look_like(part, target.stat())
@@ -272,14 +275,14 @@ def _look_like(part: Path, old: os.stat_result) -> None:
 
 
 def settle(path: Path) -> None:
-    """Have the bytes on the disk: a disk that is full may say so only now."""
+    """Force a file's bytes onto the disk: a full disk may report its error only then."""
     with path.open("rb+") as file:
         os.fsync(file.fileno())
 
 
 @contextmanager
 def scratch(folder: Path, target: Path) -> Iterator[Path]:
-    """Give a new folder in `folder` for work on the target; it goes at the end with all that is in it."""
+    """Give a new folder in `folder` for work on the target; it is removed at the end with its content."""
     clear_stale(folder)
     part = folder / f".linkanim-{os.urandom(8).hex()}.part"
     with saying_why(target):
@@ -293,12 +296,12 @@ def scratch(folder: Path, target: Path) -> Iterator[Path]:
 
 @contextmanager
 def _alive(path: Path) -> Iterator[None]:
-    """Hold a new file locked meanwhile, with what tells this machine in it."""
+    """Hold a new file locked during the block; its content identifies this machine."""
     lock = os.open(path, os.O_RDWR | os.O_CREAT | os.O_EXCL, 0o600)
     try:
         with suppress(OSError):  # a file system that knows no locks
             hold(lock, wait=True)
-        # only now: nobody takes the lock of a file without it for one whose run is gone
+        # only after the lock: another run that locks the file while it is empty does not take ours for ended
         os.write(lock, _machine())
         yield
     finally:
@@ -306,7 +309,7 @@ def _alive(path: Path) -> Iterator[None]:
 
 
 def hold(lock: int, *, wait: bool = False) -> None:
-    """Lock an open file until it is closed or we are gone; BlockingIOError where another holds it."""
+    """Lock an open file until it is closed or this run ends; BlockingIOError where another run holds it."""
     if sys.platform == "win32":
         try:
             msvcrt.locking(lock, msvcrt.LK_LOCK if wait else msvcrt.LK_NBLCK, 1)
@@ -317,7 +320,7 @@ def hold(lock: int, *, wait: bool = False) -> None:
 
 
 def _machine() -> bytes:
-    """Return what tells this machine, since it was started, from others: containers on it are one."""
+    """Return what identifies this machine since its start; containers on one machine have it in common."""
     try:
         return Path("/proc/sys/kernel/random/boot_id").read_bytes().strip()
     except OSError:
@@ -327,7 +330,7 @@ def _machine() -> bytes:
 
 
 def clear_stale(folder: Path) -> None:
-    """Remove what runs that are no longer alive left in a folder; what cannot be removed stays."""
+    """Remove what ended runs left in a folder; what cannot be removed stays."""
     with suppress(OSError):
         for path in list(folder.iterdir()):
             if re.fullmatch(_PART, path.name) and path.is_dir() and not path.is_symlink() and _is_stale(path):
@@ -337,11 +340,11 @@ def clear_stale(folder: Path) -> None:
 def _is_stale(part: Path) -> bool:
     """Return whether the run whose scratch folder this is has ended.
 
-    The lock tells, of a run on this machine; another's locks may not be seen here, and only its age does.
+    The lock tells it of a run on this machine. Another machine's locks may not show here: only the age tells.
     """
     try:
         lock = os.open(part / _LOCK, os.O_RDWR)
-    except FileNotFoundError:  # begun just now, or never gone on
+    except FileNotFoundError:  # begun just now, or killed at once
         return time.time() - part.stat().st_mtime > _FORSAKEN
     try:
         left_behind = time.time() - os.fstat(lock).st_mtime > _FORSAKEN
@@ -368,7 +371,7 @@ def _remove(path: Path) -> None:
 
 @contextmanager
 def saying_why(target: Path, deed: str = "written") -> Iterator[None]:
-    """Have the system's refusals meanwhile be a `WorkFailed` that names the target and the reason."""
+    """Turn an OSError of the block into a `WorkFailed` that names the target and the reason."""
     try:
         yield
     except OSError as error:
@@ -386,9 +389,9 @@ def _reason(error: OSError) -> str:
 
 
 def kept_as(name: str) -> Path:
-    """Return the path under which something is kept in the user's data folder; neither need be there.
+    """Return the path under which something is kept in the user's data folder; neither need exist.
 
-    Of a user without a home it is kept as long as the system keeps temporary files.
+    For a user without a home it lies among the temporary files, and lasts as long as the system keeps those.
     """
     from tempfile import gettempdir
 

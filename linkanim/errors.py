@@ -12,7 +12,7 @@ class LinkanimError(Exception):
 
 
 class BadInput(LinkanimError):
-    """What was asked for cannot be done as asked; `keys` lead to where in a document, if it is in one."""
+    """What was asked for cannot be done as asked; `keys` lead to the place in a document, if there is one."""
 
     exit_code = 2
     keys: tuple[str, ...] = ()
@@ -51,6 +51,6 @@ class RecordingFailed(WorkFailed):
 
 
 def shortened(text: str, most: int = 500) -> str:
-    """Return what a message repeats in `most` characters at the most: of more their begin and their end."""
+    """Return a text in at most `most` characters; of a longer one, its beginning and its end."""
     half = (most - 3) // 2
     return text if len(text) <= most else f"{text[:half]}...{text[-half:]}"

@@ -1,4 +1,4 @@
-"""What is known as text for others to read: CSV and JSON with every digit that a float has, and columns."""
+"""Results as text: CSV and JSON with every digit of a float, and tables to read."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 NULL = "null"
-"""What stands where a number is not finite."""
+"""What JSON has in the place of a number that is not finite."""
 _RUN = ("=", "+", "-", "@", "\t", "\r")
-"""What a text begins with that a spreadsheet takes for a formula."""
+"""The first characters of a text that a spreadsheet takes for a formula."""
 
 
 def lines(columns: Sequence[ArrayLike]) -> list[str]:
-    """Return the numbers of each row with commas between, each in the fewest digits that read back as it is.
+    """Return the numbers of each row with commas between, each in the fewest digits that read back the same.
 
     What is not finite is `null`.
     """
@@ -32,7 +32,7 @@ def lines(columns: Sequence[ArrayLike]) -> list[str]:
 def csv_head(names: Iterable[str]) -> str:
     """Return a table's first line: what its columns are called, each fit for a spreadsheet.
 
-    A name that one would run, such as "=A1", has an apostrophe in front.
+    A name that it would run as a formula, such as "=A1", has an apostrophe in front.
     """
     import csv
 
@@ -50,14 +50,14 @@ def csv_rows(columns: Sequence[ArrayLike]) -> str:
 
 
 def columns(rows: Sequence[Sequence[str]]) -> str:
-    """Return rows with their cells below each other, the first to the left, the others to the right."""
+    """Return rows in aligned columns, the first set to the left, the others to the right."""
     first, *others = [max(map(len, column)) for column in zip(*rows, strict=True)]
     form = "  ".join([f"{{:<{first}}}", *(f"{{:>{width}}}" for width in others)])
     return "\n".join(form.format(*row).rstrip() for row in rows)
 
 
 def markdown(rows: Sequence[Sequence[str]]) -> str:
-    """Return rows as a table of Markdown, the first its titles; all cells but the first to the right."""
+    """Return rows as a table of Markdown, the first its titles; all columns but the first to the right."""
     titles, *others = rows
     rule = ["---", *["---:"] * (len(titles) - 1)]
     return "\n".join(f"| {' | '.join(row)} |" for row in (titles, rule, *others))
@@ -78,7 +78,7 @@ def _finite(part: object) -> object:
 
 
 def mapped(change: Callable[[Any], Any], node: Any) -> Any:
-    """Return mappings and sequences, in each other to any depth, with what stands in them changed."""
+    """Return nested mappings and sequences, as dicts and lists, with `change` applied to each value."""
     if isinstance(node, list | tuple):
         return [mapped(change, part) for part in node]
     if isinstance(node, Mapping):

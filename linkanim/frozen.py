@@ -67,7 +67,7 @@ _FIELDS = "__dataclass_fields__"
 
 
 class _Late:
-    """Stand where a class has an attribute, and put it there when it is first asked for."""
+    """A stand-in for an attribute of a class, which makes the attribute when it is first asked for."""
 
     def __init__(self, owner: type, name: str, make: Callable[[Any], object]) -> None:
         self._owner, self._name, self._make = owner, name, make
@@ -79,7 +79,7 @@ class _Late:
 
 
 class _Statement:
-    """What a class states of its fields, those of its bases apart."""
+    """The fields that a class itself states, without those of its bases."""
 
     def __init__(self, cls: type, *, kw_only: bool) -> None:
         self.kw_only = kw_only
@@ -164,9 +164,9 @@ def _written_init(cls: type) -> Callable[..., None]:
 
 
 def _function(text: str, names: Mapping[str, str], known: dict[str, Any]) -> FunctionType:
-    """Return the function of a text, with other names for its arguments, and for the same words in it.
+    """Return the function that a text defines, its arguments, and texts in it equal to them, renamed.
 
-    Functions of one form are compiled once: to rename takes a twentieth of the time.
+    Functions of one form are compiled once: renaming takes a twentieth of the time.
     """
     code = _code(text)
 
@@ -186,10 +186,10 @@ def _code(text: str) -> CodeType:
 
 
 def _reader(cls: type) -> Callable[[Any], tuple[object, ...]]:
-    """Return what reads the fields of a value that are compared, as a tuple."""
+    """Return a function that gives the compared fields of a value as a tuple."""
     names = tuple(one.name for one in _fields(cls) if one.compare)
     if len(names) > 1:
-        return attrgetter(*names)  # one alone it returns bare
+        return attrgetter(*names)  # for one name it returns no tuple
     return lambda value: tuple(getattr(value, name) for name in names)
 
 
@@ -245,7 +245,7 @@ else:
 
 
 class _LateMaker:
-    """Stand where a named tuple has its `__new__`, and put it there when it is first asked for."""
+    """A stand-in for the `__new__` of a named tuple, which makes that when it is first asked for."""
 
     def __set_name__(self, owner: Any, name: str) -> None:
         self._owner = owner
@@ -299,7 +299,7 @@ _OF_TUPLES: dict[str, object] = {
 _field_at: Callable[[int, str], object] = getattr(
     collections, "_tuplegetter", lambda place, _: property(itemgetter(place))
 )
-"""Reads one place of a tuple by its name: as Python's own named tuples do, where theirs is to be had."""
+"""Makes a reader of one place of a tuple: the one of Python's own named tuples, where it can be imported."""
 
 
 class _Field(NamedTuple):

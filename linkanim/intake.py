@@ -26,8 +26,8 @@ from linkanim.units import shown
 
 # Files from outside: read whole or refused, and weighed before a parser is let loose on them.
 #
-# Parsers of TOML and JSON take a time that grows with the square of a key's depth, and a memory many
-# times the text's size where it is all brackets. A look at the marks outside of texts and comments tells.
+# Parsers of TOML and JSON take a time that grows with the square of a key's depth, and a memory many times
+# the text's size where it is all brackets. Counting the marks outside texts and comments tells beforehand.
 
 DEEPEST = 16
 """Keys within keys, or brackets within brackets; a scene needs four."""
@@ -39,8 +39,8 @@ _TEXTS = (
     r"|'[^'\n]*+'?"
     r"|\#[^\n]*+"
 )
-# Before its fifth patch Python 3.11 errs about groups that are repeated without going back and may match
-# in several ways: there are none here.
+# Before 3.11.5, Python's `re` errs about possessive groups that may match in several ways: there are none
+# here.
 _DOTTED = rf"(?<![\w-])(?:[\w-]++[ \t]*+\.[ \t]*+){{{DEEPEST}}}"
 _LONG_NUMBER = rf"(?<![0-9_.])(?:[0-9_.]{{{MOST_DIGITS + 1}}}|0x[0-9a-fA-F_]{{{MOST_DIGITS + 1}}})"
 _CONTROLS = (
@@ -48,16 +48,16 @@ _CONTROLS = (
     r"\ufff9-\ufffb\ufffe\uffff\U000e0000-\U000e007f]"
 )
 _PARTED, _LONGEST_NAME = r"[/\\]", 255
-"""What parts the names of a path on any system, and the bytes of a name that a disk holds."""
+"""What separates the names in a path on any system, and the most bytes of a name on a disk."""
 _BRACKETS = r"[\[\]{}]"
 _MARKS = "=,:[{"
 _OUR_TROUBLE = (EMFILE, ENFILE, ENOMEM)
-"""Why the system refuses any file, not this one."""
+"""Errors that are no fault of the file: the system would refuse any file."""
 
 
 @frozen
 class Intake:
-    """A kind of file that is read: what it is called, its bytes and values at the most, and its refusal."""
+    """A kind of file that is read: its name in messages, its most bytes and values, its refusal."""
 
     noun: str
     most_bytes: int
@@ -65,9 +65,9 @@ class Intake:
     refusal: type[BadInput] = BadInput
 
     def read(self, path: Path, where: str, *, missing: str = "") -> str:
-        """Return a file's text; `missing` is added to what is said of one that is not there.
+        """Return a file's text; `missing` is added to the message about a file that does not exist.
 
-        What is no file with text in it is refused without waiting for it: a folder, a pipe, a device.
+        A folder, a pipe or a device is refused at once: nothing waits for it.
         """
         try:
             data = self._bytes(path, where)
@@ -85,7 +85,7 @@ class Intake:
             raise self.refusal(f"{where}: is not UTF-8 text (line {line}); save it as UTF-8") from None
 
     def json(self, path: Path, where: str, otherwise: str) -> Any:
-        """Return what a file of JSON holds; any other file, or one with a NaN, is refused as `otherwise`."""
+        """Return what a file of JSON holds; any other, or one with a NaN, is refused because `otherwise`."""
         return self.parsed(self.read(path, where), where, otherwise)
 
     def parsed(self, text: str, where: str, otherwise: str) -> Any:
@@ -99,9 +99,9 @@ class Intake:
             raise self.refusal(f"{where}: {otherwise}") from None
 
     def marked(self, document: object, where: str, mark: str, version: int, otherwise: str) -> dict[str, Any]:
-        """Return a document of ours, which has its version under a mark.
+        """Return a document of ours, which has its version under the key `mark`.
 
-        OtherVersion for one of another version; one without the mark is refused as `otherwise`.
+        OtherVersion for another version; a document without the key is refused because `otherwise`.
         """
         if not isinstance(document, dict) or mark not in document:
             raise self.refusal(f"{where}: {otherwise}")
@@ -113,7 +113,7 @@ class Intake:
         return document
 
     def _bytes(self, path: Path, where: str) -> bytes:
-        if path.is_dir():  # Windows cannot open one to be asked
+        if path.is_dir():  # Windows cannot open a folder
             raise self.refusal(f"{where}: is a folder; name {self.noun} in it")
         # a pipe that nobody writes to would keep us waiting
         descriptor = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
@@ -133,7 +133,8 @@ class Intake:
     def refuse_heavy(self, text: str, where: str) -> None:
         """Refuse a document of more values than this kind has, too long a number, or depth beyond `DEEPEST`.
 
-        Texts in quotes and comments weigh nothing but by their digits; the time grows with the length alone.
+        In quoted texts and in comments only the lengths of numbers count. The time is proportional to the
+        length.
         """
         bare = re.sub(_TEXTS, "s", text)
         if sum(map(bare.count, _MARKS)) > self.most_values:
@@ -148,18 +149,18 @@ class Intake:
 
 
 def control_in(text: str) -> str | None:
-    """Return what in a text is no plain text, in words; None where all of it is.
+    """Return the first character of a text that plain text does not have, in words; None where there is none.
 
     Controls of the terminal and of the direction of writing, lines' and paragraphs' separators, halves of
     characters, invisible signs (U+2060 to U+206F, tags): what a terminal obeys, no page may hold or no reader
-    can see. Tabs and line breaks pass, and what joins letters or figures into one.
+    can see. Tabs and line breaks pass, and the joiners of letters and of emoji.
     """
     found = re.search(_CONTROLS, text)
     return f"the control character U+{ord(found[0]):04X}" if found else None
 
 
 def unnameable(path: str) -> str | None:
-    """Return why no file of ours can name a path, in words; None where it can."""
+    """Return why a path cannot be named in a file of ours, in words; None where it can."""
     if found := control_in(path):
         return f"has {found} in its name"
     if any(len(part.encode()) > _LONGEST_NAME for part in re.split(_PARTED, path)):
@@ -168,7 +169,7 @@ def unnameable(path: str) -> str | None:
 
 
 def named(path: str | os.PathLike[str]) -> str:
-    """Return a path as it is shown, on one line; what no system takes as a path is shortened."""
+    """Return a path as it is shown: on one line, and shortened where it is longer than a path can be."""
     return "".join(c if c.isprintable() else "?" for c in shortened(os.fspath(path)))
 
 
@@ -382,9 +383,9 @@ class NumberTable(NamedTuple):
 def read_numbers(text: str, where: str, columns: str) -> NumberTable:
     """Return a text's numbers; `columns` are those that it has to have, in words with commas between.
 
-    Semicolons, tabs, commas or blanks stand between the cells, whichever the table has, the first of them;
-    where they do not, a comma in a number is its decimal mark. Lines without a number before the others are a
-    heading; empty lines and what follows # are passed over. BadInput naming line, column and the cell.
+    Cells are parted by semicolons, tabs, commas or blanks: by the first of these that the table has. Where
+    commas do not part them, a comma in a number is its decimal mark. Lines without a number before the others
+    are a heading; empty lines and what follows # are ignored. `BadInput` names line, column and cell.
     """
     lines = _lines(text, where)
     between, comma = _form([line for _, line in lines])
@@ -432,7 +433,7 @@ def _cells(line: str, between: str) -> list[str]:
 
 
 def _is_heading(cells: list[str]) -> bool:
-    """Whether no cell is a number, and the first one does not begin as one, such as 87 deg."""
+    """Whether no cell is a number, and the first one does not begin with one, as 87 deg does."""
     return not (
         re.match(_NUMBER, _plain(cells[0])) or any(re.fullmatch(_NUMBER, _plain(cell)) for cell in cells)
     )

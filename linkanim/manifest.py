@@ -1,9 +1,9 @@
 """Files whose names we choose: a list beside them says which we wrote, and only those are replaced.
 
 The list, `.linkanim-NAME.json`, holds the SHA-256 of each file. A file that it does not name, or that was
-changed since, is never touched: where its name is needed, the set is refused before anything is. While a
-set is put in place its list holds the old sums beside the new, so that a run which is killed at any moment
-leaves files that are whole, each the old one or the new, and the next one knows them all.
+changed since, is never touched: where its name is needed, the set is refused before anything is written.
+While a set is put in place its list holds the old sums beside the new, so that a run which is killed at any
+moment leaves files that are whole, each the old one or the new, and the next run knows them all.
 """
 
 from __future__ import annotations
@@ -89,8 +89,8 @@ class FileSet:
 class Output:
     """A file to be written: under a name that its user gave, or else under one that we choose.
 
-    What is there under a name that was given is replaced; under another only what we wrote. The `way_out`
-    of a refusal is said where -o cannot give that name.
+    Under a name that was given any file is replaced; under one that we chose, only a file that we wrote. A
+    refusal ends in `way_out` where -o cannot give that name.
     """
 
     path: Path
@@ -108,19 +108,19 @@ class Output:
             yield folder / self.path.name
 
     def refuse_foreign(self) -> None:
-        """Refuse, as `BadInput`, a name that we choose where a file has it that we did not write."""
+        """Refuse, as `BadInput`, a name that we chose and that a file has which we did not write."""
         if not self.named:
             usual = f"give -o {self.path} to replace it, or another name"
             self._files.refuse_foreign([self.path.name], self.way_out or usual)
 
     def beside(self, name: str) -> Output:
-        """Return a file of another name in its folder, which nobody gave."""
+        """Return an output in the same folder, under a name that we choose."""
         way_out = f"move it away, or give another name than {self.path.name} with -o"
         return Output(self.path.with_name(name), named=False, way_out=way_out)
 
     @property
     def _files(self) -> FileSet:
-        """All in the folder that have names that we chose, one by one."""
+        """All outputs in the folder whose names we chose."""
         return FileSet(self.path.parent, "outputs", r"[^/]+")
 
 
@@ -134,8 +134,8 @@ def checked_output(
 ) -> Output:
     """Return what is to be written: the name that was given, or else the usual one if it is free or ours.
 
-    With `ours` the name that was given has to be so, too. `BadInput` as `atomic_files.checked_target`, and
-    for such a name that is a foreign file's.
+    With `ours` a name that was given has to be free or ours, too. `BadInput` as
+    `atomic_files.checked_target`, and for a name that has to be free or ours where it is a foreign file's.
     """
     way_out = "move it away, or give another name" if ours and named is not None else ""
     is_given = named is not None and not ours
@@ -161,13 +161,13 @@ def is_ours(path: Path, known: Sums) -> bool:
 def replacing(
     files: FileSet, names: Iterable[str] = (), *, others_go: bool = True, told: Path | None = None
 ) -> Iterator[Path]:
-    """Give a new folder, the files in which take their names in the set when the block ends well.
+    """Give a new folder, whose files take their names in the set when the block ends well.
 
-    Those of the set that the list names, that are still as we wrote them and are not among the new ones go
-    then, unless others are to stay. Whatever ends the block otherwise, and where a file cannot take its
-    place, all are as they were. The set's folder is made where only it is missing. `BadInput` before any
-    work where one of `names`, known beforehand, is taken by a file that is not ours; at the end for all.
-    Where the disk refuses, it is `told` of that path, or of the set.
+    With `others_go`, files of the set that the list names, that are still as we wrote them and that are not
+    among the new ones are then removed. If an exception ends the block, or a file cannot take its place, all
+    files are as they were. The set's folder is made where only it is missing. `BadInput` before any work
+    where one of `names`, known beforehand, is taken by a file that is not ours; at the end for all.
+    `WorkFailed` where the disk refuses; it names the path `told`, or the set.
     """
     folder = checked_folder(files.folder)
     files.refuse_foreign(names)
@@ -187,7 +187,7 @@ def replacing(
 
 
 def _take_places(files: FileSet, room: Path, sums: Sums, *, others_go: bool) -> None:
-    """Put the new files in place, one by one, and take away what goes; undo it all where one fails."""
+    """Put the new files in place, one by one, and remove others as asked; undo it all where one fails."""
     files.refuse_foreign(sums)
     before, old = files.sums(), room / "old"
     old.mkdir()
@@ -211,7 +211,7 @@ def _take_places(files: FileSet, room: Path, sums: Sums, *, others_go: bool) -> 
 
 
 def _kept(path: Path, old: Path) -> Path:
-    """Return what a file is kept as, for as long as it may have to come back."""
+    """Keep a file's content in the folder `old`, as it may have to come back; return its path there."""
     kept = old / os.urandom(8).hex()
     try:
         kept.hardlink_to(path)

@@ -22,9 +22,9 @@ from linkanim.frozen import NamedTuple
 # Numbers as people read them: how many digits, which minus, and what stands where there is no value.
 
 _SMALLEST, _LARGEST = -4, 7
-"""Powers of ten from which and up to which a number is written without one."""
+"""The first power of ten with which a number is written without an exponent, and the first with one again."""
 _NOTHING = 1e-13
-"""Radians that are left of none."""
+"""Radians below which an angle is a rounding error of zero."""
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
@@ -36,9 +36,9 @@ def significant(value: float, digits: int) -> str:
 
 
 def rounded(value: float, digits: int) -> str:
-    """Return `digits` significant digits, typeset, the noughts at their end kept: 1.200, 24560, 3.456×10⁸.
+    """Return `digits` significant digits, typeset, zeros at the end kept: 1.200, 24560, 3.456×10⁸.
 
-    "∞" or "−∞" for an infinity, "–" for NaN, "0" for nothing.
+    "∞" or "−∞" for an infinity, "–" for NaN, "0" for zero.
     """
     if not isfinite(value) or not value:
         return stepped(value, 1.0)
@@ -59,12 +59,12 @@ def rpm(speed: float) -> str:
 
 
 def degrees(angle: float) -> str:
-    """Return radians as degrees of four significant digits, set; what rounding leaves of none is 0."""
+    """Return radians as degrees, typeset, in four significant digits; a rounding error of zero is 0."""
     return f"{typeset(significant(to_degrees(angle) if abs(angle) > _NOTHING else 0.0, 4))}°"
 
 
 def stepped(value: float, step: float) -> str:
-    """Return a number, set, with the decimals that a step between neighbours needs."""
+    """Return a number, typeset, with the decimals that a step between neighbours needs."""
     if not isfinite(value):
         return "∞" if value > 0 else "−∞" if value < 0 else "–"
     size = max(abs(value), abs(step))
@@ -83,7 +83,7 @@ def three_digits(value: float) -> str:
 
 
 def four_digits(value: float) -> str:
-    """Return a number to four significant digits, set, without an exponent where it is a common one.
+    """Return a number to four significant digits, typeset, without an exponent from 0.0001 to 1e10.
 
     What is below 1e-9 counts as 0.
     """
@@ -118,7 +118,7 @@ PI_REST = 1.2246467991473532e-16
 
 
 class Angle(float):
-    """An angle in radians as a float, and the `rest` that it lacks of the angle as it was written."""
+    """An angle in radians as a float, with the `rest` by which the angle as it was written exceeds it."""
 
     __slots__ = ("rest",)
     rest: float
@@ -162,7 +162,7 @@ ANGLE = Units("an angle", {"deg": _PI / 180, "rad": _ONE})
 SPEED = Units("an angular speed", {"rpm": _PI / 30, "rad/s": _ONE, "deg/s": _PI / 180})
 ANGULAR_ACCELERATION = Units("an angular acceleration", {"rad/s^2": _ONE, "deg/s^2": _PI / 180})
 _FASTEST = 1.05e6
-"""In rad/s, 1e7 rpm and rounding."""
+"""The highest angular speed in rad/s: 1e7 rpm, with a margin for rounding."""
 _LENGTH = Units("a length", {"mm": _ONE / 1000, "cm": _ONE / 100, "m": _ONE, "in": Fraction(254, 10000)})
 STIFFNESS = Units("a stiffness", {"N/m": _ONE, "N/mm": _ONE * 1000, "kN/m": _ONE * 1000})
 DAMPING = Units("a damping coefficient", {"N s/m": _ONE, "N s/mm": _ONE * 1000, "kN s/m": _ONE * 1000})
@@ -173,13 +173,13 @@ INERTIA = Units(
 )
 FALL = Units("an acceleration", {"m/s^2": _ONE, "mm/s^2": _ONE / 1000})
 _SPELLINGS = (("°", "deg"), ("²", "2"), ("^2", "2"))
-"""Other ways to write what is in a unit, and the one that they come to."""
+"""Other spellings of a part of a unit, and the one that stands for them."""
 
 LENGTH_UNITS = tuple(_LENGTH.factors)
 
 
 def angle(value: object) -> Angle:
-    """Return an angle in radians: "87 deg" or "1.5 rad", with what rounding takes from it.
+    """Return an angle in radians: "87 deg" or "1.5 rad", with the rest that rounding takes from it.
 
     A multiple of 90 degrees comes back as that multiple of `math.pi / 2`, rounded once. UnitError
     where the unit is missing or unknown, or the number is not finite.
