@@ -4,7 +4,7 @@ From the ground up; a module imports from those before it only:
 
     exits            how a command ends: its exit code, and one line on stderr
     options          the arguments of each command, and what their texts mean
-    picture_options  what commands that write pictures are asked alike
+    picture_options  the options that commands which write pictures share
     alternative      what a picture shows, in a paragraph beside it
     progress         a bar that says how far long work is
     answers          answers of a synthesis, as files and as a table
@@ -20,7 +20,7 @@ from collections.abc import Sequence
 from linkanim.cli.exits import guarded
 
 SPARED = 10_000
-"""So many more things are made than go before rubbish is looked for: at the start nearly all of them stay."""
+"""New objects, less those freed, between two garbage collections: at the start nearly all of them stay."""
 
 
 def main(argv: Sequence[str] | None = None) -> int:

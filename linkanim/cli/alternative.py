@@ -17,9 +17,9 @@ def plain(words: str) -> str:
 
 
 def alternative(options: Namespace) -> Callable[[str], None]:
-    """Return what writes a text to the file of `--alt` and prints its path; nothing where none is asked for.
+    """Return a function that writes a text to the file of `--alt` and prints its path, or that does nothing.
 
-    `BadInput` for a file that cannot be, before any work.
+    `BadInput` for a file that cannot be written, before any work.
     """
     if options.alt is None:
         return lambda _: None

@@ -25,7 +25,7 @@ Answer = TypeVar("Answer", bound=Designed)
 
 
 def target_of(output: Path | None, name: str) -> Path:
-    """Return where the first answer goes: what `-o` names, else `name`; BadInput if it cannot be ours."""
+    """Return where the first answer goes: what `-o` names, else `name`; BadInput if not ours to write."""
     target = checked_target(output or Path(name), (".toml",))
     file_set(target).refuse_foreign([target.name])
     return target

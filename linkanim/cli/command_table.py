@@ -147,7 +147,7 @@ def _refuse_misspelt(word: str) -> None:
 def refuse_mixed_pygame() -> None:
     """Raise `WorkFailed` where pygame and pygame-ce lie in one folder, or what is there is not whole.
 
-    Whichever came last works until the other is removed or renewed, which takes files of both.
+    The one installed last works until the other is removed or updated, which removes files of both.
     """
     from importlib.util import find_spec
 

@@ -21,16 +21,16 @@ HUNG_UP = 129
 
 _ENDING = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name))
 _BAD_NAMES = (errno.ENAMETOOLONG,)
-"""What the system says of names that cannot be: those who chose them can mend that."""
+"""The system's errors for names that cannot be: whoever chose such a name can mend it."""
 _NO_MEMORY = ("failed to map segment", "cannot allocate memory")
 _LONGEST = 4000
 """Characters of a message that are shown."""
 _ONE_AND_THE_SAME = 3.0
-"""Seconds in which further signals say what the first did: a terminal that closes sends several."""
+"""Seconds in which further signals count as the first: a terminal that closes sends several."""
 
 
 class Ended(BaseException):
-    """A signal that ends us arrived, with its exit code; no Exception: on its way only clean-up runs."""
+    """A signal that ends the program, with its exit code; no Exception, so that only clean-up catches it."""
 
 
 def guarded(work: Callable[[], None]) -> int:
@@ -89,7 +89,7 @@ def _say(message: str, code: int) -> int:
 def one_line(message: str) -> str:
     """Return a message on one line, with nothing in it that a terminal would take for an order.
 
-    What it repeats is shortened in its middle where it has no end: the reason and the way out are to be seen.
+    An overlong word, or message, is shortened in its middle, so that the reason and the way out stay visible.
     """
     line = " ".join(shortened(word) for word in message.split())
     return "".join(c if c.isprintable() else "?" for c in shortened(line, _LONGEST))
@@ -152,10 +152,11 @@ def _print_anything() -> None:
 
 @contextmanager
 def _signals_raise() -> Iterator[None]:
-    """Turn what is to end us into an exception meanwhile, once: clean-up is not cut short by a second one.
+    """Turn a signal during the block into an exception, once: a second one does not cut clean-up short.
 
-    One that arrives while an object is let go is lost there, for Python goes on; it is raised again then.
-    What is ignored, as SIGHUP under nohup, stays so; other threads than the main one cannot, and do not.
+    Python drops an exception that is raised while an object is deleted; its signal is then sent again. A
+    signal that is ignored, as SIGHUP is under nohup, stays ignored. Outside the main thread, where Python
+    allows no signal handlers, this does nothing.
     """
     threading = sys.modules.get("threading")  # where nobody has loaded it there is one thread
     if threading is not None and threading.current_thread() is not threading.main_thread():
@@ -177,7 +178,7 @@ def _signals_raise() -> Iterator[None]:
         if what.exc_value in ends:
             raised[0] = -_ONE_AND_THE_SAME
             _soon(numbers[ends.index(what.exc_value)])
-        elif not any(one in ends for one in _behind(what.exc_value)):  # what breaks on its way is no news
+        elif not any(one in ends for one in _behind(what.exc_value)):  # what it broke is no news
             told(what)
 
     before = {number: signal.getsignal(number) for number in _ENDING}
@@ -188,8 +189,8 @@ def _signals_raise() -> Iterator[None]:
     try:
         yield
     except (ImportError, SyntaxError, SystemError) as error:
-        # numpy takes what arrives while it is loaded for a failure of its own, Python what arrives while the
-        # compiler looks up a letter's name; closing a buffer loses it
+        # numpy takes an exception that arrives while it is loaded for a failure of its own, and Python one
+        # that arrives while its compiler looks up a letter's name; closing a buffer loses it
         if ends:
             raise ends[-1] from error
         raise
@@ -206,7 +207,7 @@ def _behind(error: BaseException | None) -> Iterator[BaseException]:
 
 
 def _soon(number: signal.Signals) -> None:
-    """Have a signal arrive a moment later, when Python is out of what would lose it again."""
+    """Have a signal arrive a moment later, when Python has left the code that would drop it again."""
     import _thread
 
     main = _thread.get_ident()  # signals are handled in no other thread
@@ -215,7 +216,7 @@ def _soon(number: signal.Signals) -> None:
         time.sleep(0.01)
         if sys.platform == "win32":
             _thread.interrupt_main(number)
-        else:  # it wakes the program where that waits for another
+        else:  # this also wakes a program that waits for another
             signal.pthread_kill(main, number)
 
     _thread.start_new_thread(arrive, ())

@@ -32,7 +32,7 @@ _MOST_DIGITS = 15
 
 
 def sweep(text: str) -> tuple[Decimal, Decimal, int]:
-    """Read `a:b:step` in degrees, exact as it is typed: the first, the step, and how many there are.
+    """Read `a:b:step` in degrees, exactly as typed: the first angle, the step, and how many angles.
 
     b is included where it falls on a step.
     """
@@ -133,7 +133,7 @@ def digits(text: str) -> int:
 
 
 def speeds(text: str) -> dict[str, float]:
-    """Read angular speeds with commas between (rad/s), by their words; none is zero."""
+    """Read angular speeds with commas between, in rad/s by the words for each; zero is refused."""
     found = _several(text, units.angular_speed)
     if not found or not all(found.values()):
         raise BadInput(f'{shown(text)}: give speeds other than zero, such as "5 rad/s,10 rad/s"')
@@ -256,7 +256,7 @@ class Parser(argparse.ArgumentParser):
     """In columns; None for the terminal's."""
 
     def _formatter(self, prog: str) -> argparse.HelpFormatter:
-        # argparse makes one for each argument, to check it; to ask for the terminal's width takes longer
+        # argparse makes one for each argument, to check it; asking for the terminal's width would take longer
         return argparse.RawDescriptionHelpFormatter(prog, width=self._width)
 
     def error(self, message: str) -> NoReturn:
@@ -276,14 +276,14 @@ class Parser(argparse.ArgumentParser):
         return found, unknown
 
     def _get_value(self, action: argparse.Action, arg_string: str) -> Any:
-        # argparse's own knows no `BadInput`, and would let it go without the option's name
+        # argparse does not know `BadInput`, and would let it pass without the option's name
         try:
             return super()._get_value(action, arg_string)
         except BadInput as error:
             raise argparse.ArgumentError(action, str(error)) from error
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:
-        # argparse's own says the value whole, however long it is
+        # argparse would repeat the whole value, however long it is
         if action.choices is not None and value not in action.choices:
             choices = ", ".join(map(shown, action.choices))
             raise argparse.ArgumentError(action, f"{shown(value)} is not one of its choices: {choices}")
@@ -303,7 +303,7 @@ class Parser(argparse.ArgumentParser):
 def join_negative(words: Sequence[str]) -> list[str]:
     """Write `--angle -30deg` as `--angle=-30deg`, or argparse would take -30deg for an option.
 
-    -3,4 gets a blank in front, which does the same for an option that takes several of them.
+    `-3,4` gets a blank in front, which serves an option that takes several values, too.
     """
     joined: list[str] = []
     for word in words:
@@ -322,7 +322,7 @@ EVERY_ANGLE = object()
 """What `--phase` without a value stands for: each angle of the sweep."""
 
 Argument = Callable[[_ActionsContainer], object]
-"""What adds an argument, or several, to a parser."""
+"""A function that adds an argument, or several, to a parser."""
 
 
 @frozen
@@ -344,12 +344,12 @@ PRESETS = {
 
 
 class Further(Action):
-    """An option that goes to its step of a field of the look, or a step further; never back."""
+    """An option that moves a field of the look on, to its own step or by one step; never back."""
 
     def __call__(
         self, _parser: object, options: Namespace, _values: object, _word: str | None = None
     ) -> None:
-        """Put the step into the options."""
+        """Put the new step into the options."""
         steps = TOGGLES[self.dest].steps
         at = steps.index(getattr(options, self.dest))
         to = at + 1 if self.const is None else steps.index(self.const)
@@ -364,7 +364,7 @@ def _takes(*names: str, **how: Any) -> Argument:
 def _value(
     words: str, read: Callable[[str], object], text: str, usual: object = None, **how: Any
 ) -> Argument:
-    """Return an argument with a value: its names and what help calls that, how it is read, its default."""
+    """Return an argument with a value: its names, what help calls the value, how it is read, its default."""
     *names, metavar = words.split()
     return _takes(*names, metavar=metavar, type=read, help=text, default=usual, **how)
 
@@ -385,7 +385,7 @@ def _either(*arguments: Argument) -> Argument:
 
 
 def _usually(**given: object) -> Argument:
-    """Return what a command takes for options that are not given, if not what others do."""
+    """Return the defaults of a command's options, where they are not those of other commands."""
     return lambda parser: parser.set_defaults(**given)
 
 
@@ -644,7 +644,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _value(
             "--versions N",
             whole,
-            "so many sheets A, B, ... of other lengths, with their keys in one file",
+            "the number of sheets A, B, ... with other lengths; their keys are in one file",
         ),
         _value(
             "--seed N",
@@ -836,5 +836,5 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
 
 
 def inputs_of(options: Namespace) -> list[str | Path]:
-    """Return the paths that a command reads: its scene's, where that is a file, and a table's."""
+    """Return what a command reads: its scene, by name or path, and the path of a table."""
     return [path for name in ("scene", "data") if (path := getattr(options, name, None)) is not None]

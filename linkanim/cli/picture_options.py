@@ -1,4 +1,4 @@
-"""What the commands that write pictures are asked alike: of which scene, how large, where to, what on it."""
+"""The options that commands which write pictures share: which scene, how large, which file, what is shown."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from linkanim.scenes.scene import Scene
 
 
 class Canvas(NamedTuple):
-    """What a picture is drawn on: so many pixels, so many mm wide on paper, with a ground or none.
+    """What a picture is drawn on: its size in pixels, its width in mm on paper, and whether it has a ground.
 
     Without a width a pixel is 3/4 pt. Words are `type_scale` times as large as usual.
     """
@@ -52,7 +52,7 @@ def scene_canvas_target(
 ) -> tuple[Scene, Canvas, Output]:
     """Return the scene, what it is drawn on, and the file, by default named after the scene.
 
-    `BadInput` for a size or a file that cannot be.
+    `BadInput` for a size that cannot be drawn or a file that cannot be written.
     """
     target = checked_output(
         options.output, f"{Path(options.scene).stem}{usual}", suffixes, inputs_of(options)
@@ -77,8 +77,8 @@ def refuse_photograph(scene: Scene, target: Path) -> None:
 def look_of(scene: Scene, options: Namespace) -> Look:
     """Return what the options say is to be shown of a scene.
 
-    `BadInput` for centrodes where every link turns about a fixed pin, or slides; `AssemblyError` for the
-    other closure where there is none.
+    `BadInput` for centrodes where every link turns about a fixed pin, or slides, and for a chart over an
+    input's angle where the input swings; `AssemblyError` for the other closure where there is none.
     """
     look = Look(**{name: value for name, value in vars(options).items() if name in TOGGLES})
     if look.centres > 1 and coupler_body(scene.linkage) is None:
