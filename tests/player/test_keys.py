@@ -16,6 +16,7 @@ from linkanim.player.action import Action, Mode
 from linkanim.player.actions import is_known
 from linkanim.player.keys import (
     KEYS,
+    MENU_IN,
     MODES,
     Bind,
     Press,
@@ -247,3 +248,14 @@ def test_all_of_the_help_is_there_in_a_small_window_too(
 def test_commands_in_the_list_are_told_apart_by_their_words() -> None:
     words = [said for said, _, _ in commands("play")]
     assert sorted(words) == sorted(set(words))
+
+
+@pytest.mark.parametrize("mode", sorted(MENU_IN))
+def test_of_keys_that_step_each_is_called_by_its_own_way_in_the_list(mode: Mode) -> None:
+    of_several = {
+        row.words
+        for row in (*ROWS["play"], *ROWS.get(mode, ()))
+        if len({bind.action.value for bind in row.binds if isinstance(bind.action.value, int)}) > 1
+    }
+    steps = [said for said, _, action in commands(mode) if isinstance(action.value, int)]
+    assert [said for said in steps if said in of_several] == []

@@ -9,6 +9,7 @@ from typing import get_args
 import numpy as np
 import pygame
 import pytest
+from numpy.typing import NDArray
 from playing import Player
 
 from linkanim.player.actions import advance
@@ -67,7 +68,7 @@ def test_nothing_is_heard_of_what_stands_still_or_jumps_or_is_switched_off() -> 
 
 
 @pytest.mark.parametrize("cue", get_args(Cue))
-def test_waves_are_short_quiet_and_begin_and_end_in_silence(cue: Cue) -> None:
+def test_waves_are_short_quiet_and_earlyand_end_in_silence(cue: Cue) -> None:
     samples = wave(cue).astype(float) / np.iinfo(np.int16).max
     assert 0.01 < len(samples) / RATE < 1.0
     assert 0.02 < np.abs(samples).max() < 0.2
@@ -75,13 +76,22 @@ def test_waves_are_short_quiet_and_begin_and_end_in_silence(cue: Cue) -> None:
     assert np.abs(samples[-20:]).max() < 2e-3
 
 
-def test_a_limit_is_lower_than_a_dead_centre() -> None:
-    def pitch(cue: Cue) -> float:
-        spectrum = np.abs(np.fft.rfft(wave(cue), RATE))
-        return float(spectrum.argmax())
+def _pitch(samples: NDArray[np.int16]) -> float:
+    """Return the loudest pitch (Hz)."""
+    return float(np.abs(np.fft.rfft(samples, RATE)).argmax())
 
-    assert pitch("limit") < 200 < pitch("tock") < pitch("tick")
-    assert pitch("tick") == pytest.approx(2093, abs=30)
+
+def test_a_limit_is_lower_than_a_dead_centre() -> None:
+    assert _pitch(wave("limit")) < 200 < _pitch(wave("tock")) < _pitch(wave("tick"))
+    assert _pitch(wave("tick")) == pytest.approx(2093, abs=30)
+
+
+@pytest.mark.parametrize(("cue", "early", "late"), [("right", 659, 988), ("wrong", 233, 175)])
+def test_what_is_right_rises_and_what_is_wrong_falls(cue: Cue, early: float, late: float) -> None:
+    samples = wave(cue)
+    first, last = samples[: round(0.085 * RATE)], samples[round(0.25 * RATE) :]
+    assert _pitch(first) == pytest.approx(early, abs=15)
+    assert _pitch(last) == pytest.approx(late, abs=15)
 
 
 def test_the_device_is_opened_by_the_first_sound_and_not_before(player: Player) -> None:
