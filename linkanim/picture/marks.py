@@ -29,8 +29,7 @@ _LIT = 0.45
 
 
 def measure(setting: DrawSetting, begin: complex, end: complex, shown: DimensionLine) -> Iterator[Group]:
-    """Yield the light on a length from `begin` to `end` (pixels), its dimension line, and the value on that.
-    """
+    """Yield the light on a length from `begin` to `end` (pixels), its dimension line, and its value."""
     if not 1.0 <= abs(end - begin) < np.inf:
         return
     gauge, theme, layout, size = setting.gauge, setting.theme, setting.layout, setting.layout.small_size

@@ -1,8 +1,8 @@
-"""Advance the state by actions: one table says what each may ask for, what it does, whether tapes keep it.
+"""Advance the state by actions: one table says which value each takes, what it does, whether tapes keep it.
 
-`advance(state, actions)` is the player's only way forward, and pure. Actions on the look, on the place of
-the input, on games and on the outside stand here; those of `edits`, `pencil` and `building` in their own
-modules.
+`advance(state, actions)` is pure, and the only way in which the state changes. Actions on the look, on the
+place of the input, on games and on the outside are here; those of `edits`, `pencil`, `posing`, `building`,
+`making` and `taking` in their own modules.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ _PLACES = 9
 
 
 def chart(state: State, further: int) -> State:
-    """Chart the telling quantity `further` places on: no chart follows the last, and any other quantity."""
+    """Chart the key quantity `further` places on; after the last one, and after any other, chart none."""
     charts = (None, *state.scene.telling)
     if state.look.chart not in charts:
         return replace(state, look=replace(state.look, chart=None))
@@ -82,7 +82,7 @@ def ghost(state: State, _: None) -> State:
 
 
 def polygons(state: State, _: None) -> State:
-    """Show both polygons, or none; both where one stands alone by itself."""
+    """Show both polygons, or none; both where one stands alone."""
     return replace(state, look=replace(toggled(state.look, "polygons"), large_polygon=0))
 
 
@@ -106,7 +106,7 @@ def _after(now: Step | None, steps: tuple[Step, ...], *, usual: Step) -> Step | 
 
 
 def settled_look(state: State) -> Look:
-    """Return the look with what the scene has as usual instead of None."""
+    """Return the look with the scene's usual values instead of None."""
     scene, look = state.scene, state.look
     return replace(look, unit=look.unit or scene.length_unit, over=axis_of(scene, look.over))
 
@@ -136,8 +136,8 @@ def fit(state: State, _: None) -> State:
 def zoomed(look: Look, notches: float, about: tuple[float, float]) -> Look:
     """Return the look zoomed by `notches`, the point `about` staying where it is.
 
-    `about` is in window heights from the middle of the picture, right and down. So many notches
-    out again give the same look, unless the end of the range was met.
+    `about` is in window heights from the middle of the picture, right and down. As many notches back give the
+    same look, unless the end of the range was met.
     """
     before = math.log(look.zoom, _NOTCH)
     low, high = _NOTCHES
@@ -148,18 +148,18 @@ def zoomed(look: Look, notches: float, about: tuple[float, float]) -> Look:
 
 
 def _rounded(x: float, y: float) -> tuple[float, float]:
-    """Round far below a pixel, so that a way there and back ends on the same picture."""
+    """Round far below a pixel, so that going there and back ends at the same picture."""
     return round(x, _PLACES) + 0.0, round(y, _PLACES) + 0.0
 
 
-# Actions that take the paused input to a place that is typed: its angle in degrees, or a slider's travel.
+# Actions that move the paused input to a typed place: its angle in degrees, or a slider's travel.
 
 _STANDS = 240
 _LONGEST = 12
 
 
 def write(state: State, text: str) -> State:
-    """Add to the place that is typed, which a chip shows for as long as it is waited for."""
+    """Add to the typed place, which a chip shows until it is taken."""
     return _begun(state, (state.place_typed + text)[:_LONGEST])
 
 
@@ -178,7 +178,7 @@ def _symbol(state: State) -> str:
 
 
 def go(state: State, _: None) -> State:
-    """Go to the place that was typed; say the input's range where it does not come there."""
+    """Go to the typed place; say the input's range where it does not come there."""
     text, state = state.place_typed, replace(state, place_typed="", chip=None)
     if not text:
         return state
@@ -207,15 +207,15 @@ def sounds(state: State, _: None) -> State:
 
 
 def pad(state: State, name: str) -> State:
-    """Take note of the gamepad that was plugged in, or that the last one is gone."""
+    """Record that a gamepad was plugged in, or that the last one is gone."""
     told = f"{name}: its left stick turns the crank; H lists its buttons" if name else "the gamepad is gone"
     return with_toast(replace(state, pad=bool(name)), told)
 
 
 def back(state: State, _: None) -> State:
-    """Let go of what lies on top: the help, a list, a value begun; never of the window.
+    """Close what lies on top: the help, a list, a typed value; never the window.
 
-    From a mechanism it leads back to the title, where the window opened on that.
+    From a mechanism it leads back to the title, if the window opened on the title.
     """
     if state.naming:
         return replace(state, naming=None)
@@ -243,14 +243,14 @@ def back(state: State, _: None) -> State:
 
 
 def quit_(state: State, _: None) -> State:
-    """Ask for the window's end; while something is recorded, first whether that is meant."""
+    """Ask for the window's end; while something is recorded, only when asked twice."""
     if state.recording and (state.toast is None or state.toast.text != _MEANT):
         return with_toast(state, _MEANT)
     return building.closing(state) or with_effect(state, "quit")
 
 
 def close(state: State, _: None) -> State:
-    """Ask for the window's end by its own button; once more where a draft is in no file."""
+    """Ask for the window's end by its own button; where a draft is in no file, only when asked twice."""
     return building.closing(state) or with_effect(state, "quit")
 
 
@@ -275,12 +275,12 @@ def _saved(state: State, asked: tuple[str, str | None]) -> State:
 
 
 def write_name(state: State, text: str) -> State:
-    """Add to the name that is typed, which takes the proposal's place."""
+    """Add to the typed name, which replaces the proposed one."""
     return _named(state, lambda typed: (typed + text)[:_LONGEST_FILE])
 
 
 def erase_name(state: State, _: None) -> State:
-    """Take the last letter off the name, of the proposal too."""
+    """Erase the last letter of the name, even of a proposed one."""
     naming = state.naming
     return _named(state, lambda typed: (typed or (naming.proposal if naming else ""))[:-1])
 
@@ -291,33 +291,33 @@ def _named(state: State, work: Callable[[str], str]) -> State:
 
 
 def take_name(state: State, _: None) -> State:
-    """Write the scene under the name, and ask no more."""
+    """Write the scene under the name, and close the question."""
     return with_effect(replace(state, naming=None), "save_new", state.naming.name) if state.naming else state
 
 
 def take_toast(state: State, _: None) -> State:
-    """Put the toast away, and open the folder of the file that it says is saved."""
+    """Close the toast, and open the folder of the file that it says is saved."""
     told = state.toast.text if state.toast and not state.naming else ""
     return with_effect(replace(state, toast=None), "folder", told) if told else state
 
 
 def shot(name: str) -> Callable[[State, None], State]:
-    """Return the handler of what keeps the picture: the shutter is seen to go."""
+    """Return the handler of an effect that saves the picture, with the shutter's flash."""
     return lambda state, _: replace(with_effect(state, name), shot=state.frame)
 
 
 def effect(name: str) -> Callable[[State, str | None], State]:
-    """Return the handler of what changes nothing in the picture."""
+    """Return the handler of an effect that changes nothing in the picture."""
     return lambda state, value: with_effect(state, name, value)
 
 
-# Games come over the state and go again; what was there before stands beneath, and comes back.
+# A game replaces the state while it runs; the state before stands beneath, and comes back.
 
 _OF_A_TAKE = {f"take_{name}" for name in ("places", "row", "turn", "type", "untype", "refused", "into")}
 BESIDE = BESIDE_GAMES | {"take_toast", "stir", "menu", "note", "hint", "pad", "close"} | _OF_A_TAKE
 """Actions that are the window's own while a game is on; all others are handed to the game."""
 _ON_A_LIST = frozenset({"move", "sift", "unsift", "back"})
-"""What is the list's, or the dialog's, own while one is open over a game."""
+"""Actions that belong to a list, or the dialog, while one is open over a game."""
 
 
 def play(state: State, words: str) -> State:
@@ -335,7 +335,7 @@ def play(state: State, words: str) -> State:
 
 
 def leave(state: State) -> State:
-    """Return the state without its game: what was beneath, standing or running on from where it was."""
+    """Return the state beneath the game, paused or running on from where it was."""
     under = state.beneath
     if under is None:
         return state
@@ -348,7 +348,7 @@ def leave(state: State) -> State:
 
 
 def with_scene(state: State, scene: Scene, phase: float = 0.0, *, paused: bool = False) -> State:
-    """Return the state with a game's scene on, standing or running from a phase; errors as `proved`."""
+    """Return the state with a game's scene, paused at or running from a phase; errors as in `proved`."""
     clock = fresh(proved(scene, phase)).go(state.frame, phase, paused=paused)
     look = replace(state.look, zoom=1.0, pan=(0.0, 0.0), chart=None)
     return replace(
@@ -360,10 +360,10 @@ def with_scene(state: State, scene: Scene, phase: float = 0.0, *, paused: bool =
 
 
 class Rule(NamedTuple):
-    """One action: the test that its value must pass, and what it makes of a state.
+    """One action: the test that its value must pass, and the state that it makes of another.
 
-    `taped` is False for what is done outside the picture, which no tape keeps. `answer` says in a word or two
-    what has come of it, from the states before and after.
+    `taped` is False for actions outside the picture, which no tape keeps. `answer` says in a word or two what
+    changed, from the states before and after.
     """
 
     check: Callable[[object], bool]
@@ -374,9 +374,9 @@ class Rule(NamedTuple):
 
 _MOST_NUMBERS = 1_000
 MOST_STEPS, LARGEST_NUMBER = 10**9, 1e100
-"""The most of an action's value: no key or mouse gives more, and no float holds whatever a tape may say."""
+"""The greatest values of an action: no key or mouse gives more, and a tape might say anything."""
 _FARTHEST = 1e18
-"""The same of a place on a sheet, in whose figures places are squared and counted in steps."""
+"""The greatest coordinate on a sheet, where places are squared and counted in steps."""
 
 
 def _nothing(value: object) -> bool:
@@ -427,7 +427,7 @@ def _place_of_sheet(value: object) -> bool:
 
 
 def _hand(value: object) -> bool:
-    """Tell whether a value is what the hand does: x and y, how near is on a thing, the step, 0 for none."""
+    """Tell whether a value is a hand's: x and y, how near is on a thing, the step, 0 for none."""
     if not _numbers(4)(value):
         return False
     *place, reach, snap = cast(tuple[float, ...], value)
@@ -440,7 +440,7 @@ def _triples(value: object) -> bool:
 
 
 def _sizes_of_answers() -> tuple[int, int, int]:
-    # of the search nothing is imported before the pencil is taken
+    # nothing of the search is imported before the pencil is taken
     from linkanim.synthesis.answers import EARLIER, NUMBERS
     from linkanim.synthesis.guidance import POSE_NUMBERS
 
@@ -463,12 +463,12 @@ def _cards(value: object) -> bool:
 def _either(
     of_sheet: Callable[[State, Any], State], of_poses: Callable[[State, Any], State]
 ) -> Callable[[State, Any], State]:
-    """Return the handler of what poses have in common with a sheet, or with layers."""
+    """Return the handler of an action that poses share with a sheet, or with the pencil."""
     return lambda state, value: (of_poses if state.posing else of_sheet)(state, value)
 
 
 def _dial_on(state: State, steps: int) -> State:
-    """Turn the dial of poses, that of the pencil, or go along the family of the scene that is on."""
+    """Turn the dial of poses or of the pencil, or go along the family of the present scene."""
     handle = posing.dial_on if state.posing else dial.dial_on if state.drawing else making.along
     return handle(state, steps)
 
@@ -484,12 +484,12 @@ def _direction(_: State, after: State) -> str:
 
 
 def _place(before: State, after: State) -> str | None:
-    """Say which of the shelf's mechanisms is on."""
+    """Say which of the shelf's mechanisms is shown."""
     return None if after.scene is before.scene else f"{after.place + 1} / {len(after.shelf)}"
 
 
 def _closure(before: State, after: State) -> str | None:
-    """Say which of the two closures is on."""
+    """Say which of the two closures is shown."""
     return None if after.scene is before.scene else closure_name(after.scene)
 
 
@@ -499,7 +499,7 @@ def _returns(_: State, after: State) -> str:
 
 
 def _chart(before: State, after: State) -> str | None:
-    """Say what is charted now, or no more."""
+    """Say what is charted now, or that it is charted no longer."""
     was, now = (chart_tokens(one.scene, one.look.chart) for one in (before, after))
     if was == now or not now:
         return None if was == now else "no chart"
@@ -519,22 +519,22 @@ def _zoom(_: State, after: State) -> str:
 
 
 def _unused(state: State, _: object) -> State:
-    """Do nothing: without a game there is no use for it."""
+    """Do nothing: the action has a meaning only in a game."""
     return state
 
 
 def _stuck(words: str) -> Callable[[State, State], str | None]:
-    """Return what says so where there was nothing to do; else the list or the sheet shows it."""
+    """Return the answer of an action that says these words where nothing changed."""
     return lambda was, now: words if (was.editing, was.sheet) == (now.editing, now.sheet) else None
 
 
 def _running(work: Callable[[Clock, int, Any], Clock]) -> Callable[[State, Any], State]:
-    """Return the handler of what changes the clock alone, from the frame of the state on."""
+    """Return the handler of an action that changes the clock alone, from the state's frame on."""
     return lambda state, value: replace(state, clock=work(state.clock, state.frame, value))
 
 
 def _of_look(name: str) -> Rule:
-    """Return the rule of a field of the look; some do more than to go on a step."""
+    """Return the rule of a field of the look; some do more than go a step further."""
     more = {"ghost": ghost, "theme": theme, "unit": unit, "over": over, "polygons": polygons}
     handle = more.get(name, toggling(name))
     return Rule(
@@ -563,7 +563,7 @@ ACTIONS: Mapping[str, Rule] = {
     **{name: _of_look(name) for name, toggle in TOGGLES.items() if toggle.keys},
     "chart": Rule(_whole, chart, answer=_chart),  # quantities further
     "plot": Rule(_text, edits.plot, answer=_chart),  # a quantity's token
-    "strip": Rule(_text, edits.strip, answer=_chart),  # one that is charted below the others, or no more
+    "strip": Rule(_text, edits.strip, answer=_chart),  # a quantity's token, charted below or removed
     "help": Rule(_nothing, lambda state, _: replace(state, help=not state.help)),
     # notches, about the point (x, y): window heights from the picture's middle, y down
     "zoom": Rule(_numbers(3), zoom, answer=_zoom),
@@ -655,7 +655,7 @@ ACTIONS: Mapping[str, Rule] = {
     "lift": Rule(_whole, making.lift),  # steps
     "slide": Rule(_whole, making.slide),  # the step of the slider that is shown
     "back": Rule(_nothing, back),
-    "list": Rule(_one_of(None, "below"), edits.list_, taped=False),  # one whose charts are below the others
+    "list": Rule(_one_of(None, "below"), edits.list_, taped=False),  # "below": for a chart below the others
     "menu": Rule(_words_or_none, edits.menu, taped=False),  # some commands, as `commands.menu_of` has them
     "take_toast": Rule(_nothing, take_toast, taped=False),  # a click on it: the folder that it tells of
     "stir": Rule(_nothing, lambda state, _: replace(state, stirred=state.frame), taped=False),
@@ -664,7 +664,7 @@ ACTIONS: Mapping[str, Rule] = {
     "open_file": Rule(_text, effect("open"), taped=False),
     "move": Rule(_whole, edits.move, taped=False),  # rows of the list, or places on the shelf
     "point": Rule(_whole, edits.point, taped=False),  # the place on the shelf
-    "top": Rule(_whole, edits.top, taped=False),  # the shelf's row that is the first in sight
+    "top": Rule(_whole, edits.top, taped=False),  # the shelf's first visible row
     "sift": Rule(_text, edits.sift, taped=False),
     "unsift": Rule(_nothing, edits.unsift, taped=False),
     "record": Rule(_one_of(*taking.FORMATS), taking.record, taped=False),
@@ -691,7 +691,7 @@ ACTIONS: Mapping[str, Rule] = {
     "quit": Rule(_nothing, quit_, taped=False),
     "close": Rule(_nothing, close, taped=False),  # the window's own button
     "sounds": Rule(_nothing, sounds, taped=False, answer=_sounds),
-    "pad": Rule(_text, pad, taped=False),  # what is plugged in is called; empty for nothing
+    "pad": Rule(_text, pad, taped=False),  # the gamepad's name; empty for none
     "hint": Rule(_text, with_chip, taped=False),  # what letting go would do, as a chip
     "note": Rule(_text, with_toast, taped=False),  # something the window has to say, as a toast
 }
@@ -704,40 +704,40 @@ def is_known(action: Action) -> bool:
 
 
 def is_taped(action: Action) -> bool:
-    """Tell whether a tape keeps the action: it is known, and what it does is seen in the picture."""
+    """Tell whether a tape keeps the action: it is known, and its effect shows in the picture."""
     return is_known(action) and ACTIONS[action.name].taped
 
 
-# The player's only way forward: `advance(state, actions)`, pure.
+# How the state changes: `advance(state, actions)`, pure.
 #
-# A frame is three steps, so that the window can ask what a key means once those before it are done:
-# the state grows a frame older, each action is carried out, and a kiosk left alone shows its title.
+# A frame is three steps, so that the window can ask what a key means once earlier keys are carried out: the
+# state grows a frame older, each action is carried out, and a kiosk left alone shows its title.
 
 _WITHOUT_PENCIL = frozenset({"unit", "undo", "redo"})
-"""What is not done while a path is drawn: its points are in the unit of then, and edits are the scene's."""
+"""Actions that are refused while a path is drawn: its points keep their unit, and edits are the scene's."""
 _KEEPS = frozenset({"edit", "edit_at", "trace_joint", "drive_joint", "layers"})
 _LEAVES = frozenset({"mechanism", "select", "put", "closure", "reset", "returns"})
-"""What keeps the answer that the pencil has, and what goes back to the scene before."""
+"""Actions that keep the pencil's answer first, and those that first go back to the scene before."""
 _OFF_THE_SHEET = _KEEPS | _LEAVES | {"pencil", "own_trace", "poses"}
-"""What is not done on a sheet, which is left for it."""
+"""Actions for which a sheet is left first."""
 _IN_THE_LIST = frozenset({"closure", "reset", "returns"})
-"""What is done on a sheet all the same while the list of dimensions is open on it."""
+"""Those of these actions that stay on the sheet while the list of dimensions is open on it."""
 _OFF_THE_LAYERS = frozenset(
     {"edit", "pencil", "own_trace", "poses", "build", "build_on", "sheet", "draft", "photo"}
 )
-"""What is done with the linkage itself, which is shown for it."""
+"""Actions on the linkage itself, for which the layers are closed first."""
 Change = Callable[[State], State]
 
 _SHEETS = frozenset({"build", "sheet", "draft", "photo"})
-"""What opens a sheet, out of a game too."""
+"""Actions that open a sheet, even out of a game."""
 _NOT_BY_HAND = frozenset({"note", "hint", "pad", "stir"})
-"""What nobody at the window does, and what does nothing but bring the bar of commands."""
+"""Actions that no user asks for, and the one that only brings the bar of commands."""
 _LIVES = {"stirred": STIR_FRAMES, "turned": FLASH_FRAMES, "faded": FADE_FRAMES, "shot": SHUTTER_FRAMES}
-"""For how many frames after the one that the state holds something is to be seen."""
+"""For how many frames after the frame in the state's field something is visible."""
 
 
 def advance(state: State, actions: Iterable[Action] = ()) -> State:
-    """Return the state one frame on, the actions carried out in their order.
+    """Return the state one frame later, with the actions carried out in their order.
 
     KeyError for an action that is not in `actions.ACTIONS`.
     """
@@ -748,7 +748,7 @@ def advance(state: State, actions: Iterable[Action] = ()) -> State:
 
 
 def aged(state: State) -> State:
-    """Return the state a frame older: what has had its time goes, a changing length is followed."""
+    """Return the state a frame older: what has had its time disappears, a glide goes on."""
     state = replace(state, frame=state.frame + 1, effects=())
     if state.toast and state.frame >= state.toast.until:
         state = replace(state, toast=None)
@@ -766,7 +766,7 @@ def aged(state: State) -> State:
 
 
 def carried(state: State, action: Action) -> State:
-    """Return the state with one action carried out; as it was where the solver fails at that."""
+    """Return the state with one action carried out; unchanged, with a message, where the solver fails."""
     rule = ACTIONS[action.name]
     if action.name not in _NOT_BY_HAND:
         state = replace(state, touched=state.frame)
@@ -790,7 +790,7 @@ def carried(state: State, action: Action) -> State:
         state = keep(state, None) if action.name in _KEEPS else left(state)
 
     if action.name == "list" and state.building and (missing := state.building.building.made.missing):
-        return with_toast(state, missing)  # the quantities are those of what moves
+        return with_toast(state, missing)  # only a linkage that moves has quantities
     handle = building.in_list(state, action.name, rule.handle)
 
     def handled(before: State) -> State:
@@ -803,7 +803,7 @@ def carried(state: State, action: Action) -> State:
 def settled(state: State) -> State:
     """Return the state at the end of a frame: in a kiosk a mechanism left alone gives way to the title.
 
-    What is paused, open or recorded stays as it is.
+    A state that is paused, recorded, or has something open stays as it is.
     """
     alone = state.frame - state.touched >= ATTRACT_AFTER
     if not (state.kiosk and state.games and alone and state.is_bare):
@@ -812,7 +812,7 @@ def settled(state: State) -> State:
 
 
 def _in_a_game(state: State, game: Game, action: Action) -> State:
-    """Return the state with an action handed to its game; under the help there is nothing but a way back."""
+    """Return the state with an action handed to its game; while the help is open, only back is possible."""
     if state.help:
         return replace(state, help=False) if action.name == "back" else state
     return _tried(state, action, lambda before: game.carried(before, action))
@@ -823,7 +823,7 @@ def _followed(state: State) -> State:
 
 
 def _tried(state: State, action: Action, work: Change, without: Change = lambda before: before) -> State:
-    """Return the state with some work done, or `without` it where a solver fails at that, which is told."""
+    """Return the state with some work done; where a solver fails at it, `without` it and with a message."""
     try:
         return work(state)
     except Exception as error:

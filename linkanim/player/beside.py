@@ -1,7 +1,7 @@
 """Run what takes longer than a frame as processes beside the window: searches, parts, recordings.
 
-The search for linkages along a stroke replies as actions. A taped recording is rendered while the window
-runs on, and after it, too.
+The search for linkages replies with actions. A taped recording is rendered while the window runs on, and even
+after it has closed.
 """
 
 from __future__ import annotations
@@ -32,11 +32,11 @@ from linkanim.synthesis.follower import Follow, FollowPoses, Reply, Request, lin
 from linkanim.synthesis.guidance import USUAL_WEIGHT
 from linkanim.units import shown
 
-# The search for linkages along a stroke: a process beside the window, and what it replies as actions.
+# The search for linkages for a sketch: a process beside the window, and its replies as actions.
 
 
 def request_of(sketch: Sketch, *, search: bool, anew: bool = False) -> Request | None:
-    """Return what is asked for a sketch, `anew` without regard to the answer shown; None where nothing is."""
+    """Return the request for a sketch, with `anew` regardless of the shown answer; None without one."""
     if isinstance(sketch, PoseSketch):
         return _request_of_poses(sketch, search=search or anew, anew=anew) if sketch.is_asked else None
     assert isinstance(sketch, PathSketch)
@@ -59,7 +59,7 @@ def _request_of_poses(sketch: PoseSketch, *, search: bool, anew: bool) -> Follow
 
 
 def actions_of(reply: Reply, sketch: Sketch | None) -> Iterator[Action]:
-    """Yield what a reply does; nothing where it is to another request."""
+    """Yield the actions of a reply; none where it answers an earlier request."""
     if sketch is None or reply.stroke != sketch.strokes:
         return
     if reply.error:
@@ -73,9 +73,9 @@ def actions_of(reply: Reply, sketch: Sketch | None) -> Iterator[Action]:
 
 
 class Following:
-    """The process, from the first time that something is drawn; it ends with the window.
+    """The search's process, started when something is first drawn; it ends with the window.
 
-    With the word `paths` it is made ready for strokes.
+    With the word "paths" it prepares for strokes.
     """
 
     def __init__(self, *words: str) -> None:
@@ -93,18 +93,18 @@ class Following:
         self._lines = lines_of(cast(TextIO, self._process.stdout))
 
     def ask(self, request: Request) -> None:
-        """Send a request; where the process is gone, that is seen by its replies."""
+        """Send a request; where the process is gone, `is_over` says so."""
         assert self._process.stdin
         with suppress(OSError):
             print(json.dumps(request._asdict()), file=self._process.stdin, flush=True)
 
     def replies(self) -> Iterator[Reply]:
-        """Yield what has come since the last time."""
+        """Yield the replies that have come since the last time."""
         while not self._lines.empty() and (reply := self.wait()):
             yield reply
 
     def wait(self) -> Reply | None:
-        """Return the next reply once it is there; None where the process has ended."""
+        """Wait for the next reply and return it; None where the process has ended."""
         line = self._lines.get()
         return Reply(**json.loads(line)) if line else None
 
@@ -126,10 +126,10 @@ class Following:
 
 
 class Making:
-    """`linkanim make` under way for a scene, which it is given as a file of its own.
+    """`linkanim make` under way for a scene, which it reads from a temporary file.
 
-    With a folder it writes the parts there, with `words` as its options; without, it says what they are.
-    WorkFailed where it cannot be started.
+    With a folder it writes the parts there, with `words` as its options; without, it prints the layers as
+    JSON. WorkFailed where it cannot be started.
     """
 
     def __init__(self, scene: Scene, words: Sequence[str], folder: Path | None = None) -> None:
@@ -152,9 +152,9 @@ class Making:
         return self._process.poll() is not None
 
     def found(self) -> str:
-        """Return what the layers are, as JSON on one line; why there are none where it has failed.
+        """Return the layers as JSON on one line; where it has failed, why there are none.
 
-        An answer that is cut off, as on a full disk, is a failure.
+        Output that is cut off, as on a full disk, counts as a failure.
         """
         with suppress(ValueError):
             if self._process.poll() == 0:
@@ -169,7 +169,7 @@ class Making:
         return f"{where(Path(lines[0]))}: {lines[-1]}"
 
     def close(self) -> None:
-        """End it, and forget what it said."""
+        """End the process, and discard its output."""
         self._out.close()
         self._log.close()
         self._room.cleanup()
@@ -183,7 +183,7 @@ class Making:
         return log.read().decode("utf-8", "replace")
 
 
-# A taped recording rendered by a process of its own while the window runs on, and after it, too.
+# A taped recording, rendered by a process of its own while the window runs on, and even after it has closed.
 
 _TAIL = 400
 _COUNT = re.compile(r"(\d+)/(\d+)")
@@ -192,9 +192,8 @@ _COUNT = re.compile(r"(\d+)/(\d+)")
 class Rendering:
     """`linkanim record TAPE` under way.
 
-    What it says goes into a file without a name, and not into a pipe, which would break under it
-    when the window closes. We read it through an opening of our own: the process's has the place
-    it writes at.
+    Its output goes into a file without a name instead of a pipe, which would break when the window closes.
+    The window reads that file through its own file object, since the process's has the position for writing.
     """
 
     def __init__(self, target: Path, process: subprocess.Popen[bytes], log: BinaryIO) -> None:
@@ -208,7 +207,7 @@ class Rendering:
         return self._process.poll() is not None
 
     def words(self) -> str:
-        """Say how far it is, or where the file went, or why there is none."""
+        """Say how far the rendering is, or where the file is, or why there is none."""
         tail = self._tail()
         code = self._process.poll()
         if code is None:
@@ -221,7 +220,7 @@ class Rendering:
         return f"{self.target}: {reason.removeprefix('linkanim: ')}"
 
     def close(self) -> None:
-        """Let go of what it says; the process itself goes on."""
+        """Close its output; the process itself goes on."""
         self._log.close()
         _forgotten(self._log.name)
 
@@ -232,7 +231,7 @@ class Rendering:
 
 
 class Kept(NamedTuple):
-    """A tape that is written, the file it is to be rendered into, and how large, "" for its own shape."""
+    """A written tape, the file into which it is to be rendered, and the size, "" for the tape's own shape."""
 
     tape: Path
     target: Path
@@ -240,9 +239,9 @@ class Kept(NamedTuple):
 
 
 def kept_at(place: str) -> Kept:
-    """Return where a recording, and its tape, goes that is to be written into a file as it is typed.
+    """Return the files of a recording and its tape, for a typed place.
 
-    BadInput where a file has one of the names that is not ours, or none can be written there.
+    BadInput where a file that this program did not write has one of the names, or none can be written there.
     """
     target = typed_path(place)
     if reason := intake.unnameable(target.name):
@@ -255,21 +254,21 @@ def kept_at(place: str) -> Kept:
 
 
 def _ours(path: Path) -> Output:
-    """Return a file that is written over only where it is still as we wrote it."""
+    """Return an output that is written over only while it is as this program wrote it."""
     return Output(path, named=False, way_out="type another name")
 
 
 class Queue:
-    """Recordings rendered one after the other: the rest wait, and are not lost when the window closes."""
+    """Recordings that are rendered in turn; those that wait are not lost when the window closes."""
 
     def __init__(self) -> None:
         self._running: Rendering | None = None
         self._waiting: list[Kept] = []
 
     def add(self, tape: Tape, form: str, size: tuple[int, int] | None = None, place: str = "") -> None:
-        """Write a tape and have it rendered in its turn into a place, by itself into recordings/.
+        """Write a tape and have it rendered in its turn, into `place` or else into recordings/.
 
-        Without a size it is of the window's shape. Errors as `refuse`; WorkFailed where it cannot be written.
+        Without a size it has the window's shape. Errors as `refuse`; WorkFailed where it cannot be written.
         """
         if place:
             self.refuse(place)
@@ -277,7 +276,7 @@ class Queue:
         self._go_on()
 
     def refuse(self, place: str) -> None:
-        """Refuse, as BadInput, a place where a recording cannot be written, or one is on its way to."""
+        """Raise BadInput for a place where no recording can be written, or where one is being written."""
         found, *under_way = (
             from_anywhere(str(one.target)) for one in (kept_at(place), self._running, *self._waiting) if one
         )
@@ -285,7 +284,7 @@ class Queue:
             raise BadInput(f"{found} is being written; type another name")
 
     def news(self) -> tuple[str, ...]:
-        """Say how far the one rendered is, and how many wait; go on with the next where it is done."""
+        """Say how far the present rendering is, and how many wait; when it is done, begin the next."""
         if self._running is None:
             return ()
         words = self._running.words()
@@ -300,7 +299,7 @@ class Queue:
         return (f"{words} · {wait} {'wait' if wait > 1 else 'waits'}" if wait else words,)
 
     def close(self) -> None:
-        """Leave the rest to a process that renders one after the other; the one under way goes on."""
+        """Leave the waiting recordings to a process that renders them in turn; the present one goes on."""
         if self._running:
             self._running.close()
         if self._waiting:
@@ -313,7 +312,7 @@ class Queue:
 
 
 def keep(tape: Tape, form: str, place: str = "") -> Kept:
-    """Write the tape beside what it is rendered into: a place that was typed, else one that is free."""
+    """Write the tape beside the file into which it will be rendered: a typed place, else a free one."""
     if not place:
         stem = free_stem(FOLDER, tape.start.scene.name, (tape_file.SUFFIX, f".{form}"))
         place = str(FOLDER / f"{stem}.{form}")
@@ -324,13 +323,13 @@ def keep(tape: Tape, form: str, place: str = "") -> Kept:
 
 
 def render(kept: Kept) -> Rendering:
-    """Start rendering a tape beside; WorkFailed where that cannot be."""
+    """Start rendering a tape in a process; WorkFailed where that is impossible."""
     target = kept.target
     size = ("--size", kept.size) if kept.size else ()
     where_to = ("--no-clobber", "-o", str(target))
     command = child.module("linkanim", "record", str(kept.tape), *size, *where_to, "--progress")
     number, name = tempfile.mkstemp()
-    # it stays open as long as the rendering
+    # it stays open as long as the rendering runs
     log = Path(name).open("rb", buffering=0)  # noqa: SIM115
     try:
         process = _start(command, number)
@@ -344,13 +343,13 @@ def render(kept: Kept) -> Rendering:
 
 
 def _forgotten(name: str) -> None:
-    """Have a temporary file lose its name, at once where it may while it is open: not on Windows."""
+    """Remove a temporary file's name while it is open, except on Windows, where that is impossible."""
     with suppress(OSError):
         Path(name).unlink()
 
 
 def _start(command: list[str], log: int, out: int = subprocess.DEVNULL) -> subprocess.Popen[bytes]:
-    """Start a process that neither Ctrl-C in our terminal nor our end takes with it."""
+    """Start a process that survives both Ctrl-C in this terminal and the end of this process."""
     return subprocess.Popen(
         command,
         stdin=subprocess.DEVNULL,

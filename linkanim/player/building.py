@@ -1,4 +1,4 @@
-"""Actions of the sheet: it is opened and left, the hand draws on it, what is chosen is changed."""
+"""Actions of the sheet: it is opened and left, the hand draws on it, the chosen thing is changed."""
 
 from __future__ import annotations
 
@@ -48,30 +48,30 @@ Handler = Callable[[State, Any], State]
 _DOUBLE = 24
 """Frames within which a second click at a place makes a double one."""
 _OFFERED = 4
-"""Of what a drag can mean, at the most."""
+"""The most meanings of a drag that are offered."""
 _LONGEST = 10 * FRAMES_PER_SECOND
-"""A linkage that can move runs for a period, if that is no longer."""
+"""A linkage that can move runs for one period where that is no longer than this, in frames."""
 VERSION = 1
 _MARK = "linkanim_draft"
 _DAMAGED = "is damaged, or not a draft of linkanim"
 DRAFT = Intake("a draft", most_bytes=5_000_000, most_values=500_000)
 _FARTHEST = 1e15
-"""No edge of what is seen of a sheet is beyond it."""
+"""The farthest coordinate that is visible on a sheet."""
 LOST = "the draft is not saved: Ctrl+S saves it; press again to begin anew"
 _MEANT = "the draft is not saved: Ctrl+S saves it; press again to close, and it is offered next time"
 
 
 def build(state: State, _: None) -> State:
-    """Open the sheet, as it was left if there is one, or leave it with what was built."""
+    """Open the sheet, as it was left if there is one; or leave it with what was built on it."""
     if state.sheet is None:
         return _opened(state, Building())
     return left(state) if state.sheet.open else _opened(state, state.sheet.building)
 
 
 def build_on(state: State, _: None) -> State:
-    """Open a sheet with the scene that is on; once more where a draft would be lost.
+    """Open a sheet with the present scene; where a draft would be lost, only when asked once more.
 
-    Its undo goes on to what was edited before. A sheet that the scene has come from is gone on with.
+    Its undo continues into earlier edits. Where the scene came from a sheet, that sheet is opened again.
     """
     sheet, editing = state.sheet, state.editing
     if sheet and sheet.open:
@@ -89,7 +89,7 @@ def build_on(state: State, _: None) -> State:
 
 
 def numbers(state: State, _: None) -> State:
-    """Open or close the list of all dimensions on a sheet; values begun are let go of."""
+    """Open or close the list of all dimensions on a sheet; typed values are discarded."""
     sheet = state.building
     if sheet is None:
         return state
@@ -100,12 +100,12 @@ def numbers(state: State, _: None) -> State:
 
 
 def new(state: State, _: None) -> State:
-    """Open an empty sheet; once more where a draft would be lost."""
+    """Open an empty sheet; where a draft would be lost, only when asked once more."""
     return _anew(state, Building)
 
 
 def _anew(state: State, make: Callable[[], Building]) -> State:
-    """Return the state with another sheet; where a draft is in no file, only by asking once more."""
+    """Return the state with another sheet; where a draft is in no file, only when asked once more."""
     sheet = state.sheet
     if sheet and not (sheet.is_written or sheet.warned or _is_undone_to(state, sheet)):
         return with_toast(replace(state, sheet=replace(sheet, warned=True)), LOST)
@@ -114,13 +114,13 @@ def _anew(state: State, make: Callable[[], Building]) -> State:
 
 
 def _is_undone_to(state: State, sheet: BuildSheet) -> bool:
-    """Whether the linkage of a sheet is on, or undo goes back to it."""
+    """Whether the linkage of a sheet is shown, or undo goes back to it."""
     made = sheet.building.made.scene
     return made is not None and any(one is made for one in (state.scene, *state.editing.past))
 
 
 def _opened(state: State, building: Building, *, known: bool = False) -> State:
-    """Return the state with a sheet open over its scene; `known` tells that a file has what is on it."""
+    """Return the state with a sheet open over its scene; `known` says that its draft is in a file."""
     state, last = abandoned(drop(state, None)), state.sheet
     editing = nothing_begun(replace(state.editing, open=False))
     sheet = BuildSheet(state.scene, state.clock, editing, building, HOME, written=building.draft)
@@ -135,7 +135,7 @@ def _opened(state: State, building: Building, *, known: bool = False) -> State:
 
 
 def left(state: State) -> State:
-    """Leave the sheet: what was built is the scene if it moves, which undo takes back; the sheet is kept."""
+    """Leave the sheet: a linkage that moves becomes the scene, which can be undone; the sheet is kept."""
     sheet = state.sheet
     if sheet is None or not sheet.open:
         return state
@@ -151,7 +151,7 @@ def left(state: State) -> State:
 
 
 def _look_after(state: State, sheet: BuildSheet) -> Look:
-    """Return the look once a sheet is left: the unit and the charts of before, as far as they are there."""
+    """Return the look after a sheet: with the unit and the charts from before, where they still apply."""
     scene = sheet.before if sheet.building.made.scene is None else state.scene
     tokens = chart_tokens(sheet.before, sheet.look.chart)
     charts = state.look.chart or ",".join(token for token in tokens if token in scene.quantities) or None
@@ -166,14 +166,14 @@ def draft(state: State, text: str) -> State:
 
 
 def offered(state: State, text: str, where: str) -> State:
-    """Return the state with a sheet as it was stored in a file, which F2 opens."""
+    """Return the state with a sheet read from its stored text, for F2 to open."""
     sheet = replace(restored_sheet(state, text, where), open=False, closes=True)
     return replace(state, sheet=sheet, beneath=state.beneath and replace(state.beneath, sheet=sheet))
 
 
 def stored_text(sheet: BuildSheet) -> str:
     """Return a sheet with its draft as text that `draft` takes."""
-    import json  # here: the first frame does not wait for it
+    import json  # imported here, so that the first frame does not wait for it
 
     draft = stored(sheet.building.draft)
     table = {_MARK: VERSION, "draft": draft, "home": sheet.home, "tool": sheet.tool}
@@ -183,7 +183,7 @@ def stored_text(sheet: BuildSheet) -> str:
 def restored_sheet(state: State, text: str, where: str = "the draft") -> BuildSheet:
     """Return a sheet from the text that it was stored as; BadInput, OtherVersion as for any document."""
     document = DRAFT.parsed(text, where, _DAMAGED)
-    # that of an older tape has no mark
+    # the document of an older tape has no version mark
     known = {_MARK: VERSION, **document} if isinstance(document, dict) and "draft" in document else document
     top = Section(where, DRAFT.marked(known, where, _MARK, VERSION, _DAMAGED))
     edges = top.listed("home", 4)
@@ -198,7 +198,7 @@ def restored_sheet(state: State, text: str, where: str = "the draft") -> BuildSh
 
 
 def written(state: State, file: str) -> State:
-    """Return the state with a note that its scene, and the draft that makes it, are in a scene file."""
+    """Return the state with the note that its scene, and its draft, are in a scene file."""
     sheet = state.sheet
     if sheet and sheet.building.made.scene == state.scene:
         sheet = replace(sheet, written=sheet.building.draft, saved=file, warned=False, closes=False)
@@ -210,7 +210,7 @@ def written(state: State, file: str) -> State:
 
 
 def closing(state: State) -> State | None:
-    """Return the state that asks whether a draft is to be left in no file; None where that is known."""
+    """Return the state that asks before a draft in no file is lost; None where there is nothing to ask."""
     sheet = state.sheet
     if sheet is None or sheet.is_written or sheet.closes:
         return None
@@ -225,7 +225,8 @@ def put(state: State, place: int) -> State:
 def _shown(state: State, building: Building, *, live: bool = False) -> State:
     """Return the state with another building, its linkage running for a period.
 
-    It stands while it is `live` under the hand, and where there is no loop yet: a bar is drawn on from there.
+    The linkage stands still while it is `live` under the hand; and where there is no loop yet, so that one
+    can draw the next bar from there.
     """
     sheet = sheet_of(state)
     same = building.draft is sheet.building.draft
@@ -250,7 +251,7 @@ def sheet_of(state: State) -> BuildSheet:
 
 
 def _once(state: State) -> State:
-    """Return the state with its linkage running for a period, or on, if that is long."""
+    """Return the state with its linkage running for one period, or without end where that is long."""
     clock = state.clock.pause(state.frame, False)
     frames = ceil(FRAMES_PER_SECOND * state.scene.period / abs(clock.speed))
     rests = state.frame + frames if frames <= _LONGEST else None
@@ -258,7 +259,7 @@ def _once(state: State) -> State:
 
 
 def rested(state: State) -> State:
-    """Return the state with the linkage standing as it was drawn, once it has run for a period."""
+    """Return the state with the linkage at rest as drawn, once it has run for a period."""
     sheet = state.sheet
     if sheet is None or sheet.rests is None:
         return state
@@ -271,7 +272,7 @@ def rested(state: State) -> State:
 
 
 def tool(state: State, name: str) -> State:
-    """Take a tool; a linkage that runs goes back to where it is drawn, and stands there."""
+    """Take a tool; a linkage that runs goes back to its drawn pose, and rests there."""
     sheet = state.sheet
     if sheet and sheet.open and sheet.building.made.scene and not state.clock.paused:
         state = replace(state, clock=state.clock.go(state.frame, sheet.building.draft.phase, paused=True))
@@ -279,7 +280,7 @@ def tool(state: State, name: str) -> State:
 
 
 def tool_on(state: State, by: int) -> State:
-    """Take the next tool of the bar; where the last drag can mean several things, do the next of them."""
+    """Take the next tool of the bar; where the last drag has several meanings, carry out the next one."""
     sheet = state.sheet
     if sheet is None or not sheet.open:
         return state
@@ -290,9 +291,9 @@ def tool_on(state: State, by: int) -> State:
 
 
 def photo(state: State, file: str) -> State:
-    """Lay a photograph behind the sheet, as wide as that is seen, and take the tool that fits it.
+    """Put a photograph behind the sheet, as wide as the visible part, and take the tool that fits it.
 
-    BadInput for a name that no file of ours could hold.
+    BadInput for a file name that cannot be stored with a sheet.
     """
     if file and (reason := unnameable(file)):
         raise BadInput(f"{shown(file)}: {reason}; rename the picture")
@@ -304,9 +305,9 @@ def photo(state: State, file: str) -> State:
 
 
 def down(state: State, at: tuple[float, float, float, float]) -> State:
-    """Put the hand down at a point; a linkage that runs goes back to where it is drawn.
+    """Put the hand down at a point; a linkage that runs goes back to its drawn pose.
 
-    Where nothing is there then, but something was as it was seen, it stands at the nearest whole degree.
+    Where only the pose that was visible had something at the point, it rests at the nearest whole degree.
     """
     sheet = state.sheet
     if sheet is None or not sheet.open:
@@ -322,7 +323,7 @@ def down(state: State, at: tuple[float, float, float, float]) -> State:
 
 
 def picked(state: State, sheet: BuildSheet, x: float, y: float, reach: float) -> float:
-    """Return the phase at which a linkage stands for a hand that goes down at a point."""
+    """Return the phase at which a linkage rests for a hand that goes down at a point."""
     now, drawn_at = radians(round(state.phase / tau * 360)), sheet.building.draft.phase
     if state.clock.paused:
         return now
@@ -332,7 +333,7 @@ def picked(state: State, sheet: BuildSheet, x: float, y: float, reach: float) ->
 
 
 def along(state: State, at: tuple[float, float, float, float]) -> State:
-    """Move the hand to a point; what it moves comes along."""
+    """Move the hand to a point; the thing that it holds follows."""
     sheet = state.sheet
     if sheet is None or sheet.grip is None:
         return state
@@ -343,7 +344,7 @@ def along(state: State, at: tuple[float, float, float, float]) -> State:
 
 
 def up(state: State, _: None) -> State:
-    """Lift the hand: a click or a drag is done."""
+    """Lift the hand: a click or a drag is carried out."""
     sheet = state.sheet
     if sheet is None or sheet.grip is None:
         return state
@@ -383,7 +384,7 @@ def _running(state: State, *, ran: bool) -> State:
 
 
 def _clicked(state: State, sheet: BuildSheet, grip: Grip) -> Building:
-    """Return the building after a click, the second one at a place after the double click."""
+    """Return the building after a click, or after a double click where it is the second one at a place."""
     (x, y), near = grip.begin, {"reach": grip.reach, "snap": grip.snap}
     frame, before = sheet.clicked or (state.frame - 2 * _DOUBLE, grip.begin)
     if state.frame - frame <= _DOUBLE and dist(before, grip.begin) <= grip.reach:
@@ -405,7 +406,7 @@ def _drawn(sheet: BuildSheet, grip: Grip) -> Building:
 
 
 def _spanned(state: State, sheet: BuildSheet, grip: Grip) -> State:
-    """Take a point of the photograph, or another one, whose distance from the first is typed then."""
+    """Take a point of the photograph, or a second one, whose distance from the first is then typed."""
     second = sheet.anchor is not None and sheet.span is None and dist(sheet.anchor, grip.begin) > grip.reach
     how = (
         "Type how far it is from there in truth, then Enter"
@@ -418,7 +419,7 @@ def _spanned(state: State, sheet: BuildSheet, grip: Grip) -> State:
 
 
 def _scaled(state: State, sheet: BuildSheet, one: complex, other: complex) -> State:
-    """Return the state with the photograph scaled, so that two points of it are as far apart as was typed."""
+    """Return the state with the photograph scaled, so that two of its points are as far apart as typed."""
     building = sheet.building
     try:
         length = dimensions.typed_length(building, abs(other - one))
@@ -430,7 +431,7 @@ def _scaled(state: State, sheet: BuildSheet, one: complex, other: complex) -> St
 
 
 def take(state: State, _: None) -> State:
-    """Take what was typed: for the distance of two points of a photograph, or what is chosen."""
+    """Take the typed value: for the distance of two points of a photograph, or for the chosen thing."""
     sheet = state.sheet
     if (
         sheet
@@ -453,7 +454,7 @@ def offer(state: State, place: int) -> State:
 
 
 def cursor(state: State, at: tuple[float, float]) -> State:
-    """Move the keys' cursor to a point; what the hand does by keys goes along."""
+    """Move the keys' cursor to a point; a gesture begun by keys follows."""
     sheet = state.sheet
     if sheet is None or not sheet.open:
         return state
@@ -465,7 +466,7 @@ def cursor(state: State, at: tuple[float, float]) -> State:
 def further(state: State, by: int) -> State:
     """Choose the next thing, or the one before; the keys' cursor goes to a joint.
 
-    Where the last drag can mean several things, the next of them is done.
+    Where the last drag has several meanings, the next one is carried out instead.
     """
     if state.sheet and state.sheet.meant is not None:
         return offer(state, state.sheet.meant + by)
@@ -478,7 +479,7 @@ def further(state: State, by: int) -> State:
 
 
 def _changed(work: Callable[..., Building]) -> Handler:
-    """Make a handler of what changes the building; a value, if there is one, is handed on."""
+    """Make a handler of a function that changes the building; an action's value is passed on to it."""
 
     def handle(state: State, value: Any) -> State:
         sheet = state.sheet
@@ -491,7 +492,7 @@ def _changed(work: Callable[..., Building]) -> Handler:
 
 
 def number(state: State, further: int) -> State:
-    """Choose another number of what is chosen, to be typed."""
+    """Choose another number of the chosen thing, to be typed."""
     return _with(_changed(dimensions.choose_number)(state, further), rowed=True)
 
 
@@ -516,9 +517,9 @@ def reassemble(state: State, _: None) -> State:
 
 
 def undo(state: State, _: None) -> State:
-    """Go back a change; points of a photograph that were measured are let go of.
+    """Undo a change; measured points of a photograph are discarded.
 
-    Values begun in the list of dimensions are let go of first.
+    Values typed in the list of dimensions are discarded first.
     """
     if state.editing.begun:
         return replace(state, editing=nothing_begun(state.editing))
@@ -526,7 +527,7 @@ def undo(state: State, _: None) -> State:
 
 
 def redo(state: State, _: None) -> State:
-    """Go on again."""
+    """Redo the change undone last."""
     return _changed(built.redo)(_with(state, span=None), None)
 
 
@@ -534,11 +535,11 @@ def redo(state: State, _: None) -> State:
 
 
 def agreed(before: State, after: State) -> State:
-    """Return the state after an action with what is built and the open list of dimensions in agreement.
+    """Return the state after an action, with the building and the open list of dimensions in agreement.
 
-    A scene that the list has changed is what the draft makes from now on, by one undo of the sheet; what is
-    chosen on the sheet has its row chosen in the list, and the other way round. What was chosen by hand is
-    typed in its own rows, as without the list.
+    A scene that the list changed becomes the draft's, as one step of the sheet's undo. The thing chosen on
+    the sheet has its row chosen in the list, and the other way round. A thing chosen by hand is typed in its
+    own rows, as without the list.
     """
     sheet, was = after.building, before.building
     if sheet is None:
@@ -564,7 +565,7 @@ def agreed(before: State, after: State) -> State:
 
 
 def _rowed(state: State) -> State:
-    """Return the state with the first row of what is chosen on the sheet as the chosen row of the list."""
+    """Return the state with the first row of the chosen thing as the chosen row of the list."""
     state = _with(state, rowed=True)
     sheet = sheet_of(state)
     thing, scene = sheet.building.chosen, sheet.building.made.scene
@@ -577,7 +578,7 @@ def _rowed(state: State) -> State:
 
 
 def _chosen_by_row(state: State) -> State:
-    """Return the state with what the chosen row of the list belongs to chosen on the sheet."""
+    """Return the state with the thing of the list's chosen row chosen on the sheet."""
     sheet = sheet_of(state)
     scene, items = sheet.building.made.scene, dimensions_of(state.scene)
     if scene is None or not items:
@@ -588,7 +589,7 @@ def _chosen_by_row(state: State) -> State:
 
 
 def _in_rows(work: Callable[[State, BuildSheet, Any], State]) -> Handler:
-    """Make a handler of what is done in the list while what is drawn does not move."""
+    """Make a handler of a function for the list while the draft does not move."""
 
     def handle(state: State, value: Any) -> State:
         sheet = state.building
@@ -634,11 +635,11 @@ _WHILE_IT_STANDS: Mapping[str, Handler] = {
     **dict.fromkeys(("pull", "reset", "returns", "grab", "carry"), _unused),
     "closure": reassemble,
 }
-"""What the list of dimensions does on a sheet with nothing that moves: its rows are what is drawn."""
+"""Handlers for the list of dimensions on a sheet with nothing that moves: its rows are the draft's."""
 
 
 def in_list(state: State, name: str, usual: Handler) -> Handler:
-    """Return what an action of the list of dimensions does on the sheet, if that is not the usual."""
+    """Return the handler of an action of the list of dimensions on the sheet: a special one, or `usual`."""
     sheet = state.building
     if sheet is None or not state.editing.open:
         return usual
@@ -647,9 +648,9 @@ def in_list(state: State, name: str, usual: Handler) -> Handler:
 
 
 def let_go(state: State) -> State | None:
-    """Return the state without what the hand does, what is typed or chosen, or another tool; else None.
+    """Return the state without a gesture, typed text, a choice, or a special tool; None where there is none.
 
-    With the list of dimensions open only what is begun in it.
+    With the list of dimensions open, only what was typed in it is discarded.
     """
     sheet = state.sheet
     assert sheet

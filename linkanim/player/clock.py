@@ -14,7 +14,7 @@ FRAMES_PER_SECOND = 60
 STEP = math.radians(1.0)
 
 COAST_FRAMES = 80
-"""So long a motion that was let go by a hand takes to come to its own speed."""
+"""The frames in which a motion that a hand let go returns to its own speed."""
 
 _LADDER = (1.0, 1.25, 1.6, 2.0, 2.5, 3.2, 4.0, 5.0, 6.3, 8.0)  # Renard's R10 series
 SLOWEST, FASTEST = -20, 10
@@ -33,7 +33,7 @@ class Clock:
 
     `rate` is the scene's own dφ/dt (rad/s, negative clockwise). `steps` counts degrees stepped
     by hand since the anchor, so that a step there and back is the same phase to the last bit.
-    `coast` is by how much (rad/s) it ran faster at frame `since`, when a hand let it go; that fades.
+    `coast` is the extra speed (rad/s) at frame `since`, when a hand let the motion go; it fades.
     """
 
     rate: float
@@ -59,7 +59,7 @@ class Clock:
         return still if self.paused else still + self.speed * (frame - self.frame) / FRAMES_PER_SECOND
 
     def _coasted(self, frame: float) -> float:
-        """Return the phase gained since: the extra speed goes with the square of the time left."""
+        """Return the phase gained since then: the extra speed falls with the square of the time left."""
         left = 1.0 - min(max(frame - self.since, 0.0), COAST_FRAMES) / COAST_FRAMES
         return self.coast * COAST_FRAMES / FRAMES_PER_SECOND / 3.0 * (1.0 - left**3)
 
@@ -71,7 +71,7 @@ class Clock:
         return replace(clock, paused=paused, coast=0.0 if paused else clock.coast)
 
     def let_go(self, frame: int, speed: float, *, paused: bool) -> Self:
-        """Return the clock swinging on at a hand's dφ/dt (rad/s) and easing to its own, or to a stand."""
+        """Return the clock running on at a hand's dφ/dt (rad/s), and easing to its own speed or to rest."""
         clock = self.go(frame, self.at(frame), paused=paused)
         return replace(clock, coast=speed - (0.0 if paused else clock.speed), since=frame)
 
@@ -80,7 +80,7 @@ class Clock:
         return replace(self._anchored(frame), direction=-self.direction)
 
     def faster(self, frame: int, levels: int) -> Self:
-        """Return the clock `levels` rungs up the ladder of speeds (negative: down), its phase as it was."""
+        """Return the clock `levels` rungs up the ladder of speeds (negative: down), phase continuous."""
         return self.at_level(frame, self.level + levels)
 
     def at_level(self, frame: int, level: int) -> Self:
@@ -96,7 +96,7 @@ class Clock:
         return replace(still, steps=still.steps + along)
 
     def go(self, frame: int, phase: float, *, paused: bool | None = None) -> Self:
-        """Return the clock standing at `phase` at `frame`; paused or running as before, if not told."""
+        """Return the clock at `phase` at `frame`; without `paused`, it is paused or running as before."""
         stays = self.paused if paused is None else paused
         return replace(self, frame=frame, phase=phase, steps=0, paused=stays, coast=0.0)
 
@@ -107,7 +107,7 @@ class Clock:
     def _anchored(self, frame: int) -> Self:
         """Move the anchor to `frame`; a paused clock keeps its steps countable."""
         if self.paused:
-            # what coasting gained so far goes into the phase
+            # the phase gained by coasting so far is added to the anchor's
             return replace(
                 self, frame=frame, phase=self.at(frame) - self.steps * STEP if self.coast else self.phase
             )

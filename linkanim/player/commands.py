@@ -1,6 +1,6 @@
-"""Bring the commands of the key table to the hand: the bar at the foot in each mode, and menus.
+"""Offer the commands of the key table to the mouse: the bar at the foot in each mode, and menus.
 
-What a command is called, its key and what it does are the table's.
+A command's name, its key and its action come from the table.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from linkanim.scenes.editing import drives, handles
 from linkanim.scenes.scene import Scene
 
 _FADING = 24
-"""Over so many frames the bar fades, in eighths."""
+"""The frames over which the bar fades out."""
 
 
 class BarEntry(NamedTuple):
@@ -61,7 +61,7 @@ _SCENE = (
     BarEntry("close", Action("plot", ""), 1, on_chart=True),
 )
 _BUILD_ON = BarEntry("build", Action("build_on"), 4)
-"""From the list of dimensions the tools are for the linkage that is there."""
+"""Beside the list of dimensions, the tools work on the linkage that is shown."""
 _SHEET = (
     _BACK,
     _HOME,
@@ -119,12 +119,12 @@ def bar(state: State, pointed: int | None = None) -> CommandBar | None:
     if eighths <= 0:
         return None
     buttons = _buttons(state)
-    known = pointed is not None and pointed < len(buttons)  # the mouse was over the bar of another mode
+    known = pointed is not None and pointed < len(buttons)  # else the number is of another mode's bar
     return CommandBar(buttons, pointed if known else None, eighths)
 
 
 def pressed(state: State, number: int) -> tuple[Action, ...]:
-    """Return what a button asks for; where that cannot be done, a sentence that says why."""
+    """Return the actions of a button; where its command cannot be done, a note that says why."""
     handle = _HANDLES[state.mode][number]
     reason = lack(state, handle.action)
     return (Action("note", reason),) if reason else (_meant(state, handle.action),)
@@ -135,18 +135,18 @@ _OF_THE_LIST: Mapping[Action, tuple[Action, ...]] = {
     Action("rebuild"): (Action("redo"),),
     Action("tool", "move"): (),
 }
-"""What tools are beside the list of dimensions alone: joints are moved there already."""
+"""What tools mean beside the list of dimensions alone, where joints can be moved already."""
 
 
 def tool_asks(state: State, action: Action) -> tuple[Action, ...]:
-    """Return what a tool asks for: from the list of dimensions alone it leads to the sheet, with the list."""
+    """Return the actions of a tool; beside the list of dimensions alone it first opens the sheet."""
     if state.mode != "edit":
         return (action,)
     return _OF_THE_LIST.get(action, (Action("build_on"), Action("numbers"), action))
 
 
 def slid(state: State, number: int, share: float) -> tuple[Action, ...]:
-    """Return the action that puts a slider's knob at a share, 0 to 1; where it is fixed, a sentence why."""
+    """Return the action that puts a slider's knob at a share, 0 to 1; where it is fixed, a note on why."""
     reason = lack(state, _HANDLES[state.mode][number].action)
     if reason:
         return (Action("note", reason),)
@@ -154,7 +154,7 @@ def slid(state: State, number: int, share: float) -> tuple[Action, ...]:
 
 
 def slides(state: State, number: int) -> bool:
-    """Tell whether a button is a slider; a number that the bar of this mode does not have is none."""
+    """Tell whether a button is a slider; False for a number that this mode's bar does not have."""
     return any(one.action == _SPEED for one in _HANDLES[state.mode][number : number + 1])
 
 
@@ -174,7 +174,7 @@ def _button(state: State, handle: BarEntry) -> Button:
 
 @lru_cache(maxsize=256)
 def _called(mode: Mode, action: Action) -> tuple[str, str]:
-    """Return what a command is called, and its key; of a group of them the group's name, and their keys."""
+    """Return a command's name and its key; for a group of commands, the group's name and their keys."""
     if action == _SPEED:
         key = next(key for _, key, one in commands(mode) if one == action)
         return "speed", "↑ ↓" if key else ""
@@ -184,7 +184,7 @@ def _called(mode: Mode, action: Action) -> tuple[str, str]:
 
 
 def _meant(state: State, action: Action) -> Action:
-    """Return what a button asks for just now: what is recorded is stopped by the button that began it."""
+    """Return the action of a button in this state: the button that began a recording stops it."""
     if action == Action("taking") and state.recording:
         return Action("record", state.recording.format)
     return action
@@ -195,15 +195,15 @@ def lack(state: State, action: Action) -> str:
     return _LACKS[action](state) if action in _LACKS else ""
 
 
-# Menus: the commands that there are, or those of what is under the hand.
+# Menus: all commands, or those of the thing under the hand.
 
 
 def menu_of(state: State, what: str | None) -> Entries | None:
-    """Return a list of commands; None for what is not there, or has none.
+    """Return a list of commands; None where `what` does not exist, or has no commands.
 
-    It has all of the mode that is on, or those of a group by its name, of the "chart", of the "chosen" thing
-    of a sheet, of a "joint", "link" or "strut" with its name, all "things" that have some, or those of a line
-    of the help by its "keys".
+    Without `what` the list has all commands of the present mode. Else `what` is the name of a group; "chart";
+    "chosen", the chosen thing of a sheet; "joint", "link" or "strut" with a name; "things", all that have
+    commands; or "keys" with the keys of a line of the help.
     """
     usual = {action: ListRow(words, key, action) for words, key, action in commands(state.mode)}
     if what is None or what in GROUPS:
@@ -222,9 +222,9 @@ def menu_of(state: State, what: str | None) -> Entries | None:
 
 
 def line_asks(mode: Mode, keys: str) -> Action | None:
-    """Return what a line of the help asks for, a list of them where it has several; None without any.
+    """Return the action of a line of the help, or the one that lists several; None where it has none.
 
-    It is known by its keys as they are written.
+    The line is found by its keys as they are written.
     """
     actions = row_actions(mode, keys)
     return Action("menu", f"keys {keys}") if len(actions) > 1 else next(iter(actions), None)
@@ -252,11 +252,11 @@ _CHOSEN: Mapping[str, tuple[Action, ...]] = {
         *(Action("unbuild"), Action("rebuild")),
     ),
 }
-"""The commands of what is under the hand, where they are those of the table."""
+"""The commands of the thing under the hand that stand in the table."""
 
 
 def _things(scene: Scene) -> tuple[str, ...]:
-    """Return what has commands of its own: joints, links, springs and dampers, by kind and name."""
+    """Return the things that have commands of their own: joints, links and struts, by kind and name."""
     linkage = scene.linkage
     joints = (f"joint {joint.name}" for joint in linkage.joints)
     links = (f"link {body.name}" for body in linkage.bodies if body.name)
@@ -276,7 +276,7 @@ _CHARTED: Mapping[str, tuple[tuple[str, str], ...]] = {
 
 
 def _of_thing(scene: Scene, kind: str, name: str) -> Iterator[ListRow]:
-    """Yield what can be done with a joint, a link, or a spring or damper."""
+    """Yield the commands of a joint, a link, or a spring or damper."""
     for end, words in _CHARTED[kind]:
         if f"{name}.{end}" in scene.quantities:
             yield ListRow(words, "", Action("plot", f"{name}.{end}"))
@@ -294,7 +294,7 @@ def _of_thing(scene: Scene, kind: str, name: str) -> Iterator[ListRow]:
 
 
 def _shows(title: str) -> Callable[[State], bool]:
-    """Return what tells whether the list of a group of commands is open."""
+    """Return the function that tells whether the list of a group of commands is open."""
     return lambda state: bool(state.listing and state.listing.others and state.listing.others.title == title)
 
 
@@ -314,7 +314,7 @@ _ON: Mapping[Action, Callable[[State], bool]] = {
     Action("help"): lambda state: state.help,
     Action("theory"): lambda state: state.posing is not None and state.posing.curves,
 }
-"""Whether a command is on, where that is to be seen."""
+"""Whether a command is on, for commands that show it."""
 
 
 def _nothing_drawn(state: State) -> str:
@@ -344,4 +344,4 @@ _LACKS: Mapping[Action, Callable[[State], str]] = {
     Action("step", 1): _nothing_moves,
     _SPEED: _nothing_moves,
 }
-"""Why a command cannot be done, where it may be so."""
+"""Why a command cannot be done, for commands that may be impossible."""

@@ -1,7 +1,7 @@
-"""Turn what hands do into actions: keyboard, fingers, gamepads, mouse.
+"""Turn events of the devices into actions: keyboard, fingers, gamepads, mouse.
 
-A key that is held repeats. Fingers act as the mouse. A gamepad's stick turns the crank. The wheel zooms,
-and a drag pans or moves the crank, the chart's cursor, a joint or a value.
+A held key repeats. Fingers act as the mouse. A gamepad's stick turns the crank. The wheel zooms, and a drag
+pans or moves the crank, the chart's cursor, a joint or a value.
 """
 
 from __future__ import annotations
@@ -26,26 +26,26 @@ from linkanim.player.screen import Screen
 from linkanim.player.state import State
 from linkanim.scenes.editing import phase_along, phase_towards
 
-# The keyboard: key events to presses, and a key that is held to an action that repeats.
+# The keyboard: key events become presses, and a held key an action that repeats.
 
 _WAIT = 24
 _EVERY = 3
 
 
 def code(name: str) -> int:
-    """Return pygame's number for a key of the table; a printable key's is its character's."""
+    """Return pygame's number for a key of the table; for a printable key, that of its character."""
     return ord(name) if len(name) == 1 else int(getattr(pygame, f"K_{name.upper()}"))
 
 
 class Repeats:
-    """An action that is asked for again and again while something is held."""
+    """An action that repeats while something is held."""
 
     def __init__(self) -> None:
         self._action: Action | None = None
         self._next = 0
 
     def begin(self, bind: Bind | None, frame: int) -> None:
-        """Begin to repeat what a key asks for, if it repeats while it is held; else repeat nothing."""
+        """Begin to repeat a key's action, if it is one that repeats; else repeat nothing."""
         self._action = bind.action if bind and bind.repeats else None
         self._next = frame + _WAIT
 
@@ -66,7 +66,7 @@ class Keyboard:
         self._repeats = Repeats()
 
     def press(self, event: Event) -> Press | None:
-        """Return what a KEYDOWN means; None with Alt or the system's key, which are not ours."""
+        """Return what a KEYDOWN means; None with Alt or the system's key, which the window does not use."""
         mod = getattr(event, "mod", 0)
         if mod & (pygame.KMOD_ALT | pygame.KMOD_META) and not mod & pygame.KMOD_MODE:
             return None
@@ -75,7 +75,7 @@ class Keyboard:
         return Press(self._names.get(event.key, ""), text if text.isprintable() else "", shift, ctrl)
 
     def hold(self, event: Event, bind: Bind | None, frame: int) -> None:
-        """Take note of the key that went down last."""
+        """Record the key that went down last."""
         self._key = event.key
         self._repeats.begin(bind, frame)
 
@@ -93,7 +93,7 @@ class Keyboard:
 FINGERS = (pygame.FINGERDOWN, pygame.FINGERMOTION, pygame.FINGERUP)
 _MOUSE = (pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP, pygame.MOUSEMOTION)
 _NOTCH = 1.1
-"""How much further apart two fingers are for a notch of the wheel."""
+"""The factor in the distance of two fingers that counts as a notch of the wheel."""
 
 Place = tuple[int, int]
 
@@ -107,9 +107,9 @@ class Fingers:
         self._apart = 0.0
 
     def pointed(self, events: list[Event], size: tuple[int, int]) -> list[Event]:
-        """Return the events with those of fingers as the mouse's, in a window of that size.
+        """Return the events with finger events turned into mouse events, in a window of that size.
 
-        What the system makes of fingers by itself, mouse events with a mark, is left out.
+        Mouse events that the system itself made of fingers are left out; they have a mark.
         """
         found: list[Event] = []
         for event in events:
@@ -135,7 +135,7 @@ class Fingers:
         return [_mouse(pygame.MOUSEMOTION, at)] if event.finger_id == self._pointer else []
 
     def _put(self, finger: int, at: Place) -> list[Event]:
-        """Return the button pressed by the first finger, and let go by the second."""
+        """Return the button pressed by the first finger, or released by the second."""
         self._down[finger] = at
         if len(self._down) == 1:
             self._pointer = finger
@@ -170,7 +170,7 @@ class Fingers:
 
 
 def _place(event: Event, size: tuple[int, int]) -> Place | None:
-    """Return the pixel under a finger, on the window's edge where it is outside; None where it is nowhere."""
+    """Return the pixel under a finger, moved into the window; None where it is not a number."""
     if isnan(event.x) or isnan(event.y):
         return None
     x, y = (min(max(share, 0.0), 1.0) for share in (event.x, event.y))
@@ -178,13 +178,13 @@ def _place(event: Event, size: tuple[int, int]) -> Place | None:
 
 
 def _mouse(kind: int, at: Place) -> Event:
-    """Return an event of the mouse, its left button the one that is meant."""
+    """Return an event of the mouse and its left button."""
     if kind == pygame.MOUSEMOTION:
         return Event(kind, pos=at, rel=(0, 0), buttons=(1, 0, 0))
     return Event(kind, pos=at, button=1)
 
 
-# Gamepads: which are plugged in, what their buttons ask for, where the left stick turns the crank to.
+# Gamepads: which are plugged in, what their buttons mean, where the left stick turns the crank to.
 
 PAD_EVENTS = (
     pygame.JOYDEVICEADDED,
@@ -197,11 +197,11 @@ PAD_EVENTS = (
 _LOOKED_FOR_AFTER = 30
 """Frames after which gamepads are looked for: the first picture does not wait for it."""
 _DEAD_ZONE = 0.4
-"""A stick that is no further out than so much of its way is let go."""
+"""A stick that is no further out than this share of its range counts as released."""
 
 
 class Pad(NamedTuple):
-    """A gamepad, held open so that its events come, and what is to be known of it once it is gone."""
+    """A gamepad, held open so that its events come, and what has to be known once it is gone."""
 
     opened: pygame.joystick.JoystickType
     name: str
@@ -209,7 +209,7 @@ class Pad(NamedTuple):
 
 
 class Pads:
-    """Knows the gamepads that are plugged in, where the stick was pushed last, and what is being held."""
+    """Knows the gamepads that are plugged in, the stick's last position, and the held button."""
 
     def __init__(self) -> None:
         self._pads: dict[int, Pad] = {}
@@ -218,7 +218,7 @@ class Pads:
         self._frames: int | None = _LOOKED_FOR_AFTER
 
     def look(self, frames: int) -> None:
-        """Look once for gamepads, some frames after the window has opened; then events tell of them."""
+        """Look once for gamepads, some frames after the window has opened; later ones come as events."""
         if self._frames is None:
             return
         self._frames -= frames
@@ -227,7 +227,7 @@ class Pads:
             pygame.joystick.init()
 
     def actions(self, event: Event, mode: Mode, frame: int) -> tuple[Action, ...]:
-        """Return what an event asks for; a stick's position is only remembered, for `turned`."""
+        """Return the actions of an event; a stick's position is only remembered, for `turned`."""
         match event.type:
             case pygame.JOYDEVICEADDED:
                 return self._plugged_in(event.device_index)
@@ -244,7 +244,7 @@ class Pads:
         return ()
 
     def turned(self, state: State) -> tuple[Action, ...]:
-        """Return where the stick has turned the crank to since the last frame: both its axes together."""
+        """Return the action that turns the crank as the stick has moved, from both its axes."""
         moved, self._moved = self._moved, False
         stick = complex(self._stick[0], -self._stick[1])
         if not moved or abs(stick) <= _DEAD_ZONE or state.mode in ("list", "shelf"):
@@ -252,7 +252,7 @@ class Pads:
         return (Action("scrub", phase_along(state.displayed, state.phase, stick / max(abs(stick), 1.0))),)
 
     def repeated(self, frame: int) -> tuple[Action, ...]:
-        """Return what a button that is held asks for when that is due again."""
+        """Return the held button's action when it is due again."""
         return self._repeats.due(frame)
 
     def _plugged_in(self, index: int) -> tuple[Action, ...]:
@@ -265,7 +265,7 @@ class Pads:
         return (Action("pad", found.name),)
 
     def _has_hat(self, event: Event) -> bool:
-        """Whether the gamepad of an event has its D-pad as a hat, as most have."""
+        """Return whether the gamepad of an event has its D-pad as a hat, as most have."""
         pad = self._pads.get(getattr(event, "instance_id", -1))
         return pad is None or pad.has_hat
 
@@ -276,7 +276,7 @@ class Pads:
 
 
 def _bound(name: str, mode: Mode) -> Bind | None:
-    """Return what a button asks for: what its key does; None where it has none."""
+    """Return the bind of a button, that of its key; None where it has none."""
     key = key_of(name, listed=mode not in ("play", "paused"))
     shift = key.startswith("shift+")
     return bind_of(Press(key.removeprefix("shift+"), shift=shift), mode) if key else None
@@ -286,19 +286,19 @@ def _bound(name: str, mode: Mode) -> Bind | None:
 
 _REACH = 0.035  # of the window's height
 _NEAR = 0.02
-"""How near is on a joint or a curve that tells itself, in the window's height."""
+"""How near counts as on a joint or a curve for a card of words, in heights of the window."""
 _TOLD = 180
-"""So many frames after the mouse has moved last, what passes below it tells itself no more."""
+"""Frames after the mouse's last move for which things that pass below it show their words."""
 _RIGHT = 3
 """The number of the right button, which opens the list of commands."""
 _LONG, _TOO_LONG, _LONG_STILL = 36, 150, 0.012
-"""A button let go after so many frames, as still as this in heights of the window, was a long press."""
+"""A press of so many frames, between two numbers, is long if it moves less than this (window heights)."""
 _LET_GO_FOR = "let go: commands"
 _THINGS_IN = frozenset[Mode]({"play", "paused", "edit"})
-"""Where joints and links have commands of their own."""
+"""The modes in which joints and links have commands of their own."""
 _TENTHS = 0.1
 _PULL = 0.011
-"""How far a value is dragged for a step, in the window's height."""
+"""How far a drag of a value is for one step, in heights of the window."""
 _COARSE = 10
 Drag = Literal[
     "pan",
@@ -326,18 +326,18 @@ _KINDS: Mapping[int, Literal["wheel", "down", "up", "move"]] = {
 }
 MOUSE_EVENTS = tuple(_KINDS)
 _STILL = 0.006
-"""How far the hand may move in a click on paper, in the window's height."""
+"""How far the hand may move in a click on paper, in heights of the window."""
 _PENCIL: Mapping[str, Drag] = {"pen_down": "pen", "take_point": "lead", "take_pivot": "lead", "dial": "dial"}
-"""What the mouse does on while its button is down, by what the pencil has begun."""
+"""The kind of drag that follows, by the action that the pencil has begun."""
 _LET_GO: Mapping[Drag | None, str] = {
     **{"pan": "", "crank": "", "chart": "", "paper": "", "joint": "drop"},
     **{"pen": "pen_off", "lead": "let_go", "hand": "back"},
 }
-"""What ends a drag without more, where a long press comes of it."""
+"""The actions that end a drag without an effect, where it becomes a long press."""
 
 
 def latest(events: list[Event]) -> list[Event]:
-    """Return the events without those of a mouse that moved on in the same frame."""
+    """Return the events without moves of the mouse that a later move in the same frame replaces."""
     pairs = zip_longest(events, events[1:])
     return [one for one, then in pairs if then is None or not one.type == then.type == pygame.MOUSEMOTION]
 
@@ -365,7 +365,7 @@ class Mouse:
         self._is_long = self._draws = False
 
     def actions(self, event: Event, screen: Screen) -> tuple[Action, ...]:
-        """Return what a mouse event asks for."""
+        """Return the actions of a mouse event."""
         kind, notches, (x, y) = _KINDS[event.type], getattr(event, "y", 0), self._at
         if kind in ("move", "down"):
             self._seen, self._moved_in = True, screen.state.frame
@@ -388,7 +388,7 @@ class Mouse:
         return (*stirred, *(self._elsewhere(gesture, screen) if found is None else found))
 
     def _elsewhere(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...]:
-        """Return what is asked of all that lies below the bar."""
+        """Return the actions of a gesture on anything that lies below the bar."""
         if gesture.kind == "down" and screen.on_toast(*self._at):
             self._drag = "bar"
             return (Action("take_toast"),)
@@ -412,7 +412,7 @@ class Mouse:
         return self._on_the_picture(gesture, screen) if found is None else found
 
     def _menu(self, screen: Screen) -> tuple[Action, ...]:
-        """Return what opens the list of what is under the mouse, else of all commands, or closes the list."""
+        """Return the action that opens the list for what is under the mouse, or for all, or closes it."""
         if screen.state.mode not in MENU_IN:
             return ()
         if screen.state.listing:
@@ -430,23 +430,23 @@ class Mouse:
         return (Action("menu", "chart" if screen.charted(*self._at) is not None else None),)
 
     def held(self, screen: Screen) -> tuple[Action, ...]:
-        """Return the action of a button or finger that is held still for long: it opens commands."""
+        """Return the action of a button or finger that is held still for long: it opens a list."""
         is_new, self._is_long = not self._is_long, self._presses_long(screen)
         return (Action("hint", _LET_GO_FOR),) if self._is_long and is_new else ()
 
     def _presses_long(self, screen: Screen) -> bool:
-        """Return whether letting go now ends a long press: what may still be a drag is none."""
+        """Return whether a release now ends a long press: nothing was dragged."""
         long = _LONG <= screen.state.frame - self._down_in < _TOO_LONG
         still = self._far <= _LONG_STILL * screen.size[1]
         return long and still and self._drag in _LET_GO and not self._draws
 
     def _pressed_long(self, screen: Screen) -> tuple[Action, ...]:
-        """Return what a long press asks for: what a right click does, and nothing of what it began."""
+        """Return the actions of a long press: those of a right click, after ending what the press began."""
         ended, self._drag = _LET_GO[self._drag], None
         return (*((Action(ended),) if ended else ()), *self._menu(screen))
 
     def _on_the_help(self, screen: Screen) -> tuple[Action, ...]:
-        """Return what a click on the help asks for: what its line says; one beside it closes it."""
+        """Return the actions of a click on the help: those of its line; a click beside the help closes it."""
         self._drag, keys = "bar", screen.help_at(*self._at)
         if keys is None:
             return (Action("help"),)
@@ -454,7 +454,7 @@ class Mouse:
         return (Action("help"), asked) if asked else ()
 
     def _on_the_bar(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
-        """Return what is asked of the bar of commands: a button, or a slider that is dragged; None off it."""
+        """Return the actions of a gesture on the bar: of a button, or of a dragged slider; None off it."""
         if self._drag in ("bar", "speed"):
             drag, self._drag = self._drag, None if gesture.kind == "up" else self._drag
             moved = drag == "speed" and gesture.kind == "move"
@@ -474,7 +474,7 @@ class Mouse:
         return slid(screen.state, self._slider, screen.share_at(self._slider, self._at[0]))
 
     def on_bar(self, screen: Screen) -> int | None:
-        """Return the number of the command on the bar that the mouse is over; None before it was seen."""
+        """Return the number of the bar's command under the mouse; None before the mouse was seen."""
         if not self._seen or self._drag not in (None, "bar", "speed"):
             return None
         return self._slider if self._drag == "speed" else screen.button_at(*self._at)
@@ -505,7 +505,7 @@ class Mouse:
                 self._drag = "joint" if handle or curve else self._grabbed(screen)
                 if handle:
                     return (Action("grab", handle),)
-                if curve:  # its joint comes to the hand
+                if curve:  # the curve's joint moves to the hand
                     return (Action("grab", curve[0]), *self._moved(screen))
                 return self._moved(screen) if self._drag == "chart" else ()
             case "up":
@@ -514,12 +514,12 @@ class Mouse:
         return (Action("pan", gesture.by),) if self._drag == "pan" else self._moved(screen)
 
     def _on_a_row(self, screen: Screen) -> str | None:
-        """Return the label of the row of numbers under the mouse; None beside them."""
+        """Return the label of the row of numbers under the mouse; None elsewhere."""
         found = screen.pointed(*self._at, _NEAR * screen.size[1]) if self._drag is None else None
         return found.thing.name if found and found.thing and found.thing.kind == "row" else None
 
     def _on_a_list(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
-        """Return what is asked of the open list: a click, the wheel, a value dragged; None beside it."""
+        """Return the actions on the open list of a click, the wheel or a dragged value; None off it."""
         if self._drag == "row" and gesture.kind in ("move", "up"):
             return self._pulled(gesture, screen)
         if (further := self._scrolled(gesture, screen)) is not None:
@@ -529,7 +529,7 @@ class Mouse:
             return None
         editing = screen.state.mode in ("edit", "numbers")
         if gesture.kind == "wheel":
-            # A list that is longer than its room moves on below a mouse that stands still.
+            # A long list scrolls below a mouse that stands still, so the row where the wheel began is kept.
             self._turned = row if self._turned is None else self._turned
             return self._wheeled(gesture.notches, self._turned, editing=editing)
         self._turned = None
@@ -541,7 +541,7 @@ class Mouse:
         return (Action("grab_row", row),)
 
     def _on_the_dialog(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
-        """Take the next value of the row under the mouse, or do what it says; None beside the dialog."""
+        """Return the actions of a click on the dialog: a row's next value, or its command; None off it."""
         row, dialog = screen.row_at(*self._at) if self._drag is None else None, screen.state.taking
         if row is None or dialog is None or gesture.kind not in ("wheel", "down"):
             return None
@@ -555,7 +555,7 @@ class Mouse:
         return (to, Action("take_start") if does else Action("take_turn", 1))
 
     def _scrolled(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
-        """Return what is asked of the scroll bar of the open list; None beside it."""
+        """Return the actions of a gesture on the open list's scroll bar; None off it."""
         held = self._drag == "scroll"
         if held and gesture.kind == "up":
             self._drag = None
@@ -569,7 +569,7 @@ class Mouse:
         return (Action("move", further),) if further else ()
 
     def _in_a_game(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
-        """Return what a click asks of a game: the answer that is there, else to go on.
+        """Return the actions of a click in a game: the answer that is there, else to go on.
 
         The crank pin is dragged as without a game.
         """
@@ -582,13 +582,13 @@ class Mouse:
         return (Action("next") if option is None else Action("option", option),)
 
     def _wheeled(self, notches: int, row: int, *, editing: bool) -> tuple[Action, ...]:
-        """Nudge the value under the mouse; beside the values, and in the list of quantities, choose."""
+        """Return the nudges of the value under the mouse; elsewhere in a list, the choice of another row."""
         if editing and row >= 0:
             return (Action("grab_row", row), Action("drop"), Action("nudge", notches * _coarser()))
         return (Action("choose" if editing else "move", -notches),)
 
     def _pulled(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...]:
-        """Change the value of the row that is held by how far the mouse has gone to the right."""
+        """Return the change of the held row's value, by how far the mouse has moved to the right."""
         if gesture.kind == "up":
             self._drag = None
             return (Action("drop"),)
@@ -596,7 +596,7 @@ class Mouse:
         return (Action("pull", self._steps * _coarser()),) if self._steps != before else ()
 
     def pointed(self, screen: Screen) -> int | None:
-        """Return the row of the open list that the mouse is over; None before the mouse was seen."""
+        """Return the row of the open list under the mouse; None before the mouse was seen."""
         if not self._seen or self._drag not in (None, "row") or screen.state.browsing:
             return None
         found = screen.option_at if screen.state.mode == "game" else screen.row_at
@@ -626,9 +626,9 @@ class Mouse:
         return max(abs(self._at[0] - pin[0]), abs(self._at[1] - pin[1])) <= _REACH * screen.size[1]
 
     def _on_the_shelf(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...]:
-        """Choose the mechanism under the mouse; a click puts it on, and one beside closes the shelf.
+        """Choose the mechanism under the mouse; a click shows it, and a click elsewhere closes the shelf.
 
-        A drag scrolls: on the pictures they follow the hand, beside them the bar does.
+        A drag scrolls: on the pictures these follow the hand, beside them the scroll bar does.
         """
         browsing, (x, y), drag = screen.state.browsing, self._at, self._drag
         assert browsing
@@ -659,7 +659,7 @@ class Mouse:
         return (Action("scroll", row - top),) if row != top else ()
 
     def _of_the_pencil(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
-        """Draw, or drag what is under the pencil; None for what the mouse does without one."""
+        """Draw, or drag what is under the pencil; None where the mouse acts as without a pencil."""
         reach = _REACH * screen.size[1]
         if gesture.kind == "down" and screen.charted(*self._at) is None:
             begun = screen.pencil_at(*self._at, reach)
@@ -681,7 +681,7 @@ class Mouse:
         return (Action("pen_off"), *taken)
 
     def _of_the_poses(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
-        """Take an answer, or set down and drag frames and pins; None for what the mouse does else."""
+        """Take an answer, or set down and drag frames and pins; None where the mouse acts as usual."""
         if gesture.kind == "down" and screen.charted(*self._at) is None:
             place = screen.answer_at(*self._at)
             if place is not None:
@@ -703,7 +703,7 @@ class Mouse:
         return (Action("hand_up"),) if drag == "hand" else ()
 
     def _of_the_tools(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
-        """Take a tool from beside the list of dimensions; None for what else there is."""
+        """Take a tool beside the list of dimensions; None where the mouse acts as usual."""
         tool = screen.tool_at(*self._at) if gesture.kind == "down" and self._drag is None else None
         if tool is None:
             return None
@@ -711,12 +711,12 @@ class Mouse:
         return (Action(TOOLS[tool].action, TOOLS[tool].value),)
 
     def _of_the_numbers(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
-        """Do what the mouse does on the list of dimensions, and beside it what it does on a sheet."""
+        """Act on the list of dimensions where the mouse is on it, else on the sheet."""
         found = self._on_a_list(gesture, screen) if self._drag in (None, "row", "scroll") else None
         return self._of_the_sheet(gesture, screen) if found is None else found
 
     def _of_the_sheet(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...] | None:
-        """Draw on the sheet, take a tool, turn the crank, or shift the paper; None for what else there is."""
+        """Draw on the sheet, take a tool, turn the crank, or shift the paper; None without a sheet."""
         if gesture.kind == "down" and screen.charted(*self._at) is None:
             tool, row = screen.tool_at(*self._at), screen.sheet_row_at(*self._at)
             if row is not None:
@@ -739,7 +739,7 @@ class Mouse:
         return (self._handed("hand_down", screen), Action("hand_up")) if stays else ()
 
     def _handed(self, name: str, screen: Screen) -> Action:
-        """Return what the hand does on the sheet: in tenths of the usual step with Shift, in any with Alt."""
+        """Return the hand's action on the sheet; its step is a tenth with Shift, and none with Alt."""
         mods = pygame.key.get_mods()
         part = 0.0 if mods & pygame.KMOD_ALT else _TENTHS if mods & pygame.KMOD_SHIFT else 1.0
         return Action(name, screen.handed(*self._at, part))
@@ -751,14 +751,14 @@ class Mouse:
         return self._at if shown else None
 
     def _on_the_slider(self, gesture: Gesture, screen: Screen) -> tuple[Action, ...]:
-        """Take the slider's knob along, from where the button went down on it."""
+        """Drag the slider's knob, if the button went down on the slider."""
         self._drag = None if gesture.kind == "up" else "slider"
         if gesture.kind == "up":
             return (Action("drop"),)
         return (Action("slide", screen.slid(self._at[0])),) if gesture.kind in ("down", "move") else ()
 
     def _of_the_layers(self, gesture: Gesture, _: Screen) -> tuple[Action, ...] | None:
-        """Shift the parts, among which there is no crank pin to be dragged; None for what else there is."""
+        """Shift the parts, which have no crank pin to drag; None where the mouse acts as usual."""
         if gesture.kind == "down":
             self._drag = "pan"
             return ()
@@ -770,7 +770,7 @@ class Mouse:
         return "pan" if screen.charted(*self._at) is None else "chart"
 
     def _zoomed(self, notches: float, screen: Screen) -> tuple[Action, ...]:
-        """Zoom about the mouse; about the middle before it is known where that is."""
+        """Zoom about the mouse; before its place is known, about the middle."""
         middle = screen.size[0] / 2, screen.size[1] / 2
         x, y = (at - half for at, half in zip(self._at if self._seen else middle, middle, strict=True))
         return (Action("zoom", (float(notches), x / screen.size[1], y / screen.size[1])),)
@@ -790,5 +790,5 @@ class Mouse:
 
 
 def _coarser() -> int:
-    """Return how many steps one stands for: more with Shift."""
+    """Return the factor on a step: more than 1 with Shift."""
     return _COARSE if pygame.key.get_mods() & pygame.KMOD_SHIFT else 1

@@ -1,7 +1,7 @@
 """The dial of the pencil: from the most exact answer along the front to the most compact one.
 
-The search gives answers along the front, each somewhat like its neighbours. Between two of one family the
-linkage goes over from one to the other; from family to family it changes at once.
+The search gives answers along the front, each somewhat like its neighbours. Between two answers of one family
+the linkage changes gradually; from family to family it changes at once.
 """
 
 from __future__ import annotations
@@ -20,11 +20,11 @@ if TYPE_CHECKING:
     from linkanim.synthesis.answers import PathAnswer
 
 _FAMILY = 0.15
-"""Answers of which no length, nor pivot, differs by more, in their longest links, are of one family."""
+"""Answers whose lengths and pivots differ by no more than this, in longest links, are of one family."""
 
 
 def answer_at(way: Sequence[PathAnswer], share: float) -> PathAnswer:
-    """Return the answer at a share of the front, 0 to 1; two of one family have others between."""
+    """Return the answer at a share of the front, 0 to 1; between two of one family it is interpolated."""
     place = min(max(share, 0.0), 1.0) * (len(way) - 1)
     first = min(int(place), max(len(way) - 2, 0))
     one, other, part = way[first], way[min(first + 1, len(way) - 1)], place - first
@@ -40,7 +40,7 @@ def answer_at(way: Sequence[PathAnswer], share: float) -> PathAnswer:
 
 
 def _of_one_family(one: PathAnswer, other: PathAnswer) -> bool:
-    """Return whether the linkages between two answers are like both."""
+    """Return whether two answers are alike enough for linkages between them to be shown."""
     longest = max(map(abs, (*one.row[2:6], one.row[8])))
     near = all(abs(mine - its) <= _FAMILY * longest for mine, its in zip(one.row, other.row, strict=True))
     turned = abs(math.remainder(other.start - one.start, 2 * math.pi))
@@ -55,13 +55,13 @@ def place_of(sketch: PathSketch) -> float:
     if len(way) < 2 or answer is None or isinstance(answer, Scene):
         return 0.0
     off, row = answer.off, answer.row
-    # a cognate of one of them, which lies elsewhere, is as far off
+    # a cognate of an answer has other lengths, but the same deviation
     near = min(range(len(way)), key=lambda n: (way[n].off != off, math.dist(way[n].row, row)))
     return near / (len(way) - 1)
 
 
 def dial(state: State, share: float) -> State:
-    """Put the knob at a share of its way, 0 to 1, and show the answer that is there."""
+    """Put the knob at a share of its range, 0 to 1, and show the answer there."""
     sketch = state.drawing
     if sketch is None or not sketch.way or sketch.held not in (None, DIAL):
         return state
@@ -86,7 +86,7 @@ def dial_on(state: State, steps: int) -> State:
 
 
 def dialled(state: State) -> State:
-    """Let go of the knob: it goes to the answer that is nearest, whose figures are those of the solver."""
+    """Release the knob: it goes to the nearest answer, whose figures are the solver's."""
     sketch = state.drawing
     if sketch is None or sketch.held != DIAL or sketch.dial is None:
         return state

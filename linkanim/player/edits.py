@@ -1,4 +1,4 @@
-"""Put another scene on, and edit the dimensions of the one that is on, with undo and redo."""
+"""Actions that show another scene, and that edit the dimensions of the present one, with undo and redo."""
 
 from __future__ import annotations
 
@@ -54,18 +54,18 @@ from linkanim.scenes.form import Key
 from linkanim.scenes.scene import Scene
 from linkanim.units import metre
 
-# Actions that put another scene on: of the shelf, or the other closure; the open list of quantities.
+# Actions that show another scene: from the shelf, or the other closure; the open list of quantities.
 
 _LONGEST = 40
 
 
 def mechanism(state: State, further: int) -> State:
-    """Put on the scene that is `further` places on along the shelf."""
+    """Show the scene that is `further` places along the shelf."""
     return put_on(state, (state.place + further) % len(state.shelf))
 
 
 def select(state: State, place: int) -> State:
-    """Choose a place in the chapter of the scene that is on; beside the catalogue, in the first."""
+    """Choose a place in the chapter of the present scene; outside the catalogue, in the first chapter."""
     all_, chapter = chapters(), chapter_of(state.scene.name)
     members = all_[chapter] if chapter else next(iter(all_.values()))
     if place >= len(members) or members[place] not in state.shelf:
@@ -83,13 +83,13 @@ def closure(state: State, _: None) -> State:
 
 
 def renewed(state: State, scene: Scene) -> State:
-    """Put on the scene of one's own as its file has it now; where it is on already, undo goes back."""
+    """Show the user's own scene as its file has it now; where it is shown already, undo goes back."""
     catalogue = tuple(entry for entry in state.shelf if isinstance(entry, str))
     own = len(state.shelf) - len(catalogue)
     was_on, by = state.place < own, 1 - own
     state = replace(state, shelf=(scene, *catalogue))
     if not was_on:
-        # the catalogue's places are behind the one of the scene of one's own, which begins anew
+        # the catalogue's places come after that of the user's own scene, which begins anew
         kept = tuple(one._replace(place=one.place + by) for one in state.kept if one.place >= own)
         return put_on(replace(state, place=state.place + by, kept=kept), 0)
     editing = replace(with_undo(state.editing, state.scene), original=scene)
@@ -106,18 +106,18 @@ def exchanged(state: State, scene: Scene) -> State:
 
 
 def followed(state: State, scene: Scene) -> State:
-    """Let the scene that is shown glide to a changed one."""
+    """Let the shown scene glide to a changed one."""
     return replace(exchanged(state, scene), glide=glide(state.shown, scene, state.frame))
 
 
 def _verdict(info: Info) -> tuple[str, bool, bool]:
-    """Return the class, and on which side of Grashof's rule the lengths are."""
+    """Return the class, and whether s + l is below p + q, and above it: both False without Grashof's rule."""
     rule = info.grashof or ""
     return info.class_name, "<" in rule, ">" in rule
 
 
 def put_on(state: State, place: int) -> State:
-    """Start a mechanism of the shelf as it was left, else as its file says, paused where the last one was."""
+    """Start a mechanism of the shelf as it was left, else as in its file; paused if the last one was."""
     state = drop(state, None)
     entry, kept = state.shelf[place], _kept_edits(state)
     was = next((one for one in kept if one.place == place), None)
@@ -132,21 +132,21 @@ def put_on(state: State, place: int) -> State:
 
 
 def _kept_edits(state: State) -> tuple[Edited, ...]:
-    """Return what is kept of all places, that of the one that is on with its values begun let go."""
+    """Return the edited scenes of all places; the present one's without its typed values."""
     own = replace(state.editing, open=False, typed="", drafts=(), refusal=None, warned=False)
     return (*state.kept, *([Edited(state.place, state.scene, own)] if own.changed else []))
 
 
 def _kept_chart(state: State, scene: Scene) -> str | None:
-    """Return what of the charts another scene has, too."""
+    """Return those of the charts that another scene has, too."""
     tokens = chart_tokens(state.scene, state.look.chart)
     return ",".join(token for token in tokens if token in scene.quantities) or None
 
 
 def list_(state: State, below: str | None) -> State:
-    """Open the list of quantities, at the one that is charted, or close it.
+    """Open the list of quantities, at the charted one, or close it.
 
-    For another chart `below` it opens at the next one that is not.
+    For another chart `below` it opens at the next quantity that is not charted.
     """
     if state.listing:
         return replace(state, listing=None)
@@ -167,7 +167,7 @@ def open_shelf(state: State, _: None) -> State:
 
 
 def move(state: State, further: int) -> State:
-    """Choose the row `further` places on among those found; the list has ends, the shelf goes round."""
+    """Choose the row `further` places on among those found; the list has ends, the shelf wraps around."""
     if state.browsing:
         found = state.browsing.found
         if state.browsing.chosen not in found:
@@ -214,7 +214,7 @@ def _relisted(state: State, sieve: str) -> State:
 
 
 def files(state: State, lines: str) -> State:
-    """Put files of one's own on the open shelf: a line for each, its name, a tab and its date."""
+    """Put the user's own files on the open shelf: one a line, its name, a tab and its date."""
     own = tuple(OwnFile(*line.split("\t")[:2]) for line in lines.split("\n") if "\t" in line)
     opened = state if state.browsing else open_shelf(state, None)
     return replace(opened, browsing=opened.browsing and replace(opened.browsing, own=own))
@@ -243,7 +243,7 @@ def plot(state: State, token: str) -> State:
 
 
 def strip(state: State, token: str) -> State:
-    """Chart a quantity below what is charted; one that is charted is charted no more."""
+    """Chart a quantity below the present charts; remove it where it is charted already."""
     charted = chart_tokens(state.scene, state.look.chart)
     if token in charted:
         charted = tuple(one for one in charted if one != token)
@@ -257,16 +257,16 @@ def strip(state: State, token: str) -> State:
 
 
 def put(state: State, place: int) -> State:
-    """Put on a scene by its place on the shelf, and close the shelf."""
+    """Show a scene by its place on the shelf, and close the shelf."""
     if not 0 <= place < len(state.shelf):
         return state
     return replace(put_on(state, place), browsing=None)
 
 
-# Actions on the list of dimensions, and on what is undone and redone.
+# Actions on the list of dimensions, and undo and redo.
 #
 # Every change gives a new scene or a refusal; the last good scene always runs on. A joint that is dragged
-# while the list is open takes its lengths along, one undo a drag.
+# while the list is open changes its lengths; each drag is one step of undo.
 
 AGAIN = "R again: the file's dimensions"
 
@@ -279,7 +279,7 @@ _NUDGE = {
 
 
 def edit(state: State, _: None) -> State:
-    """Open or close the list; a joint is dropped, values begun are let go of, undo and redo stay."""
+    """Open or close the list; a joint is dropped, typed values are discarded, undo and redo stay."""
     state = drop(state, None)
     state = choose(replace(state, editing=replace(state.editing, drafts=())), 0)
     editing = replace(state.editing, open=not state.editing.open)
@@ -287,14 +287,14 @@ def edit(state: State, _: None) -> State:
 
 
 def choose(state: State, further: int) -> State:
-    """Choose the row `further` places on; a value that was begun is let go."""
+    """Choose the row `further` places on; a typed value is discarded."""
     count = len(dimensions(state.scene))
     at = (state.editing.chosen + further) % count if count else 0
     return replace(state, editing=cleared(state.editing, chosen=at))
 
 
 def pass_on(state: State, further: int) -> State:
-    """Choose the row `further` places on; a value that was begun is kept, to be judged with the others."""
+    """Choose the row `further` places on; a typed value is kept, to be checked with the others."""
     return choose(replace(state, editing=replace(state.editing, drafts=_drafts(state))), further)
 
 
@@ -304,7 +304,7 @@ def write(state: State, text: str) -> State:
 
 
 def erase(state: State, _: None) -> State:
-    """Take the last typed character away; that of the row's draft, where none is typed."""
+    """Erase the last typed character; where none is typed, that of the row's draft."""
     editing, item = state.editing, chosen(state.editing, state.scene)
     draft = dict(editing.drafts).get(item.key, "") if item else ""
     others = tuple(pair for pair in editing.drafts if not item or pair[0] != item.key)
@@ -312,9 +312,9 @@ def erase(state: State, _: None) -> State:
 
 
 def take(state: State, _: None) -> State:
-    """Put all values begun in place at once, or say why not.
+    """Take all typed values at once, or say why not.
 
-    Lengths without a unit are in the one that is shown, the scene's own without any.
+    Lengths without a unit are in the shown unit, or in the scene's own where none is shown.
     """
     values = dict(_drafts(state))
     return _tried(state, values, state.editing.typed) if values else state
@@ -323,7 +323,7 @@ def take(state: State, _: None) -> State:
 def nudge(state: State, steps: int) -> State:
     """Make the chosen value larger by small steps, or say why not.
 
-    A step depends on the unit that is shown alone, so that as many steps back end on the same value.
+    A step depends on the shown unit alone, so that as many steps back end at the same value.
     """
     item = chosen(state.editing, in_unit(state.scene, state.look.unit))
     if item is None:
@@ -333,7 +333,7 @@ def nudge(state: State, steps: int) -> State:
 
 
 def undo(state: State, _: None) -> State:
-    """Go back to the scene before the last change; a value begun or refused is let go of first."""
+    """Go back to the scene before the last change; a typed or refused value is discarded first."""
     editing = state.editing
     if editing.begun:
         return replace(state, editing=nothing_begun(editing))
@@ -341,12 +341,12 @@ def undo(state: State, _: None) -> State:
 
 
 def redo(state: State, _: None) -> State:
-    """Go on to the scene that the last undo left."""
+    """Go forward to the scene that the last undo left."""
     return _stepped(state, state.editing.onward(state.scene))
 
 
 def _stepped(state: State, step: Step[Scene] | None) -> State:
-    """Return the state at a step of undo or redo; as it is without one."""
+    """Return the state at a step of undo or redo; unchanged where there is none."""
     if step is None:
         return state
     scene, past, future = step
@@ -354,7 +354,7 @@ def _stepped(state: State, step: Step[Scene] | None) -> State:
 
 
 def reset(state: State, _: None) -> State:
-    """Go back to the scene as its file has it, which undo takes back."""
+    """Go back to the scene as in its file; this can be undone."""
     editing = replace(state.editing, drafts=())
     if editing.original is None or editing.original == state.scene:
         return replace(state, editing=cleared(editing))
@@ -372,7 +372,7 @@ def edit_at(state: State, joint: str) -> State:
 
 
 def trace_joint(state: State, joint: str) -> State:
-    """Draw a joint's curve, or draw it no more; undo goes back."""
+    """Draw a joint's curve, or stop drawing it; undo goes back."""
     if joint not in state.scene.linkage.by_name:
         return state
     state = replace(state, look=replace(state.look, trace=True))
@@ -387,12 +387,12 @@ def drive_joint(state: State, joint: str) -> State:
 
 
 def returns(state: State, _: None) -> State:
-    """Let the input come back on its other closure, or on the same one again."""
+    """Let the input come back on its other closure, or again on the same one."""
     return _remade(state, with_undo(state.editing, state.scene), other_return(state.scene))
 
 
 def start(state: State, _: None) -> State:
-    """Go back to the start; once more, while the chip says so, to the file's dimensions as well."""
+    """Go back to the start; when asked again while the chip says so, to the file's dimensions as well."""
     again = state.chip is not None and state.sketch is None and state.chip.text == AGAIN
     state = replace(reset(state, None) if again else state, chip=None)
     return replace(state, clock=state.clock.go(state.frame, 0.0))
@@ -404,7 +404,7 @@ def way_back(_: State, after: State) -> str | None:
 
 
 def grab(state: State, joint: str) -> State:
-    """Take hold of a joint: it leads the input, or, while the list is open, the dimensions that it follows.
+    """Grasp a joint: it drags the input, or, while the list is open, the dimensions that place it.
 
     The picture stands still; the list goes to the joint's dimension.
     """
@@ -421,7 +421,7 @@ def grab(state: State, joint: str) -> State:
 
 
 def carry(state: State, to: tuple[float, float, float]) -> State:
-    """Drag the held joint to a point of the scene as shown, its lengths in whole units times `to[2]`."""
+    """Drag the held joint to a point of the shown scene, its lengths in whole units times `to[2]`."""
     if state.grasp:
         return _led(state, state.grasp, to)
     held = state.held
@@ -438,7 +438,7 @@ def carry(state: State, to: tuple[float, float, float]) -> State:
 
 
 def grab_row(state: State, row: int) -> State:
-    """Take hold of a row's value; what is begun in another row waits as a draft."""
+    """Grasp a row's value; a value typed in another row waits as a draft."""
     items, state = dimensions(state.scene), drop(state, None)
     if not state.editing.open or not 0 <= row < len(items):
         return state
@@ -448,7 +448,7 @@ def grab_row(state: State, row: int) -> State:
 
 
 def pull(state: State, steps: int) -> State:
-    """Set the value that is held to what it was and `steps` small steps of the unit that is shown."""
+    """Set the held value to what it was plus `steps` small steps of the shown unit."""
     held = state.held
     if held is None or held.joint:
         return state
@@ -459,7 +459,7 @@ def pull(state: State, steps: int) -> State:
 
 
 def drop(state: State, _: None) -> State:
-    """Let go of the joint; what ran before runs on, and what a hand led swings on with its speed."""
+    """Release the joint; a motion that ran before runs on, at first with the hand's speed."""
     if grasp := state.grasp:
         clock = state.clock.let_go(state.frame, grasp.speed(state.frame), paused=not grasp.ran)
         return replace(state, grasp=None, clock=clock)
@@ -470,11 +470,11 @@ def drop(state: State, _: None) -> State:
 
 
 _SLACK = 0.01
-"""A pose as near to the hand as the nearest, but for so much of the course's size, is as good."""
+"""A pose farther from the hand than the nearest one by up to this, in sizes of the course, is as good."""
 
 
 def _grasped(state: State, joint: str) -> State:
-    """Take hold of a joint that moves, and stand still with it."""
+    """Grasp a joint that moves, and stop the motion."""
     state = drop(state, None)
     if joint not in state.scene.linkage.by_name or not state.scene.point_path(joint).moves:
         return state
@@ -484,7 +484,7 @@ def _grasped(state: State, joint: str) -> State:
 
 
 def _led(state: State, grasp: Grasp, to: tuple[float, float, float]) -> State:
-    """Let the joint come as near to the hand as the input lets it, on a pose next to the one that is on."""
+    """Bring the joint as near to the hand as the input allows, in a pose next to the present one."""
     scene = state.displayed
     if grasp.joint not in scene.linkage.by_name:
         return replace(state, grasp=None)
@@ -497,9 +497,9 @@ def _led(state: State, grasp: Grasp, to: tuple[float, float, float]) -> State:
 
 
 def _dragged(state: State, held: Held, values: Mapping[Key, str]) -> State:
-    """Return the state with these values of the scene that was taken hold of, or why they are refused.
+    """Return the state with these values in the scene from before the drag, or why they are refused.
 
-    However far they are dragged, undo goes back to where they were taken.
+    However far they are dragged, undo goes back to the beginning of the drag.
     """
     editing = state.editing
     try:
@@ -531,7 +531,7 @@ def _values_at(held: Held, point: tuple[float, float], share: float) -> dict[Key
 
 
 def nudged(item: Dimension, steps: int) -> str:
-    """Return a dimension's value larger by small steps, as it would be typed."""
+    """Return a dimension's value increased by small steps, as it would be typed."""
     value = Decimal(repr(item.value)) + steps * _step_of(item.unit)
     return f"{value.normalize():f}"
 
@@ -542,12 +542,12 @@ def _step_of(unit: str) -> Decimal:
 
 
 def _remade(state: State, editing: Editing, scene: Scene) -> State:
-    """Return the state with another editing and scene, which the picture follows smoothly."""
+    """Return the state with another editing and another scene, to which the picture glides."""
     return replace(state if scene is state.scene else followed(state, scene), editing=editing)
 
 
 def _drafts(state: State) -> tuple[tuple[Key, str], ...]:
-    """Return all values begun, that of the chosen row the last."""
+    """Return all typed values, that of the chosen row last."""
     editing, item = state.editing, chosen(state.editing, state.scene)
     if item is None or not editing.typed:
         return editing.drafts
@@ -555,10 +555,10 @@ def _drafts(state: State) -> tuple[tuple[Key, str], ...]:
 
 
 def _tried(state: State, values: Mapping[Key, str], typed: str) -> State:
-    """Put values where they belong, all at once; refused ones stay begun, to be mended.
+    """Take values, all at once; refused ones stay typed, to be corrected.
 
-    Values that end the crank's full turn are refused once, with the way to take them all the same. The
-    reason is in the unit that is shown.
+    Values that end the crank's full turn are refused the first time, with words on how to take them anyway.
+    The reason is in the shown unit.
     """
     editing, scene, unit = state.editing, state.scene, state.look.unit
     try:
@@ -576,13 +576,13 @@ def _tried(state: State, values: Mapping[Key, str], typed: str) -> State:
 
 
 def _united(shown: Scene, values: Mapping[Key, str]) -> dict[Key, str]:
-    """Return values with their unit, those that have none with that of a scene as it is shown."""
+    """Return values with their units; those without one get the unit of the shown scene."""
     items = {item.key: item for item in dimensions(shown)}
     return {key: with_unit(text, items[key]) for key, text in values.items()}
 
 
 def _reason(message: str, values: Mapping[Key, str], scene: Scene) -> str:
-    """Leave out the key of a single value, beside which the reason stands; of several say it in words."""
+    """Return a reason without the key of a single value, beside which it stands; with several, in words."""
     if len(values) == 1:
         return re.sub(_KEY, "", message)
     words = {".".join(map(str, item.key)): item.label for item in dimensions(scene) if item.key in values}

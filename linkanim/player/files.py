@@ -1,4 +1,4 @@
-"""Write the window's files under free names, and keep the draft on a sheet, at most a second behind."""
+"""Write the window's files under free names, and keep the draft of a sheet, at most a second old."""
 
 from __future__ import annotations
 
@@ -28,13 +28,13 @@ from linkanim.scenes.scene import Scene
 from linkanim.scenes.toml import content
 from linkanim.units import shown as quoted
 
-# Files that the window writes, under names that were free, and the scene file that it was opened on.
+# Files that the window writes, under free names, and the scene file with which it was opened.
 
 FOLDER = Path("recordings")
 
 
 def free_stem(folder: Path, name: str, suffixes: tuple[str, ...]) -> str:
-    """Return `name-1`, `name-2`, …: the first under which no file with any of the suffixes is there."""
+    """Return the first of `name-1`, `name-2`, … for which no file with any of the suffixes exists."""
     stems = (f"{name}-{number}" for number in count(1))
     return next(stem for stem in stems if not any((folder / (stem + suffix)).exists() for suffix in suffixes))
 
@@ -42,7 +42,7 @@ def free_stem(folder: Path, name: str, suffixes: tuple[str, ...]) -> str:
 def places(name: str, last: str | None = None) -> tuple[str, ...]:
     """Return places for a recording, without endings and all free: in the `last` folder, if there is one.
 
-    The others are in recordings/, in the current folder and in that of the user's films.
+    The others are in recordings/, in the current folder and in the user's folder of films.
     """
     from linkanim.player.tape_file import SUFFIX
 
@@ -54,7 +54,7 @@ def places(name: str, last: str | None = None) -> tuple[str, ...]:
 
 def typed_path(text: str) -> Path:
     """Return the path of a typed text, in which ~ is the user's own folder."""
-    with suppress(RuntimeError):  # nobody knows where that is
+    with suppress(RuntimeError):  # the user's own folder is not known
         return Path(text).expanduser()
     return Path(text)
 
@@ -65,7 +65,7 @@ def screenshot(surface: pygame.Surface, name: str) -> Path:
 
 
 def vector(state: State, size: tuple[int, int]) -> Path:
-    """Write the picture as an SVG under a free name, without what lies over it; errors as `_added`."""
+    """Write the picture as an SVG under a free name, without its overlay; errors as `_added`."""
     from linkanim.paper.figure import Figured
 
     scene = state.displayed
@@ -89,9 +89,9 @@ def report(text: str, name: str) -> Path:
 
 
 def _added(data: bytes, name: str, suffix: str) -> Path:
-    """Write a file under a free name in `FOLDER`, made if it is not there; return its path.
+    """Write a file under a free name in `FOLDER`, which is made if need be; return its path.
 
-    `BadInput` where the folder's name is a file's, `WorkFailed` where the disk refuses.
+    BadInput where a file has the folder's name, WorkFailed where the disk refuses.
     """
     atomic_files.made_folder(FOLDER)
     first, *others = (FOLDER / f"{name}-{number}{suffix}" for number in range(1, 10_000))
@@ -101,7 +101,7 @@ def _added(data: bytes, name: str, suffix: str) -> Path:
 def beside(file: str) -> str:
     """Return a file's path relative to the current folder if it lies in it, else the path as it is."""
     path = Path(from_anywhere(file))
-    with suppress(OSError, ValueError):  # it is gone, or the file lies elsewhere
+    with suppress(OSError, ValueError):  # the current folder is gone, or the file lies elsewhere
         return str(path.relative_to(Path.cwd()))
     return str(path)
 
@@ -114,7 +114,7 @@ def from_anywhere(file: str) -> str:
 
 
 def current_folder() -> str:
-    """Return the current folder's path; nothing where it is there no more."""
+    """Return the current folder's path; empty where the folder is gone."""
     with suppress(OSError):
         return str(Path.cwd())
     return ""
@@ -128,7 +128,7 @@ class SceneFile:
         self._seen = self._state()
 
     def news(self) -> list[str]:
-        """Return what has become of the file since it was last looked at, in words."""
+        """Return in words what has happened to the file since it was last looked at."""
         before, self._seen = self._seen, self._state()
         if before == self._seen:
             return []
@@ -143,7 +143,7 @@ class SceneFile:
         return load(self._path)
 
     def _state(self) -> tuple[int, int, int] | None:
-        """Return what is another number once the file is written anew; None where there is none."""
+        """Return numbers that change when the file is written anew; None where there is no file."""
         with suppress(OSError):
             found = self._path.stat()
             return found.st_mtime_ns, found.st_size, found.st_ino
@@ -151,13 +151,13 @@ class SceneFile:
 
 
 class SavedScenes:
-    """The scene files that a window wrote; it replaces no others, and these only as it left them."""
+    """The scene files that a window wrote; it replaces no others, and these only while unchanged."""
 
     def __init__(self) -> None:
         self._wrote: dict[Path, bytes] = {}
 
     def proposal(self, scene: Scene) -> str:
-        """Return the scene's name, of a new linkage that of its class; with a number where it is taken."""
+        """Return the scene's name, or its class for a new linkage; with a number where that is taken."""
         name = scene.name
         if scene.title == UNTITLED:
             name = "-".join(re.findall(r"\w+", scene.info.class_name.lower())) or name
@@ -177,7 +177,7 @@ class SavedScenes:
         return atomic_files.add(data, path)
 
     def write(self, scene: Scene, path: Path) -> Path:
-        """Write a file that is ours again; BadInput where it was changed meanwhile."""
+        """Write a file of this window again; BadInput where it was changed meanwhile."""
         with suppress(OSError):
             if path.read_bytes() != self._wrote.get(path):
                 raise BadInput(
@@ -190,7 +190,7 @@ class SavedScenes:
 
 
 def _entitled(scene: Scene) -> Scene:
-    """Return the scene, a new linkage under its class."""
+    """Return the scene; a new linkage gets its class as title."""
     return under_class(scene) if scene.title == UNTITLED else scene
 
 
@@ -200,10 +200,10 @@ def where(path: Path) -> str:
 
 
 def open_folder(text: str) -> None:
-    """Show the folder of the file that a text says is saved; nothing for any other text."""
+    """Open the folder of the file that a text says is saved; do nothing for any other text."""
     path = Path(text.partition(" saved")[0])
     if path.is_absolute() and path.exists():
-        import webbrowser  # opens our own folder; asks no network
+        import webbrowser  # opens a local folder, without any network
 
         with suppress(webbrowser.Error):
             webbrowser.open(path.parent.as_uri())
@@ -213,9 +213,9 @@ _MOST_FILES = 300
 
 
 def scene_files() -> tuple[OwnFile, ...]:
-    """Return the scene files in the current folder, the newest ones first; none where it is there no more.
+    """Return the scene files in the current folder, the newest first; none where the folder is gone.
 
-    Of very many they are the newest three hundred.
+    At most the newest three hundred are returned.
     """
     found: list[tuple[float, str]] = []
     with suppress(OSError), os.scandir() as entries:
@@ -232,18 +232,18 @@ def _date(seconds: float) -> str:
     return ""
 
 
-# The file in which the draft on a sheet is kept, whole and at most a second behind, until it is written.
+# The file in which the draft of a sheet is kept, whole and at most a second old, until a scene file has it.
 #
-# Each window has a file of its own, `draft.json` or the next name that no open window has: what one draws is
-# never in another's way. What a window left that ended before its draft was written is offered by the next.
+# Each window has a file of its own, `draft.json` or the next name that no open window has, so that windows do
+# not disturb each other. A draft left by a window that ended without saving it is offered by the next window.
 
 _MOST = 100
-"""So many windows have a draft at once."""
+"""The most windows that can have a draft at the same time."""
 _OFFER = "unsaved work has been kept: F2 restores it"
 
 
 class DraftFile:
-    """A file that holds the draft that is in no scene file, and is not there without one."""
+    """The file of a draft that is in no scene file; without such a draft there is no file."""
 
     def __init__(self, path: Path) -> None:
         self._first = path
@@ -252,9 +252,9 @@ class DraftFile:
         self._kept: Draft | None = None
 
     def offered(self, state: State) -> tuple[State, str | None]:
-        """Return the state with what another window left on offer, and what there is to say of it.
+        """Return the state with the draft that another window left on offer, and words about it.
 
-        What is damaged, or of another version, is set aside. WorkFailed where it cannot be read.
+        A damaged file, or one of another version, is set aside. WorkFailed where it cannot be read.
         """
         path = self._taken(there=True)
         if path is None:
@@ -278,9 +278,9 @@ class DraftFile:
         return found
 
     def keep(self, sheet: BuildSheet | None) -> None:
-        """Write the draft on a sheet if it is another one; remove the file where none would be lost.
+        """Write the draft of a sheet if it has changed; remove the file where no draft would be lost.
 
-        WorkFailed where that cannot be; the next time it is tried again.
+        WorkFailed where that is impossible; it is tried again the next time.
         """
         draft = None if sheet is None or sheet.is_written else sheet.lasting.draft
         if draft is self._kept:
@@ -296,22 +296,22 @@ class DraftFile:
         self._kept = draft
 
     def close(self) -> None:
-        """Let another window have the file, and offer what is in it."""
+        """Release the file, so that another window can have it and offer what is in it."""
         if self._claim:
             self._claim.release()
         self._claim = self._path = None
 
     def _taken(self, *, there: bool) -> Path | None:
-        """Return the first file, there or not, that no open window has; it is this one's from now on.
+        """Claim and return the first file that no open window has; `there` says whether it must exist.
 
-        None where there is none such.
+        None where there is no such file.
         """
         for path in self._names():
             claim = Claim.on(path) if path.exists() == there else None
             if claim and path.exists() == there:
                 self._path, self._claim = path, claim
                 return path
-            if claim:  # another window has come or gone meanwhile
+            if claim:  # another window has opened or closed meanwhile
                 claim.release()
         return None
 
@@ -321,7 +321,7 @@ class DraftFile:
 
 
 def _found_anywhere(sheet: BuildSheet) -> BuildSheet:
-    """Return a sheet as it lasts, its photograph by a path that holds from any folder."""
+    """Return a sheet without a gesture, its photograph by an absolute path."""
     draft = sheet.lasting.draft
     photo = draft.photo and draft.photo._replace(file=from_anywhere(draft.photo.file))
     return replace(sheet, building=replace(sheet.lasting, draft=replace(draft, photo=photo)))

@@ -1,7 +1,7 @@
 """Fit a picture to a state, and go from one picture to the next.
 
-Another view is approached, eased; another picture fades in. Where a step under the hand takes too long to
-be drawn in a frame, it is drawn in two.
+The view moves smoothly to another one; another picture fades in. A step of a drag that takes too long to be
+drawn in one frame is drawn in two.
 """
 
 from __future__ import annotations
@@ -26,30 +26,30 @@ from linkanim.player.clock import FRAMES_PER_SECOND
 from linkanim.player.state import FADE_FRAMES, Sketch, State
 from linkanim.player.stroke_view import view_for
 
-# The pictures of states: each fits what is shown, and another view of it is approached, eased.
+# The pictures of states: each fits what is shown, and the view moves smoothly from one to the next.
 #
-# The eye can follow what makes room for what. Window and recordings share it.
+# So the eye can follow what makes room for what. Window and recordings share this.
 
 APPROACH_FRAMES = 14
 _NAMES, _NAMES_ON_THE_WAY = 2, 1
-"""So many names are placed in a frame, and in one that draws all anew because its view is on its way."""
+"""The names that are placed in a frame, and in a frame that draws everything anew because its view moves."""
 
 DrawnAhead = Callable[[Picture, State], Iterator[None]]
 
 
 @frozen
 class Approach:
-    """The view that was shown when another came to fit, and the frame at which it was left."""
+    """The view that is being left for another one, and the frame at which the change began."""
 
     left: View
     since: int
 
     def over(self, frame: int) -> bool:
-        """Whether the new view is reached."""
+        """Return whether the new view is reached."""
         return frame >= self.since + APPROACH_FRAMES
 
     def look(self, look: Look, fitted: View, goal: View, size: tuple[int, int], frame: int) -> Look:
-        """Return the look whose zoom and pan show the view of this frame, between the left one and `goal`.
+        """Return the look whose zoom and pan show this frame's view, between the old one and `goal`.
 
         `fitted` is the view that the look zooms and pans, in a window of that size in pixels.
         """
@@ -62,7 +62,7 @@ class Approach:
 
 
 def between(one: View, other: View, share: float) -> View:
-    """Return the view so far from one to the other, slow at both ends; every point moves straight."""
+    """Return the view at a share of the way between two, slow at both ends; points move straight."""
     part = eased(share)
     scale, x, y = (
         begin + (end - begin) * part
@@ -72,11 +72,11 @@ def between(one: View, other: View, share: float) -> View:
 
 
 class Framing:
-    """The picture of each state that comes, and the last one; a list in a window takes its room.
+    """Makes the picture of each state that comes, from the last one; a list in a window takes its room.
 
     Where it is `captioned`, as the window is, names come with the sentence on what to watch for, the bar of
-    commands has room at the foot, and a frame does not wait for all names to be placed. The picture with
-    their places is then drawn `ahead` as it is in a state, in steps, before it is given.
+    commands has room at the foot, and a frame does not wait until all names are placed. The picture with
+    placed names is then drawn `ahead`, in steps, before it is returned.
     """
 
     def __init__(self, *, captioned: bool = False, ahead: DrawnAhead | None = None) -> None:
@@ -91,7 +91,7 @@ class Framing:
 
     @property
     def last(self) -> Picture:
-        """The picture that was given last; there must be one."""
+        """The picture that was returned last; there must be one."""
         picture = self._passing or self._fitting
         assert picture is not None
         return picture
@@ -104,10 +104,10 @@ class Framing:
         hurried: bool = False,
         earlier: Earlier | None = None,
     ) -> Picture:
-        """Return the picture that fits the state; a view other than the last one's, it is approached.
+        """Return the picture that fits the state; where its view differs from the last, begin to move to it.
 
-        In a `hurried` frame of a window names that have to be placed anew stay where they were: some of them
-        are placed in each frame that comes. What stood still `earlier` is kept, too.
+        In a `hurried` frame of a window, names that need new places stay where they were: each further frame
+        places some of them. The still part `earlier` is kept, too.
         """
         before, sketch, look = self._fitting, state.sketch, self._look(state)
         hurried = hurried and self._captioned
@@ -152,19 +152,19 @@ class Framing:
         return made
 
     def _draws(self, coming: Picture, state: State) -> bool:
-        """Draw a step of the picture that comes ahead; return whether one was left."""
+        """Draw one step of the coming picture ahead; return whether there was a step left."""
         if self._drawing is None:
             self._drawing = self._ahead(coming, state) if self._ahead else iter(())
         return any(True for _ in islice(self._drawing, 1))
 
     def _docked(self, state: State) -> Docked:
-        """Return what has room of its own; tools beside a list and the bar of commands a window alone has."""
+        """Return what has room of its own; only a window has tools beside a list and the bar of commands."""
         has_tools = self._captioned and state.editing.open and not (state.listing or state.game)
         row = state.sketch is not None and bool(state.sketch.answers)
         return Docked(2 if has_tools else int(state.listed), row, self._captioned)
 
     def _of_the_stroke(self, before: Picture, made: Picture, sketch: Sketch) -> View:
-        """Return the view of what is drawn and the linkage for it; as it is where there is none yet."""
+        """Return the view of a sketch and the linkage for it; unchanged where there is no linkage yet."""
         if not sketch.is_asked or sketch.is_blank:
             self._drawn = sketch.strokes, before.fitted
             return before.fitted
@@ -176,14 +176,14 @@ class Framing:
         return view_for(self._drawn[1], stroke, made.fit.subject.figure.box, room, made.layout.hud)
 
     def preparing(self, state: State) -> Generator[None, None, Layout]:
-        """Find in steps what the picture of a state with the scene of the last one needs to know.
+        """Work out in steps what the picture of a state with the last picture's scene needs.
 
         Returns the layout of that picture.
         """
         return (yield from self.last.preparing(self._look(state), self._docked(state)))
 
     def _look(self, state: State) -> Look:
-        """Return the look of a state; where it is captioned, names come with what to watch for."""
+        """Return the look of a state; where `captioned`, names bring the sentence on what to watch for."""
         if state.layers:
             return replace(Look(theme=state.look.theme, hud=False), zoom=state.look.zoom, pan=state.look.pan)
         drawn = state.building or state.posing or state.constructed
@@ -191,9 +191,9 @@ class Framing:
         return replace(look, caption=True) if self._captioned and look.names else look
 
     def at(self, state: State, size: tuple[int, int], *, late: bool = False) -> Picture:
-        """Return the picture for this frame: one on the way to the fitting one while that is approached.
+        """Return the picture for this frame: while the view moves, one on the way to the fitting picture.
 
-        A `late` one has the view of the last, and what stands still as it was there.
+        A `late` picture has the view and the still part of the last one.
         """
         self._frame = self._frame if late else state.frame
         last = self._passing or self._fitting
@@ -218,18 +218,18 @@ class Framing:
 
 
 def _has_moved(one: Picture, other: Picture) -> bool:
-    """Return whether one linkage, of either closure, in one window is fitted into another place of it."""
+    """Return whether two pictures of one linkage, of either closure, in one window are fitted differently."""
     return _are_one(one, other) and one.size == other.size and one.fitted != other.fitted
 
 
 def _is_framed_alike(one: Picture, other: Picture) -> bool:
-    """Return whether one linkage in one window is zoomed and panned alike."""
+    """Return whether two pictures show one linkage in one window at the same zoom and pan."""
     looks = ((picture.look.zoom, picture.look.pan, picture.size) for picture in (one, other))
     return _are_one(one, other) and len(set(looks)) == 1
 
 
 def _are_one(one: Picture, other: Picture) -> bool:
-    """Return whether both are of one scene, or of one before and after an exchange that is no glide."""
+    """Return whether both pictures are of one scene, or of a scene and the one exchanged for it."""
     scenes = (one.scene, other.scene)
     named = one.scene.name == other.scene.name and not any(scene.towards for scene in scenes)
     return one.scene is other.scene or (named and one.scene.length_unit == other.scene.length_unit)
@@ -238,18 +238,18 @@ def _are_one(one: Picture, other: Picture) -> bool:
 # From one picture to the next: the old one fades while the new one is already there; the shutter's flash.
 
 _WHITE = 0.7
-"""How white a screenshot's flash is at its brightest."""
+"""The opacity of a screenshot's white flash at its brightest."""
 
 
 class Fade:
-    """Keeps what was shown before another mechanism or theme came on, for as long as it fades."""
+    """Keeps the picture from before another mechanism or theme appeared, while it fades."""
 
     def __init__(self) -> None:
         self._old: pygame.Surface | None = None
         self._since: int | None = None
 
     def strength(self, state: State, surface: pygame.Surface) -> int:
-        """Return how strongly (0 to 255) the old picture still shows; `surface` holds it at first."""
+        """Return the opacity (0 to 255) of the old picture; `surface` holds that picture at first."""
         if state.faded is None:
             self._old = self._since = None
             return 0
@@ -260,7 +260,7 @@ class Fade:
         return round(255 * (1.0 - eased((state.frame - state.faded + 1) / FADE_FRAMES)))
 
     def draw(self, surface: pygame.Surface, strength: int, shutter: int) -> None:
-        """Lay the old picture over the new one, and the shutter's white, in eighths, over both."""
+        """Draw the old picture over the new one, and the shutter's white, in eighths, over both."""
         if self._old is not None and strength:
             self._old.set_alpha(strength)
             surface.blit(self._old, (0, 0))
@@ -271,19 +271,19 @@ class Fade:
             surface.blit(white, (0, 0))
 
 
-# How a step under the hand is drawn: whole in its frame, or where that takes too long, in two.
+# How a step of a drag is drawn: in one frame, or, where that takes too long, in two.
 
 _ROOM = 0.85 / FRAMES_PER_SECOND
-"""What a frame may take, in seconds: the rest is for what else the machine does."""
+"""The time that a frame may take, in seconds: the rest is left to the machine's other work."""
 _ONCE = 0.75
-"""What a step takes in one frame, as a share of its two: what moves is drawn in both of these."""
+"""The time of a step in one frame, as a share of its time in two: these draw what moves twice."""
 
 
 class StepSplitter:
-    """Draws a step under the hand in two frames where the last one took longer than a frame.
+    """Draws a step of a drag in two frames where the last step took longer than a frame.
 
-    In the first of the two the linkage follows, in the second what stands still behind it, and the list;
-    meanwhile a mouse that only moves has to wait.
+    The first frame draws the moved linkage, the second the still part behind it, and the list; meanwhile mere
+    moves of the mouse have to wait.
     """
 
     def __init__(self, now: Callable[[], float] = time.perf_counter) -> None:
@@ -294,7 +294,7 @@ class StepSplitter:
         self._first, self._step = 0.0, inf
 
     def begin(self, events: list[Event]) -> list[Event]:
-        """Begin a frame; return what is for it of the events, and of those that wait."""
+        """Begin a frame; return the events for it: of the new ones, and of those that waited."""
         self._began = self._now()
         events, self._waiting = self._waiting + events, []
         if self._late and all(event.type == pygame.MOUSEMOTION for event in events):
@@ -308,7 +308,7 @@ class StepSplitter:
         return self._late
 
     def end(self) -> None:
-        """End a frame: take note of what it took."""
+        """End a frame: measure the time that it took."""
         took = self._now() - self._began
         match self._part:
             case "first":

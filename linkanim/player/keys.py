@@ -13,14 +13,14 @@ from linkanim.player.action import Action, Mode, Value
 
 # The one table of gamepad buttons: which key each stands for; window, help and README read it.
 #
-# Buttons are named by where they are: the lower, right, left and upper of four are A, B, X, Y of one make
-# and ×, ○, □, △ of another. Nothing here needs pygame.
+# Buttons are named by their place: the lower, right, left and upper of four are A, B, X, Y on one make
+# and ×, ○, □, △ on another. Nothing here needs pygame.
 
 
 class PadRow(NamedTuple):
     """One line of the help: the buttons as they are written, what they do, the keys that they stand for.
 
-    The second of two keys is that of an open list.
+    Where there are two keys, the second one holds in an open list.
     """
 
     written: str
@@ -51,13 +51,13 @@ _WITHOUT_HAT = (*_ALIKE, "back", "", "start", "", "", "before", "next", *_OF_WAY
 
 
 def button_name(number: int, *, hat: bool) -> str:
-    """Return what a button is called; empty where it is none of ours."""
+    """Return a button's name; empty for a button that has no meaning."""
     names = _WITH_HAT if hat else _WITHOUT_HAT
     return names[number] if 0 <= number < len(names) else ""
 
 
 def hat_name(right: int, up: int) -> str:
-    """Return the name of a D-pad's direction; empty where it is let go."""
+    """Return the name of a D-pad's direction; empty where it is released."""
     if up:
         return "pad up" if up > 0 else "pad down"
     return "" if not right else "pad right" if right > 0 else "pad left"
@@ -75,7 +75,7 @@ def key_of(name: str, *, listed: bool) -> str:
 
 
 class Bind(NamedTuple):
-    """One key and what it asks for; `repeats` where holding the key goes on asking."""
+    """One key and its action; `repeats` says that holding the key repeats the action."""
 
     key: str
     action: Action
@@ -95,7 +95,7 @@ Table = Mapping[str, tuple[KeyRow, ...]]
 
 
 def _on(keys: str, name: str, value: Value = None, *, held: bool = False) -> tuple[Bind, ...]:
-    """Return what each of the keys asks for; `held` where holding it goes on asking."""
+    """Return the binds of keys to one action; with `held`, holding a key repeats it."""
     return tuple(Bind(key, Action(name, value), held) for key in keys.split())
 
 
@@ -117,7 +117,7 @@ def _both(less: str, more: str, name: str, by: int = 1, *, held: bool = True) ->
 
 
 def _steps(name: str) -> tuple[Bind, ...]:
-    """Return the arrows to the left and right, ten times as far with Shift."""
+    """Return the binds of the left and right arrows; with Shift, ten times as far."""
     return _both("left", "right", name) + _both("shift+left", "shift+right", name, 10)
 
 
@@ -126,12 +126,12 @@ def _tabs(name: str) -> tuple[Bind, ...]:
 
 
 def _digits(name: str) -> tuple[Bind, ...]:
-    """Return the keys 1 to 9, which stand for places from 0."""
+    """Return the binds of the keys 1 to 9, which stand for places from 0."""
     return tuple(bind for n in range(9) for bind in _on(f"{n + 1} kp{n + 1}", name, n))
 
 
 def _enter(name: str, erase: str = "") -> tuple[Bind, ...]:
-    """Return Enter, and with it the key that takes the last letter off what was typed."""
+    """Return the bind of Enter, and that of the key that erases the last typed letter."""
     return _on("return kp_enter", name) + (_on("backspace", erase, held=True) if erase else ())
 
 
@@ -144,7 +144,7 @@ def _zoom(keys: str, notches: float) -> tuple[Bind, ...]:
 
 
 def _aims() -> tuple[Bind, ...]:
-    """Return the arrows, which move the cursor by a line of the grid, and with Shift by a fine step."""
+    """Return the binds of the arrows: they move the cursor by a grid line, with Shift by a fine step."""
     arrows = {"up": (0.0, 1.0), "down": (0.0, -1.0), "left": (-1.0, 0.0), "right": (1.0, 0.0)}
     lines = (bind for key, step in arrows.items() for bind in _on(key, "aim", step, held=True))
     fine = (
@@ -247,7 +247,7 @@ KEYS: Table = {
 
 
 def _of_tool(tool: Tool) -> KeyRow:
-    """Return the line of a tool; that of a number is taken with Ctrl where the number alone is typed."""
+    """Return the line of a tool; a tool on a digit also has Ctrl with it, for where digits are typed."""
     key = tool.key.lower()
     keys = f"{key} kp{key} ctrl+{key} ctrl+kp{key}" if key.isdigit() else key
     return KeyRow(tool.key, tool.name, _on(keys, tool.action, tool.value))
@@ -269,7 +269,7 @@ _SHEET_KEYS = (
     KeyRow("F2", "done: leave the sheet and keep the linkage; F2 returns to it", _on("f2", "build")),
     KeyRow("Esc", "let go; leave the sheet", _on("escape", "back")),
 )
-"""What keys do on a sheet, with the list of dimensions on it or not."""
+"""The meaning of keys on a sheet, with or without the list of dimensions."""
 _IN_A_MODE: Table = {
     "in E": (
         KeyRow("↑ ↓", "choose a dimension", _both("up", "down", "choose")),
@@ -398,7 +398,7 @@ _IN_A_MODE: Table = {
         *_SHEET_KEYS,
     ),
 }
-"""What the keys do in a mode, before what they do else, by its subject."""
+"""The meaning of keys in a mode, by its subject; it takes precedence over their usual meaning."""
 _SUBJECTS: Mapping[Mode, str] = {
     **{"edit": "in E", "list": "in K", "shelf": "in O"},
     **{
@@ -418,7 +418,7 @@ MODES: Mapping[Mode, Table] = {
         "in E, F2": _IN_A_MODE["in E, F2"],
     },
 }
-"""The same by mode; with the list of dimensions on the sheet that is first what the list has."""
+"""The same by mode; on a sheet with the list of dimensions, the list's keys take precedence."""
 PAD_KEYS: Table = {"gamepad": tuple(KeyRow(row.written, row.words) for row in PAD)}
 """What the buttons of a gamepad do."""
 _TYPED: Mapping[Mode, tuple[str, frozenset[str]]] = {
@@ -432,7 +432,7 @@ _TYPED: Mapping[Mode, tuple[str, frozenset[str]]] = {
     "record": ("take_type", frozenset()),
     "build": ("digits", frozenset()),
 }
-"""Where what can be printed is typed: the action, and the keys that keep their meaning until it is begun."""
+"""Modes in which printable keys are typed: the action, and the keys that keep their meaning until then."""
 
 
 _ALONE = ("name", "record")
@@ -453,15 +453,15 @@ class Press(NamedTuple):
 def bind_of(press: Press, mode: Mode = "play", *, typing: bool = False, valued: bool = True) -> Bind | None:
     """Return what a key asks for; None where it is not bound.
 
-    In an open list what can be printed is typed there; but for the few keys that keep their meaning while
-    nothing has been begun (`typing`). On a sheet digits are typed where something has a value (`valued`), and
-    else are the numbers of tools.
+    In an open list printable keys are typed, except for a few that keep their meaning until something is
+    typed (`typing`). On a sheet digits are typed where the chosen thing has a value (`valued`); else they are
+    the numbers of tools.
     """
     if _is_typed(press, mode, typing, valued=valued):
         return Bind(press.key, Action(_TYPED[mode][0], press.text), repeats=True)
     tables = (MODES.get(mode, {}), {} if mode in _ALONE else KEYS)
     found = (bind for table in tables for name in _names(press) for bind in _binds(table) if bind.key == name)
-    # any other letter goes on in a game, as a title's "any key" has it
+    # in a game any other letter means "next", as the title's "any key" promises
     others = Bind(press.key, Action("next")) if mode == "game" and press.text and not press.ctrl else None
     return next(found, others)
 
@@ -477,7 +477,7 @@ def _is_typed(press: Press, mode: Mode, typing: bool, *, valued: bool) -> bool:
 
 
 def binds_of(mode: Mode) -> Iterator[Bind]:
-    """Yield what keys ask for in this mode only, without what they ask for in all modes."""
+    """Yield the binds of this mode only, without those of all modes."""
     return _binds(MODES.get(mode, {}))
 
 
@@ -518,7 +518,7 @@ _NEEDS_KEYS = frozenset(
         *("erase", "undigit", "unsift", "erase_name", "take_untype"),
     }
 )
-"""What makes no sense in a list: it moves what only keys move, or takes back what is typed."""
+"""Actions that make no sense in a list: they move what only keys move, or erase what is typed."""
 _APART: Mapping[Action, str] = {
     Action("step", -1): "a step back",
     Action("step", 1): "a step on",
@@ -621,7 +621,7 @@ _APART: Mapping[Action, str] = {
     Action("raise", 1): "the one above",
     **{Action("option", n): f"answer or door {n + 1}" for n in range(9)},
 }
-"""What each command is called where a row of the table has several."""
+"""The names of commands that share a row of the table."""
 _IN_ONE_MODE: Mapping[tuple[Mode, Action], str] = {
     ("build", Action("build")): "done: leave the sheet and keep the linkage",
     ("pencil", Action("dial_on", -1)): "the dial: more exact",
@@ -631,11 +631,11 @@ _IN_ONE_MODE: Mapping[tuple[Mode, Action], str] = {
     ("poses", Action("further", -1)): "the frame or pin before",
     ("poses", Action("further", 1)): "the next frame or pin",
 }
-"""What it is called in a mode, where that is something else."""
+"""Other names of commands in particular modes."""
 
 
 class CommandGroup(NamedTuple):
-    """Commands that stand together in a list of their own: its title, and what they ask for."""
+    """Commands that stand together in a list of their own: its title, and their actions."""
 
     title: str
     actions: tuple[Action, ...]
@@ -655,7 +655,7 @@ GROUPS: Mapping[str, CommandGroup] = {
         ),
     ),
 }
-"""What one button of the bar has, by its name."""
+"""The groups of commands behind single buttons of the bar, by name."""
 
 
 def group_key(name: str) -> str:
@@ -672,9 +672,9 @@ _WRITTEN = {
 
 @cache
 def commands(mode: Mode) -> tuple[tuple[str, str, Action], ...]:
-    """Return all that keys ask for in a mode, each but once: in words, by its first key, as an action.
+    """Return all commands of a mode, each once: its words, its first key, its action.
 
-    One whose keys all mean something else in the mode has none.
+    The key is empty where all keys of a command mean something else in the mode.
     """
     above: set[str] = set()
     found: dict[Action, tuple[str, str, Action]] = {}
@@ -688,13 +688,13 @@ def commands(mode: Mode) -> tuple[tuple[str, str, Action], ...]:
                 words, known, _ = found.get(bind.action, (apart, "", bind.action))
                 found[bind.action] = (words, known or key, bind.action)
         above |= {bind.key for row in rows for bind in row.binds}
-    # what a mode has by a name stands for what there is by the same name else
+    # a mode's own command replaces the general one of the same name
     by_name = {words: action for words, _, action in reversed(found.values())}
     return tuple(one for one in found.values() if by_name[one[0]] == one[-1])
 
 
 def _types(key: str, mode: Mode) -> bool:
-    """Tell whether a key is typed in an open list, and so asks for nothing else."""
+    """Tell whether a key is typed in an open list, and so has no other meaning."""
     letters = mode in _TYPED and mode not in ("build", *_RUNS)
     return letters and len(key) == 1 and key not in _TYPED[mode][1]
 
@@ -716,7 +716,7 @@ def help_groups(
 ) -> tuple[tuple[str, tuple[tuple[str, str], ...]], ...]:
     """Return (subject, its lines of keys and what they do) as the help overlay shows them.
 
-    With a `pad` plugged in its buttons, too.
+    With a `pad` plugged in, its buttons are there, too.
     """
     table = {**MODES.get(mode, KEYS), **(PAD_KEYS if pad else {})}
     return tuple((subject, tuple((row.keys, row.words) for row in rows)) for subject, rows in table.items())

@@ -1,4 +1,4 @@
-"""Actions on how a scene was found and is made: the steps of its construction, its layers, its parts."""
+"""Actions on a scene's construction and making: the steps of a construction, layers, parts."""
 
 from __future__ import annotations
 
@@ -76,9 +76,9 @@ def lift_to(state: State, step: int) -> State:
 
 
 def construct(state: State, further: int) -> State:
-    """Draw `further` steps more of how the scene was found, then of its centres and its dead centres.
+    """Draw `further` steps more of the scene's synthesis, then of its centres and its dead centres.
 
-    None follows the last. BadInput for a scene that has no construction.
+    After the last step none is drawn. BadInput for a scene that has no construction.
     """
     from linkanim.picture.constructed import all_steps
 
@@ -87,9 +87,9 @@ def construct(state: State, further: int) -> State:
 
 
 def slide(state: State, step: int) -> State:
-    """Take the slider that is shown to a step: it lifts the layers, or goes along the family of a time ratio.
+    """Move the shown slider to a step: it lifts the layers, or goes along the family of a time ratio.
 
-    However far it goes along, undo goes back to where it was taken.
+    However far it is moved, undo goes back to where it was grasped.
     """
     if state.layers or not state.constructed:
         return lift_to(state, step)
@@ -119,7 +119,7 @@ def _member(scene: Scene, step: int) -> Scene:
 
 
 def make(state: State, _: None) -> State:
-    """Ask for the parts of the scene that is on to be written into a folder."""
+    """Ask for the parts of the present scene to be written into a folder."""
     missing = state.building.building.made.missing if state.building else ""
     if missing:
         return with_toast(state, f"only what can move can be made; the draft is kept. {missing}")
@@ -127,7 +127,7 @@ def make(state: State, _: None) -> State:
 
 
 def _parts(scene: Scene, top: Section) -> Layered:
-    """Return parts in layers as they were printed; BadInput for what is not of this scene."""
+    """Return parts in layers from the printed JSON; BadInput where it is not of this scene."""
     plates = tuple(_plate(scene.linkage, one) for key in ("parts", "fittings") for one in _each(top, key))
     pins = [_pin(scene.linkage, one, named=True) for one in _each(top, "pins")]
     pins += [_pin(scene.linkage, one, named=False) for one in _each(top, "dowels")]

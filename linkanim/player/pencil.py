@@ -1,4 +1,4 @@
-"""Actions of the pencil: a stroke is drawn, cards come, points of it and pivots are dragged."""
+"""Actions of the pencil: a stroke is drawn, answers come, points of the stroke and pivots are dragged."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ if TYPE_CHECKING:
 # The rest of the search is imported when the pencil is taken: the first frame does not wait for it.
 
 MOST_POINTS = 5_000
-"""Of a stroke under way; further ones are left out."""
+"""The most points of a stroke under way; further ones are left out."""
 
 
 def pencil(state: State, _: None) -> State:
-    """Take the pencil, or lay it down and go back to the scene that was on."""
+    """Take the pencil, or put it down and go back to the scene from before."""
     if state.drawing:
         return left(state)
     state = drop(left(state), None)
@@ -56,7 +56,7 @@ def down(state: State, at: tuple[float, float]) -> State:
 
 
 def along(state: State, at: tuple[float, float]) -> State:
-    """Draw the stroke on to a point."""
+    """Continue the stroke to a point."""
     sketch = state.drawing
     if sketch is None or not 0 < len(sketch.pen) < MOST_POINTS:
         return state
@@ -64,7 +64,7 @@ def along(state: State, at: tuple[float, float]) -> State:
 
 
 def up(state: State, _: None) -> State:
-    """End the stroke, and ask for linkages that follow it; one without extent is forgotten."""
+    """End the stroke, and ask for linkages that follow it; a stroke without extent is forgotten."""
     import numpy as np
 
     from linkanim.synthesis.curves import stroke_of
@@ -93,7 +93,7 @@ def stroke(state: State, numbers: tuple[float, ...]) -> State:
 
 
 def _searched(state: State, curve: DrawnCurve) -> State:
-    """Return the state with another stroke, linkages for which are asked for."""
+    """Return the state with another stroke, for which linkages are asked."""
     assert state.drawing
     earlier = replace(state.drawing, pen=())
     bare = replace(earlier.undialled, answers=(), chosen=0, names=(), way=(), pivots=(), earlier=earlier)
@@ -111,7 +111,7 @@ def answers(state: State, numbers: tuple[float, ...]) -> State:
 def cards(state: State, numbers: tuple[float, ...]) -> State:
     """Replace all answers: the number of the one to show, then the numbers of each answer.
 
-    One that was chosen meanwhile stays.
+    An answer that the user chose meanwhile stays.
     """
     from linkanim.synthesis.answers import NUMBERS
     from linkanim.synthesis.front import names_of
@@ -160,7 +160,7 @@ def take_pivot(state: State, pivot: str) -> State:
 
 
 def _held(state: State, sketch: PathSketch, held: int | str) -> State:
-    """Return the state with something of a sketch taken hold of; what the dial shows becomes an answer."""
+    """Return the state with a part of a sketch grasped; what the dial shows becomes an answer."""
     found = sketch.undialled
     if sketch.dialled:
         answers = (*sketch.answers[: sketch.chosen], sketch.dialled, *sketch.answers[sketch.chosen + 1 :])
@@ -187,7 +187,7 @@ def lead(state: State, to: tuple[float, float]) -> State:
 
 
 def _without_own(sketch: PathSketch) -> dict[str, object]:
-    """Return the answers without the scene whose trace was taken: the stroke is another curve now."""
+    """Return the answers without the scene whose trace was taken, since the stroke is another curve now."""
     own = sum(isinstance(one, Scene) for one in sketch.answers)
     return {"answers": sketch.answers[own:], "chosen": max(sketch.chosen - own, 0)}
 
@@ -209,7 +209,7 @@ def cognate(state: State, place: int) -> State:
 
 
 def let_go(state: State, _: None) -> State:
-    """Let go of what was dragged; all answers to what is there now are asked for."""
+    """Release what was dragged; all answers to the sketch as it is now are asked for."""
     sketch = state.drawing
     if sketch is None or sketch.held is None:
         return state

@@ -1,4 +1,4 @@
-"""What is under the mouse tells itself: a joint, a link, a spring, or the instant at which a point is there.
+"""What is under the mouse, and the words about it: a joint, a link, a spring, or an instant on a curve.
 
 The words and numbers are those of the shared page.
 """
@@ -24,13 +24,13 @@ from linkanim.scenes.scene import Scene
 from linkanim.units import four_digits
 
 SPEED_ROWS = ("input speed", "input rate")
-"""The rows that tell how fast the scene runs, by their labels."""
+"""The labels of the rows that say how fast the scene runs."""
 
 
 class PointedThing(NamedTuple):
-    """A joint, a link (a body), or a spring or damper, by its name; a row of numbers by its label.
+    """A joint, a link (a body), or a spring or damper, by its name; a row of numbers, by its label.
 
-    The class below the title is a row without a label.
+    The class below the title counts as a row without a label.
     """
 
     kind: Literal["joint", "link", "strut", "row"]
@@ -86,7 +86,7 @@ def _from_side(at: complex, begin: complex, end: complex) -> float:
 
 
 def told(state: State, pointed: Pointed) -> Told | None:
-    """Return the lines that tell of the thing under the mouse at this instant; None where there is none."""
+    """Return the lines about the thing under the mouse at this instant; None where there is none."""
     scene, thing = state.displayed, pointed.thing
     if pointed.instant is not None:
         return Told(_of_instant(state, scene, pointed.instant), pointed.place)
@@ -123,7 +123,7 @@ def _of_instant(state: State, scene: Scene, phase: float) -> tuple[str, ...]:
 
 
 def _of_row(state: State, scene: Scene, label: str) -> tuple[str, ...]:
-    """Return what a row of numbers is a handle of; nothing where it is none."""
+    """Return words on what a click on a row of numbers does; empty where it does nothing."""
     if not label:
         return class_words(scene)
     if label in SPEED_ROWS:
@@ -136,7 +136,7 @@ def _of_row(state: State, scene: Scene, label: str) -> tuple[str, ...]:
 
 
 def row_asks(state: State, label: str) -> tuple[Action, ...]:
-    """Return what a click on a row of numbers asks for: its chart or none; on the class, its reason."""
+    """Return the actions of a click on a row of numbers: its chart, on or off; on the class, its reason."""
     if not label:
         return (Action("note", ": ".join(class_words(state.displayed))),)
     token = charted(state.displayed).get(label)
@@ -144,7 +144,7 @@ def row_asks(state: State, label: str) -> tuple[Action, ...]:
 
 
 def class_words(scene: Scene) -> tuple[str, ...]:
-    """Return a scene's class, and why it is that: Grashof's sum, else how its input moves."""
+    """Return a scene's class, and the reason for it: Grashof's sum, else how its input moves."""
     info = scene.info
     return info.class_name[:1].upper() + info.class_name[1:], info.grashof or f"input {info.input_words}"
 
@@ -170,7 +170,7 @@ def _of_link(scene: Scene, pose: Pose, name: str) -> tuple[str, ...]:
     rate, angle = (_number(scene, pose, f"{name}.{what}") for what in ("angular_velocity", "angle"))
     return (
         f"{scene.info.link_names[name]}: ω = {four_digits(rate)} rad/s",
-        # within one turn once it is rounded, so that 359.99999° is 0°
+        # rounded before it is brought within one turn, so that 359.99999° is 0°
         f"{four_digits(long)} {scene.length_unit} at {four_digits(float(f'{angle % 360.0:.4g}') % 360.0)}°",
     )
 
@@ -181,5 +181,5 @@ def _of_strut(scene: Scene, strut: Strut, name: str) -> tuple[str, ...]:
 
 
 def _number(scene: Scene, pose: Pose, token: str) -> float:
-    """Return what all outputs say of a quantity: 0 where it is nothing but rounding."""
+    """Return a quantity's value as in all outputs: 0 where it is nothing but rounding."""
     return float(scene.quantities[token].shown(pose))

@@ -29,14 +29,14 @@ from linkanim.scenes.scene import PosesPurpose
 # The theory is imported when a pose is set: the first frame does not wait for it.
 
 MOST = 5
-"""Poses."""
+"""The most poses."""
 _WHOLE = radians(1)
-"""Angles are led in steps of so much."""
+"""The step in which angles are dragged."""
 _NO_CHOICE = "five poses leave no choice of pivots: Burmester's points are where they are"
 
 
 def poses(state: State, _: None) -> State:
-    """Take up poses: those that the scene was made for, or none yet; or go back to the scene that was on."""
+    """Begin with poses: those that the scene was made for, or none yet; or go back to the earlier scene."""
     if state.posing:
         return left(state)
     state = drop(left(state), None)
@@ -60,7 +60,7 @@ def put(state: State, numbers: tuple[float, ...]) -> State:
 
 
 def pin(state: State, at: Point) -> State:
-    """Set down a pin: a linkage is to have a fixed pin there."""
+    """Set down a pin, where linkages have to have a fixed pin."""
     sketch = state.posing
     return _with_pin(state, sketch, at) if sketch else state
 
@@ -75,14 +75,14 @@ def _with_pin(state: State, sketch: PoseSketch, at: Point) -> State:
 
 
 def under(sketch: PoseSketch, at: Point, reach: float) -> PoseGrip | None:
-    """Return the pose, pin or joint that a hand at a point takes hold of; None for nothing."""
+    """Return the pose, pin or joint that a hand at a point grasps; None where there is none."""
     near = [(dist(place, at), grip) for grip, place in _handles(sketch, reach)]
     far, found = min(near, key=lambda one: one[0], default=(0.0, None))
     return found if far <= reach else None
 
 
 def _handles(sketch: PoseSketch, reach: float) -> Iterator[tuple[PoseGrip, Point]]:
-    """Yield what can be taken hold of, and where it is; a pin before the pivot that stands there."""
+    """Yield the things that can be grasped, and where they are; a pin before the pivot at its place."""
     for n, pose in enumerate(sketch.poses):
         yield PoseGrip("pose", n), (pose.x, pose.y)
         yield PoseGrip("axis", n), _tip(pose, reach)
@@ -100,7 +100,7 @@ def free_joints(sketch: PoseSketch) -> dict[str, Point]:
     if sketch.answer is None or len(sketch.poses) >= MOST:
         return {}
     joints = sketch.answer.joints
-    # of four poses one point alone can slide
+    # with four poses only one point can be on a slider
     moving = "A" if sketch.answer.sliding and len(sketch.poses) == MOST - 1 else "AB"
     names = (*(name for name in PIVOTS if name in joints), *moving)
     return {name: (joints[name].real, joints[name].imag) for name in names}
@@ -113,12 +113,12 @@ def _tip(pose: SetPose, reach: float) -> Point:
 
 
 def has_room(sketch: PoseSketch) -> bool:
-    """Return whether the hand sets something down on paper."""
+    """Return whether a further pose, or pin, can be set down."""
     return sketch.pinning or len(sketch.poses) < MOST
 
 
 def down(state: State, hand: tuple[float, float, float, float]) -> State:
-    """Put the hand down at a point: it takes hold of what is there, or sets down a frame or a pin."""
+    """Put the hand down at a point: it grasps what is there, or sets down a frame or a pin."""
     sketch = state.posing
     if sketch is None or sketch.held:
         return state
@@ -137,7 +137,7 @@ def down(state: State, hand: tuple[float, float, float, float]) -> State:
 
 
 def _set_down(state: State, sketch: PoseSketch, at: Point, off: Point) -> State:
-    """Return the state with a pin or a frame in hand at a place, so far off the hand."""
+    """Return the state with a pin or a frame in hand at a place; `off` is its vector from the hand."""
     if sketch.pinning:
         state = _with_pin(state, sketch, at)
         after = state.posing
@@ -159,7 +159,7 @@ def _set_down(state: State, sketch: PoseSketch, at: Point, off: Point) -> State:
 
 
 def _pivot_taken(state: State, sketch: PoseSketch, grip: PoseGrip) -> State:
-    """Return the state with a fixed pin of the linkage in hand: it becomes one that is asked for."""
+    """Return the state with a fixed pin of the linkage in hand: it becomes a pin that is asked for."""
     joints = sketch.answer.joints
     place = joints[PIVOTS[-1 - grip.number]]
     known = [n for n, at in enumerate(sketch.pins) if abs(complex(*at) - place) < 1e-9 * (1 + abs(place))]
@@ -171,7 +171,7 @@ def _pivot_taken(state: State, sketch: PoseSketch, grip: PoseGrip) -> State:
 
 
 def along(state: State, hand: tuple[float, float, float, float]) -> State:
-    """Move the hand to a point; what it holds comes along, and linkages follow."""
+    """Move the hand to a point; the thing that it holds follows, and so do linkages."""
     sketch = state.posing
     if sketch is None or sketch.held is None:
         return state
@@ -198,7 +198,7 @@ def along(state: State, hand: tuple[float, float, float, float]) -> State:
 
 
 def _led(state: State, sketch: PoseSketch) -> State:
-    """Return the state with what the hand has led, answers to which follow."""
+    """Return the state with what the hand has dragged, and ask for the answer that follows."""
     sketch = _settled(sketch)
     if not sketch.is_asked:
         return replace(state, sketch=sketch)
@@ -233,7 +233,7 @@ def off(state: State) -> State:
 
 
 def cursor(state: State, at: Point) -> State:
-    """Move the keys' cursor to a point; what the hand holds by keys goes along."""
+    """Move the keys' cursor to a point; the thing held by keys follows."""
     state = along(state, (*at, 0.0, 1e-9)) if state.posing and state.posing.held else state
     return sketching(state, cursor=at) if state.posing else state
 
@@ -286,7 +286,7 @@ def curves(state: State, _: None) -> State:
 
 
 def dial(state: State, share: float) -> State:
-    """Turn the dial to a share of its way, 0 for small linkages to 1 for a large transmission angle."""
+    """Turn the dial to a share of its range, 0 for small linkages to 1 for a large transmission angle."""
     sketch = state.posing
     if sketch is None or sketch.held:
         return state
@@ -320,7 +320,7 @@ def unmet(state: State, reason: str) -> State:
 
 
 def let_go(state: State) -> State | None:
-    """Return the state without what is held, else the cursor, a highlight or pins; None without."""
+    """Return the state without what is held, else the cursor, a highlight or pins; None without any."""
     sketch = state.posing
     if sketch is None:
         return None
@@ -333,7 +333,7 @@ def let_go(state: State) -> State | None:
 
 
 def _changed(state: State, sketch: PoseSketch, effect: str) -> State:
-    """Return the state with another sketch, linkages for which are asked for; too few poses have none."""
+    """Return the state with another sketch, for which linkages are asked; for too few poses, none."""
     sketch = _settled(replace(sketch, strokes=sketch.strokes + 1, refusal=""))
     if not sketch.is_asked:
         return replace(state, sketch=replace(sketch, answers=(), chosen=0), glide=None)
@@ -341,7 +341,7 @@ def _changed(state: State, sketch: PoseSketch, effect: str) -> State:
 
 
 def _settled(sketch: PoseSketch) -> PoseSketch:
-    """Return poses with their pins where there can be some: of four on the curve of centre points."""
+    """Return poses with their pins where these are possible: with four poses, on the centre-point curve."""
     if not sketch.pins or len(sketch.poses) < 4:
         return sketch
     if len(sketch.poses) >= MOST:

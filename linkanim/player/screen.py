@@ -1,7 +1,7 @@
-"""Show the window's picture on a screen that is really there.
+"""Show the window's picture on a real screen.
 
-The display comes first: a window, its size and its pointer. The screen has the picture that fits the scene,
-size and look of the moment, and what was shown last.
+The display comes first: a window, its size and its pointer. `Screen` has the picture that fits the present
+scene, size and look, and what was shown last.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ from linkanim.player.state import PIVOTS, State, driven_bar, proved
 from linkanim.scenes import names, title_of
 from linkanim.scenes.editing import ghost_of, handles, known_ghost_of
 
-# The display: a window on a screen that is really there.
+# The display: a window on a real screen.
 
 _INVISIBLE = ("dummy", "offscreen")
 _NO_SCREEN = "there is no display to open a window on; `linkanim record SCENE` works without one"
@@ -64,8 +64,8 @@ _EXIT = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p)
 def opened(size: tuple[int, int] | None = None) -> Iterator[Connection]:
     """Open the window, of `size` or as large as suits the screen, and close it on the way out.
 
-    Gives the connection to the display server. NoDisplay where there is no screen; SDL_VIDEODRIVER=dummy
-    asks for none, and gets none.
+    Yields the connection to the display server. NoDisplay where there is no screen; with
+    SDL_VIDEODRIVER=dummy none is needed.
     """
     driver, connection = os.environ.get("SDL_VIDEODRIVER"), Connection()
     _prepare()
@@ -89,11 +89,11 @@ def opened(size: tuple[int, int] | None = None) -> Iterator[Connection]:
 
 
 def _prepare() -> None:
-    """Keep SDL off our signals; on Linux choose what is quick and quiet there."""
+    """Keep SDL from handling signals; on Linux choose settings that are fast and print no warnings."""
     os.environ.setdefault("SDL_NO_SIGNAL_HANDLERS", "1")
     if not sys.platform.startswith("linux"):
         return
-    # Pygame has put the script's name there by now; window lists and tools look for ours.
+    # Pygame has set this to the script's name by now; window lists and tools look for the program's.
     os.environ["SDL_VIDEO_X11_WMCLASS"] = "linkanim"
     # Without this folder Wayland only complains on stderr.
     if not os.environ.get("XDG_RUNTIME_DIR"):
@@ -101,7 +101,7 @@ def _prepare() -> None:
 
 
 def _hasten(driver: str) -> None:
-    """Let pictures go past OpenGL under X, which is twenty times as fast; Wayland knows only OpenGL."""
+    """Bypass OpenGL under X, which is twenty times as fast; Wayland has only OpenGL."""
     if driver == "x11":
         os.environ.setdefault("SDL_FRAMEBUFFER_ACCELERATION", "0")
 
@@ -128,7 +128,7 @@ def name(title: str) -> None:
 
 def point_with(pointer: pygame.Surface | None) -> None:
     """Show a picture as the mouse's pointer, with its tip at the lower left; None for the usual one."""
-    # a system without pointers of its own colour keeps what it has
+    # a system without coloured pointers keeps its own
     with suppress(pygame.error):
         if pointer is None:
             pygame.mouse.set_cursor(pygame.SYSTEM_CURSOR_ARROW)
@@ -156,7 +156,7 @@ def frame() -> Placement:
 def fill(back: Placement) -> Placement:
     """Fill the screen, or go from there back to a window; return the window to go back to.
 
-    A new mode, and not `toggle_fullscreen`, which warns on stderr where there is no window manager.
+    It sets a new mode: pygame's `toggle_fullscreen` warns on stderr where there is no window manager.
     """
     if is_full():
         _set_mode(back.size, pygame.RESIZABLE, back.position)
@@ -190,20 +190,20 @@ def _position() -> tuple[int, int] | None:
 
 
 class Connection:
-    """Whether the display server is still there, looked at once a frame; else the window ends in order.
+    """The connection to the display server, checked once a frame; where it is lost, the window ends in order.
 
-    Under X the library would end the process there and then, with lines of its own on stderr. Wayland,
-    Windows and macOS ask a window to close before they go.
+    Under X the library would end the process at once, with lines of its own on stderr. Wayland, Windows and
+    macOS ask a window to close before they go.
     """
 
     def __init__(self) -> None:
         self.lost = False
         self._watched: int | None = None
-        # the library calls them until the process ends: they must live as long
+        # the library calls these until the process ends, so they must exist as long
         self._handlers = _IO_ERROR(self._broken), _EXIT(self._broken)
 
     def check(self) -> None:
-        """Raise NoDisplay where the server is gone; watch the one that is open now, if it is another."""
+        """Raise NoDisplay where the server is gone; if another connection is open now, watch that one."""
         if self.lost:
             raise NoDisplay("the display server is gone; what was being recorded is kept in recordings/")
         if pygame.display.get_driver() != "x11":
@@ -214,9 +214,9 @@ class Connection:
             self._watch(now)
 
     def close(self) -> None:
-        """Close the window; of one whose server is gone pygame would wait for an answer for ever.
+        """Close the window, unless its server is gone: pygame would wait for an answer for ever.
 
-        The rest of pygame stays until the process ends: of fonts that outlive it the memory is lost.
+        The rest of pygame stays until the process ends: fonts that outlive it would leak their memory.
         """
         if self.lost:
             atexit.unregister(pygame.quit)
@@ -245,28 +245,29 @@ def _pointer(capsule: Any) -> int:
     return int(address(capsule, b"display") or 0)
 
 
-# The window's picture: the one that fits the scene, size and look of the moment, and what was shown last.
+# The window's picture: the one that fits the present scene, size and look, and what was shown last.
 
 _AHEAD = (
     *(Action("chart", 1), Action("polygons"), Action("names"), Action("edit")),
     *(Action("vectors", kind) for kind in "va"),
     *(Action("help"), Action("list"), Action("shelf")),
 )
-"""What may be asked for next and changes where things stand, or opens a panel."""
+"""Likely next actions that move things on the picture, or open a panel."""
 _REST = 20
-"""So many frames a picture stands before anything is prepared: a walk along the shelf does not wait."""
+"""The frames for which a picture is shown before anything is prepared, so that Tab stays quick."""
 _MOST_JOINTS = 20
-"""Of a linkage with more of them single steps would hold a frame up."""
+"""The most joints of a linkage for which things are prepared: with more, single steps would delay a frame."""
 _PULLED = 6.0
 """How near to a line of the grid counts as on it, in units."""
 _VISIBLE = 1.0
-"""The least of a step of what is drawn, in pixels."""
+"""The least step of a drawing on a sheet, in pixels."""
 
 
 class Screen:
-    """Paints states into the window; a picture that is there already is not painted again.
+    """Paints states into the window; a picture that is shown already is not painted again.
 
-    For the mouse it knows where things are in the picture that it painted last, of `state` with `over` on it.
+    For the mouse it knows where things are in the picture painted last, that of `state` with the overlay
+    `over`.
     """
 
     def __init__(self, state: State) -> None:
@@ -285,9 +286,9 @@ class Screen:
         self._arrived: int | None = None
 
     def show(self, state: State, over: Overlay, *, late: bool = False) -> None:
-        """Paint the state into the window and flip, where it differs from what is there.
+        """Paint the state into the window and flip, where it differs from what is shown.
 
-        Where it is `late`, the linkage follows, and what stands still and the list are as they were.
+        With `late`, only the linkage is up to date; the still part and the list are as they were.
         """
         surface = display_surface()
         if late and over.panel and self.over.panel:
@@ -310,10 +311,10 @@ class Screen:
             self._find_other(state)
 
     def prepare(self, state: State) -> bool:
-        """Do a step of what the next key may ask for, in a frame in which nothing happens.
+        """Do a step of the work that the next key may need, in a frame in which nothing happens.
 
-        What is found is kept where it would be looked up; the picture of a key is the same without it.
-        Returns whether there is more to do.
+        Results are cached where they would be looked up; a key's picture is the same without them. Returns
+        whether there is more to do.
         """
         if not _has_leisure(state):
             return False
@@ -321,26 +322,26 @@ class Screen:
         if picture is not before:
             self._prepared, self._preparing = picture, self._ahead(state, picture)
             return True
-        with suppress(Exception):  # of a fault the key tells, which meets it again
+        with suppress(Exception):  # a fault will occur again with the key, which reports it
             for _ in self._preparing:
                 return True
         return False
 
     def _drawn_ahead(self, picture: Picture, state: State) -> Iterator[None]:
-        """Draw in steps a picture that comes in the place of the one that is shown."""
+        """Draw in steps a picture that will replace the shown one."""
         return self._printer.drawn_ahead(picture, state.phase, state.clock.speed, self.over)
 
     def _find_other(self, state: State) -> None:
-        """Find the other closure of a mechanism that has just come on.
+        """Find the other closure of a mechanism that has just appeared.
 
-        Some take a tenth of a second, all in one: at a cut that is not seen as it would be while it runs.
+        For some this takes a tenth of a second at once: that is not noticed when the picture changes anyway.
         """
-        with suppress(Exception):  # of a fault the key tells, which meets it again
+        with suppress(Exception):  # a fault will occur again with the key, which reports it
             if _has_leisure(state):
                 ghost_of(state.scene)
 
     def _ahead(self, state: State, picture: Picture) -> Iterator[None]:
-        """Find what keys will ask for: the other closure's picture, quantities to chart, polygons, panels."""
+        """Prepare what keys may ask for: the other closure, quantities to chart, polygons, panels."""
         for _ in range(_REST):
             yield
         if other := known_ghost_of(state.scene):
@@ -382,7 +383,7 @@ class Screen:
         return layout(self.size, bar=True) if over.shelf else self._framing.last.layout
 
     def _point(self, state: State) -> None:
-        """Let the mouse point with a pencil while that is taken."""
+        """Show the mouse's pointer as a pencil while the pencil is taken."""
         pointer = (state.look.theme, self.size) if state.mode == "pencil" else None
         if pointer != self._pointer:
             self._pointer = pointer
@@ -390,13 +391,13 @@ class Screen:
             point_with(drawn)
 
     def _name(self, title: str) -> None:
-        """Let the window bear the scene's title; the system is told only what is new to it."""
+        """Show the scene's title as the window's; the system is asked only where it changes."""
         if title != self._titled:
             name(title)
             self._titled = title
 
     def uncovered(self) -> None:
-        """Take note that the window has to be painted anew."""
+        """Record that the window has to be painted anew."""
         self._shown = None
 
     def picture(self, state: State, over: Overlay) -> pygame.Surface:
@@ -417,7 +418,8 @@ class Screen:
     def handle_at(self, x: float, y: float, reach: float) -> str | None:
         """Return the joint under a pixel that can be dragged; None elsewhere.
 
-        In the list it has dimensions of its own, in a game it is one of those that this frees, else it moves.
+        While the list is open, such a joint has dimensions of its own; in a game it is one that the game
+        allows; else it is any joint that moves.
         """
         state, free = self.state, self.over.handles
         scene = state.displayed
@@ -445,21 +447,21 @@ class Screen:
         return row_cells(self._framing.last.layout, count)
 
     def answer_at(self, x: float, y: float) -> int | None:
-        """Return the number of the answer whose picture is under a pixel; None beside them."""
+        """Return the number of the answer whose picture is under a pixel; None elsewhere."""
         return next((n for n, cell in enumerate(self.answer_cells()) if cell.holds(x, y)), None)
 
     def posed_at(self, x: float, y: float) -> bool:
-        """Return whether the hand holds or sets down something at a pixel, among poses."""
+        """Return whether, with poses, the hand would grasp or set down something at a pixel."""
         sketch = self.state.posing
         return sketch is not None and (has_room(sketch) or self.on_pose(x, y))
 
     def on_pose(self, x: float, y: float) -> bool:
-        """Return whether something that was set down is at a pixel, among poses."""
+        """Return whether, with poses, something that was set down is at a pixel."""
         sketch = self.state.posing
         return sketch is not None and posed_under(sketch, self.world(x, y), self._near) is not None
 
     def pencil_at(self, x: float, y: float, reach: float) -> Action:
-        """Return what the pencil begins at a pixel: it takes an answer, a pin or a point, or it draws."""
+        """Return the action that the pencil begins at a pixel: it takes an answer, pin or point, or draws."""
         sketch = self.state.drawing
         assert sketch
         place = self.answer_at(x, y)
@@ -479,7 +481,7 @@ class Screen:
         return Action("pen_down", self.world(x, y))
 
     def cognate_at(self, x: float, y: float, reach: float) -> int | None:
-        """Return the place of the cognate under a pixel among those that are drawn; None beside them."""
+        """Return the place of the cognate under a pixel among those that are drawn; None elsewhere."""
         numbers = self.over.path.cognates if self.over.path else ()
         if not numbers:
             return None
@@ -516,7 +518,7 @@ class Screen:
         return "crank" if moves and near == driven_bar(sheet.building.draft) else "hand"
 
     def _under(self, x: float, y: float) -> tuple[Thing | None, Draft]:
-        """Return what of a draft is under a pixel, and the draft as it is seen."""
+        """Return the thing of a draft under a pixel, and the draft as it is shown."""
         sheet = self.state.building
         assert sheet
         seen, place = sheet.seen(self.state.scene, self.state.phase), self.world(x, y)
@@ -562,7 +564,7 @@ class Screen:
         return share_at(self._bar_layout(self.over), bar.buttons, number, x) if bar else 0.0
 
     def sheet_row_at(self, x: float, y: float) -> Action | None:
-        """Return what a click on a list of the sheet does: another meaning, another number; None beside."""
+        """Return the action of a click on a list of the sheet: another meaning or number; None off it."""
         shown, last = self.over.build, self._framing.last
         for rows, name in ((shown.offers, "offer"), (shown.panel, "number")) if shown else ():
             row = row_at(last.layout, last.view, rows, x, y) if rows else None
@@ -574,13 +576,13 @@ class Screen:
         return None
 
     def tool_at(self, x: float, y: float) -> int | None:
-        """Return the number of the tool under a pixel, where there are tools; None beside them."""
+        """Return the number of the tool under a pixel, where there are tools; None elsewhere."""
         return tool_at(self._framing.last.layout, x, y) if self.over.tool_bar else None
 
     def handed(self, x: float, y: float, part: float) -> tuple[float, float, float, float]:
-        """Return a place of the sheet, how near counts as on it, and the usual step times a part.
+        """Return a pixel's place on the sheet, how near counts as on a thing, and `part` of the usual step.
 
-        On paper a place near a line of the grid is on it, but for parts of the step.
+        Off all things a place near a line of the grid is moved onto it, unless `part` asks for a finer step.
         """
         place = self.world(x, y)
         if part == 1.0 and self.state.building and self._under(x, y)[0] is None:
@@ -592,9 +594,9 @@ class Screen:
         return Hover(self.world(x, y), self._near, self.tool_at(x, y))
 
     def aimed(self, cursor: Point | None, way: tuple[float, ...]) -> tuple[float, float]:
-        """Return where the keys' cursor goes, one line of the grid on; a fine way is one step.
+        """Return where the keys' cursor goes: to the next line of the grid, or one step on a fine way.
 
-        Without one it begins in the middle of what is seen.
+        Without a cursor it begins in the middle of the visible part.
         """
         step = self.sheet_step if len(way) > 2 else self.grid_step
         middle = self.world(self.size[0] / 2, self.size[1] / 2)
@@ -604,7 +606,7 @@ class Screen:
         return x, y
 
     def _gridded(self, x: float, y: float) -> tuple[float, float]:
-        """Return a place with each coordinate that is near to a line of the grid on that."""
+        """Return a place with each coordinate moved to the grid's line that is near, if one is."""
         view = self._framing.last.view
         step, near = self.grid_step, _PULLED * self._framing.last.layout.unit / view.scale
         lines = (round(at / step) * step for at in (x, y))
@@ -618,7 +620,7 @@ class Screen:
 
     @property
     def sheet_step(self) -> float:
-        """The usual step of what is drawn: a power of ten of its unit that can be seen."""
+        """The usual step of a drawing: the least power of ten of its unit that is visible."""
         return 10.0 ** ceil(log10(_VISIBLE / self._framing.last.view.scale))
 
     def world(self, x: float, y: float) -> tuple[float, float]:
@@ -638,7 +640,7 @@ class Screen:
         return self._printer.row_at(self._framing.last, self.over, x, y) if self.state.listed else None
 
     def on_box(self, x: float) -> bool:
-        """Tell whether a pixel of the open list is as far left as the boxes of its rows, where it has any."""
+        """Tell whether a pixel is in the column of the open list's boxes, where its rows have boxes."""
         return self._printer.is_at_boxes(self._framing.last, self.over, x)
 
     def scrolled_by(self, x: float, y: float, *, held: bool) -> int | None:
@@ -674,7 +676,7 @@ class Screen:
         return min(found)[1:] if found else None
 
     def pointed(self, x: float, y: float, reach: float) -> Pointed | None:
-        """Return what of the scene is at a pixel, or the instant on its chart or a curve; None elsewhere."""
+        """Return the thing of the scene at a pixel, or an instant on its chart or a curve; else None."""
         phase, place, picture = self.charted(x, y), self.world(x, y), self._framing.last
         if phase is not None:
             return Pointed(place, instant=phase)
@@ -697,11 +699,11 @@ class Screen:
         return None if self.over.hides_chart else self._framing.last.polygon_at(x, y)
 
     def charted(self, x: float, y: float) -> float | None:
-        """Return the phase under a pixel of the chart; None beside it."""
+        """Return the phase under a pixel of the chart; None off it."""
         return None if self.over.hides_chart else self._framing.last.chart_phase_at(x, y)
 
 
 def _has_leisure(state: State) -> bool:
-    """Return whether what a key may ask for can be found meanwhile: nothing is led, no step takes long."""
+    """Return whether there is time to prepare for keys: nothing is dragged, and no single step takes long."""
     leads = state.held or state.grasp or state.glide
     return state.mode in ("play", "paused") and not leads and len(state.scene.linkage.joints) <= _MOST_JOINTS

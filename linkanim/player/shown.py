@@ -1,4 +1,4 @@
-"""Tell the state in the words of the overlay: what lies over the picture, and what a sheet shows."""
+"""Describe the state as an overlay: what lies over the picture, and what a sheet shows."""
 
 from __future__ import annotations
 
@@ -82,21 +82,21 @@ if TYPE_CHECKING:
     from linkanim.synthesis.answers import PathAnswer
     from linkanim.synthesis.guidance import PoseAnswer
 
-# What a sheet shows: its draft or the linkage it makes, words, tools, what is under the hand.
+# What a sheet shows: its draft or the linkage made from it, words, tools, what is under the hand.
 
 _WORDS = ("pin", "point", "slider", "yoke", "gear")
-"""What a joint is called where it is more than that."""
+"""Shapes whose name says more than "joint"."""
 
 
 class Hover:
-    """What the mouse is over on a sheet: a place, in its unit, how near counts as on a thing; or a tool."""
+    """What is under the mouse on a sheet: a place in its unit, and how near is on a thing; or a tool."""
 
     def __init__(self, place: Point, reach: float, tool: int | None) -> None:
         self.place, self.reach, self.tool = place, reach, tool
 
 
 def built(state: State, sheet: BuildSheet, hover: Hover | None = None) -> BuildShown:
-    """Return what an open sheet shows, with the mouse over it or not."""
+    """Return what an open sheet shows; `hover` is what is under the mouse there, if it is there."""
     building, seen = sheet.building, sheet.seen(state.scene, state.phase)
     shapes = drawn(seen)
     moves = building.made.scene is not None
@@ -127,7 +127,7 @@ def built(state: State, sheet: BuildSheet, hover: Hover | None = None) -> BuildS
 
 
 def _numbers(building: Building) -> RowsShown | None:
-    """Return what is chosen with all its numbers, the one that is typed among them."""
+    """Return the chosen thing with all its numbers, including the one that is being typed."""
     thing, draft = building.chosen, building.draft
     found = rows_of(draft, thing)
     if thing is None or not found:
@@ -140,7 +140,7 @@ def _numbers(building: Building) -> RowsShown | None:
 
 
 def _called(draft: Draft, thing: Thing) -> str:
-    """Return what a thing of a sheet is called: "pin O2", "bar A–B", "input"."""
+    """Return the words for a thing of a sheet: "pin O2", "bar A–B", "input"."""
     kind, name = thing[0].removesuffix("s"), thing[1]
     if thing[0] == JOINT:
         kind = next((word for word in _WORDS if name in draft.of(f"{word}s")), kind)
@@ -148,7 +148,7 @@ def _called(draft: Draft, thing: Thing) -> str:
 
 
 def _stated(row: PropertyRow, building: Building, is_chosen: bool) -> str:
-    """Return what is said in a row as it stands, or as it is typed."""
+    """Return the text of a row: its value, or the typed text."""
     one = row.number
     if is_chosen and (building.typed or (building.lettered and not row.options)):
         return f"{building.typed}_"
@@ -158,7 +158,7 @@ def _stated(row: PropertyRow, building: Building, is_chosen: bool) -> str:
 
 
 def _offers(sheet: BuildSheet) -> RowsShown | None:
-    """Return what the last drag can mean, the one that is done lit; None where it is one thing only."""
+    """Return the meanings of the last drag, with the one carried out lit; None where there is only one."""
     if sheet.meant is None or sheet.grip:
         return None
     rows = tuple((one.words, "") for one in sheet.offers)
@@ -166,7 +166,7 @@ def _offers(sheet: BuildSheet) -> RowsShown | None:
 
 
 def _number(sheet: BuildSheet, *, moves: bool) -> str:
-    """Return the number of what is chosen, as it stands or is typed; nothing while it runs."""
+    """Return the number of the chosen thing, as it is or as typed; empty while the linkage runs."""
     building = sheet.building
     rows = rows_of(building.draft, building.chosen)
     if not rows or sheet.grip or (moves and not building.typed):
@@ -179,7 +179,7 @@ def _number(sheet: BuildSheet, *, moves: bool) -> str:
 
 
 def _measures(building: Building) -> bool:
-    """Return whether what is typed is the length of the bar that is chosen, as it stands."""
+    """Return whether the number to be typed is the length of the chosen bar."""
     rows = rows_of(building.draft, building.chosen)
     return bool(rows) and rows[building.row % len(rows)].key[::2] == ("bars", "length")
 
@@ -193,14 +193,14 @@ def _words(state: State, sheet: BuildSheet) -> tuple[str, tuple[str, ...]]:
     info = state.scene.info
     facts = (*filter(None, [info.grashof]), f"input {info.input_words}")
     if state.editing.open:
-        return building.sentence, ()  # the list has the rest
+        return building.sentence, ()  # the list shows the rest
     if building.sentence:
         return building.sentence, (info.class_name, *facts)
     return info.class_name[:1].upper() + info.class_name[1:], facts
 
 
 def _loose(seen: Draft, shapes: tuple[Shape, ...]) -> DraftShown | None:
-    """Return what the linkage that moves does not show: guides that nothing slides on, pins without a bar."""
+    """Return what the moving linkage does not show: guides without sliders, pins without bars."""
     held = {joint for table in seen.of("bars").values() for joint in table["joints"]}
     held |= {
         end for kind in ("springs", "dampers") for one in seen.of(kind).values() for end in one["between"]
@@ -221,7 +221,7 @@ def _draft(seen: Draft, shapes: tuple[Shape, ...]) -> DraftShown:
 
 
 def _rubber(seen: Draft, sheet: BuildSheet, grip: Grip) -> Rubber | None:
-    """Return what the hand draws, from the joint it began at to the thing or place that it is at."""
+    """Return what the hand is drawing, from the joint where it began to the thing or place where it is."""
     start = under(seen, *grip.begin, grip.reach)
     on_joint = start is not None and start[0] == JOINT
     if sheet.tool in ("move", "photo") or (sheet.tool in ("bar", "slider") and not on_joint):
@@ -236,7 +236,7 @@ def _rubber(seen: Draft, sheet: BuildSheet, grip: Grip) -> Rubber | None:
 
 
 def _span(sheet: BuildSheet) -> Rubber | None:
-    """Return the distance of two points of the photograph, as it is or is typed."""
+    """Return the distance of two points of the photograph, as it is or as typed."""
     if not (sheet.tool == "photo" and sheet.anchor and sheet.span):
         return None
     typed, unit = sheet.building.typed, sheet.building.draft.unit
@@ -274,7 +274,7 @@ def _snap(seen: Draft, sheet: BuildSheet, hover: Hover | None) -> Snap | None:
     return Snap(met) if met else None
 
 
-# What lies over the picture: the state told in the words of the overlay.
+# What lies over the picture: the state as an overlay.
 
 _HINT = (
     "↑ ↓ choose   ← → nudge   type a value   Tab next   Enter takes   Ctrl+Z undo   Ctrl+R reset   "
@@ -289,7 +289,7 @@ _FREE = {
     4: "pivots and joints slide along Burmester's curves (B)",
     5: "nothing is free: Burmester's points (B)",
 }
-"""What can be chosen, by how many poses there are."""
+"""The linkages that can be found, by the number of poses."""
 _TAKE_HINT = "↑ ↓ choose   ← → change   type a folder and name   Enter records   Esc closes"
 _MOVES = next(n for n, one in enumerate(TOOLS) if one.icon == "move")
 """The tool that is in hand beside the list of dimensions."""
@@ -298,11 +298,11 @@ _BAR_FRAMES = 6 * FRAMES_PER_SECOND
 _WATCH_FRAMES = 6 * FRAMES_PER_SECOND
 _NAME = r"\b[^\W\d_]\w*"
 _DIRECTIONS = ("along", "to the left", "to the right", "x", "y")
-"""What the labels of places end in, and the other side."""
+"""The words at the end of the labels of places, and the opposite side's."""
 _READ, _NEAR = 15, 40
-"""How many frames a value in the list of quantities stands, and how many rows by the chosen have one."""
+"""How many frames a value in the list of quantities stands, and how many rows near the chosen have one."""
 _STEPS = 12
-"""So many shades of a flash: each is drawn once."""
+"""The number of shades of a flash; each is drawn once."""
 
 
 def overlay(
@@ -315,8 +315,8 @@ def overlay(
 ) -> Overlay:
     """Return all that the window shows beside the scene.
 
-    What is under the mouse: `hover` the joint, `row` the row of a list, `over` the place of a sheet,
-    `button` the number of a command on the bar, `pointed` what of the scene tells itself.
+    These are what is under the mouse: `hover` a joint, `row` a row of a list, `over` a place of a sheet,
+    `button` the number of a command on the bar, `pointed` a thing of the scene with words about it.
     """
     items = _items(state)
     lists = _lasting(state, items, over)
@@ -348,7 +348,7 @@ def _glow(state: State, hover: str | None) -> str | None:
 
 
 def lasting(state: State) -> Overlay:
-    """Return what of the overlay belongs on a screenshot: all that does not come and go."""
+    """Return the part of the overlay that belongs on a screenshot: all that does not come and go."""
     return _lasting(state, _items(state))
 
 
@@ -379,17 +379,17 @@ def _lasting(state: State, items: tuple[Dimension, ...], over: Hover | None = No
 
 
 def _stands_still(state: State) -> bool:
-    """Whether a sheet is on with nothing that moves, of which there are no dimensions as of a scene."""
+    """Whether a sheet is open with nothing that moves, so that there are no dimensions of a scene."""
     return bool(state.building and state.building.building.made.scene is None)
 
 
 def _is_rowed(state: State) -> bool:
-    """Whether what is typed is for rows of what is chosen on a sheet, and not for the list of dimensions."""
+    """Whether typed text is for the rows of the sheet's chosen thing, and not for the list of dimensions."""
     return bool(state.building and state.building.rowed)
 
 
 def _has_row(state: State, items: tuple[Dimension, ...]) -> bool:
-    """Whether what is chosen on a sheet, if by hand, is what the chosen row of the list belongs to."""
+    """Whether the thing chosen on a sheet, if any, is that of the list's chosen row."""
     sheet = state.building
     if sheet is None or not sheet.rowed:
         return True
@@ -398,14 +398,14 @@ def _has_row(state: State, items: tuple[Dimension, ...]) -> bool:
 
 
 def _stands(state: State) -> bool:
-    """Whether the motion is paused, and not merely led by a hand."""
+    """Whether the motion is paused, and not merely dragged by a hand."""
     return state.clock.paused and not (state.grasp and state.grasp.ran)
 
 
 def _layers(scene: Scene, shown: Layering) -> LayersShown:
-    """Return a scene's parts in layers with what there is to know of them in words.
+    """Return a scene's parts in layers with words about them.
 
-    Those of the scene before, in the frame in which another is put on, are not its own.
+    In the frame in which another scene appears, the layers are still those of the one before, and not shown.
     """
     parts, refused = (shown.parts, shown.refused) if shown.scene is scene else (None, "")
     if parts is None:
@@ -418,7 +418,7 @@ def _layers(scene: Scene, shown: Layering) -> LayersShown:
 
 
 def _slider(state: State) -> SliderShown | None:
-    """Return the slider that is there for what is on."""
+    """Return the slider for what is shown; None where it has none."""
     if state.layers and state.layers.parts and state.layers.scene is state.scene:
         return SliderShown("layers", "flat", "lifted", LIFTED, state.layers.lifted)
     if not state.constructed or not isinstance(state.scene.purpose, TimeRatioPurpose):
@@ -438,7 +438,7 @@ def _quantities(state: State, listing: Listing) -> Quantities:
     if others := listing.others:
         return Quantities(others.rows, listing.chosen, listing.sieve, _OTHERS_HINT, title=others.title)
     found = [quantity(scene, token) for token in listing.found(scene)]
-    # Four times a second while it runs: values that change faster are not read, and each costs its drawing.
+    # Values change four times a second: faster ones cannot be read, and each change costs a drawing.
     pose = scene.pose(state.clock.at(state.frame // _READ * _READ), speed=state.clock.speed)
     near = range(listing.chosen - _NEAR, listing.chosen + _NEAR)
     rows = tuple(
@@ -452,9 +452,9 @@ def _quantities(state: State, listing: Listing) -> Quantities:
 
 
 def value_words(scene: Scene, one: Quantity, pose: Pose) -> str:
-    """Return a quantity's symbol and what it is at a pose, a vector by its components.
+    """Return a quantity's symbol and its value at a pose, a vector by its components.
 
-    Of a crank that goes on and on it is the angle within one turn, as the HUD has it.
+    A crank's angle is given within one turn, as in the HUD.
     """
     found = one.shown(pose)
     parts = found if isinstance(found, tuple | list | np.ndarray) and np.ndim(found) else (found,)
@@ -474,7 +474,7 @@ def _four_digits(value: float) -> str:
 
 
 def _poses(state: State, sketch: PoseSketch) -> PosesShown:
-    """Return poses with the coupler of the answer that is shown in each, and what there is to say."""
+    """Return poses with the shown answer's coupler in each, and the words about them."""
     answer = sketch.answer
     handles: tuple[Point, ...] = ()
     bodies: list[tuple[Point, ...]] = []
@@ -504,7 +504,7 @@ def _poses(state: State, sketch: PoseSketch) -> PosesShown:
 
 
 def _said_of_poses(state: State, sketch: PoseSketch) -> tuple[str, tuple[str, ...]]:
-    """Return what is waited for, why there is no linkage, or what the one that is shown is."""
+    """Return words on what is missing, on why there is no linkage, or on the shown one."""
     kind, count = "slider-crank" if sketch.sliding else "four-bar", len(sketch.poses)
     sets = ("pins",) if sketch.pinning else ()
     if sketch.refusal:
@@ -534,7 +534,7 @@ def _path(sketch: PathSketch) -> PathShown:
 
 
 def _off(sketch: PathSketch) -> str | None:
-    """Say by how much the answer shown is off, and what else it is judged by."""
+    """Say how far the shown answer deviates, and its other figures."""
     answer = sketch.answer
     if answer is None or sketch.off is None:
         return None
@@ -544,7 +544,7 @@ def _off(sketch: PathSketch) -> str | None:
 
 
 def _answer_row(state: State, sketch: Sketch) -> AnswerRow:
-    """Return the row of answers; while something is dragged with the picture of what was there before."""
+    """Return the row of answers; while something is dragged, with the pictures from before."""
     entries = tuple(
         sketch.base if sketch.base and n == sketch.chosen else one for n, one in enumerate(sketch.answers)
     )
@@ -589,7 +589,7 @@ def _sized(answer: PoseAnswer, sketch: PoseSketch) -> str:
 
 
 def _percent(share: float) -> str:
-    """Return a share in percent as it is read: to two digits, and nothing below a hundred thousandth."""
+    """Return a share in percent, to two digits; below a hundred thousandth it is 0."""
     return f"{significant(share, 2)} %" if share >= 1e-5 else "0 %"
 
 
@@ -608,7 +608,7 @@ def _chip(state: State) -> Fading | None:
 
 
 def _hint_bar(state: State) -> Fading | None:
-    """Return the hint bar: once, after the first seconds, unless something is done before."""
+    """Return the hint bar: once, after the first seconds, unless the user does something before."""
     if state.touched or not state.is_bare or state.toast or state.chip:
         return None
     since = max(state.frame - _WATCH_FRAMES, 0)
@@ -617,7 +617,7 @@ def _hint_bar(state: State) -> Fading | None:
 
 
 def _watch(state: State) -> Fading | None:
-    """Return what to watch for: in the first seconds of a mechanism, until something is done."""
+    """Return the sentence on what to watch for, in a mechanism's first seconds, until something is done."""
     gone = state.frame - (state.frame if state.arrived is None else state.arrived)
     busy = state.is_covered or state.recording or state.toast or state.touched > (state.arrived or 0)
     eighths = min(gone, _WATCH_FRAMES - gone, 32) // 4
@@ -625,7 +625,7 @@ def _watch(state: State) -> Fading | None:
 
 
 def _measured(state: State, items: tuple[Dimension, ...]) -> Iterator[DimensionLine]:
-    """Yield what the chosen dimension measures, and the others by which its place is found, in words."""
+    """Yield the line of the chosen dimension, and those of the others that give the same place."""
     if not items:
         return
     known, scene = {item.key: item for item in items}, in_unit(state.scene, state.look.unit)
@@ -635,7 +635,7 @@ def _measured(state: State, items: tuple[Dimension, ...]) -> Iterator[DimensionL
 
 
 def _worded(item: Dimension, digits: int) -> str:
-    """Return a dimension's value; of a place on a body without a sign, after its direction."""
+    """Return a dimension's value; for a place on a body, its direction and the value without a sign."""
     direction = item.label.rpartition(", ")[2]
     if direction == "to the left" and item.value < 0:
         item, direction = replace(item, value=-item.value), "to the right"
@@ -650,7 +650,7 @@ def _recording(state: State) -> str | None:
 
 
 def _listed(state: State, items: tuple[Dimension, ...]) -> Panel | None:
-    """Return the list of dimensions, or the dialog of a recording, while it is open and nothing over it."""
+    """Return the list of dimensions, or a recording's dialog, if it is open with nothing over it."""
     if state.taking:
         return _dialog(state, state.taking)
     return _panel(state, items) if state.editing.open and not state.listing else None
@@ -668,7 +668,7 @@ def _dialog(state: State, dialog: TakeDialog) -> Panel:
 
 
 def _panel(state: State, items: tuple[Dimension, ...]) -> Panel:
-    """Return the list of dimensions, the values begun in their places."""
+    """Return the list of dimensions, with typed values in their rows."""
     if state.building and _stands_still(state):
         return _panel_of_draft(state.building.building)
     editing, info = state.editing, in_unit(state.scene, state.look.unit).info
@@ -690,7 +690,7 @@ def _panel(state: State, items: tuple[Dimension, ...]) -> Panel:
 
 
 def _panel_of_draft(building: Building) -> Panel:
-    """Return the list of all numbers of what does not move, and what is missing before it does."""
+    """Return the list of all numbers of a draft that does not move, and what is missing for it to move."""
     draft, at = building.draft, chosen_row(building)
     rows = (
         EditRow(
@@ -715,7 +715,7 @@ def _valued(item: Dimension, digits: int) -> str:
 
 
 def _digits(state: State) -> int:
-    """Return how many digits a dimension has: all that were written, or enough in a unit of another."""
+    """Return how many digits a dimension has: all that were written; in another unit, enough."""
     return 10 if state.look.unit in (None, state.scene.length_unit) else 6
 
 

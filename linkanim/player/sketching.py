@@ -1,4 +1,4 @@
-"""What a stroke and poses share: answers come, one is chosen, followed and kept, a change is undone."""
+"""Actions that a stroke and poses share: answers come, one is chosen and kept, a change is undone."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from linkanim.scenes.editing import in_unit
 from linkanim.scenes.scene import Scene
 
 _SAME = 0.02
-"""Of the stroke's size: pins nearer to each other are one."""
+"""Pins nearer to each other than this, in sizes of the stroke, are one."""
 
 
 def sketching(state: State, **changes: object) -> State:
@@ -20,7 +20,7 @@ def sketching(state: State, **changes: object) -> State:
 
 
 def left(state: State) -> State:
-    """Leave the sketch; the scene that was on comes back as if it had gone on."""
+    """Leave the sketch; the scene from before comes back as if it had run on meanwhile."""
     sketch = state.sketch
     if sketch is None:
         return state
@@ -30,7 +30,7 @@ def left(state: State) -> State:
 
 
 def keep(state: State, _: None) -> State:
-    """Leave the sketch and keep the answer in the scene's place; undo brings that back."""
+    """Leave the sketch and keep the answer in the scene's place; undo brings the scene back."""
     sketch = state.sketch
     if sketch is None or sketch.is_blank or state.scene is sketch.before:
         return left(state)
@@ -55,7 +55,7 @@ def follow(state: State, numbers: tuple[float, ...]) -> State:
 
 
 def ready(scene: Scene, phase: float) -> Scene:
-    """Return a scene with what the next frame asks of it worked out now: that frame has a picture to make."""
+    """Return a scene after working out what the next frame needs, since that frame has a picture to make."""
     _ = scene.cycle(1, derivatives=0).position
     scene.pose(phase, 0)
     return scene
@@ -70,7 +70,7 @@ def come(state: State) -> State:
 def taken(state: State, first: int, found: tuple[Any, ...]) -> State:
     """Return the state with other answers, one of them shown.
 
-    A scene whose own trace was taken stays the first, and the answer that is shown beside it stays shown.
+    A scene whose own trace was taken stays the first answer, and the shown answer stays shown.
     """
     sketch = state.sketch
     if sketch is None or not sketch.is_asked or sketch.held is not None:
@@ -95,7 +95,7 @@ def taken(state: State, first: int, found: tuple[Any, ...]) -> State:
 
 
 def _stands_on(scene: Scene, row: tuple[float, ...], size: float) -> bool:
-    """Return whether an answer has the fixed pins of the scene whose trace it follows: it is that scene."""
+    """Return whether an answer has the fixed pins of the scene whose trace it follows: then it is that."""
     pins = [complex(*pin.position) for pin in scene.linkage.pins]
     x, y, *_, x4, y4, _ = row
     own = complex(x, y), complex(x4, y4)
@@ -115,7 +115,7 @@ def choose(state: State, place: int) -> State:
 
 
 def take_back(state: State, _: None) -> State:
-    """Go back to what was drawn, and its answers, before the last change."""
+    """Go back to the sketch, with its answers, before the last change."""
     sketch = state.sketch
     if sketch is None or sketch.earlier is None or sketch.held is not None:
         return state
@@ -127,7 +127,7 @@ def take_back(state: State, _: None) -> State:
 
 
 def released(state: State) -> State:
-    """Return the state with nothing held, its answer shown as it is; all answers are asked for."""
+    """Return the state with nothing held, showing its answer itself; all answers are asked for."""
     sketch = state.sketch
     if sketch is None:
         return state

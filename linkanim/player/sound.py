@@ -1,8 +1,7 @@
-"""Play what is to be heard of the motion and of answers.
+"""Play the sounds of the motion and of answers.
 
-First which cues a step of the motion makes, at dead centres and at the input's limits; then their waves,
-short tones that die away; then the loudspeaker, opened beside the frames when something is first to be
-heard.
+First come the cues of a step of the motion, at dead centres and at the input's limits; then their waves,
+short tones that die away; then the loudspeaker, opened in a thread when the first sound is played.
 """
 
 from __future__ import annotations
@@ -28,20 +27,20 @@ if TYPE_CHECKING:
 # Which sounds the motion makes from one frame to a later one: at dead centres, and at the input's limits.
 
 Cue = Literal["tick", "tock", "limit", "right", "wrong"]
-"""A tick is the forward dead centre, a tock the one back; so a quick return is a rhythm."""
+"""A tick is the forward dead centre, a tock the backward one; so a quick return has a rhythm."""
 _FARTHEST = 1.0
-"""Radians of phase: what goes further at once has jumped, and passes nothing."""
+"""In radians of phase: a larger step is a jump, which passes no dead centre or limit."""
 
 
 def cues(before: State, after: State) -> tuple[Cue, ...]:
-    """Return what is to be heard where the window goes from one state on to another; nothing while silent."""
+    """Return the cues between one state of the window and a later one; none while sounds are off."""
     if not after.is_audible or before.scene is not after.scene:
         return ()
     return tuple(_passed(after.scene, before.phase, after.phase))
 
 
 def _passed(scene: Scene, before: float, after: float) -> Iterator[Cue]:
-    """Yield what lies between two phases; a phase belongs to the way that begins there."""
+    """Yield the cues between two phases; a cue at a phase belongs to the step that begins there."""
     if before == after or abs(after - before) > _FARTHEST:
         return
     if not scene.info.full_turn and _lies_between(before, after, 0.0, math.pi):
@@ -55,7 +54,7 @@ def _passed(scene: Scene, before: float, after: float) -> Iterator[Cue]:
 
 
 def _lies_between(before: float, after: float, place: float, period: float) -> bool:
-    """Whether a place, or that some periods on, lies between two phases."""
+    """Whether a place, whole periods aside, lies between two phases."""
     return math.floor((before - place) / period) != math.floor((after - place) / period)
 
 
@@ -64,7 +63,7 @@ def _lies_between(before: float, after: float, place: float, period: float) -> b
 RATE = 44_100
 """Samples a second, one channel."""
 _LOUDEST = 0.14
-"""Of what a sample can hold."""
+"""The loudest sample, as a share of what a sample can hold."""
 _ONSET = 0.001
 """How long a tone takes to begin, in s: a step would click."""
 
@@ -86,7 +85,7 @@ _TONES: Mapping[Cue, tuple[Tone, ...]] = {
     "wrong": (Tone(233.1, 0.08), Tone(174.6, 0.13, start=0.11)),
 }
 _FADES = 6
-"""After so many times its fade a tone is over."""
+"""A tone ends after this many times its fade."""
 
 
 def wave(cue: Cue) -> NDArray[np.int16]:
@@ -112,7 +111,7 @@ _BUFFER = 512
 
 
 class Speaker:
-    """Plays sounds; what comes before the device is open, or where there is none, is not heard."""
+    """Plays sounds; those before the device is open, or where there is none, are not heard."""
 
     def __init__(self) -> None:
         self._opening: Thread | None = None
@@ -129,7 +128,7 @@ class Speaker:
             sound.play()
 
     def close(self) -> None:
-        """Let go of the device."""
+        """Close the device."""
         if self._opening:
             self._opening.join()
             self._sounds = {}
@@ -147,7 +146,7 @@ class Speaker:
 
 
 def _is_likely() -> bool:
-    """Whether there may be a device; asked for one where none is, Linux's library complains on stderr."""
+    """Whether a device may exist: where none does, Linux's library would complain on stderr."""
     if not sys.platform.startswith("linux") or os.environ.get("SDL_AUDIODRIVER"):
         return True
     served = Path(os.environ.get("XDG_RUNTIME_DIR", "/nonexistent"))

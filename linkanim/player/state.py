@@ -1,8 +1,8 @@
 """Hold the player's state: all that one frame of the window shows, as a frozen value.
 
-Its parts come first: what is looked through, what is edited, a changed length that is followed smoothly,
-the sheet, the pencil's sketch; then `State` itself. Last, a scene is proved before it is shown, and a fault
-of its solver is told in a sentence.
+Its parts come first: the open lists, the editing of dimensions, the glide to a changed length, the sheet, the
+pencil's sketch and poses; then `State` itself. Last, a scene is tried before it is shown, and a fault of the
+solver becomes a sentence.
 """
 
 from __future__ import annotations
@@ -44,14 +44,14 @@ if TYPE_CHECKING:
     from linkanim.synthesis.curves import DrawnCurve
     from linkanim.synthesis.guidance import PoseAnswer
 
-# What is looked through in an open overlay: the list of quantities, and the shelf of mechanisms.
+# The lists in an open overlay: the list of quantities, and the shelf of mechanisms.
 #
-# Both belong to the window alone, and no tape keeps them: what is chosen there is asked for by an action of
-# its own ("plot", "put"), and that a tape does keep.
+# Both belong to the window alone, and no tape keeps them. The choice made there is an action of its own
+# ("plot", "put"), which a tape does keep.
 
 
 class ListRow(NamedTuple):
-    """A row of a list: its words, the key that does the same, and what it asks for."""
+    """A row of a list: its words, the key that does the same, and its action."""
 
     words: str
     key: str
@@ -60,7 +60,7 @@ class ListRow(NamedTuple):
 
 @frozen
 class Entries:
-    """Rows under a title, of which a folder may give a hundred thousand, and the letters that sift them."""
+    """Rows under a title, and the letters that filter them; a folder may give a hundred thousand rows."""
 
     title: str
     entries: tuple[ListRow, ...]
@@ -68,20 +68,20 @@ class Entries:
 
     @cached_property
     def found(self) -> tuple[ListRow, ...]:
-        """Those that have all the sieve's words."""
+        """The rows that have all the sieve's words."""
         return sifted({one: f"{one.words} {one.key}" for one in self.entries}, self.sieve)
 
     @cached_property
     def rows(self) -> tuple[tuple[str, str], ...]:
-        """The same as rows of a list: words, and the key behind them."""
+        """The found rows as a list shows them: their words and keys."""
         return tuple((one.words, one.key) for one in self.found)
 
 
 @frozen
 class Listing:
-    """The open list: the row that is chosen, and the letters that sift it; of quantities, or of `others`.
+    """The open list, of quantities or of `others`: the chosen row, and the letters that filter the list.
 
-    One that `adds` has a quantity charted below what is charted, not in its place.
+    With `adds` a quantity is charted below the present charts, not in their place.
     """
 
     chosen: int
@@ -96,36 +96,36 @@ class Listing:
         return tuple(one.words for one in self.others.found)
 
     def asked(self, scene: Scene, row: int) -> Action | None:
-        """Return what a row asks for; None where there is none."""
+        """Return the action of a row; None where there is no such row."""
         if self.others is not None:
             return next((one.action for one in self.others.found[row : row + 1]), None)
         charts = "strip" if self.adds else "plot"
         return next((Action(charts, token) for token in self.found(scene)[row : row + 1]), None)
 
     def sifted(self, sieve: str) -> Listing:
-        """Return it with other letters, at its top."""
+        """Return the list with another sieve, at its top."""
         return replace(self, chosen=0, sieve=sieve, others=self.others and replace(self.others, sieve=sieve))
 
 
 def listed(scene: Scene, sieve: str) -> tuple[str, ...]:
-    """Return the tokens of the quantities that have all the sieve's words, the telling ones first."""
+    """Return the tokens of the quantities that have all the sieve's words, the key quantities first."""
     found = {token: quantity(scene, token) for token in (*scene.telling, *scene.quantities)}
     return sifted({token: f"{token} {one.words} {one.symbol}" for token, one in found.items()}, sieve)
 
 
-# Where the editing of dimensions stands: the value being typed, what was refused and why, undo and redo.
+# The editing of dimensions: the value being typed, the refused value and why, undo and redo.
 
 _KEPT = 100
 
 
 @frozen
 class Editing(Undoable[Scene]):
-    """Where the editing stands; `past` and `future` are the scenes that undo and redo go to.
+    """The state of editing; `past` and `future` are the scenes that undo and redo go to.
 
-    `typed` is a value begun in the chosen row and not taken, `drafts` those begun in rows that were passed
-    on from, `refusal` the reason why they were not taken; `refused` is the document that was dragged to. With
-    `warned` they can be taken all the same, by asking once more. `original` is the scene as its file has it,
-    once that was left. `saved` is the name of the scene that was saved, and its file.
+    `typed` is a value typed in the chosen row and not taken yet, `drafts` those typed in rows left before,
+    `refusal` the reason why they were refused; `refused` is the document that a drag led to. With `warned`
+    the values are taken if asked once more. `original` is the scene as in its file, once it was changed.
+    `saved` is the name of the saved scene, and its file.
     """
 
     open: bool = False
@@ -140,23 +140,23 @@ class Editing(Undoable[Scene]):
 
     @property
     def changed(self) -> bool:
-        """Whether there is something to go back to or on to."""
+        """Whether there is something to undo or redo."""
         return bool(self.past or self.future)
 
     @property
     def begun(self) -> bool:
-        """Whether a value, here or in another row, waits to be taken."""
+        """Whether a typed value, in this or another row, waits to be taken."""
         return bool(self.typed or self.drafts)
 
 
 def chosen(editing: Editing, scene: Scene) -> Dimension | None:
-    """Return the dimension that the list stands at; None where the scene has none."""
+    """Return the dimension of the chosen row; None where the scene has none."""
     items = dimensions(scene)
     return items[editing.chosen % len(items)] if items else None
 
 
 def nothing_begun(editing: Editing) -> Editing:
-    """Return the editing without the value being typed, or where there is none, without all drafts."""
+    """Return the editing without the value being typed; where there is none, without all drafts."""
     return cleared(editing) if editing.typed else cleared(editing, drafts=())
 
 
@@ -187,13 +187,13 @@ def check_of_turning(before: Info) -> Callable[[Scene], None]:
 
 
 def cleared(editing: Editing, **changes: object) -> Editing:
-    """Return the editing with nothing begun and nothing refused, and these changes."""
+    """Return the editing with nothing typed and nothing refused, and these changes."""
     return replace(editing, **{"typed": "", "refusal": None, "warned": False, **changes})  # type: ignore[arg-type]
 
 
 @frozen
 class Held:
-    """A joint that is being dragged, "" for the chosen value: where it was taken, and whether that ran on."""
+    """A dragged joint, "" for the chosen value; the scene, the phase and whether it `ran` when grasped."""
 
     joint: str
     scene: Scene
@@ -208,14 +208,14 @@ class Held:
 
 
 _TRAIL, _JUMP, _FASTEST = 6, 1.0, 20.0
-"""Frames over which a hand's speed is taken, the most of it (rad/s), and a step (rad) that has none."""
+"""Frames over which a hand's speed is measured, a step (rad) that is a jump, the greatest speed (rad/s)."""
 
 
 @frozen
 class Grasp:
-    """A joint that a hand leads, and the input with it: whether the motion `ran` and goes on so.
+    """A joint that a hand drags, and the input with it; `ran` says that the motion ran and will run on.
 
-    `trail` holds the last frames and their phases, `forward` the way the phase went last.
+    `trail` holds the last frames and their phases, `forward` the latest direction of the phase.
     """
 
     joint: str
@@ -224,27 +224,27 @@ class Grasp:
     forward: bool
 
     def led(self, frame: int, phase: float) -> Grasp:
-        """Return it with the phase to which the hand has led the input."""
+        """Return the grasp with the phase to which the hand has led the input."""
         step = phase - self.trail[-1][1]
         forward = step > 0.0 if step else self.forward
         before = self.trail if abs(step) < _JUMP else ()
         return replace(self, trail=(*before, (frame, phase))[-_TRAIL - 1 :], forward=forward)
 
     def speed(self, frame: int) -> float:
-        """The hand's speed (rad/s of phase) at a frame: 0 where it has stood still."""
+        """Return the hand's speed (rad/s of phase) at a frame: 0 where it has stood still."""
         at, last = self.trail[-1]
         earlier = [one for one in self.trail if one[0] <= frame - _TRAIL][-1:] or self.trail[:1]
         since, phase = earlier[0]
-        # a button is let go of a frame or two after the mouse has moved last
+        # a button is released a frame or two after the mouse's last move
         rate = (last - phase) * FRAMES_PER_SECOND / max(max(at, frame - 2) - since, 1)
         return min(max(rate, -_FASTEST), _FASTEST)
 
 
-# A changed length is followed smoothly: the scenes between the old one and the new.
+# A glide: the scenes between an old one and a new one, so that the picture follows a changed length smoothly.
 
 FRAMES = 16
 EVERY = 2
-"""A scene on the way stands for so many frames: one is worked out in the last of them, and then drawn."""
+"""Frames for which each scene of a glide is shown; the next one is worked out in the last of them."""
 _TRIED = 90
 _FOLLOWED = ("length", "offset", "angle")
 
@@ -253,7 +253,7 @@ _FOLLOWED = ("length", "offset", "angle")
 class Glide:
     """Dimensions that change since frame `since`: (key, from, to), and the scene shown meanwhile.
 
-    `coming` is the one that is worked out for the next frame, if any.
+    `coming` is the scene that is worked out for the next frame, if any.
     """
 
     scene: Scene
@@ -277,7 +277,7 @@ def glide(before: Scene, after: Scene, frame: int) -> Glide | None:
 def followed(begun: Glide, after: Scene, frame: int) -> Glide | None:
     """Return the glide at `frame`; None when `after` is reached.
 
-    A scene on the way that cannot be assembled all along is left out: the last one stays.
+    A scene on the way that cannot be assembled over its whole cycle is left out: the last one stays.
     """
     gone = frame + 1 - begun.since
     if gone > FRAMES:
@@ -288,7 +288,7 @@ def followed(begun: Glide, after: Scene, frame: int) -> Glide | None:
 
 
 def _on_the_way(begun: Glide, after: Scene, part: float) -> Scene | None:
-    """Return the scene after a part of the way; None where it cannot be assembled all along."""
+    """Return the scene after a part of the way; None where it cannot be assembled over its whole cycle."""
     try:
         scene = passing(
             after, {key: start + (end - start) * eased(part) for key, start, end in begun.changes}
@@ -307,16 +307,16 @@ def closes(scene: Scene) -> bool:
 # The sheet on which a linkage is built: what is drawn on it, the tool in hand, and what the hand does.
 
 HOME = Box(-100.0, -40.0, 200.0, 130.0)
-"""What an empty sheet shows, in millimetres."""
+"""The part of the plane that an empty sheet shows, in millimetres."""
 BLANK = "nothing is drawn yet that has a dimension"
 LIVE = ("move", "photo")
 """The tools that change what is built while the hand moves."""
 
 
 class Grip(NamedTuple):
-    """What the hand does from where it went down: how near counts as on it, the step of what it draws.
+    """A gesture from where the hand went down: how near counts as on a thing, the step of what is drawn.
 
-    `base` is what was built before, `ran` whether the linkage ran then.
+    `base` is the building before the gesture, `ran` whether the linkage ran then.
     """
 
     begin: Point
@@ -335,18 +335,17 @@ class Grip(NamedTuple):
 
 @frozen
 class BuildSheet:
-    """What is built over the scene `before`, which comes back, with its clock and editing, if it cannot move.
+    """The sheet over the scene `before`, which returns, with clock and editing, if the draft cannot move.
 
-    `home` is the part of the plane that is seen unless it is zoomed. `tool` is what is in hand, `grip` what
-    the hand does, `clicked` the frame and place of its last click; `cursor` is the place of the keys' own,
-    `anchor` the point of a photograph that is put where it belongs, `span` another one whose distance from
-    it can be typed. `offers` are what the last drag can
-    mean, which ended at `offered`. `rests` is the frame at which a linkage
-    that runs by itself has shown one period. `written` is the draft as the scene file `saved` has it;
-    `warned` tells that the next asking lets go of what is in none, `closes` that the next one closes the
-    window all the same. With the list of dimensions open, what is typed is for the chosen thing's own row
-    where that is `rowed`. The `look` is that of before: a sheet has no chart of its own, and its unit.
-    While it is not `open` the sheet is kept, to be gone on with.
+    `home` is the visible part of the plane at no zoom. `tool` is the tool in hand, `grip` the hand's gesture,
+    `clicked` the frame and place of its last click; `cursor` is the place of the keys' cursor. `anchor` is
+    the point of a photograph that is put where it belongs, `span` another point of it, whose distance from
+    the first can be typed. `offers` are the meanings of the last drag, which ended at `offered`. `rests` is
+    the frame at which a linkage that runs by itself has shown one period. `written` is the draft as in the
+    scene file `saved`. `warned` says that the next request discards a draft that is in no file, `closes` that
+    the next one closes the window nevertheless. With the list of dimensions open, typed text goes to the
+    chosen thing's own row where that is `rowed`. `look` is the look before the sheet was opened: a sheet has
+    no chart, and a unit of its own. While it is not `open` the sheet is kept, so that one can go on with it.
     """
 
     before: Scene
@@ -372,7 +371,7 @@ class BuildSheet:
     look: Look = field(default_factory=Look)
 
     def seen(self, scene: Scene, phase: float) -> Draft:
-        """Return the draft with its joints where they are seen: while it moves, at a phase of its scene."""
+        """Return the draft with its joints as they are shown: while it moves, at a phase of its scene."""
         drawn = self.building.draft
         if self.building.made.scene is None:
             return drawn
@@ -382,44 +381,44 @@ class BuildSheet:
 
     @property
     def meant(self) -> int | None:
-        """Which of the offers is done; None where nothing is offered, or something else was done since."""
+        """Which of the offers is carried out; None without offers, or if something else was done since."""
         draft = self.building.draft
         return next((n for n, one in enumerate(self.offers) if one.building.draft is draft), None)
 
     @property
     def lasting(self) -> Building:
-        """What is built, without what the hand is moving."""
+        """The building without the gesture under way."""
         return self.grip.base if self.grip and self.tool in LIVE else self.building
 
     @property
     def is_written(self) -> bool:
-        """Whether nothing would be lost if it were closed."""
+        """Whether nothing would be lost if the sheet were closed."""
         return self.building.draft == self.written
 
 
 def driven_bar(draft: Draft) -> Thing | None:
-    """Return the bar of the driven crank; None of what is driven otherwise."""
+    """Return the bar of the driven crank; None where something else is driven."""
     bars = draft.bars_at(draft.driven) if draft.driven else ()
     return next((("bars", name) for name, end, _ in bars if end in draft.of("pins")), None)
 
 
-# What is drawn for linkages to be found for: the pencil's stroke, or poses of a body.
+# Sketches for which linkages are found: the pencil's stroke, or poses of a body.
 
 PIVOTS = ("O2", "O4")
-"""Of every answer."""
+"""The fixed pins of every answer."""
 _LARGEST_COGNATE = 2.5
-"""Of the stroke's size: larger ones are not shown beside an answer that is smaller."""
+"""A cognate larger than this, in sizes of the stroke, is not shown beside a smaller answer."""
 DIAL = "dial"
-"""What of a sketch is held while its dial is dragged."""
+"""The value of a sketch's `held` while its dial is dragged."""
 
 
 @frozen
 class Sketch(ABC):
-    """What is drawn over the scene `before`, which comes back with its clock and editing, and its answers.
+    """A sketch over the scene `before`, which comes back with its clock and editing, and its answers.
 
-    All is in the `unit` of length in which scenes were shown then; `strokes` counts what answers were asked
-    for. Of the `answers` the `chosen` one is the state's scene. While something is `held` by the hand, `base`
-    is the scene when that was taken, and `coming` the one for the next frame. `earlier` was there before the
+    All is in the `unit` of length in which scenes were shown then; `strokes` counts the requests for answers.
+    The `chosen` one of the `answers` is the state's scene. While something is `held` by the hand, `base` is
+    the scene when it was grasped, and `coming` the one for the next frame. `earlier` is the sketch before the
     last change.
     """
 
@@ -448,20 +447,20 @@ class Sketch(ABC):
     @property
     @abstractmethod
     def is_asked(self) -> bool:
-        """Whether there is something that linkages can be found for."""
+        """Whether there is enough for linkages to be found."""
 
     @property
     @abstractmethod
     def points(self) -> NDArray[np.complex128]:
-        """What is to be kept in sight, as x + yi."""
+        """The points that have to stay visible, as x + yi."""
 
     @property
     @abstractmethod
     def at_rest(self) -> Self:
-        """The same with nothing begun."""
+        """The sketch with nothing begun."""
 
     def picking(self, place: int) -> Self:
-        """Return it with another of the answers shown, as was asked for by hand."""
+        """Return the sketch with another of the answers shown, as the user asked."""
         return replace(self, chosen=place)
 
     @abstractmethod
@@ -470,19 +469,19 @@ class Sketch(ABC):
 
     @abstractmethod
     def scene_of(self, answer: Any, towards: Scene | None = None) -> Scene:
-        """Return an answer as a scene, maybe on the way `towards` another."""
+        """Return an answer as a scene; with `towards`, one on the way to that scene."""
 
 
 @frozen
 class PathSketch(Sketch):
     """What the pencil has drawn.
 
-    `pen` holds the points of the stroke under way, `curve` what the last stroke meant. The first answer may
-    be the scene whose own trace was taken; `names` says what each is among them. `way` goes from the exact
-    end of the front to the compact one; where the `dial` along it was moved to a share, the scene is the
-    answer that was `dialled` there. One that was `picked` by hand stays when more answers come. `pivots` are
-    held where they were put. `held` is the number of the curve's point, the pivot, or the `DIAL` that is
-    dragged.
+    `pen` holds the points of the stroke under way, `curve` the curve that the last stroke meant. The first
+    answer may be the scene whose own trace was taken; `names` has words for each answer. `way` has the
+    answers along the front, from the most exact to the most compact; where the `dial` was moved to a share of
+    it, the scene is the answer `dialled` there. An answer that the user `picked` stays when more answers
+    come. `pivots` keep the places where they were put. `held` is the number of the curve's point, the pivot,
+    or the `DIAL` that is dragged.
     """
 
     answers: tuple[PathAnswer | Scene, ...] = ()
@@ -504,14 +503,14 @@ class PathSketch(Sketch):
 
     @property
     def follows(self) -> bool:
-        """Whether the linkage that is shown was found for the stroke, and its fixed pins can be dragged."""
+        """Whether the shown linkage was found for the stroke, so that its fixed pins can be dragged."""
         return not (self.is_blank or isinstance(self.answer, Scene))
 
     @cached_property
     def cognates(self) -> tuple[PathAnswer | None, ...]:
-        """The cognates of the answer that is shown at rest, else nothing.
+        """The cognates of the answer that is shown at rest, else empty.
 
-        None for one that does not turn fully, or that is far larger than the answer and the stroke.
+        An entry is None for a cognate that does not turn fully, or is far larger than answer and stroke.
         """
         answer = self.answer
         if not self.follows or self.held is not None or answer is None or isinstance(answer, Scene):
@@ -523,12 +522,12 @@ class PathSketch(Sketch):
 
     @property
     def off(self) -> float | None:
-        """By how much of the stroke's size, in percent, the answer shown is off; None before the first."""
+        """The deviation of the shown answer, in percent of the stroke's size; None before the first one."""
         return 0.0 if isinstance(self.answer, Scene) else self.answer.off if self.answer else None
 
     @property
     def is_blank(self) -> bool:
-        """Whether no linkage follows yet what is drawn."""
+        """Whether no linkage follows the stroke yet."""
         return bool(self.pen) or not self.answers
 
     @property
@@ -543,16 +542,16 @@ class PathSketch(Sketch):
 
     @property
     def at_rest(self) -> PathSketch:
-        """The same without a stroke under way."""
+        """The sketch without a stroke under way."""
         return replace(self, pen=())
 
     @property
     def undialled(self) -> PathSketch:
-        """The same with nothing dragged, the dial where the answer that was chosen is."""
+        """The sketch with nothing dragged, and the dial at the chosen answer."""
         return replace(self, dial=None, dialled=None, held=None, picked=False)
 
     def picking(self, place: int) -> PathSketch:
-        """Return it with another of the answers shown, as was asked for by hand."""
+        """Return the sketch with another of the answers shown, as the user asked."""
         return replace(self.undialled, chosen=place, picked=True)
 
     def answer_from(self, numbers: tuple[float, ...]) -> PathAnswer:
@@ -562,7 +561,7 @@ class PathSketch(Sketch):
         return answer_from(numbers)
 
     def scene_of(self, answer: PathAnswer | Scene, towards: Scene | None = None) -> Scene:
-        """Return an answer as a scene, maybe on the way `towards` another."""
+        """Return an answer as a scene; with `towards`, one on the way to that scene."""
         return answer if isinstance(answer, Scene) else answer.scene(self.unit, towards)
 
 
@@ -575,9 +574,9 @@ class SetPose(NamedTuple):
 
 
 class PoseGrip(NamedTuple):
-    """What is dragged of poses, and its number: a frame, its axis, a pin, a joint of the linkage in pose 1.
+    """The thing of poses that is dragged, and its number: a frame, its axis, a pin, or a joint in pose 1.
 
-    `off` is how far it was from the hand when that took it, `at` where a joint is led to.
+    `off` is its vector from the hand when it was grasped, `at` where a joint is dragged to.
     """
 
     what: Literal["pose", "axis", "pin", "joint"]
@@ -587,19 +586,19 @@ class PoseGrip(NamedTuple):
 
 
 POSED = 16
-"""How many numbers a linkage through poses is."""
+"""How many numbers describe a linkage through poses."""
 LARGEST_DIAL = 4
 """The dial's farthest step, to either side of the middle."""
 
 
 @frozen
 class PoseSketch(Sketch):
-    """Poses of a body that were set down, and linkages whose coupler passes them.
+    """Poses of a body that were set down, and linkages whose coupler passes through them.
 
-    `pins` are where fixed pins are to be; linkages end on a slider where they are `sliding`. The `dial` says
-    which counts more, a small linkage (below 0) or a large transmission angle. With `curves` what the theory
-    has of the poses is drawn. The hand sets pins, not poses, while it is `pinning`. `taken` is what was
-    touched last, `cursor` the place of the keys' own hand, `refusal` why there is no linkage.
+    `pins` are where fixed pins have to be; with `sliding` linkages end on a slider. The `dial` says which
+    counts more, a small linkage (below 0) or a large transmission angle. With `curves` the poses' poles and
+    Burmester's curves are drawn. While `pinning` the hand sets pins instead of poses. `taken` is the thing
+    touched last, `cursor` the place of the keys' cursor, `refusal` why there is no linkage.
     """
 
     answers: tuple[PoseAnswer, ...] = ()
@@ -617,7 +616,7 @@ class PoseSketch(Sketch):
 
     @property
     def is_asked(self) -> bool:
-        """Whether there are poses enough."""
+        """Whether there are enough poses."""
         return len(self.poses) > 1
 
     @property
@@ -627,7 +626,7 @@ class PoseSketch(Sketch):
 
     @property
     def at_rest(self) -> PoseSketch:
-        """The same with nothing held."""
+        """The sketch with nothing held."""
         return replace(self, held=None)
 
     def answer_from(self, numbers: tuple[float, ...]) -> PoseAnswer:
@@ -637,11 +636,11 @@ class PoseSketch(Sketch):
         return pose_answer_from(numbers)
 
     def scene_of(self, answer: PoseAnswer, towards: Scene | None = None) -> Scene:
-        """Return an answer as a scene, maybe on the way `towards` another."""
+        """Return an answer as a scene; with `towards`, one on the way to that scene."""
         return answer.scene(self.unit, self.poses, towards)
 
 
-# The layers in which the scene that is on can be made.
+# The layers in which the present scene can be made.
 
 LIFTED = 20
 """Steps by which layers are lifted off each other, from flat to as far as there is room."""
@@ -650,9 +649,9 @@ FAMILY = 100
 
 
 class Layering(NamedTuple):
-    """The layers of a scene: its parts once they are known, or in a sentence why it cannot be made.
+    """The layers of a scene: its parts once they are known, or a sentence on why it cannot be made.
 
-    They are `lifted` by so many steps; `text` is what was found out, as a tape keeps it.
+    They are `lifted` by so many steps; `text` is the result of `linkanim make`, as a tape keeps it.
     """
 
     scene: Scene
@@ -674,7 +673,7 @@ FLASH_FRAMES = FRAMES_PER_SECOND
 FADE_FRAMES = 14
 SHUTTER_FRAMES = 12
 STIR_FRAMES = 3 * FRAMES_PER_SECOND
-"""For so long the bar of commands shows after the mouse has moved."""
+"""The frames for which the bar of commands shows after the mouse has moved."""
 
 
 @frozen
@@ -690,7 +689,7 @@ Format = Literal["gif", "mp4"]
 
 @frozen
 class Take:
-    """A recording that runs since frame `since`, to be written to `target`; "" is a free name."""
+    """A recording that runs since frame `since`, to be written to `target`; "" for the next free name."""
 
     format: Format
     since: int
@@ -698,7 +697,7 @@ class Take:
 
 
 class TakeChoice(NamedTuple):
-    """How recordings are made: their format, their size (None: the window's shape), whether of one period."""
+    """How recordings are made: format, size (None: the window's shape), and whether they are one period."""
 
     format: Format = "gif"
     size: tuple[int, int] | None = None
@@ -706,10 +705,10 @@ class TakeChoice(NamedTuple):
 
 
 class TakeDialog(NamedTuple):
-    """The open dialog of a recording: the row that is chosen, and where it is to be written.
+    """The open dialog of a recording: the chosen row, and where the recording is to be written.
 
-    That is what was `typed`, else the one of the `places` that are proposed that has the number `at`. They
-    are files without their endings, from the current `folder`. The `refusal` says why it cannot be written.
+    That place is the `typed` one, else number `at` of the proposed `places`. These are files without their
+    endings, relative to the current `folder`. `refusal` says why nothing can be written there.
     """
 
     row: int = 0
@@ -721,7 +720,7 @@ class TakeDialog(NamedTuple):
 
     @property
     def place(self) -> str:
-        """Where it is to be written, without its ending; a folder alone has the name that is proposed."""
+        """Where the recording is to be written, without its ending; a folder alone gets the proposed name."""
         proposed = next(iter(self.places[self.at :]), "")
         if self.typed.endswith(("/", "\\")):
             return self.typed + proposed.replace("\\", "/").rpartition("/")[2]
@@ -737,12 +736,12 @@ class Naming(NamedTuple):
 
     @property
     def name(self) -> str:
-        """What Enter takes."""
+        """The name that Enter takes."""
         return self.typed or self.proposal
 
 
 class Edited(NamedTuple):
-    """The scene of a place of the shelf as it was edited, and where its editing stood."""
+    """An edited scene of a place of the shelf, and the state of its editing."""
 
     place: int
     scene: Scene
@@ -750,65 +749,64 @@ class Edited(NamedTuple):
 
 
 class Game(Protocol):
-    """A game that is on, or the title: a frozen value that the state hands its actions to.
+    """A running game, or the title: a frozen value to which the state hands its actions.
 
-    Equal games look the same. Where it needs something from outside, such as a seed, it leaves an effect:
-    "begin" with the words of another game, "score" with what is to be kept.
+    Equal games look the same. A game that needs something from outside, such as a seed, leaves an effect:
+    "begin" with the words of another game, "score" with a result to be kept.
     """
 
     @property
     def words(self) -> str:
-        """What begins it again just as it is now: its kind, then its parameters."""
+        """The words that begin an equal game: its kind, then its parameters."""
 
     @property
     def covers(self) -> bool:
-        """Whether Esc goes out of it."""
+        """Whether Esc leaves the game."""
 
     def entered(self, state: State) -> State:
-        """Return the state with what the game begins with; it is the state's game already."""
+        """Return the state as the game begins, which is the state's game already."""
 
     def carried(self, state: State, action: Action) -> State:
-        """Return the state with an action carried out, or as it is where the game has no use for it."""
+        """Return the state with an action carried out; unchanged where the game has no use for it."""
 
     def aged(self, state: State) -> State:
-        """Return the state, a frame later already, with what time does to the game."""
+        """Return the state, which is a frame older already, with the effect of time on the game."""
 
     def shown(self, state: State, over: Overlay) -> Overlay:
-        """Return the overlay with what the game shows."""
+        """Return the overlay with the game's own parts."""
 
 
 @frozen
 class State:
     """All that the window shows at one frame; equal states are equal pictures.
 
-    `shelf` holds the mechanisms that Tab walks through, by their catalogue names or as scenes, and
-    `place` the one that is on; `listing` and `browsing` are the open list of quantities and the open shelf,
-    `sketch` the pencil's stroke or poses, `sheet` what is built, or was while it is not open.
-    `layers` are those in which the scene can be made, while they are shown; `construction` has the scene
-    whose synthesis is drawn, and how many of its steps.
-    `kept` are the other places whose scenes were edited. `chip` is the
-    answer to the last key; `faded` is the frame
-    at which another mechanism or theme came on, `shot` that of a screenshot, while there is something to see.
-    `place_typed` is the input's angle, or travel, that is being typed while paused, `naming` the name under
-    which the scene is to be saved, while that is asked for.
-    `game` is the game that is on, over the state `beneath`, and `games` reads one from its words.
-    Recordings are made as the `take` says; `taking` is the open dialog in which that is chosen.
-    `held` is the joint whose lengths are being dragged, `grasp` the one that leads the input, `pad` whether a
-    gamepad is plugged in.
-    `home` is what of the scene's plane a game keeps in sight, where that is not the scene as it fits.
-    `sounds` says whether the motion is heard, None where nobody has.
+    `shelf` holds the mechanisms that Tab goes through, by their catalogue names or as scenes, and `place` is
+    that of the present one. `listing` and `browsing` are the open list and the open shelf, `sketch` the
+    pencil's stroke or poses, `sheet` the sheet, which may be closed. `layers` are those in which the scene
+    can be made, while they are shown; `construction` has the scene whose construction is drawn, and how many
+    steps of it. `kept` has the edited scenes of other places.
+
+    `chip` is the answer to the last key. `faded` is the frame at which another mechanism or theme appeared,
+    `shot` that of a screenshot, each as long as it can be seen. `place_typed` is the input's angle, or
+    travel, that is being typed while paused; `naming` is the name under which the scene will be saved, while
+    it is asked for. `game` is the running game, over the state `beneath`, and `games` reads a game from its
+    words. Recordings are made as `take` says; `taking` is the open dialog in which that is chosen. `held` is
+    the joint whose lengths are being dragged, `grasp` the joint that drags the input, `pad` whether a gamepad
+    is plugged in. `home` is the part of the plane that a game keeps visible, if not the fitted scene.
+    `sounds` says whether the motion is heard, None where the user has not chosen.
+
     With `from_title` Esc leads from a mechanism back to the title. In a `kiosk` a mechanism that runs and is
     left alone gives way to the title, `by_itself`; the first action then only brings back what was there.
-    `stirred` is the frame at which the mouse or a finger moved last, while the bar of commands shows.
-    `touched` is the frame of the last action, `arrived` that at
-    which the mechanism came on, `turned` that at which an edit made another class of the linkage, while the
-    list shows it. `effects` is what the last
-    advance asks of the outside: "record" and "render" (with a format), "screenshot", "svg", "share",
-    "fullscreen", "folder" (of the file that a toast told of), "name" (a name is to be proposed), "save"
-    (the file), "save_new" (a name), "reload", "quit", "pencil" and "poses" (they are on), "search", "anew"
-    and "follow" (answers to the sketch, the one that is shown among them, or not, or that alone),
-    "layers" (of the scene), "make" (its parts), "begin" (a game, with its words), "score" (with what is to be
-    kept of one), "sound" (a cue), and "report" (with the text of a fault's report).
+    `stirred` is the frame of the last move of the mouse or a finger, while the bar of commands shows.
+    `touched` is the frame of the last action, `arrived` that at which the mechanism appeared, `turned` that
+    at which an edit changed the class of the linkage, while the list shows it.
+
+    `effects` is what the last advance asks of the outside: "record" and "render" (with a format),
+    "screenshot", "svg", "share", "fullscreen", "folder" (of the file named in a toast), "name" (a name is to
+    be proposed), "save" (the file), "save_new" (a name), "reload", "quit", "pencil" and "poses" (these
+    begin), "search", "anew" and "follow" (answers to the sketch: with the shown one among them, without it,
+    or that one alone), "layers" (of the scene), "make" (its parts), "begin" (a game, with its words), "score"
+    (with a game's result to be kept), "sound" (a cue), and "report" (with the text of a fault's report).
     """
 
     scene: Scene
@@ -888,7 +886,7 @@ class State:
 
     @property
     def constructed(self) -> int:
-        """How many steps of the construction of the scene that is on are drawn."""
+        """How many steps of the present scene's construction are drawn."""
         scene, steps = self.construction or (None, 0)
         return steps if scene is self.scene and not (self.sketch or self.building or self.game) else 0
 
@@ -899,7 +897,7 @@ class State:
 
     @property
     def posing(self) -> PoseSketch | None:
-        """The poses that were set down, while that is on."""
+        """The poses that were set down, while they are the sketch."""
         return self.sketch if isinstance(self.sketch, PoseSketch) else None
 
     @property
@@ -909,7 +907,7 @@ class State:
 
     @property
     def edited(self) -> frozenset[int]:
-        """The places of the shelf whose scenes are not as their files have them."""
+        """The places of the shelf whose scenes differ from their files."""
         sheet = self.building
         own = (sheet.before, sheet.editing) if sheet else (self.scene, self.editing)
         found = (*self.kept, Edited(self.place, *own))
@@ -917,18 +915,18 @@ class State:
 
     @property
     def is_bare(self) -> bool:
-        """Whether a mechanism runs, and nothing is open, begun, paused or recorded."""
+        """Whether a mechanism runs and nothing is open, begun, paused or recorded."""
         return self.mode == "play" and not (self.help or self.recording or self.held or self.grasp)
 
     @property
     def leads(self) -> bool:
-        """Whether a hand on a joint leads the input: while a mechanism is on, and on the title."""
+        """Whether a hand on a joint drags the input: while a mechanism is shown, and on the title."""
         on_title = self.mode == "game" and self.game is not None and not self.game.covers
         return on_title or self.mode in ("play", "paused", "list", "record")
 
     @property
     def saved_as(self) -> str | None:
-        """The file under which what is on was saved; None where it was not."""
+        """The file under which the present scene or sheet was saved; None where it was not."""
         if self.building:
             return self.building.saved or None
         name, file = self.editing.saved or ("", "")
@@ -936,7 +934,7 @@ class State:
 
     @property
     def is_audible(self) -> bool:
-        """Whether sounds are on: by U, and of their own accord nowhere but in games."""
+        """Whether sounds are on: where U switched them on, and by default only in games."""
         return (self.game is not None and self.game.covers) if self.sounds is None else self.sounds
 
     @property
@@ -968,7 +966,7 @@ class State:
 
     @property
     def valued(self) -> bool:
-        """Whether digits typed on the sheet are a value: of what is chosen, or a photograph's distance."""
+        """Whether digits typed on the sheet are a value: of the chosen thing, or a photograph's distance."""
         sheet = self.building
         return bool(sheet and (sheet.building.chosen or (sheet.tool == "photo" and sheet.span)))
 
@@ -981,7 +979,7 @@ class State:
 def begin(scene: Scene | str | os.PathLike[str] | None = None, *, look: Look | None = None) -> State:
     """Return the state a window opens with: `scene`, loaded where it is a name or path, and the catalogue.
 
-    Without a scene it is the catalogue's first; one that is not of the catalogue stands before it.
+    Without a scene it is the catalogue's first; a scene outside the catalogue stands before all others.
     BadInput as loading raises it.
     """
     source = names()[0] if scene is None else scene
@@ -1004,16 +1002,16 @@ def with_toast(state: State, text: str) -> State:
 
 
 def with_chip(state: State, text: str | None) -> State:
-    """Return the state with a chip that says the text; without, as it was."""
+    """Return the state with a chip that says the text; unchanged without a text."""
     return replace(state, chip=Toast(text, state.frame + CHIP_FRAMES)) if text else state
 
 
 def with_effect(state: State, name: str, value: str | None = None) -> State:
-    """Return the state with one more thing to be done outside."""
+    """Return the state with a further effect, to be carried out outside."""
     return replace(state, effects=(*state.effects, Action(name, value)))
 
 
-# Faults of a scene's solver: found before a scene is shown, told in a sentence, kept in a report.
+# Faults of a scene's solver: found before a scene is shown, put into a sentence, kept in a report.
 #
 # A scene file passes its checks and may still meet a hole in the solver. The window then keeps the last
 # good linkage, and writes what is needed to find the hole.
@@ -1022,19 +1020,22 @@ _AT_A_VALUE = ("take", "nudge")
 
 
 def proved(scene: Scene, phase: float) -> Scene:
-    """Return the scene, the facts that a window shows, one cycle and a pose worked out; what that raises."""
+    """Return the scene after working out the facts that a window shows, one cycle and a pose.
+
+    Raises whatever that raises.
+    """
     info = scene.info
     _ = info.class_name, info.grashof, info.change_points
-    # Read, for a motion works out what is read of it; the picture asks for the same.
+    # The attribute is read because a motion works out what is read of it; the picture reads the same.
     _ = scene.cycle(scene.mechanism.count(_TRIED)).position
     scene.pose(phase)
     return scene
 
 
 def refused(state: State, action: Action, error: Exception) -> State:
-    """Return the state as it was, the reason told where the value stands, or in a toast.
+    """Return the state as it was, with the reason where the value stands, or in a toast.
 
-    What linkanim raises on purpose says its reason by itself; of anything else a report is written.
+    An error that linkanim raises on purpose has its own words; for any other error a report is written.
     """
     if isinstance(error, LinkanimError):
         return with_toast(state, str(error))
@@ -1070,10 +1071,10 @@ def report(scene: Scene, error: Exception, **context: object) -> str:
 
 
 def recovered(state: State, good: State, error: Exception) -> State:
-    """Return a state that can be painted where one cannot be; `good` is the last that was painted.
+    """Return a state that can be painted instead of one that cannot; `good` is the last that was painted.
 
-    A glide is left out; another scene than the last good one is taken off again; where the scene itself
-    fails at this phase, it stands still at the last good one.
+    A glide is left out; a scene other than the last good one is removed; where the scene itself fails at this
+    phase, it stands still at the last good phase.
     """
     if state.glide:
         return replace(state, glide=None)

@@ -1,20 +1,20 @@
-"""The view of a stroke and its linkage: the stroke stays about as large as it was drawn."""
+"""The view of a stroke and its linkage, in which the stroke stays about as large as it was drawn."""
 
 from __future__ import annotations
 
 from linkanim.picture.view import Box, Rect, View, joined, view_of
 
 _GROWS = 4 / 3
-"""By how much more than the view in which the stroke was drawn the view may show, at the most."""
+"""The most that the view may show, in sizes of the view in which the stroke was drawn."""
 _TINY, _ENLARGED = 0.16, 0.3
-"""A stroke that takes a lesser share of its room is enlarged, to that share."""
+"""A stroke that takes less than the first share of its room is enlarged to the second."""
 
 
 def view_for(drawn: View, stroke: Box, swept: Box, stage: Rect, words: Rect | None = None) -> View:
-    """Return the view of a stroke and the box that its linkage sweeps, from the one in which it was drawn.
+    """Return the view of a stroke and the box that its linkage sweeps; `drawn` is the stroke's own view.
 
-    The linkage is seen whole where the view need not grow by more than a third for that, the stroke always.
-    The view is moved as little as may be; where there is room for both beside the `words`, off these.
+    The stroke is always visible as a whole, the linkage where the view need not grow by more than a third for
+    it. The view is moved as little as possible; where both have room beside the `words`, off these.
     """
     wide, high = stroke.right - stroke.left, stroke.high - stroke.low
     share = max(wide * drawn.scale / max(stage.width, 1.0), high * drawn.scale / max(stage.height, 1.0))
@@ -31,20 +31,20 @@ def view_for(drawn: View, stroke: Box, swept: Box, stage: Rect, words: Rect | No
 
 
 def _taken(view: View, box: Box) -> Rect:
-    """Return what a box takes in pixels."""
+    """Return a box of the scene as a rectangle in pixels."""
     left, top = view.to_pixel(box.left, box.high)
     return Rect(left, top, view.scale * (box.right - box.left), view.scale * (box.high - box.low))
 
 
 def _shifted(view: View, box: Box, room: Rect) -> View:
-    """Return a view moved as little as may be so that a box lies in a room, or about its middle."""
+    """Return a view moved as little as possible so that a box lies in a room, or about its middle."""
     (left, top), (right, low) = view.to_pixel(box.left, box.high), view.to_pixel(box.right, box.low)
     by_x = _inwards(left, right, room.x, room.right)
     return View(view.scale, view.x + by_x, view.y + _inwards(top, low, room.y, room.bottom))
 
 
 def _inwards(first: float, last: float, begin: float, end: float) -> float:
-    """Return how far a stretch has to be moved to lie within another one, or in its middle."""
+    """Return how far an interval has to be moved to lie within another one, or about its middle."""
     if last - first > end - begin:
         return (begin + end - first - last) / 2
     return max(begin - first, 0.0) - max(last - end, 0.0)

@@ -1,7 +1,7 @@
 """Choose how a recording is made, in one dialog: format, size, how long, and where it is written.
 
-What is typed is the folder and name, whatever row is chosen; some places are proposed. Below stands what
-else keeps the picture or the scene.
+Typed text is the folder and name, whatever row is chosen; some places are proposed. Below stand other ways to
+keep the picture or the scene.
 """
 
 from __future__ import annotations
@@ -17,14 +17,14 @@ from linkanim.player.state import Format, State, Take, TakeChoice, TakeDialog, w
 from linkanim.units import significant, typeset
 
 SIZES: tuple[tuple[int, int] | None, ...] = (None, (800, 450), (1280, 720), (1920, 1080), (3840, 2160))
-"""The sizes of recordings that are chosen from; None for the window's shape."""
+"""The sizes of recordings to choose from; None for the window's shape."""
 FORMATS: tuple[Format, ...] = ("gif", "mp4")
 RUNS = "a recording runs; G or M ends it"
 KEEPS = (Action("screenshot"), Action("svg"), Action("share"), Action("save"), Action("save_as"))
-"""What else keeps the picture or the scene."""
+"""Other ways to keep the picture or the scene."""
 _LONGEST = 300
 PLACE = 3
-"""The row of the place."""
+"""The row of the place to write to."""
 _START = 4
 """The row that begins the recording."""
 
@@ -32,7 +32,7 @@ Step = TypeVar("Step")
 
 
 class TakeRow(NamedTuple):
-    """A row of the dialog: its name, what is chosen there or the key that does it, what it asks for."""
+    """A row of the dialog: its name, its value or the key that does the same, its action."""
 
     label: str
     value: str
@@ -40,7 +40,7 @@ class TakeRow(NamedTuple):
 
 
 def rows(state: State) -> tuple[TakeRow, ...]:
-    """Return the rows of the open dialog: what is chosen, what begins it, and what else is kept."""
+    """Return the rows of the open dialog: the choices, the row that begins, and other ways to keep things."""
     dialog, choice = state.taking or TakeDialog(), of_a_kind(state)
     typed = f"{dialog.typed}_" if dialog.typed else f"{dialog.place}.{choice.format}"
     keys = {action: (words, key) for words, key, action in commands("play")}
@@ -74,7 +74,7 @@ def target(state: State) -> str:
     return f"{place}.{state.take.format}" if place else ""
 
 
-# What is done in it.
+# Actions in the dialog.
 
 
 def dialog(state: State, _: None) -> State:
@@ -86,7 +86,7 @@ def dialog(state: State, _: None) -> State:
 
 
 def places(state: State, lines: str) -> State:
-    """Take note of the current folder and the places that are proposed, one a line."""
+    """Keep the current folder and the proposed places, one a line."""
     if state.taking is None:
         return state
     folder, *found = lines.splitlines() or [""]
@@ -94,12 +94,12 @@ def places(state: State, lines: str) -> State:
 
 
 def row(state: State, further: int) -> State:
-    """Choose the row so many rows down, round and round."""
+    """Choose the row `further` rows down; the first row follows the last."""
     return _on(state, lambda one: one._replace(row=(one.row + further) % len(rows(state))))
 
 
 def turn(state: State, steps: int) -> State:
-    """Take the next value of the chosen row, or one so many further on."""
+    """Take the chosen row's value that is `steps` further on."""
     if state.taking is None:
         return state
     choice, at = state.take, state.taking.row
@@ -119,14 +119,14 @@ def _after(steps: tuple[Step, ...], now: Step, by: int) -> Step:
 
 
 def write(state: State, text: str) -> State:
-    """Add to the place that is typed; an ending that says a format chooses that."""
+    """Add to the typed place; an ending that names a format chooses that format."""
     if state.taking is None:
         return state
     return _typed(state, (state.taking.typed + text)[:_LONGEST])
 
 
 def erase(state: State, _: None) -> State:
-    """Take the last letter off the place, of a proposed one, too."""
+    """Erase the last letter of the place, even of a proposed one."""
     if state.taking is None:
         return state
     return _typed(state, state.taking.place[:-1])
@@ -150,11 +150,11 @@ def _on(state: State, work: Callable[[TakeDialog], TakeDialog]) -> State:
     return replace(state, taking=state.taking and work(state.taking._replace(refusal="")))
 
 
-# What is recorded.
+# Actions that record.
 
 
 def into(state: State, file: str) -> State:
-    """Begin what the dialog has chosen: a recording into a file, or at once one of a period."""
+    """Begin what the dialog has chosen: a recording into a file, or at once the recording of a period."""
     choice = of_a_kind(state)
     if choice.whole:
         return with_effect(state, "period", file)
@@ -171,7 +171,7 @@ def record(state: State, form: Format) -> State:
 
 
 def period(state: State, form: Format) -> State:
-    """Record one period as it runs: a recording in which nothing is done."""
+    """Record one period at the present speed and look: a recording without actions."""
     if state.recording:
         return with_toast(state, RUNS)
     return with_effect(state, "period", form)

@@ -1,4 +1,4 @@
-"""Tapes: what was done, frame by frame, so that the same pictures can be made again at any size."""
+"""Tapes: actions frame by frame, from which the same pictures can be made again at any size."""
 
 from __future__ import annotations
 
@@ -27,17 +27,17 @@ class Tape:
 
     @property
     def is_loop(self) -> bool:
-        """Whether nothing was done: such a recording is the scene's seamless loop."""
+        """Whether it has no actions: such a recording is the scene's seamless loop."""
         return not self.actions
 
     @property
     def seconds(self) -> float:
-        """How long it ran."""
+        """Its duration in seconds."""
         return self.frames / FRAMES_PER_SECOND
 
     @cached_property
     def begun(self) -> State:
-        """The state to begin with: `start`, with what is done at frame 0 done at once."""
+        """The state to begin with: `start` after the actions of frame 0."""
         state = self.start
         for action in self.at(0):
             state = replace(carried(state, action), glide=None, faded=None, effects=(), toast=None, chip=None)
@@ -55,7 +55,7 @@ class Tape:
         return tuple(self._by_frame.get(frame, ()))
 
     def rewound(self, state: State) -> State:
-        """Return the state to go on from in a tape that repeats: at its end that is the start."""
+        """Return the state to go on from when a tape repeats: at its end, the state to begin with."""
         return self.begun if state.frame >= self.frames else state
 
     def states(self) -> Iterator[State]:
@@ -78,12 +78,12 @@ class Tape:
 
 
 def starting(state: State) -> State:
-    """Return the state as a tape starts from it: at frame 0, at the same phase, with no effects left."""
+    """Return the state from which a tape starts: at frame 0, at the same phase, without effects."""
     state = leave(state) if state.game else state
     clock, sketch = state.clock.go(0, state.phase), state.sketch or state.building
     kept = {name: getattr(state, name) for name in ("shelf", "place", "look", "help", "kept", "games")}
     if state.building:
-        # a sheet that is opened again has the look of before to come back to
+        # when the tape opens the sheet again, this is the look to come back to
         before = state.building.look
         kept["look"] = replace(state.look, unit=before.unit, chart=before.chart)
     if sketch:
@@ -92,7 +92,7 @@ def starting(state: State) -> State:
 
 
 def resumed(state: State) -> Iterator[Action]:
-    """Yield what a tape does at its frame 0, to have the pencil's sketch, or a game, as it is."""
+    """Yield the actions of a tape's frame 0 that restore the pencil's sketch, the sheet or a game."""
     if state.game:
         yield Action("play", state.game.words)
         return
@@ -145,7 +145,7 @@ def _resumed_poses(sketch: PoseSketch) -> Iterator[Action]:
 
 
 def taped(actions: tuple[Action, ...]) -> tuple[Action, ...]:
-    """Return those of the actions that belong on a tape: what shows, not what is done outside."""
+    """Return the actions that belong on a tape: those that show in the picture."""
     return tuple(filter(is_taped, actions))
 
 

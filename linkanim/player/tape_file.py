@@ -1,7 +1,6 @@
-"""A tape as a file: versioned JSON with its scenes in it whole.
+"""A tape as a file: versioned JSON that contains its scenes as a whole.
 
-A tape is a state to start from, a number of frames (60 a second), and the actions with the frame
-each of them comes at.
+A tape is a state to start from, a number of frames (60 a second), and actions, each with its frame.
 """
 
 from __future__ import annotations
@@ -41,7 +40,7 @@ _MOST_FRAMES = 24 * 3600 * FRAMES_PER_SECOND
 
 
 def write(tape: Tape, path: Path | Output) -> None:
-    """Write the tape as a file that was not there, or as an output; WorkFailed where that cannot be."""
+    """Write the tape to a new file, or to an output; WorkFailed where that is impossible."""
     text = json.dumps(to_document(tape), ensure_ascii=False, allow_nan=False, indent=1)
     if isinstance(path, Path):
         atomic_files.add(f"{text}\n".encode(), path)
@@ -53,7 +52,7 @@ def write(tape: Tape, path: Path | Output) -> None:
 def read(path: Path, games: Callable[[str], Game] | None = None) -> Tape:
     """Read a tape; BadInput, naming the place, for a file that is no tape, or one of another version.
 
-    `games` reads the games that are on it from their words.
+    `games` reads the tape's games from their words.
     """
     where = intake.named(path)
     document = TAPE_FILE.json(path, where, "is not JSON; a tape is a file that G or M wrote in the window")
@@ -72,7 +71,7 @@ def read(path: Path, games: Callable[[str], Game] | None = None) -> Tape:
 
 
 class TapeValue(NamedTuple):
-    """How a value stands in a tape: how it is read at a key of a table, and written."""
+    """How a value is stored in a tape: the functions that read it at a key of a table, and write it."""
 
     read: Callable[[Section, str], Any]
     write: Callable[[Any], Any] = lambda value: value
@@ -94,7 +93,7 @@ def to_document(tape: Tape) -> dict[str, Any]:
 
 
 def from_document(document: object, where: str) -> Tape:
-    """Return the tape that a document holds; BadInput where it is not one of this version's."""
+    """Return the tape that a document holds; BadInput where it is no tape of this version."""
     otherwise = "is not a tape; a tape is a file that G or M wrote in the window"
     top = Section(where, TAPE_FILE.marked(document, where, _MARK, VERSION, otherwise))
     frames = top.whole("frames", 0, _MOST_FRAMES)
@@ -115,7 +114,7 @@ def _start(top: Section) -> State:
 
 
 def _read(entries: Mapping[str, TapeValue], part: Section) -> dict[str, Any]:
-    """Return what stands in a table, by its keys; in an old tape some are missing."""
+    """Return the values of a table by their keys; an old tape lacks some."""
     return {key: one.read(part, key) for key, one in entries.items() if key in part or key not in _LATER}
 
 
@@ -124,7 +123,7 @@ def _written(entries: Mapping[str, TapeValue], value: object) -> dict[str, Any]:
 
 
 def _table(make: Callable[..., Any], entries: Mapping[str, TapeValue]) -> TapeValue:
-    """Return the entry of what is made of a table's values, and has them."""
+    """Return the entry of a value that `make` builds from a table's values, which are its attributes."""
     return TapeValue(
         lambda part, key: make(**_read(entries, part.table(key))), lambda value: _written(entries, value)
     )
@@ -156,7 +155,7 @@ def _scene(top: Section, key: str) -> Scene:
 
 
 def _file_name(part: Section) -> str:
-    """Return a scene's name, which screenshots and recordings are called by: no way out of their folder."""
+    """Return a scene's name, by which files are named; BadInput for one that leads out of their folder."""
     name = part.text("name")
     if not 1 <= len(name) <= 200 or not name.isprintable() or name.startswith(".") or set(name) & set("/\\:"):
         raise part.error("name", "must be a name without a folder; record the tape again")
@@ -164,7 +163,7 @@ def _file_name(part: Section) -> str:
 
 
 def _look(start: Section, key: str) -> Look:
-    """Return the look; a field that the tape is older than is as `Look` has it."""
+    """Return the look; a field that is newer than the tape has the default of `Look`."""
     part = start.table(key)
     pan = part.listed("pan", 2)
     across, down = (pan.number(side) for side in pan.values)
@@ -201,11 +200,11 @@ def _draft(entries: Section, key: str) -> tuple[Key, str]:
 
 
 _QUICK = frozenset({"pen_to", "zoom", "pan", "scrub", "step", "speed"})
-"""What of a frame may be much: the mouse tells of more than one move while the window waits."""
+"""Actions of which one frame may have many: the mouse may move several times while the window waits."""
 _MOST = {"draft": 10, "play": 1_000}
-"""Of a whole tape: one that begins on a sheet has one draft."""
+"""The most of these actions in a whole tape; a tape that begins on a sheet has one draft."""
 _LATER = ("kept", "drafts")
-"""What older tapes lack."""
+"""Keys that older tapes lack."""
 _FLAG = TapeValue(Section.flag)
 _SCENE = TapeValue(_scene, lambda scene: {"name": scene.name, "document": scene.document})
 _SCENES = _list(_SCENE)
@@ -232,11 +231,11 @@ _CLOCK = {
     "direction": TapeValue(lambda part, key: -1 if part.whole(key, -1, 1) < 0 else 1),
     "paused": _FLAG,
 }
-"""What stands of a clock in a tape."""
+"""The fields of a clock that a tape stores."""
 
 
 def _state(places: int) -> Mapping[str, TapeValue]:
-    """Return what else stands of a state in a tape, whose shelf has so many places."""
+    """Return the other fields of a state that a tape stores, for a shelf with so many places."""
     place = _whole(0, places - 1)
     return {
         "place": place,
@@ -266,7 +265,7 @@ def _actions(top: Section, frames: int) -> tuple[tuple[int, Action], ...]:
 
 
 def _refuse_crowded(top: Section, actions: list[tuple[int, Action]]) -> None:
-    """Refuse more that takes its time at one frame, or more drafts or games, than a window ever has."""
+    """Refuse more slow actions at one frame, or more drafts or games, than a window ever has."""
     crowds = Counter(frame for frame, action in actions if action.name not in _QUICK)
     for frame, count in crowds.most_common(1):
         if count > MOST_AT_ONCE:
@@ -279,7 +278,7 @@ def _refuse_crowded(top: Section, actions: list[tuple[int, Action]]) -> None:
 
 
 def _action(entry: Any) -> tuple[int, Action]:
-    """Return the frame and the action of an entry; ValueError with what it should be where it is none."""
+    """Return the frame and the action of an entry; ValueError with what would be right for any other."""
     match entry:
         case [int(frame), str(name), *rest] if len(rest) < 2:
             value = rest[0] if rest else None

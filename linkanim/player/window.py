@@ -1,7 +1,7 @@
-"""Run the window: events to actions, `advance`, paint, flip, and what is asked of the outside.
+"""Run the window: events to actions, `advance`, paint, flip, and effects on the outside.
 
-`Window` holds what outlasts a frame and lets everything pure do the work. `run` opens it. What it needs of
-games comes from outside, as a `Keeper`.
+`Window` holds what lasts longer than a frame; pure functions do the work. `run` opens it. What it needs to
+know of games is passed in as a `GameKeeper`.
 """
 
 from __future__ import annotations
@@ -48,31 +48,31 @@ from linkanim.scenes.scene import Scene
 if TYPE_CHECKING:
     from linkanim.player.beside import Following, Making, Queue
 
-# What the window needs of games from outside: which there are, and what is kept of them.
+# What the window needs to know of games: which there are, and the results that are kept.
 
 
 class GameKeeper(Protocol):
-    """Knows the games, and the file in which best scores and what was missed are kept."""
+    """Knows the games, and the file in which best scores and missed questions are kept."""
 
     def game_of(self, words: str) -> Game:
         """Return the game that words begin; BadInput where they name none. Pure, for tapes."""
 
     def completed(self, words: str) -> str:
-        """Return a game's words with what only the outside knows: a seed, best scores, what was missed."""
+        """Return a game's words with what only the outside knows: a seed, best scores, missed questions."""
 
     def keep(self, words: str) -> None:
-        """Keep what a game leaves; what cannot be kept is news."""
+        """Store a game's result; where that fails, `news` says so."""
 
     def news(self) -> list[str]:
-        """Return what there is to say of what is kept, once."""
+        """Return messages about the stored results, each once."""
 
 
-# The window itself: it holds what outlasts a frame, and lets everything pure do the work.
+# The window itself: it holds what lasts longer than a frame; pure functions do the work.
 
 _UNCOVERED = (pygame.WINDOWEXPOSED, pygame.WINDOWSIZECHANGED)
 _NEWS_EVERY = 15
 _USUALLY_MADE = ("--fit", "A4")
-"""Options of `linkanim make` for what is made from the window."""
+"""Options of `linkanim make` for parts that are made from the window."""
 _WAITS = "unsaved work of another sheet is kept as well; `linkanim new` without a photograph takes it up"
 _TAKEN_UP = "this is the unsaved work that was kept; Ctrl+N begins an empty sheet"
 _NO_FILES = "there is no scene file in the current folder; Ctrl+S writes one"
@@ -82,10 +82,10 @@ _BESIDE_A_TAPE = frozenset(
 
 
 class Window:
-    """One open window: `state` is what it shows, and `screen` how.
+    """One open window: `state` is what it shows, `screen` paints it.
 
-    A tape plays in it until a key is pressed. A scene file that it was opened on is watched. A draft that was
-    kept of another window is on `offer`, or else said to be kept.
+    A tape plays in it until a key is pressed. The scene file with which it was opened is watched. A draft
+    that another window left is offered where `offer` says so, else only mentioned.
     """
 
     def __init__(
@@ -130,7 +130,7 @@ class Window:
     def tick(self, frames: int = 1) -> bool:
         """Go `frames` frames on, paint and flip; False when the window is to be closed.
 
-        What happened since the last tick comes at its first frame.
+        Events since the last tick are handled at its first frame.
         """
         self._pads.look(frames)
         events = self._fingers.pointed(pygame.event.get(), pygame.display.get_window_size())
@@ -151,7 +151,7 @@ class Window:
         self._windowed = screen.fill(self._windowed)
 
     def close(self) -> None:
-        """Finish the recording that runs, and let go of what the window holds; those under way go on."""
+        """Finish the running recording, and release what the window holds; renderings under way go on."""
         try:
             self._keep_draft()
             if self.state.recording:
@@ -165,7 +165,7 @@ class Window:
                     process.close()
 
     def _advance(self, events: list[Event]) -> None:
-        """Go one frame on; each key is asked what it means once those before it are done."""
+        """Go one frame on; the meaning of each key is looked up once earlier keys are carried out."""
         self.state, done = aged(self._tape.rewound(self.state) if self._tape else self.state), []
         for action in self._requested(events):
             self.state = carried(self.state, action)
@@ -178,7 +178,7 @@ class Window:
                 self._do(effect)
 
     def _requested(self, events: list[Event]) -> Iterator[Action]:
-        """Yield what the frame is asked for, by the tape, the events, a held key and what is done outside."""
+        """Yield the frame's actions: from the tape, from events, from a held key, and from work outside."""
         yield from self._of_the_tape()
         yield from self._followed()
         yield from self._layered()
@@ -201,12 +201,12 @@ class Window:
         yield from self._news()
 
     def _resolved(self, action: Action) -> Iterator[Action]:
-        """Yield an action; one that depends on what is in sight or in the folder as what it means there."""
+        """Yield an action; one that depends on what is visible or in the folder is resolved first."""
         meaning = MEANINGS.get(action.name)
         yield from meaning(self, action.value) if meaning else (action,)
 
     def _back(self, _: Value) -> Iterator[Action]:
-        """Yield what Esc leaves: an overlay, the full screen, a recording, in this order."""
+        """Yield what Esc does: it leaves an overlay, full screen, or a recording, in this order."""
         if self.state.is_covered or not (screen.is_full() or self.state.recording):
             yield Action("back")
         elif not screen.is_full() and self.state.recording:
@@ -215,7 +215,7 @@ class Window:
             yield Action("fullscreen")
 
     def _pick(self, row: Value) -> Iterator[Action]:
-        """Yield what takes a row of the open list, the chosen one unless it is given."""
+        """Yield the action that takes a row of the open list; without a row, the chosen one."""
         if listing := self.state.listing:
             row = row if isinstance(row, int) else listing.chosen
             asked = listing.asked(self.state.scene, row)
@@ -223,20 +223,20 @@ class Window:
             yield from self._resolved(asked) if asked else ()
 
     def _tick(self, row: Value) -> Iterator[Action]:
-        """Yield what charts a quantity of the list below the others, the chosen one unless it is given."""
+        """Yield the action that charts a row's quantity below the others; without a row, the chosen one's."""
         listing = self.state.listing
         if listing and listing.others is None:
             row = row if isinstance(row, int) else listing.chosen
             yield from (Action("strip", token) for token in listing.found(self.state.scene)[row : row + 1])
 
     def _put_chosen(self, _: Value) -> Iterator[Action]:
-        """Yield what puts on the mechanism that is chosen on the shelf, where the sieve has left one."""
+        """Yield the action that shows the shelf's chosen mechanism, if the sieve has left one."""
         browsing = self.state.browsing
         if browsing and browsing.chosen in browsing.found:
             yield from self._put(browsing.chosen)
 
     def _put(self, place: Value) -> Iterator[Action]:
-        """Yield what puts on what is at a place of the shelf: a mechanism, or a file of one's own."""
+        """Yield the action that shows what is at a place of the shelf: a mechanism, or a user's file."""
         browsing = self.state.browsing
         file = browsing.file_at(place) if browsing and isinstance(place, int) else None
         if file:
@@ -246,14 +246,14 @@ class Window:
             yield Action("put", place)
 
     def _shelf(self, _: Value) -> Iterator[Action]:
-        """Yield what opens the shelf with the scene files of the current folder, or closes it."""
+        """Yield the actions that open the shelf with the current folder's scene files, or close it."""
         yield Action("shelf")
         files = scene_files() if self.state.browsing else ()
         if files:
             yield Action("files", _listed(files))
 
     def _taking(self, _: Value) -> Iterator[Action]:
-        """Yield what opens the dialog of a recording with places that are free, or closes it."""
+        """Yield the actions that open the dialog of a recording with free places, or close it."""
         yield Action("taking")
         if self.state.taking:
             found = files.places(self.state.scene.name, self._last_place)
@@ -284,25 +284,25 @@ class Window:
         yield from self._in_sight()
 
     def _row(self, rows: Value) -> Iterator[Action]:
-        """Yield what chooses the mechanism that is `rows` rows further down on the shelf."""
+        """Yield the action that chooses the mechanism `rows` rows further down on the shelf."""
         browsing = self.state.browsing
         if browsing and isinstance(rows, int):
             yield Action("point", self.screen.shelf_grid(browsing).beside(browsing.chosen, rows))
             yield from self._in_sight()
 
     def _followed(self) -> Iterator[Action]:
-        """Yield what the search for linkages has replied."""
+        """Yield the actions with which the search for linkages has replied."""
         if self._following is None or (self.state.sketch and self.state.sketch.coming):
             return
         if self.state.posing and self.state.scene is not self.screen.state.scene:
-            return  # this frame has the new linkage to draw; the next one is worked out in the next frame
+            return  # this frame draws the new linkage; the next linkage is worked out in the next frame
         from linkanim.player.beside import actions_of
 
         for reply in self._following.replies():
             yield from actions_of(reply, self.state.sketch)
 
     def _layered(self) -> Iterator[Action]:
-        """Yield what has been found out of the layers that are waited for."""
+        """Yield the action with the layers that the state waits for, once they are found."""
         making, shown = self._layering, self.state.layers
         if making and making.done:
             if shown and shown.scene is making.scene:
@@ -311,7 +311,7 @@ class Window:
             self._layering = None
 
     def _make(self, *, whole: bool) -> None:
-        """Have the layers of what is on looked for, or for the `whole` its parts written."""
+        """Start to find the layers of the present scene; with `whole`, to write its parts."""
         from linkanim.player.beside import Making
 
         scene = self.state.scene
@@ -325,7 +325,7 @@ class Window:
             self._making = Making(scene, self._as_made, Path(f"{scene.name}-parts"))
 
     def _ask_for(self, name: str) -> None:
-        """Have linkages searched for the sketch, all or only the one that is shown; start that beforehand."""
+        """Ask the search for linkages for the sketch, all or only the shown one; start it if need be."""
         from linkanim.player.beside import Following, request_of
 
         if self._following and self._following.is_over:
@@ -339,12 +339,12 @@ class Window:
             self._following.ask(request)
 
     def _in_sight(self) -> Iterator[Action]:
-        """Yield what keeps the shelf where it is scrolled to by what is chosen."""
+        """Yield the action that scrolls the shelf to where its chosen entry is visible."""
         if self.state.browsing:
             yield Action("top", self.screen.shelf_grid(self.state.browsing).top)
 
     def _scroll(self, rows: Value) -> Iterator[Action]:
-        """Yield what scrolls the shelf by `rows`; a mechanism that goes out of sight is chosen no more."""
+        """Yield the actions that scroll the shelf by `rows`; the chosen entry stays a visible one."""
         browsing = self.state.browsing
         if browsing is None or not isinstance(rows, int):
             return
@@ -355,12 +355,12 @@ class Window:
         free = self.screen.shelf_grid(replace(browsing, top=row, chosen=before.rows[row][0]))
         yield Action("top", free.top)
         if not free.whole(browsing.chosen):
-            # in a low window none is seen whole
+            # in a low window no entry may be visible as a whole
             seen = [n for n in free.cells if free.whole(n)] or [*free.cells]
             yield from (Action("point", n) for n in (seen[:1] if rows > 0 else seen[-1:]))
 
     def _files_here(self, _: Value) -> Iterator[Action]:
-        """Yield what opens the shelf at the scene files of the current folder."""
+        """Yield the actions that open the shelf at the current folder's scene files."""
         files = scene_files()
         if not files:
             yield Action("note", _NO_FILES)
@@ -369,13 +369,13 @@ class Window:
         yield Action("point", len(self.state.shelf))
 
     def _aim(self, way: Value) -> Iterator[Action]:
-        """Yield what an arrow means on a sheet or among poses: the cursor goes on."""
+        """Yield what an arrow means on a sheet or with poses: the cursor moves."""
         on = self._sheet or self.state.posing
         if on and isinstance(way, tuple):
             yield Action("cursor", self.screen.aimed(on.cursor, way))
 
     def _enter(self, twice: Value) -> Iterator[Action]:
-        """Yield what Enter means on a sheet: a number is taken, or the hand goes down or up at its cursor."""
+        """Yield what Enter means on a sheet: a number is taken, or the hand goes down or up at the cursor."""
         sheet = self._sheet
         if self.state.posing:
             yield self._posed(self.state.posing)
@@ -392,7 +392,7 @@ class Window:
             yield from 2 * click if twice else click if on_paper else click[:1]
 
     def _posed(self, sketch: PoseSketch) -> Action:
-        """Return what Enter means among poses: the hand goes down or up, or the linkage is kept."""
+        """Return what Enter means with poses: the hand goes down or up, or the linkage is kept."""
         if sketch.held:
             return Action("hand_up")
         if sketch.cursor is None:
@@ -401,11 +401,11 @@ class Window:
 
     @property
     def _sheet(self) -> BuildSheet | None:
-        """The sheet that is open, once it has been seen."""
+        """The open sheet, once it has been shown."""
         return self.state.building if self.screen.state.building else None
 
     def _of_the_tape(self) -> Iterator[Action]:
-        """Yield what the tape does at this frame; what it would do outside is left out."""
+        """Yield the tape's actions at this frame, without effects on the outside."""
         if self._tape:
             yield from self._tape.at(self.state.frame)
             self.state = replace(self.state, effects=())
@@ -417,12 +417,12 @@ class Window:
             yield Action("note", "the tape has been left; the keys are yours")
 
     def _show(self) -> None:
-        """Paint and flip; a scene that cannot be painted gives way to the last that could."""
-        # what is held glows by itself
+        """Paint and flip; where a state cannot be painted, go back to the last that could."""
+        # a held joint glows anyway
         free = self._good is not None and not (self.state.held or self.state.grasp)
         hover = self._mouse.hovered(self.screen) if free else None
         if hover not in self.state.shown.linkage.by_name:
-            hover = None  # a joint of the scene that was there until now
+            hover = None  # the joint belongs to the scene from before
         try:
             row, over = self._mouse.pointed(self.screen), self._over_sheet()
             late, button = self._splitter.late(stepped=self._has_stepped), self._mouse.on_bar(self.screen)
@@ -440,26 +440,26 @@ class Window:
         self._good = self.state
 
     def _led_joint(self) -> Pointed | None:
-        """Return the joint in the hand, which tells itself."""
+        """Return the joint in the hand, whose card of words is shown."""
         grasp, places = self.state.grasp, self.state.displayed.pose(self.state.phase, 0).position
         led = grasp and self._good and grasp.joint in places
         return Pointed(places[grasp.joint], PointedThing("joint", grasp.joint)) if grasp and led else None
 
     @property
     def _has_stepped(self) -> bool:
-        """Whether the hand has changed the scene since it was shown, or has been refused to."""
+        """Whether a drag has changed the scene since it was shown, or was refused."""
         now, before = self.state, self.screen.state
         refused = now.editing.refusal != before.editing.refusal
         return now.held is not None and (now.scene is not before.scene or refused)
 
     def _over_sheet(self) -> Hover | None:
-        """Return what the mouse is over of an open sheet, or of the tools beside the list of dimensions."""
+        """Return what is under the mouse of an open sheet, or of the tools beside the list of dimensions."""
         has_tools = all(one and (one.building or one.editing.open) for one in (self._good, self.state))
         at = self._mouse.over_sheet(self.screen) if has_tools else None
         return self.screen.hover(*at) if at else None
 
     def _news(self) -> tuple[Action, ...]:
-        """Return, as notes, what was done outside, and how far recordings are."""
+        """Return, as notes, the news from outside, and how far recordings are."""
         if self.state.frame % FRAMES_PER_SECOND == 0:
             self._keep_draft()
         notes, self._notes = self._notes + self._photo_news(), []
@@ -473,7 +473,7 @@ class Window:
         return tuple(Action("note", text) for text in notes)
 
     def _photo_news(self) -> list[str]:
-        """Return why another photograph than before is left out, if it is."""
+        """Return why a new photograph is left out, if it is."""
         photo = self.state.building and self.state.building.building.draft.photo
         before, self._photo = self._photo, photo.file if photo else None
         sentence = lack(self._photo) if self._photo and self._photo != before else None
@@ -481,14 +481,14 @@ class Window:
 
     @contextmanager
     def _noting(self) -> Iterator[None]:
-        """Have what cannot be done meanwhile be a note; the window runs on."""
+        """Turn an error inside the block into a note; the window runs on."""
         try:
             yield
         except LinkanimError as error:
             self._notes.append(str(error))
 
     def _do(self, effect: Action) -> None:
-        """Do what the state asks of the outside."""
+        """Carry out an effect that the state asks for."""
         match effect.name:
             case "record":
                 self._taping = Taping(self.state, pygame.display.get_window_size())
@@ -534,14 +534,14 @@ class Window:
                 self._quit()
 
     def _save_new(self, name: str) -> None:
-        """Write the scene under a name; ask again, with the reason, where that cannot be."""
+        """Write the scene under a name; where that is impossible, ask again with the reason."""
         try:
             self._noted(self._saved.add(self.state.scene, name))
         except LinkanimError as error:
             self.state = replace(self.state, naming=Naming(name, refusal=str(error)))
 
     def _noted(self, path: Path) -> None:
-        """Take note that the scene is in a file."""
+        """Record that the scene is in a file."""
         self._notes.append(files.where(path))
         self.state = written(self.state, str(path))
 
@@ -559,14 +559,14 @@ class Window:
         self.state = carried(self.state, Action("build"))
 
     def _offer(self) -> None:
-        """Offer the draft that was kept of another window."""
+        """Offer the draft that another window left."""
         with self._noting():
             if self._drafts:
                 self.state, sentence = self._drafts.offered(self.state)
                 self._notes += [sentence] if sentence else []
 
     def _keep_draft(self) -> str | None:
-        """Keep what is drawn on the sheet; return in a sentence, which is told once, what prevents that."""
+        """Keep the sheet's draft in its file; return a sentence, once, on what prevents that."""
         before, self._unkept = self._unkept, None
         try:
             if self._drafts:
@@ -577,7 +577,7 @@ class Window:
         return self._unkept
 
     def _quit(self) -> None:
-        """Close, but for the first time where a draft would be lost: closing said that it is kept."""
+        """Close the window; where the draft could not be kept, only when asked twice."""
         sheet = self.state.sheet
         why = self._keep_draft() if sheet and not sheet.is_written else None
         if why and why != self._warned:
@@ -585,7 +585,7 @@ class Window:
         self._open, self._warned = bool(why and why != self._warned), why
 
     def _open_file(self, path: Path) -> None:
-        """Put on the scene of a file, which is watched from now on."""
+        """Show the scene of a file, which is watched from now on."""
         if self.state.recording:
             raise BadInput(
                 "a recording holds only the scenes that it began with; stop it, then open the file"
@@ -597,7 +597,7 @@ class Window:
         self.state = renewed(left(leave(self.state)), scene)
 
     def _reload(self) -> None:
-        """Put on what the scene file holds now; what is wrong with it is a note, and the linkage runs on."""
+        """Show the scene file as it is now; where it is wrong a note says so, and the linkage runs on."""
         if self._file is None:
             raise BadInput("F5 load the scene's file again; `linkanim FILE.toml` opens one")
         if self.state.recording:
@@ -611,30 +611,30 @@ class Window:
             self._report(report(scene, error))
 
     def _report(self, text: str) -> None:
-        """Write the report of a fault, each but once: a held key meets the same one again and again."""
+        """Write the report of a fault, each only once: a held key causes the same one again and again."""
         if text not in self._reported:
             self._reported.add(text)
             written = files.report(text, self.state.scene.name)
             self._notes.append(f"{written} holds what a report of the fault needs")
 
     def _stop(self, form: Literal["gif", "mp4"]) -> None:
-        """Keep what was recorded and render it; where it cannot be kept, the recording runs on."""
+        """Write the recorded tape and render it; where it cannot be written, the recording runs on."""
         try:
             self._render(form)
         except LinkanimError as error:
             assert self._taping
             self.state = replace(self.state, recording=Take(form, self._taping.since))
-            self._target = ""  # the next time it takes a name that is free
+            self._target = ""  # the next attempt takes a free name
             self._notes.append(f"{error}; the recording runs on")
 
     def _render(self, form: str) -> None:
-        """Have the recording that runs rendered, into the file that was chosen when it began."""
+        """Render the running recording, into the file that was chosen when it began."""
         if self._taping:
             self._queue.add(self._taping.tape(self.state.frame), form, self.state.take.size, self._target)
             self._taping = None
 
     def _render_period(self, file: str) -> None:
-        """Have a period rendered, in which nothing is done, into a file, or a free one of a format."""
+        """Render one period without actions into a file; where only a format is given, into a free one."""
         tape = Taping(self.state, pygame.display.get_window_size()).tape(self.state.frame + 1)
         form, place = (file, "") if file in taking.FORMATS else (file.rpartition(".")[2], file)
         self._queue.add(tape, form, self.state.take.size, place)
@@ -648,7 +648,7 @@ class Window:
         return self._renderings
 
     def _meant(self, event: Event) -> tuple[Action, ...]:
-        """Return what an event asks for in the state as it is."""
+        """Return the actions of an event in the present state."""
         if event.type == pygame.DROPFILE:
             picture = event.file.lower().endswith(SUFFIXES)
             name = files.beside(event.file) if picture else event.file
@@ -672,12 +672,12 @@ class Window:
 
 
 def _of_tool(name: str) -> Callable[[Window, Value], Iterator[Action]]:
-    """Return what a tool's key means: beside the list of dimensions alone it leads to the sheet."""
+    """Return the resolver of a tool's key: beside the list of dimensions alone it opens the sheet first."""
     return lambda window, value: iter(tool_asks(window.state, Action(name, value)))
 
 
 def _listed(files: Sequence[OwnFile]) -> str:
-    """Return files as an action has them."""
+    """Return files as the value of an action."""
     return "\n".join(f"{one.name}\t{one.written}" for one in files)
 
 
@@ -698,13 +698,13 @@ MEANINGS: Mapping[str, Callable[[Window, Value], Iterator[Action]]] = {
     "enter": Window._enter,
     **{name: _of_tool(name) for name in {tool.action for tool in TOOLS}},
 }
-"""What the table of keys asks for that depends on what is in sight or in the folder: actions of the state."""
+"""Actions of the key table that depend on what is visible or in the folder, and what resolves them."""
 
 
-# The window: events to actions, `advance`, paint, flip; and what is asked of the outside.
+# The window: events to actions, `advance`, paint, flip; and effects on the outside.
 #
-# `frames` owns the time, and says how many frames have gone by; `Window.tick` does them. A frame that
-# comes late is skipped, never slowed down: the frame's number follows the clock.
+# `frames` owns the time, and says how many frames are due; `Window.tick` carries them out. A late frame is
+# skipped, so that the motion does not slow down: the frame's number follows the clock.
 
 _STALLED = FRAMES_PER_SECOND
 
@@ -726,12 +726,11 @@ def run(
 
     Without a scene it opens on the title, where a `keeper` has games. With `attract` it fills the screen, Esc
     does not leave that, and a mechanism that runs gives way to the title when left alone for a minute.
-    NoDisplay where there is no screen, or none any more; BadInput as loading raises it. Whatever ends the
-    window, a recording that runs is finished. `drafts` is the file in which a draft is
-    kept; with `sheet` the window opens on the one that was kept, else on an empty one,
-    on a `photo` of its own if there is one. With `layers` it shows those of the scene, to be made
-    with these options of `linkanim make`. `game` are the words of
-    one to begin with.
+    NoDisplay where there is no screen, or it is lost; BadInput as loading raises it. Whatever ends the
+    window, a running recording is finished. `drafts` is the file in which a draft is kept; with `sheet` the
+    window opens on the draft that was kept, else on an empty sheet, with `photo` behind it if one is given.
+    With `layers` it shows the scene's layers, to be made with these options of `linkanim make`. `game` are
+    the words of a game to begin with.
     """
     tape = _tape(scene, keeper)
     state = tape.begun if tape else begin(scene, look=look)
@@ -739,7 +738,7 @@ def run(
     opening = game or ("title" if scene is None else None)
     if opening and keeper:
         words = keeper.completed(opening)
-        keeper.game_of(words)  # which says what is wrong with them before a window opens
+        keeper.game_of(words)  # raises where the words are wrong, before a window opens
         state = carried(state, Action("play", words))
     with screen.opened(size) as connection:
         state = replace(state, from_title=attract or scene is None, kiosk=attract)
@@ -753,7 +752,7 @@ def run(
             window.state = carried(window.state, Action("photo", beside(str(photo))))
         if attract:
             window.fill()
-        gc.freeze()  # what is there by now stays: not to be searched for rubbish in the midst of a frame
+        gc.freeze()  # objects that exist by now stay: the collector need not search them during a frame
         try:
             for count in frames(time.monotonic, time.sleep):
                 if not window.tick(count):
@@ -768,8 +767,8 @@ def run(
 def frames(now: Callable[[], float], wait: Callable[[float], object]) -> Iterator[int]:
     """Yield how many frames are due since the last time, at 60 a second; wait where none is.
 
-    After a stall of more than a second (a window being moved, a laptop that slept) the time in
-    between is left out, and so is what a clock is set back by.
+    After a stall of more than a second (a window being moved, a laptop that slept) the time in between is
+    left out; so is a step back of the clock.
     """
     start, shown = now() - 1 / FRAMES_PER_SECOND, 1
     yield 1
