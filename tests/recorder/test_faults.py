@@ -9,6 +9,7 @@ import signal
 import subprocess
 import sys
 import threading
+import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -17,7 +18,6 @@ from moving_disc import TWO_SECONDS, MovingDisc, disc
 
 from linkanim.errors import BadInput, RecordingFailed
 from linkanim.recorder import encode, recording
-from linkanim.recorder import encode as processes
 from linkanim.recorder.plan import Format
 from linkanim.recorder.recording import write
 
@@ -116,7 +116,7 @@ def test_ctrl_c_as_an_encoder_has_begun_leaves_neither_it_nor_a_thread(
     def interrupt(pipe: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(processes, "_widen", interrupt)
+    monkeypatch.setattr(encode, "_widen", interrupt)
     frames, before = disc(form), threading.enumerate()
     with pytest.raises(KeyboardInterrupt):
         write(frames, frames.plan, target)
@@ -193,8 +193,8 @@ def test_an_encoder_that_stands_still_is_ended_and_said(
     encoder.write_text(f"#!/bin/sh\n{STILL[name]}\n")
     encoder.chmod(0o700)
     monkeypatch.setattr(encode, "get_ffmpeg_exe", lambda: str(encoder))
-    monkeypatch.setattr(processes, "_STILL", 0.2)
-    monkeypatch.setattr(processes, "_PATIENCE", 0.01)
+    monkeypatch.setattr(encode, "_STILL", 0.2)
+    monkeypatch.setattr(encode, "_PATIENCE", 0.01)
     frames = disc("mp4")
     with pytest.raises(RecordingFailed, match=r"made no progress for 0\.2 s and was ended"):
         write(frames, frames.plan, tmp_path / "disc.mp4")
@@ -206,11 +206,19 @@ def test_an_encoder_that_stands_still_is_ended_and_said(
 def test_a_file_that_cannot_be_read_back_for_ever_is_given_up(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(processes, "_STILL", 0.2)
+    monkeypatch.setattr(encode, "_STILL", 0.2)
     with pytest.raises(RecordingFailed, match="made no progress"):
-        processes.told(["sh", "-c", "echo 1; sleep 1000"])
-    assert processes.told(["sh", "-c", "echo 1"]) == b"1\n"
-    assert processes.told(["sh", "-c", "echo 1; exit 3"]) == b""
+        encode.told(["sh", "-c", "echo 1; sleep 1000"])
+    assert encode.told(["sh", "-c", "echo 1"]) == b"1\n"
+    assert encode.told(["sh", "-c", "echo 1; exit 3"]) == b""
+
+
+# By a clock that stands, no time goes by, however often it is looked whether the process goes on.
+@pytest.mark.skipif(sys.platform == "win32", reason="a script of a Unix shell")
+def test_only_time_without_progress_ends_a_process(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(encode, "_STILL", 0.02)
+    monkeypatch.setattr(time, "monotonic", lambda: 1000.0)
+    assert encode.told(["sh", "-c", "sleep 0.05; echo 1"]) == b"1\n"
 
 
 def test_missing_frames_are_noticed(target: Path, form: Format, monkeypatch: pytest.MonkeyPatch) -> None:
