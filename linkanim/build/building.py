@@ -1,4 +1,4 @@
-"""A drawing at work: what is drawn, what is chosen, what was typed, and the way back.
+"""A draft being edited: what is drawn, what is chosen, what was typed, undo and redo.
 
 A `Building` is a frozen value with its draft, the scene that it makes, and undo and redo. `building_of`
 begins with a scene, each of whose joints is taken apart into what a hand would have drawn.
@@ -19,23 +19,23 @@ from linkanim.mechanics.linkage import RRP, RRR
 from linkanim.scenes.file_form import SHORTHANDS
 from linkanim.scenes.scene import Scene
 
-# A drawing at work: what is drawn, what is chosen, what was typed, and the way back.
+# A draft being edited: what is drawn, what is chosen, what was typed, undo and redo.
 
 _KEPT = 200
 Kept = TypeVar("Kept")
 Step = tuple[Kept, tuple[Kept, ...], tuple[Kept, ...]]
-"""What is stood at next, and then the past and the future."""
+"""The value after a step of undo or redo, and then the past and the future."""
 
 
 @frozen(kw_only=True)
 class Undoable(Generic[Kept]):
-    """What undo goes back to and redo goes on to, the nearest one last."""
+    """A value with undo and redo: the values that each goes to, the nearest one last."""
 
     past: tuple[Kept, ...] = ()
     future: tuple[Kept, ...] = ()
 
     def remembering(self, now: Kept, most: int) -> tuple[Kept, ...]:
-        """Return the past with `now`, and at most `most` values of it; a change has no future."""
+        """Return the past with `now` added, at most `most` values: the past after a change."""
         return (*self.past, now)[-most:]
 
     def back(self, now: Kept) -> Step[Kept] | None:
@@ -43,18 +43,16 @@ class Undoable(Generic[Kept]):
         return (self.past[-1], self.past[:-1], (*self.future, now)) if self.past else None
 
     def onward(self, now: Kept) -> Step[Kept] | None:
-        """Return the step that was last gone back from; None where there is none."""
+        """Return the step that the last undo left; None where there is none."""
         return (self.future[-1], (*self.past, now), self.future[:-1]) if self.future else None
 
 
 @frozen
 class Building(Undoable[Draft]):
-    """A draft with what was `chosen` of it, the digits begun for its number `row`, and what undo goes to.
+    """A draft with its `chosen` thing, the text `typed` for that one's `row`, and undo and redo.
 
-    What is typed is `lettered` where its row is no number and was asked for.
-
-    `sentence` says what the last gesture did besides, or as a refusal why it did nothing; "" where that is
-    plain.
+    The text is `lettered` where its row is no number and was chosen by the user. `sentence` says what else
+    the last gesture did, or why it did nothing; "" where that is obvious.
     """
 
     draft: Draft = field(default_factory=Draft)
@@ -67,12 +65,12 @@ class Building(Undoable[Draft]):
 
     @cached_property
     def made(self) -> Made:
-        """The scene that the draft comes to, or None and what it lacks; worked out once."""
+        """The scene of the draft, or None and what it lacks; cached."""
         return made(self.draft)
 
 
 def knowing(building: Building, made: Made) -> Building:
-    """Return the building, of whose draft it is known already what it makes."""
+    """Return the building with the known result of its draft."""
     vars(building).setdefault("made", made)
     return building
 
@@ -90,7 +88,7 @@ def changed(building: Building, draft: Draft, chosen: Thing | None, sentence: st
 
 
 def grown(building: Building) -> tuple[Draft, ...]:
-    """Return what undo goes back to after a change of a building."""
+    """Return a building's past after a further change."""
     return building.remembering(building.draft, _KEPT)
 
 
@@ -100,12 +98,12 @@ def _input(draft: Draft) -> tuple[str | None, object, object]:
 
 
 def refused(building: Building, sentence: str) -> Building:
-    """Return the building as it is, and why nothing was done."""
+    """Return the building unchanged, with the sentence why nothing was done."""
     return replace(building, typed="", sentence=sentence, is_refusal=True)
 
 
 def posed(building: Building, phase: float) -> Building:
-    """Return the building with its joints where they stand at a phase; as it is where it does not move.
+    """Return the building with its joints in their pose at a phase; unchanged where it does not move.
 
     What is drawn next is drawn onto that pose. No numbers change, and there is nothing to undo.
     """
@@ -122,17 +120,17 @@ def choosing(building: Building, thing: Thing | None) -> Building:
 
 
 def undo(building: Building) -> Building:
-    """Return the building before its last change; digits begun are let go of first."""
+    """Return the building before its last change; typed text is discarded first."""
     return _standing(building, None if building.typed else building.back(building.draft))
 
 
 def redo(building: Building) -> Building:
-    """Return the building with the change that undo took back last."""
+    """Return the building with the change that was undone last."""
     return _standing(building, building.onward(building.draft))
 
 
 def _standing(building: Building, step: Step[Draft] | None) -> Building:
-    """Return the building at a step, what is chosen still so if it is there; else with nothing typed."""
+    """Return the building at a step, with nothing typed; the chosen thing stays chosen if it exists there."""
     if step is None:
         return replace(building, typed="", sentence="")
     draft, past, future = step
@@ -148,15 +146,15 @@ _JUST_AFTER = 0.01
 
 
 def building_of(scene: Scene) -> Building:
-    """Return a building that begins with a scene: its draft comes to an equal scene."""
+    """Return a building that begins with a scene: its draft makes an equal scene."""
     return Building(draft_of(scene))
 
 
 def draft_of(scene: Scene) -> Draft:
-    """Return the draft of a scene, its joints where they stand at phase 0.
+    """Return the draft of a scene, with its joints in their pose at phase 0.
 
-    Where another joint's side names a closure they stand just after: that does not show at a limit.
-    Numbers stay as its file writes them; those that a shorthand gives are in the scene's unit.
+    Where another joint's side names a closure, the pose is just after phase 0, since a limit shows no side.
+    Numbers stay as in its file; those that a shorthand gives are in the scene's unit.
     """
     document = scene.document
     short = {key: document[key] for key in SHORTHANDS if key in document}
@@ -184,7 +182,7 @@ def draft_of(scene: Scene) -> Draft:
 
 
 def _apart(draft: Draft, name: str, table: Any) -> Draft:
-    """Return the draft with what a joint's table says of it, as bars, guides, slots and points."""
+    """Return the draft with a joint's table taken apart into bars, guides, slots and points."""
     if not isinstance(table, Mapping) or table.keys() == {"length", "angle"}:
         return draft.having("pins", name, table)
     if "on" in table:

@@ -1,4 +1,4 @@
-"""What is said of the chosen thing: its numbers, its name, how it is drawn; and what is typed of it."""
+"""The properties of the chosen thing: its numbers, its name, how it is drawn; and text typed for them."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _FORMS: Mapping[str, Form] = {
     "dampers": file_form.DAMPER,
     "drive": file_form.DRIVE,
 }
-"""What may be said of each kind, as a scene file has it."""
+"""The properties that each kind may have, in the form of a scene file."""
 _UNITS = {"angle": "deg", "speed": "rpm", "stiffness": "N/m", "damping": "N s/m", "ratio": ""}
 _UNITS |= {"mass": "kg", "inertia": "kg m^2"}
 _NAME = Field("name", NAME)
@@ -36,17 +36,17 @@ _COLOURS = {
     **{"red": "#d55e00", "blue": "#0072b2", "green": "#009e73", "orange": "#e69f00", "sky": "#56b4e9"},
     **{"purple": "#cc79a7", "grey": "#8c939f", "black": "#20242c"},
 }
-"""Colours by what they may be called instead."""
+"""Colours by their names."""
 _NOTHING = ("-", "–")
-"""What is typed to say nothing of it any more."""
+"""Texts that, when typed, remove a property."""
 _LONGEST = 40
 
 
 class PropertyRow(NamedTuple):
-    """One thing that is said of what is chosen, what it is called, and how it stands, "" where it does not.
+    """A property of the chosen thing: its label, and its value as text, "" where it is not stated.
 
-    `number` is it as a number, if it is one: its `value` is NaN where nothing is stated. Of others
-    `options` are what can be chosen from. `key` leads to it.
+    `number` is the value as a number, if it is one: its `value` is NaN where nothing is stated. Other
+    properties have `options` to choose from. `key` is its path into the draft.
     """
 
     key: Key
@@ -57,11 +57,11 @@ class PropertyRow(NamedTuple):
 
 
 def rows_of(draft: Draft, thing: Thing | None) -> tuple[PropertyRow, ...]:
-    """Return what is said of a thing, the first being what is meant by digits typed.
+    """Return the properties of a thing; digits that are typed are for the first.
 
-    Of a joint that is what it is as a pin, a point, a yoke or a geared crank, then its guide's and the
-    drive's where it is driven, its block's and its name. Of a bar it is its length, and what its body has:
-    a mass and where that is, a look, a colour, a name.
+    A joint has those of a pin, a point, a yoke or a geared crank, then its guide's, the drive's where it is
+    driven, its block's, and its name. A bar has its length, and those of its body: mass and centre of mass,
+    look, colour, name.
     """
     return tuple(_row(draft, key, one) for key, one in _fields(draft, thing))
 
@@ -78,9 +78,9 @@ def _row(draft: Draft, key: Key, one: Field) -> PropertyRow:
 
 
 def write(building: Building, text: str) -> Building:
-    """Return the building with text added to what is being typed; after a refusal it is typed anew.
+    """Return the building with text added to the typed text, which begins anew after a refusal.
 
-    Of what is no number only when its row was asked for: letters are tools until then.
+    Letters are taken only where the user chose a row that is no number: until then letters are tools.
     """
     row = _chosen_row(building)
     if row and row.number is None and not building.lettered:
@@ -110,7 +110,7 @@ def choose_number(building: Building, further: int) -> Building:
 
 
 def next_option(building: Building) -> Building:
-    """Return the building with the next of what its chosen row can be; after the last nothing is said."""
+    """Return the building with the next option of its chosen row; after the last one, without a value."""
     row = _chosen_row(building)
     if row is None or not row.options:
         return building
@@ -120,7 +120,7 @@ def next_option(building: Building) -> Building:
 
 
 def typed_length(building: Building, now: float) -> float:
-    """Return the length that was typed in place of another one, in the draft's unit; BadInput for none."""
+    """Return the typed length that replaces `now`, in the draft's unit; BadInput where it is no length."""
     unit = building.draft.unit
     value = written(building.typed, Dimension((), "distance", now, unit, "length", bare=True))
     return float(LENGTH.read(Table("photograph", {"distance": value}, (), Context(unit)), "distance"))
@@ -132,10 +132,10 @@ def _chosen_row(building: Building) -> PropertyRow | None:
 
 
 def take(building: Building) -> Building:
-    """Return the building with what was typed in the chosen row; or the same, and why it is refused.
+    """Return the building with the typed text in the chosen row; or the same one, and why it is refused.
 
-    What has no unit is in the draft's, in degrees or in the unit of the number before. The next number is
-    then the one that is typed.
+    A number without a unit is in the draft's unit, in degrees, or in the unit of the old value. The next
+    number is then the one to be typed.
     """
     draft, fields = building.draft, list(_fields(building.draft, building.chosen))
     if not fields or not building.typed.strip():
@@ -161,7 +161,7 @@ def take(building: Building) -> Building:
 
 
 def _taken(building: Building, key: Key, one: Field) -> Building:
-    """Return the building with what was typed at a key; BadInput for what cannot stand there."""
+    """Return the building with the typed text at a key; BadInput where it is not allowed there."""
     assert one.plain
     draft, text = _with_body(building, key), building.typed.strip()
     value: object = text if one.plain.options else _COLOURS.get(text.lower(), f"#{text.removeprefix('#')}")
@@ -175,7 +175,7 @@ def _taken(building: Building, key: Key, one: Field) -> Building:
 
 
 def _named(building: Building, key: Key, name: str) -> Building:
-    """Return the building with a joint, a body, a spring or a damper called otherwise; BadInput as above."""
+    """Return the building with a joint, a body, a spring or a damper renamed; BadInput as above."""
     draft, (kind, old) = _with_body(building, key), (str(key[0]), str(key[1]))
     taken = draft.places if kind == JOINT else draft.of(kind)
     holder = Table(old, {"name": name}, (), Context(draft.unit))
@@ -190,7 +190,7 @@ def _named(building: Building, key: Key, name: str) -> Building:
 
 
 def _with_body(building: Building, key: Key) -> Draft:
-    """Return the draft with a body of the chosen bar where that had none of its own yet."""
+    """Return the draft with a body for the chosen bar where that has none of its own yet."""
     draft, chosen = building.draft, building.chosen
     if key[0] != "bodies" or key[1] in draft.of("bodies") or chosen is None:
         return draft
@@ -199,7 +199,7 @@ def _with_body(building: Building, key: Key) -> Draft:
 
 
 def _with_centre(draft: Draft, key: Key) -> Draft:
-    """Return the draft with the centre of a body's mass in the middle of its first two joints, if unsaid."""
+    """Return the draft with a centre of mass for a body without one, midway between its first two joints."""
     body = draft.of("bodies").get(str(key[1]), {}) if key[0] == "bodies" else {}
     if "mass" not in body or "joints" not in body or "com" in body:
         return draft
@@ -208,7 +208,7 @@ def _with_centre(draft: Draft, key: Key) -> Draft:
 
 
 def _without(draft: Draft, key: Key) -> Draft:
-    """Return the draft with nothing said any more at a key of a body, nor of what goes with it."""
+    """Return the draft without the value at a key of a body, and without values that need it."""
     gone = {str(key[2])} | ({"mass", "com", "inertia"} if key[2] in ("mass", "com") else set())
     body = draft.of("bodies").get(str(key[1]), {})
     left = {part: value for part, value in body.items() if part not in gone}
@@ -218,7 +218,7 @@ def _without(draft: Draft, key: Key) -> Draft:
 def _fields(draft: Draft, thing: Thing | None) -> Iterator[tuple[Key, Field]]:
     """Yield the fields of a thing that are numbers, with their keys.
 
-    Those of a fixed pin are x and y, then its distance and direction from the origin.
+    A fixed pin has x and y, then its distance and direction from the origin.
     """
     if thing is None:
         return
@@ -248,7 +248,7 @@ def _fields(draft: Draft, thing: Thing | None) -> Iterator[tuple[Key, Field]]:
 
 
 def _of_body(draft: Draft, own: Mapping[str, Any]) -> Iterator[tuple[Key, Field]]:
-    """Yield the fields of the body of a bar's joints, or of a block, as far as they can be said."""
+    """Yield the fields of the body of a bar's joints, or of a block, as far as they apply."""
     bodies = draft.of("bodies")
     if "slider" in own:
         name = next((name for name, one in bodies.items() if one.get("slider") == own["slider"]), None)
@@ -283,7 +283,7 @@ def _of_form(form: Form, table: Mapping[str, Any], key: Key) -> Iterator[tuple[K
 
 
 def _dimension(draft: Draft, key: Key, one: Field) -> Dimension:
-    """Return a number as it stands, with what it is called; NaN where nothing is stated, nor usual."""
+    """Return a number's dimension with its label; its value is NaN where there is none, nor a usual one."""
     assert one.plain
     assert one.plain.measure
     stated = _stated(draft, key)
@@ -296,7 +296,7 @@ def _dimension(draft: Draft, key: Key, one: Field) -> Dimension:
 
 
 def _stated(draft: Draft, key: Key) -> Any:
-    """Return what stands at a key; of a fixed pin also what is not written, but follows; else None."""
+    """Return the value at a key; for a fixed pin also one that follows from the written ones; else None."""
     table: Any = draft.of(str(key[0])).get(str(key[1]), {} if key[0] == "bodies" else None)
     if key[0] == "pins":
         x, y = draft.places[str(key[1])]
@@ -310,7 +310,7 @@ def _stated(draft: Draft, key: Key) -> Any:
 
 
 def _label(one: Field, key: Key) -> str:
-    """Return what a number is called, in short: "length", "along", "x"."""
+    """Return a number's short label: "length", "along", "x"."""
     part = key[-1]
     if isinstance(part, int):
         where = ("along", "to the left")[part]
@@ -321,7 +321,7 @@ def _label(one: Field, key: Key) -> str:
 
 
 def _with_polar(draft: Draft, key: Key) -> Draft:
-    """Return the draft with a fixed pin written the way in which one of its numbers is typed."""
+    """Return the draft with a fixed pin written by x and y, or polar, as one of its numbers needs it."""
     if key[0] != "pins":
         return draft
     name, pin = str(key[1]), draft.of("pins")[str(key[1])]
@@ -333,7 +333,7 @@ def _with_polar(draft: Draft, key: Key) -> Draft:
 
 
 def _refuse(draft: Draft, key: Key, one: Field, value: object) -> None:
-    """Raise where a value cannot stand at a key, with what a scene file's reader says of it."""
+    """Raise the error of the scene files' reader where a value is not allowed at a key."""
     assert one.plain
     part, plain = _label(one, key), OFFSET if isinstance(key[-1], int) else one.plain
     holder = Table(str(key[1]), {part: value}, (), Context(draft.unit))

@@ -1,7 +1,7 @@
-"""What has been drawn: joints with their places, bars, points, guides, and what else hangs on them.
+"""What has been drawn: joints with their places, bars, points, guides, and what else is attached to them.
 
-A `Draft` is a frozen value that says no more than the hand drew. Here, too, is how its things are named: O2
-and O4 for ground pins, A and B for joints, P for points, 2 and 3 for bodies.
+A `Draft` is a frozen value that holds just what the hand drew. Its things are named here, too: O2 and O4 for
+ground pins, A and B for joints, P for points, 2 and 3 for bodies.
 """
 
 from __future__ import annotations
@@ -14,15 +14,15 @@ from typing import Any
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.linkage import Point
 
-# What has been drawn: joints with their places, bars, points, guides, and what else hangs on them.
+# What has been drawn: joints with their places, bars, points, guides, and what else is attached to them.
 
 Thing = tuple[str, str]
-"""What can be chosen: its kind, and its name among its kind."""
+"""A thing that can be chosen: its kind, and its name among its kind."""
 Tables = Mapping[str, Mapping[str, Any]]
 KINDS = ("pins", "bars", "points", "guides", "sliders", "slots", "yokes", "gears", "springs", "dampers")
 """The kinds of tables that are drawn; besides there are "sides", "bodies" and "drive"."""
 UNTITLED = "New linkage"
-"""What a linkage is called until its file is written, which is called by its class."""
+"""The title of a linkage until its file is written; then its class is the title."""
 JOINT, DRIVE = "joints", ("drive", "input")
 """The kind of a joint, fixed or not, and the one thing that drives."""
 _NAMING = {"guide": "guides", "bar": "bars"}
@@ -49,7 +49,7 @@ class Draft:
     """A linkage as it is drawn, whole or not; nothing in it is changed in place.
 
     `places` are those of all joints, fixed ones too, in the order in which they were drawn. `tables` hold
-    what is said of them, by kind and name, in the words of a scene file where it has any:
+    their properties, by kind and name, in the words of a scene file where it has any:
 
         pins     O2 = [0, 0], or { length = 100, angle = "0 deg" }
         bars     A–B = { joints = ["A", "B"], length = 90 }
@@ -62,9 +62,9 @@ class Draft:
         springs, dampers, bodies, drive (one, called "input"): as in a file
         sides    B = { joints = ["A", "O4"], side = "left" }: of the dyads as they were found
 
-    `rest` is what else the file says. `typed` are the keys of the numbers that were typed: no drag changes
-    them. `short` is the shorthand that it came from, by its key, if any; None of a linkage that is to be
-    written joint by joint. Of one that moves, places are those at `phase`.
+    `rest` is what else the file states. `typed` are the keys of the numbers that were typed: no drag changes
+    them. `short` is the key of the shorthand that the draft came from, if any; None for a linkage that is to
+    be written joint by joint. In a draft that moves, places are those at `phase`.
     """
 
     places: Mapping[str, Point] = field(default_factory=dict)
@@ -80,7 +80,7 @@ class Draft:
         return self.tables.get(kind, {})
 
     def having(self, kind: str, name: str, table: Any) -> Draft:
-        """Return the draft with another table at a name; None takes it away."""
+        """Return the draft with another table at a name; None removes the table."""
         kept = {**self.of(kind), name: table}
         tables = {key: value for key, value in kept.items() if value is not None}
         return replace(self, tables={**self.tables, kind: tables})
@@ -105,7 +105,7 @@ class Draft:
 
     @property
     def drive(self) -> Mapping[str, Any]:
-        """What is said of the drive; nothing before there is one."""
+        """The drive's table; empty before there is a drive."""
         table: Mapping[str, Any] = self.of("drive").get("input", {})
         return table
 
@@ -129,7 +129,7 @@ class Draft:
         return list(self.of("bars")[bar]["joints"])
 
     def with_bar(self, start: str, end: str, length: object) -> Draft:
-        """Return the draft with a bar between two joints, which is called by them."""
+        """Return the draft with a bar between two joints, named after them."""
         return self.having("bars", f"{start}–{end}", {"joints": [start, end], "length": length})
 
     def body_of(self, joints: Iterable[str]) -> str | None:
@@ -142,7 +142,7 @@ class Draft:
         return next((name for name, end, _ in self.bars_at(one) if end == other), None)
 
     def things(self) -> Iterator[Thing]:
-        """Iterate all that can be chosen: joints first, then what was drawn on them, by kind."""
+        """Iterate all things that can be chosen: joints first, then what was drawn on them, by kind."""
         yield from ((JOINT, name) for name in self.places)
         for kind in KINDS[1:]:
             yield from ((kind, name) for name in self.of(kind) if kind not in ("points", "sliders"))
@@ -150,7 +150,7 @@ class Draft:
 
 
 def named_in(table: Any, key: str = "at") -> Iterator[Thing]:
-    """Iterate what a table names: joints, and the guide or the bar that it is on."""
+    """Iterate the things that a table names: joints, and the guide or the bar that it is on."""
     if isinstance(table, Mapping):
         for under, value in table.items():
             yield from named_in(value, under)
@@ -162,7 +162,7 @@ def named_in(table: Any, key: str = "at") -> Iterator[Thing]:
 
 
 def renamed(draft: Draft, kind: str, old: str, new: str) -> Draft:
-    """Return the draft with a thing called otherwise; a joint wherever it is named, with bars and slots."""
+    """Return the draft with a thing renamed; a joint also wherever it is named, with its bars and slots."""
     if kind != JOINT:
         tables = {new if name == old else name: table for name, table in draft.of(kind).items()}
         typed = frozenset((kind, new, *key[2:]) if key[:2] == (kind, old) else key for key in draft.typed)

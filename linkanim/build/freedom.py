@@ -1,4 +1,4 @@
-"""The degrees of freedom of a drawing: what its joints may do, less the rank of what holds them."""
+"""The degrees of freedom of a drawing: two for each joint, less the rank of the constraints."""
 
 from __future__ import annotations
 
@@ -14,19 +14,19 @@ from linkanim.build.draft import Draft
 from linkanim.build.places import crank_of
 
 _ANGLE = 2.399963
-"""By how much each joint is shifted further round than the one before it (rad): the golden angle."""
+"""The angle from one joint's shift to the next one's (rad): the golden angle."""
 _SHIFT = 0.07
 _RANK = 1e-9
 _Row = Mapping[str, complex]
-"""The gradient of a constraint: of each joint the complex g whose Re(conj(g) dz) is its part."""
+"""The gradient of a constraint: for each joint the complex g of its share Re(conj(g) dz)."""
 _Places = Mapping[str, complex]
 
 
 def mobility(draft: Draft, group: set[str] | None = None) -> int:
     """Return the degrees of freedom of all joints, or of some of them as if the others were not there.
 
-    They are two of each joint less the rank of the constraints' gradients, in a pose near the drawn one that
-    is not special: a bar too many counts once, and two bars in line are held no less than others.
+    They are two for each joint, less the rank of the constraints' gradients. The rank is taken in a pose near
+    the drawn one that is not singular: a redundant bar does not count, and two bars in line hold like others.
     """
     there = {*draft.places} if group is None else group | draft.of("pins").keys()
     free = [name for name in draft.places if name in there and name not in draft.of("pins")]
@@ -58,7 +58,7 @@ def _shifted(draft: Draft) -> _Places:
 
 
 def _gradients(draft: Draft, places: _Places) -> Iterator[_Row]:
-    """Yield the gradients of all that holds joints."""
+    """Yield the gradients of all constraints on joints."""
     for table in draft.of("bars").values():
         first, second = table["joints"]
         direction = _unit(places[second] - places[first])
@@ -82,7 +82,7 @@ def _gradients(draft: Draft, places: _Places) -> Iterator[_Row]:
 
 
 def _on_line(places: _Places, joint: str, through: str, guide: Mapping[str, Any], turn: complex) -> _Row:
-    """Return the gradient of how far a joint lies beside the line through another, along a guide turned."""
+    """Return the gradient of a joint's distance from a line through another, along the guide times `turn`."""
     direction = turn * rect(1.0, units.angle(guide.get("angle", "0 deg")))
     row: dict[str, complex] = {}
     if "on" in guide:
@@ -98,7 +98,7 @@ def _on_line(places: _Places, joint: str, through: str, guide: Mapping[str, Any]
 
 
 def _geared(draft: Draft, places: _Places, joint: str, gear: Mapping[str, Any]) -> _Row:
-    """Return the gradient of a crank's angle less its mate's as often as the ratio says."""
+    """Return the gradient of a crank's angle less the ratio times its mate's."""
     row: dict[str, complex] = {}
     for name, times in ((joint, 1.0), (gear["with"], -float(Fraction(gear["ratio"])))):
         pivot = crank_of(draft, name)

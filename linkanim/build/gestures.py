@@ -1,7 +1,7 @@
-"""What a hand does on the sheet; each gesture gives another building, or the same and why it cannot be.
+"""The gestures of a hand on the sheet; each returns another building, or the same one and why.
 
-First what a hand draws, by name; then what is done to the chosen thing; last what a click or a drag does at
-a place, by what lies under the pointer and the tool in hand.
+First what a hand draws, by name; then what is done to the chosen thing; last what a click or a drag does at a
+place, by what is under the pointer and the tool in hand.
 """
 
 from __future__ import annotations
@@ -45,11 +45,11 @@ from linkanim.build.places import (
 )
 from linkanim.build.scene_form import made
 
-# What a hand draws, by name: each gesture gives another building, or the same and why it cannot be.
+# What a hand draws, by name: each gesture returns another building, or the same one and why.
 
 SPEED = "20 rpm"
 SHARES = (0.25, 0.12, 0.06, 0.03, 0.015)
-"""How far a new slider or cylinder goes to both sides, in the length of its bar or of itself."""
+"""How far a new slider or cylinder goes to both sides, in lengths of its bar, or of the cylinder."""
 
 
 def pin(building: Building, at: complex, *, snap: float) -> Building:
@@ -59,10 +59,10 @@ def pin(building: Building, at: complex, *, snap: float) -> Building:
 
 
 def bar(building: Building, start: str, end: Thing | None, at: complex, *, snap: float) -> Building:
-    """Return the building with a bar from a joint, let go at a point.
+    """Return the building with a bar from a joint to a point, where `end` is what is there.
 
-    On another joint it is joined there; on a guide it makes a slider, on a bar a joint in its slot; on paper
-    (None) a joint. The first bar from a ground pin is the crank.
+    On another joint the bar ends in it; on a guide it ends in a new slider, on a bar in a new joint in its
+    slot, on paper (None) in a new joint. The first bar from a ground pin is the crank.
     """
     draft = building.draft
     if end and end[0] == JOINT:
@@ -146,7 +146,7 @@ def slot(building: Building, joint: str, end: Thing) -> Building:
 
 
 def gear(building: Building, joint: str, mate: str, *, snap: float) -> Building:
-    """Return the building with a crank geared to another one, as fast and the other way round."""
+    """Return the building with a crank geared to another one: as fast, in the opposite direction."""
     draft = building.draft
     others = [end for _, end, _ in draft.bars_at(joint)]
     if joint == mate or not others or joint in draft.of("pins") or not crank_of(draft, mate):
@@ -174,7 +174,7 @@ def strut(
 
 
 def cylinder(building: Building, start: str, end: str, *, snap: float) -> Building:
-    """Return the building with a cylinder as the drive, from a ground pin to a body on another."""
+    """Return the building with a cylinder as the drive, from a ground pin to a body on another ground pin."""
     draft = building.draft
     fixed, moving = (start, end) if start in draft.of("pins") else (end, start)
     crank = _turning_with(draft, moving)
@@ -193,7 +193,7 @@ def cylinder(building: Building, start: str, end: str, *, snap: float) -> Buildi
 def driven(
     building: Building, draft: Draft, drives: Sequence[Mapping[str, Any]], chosen: Thing | None, sentence: str
 ) -> Building:
-    """Return the building with the first of some drives with which the draft moves, or with the first."""
+    """Return the building with the first of some drives by which the draft moves; else with the first."""
     drafts = [draft.having(*DRIVE, table) for table in drives]
     found = next((one for one in drafts if not drafts[1:] or made(one).scene), drafts[0])
     return changed(building, found, chosen, sentence)
@@ -210,9 +210,9 @@ def move_photo(building: Building, x: float, y: float, to_x: float, to_y: float)
 
 
 def fit_photo(building: Building, *points: float) -> Building:
-    """Return the building with its photograph scaled and turned, so that two points of it come to two others.
+    """Return the building with its photograph scaled and turned, taking two of its points to two places.
 
-    `points` are x and y of the first where it lies now and of where it belongs, then of the second likewise.
+    `points` are x and y of the first point and of its place, then those of the second point and its place.
     """
     one, there, other, beyond = (complex(*points[n : n + 2]) for n in (0, 2, 4, 6))
     if one == other or there == beyond:
@@ -222,7 +222,7 @@ def fit_photo(building: Building, *points: float) -> Building:
 
 
 def scale_photo(building: Building, one: complex, other: complex, length: float) -> Building:
-    """Return the building with its photograph scaled about a place, so that another one is so far from it."""
+    """Return the building with its photograph scaled about `one`, which puts `other` `length` away."""
     if one == other:
         return refused(building, "Two points of a photograph have a distance: take them apart")
     scale = length / abs(other - one)
@@ -262,7 +262,7 @@ def _turning_with(draft: Draft, joint: str) -> tuple[str, str] | None:
 
 
 def _carrier(draft: Draft, start: Thing | None) -> tuple[str | None, list[str]]:
-    """Return what a guide that begins on a thing runs through, and the axis of the body that carries it."""
+    """Return the joint through which a guide from a thing runs, and the axis of the body that carries it."""
     if start and start[0] == JOINT:
         if start[1] in draft.of("pins"):
             return start[1], []
@@ -321,7 +321,7 @@ _WORDS = {JOINT: "joint", "drive": "drive"}
 
 
 def choose(building: Building, further: int) -> Building:
-    """Return the building with the thing chosen that comes `further` places on: joints, bars, guides, ..."""
+    """Return the building with the thing chosen that is `further` places on: joints, bars, guides, ..."""
     things = list(building.draft.things())
     if not things:
         return refused(building, "Nothing is drawn yet: a click sets a ground pin")
@@ -336,9 +336,9 @@ def choose_thing(building: Building, kind: str, name: str) -> Building:
 
 
 def move(building: Building, x: float, y: float, *, snap: float) -> Building:
-    """Return the building with what is chosen at a point: a joint, or a guide that then runs through it.
+    """Return the building with the chosen thing at a point: a joint, or a guide that then runs through it.
 
-    Numbers follow, but for typed ones.
+    Numbers follow, except typed ones.
     """
     draft, thing = building.draft, building.chosen
     place = snapped(complex(x, y), snap)
@@ -382,7 +382,7 @@ def drive(building: Building) -> Building:
 
 
 def delete(building: Building) -> Building:
-    """Return the building without the chosen thing, and without what hangs on it alone."""
+    """Return the building without the chosen thing, and without what depends on it alone."""
     draft, thing = building.draft, building.chosen
     if thing is None:
         return refused(building, "Choose what is to be removed")
@@ -395,7 +395,7 @@ def delete(building: Building) -> Building:
 
 
 def _drivable(draft: Draft, thing: Thing | None) -> str | None:
-    """Return the joint that is driven where a thing is: the moving end of a crank, or a slider."""
+    """Return the joint to drive for a thing: the moving end of a crank, or a slider; None for others."""
     pins = draft.of("pins")
     if thing and thing[0] == "bars":
         first, second = draft.ends(thing[1])
@@ -422,7 +422,7 @@ def _slider_drives(draft: Draft, joint: str) -> list[dict[str, Any]]:
 
 
 def _without(draft: Draft, thing: Thing) -> Draft:
-    """Return the draft without a thing, what names it, and joints that nothing holds any longer."""
+    """Return the draft without a thing, without what names it, and without joints that nothing holds then."""
     gone = {thing}
     while more := {*_hanging(draft, gone), *_loose(draft, gone)} - gone:
         gone |= more
@@ -446,7 +446,7 @@ def _shorter(body: Mapping[str, Any], gone: set[str]) -> Mapping[str, Any]:
 
 
 def _hanging(draft: Draft, gone: set[Thing]) -> Iterator[Thing]:
-    """Yield the tables that say nothing without things that are gone; the drive where its crank is."""
+    """Yield the things that make no sense without removed ones, including the drive of a removed crank."""
     bars = draft.of("bars")
     axes = [set(bars[name]["joints"]) for kind, name in gone if kind == "bars"]
     for kind, every in draft.tables.items():
@@ -474,14 +474,14 @@ def _loose(draft: Draft, gone: set[Thing]) -> Iterator[Thing]:
             yield JOINT, joint
 
 
-# What lies under the pointer, and what a click or a drag there does with the tool in hand.
+# What is under the pointer, and what a click or a drag there does with the tool in hand.
 
 TOOLS: Final = ("bar", "guide", "slider", "slot", "gear", "spring", "damper", "cylinder", "move")
 """The tools, in the order of their icons."""
 
 
 def under(draft: Draft, x: float, y: float, reach: float) -> Thing | None:
-    """Return what lies within `reach` of a point: the nearest joint, else bar or strut, else guide."""
+    """Return the thing within `reach` of a point: the nearest joint, else bar or strut, else guide."""
     point = complex(x, y)
     joints = [((JOINT, name), abs(place_of(draft, name) - point)) for name in draft.places]
     spans = [
@@ -497,9 +497,9 @@ def under(draft: Draft, x: float, y: float, reach: float) -> Thing | None:
 
 
 def click(building: Building, tool: str, x: float, y: float, *, reach: float, snap: float) -> Building:
-    """Return the building after a click: what is there is chosen; on paper there is a ground pin.
+    """Return the building after a click: the thing there is chosen; on paper a ground pin is made.
 
-    With the slider as the tool, a click on a guide gives a joint that slides there.
+    With the slider as the tool, a click on a guide makes a joint that slides there.
     """
     thing = under(building.draft, x, y, reach)
     if thing is None:
@@ -528,7 +528,7 @@ def on_body(draft: Draft, name: str, at: complex) -> complex:
 
 
 def _spans(draft: Draft) -> Iterator[tuple[Thing, tuple[str, str]]]:
-    """Yield the straight edges of what lies between joints: bars, their plates, springs and dampers."""
+    """Yield the straight edges of things between joints: bars, their plates, springs and dampers."""
     for name, table in draft.of("bars").items():
         yield ("bars", name), tuple(table["joints"])
     for point, table in draft.of("points").items():

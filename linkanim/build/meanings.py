@@ -1,7 +1,7 @@
-"""What a drag can mean: by the tool, by what lies at its start and at its end, either way round.
+"""What a drag can mean: by the tool, and by what is at its start and at its end, in either order.
 
-Where it can mean one thing only, that is done. Where it can mean several, the first is done, and the others
-are offered.
+A drag with one meaning is carried out. Of several meanings the first is carried out, and the others are
+offered.
 """
 
 from __future__ import annotations
@@ -31,20 +31,20 @@ from linkanim.frozen import NamedTuple
 
 _TARGETS = {"slider": "on a guide", "slot": "on a bar, or on a slider"}
 _STUB = 0.5
-"""A bar from a crank's pin onto a lever that is shorter than that share of the crank is a slot instead."""
+"""A bar from a crank's pin onto a lever is a slot where it is shorter than this share of the crank."""
 _BEYOND = 1.1
-"""How much longer than the crank's pin can be away a lever is made that was drawn to that pin."""
+"""The length of a lever that was drawn to a crank's pin, in greatest distances of that pin."""
 
 
 class Meaning(NamedTuple):
-    """One thing that a drag can mean, in words, and the building with that done."""
+    """One meaning of a drag, in words, and the building after it."""
 
     words: str
     building: Building
 
 
 class Drag(NamedTuple):
-    """A drag with a tool from a place to another one, and what lies at both."""
+    """A drag with a tool from one place to another, and what is at both."""
 
     tool: str
     start: Thing | None
@@ -58,14 +58,14 @@ class Drag(NamedTuple):
 def drag(
     building: Building, tool: str, x: float, y: float, to_x: float, to_y: float, *, reach: float, snap: float
 ) -> Building:
-    """Return the building after a drag with a tool, from what lies at its start to what lies at its end."""
+    """Return the building after a drag with a tool, by what is at its start and at its end."""
     return meanings(building, tool, x, y, to_x, to_y, reach=reach, snap=snap)[0].building
 
 
 def meanings(
     building: Building, tool: str, x: float, y: float, to_x: float, to_y: float, *, reach: float, snap: float
 ) -> tuple[Meaning, ...]:
-    """Return what a drag with a tool can mean, the likeliest first; why nothing, where it is nothing."""
+    """Return the meanings of a drag with a tool, the likeliest first; without any, one that says why."""
     start = under(building.draft, x, y, reach)
     end = _let_go_on(building.draft, start, to_x, to_y, reach)
     made = Drag(tool, start, end, complex(x, y), complex(to_x, to_y), reach, snap)
@@ -78,7 +78,7 @@ def meanings(
 
 
 def _let_go_on(draft: Draft, start: Thing | None, x: float, y: float, reach: float) -> Thing | None:
-    """Return what lies where a drag ends; a bar of its own joint only where there is nothing else."""
+    """Return what is where a drag ends; a bar that ends in its own joint only where there is nothing else."""
     end = under(draft, x, y, reach)
     if start and start[0] == JOINT and end and end[0] == "bars" and start[1] in draft.ends(end[1]):
         beside = under(draft.having("bars", end[1], None), x, y, reach)
@@ -87,7 +87,7 @@ def _let_go_on(draft: Draft, start: Thing | None, x: float, y: float, reach: flo
 
 
 def _one(building: Building, drag: Drag) -> Iterator[Meaning]:
-    """Yield the one thing that a drag with most of the tools means."""
+    """Yield the one meaning of a drag, which it has with most tools."""
     start, end, snap = drag.start, drag.end, drag.snap
     to = snapped(drag.to, snap)
     if drag.tool == "move":
@@ -109,9 +109,9 @@ def _one(building: Building, drag: Drag) -> Iterator[Meaning]:
 
 
 def _bars(building: Building, drag: Drag) -> Iterator[Meaning]:
-    """Yield what a drag with the bar can mean; from a crank's pin onto a lever it may be a slot.
+    """Yield the meanings of a drag with the bar; from a crank's pin onto a lever it may be a slot.
 
-    On the side of a plate, where no slot is, the bar is pinned.
+    On the side of a plate, which has no slot, the bar is pinned.
     """
     draft, start, end, snap = building.draft, drag.start, drag.end, drag.snap
     if start and start[0] == "bars":
@@ -149,7 +149,7 @@ def _bars(building: Building, drag: Drag) -> Iterator[Meaning]:
 
 
 def _slots(building: Building, drag: Drag) -> Iterator[Meaning]:
-    """Yield what a drag with the slot can mean: a joint and a bar, either first, or a lever over a joint."""
+    """Yield the meanings of a drag with the slot: a joint and a bar, either first; a lever over a joint."""
     draft, start, end = building.draft, drag.start, drag.end
     if start and end and start[0] == "bars" and end[0] == JOINT:
         start, end = end, start
@@ -169,7 +169,7 @@ def _slots(building: Building, drag: Drag) -> Iterator[Meaning]:
 
 
 def _levers(building: Building, drag: Drag, pivot: str, over: str) -> Iterator[Meaning]:
-    """Yield a joint in the slot of a lever about a pivot: of each that is there, else of a new one."""
+    """Yield a joint in the slot of a lever about a pivot: of each lever that is there, else of a new one."""
     draft = building.draft
     known = [name for name, end, _ in draft.bars_at(pivot) if end != over and _is_lever(draft, name)]
     for name in known:
@@ -196,9 +196,9 @@ def _levers(building: Building, drag: Drag, pivot: str, over: str) -> Iterator[M
 
 
 def _gears(building: Building, drag: Drag) -> Iterator[Meaning]:
-    """Yield the gear pairs between what lies at both ends: bars, ground pins or crank pins.
+    """Yield the gear pairs between the things at both ends: bars, ground pins or crank pins.
 
-    The driven crank leads; of two that are not driven, the one at the start follows the other.
+    The driven crank leads; of two cranks that are not driven, the one at the start follows the other.
     """
     draft = building.draft
     ones, others = ([*_cranks(draft, thing)] for thing in (drag.start, drag.end))
@@ -262,25 +262,25 @@ _READ = {
 
 
 def _with_point(building: Building, lever: str, at: complex, snap: float) -> tuple[Building, str]:
-    """Return the building with a point of a bar, or on a plate's side, and its name; "" where it is none."""
+    """Return the building with a point on a bar, or on a plate's side, and its name; "" without one."""
     after = point(building, lever, on_body(building.draft, lever, at), snap=snap)
     return after, after.chosen[1] if after.draft is not building.draft and after.chosen else ""
 
 
 def _as_one(building: Building, after: Building) -> Building:
-    """Return a building after several changes as after one, which undo takes back at once."""
+    """Return a building after several changes as after a single one, so that undo takes back all of them."""
     if after.draft is building.draft:
         return after
     return replace(after, past=grown(building), future=())
 
 
 def _is_lever(draft: Draft, name: str) -> bool:
-    """Return whether a bar turns about a ground pin, or may."""
+    """Return whether a bar turns about a ground pin, or could."""
     return any(end in draft.of("pins") for end in draft.ends(name))
 
 
 def _passed(draft: Draft, drag: Drag) -> str | None:
-    """Return the joint that a drag goes over, nearest to its line; None where there is none."""
+    """Return the joint that a drag passes over, the nearest to its line; None where there is none."""
     away = {
         name: abs(from_span(drag.begin, drag.to, place_of(draft, name)))
         for name in draft.places

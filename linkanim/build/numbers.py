@@ -1,7 +1,7 @@
-"""The numbers of a scene on the sheet that makes it: the thing that each belongs to, and a scene with others.
+"""The numbers of a scene on the sheet that makes it: the thing each belongs to, and scenes with others.
 
-The panel of all numbers changes a scene as it does anywhere. The draft follows: whatever in it the scene does
-not tell, such as a guide that nothing slides on, stays.
+The list of all numbers changes the scene, and the draft follows: parts of it that the scene does not have,
+such as a guide that nothing slides on, stay.
 """
 
 from __future__ import annotations
@@ -22,14 +22,14 @@ from linkanim.scenes.form import Key
 from linkanim.scenes.scene import Scene
 
 _PHASES = (0.5, 1.5, 3.0, 4.5)
-"""Phases at which a drawing may tell the closure that it does not where it was drawn."""
+"""Phases at which a drawing may show its closure where its drawn pose does not."""
 
 
 def renumbered(building: Building, scene: Scene, *, grows: bool = True) -> Building:
     """Return the building whose linkage has become `scene`: the same one with other numbers, or closures.
 
-    Undo goes back to where it was, unless it `grows` by no step, as while a hand goes on. BadInput for a
-    scene whose closure no drawing of it tells.
+    This is a step of undo only where it `grows`, which it does not while a drag continues. BadInput for a
+    scene whose closure cannot be seen in any drawing of it.
     """
     draft = building.draft
     made_before = building.made.scene
@@ -43,7 +43,7 @@ def renumbered(building: Building, scene: Scene, *, grows: bool = True) -> Build
         raise BadInput("the sheet cannot tell this closure from the other: leave it first")
     chosen = building.chosen if building.chosen in {*after.things()} else None
     past = grown(building) if grows else building.past
-    # what it makes is this scene, of which some is worked out already
+    # the building makes this scene, parts of which are worked out already
     return knowing(Building(after, chosen, building.row if chosen else 0, past=past), Made(scene, ""))
 
 
@@ -58,7 +58,7 @@ def _makes(draft: Draft, scene: Scene) -> bool:
 
 
 def _patched(draft: Draft, before: Draft, after: Draft) -> Draft | None:
-    """Return the draft with what two drafts of its scene differ in; None where it has no place for that."""
+    """Return the draft with the differences of two drafts of its scene; None where one has no place in it."""
     for kind, every in after.tables.items():
         for name, table in every.items():
             old = before.of(kind).get(name)
@@ -73,7 +73,7 @@ def _patched(draft: Draft, before: Draft, after: Draft) -> Draft | None:
 
 
 def _told(own: Any, old: Any, new: Any) -> Any:
-    """Return a table of one's own with what differs in two others."""
+    """Return the draft's own table with the differences of two others."""
     if not (isinstance(own, Mapping) and isinstance(new, Mapping)):
         return new
     known = old if isinstance(old, Mapping) else {}
@@ -81,7 +81,7 @@ def _told(own: Any, old: Any, new: Any) -> Any:
 
 
 def _own_name(draft: Draft, other: Draft, kind: str, name: str) -> str | None:
-    """Return what a thing of another draft of the same linkage is called; None where there is none."""
+    """Return the name in this draft of a thing of another draft of the same linkage; None without one."""
     if kind == "bars":
         return draft.bar(*other.ends(name))
     if kind == "guides":
@@ -96,7 +96,7 @@ def _own_name(draft: Draft, other: Draft, kind: str, name: str) -> str | None:
 
 
 def _slot(draft: Draft, table: Mapping[str, Any]) -> tuple[str, frozenset[str]]:
-    """Return what runs in a slot, and the joints of its bar."""
+    """Return the joint in a slot, and the joints of its bar."""
     return str(table["through"]), frozenset(draft.ends(table["bar"]))
 
 
@@ -112,7 +112,7 @@ def _with_guides(after: Draft, draft: Draft) -> Draft:
 
 
 def thing_at(draft: Draft, scene: Scene, key: Key) -> Thing | None:
-    """Return what of a draft a number of its scene belongs to; None where that is nothing to be seen."""
+    """Return the thing of a draft to which a number of its scene belongs; None for no visible thing."""
     number = next((one for one in numbers(scene.document) if one.key == key), None)
     section, name = key[0], str(key[1]) if len(key) > 1 else ""
     if number is None or section in ("springs", "dampers"):
@@ -141,7 +141,7 @@ def _of_body(draft: Draft, name: str) -> Thing | None:
 
 
 def _guide_of(draft: Draft, joint: str) -> str | None:
-    """Return the guide of a joint; of a shorthand, whose numbers name no joint, the only one."""
+    """Return the guide of a joint; where a shorthand's number names no joint, the only guide."""
     sliders = draft.of("sliders")
     if joint in sliders:
         return str(sliders[joint]["guide"])
@@ -150,7 +150,7 @@ def _guide_of(draft: Draft, joint: str) -> str | None:
 
 
 class PlacedRow(NamedTuple):
-    """A number of a draft: the thing that has it, its place among that one's rows, and the row."""
+    """A number of a draft: the thing that has it, its place among the thing's rows, and the row."""
 
     thing: Thing
     place: int
@@ -158,7 +158,7 @@ class PlacedRow(NamedTuple):
 
 
 def rows_of_all(draft: Draft) -> tuple[PlacedRow, ...]:
-    """Return all numbers that are stated of a draft, each but once, at the thing that it is drawn as."""
+    """Return all stated numbers of a draft, each only once, with the thing that is drawn for it."""
     found: dict[Key, PlacedRow] = {}
     for one in _every_row(draft):
         found.setdefault(one.row.key, one)
@@ -166,7 +166,7 @@ def rows_of_all(draft: Draft) -> tuple[PlacedRow, ...]:
 
 
 def chosen_row(building: Building) -> int | None:
-    """Return the place among all numbers of the one that is typed of what is chosen; None without any."""
+    """Return the place, among all numbers, of the chosen thing's number to be typed; None without one."""
     own = rows_of(building.draft, building.chosen)
     key = own[building.row % len(own)].key if own else None
     return next((n for n, one in enumerate(rows_of_all(building.draft)) if one.row.key == key), None)

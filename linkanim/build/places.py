@@ -1,8 +1,8 @@
-"""Places and numbers: which dyad each joint is, which numbers it has where it is drawn, and the way back.
+"""Places and numbers: which dyad each joint is, its numbers from its place, and its place from its numbers.
 
-`ordered` finds the joints' order, each as a scene file says how it is found from those before it. From
-there numbers follow from places and places from numbers, rounded as a person would write them. `drawn`
-gives the shapes that are seen of a draft that does not move yet.
+`found` puts the joints in order, each in the terms of a scene file: how it is found from those before it.
+From there numbers follow from places, rounded as a person would write them, and places from numbers. `drawn`
+returns the shapes of a draft that does not move yet.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from linkanim.scenes.editing import replaced
 # Round numbers: places on a grid, lengths and angles as a person would write them.
 
 FREE = 1e-3
-"""The step of what is drawn without snapping, in its unit."""
+"""The step of drawings without snapping, in the draft's unit."""
 _ANGLES = (1.0, 0.1, 0.01, 0.001)
 
 
@@ -41,7 +41,7 @@ def round_number(value: float, step: float) -> int | float:
 
 
 def round_length(value: float, step: float) -> int | float:
-    """Return the nearest multiple of a step above zero; of a finer one where that would be zero."""
+    """Return the nearest positive multiple of a step; of a finer step where it would be zero."""
     step = step or FREE
     while not (number := round_number(abs(value), step)) and step > 1e-9:
         step /= 10
@@ -55,7 +55,7 @@ def round_angle(vector: complex, step: float) -> str:
 
 
 def round_degrees(angle: float, reach: float, step: float) -> int | float:
-    """Return the roundest degrees that keep what lies so far away within half a step."""
+    """Return the roundest degrees that move a point at the distance `reach` by at most half a step."""
     off = (step or FREE) / 2
     fine = next(
         (fine for fine in _ANGLES if reach * radians(abs(angle - round_number(angle, fine))) <= off), FREE
@@ -75,10 +75,10 @@ Found = Mapping[str, Mapping[str, Any]]
 
 
 def found(draft: Draft) -> dict[str, dict[str, Any]]:
-    """Return how each joint is found, as [joints] of a scene file; those that cannot be are left out.
+    """Return how each joint is found, as [joints] of a scene file; joints that cannot be found are left out.
 
-    A joint is found from the first things drawn that do: the drive or a gear, its body, a slot, a guide,
-    two bars. Of its two closures it is on the one where it was drawn.
+    A joint is found by the first possible one of: the drive or a gear, its body, a slot, a guide, two bars.
+    Of its two closures it has the one on which it was drawn.
     """
     tables: dict[str, dict[str, Any]] = {}
     known, plates = set(draft.of("pins")), plates_of(draft)
@@ -93,7 +93,7 @@ def found(draft: Draft) -> dict[str, dict[str, Any]]:
 
 
 def sides(draft: Draft) -> dict[str, dict[str, Any]]:
-    """Return the closures of a draft's dyads: of which joints each is one, and what it is called."""
+    """Return the closures of a draft's dyads: the joints of each dyad, and the closure's name."""
     tables = ((name, table) for name, table in found(draft).items() if "side" in table)
     return {name: {"joints": ends_of(table), "side": table["side"]} for name, table in tables}
 
@@ -114,9 +114,9 @@ def plates_of(draft: Draft) -> list[RigidBody]:
 
 
 def lengths_within(draft: Draft) -> dict[str, float]:
-    """Return the lengths of the bars between two points of one body, which hold nothing that it does not.
+    """Return the lengths of redundant bars: those between two points of one body.
 
-    A bar that a body begins with is none of them. The body sets their lengths, whatever is stated.
+    A bar that defines a body is not redundant. The body sets the lengths of the others, whatever is stated.
     """
     return {
         name: _round(abs(body[one] - body[other]))
@@ -201,12 +201,12 @@ def _carried(draft: Draft, name: str, known: set[str]) -> Iterator[dict[str, Any
 
 
 def _round(length: float) -> float:
-    """Return a length that follows from others without what rounding left in its last digits."""
+    """Return a length that follows from others, freed of rounding errors in its last digits."""
     return round(length, 9)
 
 
 def _with_side(draft: Draft, name: str, table: dict[str, Any]) -> dict[str, Any]:
-    """Return a dyad with its closure: as it is known of the same dyad, else where the joint was drawn."""
+    """Return a dyad with its closure: the known one of the same dyad, else that where the joint was drawn."""
     known = draft.of("sides").get(name)
     if known and known["joints"] == ends_of(table):
         return {**table, "side": known["side"]}
@@ -224,13 +224,14 @@ def ends_of(table: Mapping[str, Any]) -> list[str]:
     return [ends] if isinstance(ends, str) else list(ends)
 
 
-# Places and numbers: what numbers are where a joint is drawn, and where joints are by their numbers.
+# Places and numbers: the numbers of a joint from its place, and its place from its numbers.
 
 
 def moved(draft: Draft, joint: str, place: complex, snap: float, phase: float | None = 0.0) -> Draft:
-    """Return the draft with a joint at a place, and with the numbers that follow it, but for typed ones.
+    """Return the draft with a joint at a place, and with the numbers that follow it, except typed ones.
 
-    The drive's start follows a crank that has turned by `phase` since; None of one that does not turn fully.
+    `phase` is how far the crank has turned from the drive's start, which follows it; None for an input that
+    does not turn fully.
     """
     if joint in draft.of("sliders"):
         place = foot(draft, draft.of("sliders")[joint]["guide"], place)
@@ -263,7 +264,7 @@ def foot(draft: Draft, guide: str, place: complex) -> complex:
 
 
 def from_span(start: complex, end: complex, place: complex) -> complex:
-    """Return the way to a place from the nearest one between two others."""
+    """Return the vector to a place from the nearest point between two others."""
     vector = end - start
     share = ((place - start) * vector.conjugate()).real / (abs(vector) ** 2 or 1.0)
     return place - start - vector * min(max(share, 0.0), 1.0)
@@ -287,8 +288,8 @@ def gear_offset(draft: Draft, joint: str, gear: Mapping[str, Any], snap: float) 
 def fitted(draft: Draft) -> Draft:
     """Return the draft with its joints where their numbers put them, near where they were drawn.
 
-    Each joint is fitted to those before it; where bars cannot meet, the first of them counts. A bar between
-    two points of one body is as long as those are apart.
+    Each joint is fitted to those before it; where bars cannot meet, the first bar counts. A bar between two
+    points of one body gets their distance as its length.
     """
     done = within_bodies(draft)
     for name in draft.places:
@@ -297,7 +298,7 @@ def fitted(draft: Draft) -> Draft:
 
 
 def within_bodies(draft: Draft) -> Draft:
-    """Return the draft with the bars between two points of one body as long as those are apart."""
+    """Return the draft in which bars between two points of one body have these points' distance as length."""
     for name, length in lengths_within(draft).items():
         key = ("bars", name, "length")
         draft = replace(with_number(draft, key, length), typed=draft.typed - {key})
@@ -307,7 +308,7 @@ def within_bodies(draft: Draft) -> Draft:
 def _following(
     draft: Draft, joint: str, snap: float, phase: float | None
 ) -> Iterator[tuple[tuple[str | int, ...], Any]]:
-    """Yield the numbers that follow a joint, by their keys, with what they are where it is drawn."""
+    """Yield the keys of the numbers that follow a joint, with their values where it is drawn."""
     place = place_of(draft, joint)
     pin, point = draft.of("pins").get(joint), draft.of("points").get(joint)
     if isinstance(pin, Mapping):
@@ -382,16 +383,16 @@ def _meeting(place: complex, one: tuple[complex, float], other: tuple[complex, f
     return min(ends, key=lambda end: abs(end - place))
 
 
-# What is to be seen of a draft that does not move yet: shapes with their places.
+# The shapes of a draft that does not move yet, with their places.
 
 
 class Shape(NamedTuple):
-    """What is drawn of one thing: its kind says how, `places` where, in the draft's unit.
+    """The drawing of one thing: its kind says how, `places` where, in the draft's unit.
 
     "pins", "joints": one place; "bars": the two ends, then the points of the same body; "guides": a place on
-    it, another one 1 unit further, then what slides on it; "springs", "dampers", "cylinder": two ends;
-    "gears": the two pivots of the wheels, and where they touch; "sliders", "slots", "yokes": what slides, and
-    a place further along its guide or slot. `label` is its name.
+    it, another one 1 unit further, then the sliders on it; "springs", "dampers", "cylinder": two ends;
+    "gears": the two pivots of the wheels, and where they touch; "sliders", "slots", "yokes": the sliding
+    joint, and a place further along its guide or slot. `label` is its name.
     """
 
     thing: Thing
@@ -401,7 +402,7 @@ class Shape(NamedTuple):
 
 
 def drawn(draft: Draft) -> tuple[Shape, ...]:
-    """Return what is to be seen of a draft, from the back to the front."""
+    """Return the shapes of a draft, from the back to the front."""
     return tuple(_shapes(draft))
 
 
@@ -437,7 +438,7 @@ def _wheels(draft: Draft, joint: str, mate: str, ratio: float) -> Iterator[Shape
 
 
 def _blocks(draft: Draft) -> Iterator[Shape]:
-    """Yield what slides along guides and in slots."""
+    """Yield the blocks that slide along guides and in slots."""
     for joint, slider in draft.of("sliders").items():
         direction = line_of(draft, draft.of("guides")[slider["guide"]])[1]
         yield Shape(

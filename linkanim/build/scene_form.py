@@ -1,7 +1,7 @@
 """From a draft to a scene: the document that a scene file would hold, and why there is none yet.
 
-A draft is written as a shorthand where one says the same in fewer lines, and else joint by joint; then it
-is read as every file is. What is missing is said in the field's words, with what would make the draft move.
+A draft is written as a shorthand where one says the same in fewer lines, and else joint by joint; then it is
+read like any file. Words say what is missing in the trade's terms, and what would make the draft move.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from linkanim.scenes.form import Context, Field, Table
 from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
 
-# A photograph behind the drawing, and how a scene file tells of it.
+# A photograph behind the drawing, and its table in a scene file.
 
 
 def photo_table(photo: Photo) -> dict[str, Any]:
@@ -50,7 +50,7 @@ Document = Mapping[str, Any]
 def shortened(draft: Draft, document: Document) -> Document:
     """Return a draft's document with a shorthand instead of its joints, where that gives the same linkage.
 
-    The numbers of the shorthand that it came from stay as they were written as long as they hold.
+    Numbers of the shorthand that the draft came from stay as they were written as long as they are right.
     """
     names = {*document.get("ground", {}), *document.get("joints", {})}
     if draft.short is None or "O2" not in names:
@@ -66,7 +66,7 @@ def shortened(draft: Draft, document: Document) -> Document:
 
 
 def table_of(joint: Joint) -> Any:
-    """Return a joint that a shorthand gives as the table that says the same; no side that is another's."""
+    """Return the table of a joint that a shorthand gives, without a side that is another joint's."""
     if isinstance(joint, Pin):
         polar = joint.polar
         if polar and not polar.base:
@@ -89,7 +89,7 @@ def table_of(joint: Joint) -> Any:
 
 
 def _expansion(draft: Draft, key: str, table: Document) -> Expansion | None:
-    """Return what a shorthand's table stands for; None where it is refused."""
+    """Return the meaning of a shorthand's table; None where it is refused."""
     o2 = Pin("O2", draft.places["O2"])
     top = Table("", table, (key,), Context(draft.unit, names_of(key, table)))
     expansion: Expansion | None = top.attempt(SHORTHANDS[key].made, top, o2)
@@ -112,7 +112,7 @@ def _says(draft: Draft, document: Document, joint: Joint) -> bool:
 
 
 def _ordered(table: Document) -> Document:
-    """Return a table with the ends of its two bars in order, and without what is usual of a line."""
+    """Return a table with the ends of its two bars in order, and without a line's default values."""
     if "line" in table:
         return {**table, "line": {"angle": "0 deg", "offset": 0, **table["line"]}}
     ends = table.get("from")
@@ -159,7 +159,7 @@ def _value(draft: Draft, one: Field) -> Any:
 
 
 def _distance(draft: Draft, start: str, end: str) -> Any:
-    """Return the distance that is stated between two joints, or that of a fixed pin or of a point."""
+    """Return the stated distance of two joints, or that of a fixed pin or of a point; None without one."""
     pins, points = draft.of("pins"), draft.of("points")
     if name := draft.bar(start, end):
         return draft.of("bars")[name]["length"]
@@ -190,7 +190,7 @@ def _instead(document: Document, key: str, table: Document, expansion: Expansion
 
 
 def _plain(name: str, body: Mapping[str, Any], given: Mapping[frozenset[str], str]) -> bool:
-    """Tell whether a body is one that the shorthand gives, with nothing else said of it."""
+    """Tell whether a body is one that the shorthand gives, without further properties."""
     members = frozenset(body.get("joints", ())) | {body.get("slider", "")} - {""}
     return len(body) == 1 and members in given and (name == given[members] or name.isdigit())
 
@@ -200,7 +200,7 @@ def _members(body: Body) -> tuple[str, ...]:
 
 
 def _alike(one: Any, other: Any, unit: str) -> bool:
-    """Tell whether two values say the same, but for the writing and the rounding of their numbers."""
+    """Tell whether two values are equal, aside from the writing and the rounding of their numbers."""
     if isinstance(one, Mapping) and isinstance(other, Mapping):
         return one.keys() == other.keys() and all(_alike(one[key], other[key], unit) for key in one)
     if isinstance(one, list) and isinstance(other, list):
@@ -228,7 +228,7 @@ def _degrees(angle: float) -> str:
     return f"{degrees(angle):.12g} deg"
 
 
-# Why a draft does not move yet, in the field's words, and what would make it.
+# Why a draft does not move yet, in the trade's terms, and what would make it move.
 
 EMPTY = "An empty sheet: click where the first ground pin stands"
 _WORDS = {"sliders": "guide", "yokes": "slot", "gears": "gear pair"}
@@ -240,7 +240,7 @@ _KEYS = r"^draft: (joints: |[a-z-]+: (?=joint )|[a-z_.-]+\.(?P<name>[^:.= ]+)[^:
 
 
 def missing(draft: Draft, known: Found) -> str:
-    """Return what a draft lacks before its scene can be read, its joints as they are found; "" if nothing."""
+    """Return what a draft lacks before its scene can be read; `known` are its found joints. "" if nothing."""
     if not draft.of("pins"):
         return EMPTY
     if not draft.of("bars") and not draft.of("sliders"):
@@ -251,7 +251,7 @@ def missing(draft: Draft, known: Found) -> str:
 
 
 def reworded(draft: Draft, error: BadInput) -> str:
-    """Return why reading a draft's document refused it, as a sentence about what was drawn."""
+    """Return the reason why a draft's document was refused, as a sentence about the drawing."""
     text = str(error)
     if apart := re.search(_APART, text):
         joint = apart["joint"]
@@ -263,7 +263,7 @@ def reworded(draft: Draft, error: BadInput) -> str:
 
 
 def _too_many(draft: Draft, known: Found) -> str:
-    """Say what holds joints that are held already; "" where everything is needed."""
+    """Say which things are redundant: they hold joints that are held already; "" where there are none."""
     pins, plates = draft.of("pins"), plates_of(draft)
     for name, table in known.items():
         ends = set(ends_of(table)) if "from" in table else {name}
@@ -295,7 +295,7 @@ def _too_many(draft: Draft, known: Found) -> str:
 
 
 def _slides(known: Found, slot: Mapping[str, Any], ends: list[str]) -> bool:
-    """Tell whether a joint was found by a slot: as what runs in it, or as the slotted bar's end."""
+    """Tell whether a joint was found by a slot: as the joint in it, or as the slotted bar's end."""
     through = slot["through"]
     line = known.get(through, {}).get("line", {})
     by_end = any(known.get(end, {}).get("slot", {}).get("through") == through for end in ends)
@@ -313,7 +313,7 @@ def _third(draft: Draft, one: str, other: str) -> str | None:
 
 
 def _unfound(draft: Draft, known: Found) -> str:
-    """Say what is loose, or closes only all at once; "" where every joint is found."""
+    """Say which joints are loose, or can only be solved together; "" where every joint is found."""
     stuck = [name for name in draft.places if name not in known and name not in draft.of("pins")]
     if not stuck:
         return ""
@@ -339,7 +339,7 @@ def _unfound(draft: Draft, known: Found) -> str:
 
 
 def _together(draft: Draft, stuck: list[str], begin: str) -> set[str]:
-    """Return the joints that hang together with one of those that are not found."""
+    """Return those joints that are not found and are connected with one of them."""
     group, more = set[str](), {begin}
     while more:
         group |= more
@@ -349,7 +349,7 @@ def _together(draft: Draft, stuck: list[str], begin: str) -> set[str]:
 
 
 def _holds(draft: Draft) -> Iterator[set[str]]:
-    """Yield which joints each thing that holds joints names."""
+    """Yield the joints that each constraint names."""
     for kind in _HOLDING:
         for name, table in draft.of(kind).items():
             guide = draft.of("guides").get(table.get("guide"), {})
@@ -359,28 +359,28 @@ def _holds(draft: Draft) -> Iterator[set[str]]:
 
 
 def _body_of(draft: Draft, one: str, other: str) -> str:
-    """Return the name of the body that two joints are on; theirs where it has none."""
+    """Return the name of the body that two joints are on; the joints' names where it has none."""
     return draft.body_of([one, other]) or "–".join(sorted((one, other)))
 
 
-# From a draft to a scene: the document that a scene file would hold, read as every file is.
+# From a draft to a scene: the document that a scene file would hold, read like any file.
 
 NAME = "draft"
-"""What the scene of a draft is called, and its file, unless it has a name."""
+"""The name of a draft's scene, and of its file, unless it has another."""
 _FORCE = {"stiffness", "free_length"}
 _AFTER = ("bodies", "springs", "dampers")
 
 
 class Made(NamedTuple):
-    """What a draft comes to: the scene, or None, and in words what is missing before there is one."""
+    """The result of a draft: its scene, or None, and words on what is missing for a scene."""
 
     scene: Scene | None
     missing: str
 
 
 def document(draft: Draft, joints: Found) -> Mapping[str, Any]:
-    """Return the document of a scene file that says what is drawn, its joints as they are found."""
-    # The one crank that no gear turns is driven without being named.
+    """Return the document of a scene file for a draft; `joints` are its found joints."""
+    # A single crank without a gear is driven without being named.
     drive = {key: value for key, value in draft.drive.items() if key != "joint"}
     stated = {**{key: value for key, value in draft.rest.items() if key != "trace"}, "drive": drive}
     stated |= {"ground": draft.of("pins"), "joints": joints}
@@ -407,10 +407,10 @@ def made(draft: Draft, name: str = NAME) -> Made:
 
 
 def phase_of(scene: Scene, places: Mapping[str, Point], *, swung: bool) -> float:
-    """Return the phase at which a scene stands as it was drawn.
+    """Return the phase at which a scene has its drawn pose.
 
-    0 of one that turns fully, which starts where it was drawn, unless it `swung` before. Of one that goes
-    there and back it is the way on which all joints are nearest to where they were drawn.
+    It is 0 for an input that turns fully, which starts as drawn, unless it `swung` before. For an input that
+    goes there and back, it is on the way on which all joints are nearest to where they were drawn.
     """
     if scene.info.full_turn and not swung:
         return 0.0
@@ -420,11 +420,11 @@ def phase_of(scene: Scene, places: Mapping[str, Point], *, swung: bool) -> float
 
 
 def _off(scene: Scene, places: Mapping[str, Point], phase: float) -> float:
-    """Return how far the joint is from its place that is farthest from it."""
+    """Return the greatest distance of a joint from its place."""
     pose = scene.pose(phase, 0).position
     return max(dist(place, places[name]) for name, place in pose.items())
 
 
 def _whole(spring: Mapping[str, Any]) -> Mapping[str, Any]:
-    """Return a spring without its force as long as only half of that is typed."""
+    """Return a spring without its force where only one of stiffness and free length is typed."""
     return spring if spring.keys() >= _FORCE else {key: spring[key] for key in spring.keys() - _FORCE}

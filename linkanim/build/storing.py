@@ -1,4 +1,4 @@
-"""A draft as plain data, for JSON, and back: what comes back can be shown, chosen and drawn on."""
+"""A draft as plain data, for JSON, and back: a restored draft can be shown, chosen and drawn on."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ from linkanim.build.places import drawn, fitted, within_bodies
 from linkanim.intake import Section, refuse_controls
 
 _FARTHEST = 1e30
-"""No number of a draft is beyond it: squares of squares are still numbers."""
+"""The largest number of a draft: squares of its square are still finite."""
 _MOST = 1_000
-"""Joints and all that is drawn on them; a scene has a few dozen."""
+"""The most joints and things drawn on them; a scene has a few dozen."""
 _LIST = (list, tuple)
 _HOLDS: Mapping[str, Mapping[str, Any]] = {
     "bars": {"joints": _LIST},
@@ -29,7 +29,7 @@ _HOLDS: Mapping[str, Mapping[str, Any]] = {
     "dampers": {"between": _LIST},
     "sides": {"joints": _LIST, "side": str},
 }
-"""What is told of each kind in any case."""
+"""The keys that each kind always has."""
 
 
 def stored(draft: Draft) -> dict[str, Any]:
@@ -40,7 +40,7 @@ def stored(draft: Draft) -> dict[str, Any]:
 def restored(tables: Mapping[str, Any], where: str = "draft") -> Building:
     """Return a building with the draft that was stored; BadInput for tables that are no draft, or damaged.
 
-    All that a sheet asks of a draft is asked of it here, so that it fails here and not under the hand.
+    Everything that a sheet does with a draft is tried here, so that a damaged one fails here and not in use.
     """
     section = Section(where, tables)
     refuse_controls(section)
@@ -48,13 +48,13 @@ def restored(tables: Mapping[str, Any], where: str = "draft") -> Building:
     try:
         building = Building(within_bodies(_draft(tables)))
         _ask(building)
-    except Exception as error:  # whatever meets a table that is not as it should be
+    except Exception as error:  # a malformed table may raise anything
         raise section.wrong(f"is no draft of linkanim: {type(error).__name__}") from None
     return building
 
 
 def _ask(building: Building) -> None:
-    """Ask a building for what a sheet does; whatever that raises. LookupError for what is not there."""
+    """Do with a building what a sheet does; raises whatever that raises, LookupError for missing things."""
     draft = building.draft
     things, tables = {*draft.things()}, [*_tables(draft)]
     if len(things) + len(tables) > _MOST:

@@ -9,7 +9,7 @@ from linkanim.frozen import NamedTuple
 
 
 class Tool(NamedTuple):
-    """A tool of the bar, or what is done at once: its icon, name and key, the action that it stands for."""
+    """A tool of the bar, or an immediate command: its icon, name and key, and its action."""
 
     icon: str
     name: str

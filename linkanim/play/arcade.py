@@ -1,4 +1,4 @@
-"""What the window is given to play with: the games, and what of them is kept."""
+"""What a window is given of games: the table of games, and the stored results."""
 
 from __future__ import annotations
 
@@ -19,21 +19,21 @@ if TYPE_CHECKING:
 # Questions and the file are imported when they are needed: the first frame of a scene does not wait for them.
 
 _AGAIN = 3
-"""So many questions of earlier rounds come again in one."""
+"""The most questions of earlier rounds that come again in a round."""
 _SEEDS = 10**6
 GREETING = "move the mouse for tools, H for keys"
 _SILENT = 45
-"""So many times it is asked for news before it greets: the first pictures do not wait for the file."""
+"""How often it is asked for news before it greets, so that the first pictures do not wait for the file."""
 _MOST_WAITING = 1_000
-"""So many changes wait to be kept."""
+"""The most changes that wait to be stored."""
 
 
 class Arcade:
-    """The games of a window, and the file in which best scores and what was missed are kept.
+    """The games of a window, and the file in which best scores and missed questions are stored.
 
-    Without a path it is the user's own; it is read when first needed, and written after each answer. Another
-    window may write it, too: each change is made to what is there at the moment. What cannot be kept then is
-    kept with the next change. One that `greets` says in its first window how to begin.
+    Without a path it is the user's own file; it is read when first needed, and written after each answer.
+    Another window may write it, too: each change is made to the file's present content. A change that cannot
+    be stored is tried again with the next one. With `greets` the user's first window says how to begin.
     """
 
     def __init__(
@@ -50,7 +50,7 @@ class Arcade:
         return game_of(words)
 
     def completed(self, words: str) -> str:
-        """Return a game's words with a seed, best scores, and what was missed."""
+        """Return a game's words with a seed, best scores, and missed questions."""
         game, scores = GameWords.of(words), self._scores()
         match game.kind:
             case "title":
@@ -79,7 +79,7 @@ class Arcade:
         return words
 
     def _again(self, words: GameWords, scores: Scores) -> list[QuestionId]:
-        """Return what was missed of a chapter and level and can still be asked, the longest ago first."""
+        """Return the missed questions of a chapter and level that can still be asked, the oldest first."""
         from linkanim.play.games import ALL, members
         from linkanim.play.kinds import of_level
         from linkanim.play.quiz import is_question
@@ -90,7 +90,7 @@ class Arcade:
         return list(islice(filter(is_question, fitting), _AGAIN))
 
     def keep(self, words: str) -> None:
-        """Keep what a game leaves; what cannot be kept is news."""
+        """Store a game's result; where that fails, `news` says so."""
         from linkanim.play.scores import keep
 
         self._waiting = (*self._waiting, words)[-_MOST_WAITING:]
@@ -101,13 +101,13 @@ class Arcade:
             self._say(f"{error}; scores are not kept")
 
     def _say(self, sentence: str | None) -> None:
-        """Have a sentence told, once as long as no other comes."""
+        """Add a sentence to the news, unless it was the last one."""
         if sentence and sentence != self._said:
             self._news.append(sentence)
         self._said = sentence or ""
 
     def news(self) -> list[str]:
-        """Return what there is to say about the file, once; asked a while, how to begin, once for ever."""
+        """Return messages about the file, each once; after a while, how to begin, only once ever."""
         if self._silent is not None:
             self._silent = self._silent - 1 or None
             if self._silent is None and not self._scores().greeted:
@@ -121,7 +121,7 @@ class Arcade:
         return self._path or kept_as("scores.json")
 
     def _scores(self) -> Scores:
-        """Return what is kept; nothing where that cannot be read, which is told once there is more."""
+        """Return the stored scores; empty ones where the file cannot be read, which `news` then says."""
         from linkanim.play.scores import Scores, load
 
         try:

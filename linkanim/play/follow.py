@@ -37,15 +37,15 @@ from linkanim.units import shown
 # A track: where a ram has to be along the paper that scrolls by, made from the scene's own motion.
 
 LENGTH = 4_500
-"""Of the paper, in mm."""
+"""The length of the paper, in mm."""
 LEVELS = 3
 _HALF_WIDTHS = (0.11, 0.075, 0.05)
-"""Of the space between the lines, in strokes, by level."""
+"""Half the space between the lines, in strokes, by level."""
 _LEAD = 60
 _HALF_TURN = 150
-"""So much paper, in mm, goes by before the ram has to move, and while a steady crank turns halfway."""
+"""The paper, in mm, that goes by before the ram has to move, and while a steady crank makes half a turn."""
 _SLOWEST, _FASTEST = 260, 130
-"""Paper for one stroke at a steady speed of the ram."""
+"""The most and the least paper, in mm, for one stroke at a steady speed of the ram."""
 _RESTS = (40, 90)
 _SAMPLES = 1_440
 
@@ -92,7 +92,7 @@ def tracks() -> tuple[str, ...]:
 
 @lru_cache(maxsize=2)
 def track_of(name: str, level: int) -> RamTrack:
-    """Return a scene's track at a level, 1 to `LEVELS`; each is the same at all times."""
+    """Return a scene's track at a level of `LEVELS`; it is always the same."""
     scene = load(name)
     ram, ends = output_slider(scene.linkage), scene.info.dead_centres
     assert ram
@@ -124,7 +124,7 @@ def _places(cycle: NDArray[np.float64], scene: Scene, random: Random) -> tuple[f
 
 
 def _stretch(place: float, cycle: NDArray[np.float64], scene: Scene, random: Random) -> Iterator[float]:
-    """Yield what comes next: half turns of a steady crank, a steady stroke of the ram, or a rest."""
+    """Yield the places of the next stretch: half turns of a steady crank, a steady stroke, or a rest."""
     kind = random.choice(("turn", "turn", "stroke", "stroke", "rest"))
     if kind == "rest":
         yield from [place] * random.randint(*_RESTS)
@@ -138,7 +138,7 @@ def _stretch(place: float, cycle: NDArray[np.float64], scene: Scene, random: Ran
 
 
 def _turning(cycle: NDArray[np.float64], scene: Scene, phase: float, halves: int) -> list[float]:
-    """Return the ram's places while a steady crank turns some halves of a turn on from a phase."""
+    """Return the ram's places while a steady crank makes some half turns from a phase."""
     phases = phase + math.pi / _HALF_TURN * np.arange(1, halves * _HALF_TURN + 1)
     known = np.arange(_SAMPLES + 1) * (scene.period / _SAMPLES)
     places: list[float] = np.interp(phases % scene.period, known, np.append(cycle, cycle[0])).tolist()
@@ -152,17 +152,17 @@ Stage = Literal["ready", "counts", "runs", "over"]
 _PAPER = (1_000, 1_200, 1_400)
 """How far the paper scrolls in a frame as it begins, in thousandths of a mm, by level."""
 _FASTER_EACH, _MOST = 6, 700
-"""After so many frames it scrolls by a thousandth more, up to so many more."""
+"""The frames after which it scrolls by a thousandth more, and the most that it gains, in thousandths."""
 _COUNTED = 3 * FRAMES_PER_SECOND
-"""Before the paper scrolls it is counted 3, 2, 1: a second each."""
+"""The frames of the count 3, 2, 1 before the paper scrolls: a second each."""
 _SLACK = 3 * FRAMES_PER_SECOND
-"""For how many frames in all the ram may be outside."""
+"""The number of frames, in all, for which the ram may be outside its lines."""
 _NOTCH = radians(0.4)
 """How far the crank turns in a frame at the first notch of the arrow keys."""
 _NOTCHES = 12
 _COARSE = 3
 _AHEAD, _BEHIND, _EVERY = 200, 40, 4
-"""How much of the paper is in sight before the ram and behind it, in mm, and how close its points."""
+"""How much paper is visible ahead of the ram and behind it, and the step of its points, in mm."""
 _WIDTHS = ("wide, slow", "narrower, faster", "narrow, fast")
 _FIRST = "slider-crank"
 _HINT = "drag the crank pin   ← → faster, slower   Space stops   a gamepad's stick"
@@ -170,10 +170,10 @@ _HINT = "drag the crank pin   ← → faster, slower   Space stops   a gamepad's
 
 @frozen
 class FollowRun:
-    """A run along a scene's track: how much paper has gone by, on how much of it the ram kept to its lines.
+    """A run along a scene's track: how much paper has gone by, and on how much the ram kept to its lines.
 
-    `paper` and `passed` count thousandths of a mm, `frames` and `outside` frames, `counted` those of
-    the count before it; `notch` is how fast the arrow keys turn the crank.
+    `paper` and `passed` count thousandths of a mm, `frames` and `outside` frames, `counted` the frames of the
+    count before the run; `notch` is how fast the arrow keys turn the crank.
     """
 
     scene: str
@@ -193,22 +193,22 @@ class FollowRun:
 
     @property
     def words(self) -> str:
-        """What begins it again just here."""
+        """The words that begin the run again from here."""
         fields = {name: value for name, value in vars(self).items() if name != "is_within"}
         return str(GameWords("follow", {}).having(**fields))
 
     @property
     def track(self) -> RamTrack:
-        """What the ram has to follow."""
+        """The track that the ram has to follow."""
         return track_of(self.scene, self.level)
 
     @property
     def metres(self) -> float:
-        """The score: on how much paper the ram kept between the lines, in m."""
+        """The score: the length of paper on which the ram kept between the lines, in m."""
         return self.passed / 1e6
 
     def entered(self, state: State) -> State:
-        """Return the state with the scene standing where the run is."""
+        """Return the state with the scene at rest at the run's phase."""
         look = Look(hud=False, trace=False, theme=state.look.theme, unit=state.look.unit)
         return with_scene(replace(state, look=look), load(self.scene), self.phase, paused=True)
 
@@ -246,7 +246,7 @@ class FollowRun:
         return begun(state, "follow", scene=self.scene, level=self.level)
 
     def aged(self, state: State) -> State:
-        """Let the paper scroll, and see whether the ram is between its lines; none of it below the help."""
+        """Let the paper scroll, and check whether the ram is between its lines, unless the help is open."""
         if self.stage not in ("counts", "runs") or state.help:
             return state
         sense = 1 if state.scene.linkage.drive.speed > 0 else -1
@@ -276,23 +276,23 @@ class FollowRun:
         return replace(with_effect(state, "sound", "wrong") if crossed else state, game=game)
 
     def _ended(self, state: State) -> State:
-        """Return the state with the run over, its score handed on."""
+        """Return the state with the run over, and its score as an effect."""
         kept = f"best={self.kept_as}:{self.passed // 1_000}"
         state = with_effect(with_effect(state, "score", kept), "sound", "right" if self.is_best else "wrong")
         return replace(state, game=replace(self, stage="over", notch=0))
 
     @property
     def kept_as(self) -> str:
-        """What its best score is kept under."""
+        """The name under which its best score is stored."""
         return f"follow-{self.scene}.{self.level}"
 
     @property
     def is_best(self) -> bool:
-        """Whether it went further than before."""
+        """Whether the score is better than the best before."""
         return self.passed // 1_000 > self.best
 
     def shown(self, state: State, over: Overlay) -> Overlay:
-        """Return the overlay with the paper before the ram, and the score beside it."""
+        """Return the overlay with the paper ahead of the ram, and the score beside it."""
         left = 1.0 - self.outside / _SLACK
         bars = (
             ScoreBar("between the lines", f"{self.metres:.2f} m", self.passed / (1e3 * LENGTH)),
@@ -323,7 +323,7 @@ class FollowRun:
         return f"{self.metres:.2f} m, {end}{before}"
 
     def _lane(self, state: State) -> Lane:
-        """Return the two lines about the ram, in the unit that is shown."""
+        """Return the two lines about the ram, in the shown unit."""
         track, paper = self.track, self.paper / 1e3
         first = int(paper - _BEHIND) // _EVERY * _EVERY
         middle = tuple(

@@ -25,16 +25,17 @@ from linkanim.units import shown
 
 
 class GameWords(NamedTuple):
-    """What a game is begun with."""
+    """The words with which a game begins: its kind and its parameters."""
 
     kind: str
     fields: dict[str, str]
 
     @classmethod
     def of(cls, text: str) -> Self:
-        """Read them; BadInput where a parameter is not written as name=value.
+        """Read a game's words; BadInput where a parameter is not written as name=value.
 
-        A value may have quotes, as in a shell; without any, words that have no name belong to the one before.
+        A value may have quotes, as in a shell; without quotes, words without a name belong to the value
+        before.
         """
         kind, parts = "", list[str]()
         for part in _split(text):
@@ -67,13 +68,13 @@ class GameWords(NamedTuple):
         return number
 
     def having(self, **fields: object) -> Self:
-        """Return them with other parameters; what is "" is left out."""
+        """Return the words with other parameters; a parameter "" is removed."""
         given = {name: str(value) for name, value in fields.items() if value != ""}
         return self._replace(fields={**self.fields, **given})
 
 
 def _split(text: str) -> list[str]:
-    """Return what spaces part, but those in quotes; a backslash is a character as others."""
+    """Return the parts between spaces, except spaces in quotes; a backslash is an ordinary character."""
     lexer = shlex(text, posix=True)
     lexer.whitespace_split, lexer.escape, lexer.commenters = True, "", ""
     try:
@@ -92,7 +93,7 @@ GAMES = {
 """Where each kind lives, imported when it is first played: a module with `read(words)`."""
 
 LEVELS = (1, 2, 3)
-"""Of rounds of questions."""
+"""The levels of rounds of questions."""
 
 
 def game_of(text: str) -> Game:
@@ -109,7 +110,7 @@ ALL = "all"
 
 
 def members(chapter: str) -> tuple[str, ...]:
-    """Return the scenes of a chapter, of all, or the one scene of that name; BadInput for another name."""
+    """Return the scenes of a chapter or of all, or the one scene of that name; BadInput for another name."""
     if chapter == ALL:
         return names()
     scenes = chapters().get(chapter, [chapter] if chapter in names() else [])
@@ -146,7 +147,7 @@ def chosen_by(action: Action, row: int, count: int) -> Chosen | None:
 
 
 class Door(NamedTuple):
-    """A way on: what it is called by, and in words."""
+    """An entry of a menu: the name by which it is called, and its words."""
 
     name: str
     text: str
@@ -154,7 +155,7 @@ class Door(NamedTuple):
 
 
 def choices_of(doors: Iterable[Door]) -> tuple[Choice, ...]:
-    """Return doors as a panel shows them, numbered."""
+    """Return the entries of a menu as a panel shows them, numbered."""
     return tuple(Choice(f"{n}", door.text, below=door.about) for n, door in enumerate(doors, 1))
 
 
@@ -164,15 +165,15 @@ def begun(state: State, kind: str, **fields: object) -> State:
 
 
 class OverWhatRuns:
-    """What the choices of a game and of a round share: what is on runs on bare behind them."""
+    """What the menus of games and of rounds share: the bare mechanism runs on behind them."""
 
     covers = True
 
     def entered(self, state: State) -> State:
-        """Let what is on run behind it."""
+        """Let the present mechanism run behind the menu."""
         clock = state.clock.pause(state.frame, False)
         return replace(state, look=Look(hud=False, theme=state.look.theme), clock=clock)
 
     def aged(self, state: State) -> State:
-        """Return the state as it is: time does nothing here."""
+        """Return the state unchanged: time has no effect here."""
         return state

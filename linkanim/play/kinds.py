@@ -50,9 +50,9 @@ from linkanim.units import significant, typeset
 
 _BOTH = Look(names=1, vectors=frozenset({VELOCITY, ACCELERATION}))
 _SAMPLES = 72
-"""Values of a curve."""
+"""The number of values of a curve."""
 _APART = 0.3
-"""Curves that differ by less, of their greatest value, could be taken for one."""
+"""Curves that differ by less than this share of their greatest value could be confused."""
 _FACTORS = {1: "as large as before", 2: "twice as large", 4: "four times as large", 8: "eight times as large"}
 _GOES_WITH = {
     1: "a spring's force",
@@ -60,11 +60,11 @@ _GOES_WITH = {
     4: "an acceleration",
     8: "the power that accelerates a mass",
 }
-"""What becomes so large when the speed doubles."""
+"""Words for how something changes when the speed doubles, by the factor."""
 
 
 def speeding(puzzle: Puzzle) -> QuizQuestion | None:
-    """Return whether a joint becomes faster; taken wrongly, whether it is accelerated to the right, or up."""
+    """Ask whether a joint becomes faster; the slip is to ask whether it accelerates to the right, or up."""
     names = puzzle.clear("velocity")
     puzzle.random.shuffle(names)
     for name in names:
@@ -93,7 +93,7 @@ def speeding(puzzle: Puzzle) -> QuizQuestion | None:
 
 
 def doubled(puzzle: Puzzle) -> QuizQuestion | None:
-    """Return what becomes of a joint's velocity or acceleration as the speed doubles."""
+    """Ask how a joint's velocity or acceleration changes when the speed doubles."""
     kind, factor = puzzle.random.choice((("velocity", 2), ("acceleration", 4)))
     names = puzzle.clear(kind)
     if not names:
@@ -112,7 +112,7 @@ def doubled(puzzle: Puzzle) -> QuizQuestion | None:
 
 
 def force(puzzle: Puzzle) -> QuizQuestion | None:
-    """Return what becomes of a force as the speed doubles: a spring's, a damper's, or that on a mass."""
+    """Ask how a force changes when the speed doubles: a spring's, a damper's, or that on a mass."""
     known = puzzle.scene.linkage
     clear = []
     for items, factor in ((known.springs, 1), (known.dampers, 2)):
@@ -169,7 +169,7 @@ _ORDERS = ("position", "velocity", "acceleration")
 
 
 def curves(puzzle: Puzzle) -> QuizQuestion | None:
-    """Return which of three curves is the output's velocity or acceleration; taken wrongly, another."""
+    """Ask which of three curves is the output's velocity or acceleration; wrong answers are the others."""
     body = output_body(puzzle.scene.linkage)
     if body is None or not puzzle.scene.info.full_turn:
         return None
@@ -205,9 +205,10 @@ def curves(puzzle: Puzzle) -> QuizQuestion | None:
 
 
 def _distinct(puzzle: Puzzle, columns: Sequence[Array]) -> list[Array] | None:
-    """Return a value over a period as time goes, and its two rates, each at most 1 in size.
+    """Return a value and its two rates over a period of time, each scaled to a greatest size of 1.
 
-    None where they look alike, one is unbounded or rests, or the value grows from turn to turn.
+    None where curves look alike, where one is unbounded or always 0, or where the value grows from turn to
+    turn.
     """
     step = max(len(puzzle.cycle.phase) // _SAMPLES, 1)
     value, *rates = (column[::step] for column in columns)
@@ -215,7 +216,7 @@ def _distinct(puzzle: Puzzle, columns: Sequence[Array]) -> list[Array] | None:
         return None
     value = value - (value.max() + value.min()) / 2
     if abs(float(value[-1] - value[0])) > 0.5 * float(np.ptp(value)):
-        return None  # it turns on and on: its angle is a line
+        return None  # the body turns fully: its angle grows without end
     sense = -1 if puzzle.scene.linkage.drive.speed < 0 else 1
     scaled = [part[::sense] / np.abs(part).max() for part in (value, *rates)]
     alike = (float(np.abs(one - other).max()) < _APART for one, other in combinations(scaled, 2))
@@ -223,7 +224,7 @@ def _distinct(puzzle: Puzzle, columns: Sequence[Array]) -> list[Array] | None:
 
 
 def coriolis(puzzle: Puzzle) -> QuizQuestion | None:
-    """Return whether a point that slides has a Coriolis acceleration; only where the guide turns it has."""
+    """Ask whether a sliding point has a Coriolis acceleration, which it has only where its guide turns."""
     sliding = list(_sliding(puzzle))
     if not sliding:
         return None
@@ -246,7 +247,7 @@ def coriolis(puzzle: Puzzle) -> QuizQuestion | None:
 
 
 def _sliding(puzzle: Puzzle) -> Iterator[tuple[str, str, bool]]:
-    """Yield joints that slide clearly, each with the words for its guide, and whether that turns clearly."""
+    """Yield joints that clearly slide, each with words for its guide, and whether that clearly turns."""
     linkage = puzzle.scene.linkage
     for slide in (slide for joint in linkage.joints for slide in joint.slides):
         if linkage.joint(slide.point).fixed or not _slides(puzzle, slide):
@@ -274,15 +275,15 @@ def _slides(puzzle: Puzzle, slide: Slide) -> bool:
     return bool(rates[1] > PLAIN * float(np.nanmax(rates[0])))
 
 
-# How a linkage was made: the pole of two of its poses, a time ratio's slow way, precision points.
+# How a linkage was made: the pole of two of its poses, a time ratio's slow stroke, precision points.
 
 _FAR = 3.0
-"""Of the poses' distances: a pole farther away is not asked for."""
+"""A pole farther away than this, in distances of the poses, is not asked for."""
 _DIGITS = 4
 
 
 def pole(puzzle: Puzzle) -> QuizQuestion | None:
-    """Return about which point a turn takes one pose to another; taken wrongly, another pole, the middle."""
+    """Ask about which point a turn takes one pose to another; wrong answers: other poles, or the middle."""
     purpose = puzzle.scene.purpose
     if not isinstance(purpose, PosesPurpose) or not puzzle.scene.trace:
         return None
@@ -342,7 +343,7 @@ def _pose(puzzle: Puzzle, pose: tuple[float, float, float]) -> str:
 
 
 def slow_way(puzzle: Puzzle) -> QuizQuestion | None:
-    """Return how far the crank turns on the output's slow way; taken wrongly, on the quick one."""
+    """Ask how far the crank turns during the output's slow stroke; a wrong answer is the quick one."""
     purpose = puzzle.scene.purpose
     if not isinstance(purpose, TimeRatioPurpose) or purpose.ratio < 1 + 10 * CLEAR:
         return None
@@ -367,7 +368,7 @@ def slow_way(puzzle: Puzzle) -> QuizQuestion | None:
 
 
 def precision_point(puzzle: Puzzle) -> QuizQuestion | None:
-    """Return where a linkage gives its function exactly; taken wrongly, between two such points."""
+    """Ask where a linkage gives its function exactly; wrong answers lie between two such points."""
     purpose = puzzle.scene.purpose
     if not isinstance(purpose, FunctionPurpose) or len(purpose.x) < 3:
         return None
@@ -393,18 +394,18 @@ def _at(x: float) -> str:
     return f"x = {typeset(significant(x, _DIGITS))}"
 
 
-# What moves which way and how fast: turning, the fastest point, the heading, the instant centre.
+# Directions and speeds: turning, the fastest point, the heading, the instant centre.
 
 _OBLIQUE = pi / 6
-"""A heading that is farther from a compass point is between two of them."""
+"""A heading farther than this from a compass point (rad) is between two compass points."""
 _NEAR = 0.08
-"""Places that are nearer to each other, in sizes of the linkage, could be taken for one."""
+"""Places nearer to each other than this, in sizes of the linkage, could be confused."""
 _ARROWS = Look(names=1, vectors=frozenset({VELOCITY}))
 _BACKWARDS = "when the input runs backwards"
 
 
 def turning(puzzle: Puzzle) -> QuizQuestion | None:
-    """Return in which direction a link turns; taken wrongly, as the input does."""
+    """Ask in which direction a link turns; the slip is to take the input's direction."""
     clear = [body for body in puzzle.turning if abs(puzzle.share(f"{body.name}.angular_velocity")) > PLAIN]
     if not clear:
         return None
@@ -465,7 +466,7 @@ def fastest(puzzle: Puzzle) -> QuizQuestion | None:
 
 
 def _taken_for_fastest(puzzle: Puzzle, names: list[str]) -> Iterator[tuple[str, str]]:
-    """Yield what is taken for the fastest of some joints, and why."""
+    """Yield joints that may wrongly be taken for the fastest, and why."""
     linkage = puzzle.scene.linkage
     if linkage.drive.coordinate.is_angle:
         pivot = linkage.driven.pivot
@@ -477,7 +478,7 @@ def _taken_for_fastest(puzzle: Puzzle, names: list[str]) -> Iterator[tuple[str, 
 
 
 def _why_faster(puzzle: Puzzle, first: str, others: list[str]) -> str:
-    """Return why a joint is faster than the next one that is on one body with it; "" where none is."""
+    """Return why a joint is faster than the next fastest on a body with it; "" where there is none."""
     shared = ((name, body) for name in others for body in puzzle.bodies_of(first, name))
     for name, body in shared:
         centre, about = puzzle.centre_of(body)
@@ -492,9 +493,9 @@ def _why_faster(puzzle: Puzzle, first: str, others: list[str]) -> str:
 
 
 def heading(puzzle: Puzzle) -> QuizQuestion | None:
-    """Return in which direction a joint moves; taken wrongly, back, along its link or as it is accelerated.
+    """Ask in which direction a joint moves; wrong answers are back, along its link, or its acceleration.
 
-    What slides in a fixed guide is asked for the two directions of its guide only.
+    For a joint on a fixed guide the only answers are the two directions of the guide.
     """
     names = puzzle.clear("velocity")
     puzzle.random.shuffle(names)
@@ -524,7 +525,7 @@ def _is_guided(puzzle: Puzzle, name: str) -> bool:
 
 
 def _taken_for_heading(puzzle: Puzzle, name: str, correct: int) -> Iterator[tuple[int, str]]:
-    """Yield which direction is taken for a joint's heading, and why; what counts most comes last."""
+    """Yield directions that may wrongly be taken for a joint's heading, and why; later ones prevail."""
     pin = puzzle.pivot_of(name)
     if pin is not None:
         along = quarter(puzzle.apart(pin, name))
@@ -537,7 +538,7 @@ def _taken_for_heading(puzzle: Puzzle, name: str, correct: int) -> Iterator[tupl
 
 
 def _why_heading(puzzle: Puzzle, name: str) -> str:
-    """Return why a joint moves as it does: by the bar that pushes it, or by what its link turns about."""
+    """Return why a joint moves as it does: by the bar that pushes it, or by its link's instant centre."""
     velocity = puzzle.vector("velocity", name)
     moves = f"{WAYS[quarter(velocity)]}, with {number(abs(velocity))} {puzzle.scene.length_unit}/s"
     joint = puzzle.scene.linkage.joint(name)
@@ -565,7 +566,7 @@ def _why_heading(puzzle: Puzzle, name: str) -> str:
 
 
 def instant_centre(puzzle: Puzzle) -> QuizQuestion | None:
-    """Return where a coupler's instant centre is; taken wrongly, at a joint, a pin or half-way."""
+    """Ask where a coupler's instant centre is; wrong answers are a joint, a pin or half-way."""
     body = coupler_body(puzzle.scene.linkage)
     if body is None or abs(puzzle.share(f"{body.name}.angular_velocity")) < PLAIN:
         return None
@@ -616,14 +617,14 @@ def _why_pole(puzzle: Puzzle, body: Body, centre: complex) -> str:
 
 
 def _taken_for_pole(puzzle: Puzzle, name: str) -> str:
-    """Return as what a joint is taken for the pole of a link that moves."""
+    """Return in words how a joint is wrongly taken for the pole of a moving link."""
     if puzzle.scene.linkage.joint(name).fixed:
         return "a fixed pin, about which another link turns"
     return "a joint that moves, taken for the pole" if puzzle.share(f"{name}.velocity") > CLEAR else ""
 
 
 def _apart(points: Iterable[complex], least: float) -> list[complex]:
-    """Return the points that are so far from each one before them."""
+    """Return the points that are at least that far from each one before them."""
     apart: list[complex] = []
     for point in points:
         if all(abs(point - other) > least for other in apart):
@@ -634,18 +635,18 @@ def _apart(points: Iterable[complex], least: float) -> list[complex]:
 # How far things go: dead centres, the input's range, closures beyond a limit, Grashof's sum.
 
 _ANSWERS_APART = 20.0
-"""Crank angles in degrees that nobody takes for one another."""
+"""Crank angles farther apart than this, in degrees, cannot be confused."""
 _SWINGS_APART = 5.0
-"""Ends of swings in degrees that nobody takes for one another."""
+"""Ends of swings farther apart than this, in degrees, cannot be confused."""
 _FULL = "it turns fully"
 _IN_LINE = 1e-6
-"""Two bars are in one line where the sine of the angle between them is less."""
+"""Two bars are in one line where the sine of the angle between them is below this."""
 Swing = tuple[float, float]
 """The two ends of a swing, in degrees."""
 
 
 def dead_centre(puzzle: Puzzle) -> QuizQuestion | None:
-    """Return at which crank angle the output turns back; taken wrongly, where it is fastest."""
+    """Ask at which crank angle the output turns back; a wrong answer is where it is fastest."""
     body = output_body(puzzle.scene.linkage)
     exact = _turning_back(puzzle, body) if body else {}
     if body is None or not exact:
@@ -670,12 +671,12 @@ def dead_centre(puzzle: Puzzle) -> QuizQuestion | None:
         shuffled=True,
         shows=Look(names=1, chart=_rate_of(body)),
         stops=exact[right],
-        names=0,  # named, a guide has its dead centres
+        names=0,  # with names a guide would show its dead centres
     )
 
 
 def _rate_of(body: Body) -> str:
-    """Return the token of how fast a body turns, or travels."""
+    """Return the token of a body's angular velocity, or of a slider's velocity."""
     return f"{body.name}.{'travel_velocity' if body.slider else 'angular_velocity'}"
 
 
@@ -687,7 +688,7 @@ def _turning_back(puzzle: Puzzle, body: Body) -> dict[float, float]:
     scene, samples = puzzle.scene, len(puzzle.cycle.phase)
     if not scene.info.full_turn or scene.period > tau * 1.001:
         return {}
-    # once round from between two samples: many turn back at a phase of 0
+    # once round, half a sample off 0: many bodies turn back at a phase of 0
     once_round = scene.period * (np.arange(samples + 1) + 0.5) / samples
     rate = scene.quantities[_rate_of(body)]
     reversals = sign_changes(
@@ -712,7 +713,7 @@ def _in_line(puzzle: Puzzle, body: Body, exact: Mapping[float, float]) -> str:
 
 
 def input_range(puzzle: Puzzle) -> QuizQuestion | None:
-    """Return whether the input turns fully, or how it swings; taken wrongly, another's swing."""
+    """Ask whether the input turns fully, or how it swings; wrong answers are other swings."""
     info = puzzle.scene.info
     if not puzzle.scene.linkage.drive.coordinate.is_angle:
         return None
@@ -732,19 +733,19 @@ def input_range(puzzle: Puzzle) -> QuizQuestion | None:
 
 
 def _are_apart(one: Swing, other: Swing) -> bool:
-    """Return whether nobody takes two swings for one another."""
+    """Return whether two swings cannot be confused."""
     return max(between(a, b) for a, b in zip(one, other, strict=True)) > _SWINGS_APART
 
 
 def _overlooked(puzzle: Puzzle) -> str:
-    """Return what is overlooked by who has an input turn fully that swings."""
+    """Return in words what a full turn of an input that swings would overlook."""
     if any(puzzle.scene.mechanism.stops):
         return "the limit overlooked: beyond it the loop does not close"
     return "the stroke of the drive overlooked"
 
 
 def _taken_for_range(puzzle: Puzzle, own: Swing | None) -> Iterator[tuple[str, Swing]]:
-    """Yield swings that are taken for the input's own, None where it turns fully, each after its reason."""
+    """Yield reasons and swings that may wrongly be taken for the input's `own`, None for a full turn."""
     body, info = output_body(puzzle.scene.linkage), puzzle.scene.info
     if body is not None and body.slider is None and body.name not in info.turning_links:
         angles = np.degrees(puzzle.values(f"{body.name}.angle"))
@@ -763,7 +764,7 @@ def _taken_for_range(puzzle: Puzzle, own: Swing | None) -> Iterator[tuple[str, S
 
 
 def _why_fully(puzzle: Puzzle) -> str:
-    """Return why an input turns fully: by Grashof's sum of a four-bar alone, else by what its dyads keep."""
+    """Return why an input turns fully: by Grashof's sum for a single four-bar, else by its dyads."""
     info, bar = puzzle.scene.info, four_bar_of(puzzle.scene.mechanism)
     if bar is not None and sum(joint.dyad for joint in puzzle.scene.linkage.joints) == 1:
         if bar.change_points:
@@ -783,7 +784,7 @@ def _why_fully(puzzle: Puzzle) -> str:
 
 
 def _why_swinging(puzzle: Puzzle) -> str:
-    """Return why an input swings: what is in its way at both ends."""
+    """Return why an input swings: what stops it at both ends."""
     linkage, info = puzzle.scene.linkage, puzzle.scene.info
     clauses = [linkage.joint(end).at_limit for end in puzzle.scene.mechanism.stops if end]
     if not clauses:
@@ -797,7 +798,7 @@ def _why_swinging(puzzle: Puzzle) -> str:
 
 
 def closure(puzzle: Puzzle) -> QuizQuestion | None:
-    """Return on which closure an input that swings comes back; taken wrongly, on the one it came by."""
+    """Ask on which closure an input that swings comes back; the slip is to take the one by which it came."""
     info, mechanism = puzzle.scene.info, puzzle.scene.mechanism
     ends = [end for end in zip(info.input_range, mechanism.stops, strict=False) if end[1]]
     if not ends:
@@ -807,7 +808,7 @@ def closure(puzzle: Puzzle) -> QuizQuestion | None:
     why = (
         f"The {info.input_name} stands there for an instant, the links do not: they run on to the other side."
     )
-    if mechanism.retraced:  # the scene says so, and nothing else would
+    if mechanism.retraced:  # only the scene's statement makes it so, which cannot be seen
         jump, slip = "All velocities change their sign there at once", "the closure beyond the limit"
         why = "With all velocities reversed each link goes back the way it came."
     text = (
@@ -819,7 +820,7 @@ def closure(puzzle: Puzzle) -> QuizQuestion | None:
 
 
 def grashof(puzzle: Puzzle) -> QuizQuestion | None:
-    """Return what Grashof's sum says of the four-bar that the input drives."""
+    """Ask what Grashof's sum says of the four-bar that the input drives."""
     bar = four_bar_of(puzzle.scene.mechanism)
     if bar is None:
         return None
@@ -887,9 +888,9 @@ def grashof_sum(puzzle: Puzzle) -> QuizQuestion | None:
 
 
 class QuestionKind(NamedTuple):
-    """What makes a question of a kind, None where a puzzle has none, and the levels that ask it.
+    """The function that makes a question of a kind, or None where a puzzle has none, and the kind's levels.
 
-    One `of_making` is about what a linkage was made for, and asked of a scene that says so.
+    A kind `of_making` is about what a linkage was made for, and is asked of a scene that states that.
     """
 
     make: Callable[[Puzzle], QuizQuestion | None]

@@ -1,7 +1,7 @@
-"""Match: joints are dragged until the coupler point runs along a dotted curve; three scores pull apart.
+"""Match: joints are dragged until the coupler point runs along a dotted curve; three scores compete.
 
-`Worth` says what a four-bar is worth beside a curve, `Level` has the curve, where the joints begin and what
-full score takes; levels are files, or made from seeds.
+`Worth` rates a four-bar against a curve. `Level` has the curve, the joints at the beginning, and the worth
+for full score; levels are files, or made from seeds.
 """
 
 from __future__ import annotations
@@ -37,16 +37,16 @@ from linkanim.synthesis.curves import DrawnCurve, drawn
 from linkanim.synthesis.linkages import FOUR_BAR, Complex, Linkage4, Real
 from linkanim.units import angle, shown, significant
 
-# What a four-bar is worth beside a curve: how exactly it follows, how small it is, how well it transmits.
+# The worth of a four-bar for a curve: how exactly it follows, how small it is, how well it transmits.
 
 _MOMENTS = 240
 
 
 class Worth(NamedTuple):
-    """By how much of the curve's size in percent it is off, its links together in curve sizes, and its least
-    transmission angle (rad), 0 where the crank does not turn fully.
+    """A four-bar's deviation, size and least transmission angle.
 
-    Among the links is the coupler point's arm from A.
+    The deviation `off` is in percent of the curve's size; the size is the sum of the links, with the coupler
+    point's arm from A, in sizes of the curve; the angle is in radians, 0 where the crank does not turn fully.
     """
 
     off: float
@@ -55,10 +55,11 @@ class Worth(NamedTuple):
 
 
 def worth(joints: Linkage4, curve: DrawnCurve) -> Worth:
-    """Return what a four-bar is worth beside a curve.
+    """Return the worth of a four-bar for a curve.
 
-    `off` is the root mean square of the points' distances from what the coupler point draws, of a closed
-    curve also of that from the curve, whichever is more; infinite where it draws nothing.
+    `off` is the root mean square of the points' distances from the coupler curve; for a closed curve also
+    that of the coupler curve's points from the curve, whichever is larger; infinite where there is no coupler
+    curve.
     """
     row = np.array(joints.row)
     *lengths, _ = FOUR_BAR.link_lengths(row[None])[0]
@@ -76,9 +77,9 @@ def _off(joints: Linkage4, curve: DrawnCurve) -> float:
 
 
 def trace(joints: Linkage4) -> Complex:
-    """Return what the coupler point draws, the first point once more at the end; that of a swing comes back.
+    """Return the coupler curve, with its first point again at the end.
 
-    A swing comes back on the other closure.
+    A crank that swings comes back on the other closure.
     """
     rows, step = np.array([joints.row]), 2 * math.pi / _MOMENTS
     angles: Real = joints.angle + step * np.arange(_MOMENTS + 1, dtype=np.float64)
@@ -89,7 +90,7 @@ def trace(joints: Linkage4) -> Complex:
     if np.isfinite(there).all():
         return there
     shut = np.flatnonzero(~np.isfinite(there))
-    # the stretch that the crank is in, from limit to limit, and back
+    # the range of the crank, from limit to limit, and back
     open_ = np.arange(shut[-1] + 1 - _MOMENTS, shut[0])
     path: Complex = np.concatenate([there[open_ % _MOMENTS], back[open_[::-1] % _MOMENTS]])
     path = path[np.isfinite(path)]
@@ -128,14 +129,14 @@ _KEYS = frozenset({"title", "about", "closed", "points", "fixed", "start", "full
 _JOINTS = Linkage4._fields
 _LONGEST_SEED = 18
 _BEGINNING = Linkage4(-60 - 60j, -40 - 40j, 40 + 20j, 60 - 60j, 0 + 0j)
-"""Where the joints of a level that is made begin, about a curve of size 100."""
+"""The first places of the joints of a level made from a seed, for a curve of size 100."""
 
 
 @frozen(eq=False)
 class Level:
-    """A curve to follow, the joints as they begin and those that stay there, and the worth of full score.
+    """A curve to follow, the joints at the beginning, those that are fixed, and the worth for full score.
 
-    `answer` is what is shown to who gives up, as a rule the path solver's.
+    `answer` is shown to a player who gives up; as a rule it is the path solver's.
     """
 
     name: str
@@ -149,19 +150,19 @@ class Level:
 
     @cached_property
     def worth_of_answer(self) -> Worth:
-        """What the answer is worth; nothing where there is none."""
+        """The worth of the answer; the worst where there is no answer."""
         return worth(self.answer, self.curve) if self.answer else Worth(math.inf, math.inf, 0.0)
 
     @cached_property
     def _given(self) -> float:
-        """How far the linkage follows as the level begins."""
+        """How well the linkage follows the curve at the beginning of the level."""
         return min(shares(worth(self.start, self.curve), self.full)[0], 0.99)
 
     def earned(self, reached: Worth) -> tuple[float, float, float]:
-        """Return what a linkage earns of each full score, 0 to 1.
+        """Return the share of each full score that a linkage earns, 0 to 1.
 
-        What follows no better than the linkage that the level begins with earns nothing, and size and angle
-        count as far as it does.
+        A linkage that follows no better than the one at the beginning earns nothing; size and angle count
+        only in proportion to how well it follows.
         """
         off, links, angle = shares(reached, self.full)
         gained = max(off - self._given, 0.0) / (1.0 - self._given)
@@ -225,7 +226,7 @@ def _read(text: str, where: str, name: str) -> Level:
 
 
 def _said_of(section: Section, key: str, make: Callable[[], Made]) -> Made:
-    """Return what is made of a key's value; what is wrong with that is said of the key."""
+    """Return what `make` returns for a key's value; an error names the key."""
     try:
         return make()
     except BadInput as error:
@@ -289,31 +290,31 @@ def made(seed: int) -> Level:
     )
 
 
-# Match: joints are dragged until the coupler point runs along a dotted curve; three scores pull apart.
+# Match: joints are dragged until the coupler point runs along a dotted curve; three scores compete.
 
 _LOOSEST = 30.0
-"""Off by as much of the curve's size, in percent, a linkage follows it not at all."""
+"""The deviation, in percent of the curve's size, from which on a linkage does not follow the curve at all."""
 _LARGEST = 4.0
-"""So many times as long as for full score links earn nothing."""
+"""Links that are this many times as long as for full score earn nothing."""
 _SHORTEST = 0.04
-"""In curve sizes: no bar gets shorter."""
+"""The shortest bar, in sizes of the curve."""
 _FARTHEST = 12.0
-"""In curve sizes: no joint gets further from the curve's middle."""
+"""The farthest that a joint may be from the curve's middle, in sizes of the curve."""
 _STILL, _READ = 1e-6, 3
 _KEPT = 60
-"""So many drags can be taken back."""
+"""The most drags that can be undone."""
 _POINTS = 100
-"""For each of the three."""
+"""The points for each of the three full scores."""
 _GOAL = "Drag joints until the coupler point runs along the dots; size and angle count as far as it does."
 _NAMES = ("how exactly", "how small", "transmission angle")
 
 
 @frozen
 class MatchGame:
-    """A level with the joints as they stand: since the last drag, or as the path solver has them (`gave_up`).
+    """A level with the joints as they are: after the last drag, or those of the answer (`gave_up`).
 
-    `held` is the joint under the hand, `earlier` the linkages before each drag, `worth` the worth of this, a
-    moment old while one is held.
+    `held` is the joint under the hand, `earlier` the linkages before each drag, `worth` the worth of the
+    linkage, which lags behind a little while a joint is held.
     """
 
     level: str
@@ -327,14 +328,14 @@ class MatchGame:
 
     @property
     def words(self) -> str:
-        """What begins it again with the joints where they are."""
+        """The words that begin the level with the joints where they are now."""
         parts = (part for place in self.joints for part in (place.real, place.imag))
         words = GameWords("match", {}).having(level=self.level, best=self.best)
         return str(words.having(joints=",".join(map(repr, parts)), gave_up=1 if self.gave_up else ""))
 
     @property
     def of_level(self) -> Level:
-        """What is to be followed."""
+        """The level that is played."""
         return level_of(self.level)
 
     @property
@@ -343,24 +344,24 @@ class MatchGame:
         return _earned(self.of_level.earned(self.worth))
 
     def entered(self, state: State) -> State:
-        """Return the state with the four-bar standing beside the curve."""
+        """Return the state with the four-bar at rest beside the curve."""
         look = Look(hud=False, theme=state.look.theme)
         scene, phase = _scene_of(self)
         return replace(with_scene(replace(state, look=look), scene, phase, paused=True), home=_home(self))
 
     def aged(self, state: State) -> State:
-        """Let the scores follow the hand, at a third of the frames: who drags reads no faster."""
+        """Let the scores follow the hand in every third frame: during a drag nobody reads faster."""
         if self.held is None or state.frame % _READ:
             return state
         return replace(state, game=self.judged)
 
     @property
     def judged(self) -> MatchGame:
-        """The game with the worth of the joints as they are now."""
+        """Return the game with the worth of the joints as they are now."""
         return replace(self, worth=worth(self.joints, self.of_level.curve))
 
     def carried(self, state: State, action: Action) -> State:
-        """Drag a joint; run, step, take back; give up, or go on to another level."""
+        """Drag a joint; run, step, undo; give up, or go on to another level."""
         match action:
             case Action("back"):
                 return play(state, "lobby row=1")
@@ -387,7 +388,7 @@ class MatchGame:
 
     @property
     def kept_as(self) -> str:
-        """What its best score is kept under."""
+        """The name under which its best score is stored."""
         return f"match-{self.level}"
 
     @property
@@ -396,18 +397,18 @@ class MatchGame:
         return tuple(name for name in Linkage4._fields if name not in self.of_level.fixed)
 
     def _grabbed(self, state: State, joint: str) -> State:
-        """Take hold of a joint as it stands at the moment."""
+        """Grasp a joint in the present pose."""
         places = state.scene.pose(state.phase, 0).position
         stand = Linkage4(*(complex(*places[name]) for name in Linkage4._fields))
         if max(abs(a - b) for a, b in zip(stand, self.joints, strict=True)) < _STILL:
-            stand = self.joints  # to the last bit: a drag there and back is none
+            stand = self.joints  # the same bits, so that a drag there and back changes nothing
         stand = stand._replace(**{name: getattr(self.joints, name) for name in self.of_level.fixed})
         earlier = (*self.earlier, self.joints)[-_KEPT:]
         state = replace(state, clock=state.clock.pause(state.frame, True))
         return replace(state, game=replace(self, joints=stand, held=joint, earlier=earlier))
 
     def _dragged(self, state: State, to: complex, step: float) -> State:
-        """Put the joint that is held near a place, in whole steps; the others stay where they are."""
+        """Put the held joint near a place, in whole steps; the others stay where they are."""
         if self.held is None:
             return state
         place = complex(_stepped(to.real, step), _stepped(to.imag, step))
@@ -417,7 +418,7 @@ class MatchGame:
         return _put(state, self, joints)
 
     def _dropped(self, state: State) -> State:
-        """Let go; a better score is handed on, a full one is heard."""
+        """Release the joint; a better score is stored, and a full one has a sound."""
         game = self.judged
         total = sum(game.points)
         state = replace(state, game=replace(game, held=None, best=max(self.best, total)))
@@ -427,7 +428,7 @@ class MatchGame:
         return with_effect(state, "sound", "right") if total == 3 * _POINTS else state
 
     def _chosen(self, state: State, choice: int) -> State:
-        """Give up or go back to one's own; begin again; go on to the next level."""
+        """Give up, or go back to the player's own linkage; begin again; go on to the next level."""
         level = self.of_level
         if choice == 0 and self.gave_up:
             own = self.earlier[-1] if self.earlier else level.start
@@ -446,7 +447,7 @@ class MatchGame:
         return begun(state, "match", level=known[place % len(known)])
 
     def shown(self, state: State, over: Overlay) -> Overlay:
-        """Return the overlay with the curve, the three bars, and what they come to."""
+        """Return the overlay with the curve, the three bars, and their scores."""
         level = self.of_level
         answer = level.earned(level.worth_of_answer)
         own = level.earned(self.worth)
@@ -477,7 +478,7 @@ class MatchGame:
 
     @property
     def _fixed(self) -> str:
-        """Say which joints stay."""
+        """Say which joints are fixed."""
         names = [subscripted(name) for name in sorted(self.of_level.fixed)]
         return f"{' and '.join(names)} {'stays' if len(names) == 1 else 'stay'} in place." if names else ""
 
@@ -487,7 +488,7 @@ class MatchGame:
         return f"level {known.index(self.level) + 1} / {len(known)}" if self.level in known else self.level
 
     def _verdict(self, own: tuple[float, ...], answer: tuple[float, ...]) -> str:
-        """Say what is reached, and where it beats the path solver."""
+        """Say what the linkage reaches, and where it beats the path solver."""
         if self.gave_up:
             better = [words for words, share in zip(_BETTER, answer, strict=True) if share < 1.0]
             return "The path solver's answer" + (f"; {' and '.join(better)} can be had" if better else "")
@@ -499,7 +500,7 @@ class MatchGame:
 
 
 _BETTER = ("a closer way", "smaller links", "a better transmission angle")
-"""What is had where a linkage beats another one in each."""
+"""The words for a linkage that beats another one in each of the three."""
 
 
 def shares(reached: Worth, full: Worth) -> tuple[float, float, float]:
@@ -516,13 +517,13 @@ def _earned(three: tuple[float, float, float]) -> tuple[int, ...]:
 
 
 def _worded(reached: Worth) -> tuple[str, str, str]:
-    """Return the three in words."""
+    """Return deviation, size and angle in words."""
     off = f"{significant(reached.off, 2)} % off" if reached.off < _LOOSEST else "far off"
     return off, f"{reached.links:.2f} sizes", f"{math.degrees(reached.angle):.0f}°"
 
 
 def _is_sound(joints: Linkage4, level: Level) -> bool:
-    """Whether bars have some length, and joints are not far away."""
+    """Whether no bar is too short, and no joint too far away."""
     ring = (joints.O2, joints.A, joints.B, joints.O4, joints.O2)
     size, middle = level.curve.size, level.curve.centre
     bars = (abs(b - a) for a, b in pairwise(ring))
@@ -534,7 +535,7 @@ def _stepped(value: float, step: float) -> float:
 
 
 def _put(state: State, game: MatchGame, joints: Linkage4) -> State:
-    """Return the state with the joints elsewhere; as it is where they make no linkage."""
+    """Return the state with other joints; unchanged where they make no linkage."""
     game = replace(game, joints=joints)
     game = game if game.held else game.judged
     try:
@@ -546,9 +547,9 @@ def _put(state: State, game: MatchGame, joints: Linkage4) -> State:
 
 
 def _scene_of(game: MatchGame) -> tuple[Scene, float]:
-    """Return the four-bar as a scene that starts where the joints stand, and the phase at which they do.
+    """Return the four-bar as a scene that starts at the joints' places, and the phase of that pose.
 
-    Of a swing it is on the closure that is named.
+    For an input that swings it is on the closure that is named.
     """
     joints, stated = game.joints, {"title": game.of_level.title, "source": "a level of linkanim"}
     document = document_of(FOUR_BAR, joints.row, joints.closure, (joints.angle, 1.0), **stated)
@@ -558,7 +559,7 @@ def _scene_of(game: MatchGame) -> tuple[Scene, float]:
 
 
 def _home(game: MatchGame) -> Box:
-    """Return what is in sight: the curve with room around it, and all of an answer that is shown."""
+    """Return the visible part: the curve with room around it, and all of a shown answer."""
     level = game.of_level
     points, size = level.curve.points, level.curve.size
     low, high = (complex(of(points.real), of(points.imag)) for of in (min, max))
@@ -571,7 +572,7 @@ def _home(game: MatchGame) -> Box:
 
 
 def first_unsolved(best: Mapping[str, int]) -> str:
-    """Return the first level without full score, of the best scores so far; the first where all have it."""
+    """Return the first level whose best score so far is not full; the first level where all are full."""
     levels = level_names()
     return next((name for name in levels if best.get(f"match-{name}", 0) < 3 * _POINTS), levels[0])
 

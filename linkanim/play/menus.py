@@ -1,4 +1,4 @@
-"""Show what can be played: the title with its doors, the games, the rounds with their best scores."""
+"""Show what can be played: the title with its entries, the games, the rounds with their best scores."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ class Menu(OverWhatRuns):
 
     @property
     def words(self) -> str:
-        """What begins it again."""
+        """The words that begin it again."""
         best = ",".join(f"{name}:{score}" for name, score in self.best)
         return str(GameWords("menu", {}).having(chapter=self.chapter, level=self.level, best=best))
 
@@ -72,7 +72,7 @@ class Menu(OverWhatRuns):
         return begun(state, "predict", chapter=rows[chosen.row], level=self.level) if chosen.taken else state
 
     def _rows(self, state: State) -> tuple[str, ...]:
-        """Return what a round can be about: all, a chapter, and the mechanism that was on before."""
+        """Return what a round can be about: all chapters, one chapter, or the mechanism from before."""
         before = state.beneath.scene.name if state.beneath else ""
         own = (name for name in (self.chapter, before) if name in names())
         return tuple(dict.fromkeys((ALL, *chapters(), *own)))
@@ -96,7 +96,7 @@ class Menu(OverWhatRuns):
 
 
 def is_round(name: str) -> bool:
-    """Tell whether a best score is that of a round which the menu shows."""
+    """Tell whether a best score belongs to a round that the menu shows."""
     chapter, _, level = name.rpartition(".")
     known = (ALL, *chapters(), *names())
     return chapter.replace("_", " ") in known and level in map(str, LEVELS)
@@ -134,7 +134,7 @@ class Lobby(OverWhatRuns):
 
     @property
     def words(self) -> str:
-        """What begins it again."""
+        """The words that begin it again."""
         return f"lobby row={self.row}"
 
     def carried(self, state: State, action: Action) -> State:
@@ -158,7 +158,7 @@ def read_lobby(words: GameWords) -> Lobby:
     return Lobby(words.whole("row", 0, 0, len(OFFERS) - 1))
 
 
-# The title: mechanisms running one after the other, each with its sentence, and four doors.
+# The title: mechanisms run one after the other, each with its sentence, beside four entries ("doors").
 
 EACH = 9 * FRAMES_PER_SECOND
 _NAME = "linkanim"
@@ -173,11 +173,11 @@ DOORS = (
     Door("play", "Play", "predict, match, follow"),
 )
 _IGNORED = frozenset({"scrub", "point", "move", "pull"})
-"""What a mouse that moves asks for: it goes in by a click."""
+"""Actions of a moving mouse, which do not leave the title: a click does."""
 _HELD: Mapping[str, Callable[[State, Any], State]] = {"grab": grab, "carry": carry, "drop": drop}
-"""What a hand does with the mechanism that runs."""
+"""Actions of a hand on the running mechanism."""
 _BY_KEY = {"shelf": "explore", "pencil": "path"}
-"""The door that a command leads to by itself."""
+"""The door to which a command leads directly."""
 
 
 @frozen
@@ -190,7 +190,7 @@ class Title:
 
     @property
     def words(self) -> str:
-        """What begins it again."""
+        """The words that begin it again."""
         return f"title door={DOORS[self.door].name} place={self.place}"
 
     def entered(self, state: State) -> State:
@@ -201,7 +201,7 @@ class Title:
         return with_scene(replace(state, look=shown), scene)
 
     def carried(self, state: State, action: Action) -> State:
-        """Go in by a door, or choose one."""
+        """Go through a door, or choose one."""
         if action.name == "back":
             return with_toast(state, "Q quits")
         if action.name in _HELD:
@@ -236,7 +236,7 @@ class Title:
 
 
 def _through(state: State, door: int) -> State:
-    """Go in by a door, which is the first one the next time."""
+    """Go through a door, which will be the first one the next time."""
     name = DOORS[door].name
     state = with_effect(state, "score", f"door={name}")
     if name == "play":

@@ -31,11 +31,11 @@ _IN_PACKAGE = "$IMS-CC-FILEBASE$/"
 _PICTURES = "pictures/"
 _LONGEST_NAME = 60
 _EPOCH = (1980, 1, 1, 0, 0, 0)
-"""When the files of a package were made, so that the same questions are the same bytes."""
+"""The fixed date of a package's files, so that the same questions give the same bytes."""
 
 
 class _Picture(NamedTuple):
-    """A PNG picture: its file's name, its bytes, the words that stand for it, and how wide it is shown."""
+    """A PNG picture: its file's name, its bytes, its alternative text, and its width as shown."""
 
     name: str
     content: bytes
@@ -47,7 +47,7 @@ class _Posed(NamedTuple):
     """A question as both formats need it.
 
     `ident` is the same for the same question in the same place of a round; `curves` are the pictures of
-    answers that are curves, none of others.
+    answers that are curves, empty for other answers.
     """
 
     ident: str
@@ -82,7 +82,7 @@ class _Posed(NamedTuple):
         return f"<p>{escape(answer_text(self.question, number))}{shown}</p>"
 
     def told(self, number: int) -> str:
-        """Return what an answer is told at once, as HTML."""
+        """Return the feedback of an answer, as HTML."""
         slip = self.answers[number].slip
         if number == self.question.right:
             return "<p>Right.</p>"
@@ -90,7 +90,7 @@ class _Posed(NamedTuple):
 
     @property
     def why(self) -> str:
-        """What every answer is told, as HTML."""
+        """The feedback of every answer, as HTML."""
         return f"<p>{escape(self.question.why)}</p>"
 
 
@@ -102,7 +102,7 @@ def moodle(rounds: Rounds, progress: Callable[[int, int], None] = lambda *_: Non
     top = ET.Element("quiz")
     for chapter, questions in _asked(rounds, progress):
         entry = ET.SubElement(top, "question", type="category")
-        # a slash parts categories; one that belongs to a name is doubled
+        # a slash separates categories; a slash within a name is doubled
         _moodle_text(entry, "category", f"{_TOP}/{chapter.replace('/', '//')}")
         for asked in questions:
             _moodle_question(top, asked)
@@ -199,7 +199,7 @@ def _qti_item(section: ET.Element, asked: _Posed) -> None:
 
 
 def _qti_processing(item: ET.Element, idents: Sequence[str], right: int) -> None:
-    """Write how an answer is judged: what all are told, what each is told, and what the right one scores."""
+    """Write how an answer is judged: the feedback of all, that of each, and the score of the right one."""
     processing = ET.SubElement(item, "resprocessing")
     outcomes = ET.SubElement(processing, "outcomes")
     ET.SubElement(outcomes, "decvar", maxvalue="100", minvalue="0", varname="SCORE", vartype="Decimal")
@@ -240,7 +240,7 @@ def _in_package(picture: _Picture) -> str:
 
 
 def _manifest(resources: Sequence[tuple[str, str, str]]) -> bytes:
-    """Return what a package holds: of each part its identifier, its kind and its file."""
+    """Return the manifest of a package: each part's identifier, kind and file."""
     top = ET.Element("manifest", xmlns=_PACKAGE, identifier="linkanim")
     about = ET.SubElement(top, "metadata")
     ET.SubElement(about, "schema").text = "IMS Content"

@@ -25,27 +25,27 @@ from linkanim.scenes.scene import Scene
 from linkanim.units import shown
 
 COUNT = 10
-"""Questions of a round, before those that were missed come again."""
+"""The questions of a round, before missed ones come again."""
 POINTS, BONUS, STREAK, SECOND = 100, 50, 10, 40
-"""For a right answer, at most for its speed, for each right one before it, for one that came again."""
+"""The points of a right answer, the most for its speed, for each right one before, for a repeated one."""
 QUICK = 20 * FRAMES_PER_SECOND
 """Within this time an answer earns a part of the bonus."""
 TRIES = 3
-"""What was missed counts as understood with the next right answer of its kind: so many come at the most."""
+"""The most questions of a missed kind that come again, until one of them is answered right."""
 _SCENES = 4
-"""So many scenes are looked at for another question of a kind."""
+"""The scenes that are tried for another question of a kind."""
 _LONGEST_STREAK = 5
 _HOLD = 2 * FRAMES_PER_SECOND
-"""So many frames the answer stands at the question's pose before the input moves."""
+"""The frames for which the answer stands at the question's pose before the input moves."""
 _SWEEP, _WIDE = 4 * FRAMES_PER_SECOND, radians(15.0)
-"""For so many frames it then goes to and fro about that pose, so far to either side, and stands again."""
+"""The frames for which the input then swings about that pose, and how far to each side."""
 _SLOW = -4
-"""How slowly it runs where the answer is at another pose, in rungs of the clock's ladder."""
+"""The input's speed where the answer is at another pose, in rungs of the clock's ladder."""
 _BARE = Look(hud=False, trace=False, dead_centres=False)
 
 
 class GivenAnswer(NamedTuple):
-    """A question that was answered: whether right, and after how many frames."""
+    """An answered question: whether the answer was right, and after how many frames."""
 
     question_id: QuestionId
     right: bool
@@ -57,10 +57,10 @@ class GivenAnswer(NamedTuple):
 
 @frozen
 class Predict:
-    """A round: of a chapter's scenes, at a level; questions that were missed before come first, as `again`.
+    """A round about a chapter's scenes, at a level; questions missed in earlier rounds, `again`, come first.
 
-    `question` is the one that is asked since frame `since`, None at the end; `chosen` the answer taken, and
-    `coming` the next one with its scene, once it is made. `best` is the best score before this round.
+    `question` is asked since frame `since`, and is None at the end; `chosen` is the answer taken, `coming`
+    the next question with its scene, once it is made. `best` is the best score before this round.
     """
 
     chapter: str
@@ -77,7 +77,7 @@ class Predict:
 
     @property
     def words(self) -> str:
-        """What begins it again as it is; a question that is asked begins anew."""
+        """The words that begin an equal round; the present question is asked anew."""
         done = self.done if self.chosen is None else self.done[:-1]
         words = GameWords("predict", {}).having(chapter=self.chapter, level=self.level, seed=self.seed)
         words = words.having(again=",".join(map(str, self.again)), done=",".join(map(str, done)))
@@ -85,27 +85,27 @@ class Predict:
 
     @property
     def kept_as(self) -> str:
-        """What the best score of such a round is kept under."""
+        """The name under which the best score of such a round is stored."""
         return f"{self.chapter.replace(' ', '_')}.{self.level}"
 
     @property
     def missed(self) -> tuple[QuestionId, ...]:
-        """What of the first pass was not answered right: it comes again."""
+        """The questions of the first pass that were not answered right, which come again."""
         return tuple(one.question_id for one in self.done[:COUNT] if not one.right)
 
     @property
     def score(self) -> int:
-        """The points of all that was answered."""
+        """The points of all answers."""
         return sum(points(self.level, self.done, n) for n in range(len(self.done)))
 
     @property
     def is_over(self) -> bool:
-        """Whether all was asked."""
+        """Whether all questions were asked."""
         return len(self.done) >= COUNT and self._comes_again is None
 
     @property
     def _comes_again(self) -> tuple[int, int] | None:
-        """Which of what was missed is asked about again, and for which time; None where all is done.
+        """Which missed question is asked again, and how often it was before; None where none is left.
 
         The first time it is the same question, then others of its kind, until one is answered right.
         """
@@ -121,7 +121,7 @@ class Predict:
 
     @property
     def _asked(self) -> Predict:
-        """The round as it was when the question was asked that shows."""
+        """The round as it was when the shown question was asked."""
         return self if self.chosen is None else replace(self, done=self.done[:-1])
 
     def entered(self, state: State) -> State:
@@ -135,16 +135,16 @@ class Predict:
         return replace(state, game=game)
 
     def _next(self) -> tuple[QuizQuestion, Scene]:
-        """Return the question that is due, and its scene, which has arrows where they explain the answer."""
+        """Return the next question, and its scene, which has arrows where they explain the answer."""
         question = self._due()
         return question, proved(
             replace(question.scene, trace=question.arrows or question.scene.trace), question.phase
         )
 
     def _due(self) -> QuizQuestion:
-        """Return the question that is due: one of an earlier round, a new one, or one that was missed.
+        """Return the next question: one of an earlier round, a new one, or a missed one.
 
-        New ones are about all scenes of the chapter before one comes again.
+        New questions are about all scenes of the chapter before a scene is repeated.
         """
         number = len(self.done)
         if number < len(self.again[:COUNT]):
@@ -159,7 +159,7 @@ class Predict:
         return next_question(scene, f"{self.seed} {number}", before, of_level(self.level))
 
     def _alike(self, missed: QuestionId) -> QuizQuestion:
-        """Return another question of the kind that was missed; the same one where there is none."""
+        """Return another question of the missed one's kind; the same question where there is no other."""
         scenes, seed = members(self.chapter), f"{self.seed} {len(self.done)}"
         before = [*self.again, *(one.question_id for one in self.done)]
         for name in Random(seed).sample(scenes, min(len(scenes), _SCENES)):
@@ -169,7 +169,7 @@ class Predict:
         return question_of(missed)
 
     def carried(self, state: State, action: Action) -> State:
-        """Take an answer, go on to the next question, or out."""
+        """Take an answer, go on to the next question, or leave."""
         if action.name == "back":
             return self._begun(state, "menu")
         if self.question is None:
@@ -186,7 +186,7 @@ class Predict:
         return begun(state, kind, chapter=self.chapter, level=self.level)
 
     def _with_answer(self, state: State, question: QuizQuestion, chosen: int) -> State:
-        """Take an answer: the arrows come on, and after a while the input runs."""
+        """Take an answer: the arrows appear, and after a while the input runs."""
         if not 0 <= chosen < len(question.answers):
             return state
         right = chosen == question.right
@@ -206,12 +206,12 @@ class Predict:
         return state
 
     def aged(self, state: State) -> State:
-        """Move the input when the answer has stood for a while, so that it ends where it is to stop."""
+        """Move the input after the answer has been shown for a while, up to where it has to stop."""
         if self.question is None or self.chosen is None:
             return state
         gone = state.frame - self.since
         if gone == _HOLD // 2 and not self.is_over:
-            return replace(state, game=replace(self, coming=self._next()))  # while all stands still
+            return replace(state, game=replace(self, coming=self._next()))  # made while the picture is still
         if gone < _HOLD:
             return state
         if self._runs:
@@ -222,14 +222,14 @@ class Predict:
 
     @property
     def _runs(self) -> bool:
-        """Whether the answer is seen at another pose, or over a whole period; else about the pose asked."""
+        """Whether the answer shows at another pose, or over a whole period; else near the question's pose."""
         question = self.question
         if question is None or question.stops == question.phase:
             return False
         return question.stops is not None or bool(question.shows.chart or question.shows.ghost)
 
     def _run_on(self, state: State, question: QuizQuestion, *, begins: bool) -> State:
-        """Let the input run up to where the answer is seen; else once round, to the pose that was asked."""
+        """Let the input run up to where the answer shows; else once round, back to the question's pose."""
         clock, period = state.clock, state.scene.period
         if begins:
             slow = clock if question.shows.chart or question.shows.ghost else clock.faster(state.frame, _SLOW)
@@ -246,7 +246,7 @@ class Predict:
         return state
 
     def shown(self, state: State, over: Overlay) -> Overlay:
-        """Return the overlay with the question, or with what came of it."""
+        """Return the overlay with the question, or with the verdict on its answer."""
         if self.question is None:
             return replace(over, game=self._end_panel())
         question = self.question
@@ -316,7 +316,7 @@ class Predict:
         )
 
     def _best_words(self) -> str:
-        """Say what the best score of such a round is."""
+        """Say the best score of such a round."""
         if self.score <= self.best:
             return f"The best is {self.best} points."
         return (
@@ -324,7 +324,7 @@ class Predict:
         )
 
     def _missed_words(self) -> Iterator[str]:
-        """Yield what was missed, by kinds, and where; nothing where all was right."""
+        """Yield the missed questions, by kinds, and their scenes; nothing where all answers were right."""
         wrong = [one.question_id for one in self.done[:COUNT] if not one.right]
         if wrong:
             kinds = Counter(one.kind for one in wrong)
@@ -335,13 +335,13 @@ class Predict:
 
 
 def _streak(done: tuple[GivenAnswer, ...]) -> int:
-    """Return how many of the last were right."""
+    """Return how many of the latest answers in a row were right."""
     wrong = [n for n, one in enumerate(done) if not one.right]
     return len(done) - 1 - wrong[-1] if wrong else len(done)
 
 
 def points(level: int, done: tuple[GivenAnswer, ...], n: int) -> int:
-    """Return what the answer numbered `n` earned."""
+    """Return the points of the answer numbered `n`."""
     one = done[n]
     if not one.right:
         return 0

@@ -1,6 +1,6 @@
 """Make a question about a linkage at a pose: its text, its answers, what it is made from.
 
-How numbers and ways stand in questions, and how many answers there are, stands here, too.
+How numbers and directions are written in questions, and how many answers there are, is here, too.
 """
 
 from __future__ import annotations
@@ -28,16 +28,16 @@ from linkanim.units import short, shown, significant, typeset
 # A question about a linkage at a pose, and what it is made from.
 
 CLEAR = 0.02
-"""Two values that differ by less of their range look alike; below as much a value is as good as zero."""
+"""Values that differ by less than this share of their range look alike; a value below it counts as zero."""
 PLAIN = 0.1
-"""A share of a greatest value that is seen at once."""
+"""The least share of a greatest value that is obvious at once."""
 
 
 class QuizAnswer(NamedTuple):
-    """An answer, and of a wrong one the misconception that it comes from, to be read after "that is".
+    """An answer; for a wrong one, the misconception that it comes from, to be read after "that is".
 
-    An answer that no misconception gives, when it is carried out, names none. Where answers are places (in
-    the scene's unit, at the phase) or curves (values from −1 to 1 over one period), it has its own.
+    An answer that no misconception leads to names none. Where answers are places (in the scene's unit, at the
+    phase) or curves (values from −1 to 1 over one period), it has its place or its curve.
     """
 
     text: str
@@ -53,7 +53,7 @@ def either(answers: tuple[str, str], first: bool, slip: str) -> tuple[QuizAnswer
 
 
 class QuestionId(NamedTuple):
-    """What a question was about: enough to make it again just as it was."""
+    """The identity of a question: enough to make exactly the same question again."""
 
     kind: str
     scene: str
@@ -62,7 +62,7 @@ class QuestionId(NamedTuple):
 
     @classmethod
     def of(cls, text: str) -> Self:
-        """Read it as `str` writes it; BadInput for other text."""
+        """Read an identity as `str` writes it; BadInput for other text."""
         try:
             kind, scene, phase, subject = text.split("@")
             return cls(kind.replace("_", " "), scene, float(phase), subject)
@@ -77,9 +77,9 @@ class QuestionId(NamedTuple):
 class QuizQuestion:
     """A question with its answers, of which one is right, and why.
 
-    `subject` is the token of what it is about: a body, a joint, or the input. The look that `shows` the
-    answer has arrows at the joints of `arrows`; the input runs on then, to the phase at which it `stops`.
-    While it is asked `names` of the look are shown that do not give the answer away.
+    `subject` is the token of the body, the joint or the input that it is about. The look that `shows` the
+    answer has arrows at the joints `arrows`; the input then runs on to the phase at which it `stops`. While
+    the question is asked, the look has these `names`, which do not give the answer away.
     """
 
     kind: str
@@ -97,13 +97,13 @@ class QuizQuestion:
 
     @property
     def question_id(self) -> QuestionId:
-        """What makes it again."""
+        """The identity from which the question can be made again."""
         return QuestionId(self.kind, self.scene.name, self.phase, self.subject)
 
 
 @frozen
 class Puzzle:
-    """A scene at a phase that a question of a kind is made of, with the random choices in it."""
+    """A scene at a phase, with a source of random choices, from which a question is made."""
 
     kind: str
     scene: Scene
@@ -117,7 +117,7 @@ class Puzzle:
 
     @cached_property
     def cycle(self) -> Motion:
-        """One true period, whose greatest values say what is clear."""
+        """One true period, whose greatest values decide what is clear to see."""
         return self.figure.cycle
 
     @cached_property
@@ -127,7 +127,7 @@ class Puzzle:
 
     @property
     def turning(self) -> tuple[Body, ...]:
-        """The bodies that turn other than as the input does, geared cranks where there are no others."""
+        """The bodies that turn in another way than the input; geared cranks where there are no others."""
         linkage = self.scene.linkage
         cranks = {body: linkage.crank_of(body) for body in linkage.bodies if body.slider is None}
         driven = [body for body, crank in cranks.items() if crank is None]
@@ -161,33 +161,33 @@ class Puzzle:
         return next((pin for pin in pins if pin not in (None, joint)), None)
 
     def centre_of(self, body: Body) -> tuple[complex, str]:
-        """Return about which place a body turns at the pose, and what that is called; infinite where none."""
+        """Return the place about which a body turns at the pose, infinite without one, and its name."""
         place = complex(self.value(f"{body.name}.pole.x"), self.value(f"{body.name}.pole.y"))
         return place, self.scene.linkage.pivot(body.joints) or f"the instant centre of {self.name(body)}"
 
     def name(self, body: Body) -> str:
-        """Return what a body is called, with its number where the scene gives one."""
+        """Return a body's name, with its number where the scene gives one."""
         names = self.scene.info.link_names
         numbered = names[body.name] != body.name and body.name.isdecimal()
         return f"{phrase(body, names)} ({body.name})" if numbered else phrase(body, names)
 
     def value(self, token: str) -> float:
-        """Return what a quantity says at the pose: 0 of nothing, infinite where it is not bounded."""
+        """Return a quantity's value at the pose; infinite where it is unbounded."""
         return float(self.scene.quantities[token].read(self.pose))
 
     def values(self, token: str) -> Array:
-        """Return what a quantity says over the period."""
+        """Return a quantity's values over the period."""
         return np.asarray(self.scene.quantities[token].read(self.cycle), np.float64)
 
     def share(self, token: str) -> float:
-        """Return a quantity at the pose over its greatest size in the period: -1 … 1; 0 where it is none."""
+        """Return a quantity at the pose over its greatest size in the period, -1 … 1; 0 where that is 0."""
         sizes = np.abs(self.values(token))
         greatest = float(np.max(sizes[np.isfinite(sizes)], initial=0.0))
         value = self.value(token)
         return value / greatest if greatest > 0.0 and isfinite(value) else 0.0
 
     def clear(self, kind: str) -> list[str]:
-        """Return the joints whose velocity, or acceleration, is seen at once."""
+        """Return the joints whose velocity, or acceleration, is obvious at once."""
         return [name for name in self.joints if self.share(f"{name}.{kind}") > PLAIN]
 
     def question(
@@ -204,7 +204,7 @@ class Puzzle:
         stops: float | None = None,
         names: int = 1,
     ) -> QuizQuestion:
-        """Return the question; its answers are in the order of the alphabet, or `shuffled`."""
+        """Return the question; its answers are in alphabetical order, or `shuffled`."""
         answers = sorted({one.text: one for one in (*wrong, right)}.values(), key=lambda one: one.text)
         if shuffled:
             self.random.shuffle(answers)
@@ -213,13 +213,13 @@ class Puzzle:
         return QuizQuestion(*about, *given, shows, tuple(arrows), stops, names)
 
 
-# How numbers and ways stand in questions, and how many answers.
+# How numbers and directions are written in questions, and how many answers there are.
 
 MOST = 4
-"""So many answers a question has at most."""
+"""The most answers of a question."""
 
 WAYS = ("to the right", "up", "to the left", "down")
-"""The compass points of `quarter`, as ways to move, and as places beside something."""
+"""The compass points of `quarter`, as directions to move, and as places beside something."""
 SIDES = ("to the right of", "above", "to the left of", "below")
 BESIDE = ("on the right", "above", "on the left", "below")
 TURNS = ("counterclockwise", "clockwise")
@@ -236,22 +236,22 @@ def obliquity(vector: complex) -> float:
 
 
 def number(value: float) -> str:
-    """Return a number as it is read in a question."""
+    """Return a number as it is written in a question."""
     return typeset(short(value) if abs(value) >= 0.1 or not value else significant(value, 3))
 
 
 def angle(value: float) -> str:
-    """Return an angle of a full turn, in degrees."""
+    """Return an angle in words, in degrees within a full turn."""
     return f"{round(value, 1) % 360:.1f}°"
 
 
 def swing(low: float, high: float) -> str:
-    """Return between which angles, in degrees, something swings."""
+    """Return the range of a swing in words, from two angles in degrees."""
     return f"it swings between {tenths(low)} and {tenths(high)}"
 
 
 def tenths(value: float) -> str:
-    """Return an angle in degrees, of either sign."""
+    """Return an angle in degrees, of either sign, in words with one decimal."""
     return typeset(f"{round(value, 1) + 0.0:.1f}°")  # -0.0 + 0.0 is 0.0
 
 

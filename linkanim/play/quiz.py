@@ -26,9 +26,9 @@ from linkanim.units import shown, stepped
 # Rounds of questions about one scene or several, the same ones for the same seed.
 
 _TRIES = 12
-"""So many phases are tried for a kind before another is taken."""
+"""The phases that are tried for a kind before another kind is taken."""
 _DECIMALS = 4
-"""Of a question's phase, in radians, so that it can be typed."""
+"""The decimals of a question's phase, in radians, so that it can be typed."""
 
 
 def questions(
@@ -36,9 +36,9 @@ def questions(
 ) -> tuple[QuizQuestion, ...]:
     """Return `count` questions, from the scenes one after the other.
 
-    Kinds come in turn, as far as the scene has something to ask of each; none is asked twice of one subject
-    before a scene has nothing else. `progress` is called with (questions made, in all). WorkFailed where a
-    scene has nothing that can be asked, because nothing of it moves clearly.
+    Kinds come in turn, as far as a scene has a question of each; none is asked twice about one subject unless
+    the scene has nothing else. `progress` is called with (questions made, in all). WorkFailed where a scene
+    has no question because nothing in it clearly moves.
     """
     asked: list[QuizQuestion] = []
     spent: set[tuple[str, str]] = set()
@@ -57,11 +57,10 @@ def next_question(
     *,
     spent: set[tuple[str, str]] | None = None,
 ) -> QuizQuestion:
-    """Return a question about a scene, of the kind that was least often, that was not there before.
+    """Return a new question about a scene, of the kind that was asked least often.
 
-    Of other kinds than those that are asked for where the scene has nothing to ask of these. Kinds that have
-    nothing new to ask of a scene are `spent`, to which they are added: they are not tried at length again.
-    WorkFailed as `questions`.
+    Where the scene has no question of the `kinds` asked for, another kind is taken. Kinds without a new
+    question for a scene are added to `spent`, and not tried at length again. WorkFailed as in `questions`.
     """
     spent = set() if spent is None else spent
     random = Random(f"{seed} {scene.name}")
@@ -88,7 +87,7 @@ def next_question(
 
 
 def question_of(question_id: QuestionId) -> QuizQuestion:
-    """Return a question of the catalogue again; BadInput where there is none such."""
+    """Return a question of the catalogue again; BadInput where there is no such question."""
     if question_id.kind in KINDS and question_id.scene in names() and abs(question_id.phase) < 1e6:
         made = _made(question_id.kind, load(question_id.scene), question_id.phase)
         if made and made.subject == question_id.subject:
@@ -97,7 +96,7 @@ def question_of(question_id: QuestionId) -> QuizQuestion:
 
 
 def is_question(question_id: QuestionId) -> bool:
-    """Tell whether a question that was kept can be asked by this version."""
+    """Tell whether a stored question can be asked by this version."""
     try:
         question_of(question_id)
     except BadInput:
@@ -114,15 +113,15 @@ def _made(kind: str, scene: Scene, phase: float) -> QuizQuestion | None:
 _CURVE = (160, 34)
 """The size of a curve on a sheet."""
 _SHARPER = 3
-"""A curve as pixels has so many of them for each of its own."""
+"""A curve as a PNG has this many pixels for each of that size."""
 _INK, _AXIS = (27, 31, 35), (140, 149, 159)
 _PRINTED = 12
-"""So many of a curve's values stand in plain text."""
+"""The number of a curve's values in plain text."""
 LETTERS = "abcd"
 _SIZE, _ON_PAPER = (480, 300), (344, 200)
 """A figure's size in pixels, and that of one on paper, which is 40 mm high with letters of 6 pt."""
 _A_PAGE = 5
-"""Questions of a printed page at the most."""
+"""The most questions on a printed page."""
 _SIGNED = "<p class='signed'><span>Name</span><span>Date</span></p>"
 _STYLE = (
     body_style("15px/1.45", 54)
@@ -152,7 +151,7 @@ def pose_words(question: QuizQuestion) -> str:
     drive = scene.linkage.drive
     running = f", {speed_words(scene, drive.speed)}"
     if drive.coordinate.is_angle:
-        # at a limit it stands, and is about to turn back
+        # at a limit the input rests, and is about to turn back
         turns = "counterclockwise" if (pose.coordinate_rate or pose.coordinate_second) > 0 else "clockwise"
         running = f", {speed_words(scene, abs(drive.speed))} {turns}"
     at = pose.coordinate % tau if scene.info.full_turn else pose.coordinate
@@ -160,7 +159,7 @@ def pose_words(question: QuizQuestion) -> str:
 
 
 def question_figure(question: QuizQuestion, size: tuple[int, int] = _SIZE) -> Figured:
-    """Return the figure of a question as it stands on paper: answers that are places are lettered dots."""
+    """Return the figure of a question for paper: answers that are places are lettered dots."""
     look = Look(hud=False, trace=False, names=question.names, dead_centres=False)
     spots = (
         Spot(letter, one.place)
@@ -171,7 +170,7 @@ def question_figure(question: QuizQuestion, size: tuple[int, int] = _SIZE) -> Fi
 
 
 def answer_text(question: QuizQuestion, number: int) -> str:
-    """Return an answer's words; of a place that nothing names in the figure, the dot that shows it there."""
+    """Return an answer's words; for a place without a name in the figure, the letter of its dot."""
     answer = question.answers[number]
     joints = {joint.name for joint in question.scene.linkage.joints}
     named = answer.place is None or answer.text in joints
@@ -208,7 +207,7 @@ def as_html(
 
 
 def _pages(sections: Sequence[str]) -> Iterator[Sequence[str]]:
-    """Yield the questions of each printed page: as many on each as can be, never one alone."""
+    """Yield the questions of each printed page: as many as possible on each, never one alone."""
     count = -(-len(sections) // _A_PAGE)
     for n in range(count):
         yield sections[n * len(sections) // count : (n + 1) * len(sections) // count]
@@ -240,13 +239,13 @@ def _key_page(round_: Sequence[QuizQuestion], title: str) -> Iterator[str]:
 
 
 def _worded(answer: QuizAnswer) -> str:
-    """Return an answer, and of its curve some values evenly over the period."""
+    """Return an answer, with some values of its curve, evenly over the period."""
     values = answer.curve[:: max(len(answer.curve) // _PRINTED, 1)]
     return f"{answer.text}: {' '.join(stepped(value, 0.01) for value in values)}" if values else answer.text
 
 
 def _drawn(curve: Sequence[float]) -> str:
-    """Return a curve as an SVG of its own; nothing where there is none."""
+    """Return a curve as an SVG of its own; empty where there is no curve."""
     if not curve:
         return ""
     return f"<br>{embedded(svg(_CURVE, None, _curve_layers(curve), title='a curve'), 'a curve')}"
@@ -274,7 +273,7 @@ def _curve_layers(curve: Sequence[float], scale: float = 1.0) -> list[Layer]:
 
 
 def _slips(question: QuizQuestion) -> str:
-    """Return from which misconceptions the wrong answers come."""
+    """Return, in words, the misconceptions from which the wrong answers come."""
     answers = zip(LETTERS, question.answers, strict=False)
     return "; ".join(f"{letter}) {answer.slip}" for letter, answer in answers if answer.slip)
 

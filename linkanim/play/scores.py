@@ -1,4 +1,4 @@
-"""What is kept of games: best scores, what was missed, the last door; one small file, whole at any moment."""
+"""The stored results of games: best scores, missed questions, the last door; a file whole at any moment."""
 
 from __future__ import annotations
 
@@ -28,12 +28,11 @@ _HIGHEST = 10**9
 
 @frozen
 class Scores:
-    """Best scores by round, questions that were missed and not met since, the door taken last.
+    """Best scores by round, missed questions that were not answered since, the door taken last.
 
-    `slips` are how often each misconception gave an answer: of nobody's name, and of no question.
-
-    What was bettered longest ago is forgotten first, where that is more than is ever kept. Who was `greeted`
-    once by a window is not told again how to begin.
+    `slips` count how often each misconception led to an answer, without names of players or questions. Where
+    there are too many best scores, those that were improved longest ago are dropped. `greeted` says that a
+    window has told the user once how to begin.
     """
 
     door: str = ""
@@ -44,7 +43,7 @@ class Scores:
 
     @property
     def counts(self) -> str:
-        """How often each misconception gave an answer, as CSV, the most frequent first."""
+        """How often each misconception led to an answer, as CSV, the most frequent first."""
         rows = sorted(self.slips.items(), key=lambda one: (-one[1], one[0]))
         text = StringIO()
         table = csv.writer(text, lineterminator="\n")
@@ -52,7 +51,7 @@ class Scores:
         return text.getvalue()
 
     def having(self, name: str, value: str) -> Scores:
-        """Return them with what a game leaves: a door, a question missed or met, best as ROUND:SCORE."""
+        """Return the scores with one result: a door, a question missed or met, or best as ROUND:SCORE."""
         match name:
             case "door":
                 return replace(self, door=value)
@@ -77,9 +76,9 @@ class Scores:
 
 
 def load(path: Path) -> Scores:
-    """Return what a file holds, nothing where there is none.
+    """Return the scores in a file; empty ones where there is no file.
 
-    BadInput for one that is damaged or none of ours, OtherVersion for one of another version.
+    BadInput for a damaged or foreign file, OtherVersion for one of another version.
     """
     where = intake.named(path)
     if not path.exists():
@@ -122,10 +121,10 @@ def save(scores: Scores, path: Path) -> None:
 
 
 def keep(changes: Iterable[str], path: Path, *, own: bool) -> str | None:
-    """Make changes, each as "best=all.1:50", to what a file holds at this moment, no other window between.
+    """Make changes, each as "best=all.1:50", to a file's present content, with other windows locked out.
 
-    Where it is our `own`, one that is damaged is set aside, and a sentence says where. Errors as `load` and
-    `save`.
+    Where the file is the program's `own`, a damaged one is set aside, and a sentence says where. Errors as in
+    `load` and `save`.
     """
     told = None
     with atomic_files.alone(path):

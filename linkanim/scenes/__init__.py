@@ -4,11 +4,11 @@ From the ground up; a module imports from those before it only:
 
     scene      a linkage with its title, its source and its purpose
     toml       a scene file's text, read into a document and written
-    form       what a table may say
-    file_form  the form of a scene file, said once
+    form       fields and tables: how the form of a file is described
+    file_form  the form of a scene file, stated once
     schema     that form as a JSON Schema, and as a table to read
-    reading    a document to a checked scene, or to all that is wrong
-    files      where scenes come from: the catalogue, and files of one's own
+    reading    from a document to a checked scene, or to all that is wrong
+    files      where scenes come from: the catalogue, and the user's files
     editing    a scene with other dimensions, unit, assembly, input
 """
 

@@ -2,14 +2,15 @@
 
 Its parts, in reading order:
 
-- The numbers of a scene's document that can be edited: what each is called, what it lies between.
-- Titles beside classes: what of a class a title says, and the title of a scene whose class changes.
+- The numbers of a scene's document that can be edited: each one's name, and the joints it lies between.
+- Titles and classes: which words of a class a title says, and the title of a scene whose class changes.
 - The dimensions of a scene as a list to be edited, and the scene with some of them changed.
 - A scene in another unit of length: for pictures, tables and lists.
 - The other closure: the same lengths, put together the other way.
+- What is no number: the joints whose curves are drawn, and the crank that is driven.
 - Joints as handles: which dimensions follow when a joint is dragged.
-- What a dimension measures: the stretches of a construction, in the frames of joints that they move with.
-- Where the hand turns the input to: towards a point of the scene, or along a direction.
+- What a dimension measures: straight lines in the frames of joints with which they move.
+- Where a hand turns the input: towards a point of the scene, or along a direction.
 """
 
 from __future__ import annotations
@@ -37,17 +38,17 @@ from linkanim.scenes.scene import Scene
 if TYPE_CHECKING:
     from difflib import Match
 
-# The numbers of a scene's document that can be edited: what each is called, what it lies between.
+# The numbers of a scene's document that can be edited: each one's name, and the joints it lies between.
 
 _COUNTED = r"([a-z]{2})(\d+)$"
 _SHORT = 2
-"""A name of so many letters stands for nothing by itself."""
+"""A name of up to this many letters does not say by itself what it names."""
 _ADJECTIVES = frozenset({"left", "right", "upper", "lower", "large", "small", "short", "long"})
 _SPEED = {one.key: one.usual for one in DRIVE.fields if one.key == "speed"}
 
 
 class Number(NamedTuple):
-    """A number of a document: its key, its field, which item of a list it is, and what is written."""
+    """A number of a document: its key, its field, its place in a list, and the value as written."""
 
     key: Key
     field: Field
@@ -64,10 +65,10 @@ class Number(NamedTuple):
         return (bars[self.part or 0][0] if bars else None), joint.name
 
     def label(self, scene: Scene) -> str:
-        """Return what it is called, in the words of a class: "Crank 2", "Coupler point, along".
+        """Return the number's name, in the words of a class: "Crank 2", "Coupler point, along".
 
-        Links are numbered as in textbooks where a shorthand numbers them, or by the body of the scene that
-        the bar belongs to; a bar is called by its two joints where that is not enough.
+        Links are numbered as in textbooks where a shorthand numbers them, or by the scene's body to which the
+        bar belongs; where that is not enough, a bar is named by its two joints.
         """
         labels = self.field.label
         text = labels if isinstance(labels, str) else labels[self.part or 0]
@@ -94,7 +95,7 @@ class Number(NamedTuple):
 
 
 def numbers(document: Mapping[str, Any]) -> Iterator[Number]:
-    """Iterate what can be edited, in the order of the form; the drive's speed is always there."""
+    """Iterate the numbers that can be edited, in the order of the form; the drive's speed is always there."""
     stated = {**document, "drive": _SPEED | document.get("drive", {})}
     for key, one, holder in fields_in(SCENE_FILE, stated):
         written = holder[key[-1]]
@@ -107,7 +108,7 @@ def numbers(document: Mapping[str, Any]) -> Iterator[Number]:
 
 
 def _bar(start: str | None, end: str, scene: Scene) -> str:
-    """Return what a bar is called: by its body's number, and by its joints where it is not a crank."""
+    """Return a bar's name: its body's number, and its joints where it is not a crank."""
     body = _body({start, end}, scene)
     word = "Crank" if end in {crank.name for crank in scene.linkage.cranks} else "Bar"
     if body and body.name.isdigit():
@@ -122,7 +123,7 @@ def _body(joints: set[str | None], scene: Scene) -> Body | None:
 
 
 def _named(body: str, names: Mapping[str, str]) -> str:
-    """Return what a body is called: by its number, "Bar b", "Upper bar", "Rod 2", or by its name alone."""
+    """Return a body's name in the list: by its number, "Bar b", "Upper bar", "Rod 2", or its own name."""
     if body.isdigit():
         return f"Link {body}"
     words = re.sub(_COUNTED, r"\1 \2", names[body])
@@ -131,14 +132,14 @@ def _named(body: str, names: Mapping[str, str]) -> str:
     return f"{words} bar".capitalize() if words in _ADJECTIVES else words[:1].upper() + words[1:]
 
 
-# Titles beside classes: what of a class a title says, and the title of a scene whose class changes.
+# Titles and classes: which words of a class a title says, and the title of a scene whose class changes.
 
 _BOUND = frozenset({"a", "an", "and", "at", "by", "its", "of", "the", "with"})
-"""Words that need what comes before them."""
+"""Words that need the words before them."""
 
 
 def beyond_title(title: str, class_name: str) -> str:
-    """Return what of a class the title does not say: "Grashof" of a crank-rocker that is called one."""
+    """Return the part of a class that the title does not say: "Grashof" for a crank-rocker titled so."""
     if set(_words(class_name)) <= set(_words(title)):
         return ""
     same, words = _shared(title, class_name), list(re.finditer(r"\w+", class_name))
@@ -154,8 +155,8 @@ def beyond_title(title: str, class_name: str) -> str:
 def retitled(before: Scene, after: Scene) -> Scene:
     """Return a scene changed from another under the title that fits it.
 
-    A title that says the class is its own as long as it does: else the class stands in its place. Any other
-    title stays.
+    A title that names the class stays as long as it is right; else the new class is the title. A title that
+    names no class stays.
     """
     title, phrase = before.original_title or (before.title, _phrase(before.title, before.info.class_name))
     if not phrase:
@@ -179,19 +180,19 @@ def _capital(words: str) -> str:
 
 
 def _phrase(title: str, class_name: str) -> str:
-    """Return the words of a class in a row that a title says."""
+    """Return the consecutive words of a class that a title says."""
     same = _shared(title, class_name)
     return " ".join(_words(class_name)[same.b : same.b + same.size]) if same else ""
 
 
 def _shared(title: str, class_name: str) -> Match | None:
-    """Return the most words in a row that title and class have in common; None where they are no phrase."""
+    """Return the longest run of words that title and class share; None where it is no phrase."""
     known, words = _words(title), list(re.finditer(r"\w+", class_name.lower()))
     named = [word[0] for word in words]
-    from difflib import SequenceMatcher  # for an edited scene only: a window opens sooner without
+    from difflib import SequenceMatcher  # needed for an edited scene only: a window opens sooner without it
 
     same = SequenceMatcher(None, known, named, autojunk=False).find_longest_match()
-    # A word, or words from a preposition on, out of a phrase leave no phrase.
+    # A single inner word, or words from a preposition on, are no phrase.
     if not same.size or (same.b and (same.size == 1 or named[same.b] in _BOUND)):
         return None
     begin, end = words[same.b].start(), words[same.b + same.size - 1].end()
@@ -214,9 +215,9 @@ _EXACT = 2**53
 class Dimension:
     """One number of a scene that can be edited.
 
-    `key` is its path into the document, `label` what it is called. `value` is in `unit`: the scene's for
-    lengths, "" for a gear ratio, and for all else, such as angles and masses, the one it is written with;
-    only what is `bare` may be written without.
+    `key` is its path into the document, `label` its name. `value` is in `unit`: the scene's for lengths, ""
+    for a gear ratio, and for all else, such as angles and masses, the unit as written; only where it is
+    `bare` may the unit be left out.
     """
 
     key: Key
@@ -228,10 +229,10 @@ class Dimension:
 
 
 def dimensions(scene: Scene) -> tuple[Dimension, ...]:
-    """Return what can be edited, in the order of the scene file's form.
+    """Return the dimensions that can be edited, in the order of the scene file's form.
 
-    Only what the file says is there, and always the drive's speed; nothing of a scene without a document.
-    They are worked out once a scene: a window whose list is open asks for them in every frame.
+    They are those that the file states, and always the drive's speed; none for a scene without a document.
+    They are cached: a window whose list is open asks for them in every frame.
     """
     kept: dict[str, Any] = vars(scene)
     if "_dimensions" not in kept:
@@ -258,7 +259,7 @@ def with_document(scene: Scene, document: Mapping[str, Any], check: Check | None
 def passing(scene: Scene, values: Mapping[Key, float | str]) -> Scene:
     """Return a scene on the way to `scene`, with these dimensions for an instant; errors as above.
 
-    Where no dyad down the chain limits `scene`, none is looked at: one that does not close gives NaN.
+    Where no dyad down the chain limits `scene`, none is checked: a dyad that does not close gives NaN.
     """
     return scene_from(with_values(scene, values), name=scene.name, where=scene.name, towards=scene)
 
@@ -276,7 +277,7 @@ def _dimension(number: Number, scene: Scene) -> Dimension:
 
 
 def dimension_of(key: Key, label: str, kind: ValueType, stated: Any, length_unit: str) -> Dimension:
-    """Return what is `stated` of a number as it can be edited, lengths in that unit."""
+    """Return the dimension of a number with the `stated` value; lengths are in that unit."""
     measure = kind.measure
     assert measure
     if measure in LENGTHS:
@@ -298,7 +299,7 @@ def written(value: float | str, dimension: Dimension) -> object:
 
 
 def with_unit(text: str, dimension: Dimension) -> str:
-    """Return a value as it is typed with the dimension's unit, where it is a number without any."""
+    """Return a typed value, with the dimension's unit added where it is a number without one."""
     return f"{text} {dimension.unit}" if re.fullmatch(_BARE, text.strip()) and dimension.unit else text
 
 
@@ -318,10 +319,10 @@ def replaced(document: Any, key: Key, value: object) -> Any:
 def in_unit(scene: Scene, unit: str | None) -> Scene:
     """Return the scene in another unit of length, and with it of velocity; itself for its own, and for None.
 
-    The same linkage: each length is read again with the unit that it was written in, and rounded once. It
-    is for showing; what is edited and saved stays the scene that it is made from. It is worked out once.
-    SceneError for what is no unit of length, for a scene without a document, and where a length is too
-    large or small to be computed with in that unit.
+    It is the same linkage: each length is read again with the unit in which it was written, and rounded once.
+    It is for showing; the original scene is the one that is edited and saved. The result is cached.
+    SceneError for an unknown unit of length, for a scene without a document, and where a length is too large
+    or small to be computed with in that unit.
     """
     if unit is None or unit == scene.length_unit:
         return scene
@@ -352,7 +353,7 @@ _OTHER_CLOSURE = "other closure"
 
 
 class _Choice(NamedTuple):
-    """Where a document says which closure holds, which it is, and which is the other."""
+    """The key at which a document says which closure holds, that closure, and the other one."""
 
     key: tuple[str, ...]
     name: str
@@ -362,8 +363,8 @@ class _Choice(NamedTuple):
 def other_closure(scene: Scene) -> Scene:
     """Return the scene with its first loop on the other closure; twice gives the same linkage again.
 
-    Of several loops it is the one nearest the input. AssemblyError where there is no second closure,
-    or where it cannot be assembled further down the chain.
+    The first loop is the one nearest the input. AssemblyError where there is no second closure, or where it
+    cannot be assembled further down the chain.
     """
     choice = _choice(scene)
     if choice is None:
@@ -371,7 +372,7 @@ def other_closure(scene: Scene) -> Scene:
     other = scene.elsewhere.pop(_OTHER_CLOSURE, None)
     other = other or with_document(scene, replaced(scene.document, choice.key, choice.other))
     if replaced(other.document, choice.key, choice.name) == scene.document:
-        other.elsewhere[_OTHER_CLOSURE] = scene  # the way back needs no search
+        other.elsewhere[_OTHER_CLOSURE] = scene  # going back needs no search
     return other
 
 
@@ -388,7 +389,7 @@ def other_return(scene: Scene) -> Scene:
 
 
 def closure_name(scene: Scene) -> str | None:
-    """Return what the first loop's closure is called (open, crossed, ...); None where it has no other."""
+    """Return the name of the first loop's closure (open, crossed, ...); None where it has no other."""
     choice = _choice(scene)
     return choice and choice.name
 
@@ -396,7 +397,7 @@ def closure_name(scene: Scene) -> str | None:
 def ghost_of(scene: Scene) -> Scene | None:
     """Return the other closure, to be drawn behind this one; None where there is none.
 
-    It is kept until it is asked for as a scene of its own.
+    It is cached until it is asked for as a scene of its own.
     """
     try:
         scene.elsewhere[_OTHER_CLOSURE] = other_closure(scene)
@@ -406,7 +407,7 @@ def ghost_of(scene: Scene) -> Scene | None:
 
 
 def known_ghost_of(scene: Scene) -> Scene | None:
-    """Return the other closure where it is kept; None where it was not looked for, or there is none."""
+    """Return the other closure where it is cached; None where it was not asked for, or there is none."""
     return scene.elsewhere.get(_OTHER_CLOSURE)
 
 
@@ -427,7 +428,7 @@ def _choice(scene: Scene) -> _Choice | None:
     return None
 
 
-# What of a scene is no number: the joints whose curves are drawn, and the crank that is driven.
+# What is no number: the joints whose curves are drawn, and the crank that is driven.
 
 
 def traced(scene: Scene, joint: str) -> Scene:
@@ -462,10 +463,10 @@ def driven_at(scene: Scene, joint: str) -> Scene:
 
 @frozen
 class Handle:
-    """A dimension that follows a joint: the distance from `start`, or a part of the place on a body.
+    """A dimension that follows a joint: the distance from `start`, or one coordinate of its place on a body.
 
     `part` is 0 along the body's axis `on` and 1 to its left, or 0 for x and 1 for y of a fixed pin; None for
-    a distance. An `angle` is that of the line from `start`.
+    a distance. With `angle` the dimension is the direction of the line from `start`.
     """
 
     key: Key
@@ -496,7 +497,7 @@ def dragged(handle: Handle, places: Mapping[str, Point], point: Point) -> float:
 
 
 def _handles(number: Number, joint: Joint, scene: Scene) -> Iterator[Handle]:
-    """Yield how a number follows a joint, if it does."""
+    """Yield the handle of a number, if it follows the joint."""
     (start, end), drag = number.ends(scene), number.field.drag
     on = joint.on if isinstance(joint, Rigid) else None
     found_from = {bar[0] for bar in joint.bars} | set((on or ())[:1])
@@ -516,14 +517,15 @@ def _in_degrees(written: object) -> bool:
     return text.rstrip().endswith("°") or "deg" in text.lower()
 
 
-# What a dimension measures: the stretches of a construction, in the frames of joints that they move with.
+# What a dimension measures: straight lines in the frames of joints with which they move.
 
 
 class Stretch(NamedTuple):
     """A straight line from `begin` to `end` in the frame of two joints.
 
-    There 1 leads from one joint to the other, and 1j to the left of that. Where it is one joint twice, 1 is
-    one unit of the scene, level. `key` is the dimension that it is.
+    In that frame 1 is the vector from one joint to the other, and 1j points to its left. Where the frame
+    names one joint twice, 1 is one unit of the scene to the right. `key` is the dimension that the line
+    shows.
     """
 
     frame: tuple[str, str]
@@ -533,9 +535,9 @@ class Stretch(NamedTuple):
 
 
 def stretches(scene: Scene, key: Key) -> tuple[Stretch, ...]:
-    """Return what the dimension at a key measures, then what else leads to that place; none of an angle.
+    """Return the line that a dimension measures, then the others to the same place; none for an angle.
 
-    Of a place on a body these are the part along its axis and the part to the left, of a fixed pin x and y.
+    For a place on a body these are the part along its axis and the part to its left, for a fixed pin x and y.
     """
     number = next((number for number in numbers(scene.document) if number.key == key), None)
     found = _of(number, scene) if number else ()
@@ -562,7 +564,7 @@ def _of(number: Number, scene: Scene) -> Iterator[Stretch]:
 
 
 def _named_stretches(number: Number, scene: Scene) -> str:
-    """Return the joint whose table a number stands in; of a shorthand the one that has a line."""
+    """Return the joint in whose table a number stands; in a shorthand, the joint that has a line."""
     guided = (joint.name for joint in scene.linkage.joints if getattr(joint, "line", None))
     return str(number.key[1]) if number.key[0] == "joints" else next(guided, "")
 
@@ -609,16 +611,16 @@ def _apart(scene: Scene, one: str, other: str) -> float:
     return abs(complex(*_place(scene, one)) - complex(*_place(scene, other)))
 
 
-# Where the hand turns the input to: towards a point of the scene, or along a direction.
+# Where a hand turns the input: towards a point of the scene, or along a direction.
 
 
 def phase_towards(scene: Scene, phase: float, point: tuple[float, float]) -> float:
     """Return the phase near `phase` at which the input crank points at `point` (scene's unit).
 
-    A slider that drives comes as near to the point as its guide lets it.
+    A slider that drives comes as near to the point as its guide allows.
 
-    An input that swings stops at its limits; of the two phases of an angle it is the nearer one, and
-    past a limit the way back is the one not come by. A point on the pivot itself changes nothing.
+    An input that swings stops at its limits. Of the two phases of an angle the nearer one is returned; past a
+    limit, the one on the other way. A point on the pivot itself changes nothing.
     """
     mechanism, driven = scene.mechanism, scene.linkage.driven.joint
     if isinstance(driven, DrivenSlider):
@@ -633,8 +635,8 @@ def phase_towards(scene: Scene, phase: float, point: tuple[float, float]) -> flo
 def phase_along(scene: Scene, phase: float, direction: complex) -> float:
     """Return the phase near `phase` at which the input crank points along `direction` (x + yi, y up).
 
-    As `phase_towards` at limits. A slider that drives stands as far along its guide as `direction`, 1
-    long at the most, reaches along it from the middle: at 1 it is at its end.
+    Limits are as in `phase_towards`. A slider that drives is put at the component of `direction`, of length 1
+    at the most, along its guide: 0 is the middle of its travel, 1 its end.
     """
     mechanism, driven = scene.mechanism, scene.linkage.driven.joint
     if not isinstance(driven, DrivenSlider):

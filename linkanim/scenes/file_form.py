@@ -3,7 +3,7 @@
 Its parts, in reading order:
 
 - How joints are written: the fields of each kind, and of fixed pins. A kind of joint is one entry here.
-- How the input is written, and what it comes to: a driven crank, a cylinder that turns it, a slider.
+- How the input is written and read: a driven crank, a cylinder that turns it, a slider.
 - The shorthands [four-bar], [slider-crank] and [six-bar]: the common linkages in a few lines.
 - The tables [guide], [function] and [quick-return]: what a linkage was made for.
 - The whole scene file: its tables, and the fields of those that are not joints.
@@ -107,7 +107,7 @@ def polar_pin(name: str, length: float, angle: float, base: Pin | None = None) -
 
 
 def _line(through: str | None = None, on: tuple[str, str] | None = None, **rest: float) -> Line:
-    """Return a line of travel, through the first joint of its axis unless stated."""
+    """Return a line of travel; where `through` is not stated, it runs through the first joint of its axis."""
     return Line(through or (on[0] if on else ""), on=on, **rest)
 
 
@@ -221,7 +221,7 @@ PLACE = Field("", POINT, "x and y", label=("Pin {name}, x", "Pin {name}, y"), dr
 PINS = Named((POLAR_PIN,), PLACE, Pin)
 
 
-# How the input is written, and what it comes to: a driven crank, a cylinder that turns it, a slider.
+# How the input is written and read: a driven crank, a cylinder that turns it, a slider.
 
 Values = Mapping[str, Any]
 
@@ -340,7 +340,7 @@ def _cylinder(table: Table, values: Values, driven: str) -> Cylinder:
 
 @frozen
 class Expansion:
-    """What a shorthand stands for; `drive` is the joint that is driven unless [drive] says otherwise."""
+    """The meaning of a shorthand; `drive` is the joint that is driven unless [drive] says otherwise."""
 
     joints: tuple[Joint, ...] = ()
     bodies: tuple[Body, ...] = ()
@@ -409,7 +409,7 @@ def _refuse_own_shorthands(table: Table, values: Mapping[str, Any]) -> None:
 
 
 def _bars(key: str, *bars: tuple[str, str, str]) -> Field:
-    """Return the field of a bar's length, or of those of several: what each is called, and its two joints."""
+    """Return the field of one or several bars' lengths; `bars` has each one's label and its two joints."""
     spans = tuple((start, end) for _, start, end in bars)
     words = ", ".join(f"{start}–{end}" for start, end in spans)
     many = listed(LENGTH, len(bars)) if bars[1:] else LENGTH
@@ -488,7 +488,7 @@ def names_of(key: str, keys: Container[str]) -> tuple[str, ...]:
 
 # The tables [guide], [function] and [quick-return]: what a linkage was made for.
 #
-# Their lengths have a unit, always: they are no dimensions that one edits, and follow no change of the unit.
+# Their lengths always state a unit: they are not dimensions to be edited, and do not change with the unit.
 
 _FEWEST_POSES, _MOST_POSES = 2, 5
 _FEWEST_POINTS, _MOST_POINTS = 2, 12
@@ -522,7 +522,7 @@ def _ratio(table: Table, key: str) -> float:
 
 
 def _listed(read: Any, words: str, item: Schema, low: int, high: int) -> ValueType:
-    """Return the type of a list of so many values."""
+    """Return the type of a list of `low` to `high` values."""
 
     def take(table: Table, key: str) -> tuple[Any, ...] | None:
         value = table.values[key]
@@ -565,7 +565,7 @@ _PLACES = _listed(_place, "angles, or lengths", _STATED, _FEWEST_POINTS, _MOST_P
 
 
 def _refuse_uneven(table: Table, values: Mapping[str, Any]) -> None:
-    """Refuse precision points that have not one of each."""
+    """Refuse precision points whose lists differ in length."""
     counts = {len(values[key]) for key in ("x", "y", "input", "output")}
     if len(counts) > 1:
         raise table.wrong("x, y, input and output have to be equally long: one of each a precision point")
@@ -616,7 +616,7 @@ def _refuse_block(table: Table, values: Mapping[str, Any]) -> None:
 
 
 def _refuse_bar(table: Table, values: Mapping[str, Any]) -> None:
-    """Refuse a body that is none: too few joints, not on one rigid body, or two in one point."""
+    """Refuse a body with too few joints, with joints on several rigid bodies, or with two in one point."""
     _refuse_radius(table, values)
     members, frames = values["joints"], table.context.rigid
     if len(members) < 2:
@@ -704,7 +704,7 @@ DAMPER = form("a damper", _BETWEEN, _COEFFICIENT, make=Damper)
 
 
 def _picture(table: Table, key: str) -> str:
-    """Read the path of a picture, which need not be there; one that no disk can hold is refused."""
+    """Read the path of a picture, which need not exist; refuse a path that no file can have."""
     file = table.text(key)
     if reason := unnameable(file):
         raise table.error(key, f"{reason}; rename the picture")

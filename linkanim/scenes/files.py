@@ -67,7 +67,7 @@ class PublishedTable(NamedTuple):
 
 @cache
 def published(name: str) -> tuple[PublishedTable, ...]:
-    """Return the values that are printed for a catalogue scene; none for any other name."""
+    """Return the values that a source prints for a catalogue scene; none for any other name."""
     return tuple(
         PublishedTable(
             one["source"],

@@ -1,10 +1,10 @@
-"""Describe what a table of a scene file may say, and read it; the tables themselves are in `file_form`.
+"""Describe the form of a table of a scene file, and read it; the tables themselves are in `file_form`.
 
 Its parts, in reading order:
 
-- A table of a scene file, and what is known while the file is read: its joints, and what is wrong so far.
-- What may stand at a key of a scene file: how it is read, its schema, and what its numbers measure.
-- Fields, and the tables that they make up: what a table of a scene file may say, and what that becomes.
+- A table of a scene file, and what is known while the file is read: its joints, and the problems so far.
+- The type of a value of a scene file: how it is read, its schema, and what its numbers measure.
+- Fields, and the tables that they make up: what a table may state, and which value is made from it.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from linkanim.intake import Section, few, meant
 from linkanim.mechanics.linkage import Joint, RigidBody
 from linkanim.units import shown
 
-# A table of a scene file, and what is known while the file is read: its joints, and what is wrong so far.
+# A table of a scene file, and what is known while the file is read: its joints, and the problems so far.
 
 Read = TypeVar("Read")
 
@@ -34,8 +34,8 @@ Read = TypeVar("Read")
 class Context:
     """What is known of a file while it is read: its unit of length, its joints, and its problems so far.
 
-    `names` are those of all joints that it states. `joints` are those without a fault, in solved order, and
-    `rigid` the rigid bodies that they make; none before they are read.
+    `names` are the names of all joints that it states. `joints` are those without a fault, in solved order,
+    and `rigid` the rigid bodies that they form; both are empty before joints are read.
     """
 
     unit: str = "mm"
@@ -63,7 +63,7 @@ class Table(Section):
         return type(self)(self.where, values, (*self.keys, key), self.context)
 
     def attempt(self, work: Callable[..., Read], *given: object) -> Read | None:
-        """Return what the work returns; None where it refuses, which is one more of the file's problems."""
+        """Return what the work returns; on BadInput, add that to the problems and return None."""
         try:
             return work(*given)
         except BadInput as error:
@@ -71,7 +71,7 @@ class Table(Section):
             return None
 
     def refuse_unknown(self, known: Iterable[str]) -> None:
-        """Count every key that is not `known` among the problems, each with the nearest known one."""
+        """Add every key that is not `known` to the problems, each with the nearest known key."""
         known = tuple(dict.fromkeys(known))
         for key in self.values:
             if key not in known and len(self.context.problems) < MOST_PROBLEMS:
@@ -79,11 +79,11 @@ class Table(Section):
                 self.context.problems.append(self.error(key, reason))
 
     def saying(self, values: Mapping[str, Any]) -> Self:
-        """Return the table as if it said something else."""
+        """Return the table with other values."""
         return type(self)(self.where, values, self.keys, self.context)
 
     def entries(self) -> tuple[str, ...]:
-        """Return the names that are this table's keys, each fit to be shown and to be part of a key."""
+        """Return this table's keys as names, each fit to be shown and to be part of a key."""
         if len(self.values) > MOST_NAMES:
             raise self.wrong(f"has {len(self.values):,} entries; {MOST_NAMES} are the most that are read")
         return tuple(name for name in self.values if self.attempt(self._entry, name))
@@ -103,9 +103,9 @@ class Table(Section):
         return name
 
 
-# What may stand at a key of a scene file: how it is read, its schema, and what its numbers measure.
+# The type of a value of a scene file: how it is read, its schema, and what its numbers measure.
 #
-# A type is one value here; everything else about the file's form is in terms of these.
+# Everything else about the file's form is described in terms of these types.
 
 Measure = Literal[
     "length", "angle", "speed", "offset", "ratio", "stiffness", "damping", "mass", "inertia", "gravity"
@@ -126,11 +126,11 @@ _NUMBER = r"^\s*[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?\s*"
 
 @frozen
 class ValueType:
-    """What may stand at a key, in `words` too.
+    """The type of the value at a key, also in `words`.
 
-    `read` takes it from a table that has the key. `schema` is what a JSON Schema says of it, None where
-    nothing may stand there. `measure` is what its numbers measure, where they can be edited; those that are
-    `bare` need no unit. `options` are the texts to choose from. What `refers` names joints.
+    `read` reads the value from a table that has the key. `schema` is its JSON Schema, None where no value is
+    allowed. `measure` is what its numbers measure, where they can be edited; where they are `bare` they need
+    no unit. `options` are the texts to choose from. A type that `refers` holds names of joints.
     """
 
     read: Callable[[Table, str], Any]
@@ -143,7 +143,7 @@ class ValueType:
 
 
 def never(sentence: str) -> ValueType:
-    """Return the type of a key that is known and always refused, with a sentence."""
+    """Return the type of a key that is known but always refused, with this sentence."""
 
     def read(table: Table, key: str) -> None:
         raise table.error(key, sentence)
@@ -182,9 +182,9 @@ def _quantity(
     bare: bool = False,
     base: str = "",
 ) -> ValueType:
-    """Return the type of a number with one of the units `names`, or without where it may be bare.
+    """Return the type of a number with one of the units `names`, or without a unit where it may be `bare`.
 
-    It is read in the unit `base`; without one in the file's unit of length.
+    A number without a unit is read in the unit `base`; without that, in the file's unit of length.
     """
 
     def read(table: Table, key: str) -> float:
@@ -284,7 +284,7 @@ def _fraction(value: object) -> Fraction | None:
 
 
 def _text(table: Table, key: str) -> str:
-    """Read a text; one of blanks alone says nothing, as an empty one."""
+    """Read a text; a text of blanks alone counts as empty."""
     text = table.text(key)
     return text if text.strip() else ""
 
@@ -333,30 +333,31 @@ PAIR = _joints(2)
 JOINTS = _joints()
 
 
-# Fields, and the tables that they make up: what a table of a scene file may say, and what that becomes.
+# Fields, and the tables that they make up: what a table may state, and which value is made from it.
 
 Key = tuple[str | int, ...]
 """The keys and numbers that lead to a value in a scene's document."""
 
 NEEDED = object()
-"""What is usual of a key that must not be missing."""
+"""The `usual` of a key that must not be missing."""
 SPREAD = ""
-"""Where the values of a table go that are those of the table around it."""
+"""The `into` of a table whose values become those of the table around it."""
 
 
 @frozen
 class Field:
     """One key of a table.
 
-    `words` say what it is. `usual` stands where the key is missing, as the file would say it; None where
-    nothing does. `into` is the argument that it becomes, its own key unless stated.
+    `words` say what it is. `usual` is the value where the key is missing, as a file would state it; None for
+    no value. `into` is the argument that the value becomes, the key itself unless stated.
 
-    A joint that it names `must` be fixed or a crank; where it must be "moving", one at least of all joints
-    that the table names must be. With the key `unless` beside it, it may be missing, and may move.
+    `must` says what a joint that it names has to be: fixed or a crank; with "moving", at least one of all
+    joints that the table names has to move. With the key `unless` in the table, the field may be missing, and
+    its joint may move.
 
-    `label` is what a number is called in the list of dimensions, one for each item of a list; one in small
-    letters follows the name of the table. By `drag` a number follows a joint: as its distance from another
-    one, the direction from there, or its place on its body; of a shorthand `spans` are those two joints.
+    `label` is a number's name in the list of dimensions, one for each item of a list; a label in small
+    letters follows the table's name. `drag` says how a number follows a joint: as its distance from another
+    joint, the direction from there, or its place on its body; in a shorthand `spans` are those two joints.
     """
 
     key: str
@@ -372,15 +373,15 @@ class Field:
 
     @property
     def plain(self) -> ValueType | None:
-        """What stands there that is no table."""
+        """The type of the value, if it is no table; else None."""
         return self.type if isinstance(self.type, ValueType) else None
 
     def stated(self, table: Table) -> bool:
-        """Tell whether there is anything to read: the key, what is usual, or that it is missing."""
+        """Tell whether there is anything to read: the key, a usual value, or the fault that it is missing."""
         return self.key in table or (self.usual is not None and self.unless not in table.values)
 
     def read(self, table: Table) -> Any:
-        """Return what stands at the key, or what is usual; None where that has a fault in it."""
+        """Return the value at the key, or the usual one; None where that has a fault."""
         if self.key not in table:
             if self.usual is NEEDED:
                 table.need(self.key)
@@ -390,11 +391,11 @@ class Field:
 
 @frozen
 class Form:
-    """A table: its fields, and what makes a value of what they say.
+    """The form of a table: its fields, and the function that makes a value of theirs.
 
-    Of several forms that may stand in one place `mark` is the key that shows this one, where none of
-    `without` stands beside it. `refuse` raises where values do not go together. `together` are keys, each
-    with another that it needs beside it.
+    Where several forms are possible, `mark` is the key that shows this one, if none of the keys `without` is
+    in the table. `refuse` raises where values do not go together. `together` has pairs of a key and another
+    key that it needs in the table.
     """
 
     fields: tuple[Field, ...]
@@ -407,7 +408,7 @@ class Form:
 
     @cached_property
     def keys(self) -> Mapping[str, Field]:
-        """The fields by their keys, which are those that are known."""
+        """The fields by their keys; all other keys are unknown."""
         return {one.key: one for one in self.fields}
 
     def field(self, key: str) -> Field:
@@ -419,13 +420,13 @@ class Form:
         return (not self.mark or self.mark in values) and not any(key in values for key in self.without)
 
     def read(self, table: Table, key: str) -> Any:
-        """Return what is made of the table at a key; None where anything in it has a fault."""
+        """Return the value made of the table at a key; None where anything in it has a fault."""
         return self.made(table.table(key))
 
     def made(self, table: Table, *given: object, known: Iterable[str] = ()) -> Any:
-        """Return what is made of a table, and of what is `given` besides; None where it has a fault.
+        """Return the value made of a table, with the further arguments `given`; None where it has a fault.
 
-        `known` are the keys that are no slips, the form's own unless stated.
+        `known` are the keys that are allowed, the form's own unless stated.
         """
         if not table.values.keys() <= self.keys.keys():
             table.refuse_unknown(known or self.keys)
@@ -450,9 +451,9 @@ def form(words: str, *fields: Field, **how: Any) -> Form:
 
 @frozen
 class Named:
-    """A table of tables by their names, as [joints.A], [joints.B]: each of one of the `forms`.
+    """A table of tables by their names, as [joints.A], [joints.B], each of which has one of the `forms`.
 
-    Where an entry may be a list instead of a table, `plain` is its field, and `make` makes a value of it.
+    Where an entry may be a list instead of a table, `plain` is its field, and `make` makes the value of it.
     """
 
     forms: tuple[Form, ...]
@@ -465,7 +466,7 @@ class Named:
         return tuple(dict.fromkeys(form.mark for form in self.forms))
 
     def read(self, table: Table, key: str) -> dict[str, Any]:
-        """Return what is made of each entry, by its name; None of those that have a fault."""
+        """Return the value made of each entry, by its name; None for entries that have a fault."""
         group = table.table(key)
         return {name: group.attempt(self._entry, group, name) for name in group.entries()}
 
@@ -483,7 +484,7 @@ class Named:
         raise table.wrong(f"says no way to find the joint; give it one of {', '.join(self.marks)}")
 
     def form(self, value: object) -> Form | None:
-        """Return the form that an entry has; None where it has none of them."""
+        """Return the form that an entry has; None where it has none of these forms."""
         if not isinstance(value, Mapping):
             return None
         return next((form for form in self.forms if form.fits(value)), None)

@@ -2,9 +2,9 @@
 
 Its parts, in reading order:
 
-- How far apart the sizes in one scene may be: beyond that neither digits nor pixels show them together.
+- How much sizes in one scene may differ: beyond that neither digits nor pixels show them together.
 - The joints of a file in the order in which they are solved, those with a fault left out.
-- The document in a scene file to a checked `Scene`, or to all that is wrong with it.
+- From the document in a scene file to a checked `Scene`, or to all that is wrong with it.
 - Every problem of a scene file at once, each with its line.
 """
 
@@ -48,10 +48,10 @@ from linkanim.scenes.form import Context, Field, Key, Table, fields_in
 from linkanim.scenes.scene import FREE_STYLE, Scene
 from linkanim.scenes.toml import Keys, line_numbers, parse
 
-# How far apart the sizes in one scene may be: beyond that neither digits nor pixels show them together.
+# How much sizes in one scene may differ: beyond that neither digits nor pixels show them together.
 
 MOST_APART = 1e9
-"""How many times as long as its shortest bar anything in a scene may be."""
+"""The greatest size of anything in a scene, in lengths of its shortest bar."""
 
 
 def refuse_apart(top: Table, linkage: Linkage) -> Linkage:
@@ -93,7 +93,7 @@ Stated = Mapping[str, Joint | None]
 def solved(top: Table, expanded: Stated, pins: Stated, moving: Stated) -> Table:
     """Return the file's table with its sound joints known, in solved order: a shorthand's and the file's.
 
-    A joint that depends on one with a fault is left out, and not looked at any further.
+    A joint that depends on a joint with a fault is left out, and not checked further.
     """
     stated = _together(top, expanded, pins, moving)
     for name in moving:
@@ -109,7 +109,7 @@ def solved(top: Table, expanded: Stated, pins: Stated, moving: Stated) -> Table:
 
 
 def _together(top: Table, expanded: Stated, pins: Stated, moving: Stated) -> dict[str, Joint | None]:
-    """Return all joints, pins given by coordinates first: so TOML writers order tables too."""
+    """Return all joints, pins given by coordinates first, as TOML writers order tables."""
     listed = sorted(pins, key=lambda name: isinstance(top.values["ground"][name], Mapping))
     stated = dict(expanded)
     own = {name: pins[name] for name in listed if not (name == "O2" and expanded)}
@@ -123,7 +123,7 @@ def _together(top: Table, expanded: Stated, pins: Stated, moving: Stated) -> dic
 
 
 def _with_fit_references(top: Table, joint: Joint, stated: Stated) -> Joint:
-    """Return a joint, refused where those that it is found from are itself, or not what they must be."""
+    """Return a joint; BadInput where it is found from itself, or from joints that do not fit."""
     table = top.table("joints").table(joint.name)
     found = dict[str, Joint | None]()
     moving: tuple[Key, str] | None = None
@@ -160,13 +160,13 @@ def _unfit(joint: Joint, name: str, must: str, stated: Stated) -> str | None:
 
 
 def _at(table: Table, key: Key, reason: str) -> BadInput:
-    """Return the error about what a joint is found from, which stands at a key under its table."""
+    """Return the error about a joint that another one is found from; `key` leads to it in the table."""
     steps = [str(step) for step in key]
     return table.at(f"{table.path}.{'.'.join(steps)}: {reason}", *steps)
 
 
 def _needs(stated: Stated, name: str) -> list[str]:
-    """Return the joints that one is found from; none of one that has a fault."""
+    """Return the joints that a joint is found from; none for a joint that has a fault."""
     joint = stated[name]
     return [need for need in joint.needs if need in stated] if joint else []
 
@@ -185,7 +185,7 @@ def _solved_order(stated: Stated) -> list[str]:
 
 
 def _circle(stated: Stated, stuck: set[str]) -> tuple[str, ...]:
-    """Return a chain of joints that ends where it began, among the `stuck` ones (each needs a stuck one)."""
+    """Return a chain of joints that ends where it began, among `stuck` ones, each of which needs another."""
     name = min(stuck)
     path = [name]
     while True:
@@ -196,7 +196,7 @@ def _circle(stated: Stated, stuck: set[str]) -> tuple[str, ...]:
 
 
 def _rigid(top: Table, joints: Iterable[Joint | None]) -> Table:
-    """Return the file's table with its joints known, a dyad whose bars stand on one body as a point of it."""
+    """Return the file's table with its joints known; a dyad between joints of one body becomes its point."""
     found: dict[str, Joint] = {}
     bodies = rigid_bodies(())
     for joint in joints:
@@ -210,7 +210,7 @@ def _rigid(top: Table, joints: Iterable[Joint | None]) -> Table:
 
 
 def _on_one_body(top: Table, joint: Joint, bodies: tuple[RigidBody, ...]) -> Joint:
-    """Return a joint, refused where it is a point of no body, or its bars stand on one and do not meet."""
+    """Return a joint; refuse a point of no body, and a dyad on one body whose bars do not meet."""
     if joint.body:
         _refuse_apart(top.table("joints").table(joint.name), joint.body, bodies)
     elif isinstance(joint, RRR) and (n := holding(bodies, joint.ends)) is not None:
@@ -245,16 +245,16 @@ def _refuse_loose(table: Table, joint: RRR, frame: RigidBody) -> None:
 
 
 def unassembled(table: Table, reason: str) -> AssemblyError:
-    """Return the error about lengths that do not go together."""
+    """Return the error about lengths that cannot be assembled."""
     error = AssemblyError(f"{table.where}: {table.path}: {reason}")
     error.keys = table.keys
     return error
 
 
-# The document in a scene file to a checked `Scene`, or to all that is wrong with it.
+# From the document in a scene file to a checked `Scene`, or to all that is wrong with it.
 
 Check = Callable[[Scene], None]
-"""Raises what refuses a scene that is whole but not yet put together."""
+"""Raises where it refuses a scene that is complete but not yet put together."""
 
 
 def scene_from(
@@ -267,10 +267,11 @@ def scene_from(
 ) -> Scene:
     """Return the scene that a document describes, put together.
 
-    `where` names the file in errors. Lengths come out in the document's `length_unit` (mm if it has none),
-    angles in radians; joints in the order in which they can be solved. SceneError for whatever is unknown,
-    missing or contradictory; AssemblyError for lengths that cannot be assembled. `towards` is the scene that
-    this one is on the way to, where it is shown for an instant; `check` may refuse it before it is whole.
+    `where` names the file in errors. Lengths are in the document's `length_unit` (mm if it has none), angles
+    in radians; joints stand in the order in which they can be solved. SceneError for anything unknown,
+    missing or contradictory; AssemblyError for lengths that cannot be assembled. `towards` is the scene to
+    which this one is on its way, where it is shown for an instant only; `check` may refuse it before it is
+    put together.
     """
     scene, problems = read(document, name=name, where=where, towards=towards, check=check)
     if scene is None or problems:
@@ -288,8 +289,8 @@ def read(
 ) -> tuple[Scene | None, list[BadInput]]:
     """Return the scene that a document describes, None where it describes none, and all its problems.
 
-    What can only follow from another problem is not among them: of what hangs on a joint with a fault only
-    its own table is looked at, and what is put together only where every joint is sound.
+    Problems that only follow from others are left out: of things that depend on a joint with a fault only
+    their own table is checked, and the assembly is checked only where every joint is sound.
     """
     top = _opened(document, where)
     top, short = _with_joints(top)
@@ -319,12 +320,12 @@ def read(
 
 
 def _part(top: Table, key: str) -> Any:
-    """Return what one of the file's tables or values comes to; None where it has a fault."""
+    """Return the value of one of the file's tables or keys; None where it has a fault."""
     return top.attempt(SECTIONS[key].read, top)
 
 
 def _opened(document: Mapping[str, Any], where: str) -> Table:
-    """Return the file's table, its unit and the names of its joints known; unknown keys are problems."""
+    """Return the file's table with its unit and its joints' names known; add unknown keys to the problems."""
     top = Table(where, document)
     unit = _part(top, "length_unit") or "mm"
     top.refuse_unknown(SCENE_FILE.keys)
@@ -338,7 +339,7 @@ def _names(section: object) -> list[str]:
 
 
 def _shorthand_names(top: Table) -> list[str]:
-    """Return the names of the joints that a shorthand states; all that it may state where it is no table."""
+    """Return the names of the joints that a shorthand states; all possible ones where it is no table."""
     stated = {key: top.values[key] for key in SHORTHANDS if key in top}
     tables = (
         (key, table if isinstance(table, Mapping) else SHORTHANDS[key].keys) for key, table in stated.items()
@@ -347,7 +348,7 @@ def _shorthand_names(top: Table) -> list[str]:
 
 
 def _with_joints(top: Table) -> tuple[Table, Expansion]:
-    """Return the file's table with its sound joints known, and what its shorthand stands for."""
+    """Return the file's table with its sound joints known, and its shorthand's meaning."""
     pins = _part(top, "ground") or {}
     short = top.attempt(_expansion, top, pins.get("O2", Pin("O2", (0.0, 0.0))))
     moving = _part(top, "joints") or {}
@@ -361,7 +362,7 @@ def _with_joints(top: Table) -> tuple[Table, Expansion]:
 
 
 def _expansion(top: Table, o2: Pin | None) -> Expansion | None:
-    """Return what the file's shorthand stands for about its first pin; nothing of a file that has none."""
+    """Return the meaning of the file's shorthand, about its first pin; an empty one without a shorthand."""
     found = [key for key in SHORTHANDS if key in top]
     if len(found) > 1:
         raise top.wrong(f"has both [{found[0]}] and [{found[1]}]; keep one, write the other as [joints]")
@@ -394,7 +395,7 @@ def _linkage(top: Table, short: Expansion, stated: Mapping[str, Any]) -> Linkage
 
 
 def _gravity(top: Table, bodies: Mapping[str, Body | None]) -> float | None:
-    """Return the scene's gravity in m/s², 0 where it states none; refused where it could pull at nothing."""
+    """Return the scene's gravity in m/s², 0 where it states none; refuse it where nothing has a mass."""
     if "gravity" not in top:
         return 0.0
     gravity: float | None = SECTIONS["gravity"].read(top)
@@ -409,7 +410,7 @@ def _trace(top: Table, short: Expansion) -> tuple[str, ...] | None:
 
 
 def _check_assembly(top: Table, scene: Scene, check: Check | None) -> None:
-    """Refuse lengths that cannot be put together, saying in which file and table they stand."""
+    """Refuse lengths that cannot be assembled, naming their file and table."""
     try:
         if check:
             check(scene)
@@ -426,7 +427,7 @@ _ITEM = r"(.+)\[\d+\]"
 
 
 class Problem(NamedTuple):
-    """What is wrong, in the reader's words, at a line where there is one."""
+    """What is wrong, in words, and its line, if there is one."""
 
     message: str
     line: int | None = None

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 # What a linkage was made for, as its file keeps it: poses, a function, or a stroke and its time ratio.
 #
-# It says nothing of the motion; what explains and draws the synthesis reads it.
+# It does not affect the motion; the rooms that explain and draw the synthesis read it.
 
 
 class PosesPurpose(NamedTuple):
@@ -52,7 +52,7 @@ class FunctionPurpose(NamedTuple):
 
 
 class TimeRatioPurpose(NamedTuple):
-    """The slow way's time over the quick way's, and the slider's stroke, or the rocker's swing (rad)."""
+    """The slow stroke's time over the quick one's, and the slider's stroke, or the rocker's swing (rad)."""
 
     ratio: float
     stroke: float | None = None
@@ -65,17 +65,17 @@ Purpose = PosesPurpose | FunctionPurpose | TimeRatioPurpose
 # A scene: a linkage with its title, its source and what to trace, ready to be solved.
 
 Outline = Literal["bar", "plate", "wheel", "railwheel", "slot", "hook", "pad", "bucket", "none"]
-"""How a body may be drawn: a bar through its joints, a plate around them, a wheel about its first one, one on
-a rail, a bar with a slot from its first to its second, one that ends in a hook or a pad, a bucket whose edge
-is its last joint, not at all."""
+"""How a body may be drawn: as a bar through its joints, a plate around them, a wheel about its first joint, a
+wheel on a rail, a bar with a slot from its first to its second joint, a bar that ends in a hook or a pad, a
+bucket whose edge is its last joint, or not at all."""
 Block = Literal["block", "piston"]
-"""How what slides may be drawn: between rails, or in a cylinder with a head."""
+"""How a sliding body may be drawn: as a block between rails, or as a piston in a cylinder with a head."""
 
 
 class BodyStyle(NamedTuple):
     """How a scene has a body drawn: its outline, its colour (red, green, blue), and its radius as a wheel.
 
-    Each is None where it is free.
+    Each is None where the scene does not state it.
     """
 
     outline: Outline | Block | None = None
@@ -260,13 +260,13 @@ class Scene:
         if derivatives not in (0, 1, 2):
             _check_derivatives(derivatives)
         rate = self.linkage.drive.speed if speed is None else speed
-        # A pose takes a microsecond or two: what is a float already is not looked at any closer.
+        # A pose takes a microsecond or two, so values that are floats already are not checked further.
         if not (type(phase) is type(rate) is type(acceleration) is float):
             phase, rate, acceleration = _as_floats(phase, rate, acceleration)
         return self.mechanism.pose(phase, rate, acceleration, derivatives)
 
     def __getstate__(self) -> dict[str, Any]:
-        """Return what a pickle keeps: all but the quantities, which are read by functions and made anew."""
+        """Return the state for a pickle, without the quantities: these hold functions and are made anew."""
         return {name: value for name, value in vars(self).items() if name != "quantities"}
 
     def _repr_html_(self) -> str:

@@ -2,7 +2,7 @@
 
 Its parts, in reading order:
 
-- The JSON Schema of scene files, for editors: what may stand where, and of which kind it is.
+- The JSON Schema of scene files, for editors: which keys are allowed where, and the types of their values.
 - The form of a scene file as people read it: a table in Markdown, a row for each key.
 """
 
@@ -16,16 +16,16 @@ from linkanim.bounds import MOST_NAMES
 from linkanim.scenes.file_form import SCENE_FILE, SHORTHANDS
 from linkanim.scenes.form import NEEDED, Field, Form, Named, Schema, ValueType
 
-# The JSON Schema of scene files, for editors: what may stand where, and of which kind it is.
+# The JSON Schema of scene files, for editors: which keys are allowed where, and the types of their values.
 #
-# What depends on several places at once (a joint that is not there, lengths that do not meet) no schema
-# says; `problems` does.
+# A schema cannot find problems of several places at once (a joint that does not exist, bars that do not
+# meet); `reading.problems` does.
 
 _NAME: Schema = {"maxLength": 32, "pattern": r"^[^.\s]([^.]*[^.\s])?$"}
 
 
 def schema_of(what: ValueType | Form | Named) -> dict[str, Any]:
-    """Return what a schema says of a value, a table or a table of named ones."""
+    """Return the schema of a value, of a table, or of a table of named tables."""
     if isinstance(what, ValueType):
         return dict(what.schema or {})
     if isinstance(what, Form):
@@ -76,7 +76,7 @@ def reference() -> str:
 
 
 def _section(one: Field) -> Iterator[str]:
-    """Yield the rows of one of the file's tables, or of each form that tables by names may have."""
+    """Yield the rows of one of the file's tables, or of each form that its named tables may have."""
     if isinstance(one.type, Form):
         yield f"| **`[{one.key}]`** | | **{one.words}** | |"
         yield from _rows(one.type)

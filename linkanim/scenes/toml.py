@@ -3,7 +3,7 @@
 Its parts, in reading order:
 
 - A scene file's text to the document in it; imports nothing that knows a linkage.
-- At which line of a TOML text each key stands.
+- The line of a TOML text at which each key stands.
 - A scene back to TOML: text that reads to the same linkage, saved beside what is there, never over it.
 """
 
@@ -46,19 +46,19 @@ def parse(text: str, where: str) -> dict[str, Any]:
     return document
 
 
-# At which line of a TOML text each key stands.
+# The line of a TOML text at which each key stands.
 
 Keys = tuple[str, ...]
 
 _PATIENCE = 500_000
-"""Characters looked at, at the most: a list of lists over very many lines is looked at anew for each."""
+"""The most characters that are parsed: a list of lists over very many lines is parsed anew for each line."""
 _IDLE = r"\s*(#.*)?\s*"
 _ENDS = r"[\]}]|\"{3}|'{3}"
-"""What a statement over several lines has in its last."""
+"""What the last line of a statement over several lines contains."""
 
 
 def line_numbers(text: str) -> dict[Keys, int]:
-    """Return the line, from 1, of every table and key of a TOML text; of a very long text, of the first."""
+    """Return the line (from 1) of every table and key of a TOML text; of the first ones in a long text."""
     found: dict[Keys, int] = {}
     table: Keys = ()
     for at, statement, document in _statements(text):
@@ -72,7 +72,7 @@ def line_numbers(text: str) -> dict[Keys, int]:
 
 
 def _statements(text: str) -> Iterator[tuple[int, str, Any]]:
-    """Yield the line at which a statement begins, its text and the document in it, while patience lasts."""
+    """Yield each statement's first line, its text and the document in it, up to `_PATIENCE` characters."""
     begun, lines, seen = 1, list[str](), 0
     for number, line in enumerate(text.splitlines(keepends=True), 1):
         begun = begun if lines else number
@@ -87,7 +87,7 @@ def _statements(text: str) -> Iterator[tuple[int, str, Any]]:
             return
         try:
             document = tomllib.loads(statement)
-        except ValueError:  # goes on in the next line
+        except ValueError:  # the statement continues in the next line
             continue
         yield begun, statement, document
         lines = []
@@ -118,7 +118,7 @@ def _keys(document: dict[str, Any]) -> list[Keys]:
 # A scene back to TOML: text that reads to the same linkage, saved beside what is there, never over it.
 
 _SECTIONED = ("joints", "springs", "dampers")
-"""The tables of whose tables each has a head of its own."""
+"""The tables in which every table gets a header of its own, as [joints.A]."""
 _MARK = "\x01"
 _INLINE = r'"\\u0001(\d+)"'
 _LIST = r"(?m) = \[\n((?:    [^\[\]].*,\n)+)\]$"
@@ -149,7 +149,7 @@ def save(scene: Scene, folder: Path) -> Path:
 
 
 def content(scene: Scene, folder: Path) -> bytes:
-    """Return what a scene file in `folder` holds: a photograph is named by its path from there."""
+    """Return the bytes of a scene file in `folder`; a photograph is named by its path from there."""
     return text(_photographed(scene, folder)).encode("utf-8")
 
 
@@ -159,13 +159,13 @@ def _photographed(scene: Scene, folder: Path) -> Scene:
     if photo is None:
         return scene
     path = Path(photo["file"])
-    with suppress(ValueError, OSError):  # of another drive, or the current folder is gone
+    with suppress(ValueError, OSError):  # it is on another drive, or the current folder is gone
         path = Path(os.path.relpath(path, folder))
     return replace(scene, document={**scene.document, "photo": photo | {"file": path.as_posix()}})
 
 
 def _section(key: str, value: Any, inline: list[str]) -> Any:
-    """Return a table with the tables in it on a line each, as marks that tell which one of `inline` it is."""
+    """Return a table in which each inner table is a mark: its text on one line is appended to `inline`."""
     if not isinstance(value, Mapping):
         return value
     return {
