@@ -1,8 +1,8 @@
-"""What goes onto paper: figures, charts and reports, from the same description as the window's picture.
+"""Figures, charts and reports for print, drawn from the same description as the window's picture.
 
 From the ground up; a module imports from those before it only:
 
-    illustration  a page's pen and surface, and a picture of groups that are at hand
+    illustration  a page's pen and surface, and a picture of groups that exist already
     svg           items as SVG
     pdf           items as PDF
     latex         a PDF whose words LaTeX sets
@@ -12,8 +12,8 @@ From the ground up; a module imports from those before it only:
     figure        one pose of a scene
     vectors       the vectors of a worked solution's loops
     construction  how a linkage was synthesised, and its structural error
-    write         a figure or a chart as a file: its name's ending says which
-    findings      what a report says of a scene: facts, tables, which charts
+    write         a figure or a chart as a file, in the format that its name's ending states
+    findings      the content of a report on a scene: facts, tables, which charts
     html          a report as one page
     report        the report of a scene
 """

@@ -1,4 +1,4 @@
-"""Draw a chart on a page: curves with their legend, one axis a unit or a column of strips.
+"""Draw a chart on a page: curves with their legend, an axis for each unit or a column of strips.
 
 Extremes are marked and labelled beside their dots; names of many curves stand at their ends.
 """
@@ -44,21 +44,21 @@ from linkanim.units import stepped
 # Words on a chart's curves: each extreme beside its dot, and at their ends the names of many curves.
 
 _MOST = 6
-"""More curves than so many have names at their ends."""
+"""The most curves that a legend alone names; where there are more, each has its name at its end."""
 _LEAD = 1.2
-"""From a plot's edge to the names beside it, in heights of their text."""
+"""The distance from a plot's edge to the names beside it, in heights of their text."""
 _STEP = 1.15
-"""From one such name to the next, likewise."""
+"""The distance from one such name to the next, in the same heights."""
 _ASIDE, _LEVELS = (0.6, 2.5, 5.0, 7.5, 10.0), (1.6, 2.8, 4.0, 5.2, 6.4, 7.6)
-"""How far aside of a dot, in heights of their text, and above or below it, in their own, words may stand."""
+"""How far words may stand beside a dot, in heights of text, and above or below it, in their own heights."""
 _FAR = 0.3
-"""What being far costs, so that words rather stand there than on their own curve."""
+"""The cost of standing far off: lower than that of standing on their own curve."""
 _DOT = 2.4
-"""Half of what a dot takes, in widths of a thin line."""
+"""Half the room that a dot takes, in widths of a thin line."""
 _CLOSE = 0.7
-"""Words about a dot that are farther from it, in their heights, have a line to it."""
+"""The distance from a dot, in heights of text, beyond which words have a line to it."""
 _EVERY = 4
-"""So many of a curve's points make a straight line that words keep off."""
+"""The steps between a curve's points that make one straight line, which words keep off."""
 
 
 def named_at_ends(curves: Curves) -> bool:
@@ -94,16 +94,16 @@ class _Words(NamedTuple):
 
 @frozen
 class Annotations:
-    """What is written on the curves of a chart, in the colours that they have."""
+    """The words on the curves of a chart, with lines to them in the curves' colours."""
 
     curves: Curves
     pen: Pen
     colour: Callable[[Curve], Colour]
     points: tuple[complex, ...] = ()
-    """Measured points, which no word lies on."""
+    """Measured points (x + yi in pixels), which no word covers."""
 
     def items(self, drawn: Sequence[InPlot], marked: Sequence[InPlot]) -> Iterator[Item]:
-        """Yield names of the curves in plots of one area, and extremes of those marked, off other curves."""
+        """Yield names of the `drawn` curves, in plots of one area, and extremes of the `marked` ones."""
         area, ends = drawn[0][0].area, []
         if named_at_ends(self.curves):
             ends = [end for pair in drawn for end in self._end(*pair)]
@@ -113,7 +113,7 @@ class Annotations:
         yield from self._placed(drawn, [*within, *(peak for pair in marked for peak in self._peaks(*pair))])
 
     def _end(self, plot: Plot, curve: Curve) -> Iterator[_Words]:
-        """Yield the name of a curve, to stand where it is furthest to the right."""
+        """Yield the name of a curve, to stand where the curve is furthest to the right."""
         places = plot.place(curve.x, np.where(np.isfinite(curve.values), curve.values, np.nan))
         known = places[np.isfinite(places)]
         if known.size:
@@ -127,7 +127,7 @@ class Annotations:
             yield _Words(curve, at, text, _about(at, text, self.pen, high=n == 0), dotted=True)
 
     def _beside(self, area: Rect, ends: list[_Words]) -> Iterator[Item]:
-        """Yield names to the right of a plot, as near to their curves' ends as leaves each its line."""
+        """Yield names to the right of a plot, one per line, as near to their curves' ends as possible."""
         pen, step = self.pen, _STEP * self.pen.small
         shown = sorted(ends, key=lambda end: end.at.imag)[: max(int(area.height / step), 1)]
         levels = _apart([end.at.imag for end in shown], step, (area.y, area.bottom))
@@ -138,7 +138,7 @@ class Annotations:
             yield Caption(end.text, (begin.real, level - 0.5 * pen.small), pen.small, pen.theme.ink)
 
     def _placed(self, drawn: Sequence[InPlot], words: list[_Words]) -> Iterator[Item]:
-        """Yield words where there is room to say them, each with its dot and, from afar, a line to it."""
+        """Yield words where there is room, each with its dot and, where it is far off, a line to that."""
         pen, half = self.pen, 0.6 * self.pen.line
         tracks = [(curve, line) for plot, curve in drawn for line in _tracks(plot, curve, half)]
         own = {
@@ -165,9 +165,9 @@ class Annotations:
 
 
 def _apart(levels: Sequence[float], step: float, ends: tuple[float, float]) -> list[float]:
-    """Return levels in order a step apart and more, between ends, each as near to its own as can be.
+    """Return levels at least a step apart, in order between `ends`, each as near to its own as possible.
 
-    Those that are too near make a block about their mean (pool adjacent violators).
+    Levels that are too near each other form a block about their mean (pool adjacent violators).
     """
     blocks: list[list[float]] = []
     for n, level in enumerate(levels):
@@ -196,7 +196,7 @@ def _peak_words(plot: Plot, peak: Peak, curves: Curves, curve: Curve) -> str:
 def _about(at: complex, text: str, pen: Pen, *, high: bool) -> LabelPlaces:
     """Return places for words about a place on a curve, with lines to those that are not close by.
 
-    Of a `high` one they are above it where they can be.
+    The words of a `high` place stand above it where they can, those of a low one below.
     """
     wide, tall = pen.type.width(text, pen.small), 1.15 * pen.small
     rows, up = (tall / 2 - 1.6 * pen.small, tall / 2 + 0.5 * pen.small), -1 if high else 1
@@ -230,23 +230,23 @@ def _tracks(plot: Plot, curve: Curve, half: float) -> Iterator[Solid]:
 # A chart on a page: curves with their legend, extremes marked, one axis a unit or a column of strips.
 
 _TOGETHER = 2
-"""So many units share one plot, with an axis at either side; of more each has a strip of its own."""
+"""The most units that share one plot, with an axis at either side; of more, each has a strip of its own."""
 _ROOM = 0.13
-"""Of a curve's span, above and below it, where its extremes are written."""
+"""The room above and below a curve for its extremes, as a share of its span."""
 _BELOW = 0.8
-"""Below each plot, in heights of tick labels."""
+"""The room below each plot, in heights of tick labels."""
 _DASHES = ((), (7.0, 3.0), (2.0, 2.5), (9.0, 3.0, 2.0, 3.0), (4.0, 2.0), (12.0, 4.0))
 """The dashes and gaps of curves that share a plot, in widths of a line; the first is whole."""
 _FEWEST = 4
-"""So many ticks at least an axis has, however little room there is beside a plot's four lines of words."""
+"""The fewest ticks of an axis, unless a plot is too low for their labels."""
 _THINNEST = 0.9
-"""A line of a small chart, in pixels."""
+"""The least width of a line in a small chart, in pixels."""
 _WIDTH = 1.2
 """How wide a curve is, in thin lines."""
 _LABELS = 5.0
 """How wide an axis' labels may be, in heights of their text."""
 _APART = 1.6
-"""Between the entries of a legend, in heights of their text."""
+"""The distance between the entries of a legend, in heights of their text."""
 _LINE, _LIFT = 1.5, 0.2
 """From line to line, and from a line's top to its words, in heights of their text."""
 
@@ -262,7 +262,7 @@ class Page:
     type_scale: float = 1.0
     ground: bool = True
     brief: bool = False
-    """Small, beside words that say the rest: no title, symbols for words, extremes of one curve alone."""
+    """Whether it is small, beside words that say the rest: no title, only symbols, one curve's extremes."""
 
     @cached_property
     def pen(self) -> Pen:
@@ -319,7 +319,7 @@ class Page:
         yield from self._plots(whole._replace(y=below, height=whole.bottom - below))
 
     def _legend(self) -> list[_Entry]:
-        """Return what tells curves apart, in words unless the axes say those; not one alone in its strip."""
+        """Return the entries of the legend, less what the axes say; a curve alone in its strip has none."""
         measured = self.measured and self.measured.curve
         words = self.curves.name if self.brief or self._worded else self.curves.words
         entries = [
@@ -343,14 +343,14 @@ class Page:
         return len({curve.quantity.token for curve in self.curves.curves}) == 1
 
     def colour(self, curve: Curve) -> Colour:
-        """Return the colour of a curve: after the theme's they repeat."""
+        """Return the colour of a curve: colours repeat where there are more curves than the theme has."""
         theme = self.pen.theme
         colours = (theme.velocity, theme.acceleration, *theme.traces[1::-1], *theme.bodies[3:])
         palette = tuple(dict.fromkeys(colours))
         return palette[self.curves.curves.index(curve) % len(palette)]
 
     def dashes(self, curve: Curve) -> tuple[float, ...]:
-        """Return the dashes of a curve among those of its plot; they repeat as well."""
+        """Return the dashes of a curve among those of its plot; they repeat, too."""
         side = next(group for group in _by_unit(self.curves) if curve in group)
         together = side if self._in_strips else self.curves.curves
         return _DASHES[together.index(curve) % len(_DASHES)]
@@ -383,7 +383,7 @@ class Page:
         return wide[0] + 0.6 * pen.small, max(right, room_for_names(self.curves, pen))
 
     def _axes(self, sides: list[list[Curve]], high: float) -> list[Axis]:
-        """Return the vertical axes of a plot, a unit each; two about zero have it at one height."""
+        """Return the vertical axes of a plot, one for each unit; two that contain 0 have it at one height."""
         if not any(np.isfinite(curve.values).any() for side in sides for curve in side):
             return [Axis(0.0, 1.0, ()) for _ in sides]
         ranges = [_range_of(side) for side in sides]
@@ -433,7 +433,7 @@ class Page:
             yield Caption(words, (x, top), pen.small, pen.theme.ink, "right" if anchor == "right" else "left")
 
     def _y_title(self, side: Sequence[Curve]) -> str:
-        """Return what a vertical axis is titled: in words where it has one quantity, else in symbols."""
+        """Return the title of a vertical axis: in words where it has one quantity, else in symbols."""
         known = list(dict.fromkeys(curve.quantity for curve in side))
         unit = self.curves.scene.length_unit
         if len(known) == 1 and not self.brief and (self._worded or self._in_strips):
@@ -444,7 +444,7 @@ class Page:
         return ", ".join(one.symbol for one in known) + (f" ({shown})" if shown else "")
 
     def _marked(self, side: list[Curve]) -> list[Curve]:
-        """Return the curves whose extremes are told: in brief the one that goes farthest, of one quantity."""
+        """Return the curves whose extremes are written: if `brief`, the one of greatest range, if any."""
         if not self.brief:
             return side
         one = len({curve.quantity.token for curve in self.curves.curves}) == 1
@@ -452,7 +452,7 @@ class Page:
 
 
 def _range_of(side: list[Curve]) -> tuple[float, float]:
-    """Return from where to where an axis runs that all of a side's curves have."""
+    """Return the range (low, high) of the axis that the curves of one side share."""
     if any(np.isinf(curve.values).any() for curve in side):
         ranges = [range_around(curve.values, _ROOM) for curve in side if np.isfinite(curve.values).any()]
         return (min(low for low, _ in ranges), max(high for _, high in ranges)) if ranges else (0.0, 1.0)

@@ -30,7 +30,7 @@ from linkanim.synthesis.generation import FEWEST_POINTS, Generated
 from linkanim.synthesis.linkages import Real
 from linkanim.units import rounded, significant
 
-# The construction of a synthesis as a figure: its marks, and below it what each step does.
+# The construction of a synthesis as a figure: its marks, and below them a sentence for each step.
 
 _LINE = 1.35
 """From line to line, in heights of their text."""
@@ -38,10 +38,10 @@ _LINE = 1.35
 
 @frozen
 class ConstructionPage:
-    """The first steps of a scene's construction, all where `steps` is None, in so many pixels.
+    """The first steps of a scene's construction, all where `steps` is None; `size` is in pixels.
 
-    Without a `kind` it is the first that the scene has; the centres are those at a phase, and where there is
-    none of the pose in which they are nearest.
+    Without a `kind` it is the first that the scene has. Instant centres are those at `phase` (rad); without
+    one, those of the pose in which they lie nearest.
     """
 
     scene: Scene
@@ -55,7 +55,7 @@ class ConstructionPage:
 
     @property
     def _kind(self) -> ConstructionKind:
-        """What is constructed; BadInput where a scene has nothing of the sort."""
+        """The kind of construction; BadInput where a scene has none."""
         return self.kind or usual_kind(self.scene)
 
     @cached_property
@@ -105,7 +105,7 @@ class ConstructionPage:
         return (grouped("construction", self.items()),)
 
     def items(self) -> Iterator[Item]:
-        """Yield everything on the page, back to front; each step stands where it stands with all of them."""
+        """Yield everything on the page, back to front; a step has the same place however many are shown."""
         pen = self.pen
         whole = Rect(0, 0, *self.size).inset(1.2 * pen.small)
         shown = self.every[: self.steps]
@@ -146,13 +146,13 @@ _SAMPLES = 721
 _ROOM = 0.16
 _DASHES = (6.0, 4.0)
 _LEVEL = 1e-3
-"""Of the largest error: extremes that differ by less are level."""
+"""A share of the largest error: extremes that differ by less count as equal."""
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 @frozen
 class ErrorChart:
-    """The structural error of a linkage over x, in so many pixels."""
+    """A chart of the structural error of a linkage over x; `size` is in pixels."""
 
     shown: Generated
     size: tuple[int, int] = USUAL_SIZE
@@ -232,7 +232,7 @@ class ErrorChart:
 
     @property
     def _level(self) -> bool:
-        """Whether as many extremes are equal as lengths alone can make."""
+        """Whether as many extremes are equal as the choice of the lengths can make equal."""
         heights = [abs(error) for _, error in self.shown.extremes]
         return sum(height >= (1 - _LEVEL) * max(heights) for height in heights) >= FEWEST_POINTS + 1
 

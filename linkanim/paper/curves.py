@@ -1,7 +1,6 @@
 """Compute curves of quantities over one true period, at one speed or several, beside a measured table.
 
-A chart and its table show the same curves. Of somebody else's table it is said how far its values are from
-ours.
+A chart and its table show the same curves. A table of other values is compared with ours.
 """
 
 from __future__ import annotations
@@ -42,10 +41,10 @@ from linkanim.units import short, shown, signed, significant, stepped, typeset
 # Curves of quantities over one true period, at one speed or several: what a chart and its table show.
 
 SAMPLES = 720
-"""For each period of the drive."""
+"""Samples of a curve in each period of the drive."""
 _MOST_PERIODS = 8
 _ROUNDING = 1e-6
-"""Of an angle in degrees."""
+"""The rounding error of an angle, in degrees."""
 
 
 class Pace(NamedTuple):
@@ -67,13 +66,13 @@ class Curve:
     quantity: Quantity
     pace: Pace
     label: str
-    """The component of a vector that it is, if any."""
+    """The component of a vector, x or y, that the curve is; empty for a number."""
     x: Floats
     values: Floats
     phases: Floats
 
     def solved(self, scene: Scene, phases: Floats) -> Floats:
-        """Return its values at any phases, of an angle in any turn."""
+        """Return its values at `phases` (rad), shape (n,); an angle may differ by whole turns."""
         values = np.asarray(self.quantity.shown(self.pace.motion(scene, phases)), float)
         return values[:, self.quantity.columns.index(self.label)] if values.ndim == 2 else values
 
@@ -85,7 +84,7 @@ class Curves:
     scene: Scene
     curves: tuple[Curve, ...]
     title: str
-    """The shared axis', with its unit."""
+    """The title of the shared axis, with its unit."""
     low: float
     high: float
     unit: str
@@ -94,7 +93,7 @@ class Curves:
 
     @property
     def in_time(self) -> bool:
-        """Whether they run over time: as asked for, or since an input that swings is twice at one place."""
+        """Whether they run over time: as asked for, or as an input that swings passes each place twice."""
         return self.over == "time" or (self.over is None and not self.scene.info.full_turn)
 
     def places(self, curve: Curve, motion: Motion) -> Floats:
@@ -116,7 +115,7 @@ class Curves:
         return self._distinguishing(curve, curve.quantity.named)
 
     def name(self, curve: Curve) -> str:
-        """Return the same with the quantity's symbol alone."""
+        """Return the words that set a curve off, with the quantity's symbol in the place of its words."""
         return self._distinguishing(curve, curve.quantity.symbol)
 
     def _distinguishing(self, curve: Curve, called: str) -> str:
@@ -151,7 +150,7 @@ def curves_of(
 
 
 def within_a_turn(curves: Curves) -> Curves:
-    """Return curves whose angles lie between 0° and 360° where they can, else about 0°."""
+    """Return curves with angles shifted by whole turns: between 0° and 360° if they fit, else about 0°."""
     return replace(curves, curves=tuple(_within_a_turn(curve) for curve in curves.curves))
 
 
@@ -209,7 +208,7 @@ def extremes(scene: Scene, curve: Curve) -> tuple[Peak, ...]:
 
 
 def _peak(scene: Scene, curve: Curve, sign: int) -> Peak:
-    """Return the greatest value (`sign` +1) or the least (-1), solved ever closer about its sample."""
+    """Return the greatest value (`sign` +1) or the least (-1), found by search about its sample."""
     index = int(np.nanargmax(sign * curve.values))
     ends = sorted((curve.phases[0], curve.phases[-1]))
     phase, reach = float(curve.phases[index]), float(np.abs(np.diff(curve.phases)).max())
@@ -225,15 +224,15 @@ def _peak(scene: Scene, curve: Curve, sign: int) -> Peak:
 
 
 _OURS = "angle_deg"
-"""What the first column is headed in a table that `table` gives."""
+"""The heading of the first column in a table of `table`."""
 
 
 def table(curves: Curves) -> tuple[list[str], list[Floats]]:
     """Return names and columns of a table: the input's angle in degrees, then angle, phase, time, quantities.
 
-    Where a slider drives, its travel stands for the angle.
-    Angles are radians and lengths the scene's unit, as in all CSV. Of several speeds each column says its
-    own; times are negative where the phase runs back.
+    Where a slider drives, its travel stands for the angle. Angles are radians and lengths the scene's unit,
+    as in all CSV. Where there are several speeds, each column names its own; times are negative where the
+    phase runs back.
     """
     scene = curves.scene
     phases = np.linspace(0.0, scene.period, SAMPLES // 2 * round(scene.period / tau) + 1)
@@ -256,29 +255,29 @@ def table(curves: Curves) -> tuple[list[str], list[Floats]]:
     return names, columns
 
 
-# Somebody else's table, laid over a curve: how far its values are from ours.
+# A table of other values, laid over a curve: how far they are from ours.
 
 _TABLE_FILE = Intake("a table of two columns", most_bytes=1_000_000, most_values=2 * MOST_ROWS_READ)
 _SECONDS = re.compile(r"\W*(t|time|s|sec|seconds?)\b", re.IGNORECASE)
-"""What a column of times is headed."""
+"""The headings of a column of times."""
 _CLEARLY = 5.0
-"""A column that fits so many times as well by another unit is one of that."""
+"""A column that fits this many times better in another unit is in that unit."""
 _FEWEST = 4
-"""So many rows tell in which unit they are."""
+"""The fewest rows from which their unit can be told."""
 _MOST_SHOWN, _ENDS = 40, 15
-"""Of more rows so many at either end are printed."""
+"""The most rows that are all printed, and how many are printed at either end of a longer table."""
 _DIGITS = 7
 
 
 class MeasuredTable(NamedTuple):
-    """A table of two columns: what the first is called, if anything, and its rows' lines and numbers."""
+    """A table of two columns: where it is from, the heading of the first (or ""), its rows."""
 
     where: str
     heading: str
     rows: tuple[NumberRow, ...]
 
     def column(self, number: int) -> Floats:
-        """Return a column."""
+        """Return a column, 0 or 1, as an array (n,)."""
         return np.array([row.numbers[number] for row in self.rows])
 
 
@@ -338,11 +337,11 @@ _WORDS: dict[Over, str] = {"angle": "degrees", "phase": "degrees", "time": "seco
 
 
 def read_table(path: Path, over: Over, one: Quantity) -> MeasuredTable:
-    """Return two columns of a table: its first, which is what `--over` says, and a quantity's.
+    """Return two columns of a table: its first, which is what `--over` says, and that of a quantity.
 
-    Of more than two that is the one that the quantity heads; angles are degrees, radians in a table of ours.
-    BadInput where none is headed so, where it cannot be read, a line has not two finite numbers, or a comma
-    may be either mark.
+    Of more than two columns the second is the one that has the quantity as its heading. Angles are in
+    degrees, or in radians in a table of ours. BadInput where no column has that heading, the file cannot be
+    read, a line lacks two finite numbers, or a comma may be a decimal mark or a separator.
     """
     where = named(path)
     found = read_numbers(_TABLE_FILE.read(path, where), where, f"{_WORDS[over]}, value")
@@ -369,7 +368,7 @@ def read_table(path: Path, over: Over, one: Quantity) -> MeasuredTable:
 def read_tables(path: Path) -> dict[str, MeasuredTable]:
     """Return each further column of a table beside its first one, by the quantity that heads it.
 
-    BadInput as `read_table`, and where columns have no names or a row has not as many numbers.
+    BadInput as `read_table`, and where the columns have no names or a row has another number of cells.
     """
     where = named(path)
     found = read_numbers(_TABLE_FILE.read(path, where), where, "angle, then a column for each quantity")
@@ -396,22 +395,23 @@ def _refuse_ragged(table: NumberTable, where: str) -> None:
 def compared(
     scene: Scene, token: str, pace: Pace, table: MeasuredTable, label: str
 ) -> tuple[Curves, MeasuredCurve]:
-    """Return the curve of a quantity with a table beside it, over what heads that; errors as `beside`."""
+    """Return the curve of a quantity with a table beside it, over that one's input; errors as `beside`."""
     over: Over | None = "time" if _SECONDS.match(table.heading) else None
     curves = curves_of(scene, (token,), (pace,), over)
     return curves, beside(curves, table, label)
 
 
 def usual_over(curves: Curves) -> Over:
-    """Return what a table's first column is where `--over` does not say: an input's angle, or the time."""
+    """Return what a table's first column is: as `--over` says, else the input's angle, or the time."""
     return curves.over or ("angle" if curves.scene.linkage.drive.coordinate.is_angle else "time")
 
 
 def beside(curves: Curves, table: MeasuredTable, label: str) -> MeasuredCurve:
     """Return a table beside the first curve, each of its rows solved exactly.
 
-    OutOfRange for an angle that the input does not reach; BadInput where the column is not in the unit that
-    `--over` says: by its heading, or since it fits by another one.
+    OutOfRange for an angle that the input does not reach. BadInput where the first column is not what
+    `--over` says, by its heading or because it fits far better otherwise; for a vector; and where no row has
+    a value.
     """
     curve, over = curves.curves[0], usual_over(curves)
     if len(curve.quantity.columns) > 1:
@@ -442,7 +442,7 @@ def _phases(curves: Curves, curve: Curve, column: Floats, over: Over) -> Floats:
 
 
 def _differences(curves: Curves, curve: Curve, phases: Floats, values: Floats) -> tuple[Floats, Floats]:
-    """Return our values, those of an angle in the turn of the table's, and how far the table's are off."""
+    """Return our values, an angle in the same turn as the table's, and the table's differences from them."""
     motion = curves.scene.solve(phase=phases, speed=curve.pace.speed)
     differences = values - np.asarray(curve.quantity.shown(motion), float)
     if curve.quantity.unit == "rad":
@@ -465,9 +465,9 @@ def _refuse_other_unit(curves: Curves, curve: Curve, table: MeasuredTable, over:
 
 
 def _misfit(curves: Curves, curve: Curve, table: MeasuredTable, over: Over) -> float:
-    """Return how far a table is off by its median where the first column is read so; inf for what cannot be.
+    """Return the median of a table's differences where its first column is read as `over`.
 
-    NaN of a table too short to tell.
+    It is inf where the input does not reach an angle, NaN for a table that is too short to tell.
     """
     if len(table.rows) < _FEWEST:
         return np.nan

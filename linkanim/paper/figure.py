@@ -26,11 +26,11 @@ from linkanim.scenes.scene import Scene
 
 @frozen
 class Figured:
-    """What a figure shows of a scene: a phase, and over it `poses` faint ones spread over the period.
+    """What a figure shows of a scene: its pose at a phase, and faint `poses` spread over the period.
 
-    Without a phase it is that of the pose that reads best.
-    Its words are for `speed`, the scene's own where none is given, and the input's `acceleration`. Names
-    stand as is best for its pose alone, or `as_seen` in a window. The `overlay` lies over it.
+    Without a `phase` (rad) it is the pose that reads best. Values are for `speed` (rad/s), the scene's own
+    where it is None, and the input's `acceleration`. Names stand as is best for this pose alone, or `as_seen`
+    in a window. The `overlay` is drawn on top.
     """
 
     scene: Scene
@@ -58,7 +58,7 @@ class Figured:
 
     @cached_property
     def picture(self) -> Picture:
-        """The picture that it is a pose of."""
+        """The picture whose pose it shows."""
         moment = None if self.as_seen else self.shown_phase
         return Picture(self.scene, self.size, self.look, apart=True, moment=moment)
 
@@ -75,7 +75,7 @@ class Figured:
         return self.picture.groups(pose, self.overlay, faint=faint)
 
     def surface(self) -> pygame.Surface:
-        """Return the figure drawn; clear where nothing is, without a background."""
+        """Return the figure drawn; without a background it is clear where nothing is drawn."""
         surface, (pose, faint) = offscreen(self.size, alpha=not self.look.background), self._poses
         SurfacePrinter().paint(surface, self.picture, pose, self.overlay, faint=faint)
         return surface

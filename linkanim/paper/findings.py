@@ -28,9 +28,9 @@ from linkanim.units import rounded
 
 _SAMPLES = 180
 _BESIDE = tau / SAMPLES
-"""How far from an extreme as it is read off a curve its rate changes its sign, in radians at the most."""
+"""The most that the zero of a rate is off the extreme that is read off a curve, in radians of phase."""
 _SAME = 1e-9
-"""Instants are one that are nearer in phase."""
+"""Radians of phase below which two instants are the same."""
 
 
 class Instant(NamedTuple):
@@ -66,7 +66,7 @@ def instants_at(scene: Scene, angles: tuple[float, ...]) -> tuple[Instant, ...]:
 def usual_instants(scene: Scene) -> tuple[Instant, ...]:
     """Return the start, and where the output is furthest either way, if it turns back at all.
 
-    An input that swings rests at its start; half-way to its other end everything moves.
+    For an input that swings, half-way takes the place of the start, at which it rests.
     """
     found = [Instant(0.0, "start") if scene.info.full_turn else Instant(pi / 2, "half-way")]
     output = output_slider(scene.linkage) or output_body(scene.linkage)
@@ -81,7 +81,7 @@ def usual_instants(scene: Scene) -> tuple[Instant, ...]:
 
 
 def _together(found: list[Instant], period: float) -> Iterator[Instant]:
-    """Yield instants, those after the first that are at its phase along with it."""
+    """Yield instants; those at the phase of the first are merged with it."""
     start, *others = found
     same = [one for one in others if abs(remainder(one.phase - start.phase, period)) < _SAME]
     yield start._replace(words=", ".join(one.words for one in (start, *same)))
@@ -89,9 +89,9 @@ def _together(found: list[Instant], period: float) -> Iterator[Instant]:
 
 
 def _at_rest(scene: Scene, rate: tuple[str, str], near: float) -> float:
-    """Return the phase next to an extreme at which what is extreme rests; that of the extreme without one.
+    """Return the phase (rad) next to an extreme at which its rate is zero; `near` where there is none.
 
-    `rate` is that of a part, under a motion's name for it.
+    `rate` is a rate's name in a motion, and the part that has it.
     """
     kind, part = rate
     found = reversals(scene.mechanism, part, kind, near + _BESIDE * np.array([-1.0, 1.0]))
@@ -103,11 +103,11 @@ class Values:
 
     def __init__(self, scene: Scene) -> None:
         self.scene, self._cycle = scene, scene.cycle(scene.mechanism.count(_SAMPLES))
-        # each serves every quantity
+        # one motion serves every quantity
         self._motion = cache(lambda phase, pace: pace.motion(scene, phase))
 
     def of(self, quantity: Quantity, instant: Instant, pace: Pace) -> float:
-        """Return the value of one number as people read it, NaN where it has none."""
+        """Return the value of a quantity in the unit that is shown (degrees), NaN where it has none."""
         return float(quantity.shown(self._motion(instant.phase, pace)))
 
     def changes(self, quantity: Quantity) -> bool:
@@ -116,9 +116,9 @@ class Values:
 
 
 def sheet(values: Values, instant: Instant, paces: tuple[Pace, ...], digits: int) -> dict[str, list[Finding]]:
-    """Return every quantity of a scene at one instant, at each speed, by what it is told of.
+    """Return every quantity of a scene at one instant, at each speed, under the heading of its part.
 
-    A vector is told by its components, which have tokens of their own.
+    A vector is given by its components, which have tokens of their own.
     """
     sections: dict[str, list[Finding]] = {}
     for quantity in values.scene.quantities.values():
@@ -138,15 +138,16 @@ def place_of(scene: Scene, instant: Instant) -> str:
 
 
 def _section(quantity: Quantity) -> str:
-    """Return the heading under which a quantity is told: what its words say it is told of."""
+    """Return the heading under which a quantity stands: its part, as its words name it."""
     return quantity.words.partition(":")[0] if ":" in quantity.words else "Whole mechanism"
 
 
 def charted(values: Values) -> Iterator[str]:
-    """Yield the token of each chart: all that changes over the motion of bodies, springs and dampers,
-    centres of mass, traced joints and the whole; of the other joints the tables tell.
+    """Yield the token of each quantity that has a chart: of those that change over the motion.
 
-    A vector is charted by its components, and a velocity and an acceleration by its size, too.
+    They are those of bodies, springs and dampers, centres of mass, traced joints and the whole mechanism; the
+    other joints are in the tables. A vector is charted by its components, and a velocity and an acceleration
+    by its size, too.
     """
     scene = values.scene
     joints = {joint.name for joint in scene.linkage.joints} - set(scene.trace)
@@ -183,9 +184,9 @@ def table(scene: Scene, pace: Pace) -> tuple[list[str], np.ndarray]:
 # The tables of a hand-out: links, sliders, joints, centres of mass and struts at chosen instants.
 
 _MOST_SPEEDS = 4
-"""Side by side in a table; of more a further table has the rest."""
+"""The most speeds side by side in a table; a further table has the rest."""
 _MOST_JOINTS = 10
-"""More take the traced ones, then the first; all stand in the table of every quantity."""
+"""The most joints in a table: traced ones first. The table of every quantity has them all."""
 
 _POINT = {"position.x": "x", "position.y": "y", "velocity": "v", "acceleration": "a"}
 _CENTRE = {f"com_{name}": symbol for name, symbol in _POINT.items()}
@@ -199,7 +200,7 @@ _STRUTS = "length L, direction θ, rate of length v and force F"
 
 
 class Family(NamedTuple):
-    """What one table is of: its title, what it has, what a row is called, its parts, columns by measure."""
+    """The subject of a table: title, content, what a row is called, its parts, symbols by measure."""
 
     title: str
     about: str
@@ -219,7 +220,7 @@ class Column(NamedTuple):
 
 @frozen
 class ValueTable:
-    """A table: its title, what it has, its columns, and under each instant a row for each part."""
+    """A table: its title, its content, its columns, and under each instant a row for each part."""
 
     title: str
     about: str
@@ -267,7 +268,7 @@ def _families(values: Values) -> Iterator[Family]:
 
 
 def _symbols(linkage: Linkage, *, turning: bool) -> dict[str, str]:
-    """Return the symbols of what bodies that turn, or slide, have, the kinematic coefficients second."""
+    """Return the symbols of the measures of bodies that turn, or slide; coefficients come second."""
     place, *rates = TURNING if turning else TRAVELLING
     return {one.name: one.symbol for one in (place, *coefficients_of(linkage, turning=turning), *rates)}
 
@@ -277,7 +278,7 @@ def _quantity(values: Values, part: str, measure: str) -> Quantity | None:
 
 
 def _columns(values: Values, family: Family, paces: tuple[Pace, ...], *, first: bool) -> Iterator[Column]:
-    """Yield what is the same at every speed, then the rest at each."""
+    """Yield the columns: a measure that is the same at every speed once, if `first`; others at each."""
     for measure, symbol in family.measures.items():
         found = [one for _, part in family.parts if (one := _quantity(values, part, measure))]
         if found:
@@ -343,10 +344,10 @@ def topics(values: Values, paces: tuple[Pace, ...]) -> dict[str, list[PlannedCha
 class _ChartChoice:
     values: Values
     several: bool
-    """Speeds: each quantity that they change has a chart of its own."""
+    """Whether there are several speeds: each quantity that they change then has a chart of its own."""
 
     def topics(self) -> Iterator[tuple[str, Iterable[PlannedChart]]]:
-        """Yield the title and the charts of each."""
+        """Yield the title and the charts of each topic."""
         linkage = self.values.scene.linkage
         # a crank that is driven itself turns as the input does
         driven = linkage.drive.actuator.along is None
@@ -375,7 +376,7 @@ class _ChartChoice:
             yield from self._charts([f"{part}.{measure}" for part in parts])
 
     def _charts(self, tokens: list[str]) -> Iterator[PlannedChart]:
-        """Yield a chart of what the speed leaves as it is, and one of each that it changes."""
+        """Yield one chart of the quantities that no speed changes, and one of each that it changes."""
         known = self.values.scene.quantities
         changing = [token for token in tokens if token in known and self.values.changes(known[token])]
         fixed = [token for token in changing if not (self.several and known[token].order)]

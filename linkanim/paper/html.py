@@ -1,7 +1,7 @@
 """A report as one page of HTML: everything in it, no script, fit to be printed on A4.
 
-What it is made of is numbered here: chapters, figures and tables, each in its order. Markup is made by the
-functions of this module alone; all else is text.
+Chapters, figures and tables are numbered here, each in its order. Only the functions of this module make
+markup; all else is text.
 """
 
 from __future__ import annotations
@@ -58,17 +58,17 @@ _FOOT = (
 """What stands at the foot of every page as it is printed."""
 _LOWERED = re.compile(r"_\{([^}]*)\}")
 _ATTRIBUTES = re.compile(r""" (?:id="[^"]*"|role='[^']*'|aria-label='[^']*')""")
-"""Of a picture, which would be twice on the page."""
+"""Attributes that would be on the page twice: they are taken off an embedded picture."""
 _APART = " style='break-before: page'"
 _KEPT, _LONG = "<div class='keep'>", "<div class='long'>"
 _LISTED = 3
-"""So many figures have a list of their own."""
+"""The fewest figures that get a list of their own."""
 _ROWS_KEPT = 14
-"""A table of so many rows at the most stands on one page."""
+"""The most rows of a table that is kept on one page."""
 
 
 def embedded(picture: str, title: str, style: str = "") -> str:
-    """Return an SVG as part of a page: its parts without names, the whole with words to be read aloud."""
+    """Return an SVG as part of a page: its parts without ids, the whole with a title to be read aloud."""
     drawn = _ATTRIBUTES.sub("", picture[picture.index("<svg ") :])
     spoken = f"<svg role='img' aria-label='{escape(title)}' " + (f"style='{style}' " if style else "")
     return drawn.replace("<svg ", spoken, 1)
@@ -76,7 +76,7 @@ def embedded(picture: str, title: str, style: str = "") -> str:
 
 @frozen
 class FigurePart:
-    """A picture as SVG, with what it shows, which its number comes before; how high it is at the most.
+    """A picture as SVG, with its caption, which its number comes before; its greatest height in mm.
 
     `words` stand under the caption: what is seen in it. A `broad` one is as wide as the page.
     """
@@ -90,7 +90,7 @@ class FigurePart:
 
 @frozen
 class TablePart:
-    """Rows of a table under their head, as markup, with its caption, class and the notes below."""
+    """A table: its rows with their head, as markup, how many they are, its class, and notes below it."""
 
     caption: str
     rows: str
@@ -112,7 +112,7 @@ class Beside:
 
 
 Part = str | FigurePart | TablePart | Beside
-"""Of a chapter; a string is markup, which is written as it is."""
+"""A part of a chapter; a string is markup, which is written as it is."""
 
 
 def page(

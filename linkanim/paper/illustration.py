@@ -1,4 +1,4 @@
-"""A page's pen and surface, and a picture of groups that are at hand, to be written as a file."""
+"""A page's pen and surface, and a picture of groups that exist already, to be written as a file."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from linkanim.picture.theme import on_paper, theme_of
 
 
 def page_pen(size: tuple[int, int], theme: ThemeName, type_scale: float = 1.0, *, ground: bool = True) -> Pen:
-    """Return the pen for a page of so many pixels, words `type_scale` times as large, on a ground or none."""
+    """Return the pen for a page of `size` pixels, words `type_scale` times as large, on a ground or none."""
     known = theme_of(theme)
     return pen_for(layout(size, type_scale=type_scale), Type(), known if ground else on_paper(known))
 
@@ -26,7 +26,7 @@ def page_pen(size: tuple[int, int], theme: ThemeName, type_scale: float = 1.0, *
 def page_surface(
     size: tuple[int, int], background: Colour | None, groups: Iterable[Group], type_: Type
 ) -> pygame.Surface:
-    """Return groups drawn on a surface of so many pixels; it is clear where there is no background."""
+    """Return groups drawn on a surface of `size` pixels; it is clear where there is no background."""
     surface = offscreen(size, alpha=background is None)
     if background is not None:
         surface.fill(background)
@@ -35,7 +35,7 @@ def page_surface(
 
 
 class Illustration(NamedTuple):
-    """All that is drawn, back to front, in so many pixels over a background, and what it shows in words."""
+    """A picture of `drawn` groups, back to front, `size` pixels large on a background, with its title."""
 
     title: str
     size: tuple[int, int]

@@ -21,7 +21,7 @@ from linkanim.units import shown
 
 _ANCHORS = {"left": "l", "centre": "c", "right": "r"}
 _READ_OTHERWISE = set("#$%&\\{}~^\"'")
-"""In a file's name LaTeX takes these for something else."""
+"""Characters that LaTeX takes for something else in a file's name."""
 _HEAD = r"""%% The words of {name}, by linkanim. In LaTeX, with graphicx, color and lmodern:
 %%   \def\svgwidth{{{wide:g}mm}}  \input{{{name}_tex}}
 %% They are set in \footnotesize, the names of joints in \small, as wide as the picture may be; to change it:
@@ -46,11 +46,11 @@ _FOOT = "  \\end{picture}%\n\\endgroup\n"
 _FOOTNOTE = 8.0
 """The size of \\footnotesize in points, in a document of 10 pt."""
 _LETTERS = 2
-"""A subscript of more is a word."""
+"""The most letters of a subscript that is not a word."""
 WIDER = 1.3
-"""How many times wider than the face's LaTeX's letters of one size are: words need so much more room."""
+"""How many times wider LaTeX's letters are than those of our face at the same size."""
 _LARGER = 1.1
-"""Words that are larger than the smallest by more are set in \\small."""
+"""The factor on the smallest size beyond which words are set in \\small."""
 _POINTS = 0.75
 """A pixel is 3/4 of a PDF's point."""
 
@@ -68,7 +68,7 @@ def refuse_latex(target: Output) -> None:
 
 
 def labels_of(target: Output) -> Output:
-    """Return the file with the words of a PDF: nobody gave its name."""
+    """Return the file with the words of a PDF, whose name is derived from the PDF's."""
     return target.beside(f"{target.path.name}_tex")
 
 
@@ -83,7 +83,7 @@ def write_for_latex(
 ) -> None:
     """Write a picture as PDF without its words, and those beside it; both appear whole, or neither does.
 
-    It is so many mm `wide`, where that is said; else a pixel is 3/4 pt.
+    It is `wide` mm wide; without that, a pixel is 3/4 pt.
     """
     items = list(flat(groups))
     with target.replacing() as part, labels_of(target).replacing() as labels:
@@ -102,7 +102,7 @@ def words(size: tuple[int, int], items: Iterable[Item], name: str, wide: float |
 
 
 def _put(size: tuple[int, int], line: Caption, smallest: int) -> str:
-    """Return what puts a line of text: its baseline where the picture has it."""
+    """Return the command that puts a line of text with its baseline where the picture has it."""
     width, height = size
     x, y = line.at[0] / width, (height - line.at[1] - typesetting(line.size).baseline) / width
     set_ = latex_of(line.text)
@@ -123,13 +123,13 @@ def _shares(colour: Colour, between: str) -> str:
 # Words as LaTeX sets them: symbols with their subscripts as mathematics, units and numbers upright.
 
 _SYMBOL = re.compile(r"(?<![^\W\d_])([^\W\d_])([′″]*)([ⁿᵗᶜʳ]*)$")
-"""A letter that stands alone at the end of a run, and what is raised at it: it takes the subscript."""
+"""A letter that stands alone at the end of a run, with its superscripts: it takes the subscript."""
 _ALONE = re.compile(
     r"(?<!\d )(?<![\w(/·])(?!^A [a-z])(?:([A-Z])|^([^\W\d_])(?=$| =|, [^\W\d_]$))([′″]*)([ⁿᵗᶜʳ]*)(?![\w)])"
 )
-"""A capital that is a name, or a letter that is all, or that an equation is of; no unit."""
+"""A letter set as mathematics: a capital that is a name, all of a text, an equation's left side; no unit."""
 _DOLLAR = re.compile(r"(?<!\\)\$")
-"""What begins or ends mathematics: not one that is to be seen."""
+"""The sign that begins or ends mathematics; an escaped one, which is printed, does not match."""
 _RAISED = {"ⁿ": "n", "ᵗ": "t", "ᶜ": "c", "ʳ": "r"}
 
 
@@ -151,7 +151,7 @@ def latex_of(text: str) -> str:
 
 
 def _words(text: str, *, first: bool) -> str:
-    """Return words, and names that are one capital among them as mathematics; those of a line's beginning."""
+    """Return words, with names of one capital as mathematics; `first` where they begin the line."""
     from linkanim.explain.formula import plain_latex
 
     found, done = list[str](), 0
@@ -164,7 +164,7 @@ def _words(text: str, *, first: bool) -> str:
 
 
 def _symbol(letter: str, primes: str, raised: str, index: str) -> str:
-    """Return a letter with its primes, what is raised at it and its subscript, as mathematics."""
+    """Return a letter with its primes, superscript and subscript, as mathematics."""
     from linkanim.explain.formula import plain_latex
 
     high = primes.replace("″", "′′").replace("′", "'")

@@ -26,7 +26,7 @@ _POINTS_A_MM = 72 / 25.4
 _FACE = "face"
 _STYLES = {"": REGULAR, "B": SEMIBOLD}
 _THEN = datetime(2000, 1, 1, tzinfo=UTC)
-"""The same picture has the same bytes, whenever it is written."""
+"""The date of every document: the same picture has the same bytes, whenever it is written."""
 
 
 def require_pdf(found: Callable[[str], object] = find_spec) -> None:
@@ -49,7 +49,7 @@ def pdf(
 ) -> bytes:
     """Return a picture, `size` in pixels, as a PDF document; None leaves the background open.
 
-    Its page is so many mm `wide`, where that is said.
+    Its page is `wide` mm wide; without that, a pixel is 3/4 pt.
     It has a language, a title and, as its subject, the words that say what is seen in it.
     """
     return pages(size, background, [items], title=title, words=words, wide=wide)
@@ -81,7 +81,7 @@ def pages(
 
 
 def _document(size: tuple[float, float], title: str, words: str, point: float) -> FPDF:
-    """Return an empty document; a pixel is so many points."""
+    """Return an empty document, in which a pixel is `point` points."""
     from fpdf import FPDF
     from fpdf.prefs import ViewerPreferences
 
@@ -121,9 +121,9 @@ def _fill(page: FPDF, layer: Layer) -> None:
 
 
 def _write(page: FPDF, line: Caption, point: float) -> None:
-    """Write a line of text, its subscripts smaller and lower, in its halo; a pixel is so many points.
+    """Write a line of text, its subscripts smaller and lower, in its halo; a pixel is `point` points.
 
-    The halo is a line along the letters, and no text: who copies the words has each once.
+    The halo is a line along the letters and no text, so that copied words come once.
     """
     how, style = typesetting(line.size), "B" if line.strong else ""
     set_ = [
@@ -147,7 +147,7 @@ def _write(page: FPDF, line: Caption, point: float) -> None:
 
 
 def _outline(page: FPDF, text: str, style: str, em: float, place: tuple[float, float], halo: Halo) -> None:
-    """Draw a line along the edges of letters, which lie on the middle of it."""
+    """Draw a line centred on the edges of letters."""
     from fontTools.pens.recordingPen import DecomposingRecordingPen
     from fontTools.pens.transformPen import TransformPen
     from fpdf.drawing import PaintedPath
@@ -171,7 +171,7 @@ def _outline(page: FPDF, text: str, style: str, em: float, place: tuple[float, f
 
 
 def _step(path: PaintedPath, step: str, points: Sequence[tuple[float, float]]) -> None:
-    """Add a step of a glyph's outline to a path: those of its curves that are of the second order."""
+    """Add a step of a glyph's outline to a path; its curves may be quadratic or cubic."""
     from fontTools.pens.basePen import decomposeQuadraticSegment
 
     match step:
@@ -189,7 +189,7 @@ def _step(path: PaintedPath, step: str, points: Sequence[tuple[float, float]]) -
 
 
 def _known(page: FPDF, text: str, style: str) -> str:
-    """Return the text in letters that the face has: others as what they are like, or not at all."""
+    """Return the text in letters that the face has: others are replaced by similar ones, or left out."""
     font: Any = page.fonts[_FACE + style]  # of a file, so that it has a table of its letters
     cmap = font.cmap
     alike = (char if ord(char) in cmap else normalize("NFKC", char) for char in text)

@@ -49,24 +49,24 @@ from linkanim.units import rounded, significant
 
 _CHART = (400, 225)
 _BROAD_CHART = (820, 225)
-"""A chart that has a row of its own."""
+"""The size in pixels of a chart that has a row of its own."""
 _WIDE, _TALL = (820, 440), (360, 640)
 """The figure's size in pixels: as wide as the page, or beside facts and dimensions."""
 _HIGHEST, _HIGHEST_BESIDE = 160, 80
-"""How high the figure, loops and poses are at the most, in millimetres, where the page has others beside."""
+"""The greatest height in mm of the figure beside its dimensions, and of loops and poses."""
 _MOST_LINES = 34
-"""So many dimensions stand below each other beside the figure at the most."""
+"""The most dimensions in one column beside the figure."""
 _POSES = {2: (400, 270), 3: (272, 184)}
 _TALL_POSE = (264, 372)
-"""A pose's size in pixels, of so many in a row: letters are as large as the figure's."""
+"""The size of a pose in pixels, by how many stand in a row: letters are as large as the figure's."""
 _NAMES = 60
-"""Room for names about a figure that stands, in pixels."""
+"""Room for names about an upright figure, in pixels."""
 _HIGH = 1.1
-"""How high for its width a scene is whose figure stands so."""
+"""The ratio of height to width above which a scene's figure is upright."""
 _POLYGONS = 820, 300
-"""Both polygons of a pose, side by side."""
+"""The size in pixels of both polygons of a pose, side by side."""
 _COMPARED = 19
-"""So many rows of a measured table are printed at the most."""
+"""The most rows of a measured table that are printed."""
 _PRINTED = 6
 """Significant digits of values beside printed ones."""
 _UNSAFE = re.compile(r"[^\w.-]+")
@@ -74,7 +74,7 @@ _WORD = re.compile(r"\w+")
 _DECIMALS = re.compile(r"\d+\.\d+")
 _TAG, _UNSEEN = re.compile(r"<[^>]*>"), re.compile(r"[\s\u2061-\u2064]")
 _WIDTH = 115
-"""Letters of a table as wide as the page."""
+"""The letters in a row of a table as wide as the page."""
 _HALF_A_PAGE = 50
 """Letters and signs of the longest equation that stands beside the figure."""
 _BRACES = {ord("{"): None, ord("}"): None}
@@ -89,9 +89,9 @@ DrawnChart = tuple[tuple[str, ...], FigurePart]
 class Report:
     """What a report is asked to show: the instants of its tables, the speeds of tables and charts, digits.
 
-    A table that was `measured` of a quantity stands beside it, under its `label`; what is `published` of the
-    scene has tables of its own. With `every` it has, behind the hand-out, a table of every quantity at each
-    instant, and every chart.
+    `measured` tables, by quantity, are compared with the solution, under their `label`; `published` values of
+    the scene have tables of their own. With `every`, the hand-out is followed by a table of every quantity at
+    each instant, and by every chart.
     """
 
     scene: Scene
@@ -127,7 +127,7 @@ class Report:
 
     @cached_property
     def _size(self) -> tuple[int, int]:
-        """The figure's size: one that stands is as high as its scene is for its width, and room for names."""
+        """The figure's size in pixels; an upright one has its scene's shape, with room for names."""
         if not self._tall:
             return _WIDE
         box, (wide, high) = figure(self.scene).box, _TALL
@@ -150,9 +150,9 @@ class Report:
         return {title: [*self._in_topic(charts)] for title, charts in found}
 
     def _in_topic(self, charts: list[PlannedChart]) -> Iterator[DrawnChart]:
-        """Yield the charts of a topic; of an odd number the one with the most curves is as broad as the page.
+        """Yield the charts of a topic; of an odd number, one with the most curves is as broad as the page.
 
-        It is one that has a pair of them before it, or none.
+        It is sought among those with an even number before them, so that the others stand in pairs.
         """
         pairs = charts[:: 2 if len(charts) % 2 else len(charts)]
         broad = max(reversed(pairs), key=lambda chart: len(chart.tokens)) if len(charts) % 2 else None
@@ -235,7 +235,7 @@ class Report:
             yield from (html.facts(*facts, 2), drawn, html.facts(*lengths, 3))
 
     def _indexed(self, label: str) -> str:
-        """Return words with the names of joints in them set as such: Pin O₂."""
+        """Return words with the names of joints in them typeset: Pin O₂."""
         names = {joint.name for joint in self.scene.linkage.joints}
         return _WORD.sub(lambda found: subscripted(found[0]) if found[0] in names else found[0], label)
 
@@ -253,7 +253,7 @@ class Report:
         caption = f"Vector loops at {self._figure.caption}"
         given, loops, *_ = self._worked.chapters
         alone = replace(self._worked, chapters=(replace(given, steps=()), loops))
-        # behind the headings of both and the figure
+        # after the headings of both chapters and the figure
         _, _, _, *equations = chapters(alone, replace(HTML, steps="\n".join))
         drawn = FigurePart(vectors_svg(alone), caption, _HIGHEST_BESIDE)
         rows = (row for one in equations for row in one.split("</mtr>"))
@@ -307,7 +307,7 @@ class Report:
             quantity = scene.quantities[token]
             ours = float(quantity.shown(motion))
             unit = quantity.shown_unit(scene.length_unit)
-            # a length of the table's is in metres
+            # a length in the table is in metres
             per = scene.linkage.metre if "{}" in quantity.unit else 1.0
             row = [f"{quantity.words} {quantity.symbol} ({unit})", significant(ours, _PRINTED)]
             for value in values:
@@ -356,7 +356,7 @@ def _widest(lines: Sequence[tuple[str, str]], columns: int) -> int:
 
 
 def _shorter(text: str, digits: int) -> str:
-    """Return words with every number to at most `digits` significant digits, as the tables have them."""
+    """Return words with every decimal number in at most `digits` significant digits, as in the tables."""
 
     def shorter(found: re.Match[str]) -> str:
         return min(found[0], rounded(float(found[0]), digits), key=len)

@@ -20,36 +20,36 @@ from linkanim.scenes.scene import Scene
 from linkanim.units import rounded, short, stepped, typeset
 
 _CLOSING = ("input", "stroke", "time ratio", "transmission angle", "true period")
-"""What of a scene's facts a report ends with."""
+"""The labels of the scene's facts with which a report ends."""
 _MOST = 3
-"""So many curves of a chart are told of; of more the one that goes farthest."""
+"""The most curves of a chart that are described; of more, only the one of greatest range."""
 _MOST_ZEROS = 4
-"""So many places at which a curve is zero are listed; of more there is the number."""
+"""The most zeros of a curve that are listed; of more, only their number."""
 _DIGITS = 4
 _EVEN = 2e-4
-"""A way off half the period by no more takes as long as the other: so exactly a flat extreme is known."""
+"""A share of the period: ways that differ less take the same time, as a flat extreme is no more exact."""
 _NEARLY_EVEN = 1.1
-"""A time ratio below has a third decimal."""
+"""The time ratio below which a third decimal is shown."""
 _NOTHING = 1e-9
 _ROUNDING = 1e-7
-"""Of what a curve comes to at the most: a speed is as near to nothing as its place is found."""
+"""A share of a curve's greatest size, below which a value is zero: its place is found no more exactly."""
 _MOST_TOLD = 8
-"""So many links of a pose are told of."""
+"""The most links of a pose that are described."""
 _LASTS = re.compile(r"[\d.]+ s$")
 _LOWERED = re.compile(r"_\{([^}]*)\}")
 
 
 def about(curves: Curves) -> str:
-    """Return what a chart shows, in sentences; of an unbounded one where it is so, of a level one nothing.
+    """Return what a chart shows, in sentences: extremes and zeros, or where a curve is unbounded.
 
-    Of several curves that share a chart each has a short one.
+    A level curve has no sentence. Where several curves share a chart each has a short one.
     """
     told = _told(curves)
     return " ".join(sentence for curve in told for sentence in _sentences(curves, curve, brief=len(told) > 1))
 
 
 def closing(scene: Scene, pace: Pace) -> Iterator[str]:
-    """Yield what a report comes to: the class, what the output does, its velocity and acceleration."""
+    """Yield the summary of a report: the class, what the output does, its velocity and acceleration."""
     lasts = f"{short(scene.period / abs(pace.speed))} s"
     facts = [
         # the scene's own say how long it lasts at its own speed
@@ -118,7 +118,7 @@ def _sentence(text: str) -> str:
 
 
 def _told(curves: Curves) -> Sequence[Curve]:
-    """Return the curves that are told of: those at the first speed, the farthest one where they are many."""
+    """Return the curves that are described: those at the first speed; of many, the one of greatest range."""
     first = [curve for curve in curves.curves if curve.pace == curves.curves[0].pace]
     if len(first) <= _MOST:
         return first
@@ -162,7 +162,7 @@ def _ends(curves: Curves, curve: Curve, ends: tuple[Peak, Peak]) -> str:
 
 
 def _to_and_fro(curves: Curves, curve: Curve, name: str, ends: tuple[Peak, Peak], up: float) -> str:
-    """Return how what goes to and fro once in a period does so; `up` is the share of the way up."""
+    """Return the sentence on a curve that rises and falls once in a period; `up` is the share of the rise."""
     between = f"{name} rises from {_ends(curves, curve, ends)} and falls again"
     if abs(up - 0.5) < _EVEN:
         return f"{between}; both ways take the same time."
@@ -202,7 +202,7 @@ def _zeros(curves: Curves, curve: Curve) -> list[str]:
     if not (np.nanmin(curve.values) < 0 < np.nanmax(curve.values)) or np.isnan(curve.values).any():
         return []
     phases = np.sort(curve.phases)
-    # from between two samples round to there: many are zero at the start itself
+    # round the period from between two samples: many curves are zero at the start itself
     shifted = np.linspace(phases[0], phases[-1], len(phases)) + 0.5 * (phases[1] - phases[0])
     found = sign_changes(lambda near: curve.solved(curves.scene, near), shifted)
     if curves.in_time:
@@ -236,7 +236,7 @@ def _listed(places: list[str]) -> str:
 
 
 def _at(curves: Curves, peak: Peak) -> str:
-    """Return a place of the input in words: "at θ₂ = 71.0°"; of one that swings the time, "at t = 2 s"."""
+    """Return where the input is, in words: "at θ₂ = 71.0°"; for curves over time "at t = 2 s"."""
     if curves.in_time:
         return f"at t = {_seconds(curves, peak.x)}"
     return f"at {input_symbol(curves.scene.linkage)} = {_place(curves, peak.angle)}"

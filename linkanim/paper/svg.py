@@ -32,7 +32,7 @@ def svg(
 ) -> str:
     """Return a picture, `size` in pixels, as an SVG document; None leaves the background open.
 
-    It is so many mm `wide`, where that is said.
+    It is `wide` mm wide; without that, its size is in pixels.
     Its title, and the words that say what is seen in it, are read aloud. A group is a `<g>` whose id is its
     name, numbered where a group before has it.
     """
@@ -55,7 +55,7 @@ def svg(
 
 
 def flat(items: Iterable[Item | Group]) -> Iterator[Item]:
-    """Yield what groups are made of, cut to what they are within."""
+    """Yield the items of groups, clipped as the groups say."""
     for item in items:
         if isinstance(item, Group):
             yield from clipped(item)
@@ -76,7 +76,7 @@ def drawn(items: Iterable[Item], paint: Paint = hexadecimal) -> list[str]:
 
 
 def _unused(name: str, ids: set[str]) -> str:
-    """Return a name as an id of its own, and remember it."""
+    """Return a name as an id that is not in `ids`, and add it to them."""
     word = "_".join(name.split())
     choices = (word if n == 1 else f"{word}-{n}" for n in count(1))
     found = next(choice for choice in choices if choice not in ids)
@@ -112,7 +112,7 @@ def _rim(line: Caption, paint: Paint) -> str:
 
 
 def _lowered(line: Caption) -> str:
-    """Return how a subscript differs; its rim lies over the letter before it, and must not reach that."""
+    """Return the attributes of a subscript; its rim is thin, or it would cover the letter before it."""
     how = typesetting(line.size)
     size = f' font-size="{how.small:.2f}"'
     if line.halo is None:

@@ -1,4 +1,4 @@
-"""Vectors as figures: those of a worked solution's loops over the links, which are faint, and polygons."""
+"""Vectors as figures: the loops of a worked solution over the faint links, and the polygons of a pose."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ from linkanim.picture.text import subscripted
 from linkanim.picture.view import Rect
 
 _WIDE, _TALL = (520, 380), (400, 480)
-"""The figure's size in pixels; printed beside its equations its letters are some 7 pt high."""
+"""The figure's size in pixels; printed beside its equations, it has letters of some 7 pt."""
 _FILLED = 0.82
-"""Of the picture's width or height the vectors and the links take so much."""
+"""The share of the picture's width or height that vectors and links take."""
 _SHORT = 1e-6
-"""Of the picture's width: what is shorter has no direction."""
+"""A share of the picture's width: a vector that is shorter has no direction."""
 
 
 def polygons_svg(figured: Figured) -> str:
@@ -50,7 +50,7 @@ class _Named(NamedTuple):
 
 
 def vectors_svg(found: Solution) -> str:
-    """Return the figure as SVG; each vector stands once, by its name, as do the joints it leads between."""
+    """Return the vector loops as SVG: each vector once, with its name, and its joints with theirs."""
     picture = _picture(found)
     ground, *_ = picture.drawing.standing()
     links = Group("links", picture.drawing.faint(found.request.scene.pose(found.phase, 0)))
@@ -81,7 +81,7 @@ def _pixel(picture: Picture, at: complex) -> complex:
 
 
 def _drawn(found: Solution, picture: Picture) -> Iterator[Item]:
-    """Yield the vectors, and the names of vectors and joints where they lie on nothing."""
+    """Yield the vectors, and the names of vectors and joints, placed where they cover nothing."""
     pen, theme = pen_for(picture.layout, picture.type, picture.theme), picture.theme
     ways = [(one, _pixel(picture, one.begin), _pixel(picture, one.end)) for one in found.arrows]
     long = [way for way in ways if abs(way[2] - way[1]) > _SHORT * picture.size[0]]
@@ -100,7 +100,7 @@ def _drawn(found: Solution, picture: Picture) -> Iterator[Item]:
 
 
 def _captions(names: list[_Named], clutter: Clutter, pen: Pen) -> Iterator[Caption]:
-    """Yield names where they lie on nothing."""
+    """Yield names placed where they cover nothing."""
     sizes = [(pen.type.width(one.text, pen.text, strong=True), pen.text) for one in names]
     labels = [
         LabelPlaces(size, np.array([one.places]), np.arange(float(len(one.places))))

@@ -1,4 +1,4 @@
-"""A figure or a chart as a file: its name's ending says which."""
+"""Write a figure or a chart as a file, in the format that its name's ending states."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class Written(Protocol):
         """Return everything on it, back to front."""
 
     def surface(self) -> pygame.Surface:
-        """Return it drawn."""
+        """Return the picture drawn."""
 
 
 @runtime_checkable
@@ -57,9 +57,9 @@ class Tabled(Written, Protocol):
 def write(shown: Written, target: Output, *, latex: bool = False, wide: float | None = None) -> None:
     """Write a figure or a chart as SVG, PNG or PDF, a chart also as CSV; a file appears whole or not at all.
 
-    It is so many mm `wide` on paper, where that is said; else a pixel is 3/4 pt.
-    The words of a PDF are left to `latex` in a file beside it. `WorkFailed` where disk or folder refuse;
-    `BadInput` for a PDF without what writes it.
+    It is `wide` mm wide on paper; without that, a pixel is 3/4 pt. With `latex` the words of a PDF are left
+    to LaTeX, in a file beside it. `WorkFailed` where disk or folder refuse; `BadInput` for a PDF where fpdf2
+    is not installed.
     """
     suffix = target.path.suffix.lower()
     if suffix == ".pdf":
@@ -74,7 +74,7 @@ def write(shown: Written, target: Output, *, latex: bool = False, wide: float | 
 
 
 def data(shown: Written, suffix: str, wide: float | None = None) -> bytes:
-    """Return a figure or a chart as a kind of file, `wide` mm on paper."""
+    """Return the bytes of a figure or a chart in the format of `suffix`, `wide` mm on paper."""
     picture = shown.size, shown.background, shown.groups()
     match suffix:
         case ".csv" if isinstance(shown, Tabled):
