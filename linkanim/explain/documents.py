@@ -42,18 +42,18 @@ from linkanim.frozen import NamedTuple, frozen
 # The rows of one item of a worked solution in a notation: sides of equations, one below the other.
 
 _SHORT, _MIDDLING = 2, 6
-"""So many symbols a formula has that stands in one row with its numbers and value, or with its value."""
+"""The most symbols of a formula in one row with its numbers and its value, or in one with its value."""
 
 
 class EquationRow(NamedTuple):
-    """One row of an aligned equation: what stands left of the sign of equality, and right of it."""
+    """One row of an aligned equation: what stands left of the equals sign, and what stands right of it."""
 
     left: str
     right: str
 
 
 def rows(item: Item, how: Notation, *, blank: bool = False) -> Iterator[EquationRow]:
-    """Yield the rows of an item that has any; where `blank` the numbers that are asked for are left open."""
+    """Yield the rows of an item, if it has any; where `blank`, the numbers asked for are left open."""
     match item:
         case ValueLine():
             yield from _line(item, how, blank)
@@ -72,7 +72,7 @@ def _line(line: ValueLine, how: Notation, blank: bool) -> Iterator[EquationRow]:
     leaves = len(list(line.formula.leaves))
     together = 3 if leaves <= _SHORT else 2 if leaves <= _MIDDLING else 1
     left = typeset(line.value, how)
-    # the last row is the fullest one: it is the numbers and what they come to that belong together
+    # the last row is the fullest one, so that the numbers and their value stand together
     for begin, end in pairwise(
         [0, *range(len(sides) % together or together, len(sides), together), len(sides)]
     ):
@@ -97,11 +97,11 @@ def _system(system: System, how: Notation, blank: bool) -> Iterator[EquationRow]
 _WIDE, _HIGH = 13.0, 9.0
 """The picture's greatest width and height in centimetres."""
 _NEAR = 0.02
-"""A joint that is nearer to the end of a vector, in centimetres, is one of its ends."""
+"""The distance from a vector's end, in centimetres, below which a joint is that end."""
 
 
 def tikz(found: Solution) -> str:
-    """Return the vectors of all loops with their names and their joints'; nothing where there are none."""
+    """Return the vectors of all loops with their names, and their joints with theirs; "" without a loop."""
     return "\n".join(_lines(found)) if found.loops else ""
 
 
@@ -128,7 +128,7 @@ def _at(place: complex) -> str:
 
 
 def body_style(font: str, wide: int) -> str:
-    """Return how the text of a page is set: `font` is its size and line height, `wide` its width in rem."""
+    """Return the CSS of a page's text: `font` is its size and line height, `wide` its width in rem."""
     return f"""
 body {{ font: {font} "Source Sans Pro", "Source Sans 3", "Helvetica Neue", Arial, sans-serif;
        color: #1b1f23; margin: 2rem auto; max-width: {wide}rem; padding: 0 1rem; }}
@@ -167,7 +167,7 @@ figure.vectors { margin: .6rem 0; break-inside: avoid; } figure.vectors svg { ma
 
 @cache
 def math_style() -> str:
-    """Return how formulas are set, with the font that they are set in, whose brackets stretch."""
+    """Return the CSS of formulas, with their font in it, whose brackets stretch."""
     face = (Path(__file__).parent / "faces/LinkanimMath.woff2").read_bytes()
     source = f"url(data:font/woff2;base64,{b64encode(face).decode()}) format('woff2')"
     return f"\n@font-face {{ font-family: 'Linkanim Math'; src: {source}; }}{_MATH}"
@@ -176,16 +176,16 @@ def math_style() -> str:
 _INDEXED = re.compile(r"(?<=[^\W\d_])_?(\d+)$")
 _KEY_DIGITS = 5
 _HALF = 0.5001
-"""Of a last place: so far off a value may be that rounds to it."""
+"""How far off a value may be that still rounds to a digit, in units of its place."""
 
 
 @frozen
 class DocumentForm:
     """How one kind of document is written; names of joints are marked in headings and in text.
 
-    `listed` sets what is given: formulas, and what each is. `figure` draws the loops, `construction` how
-    the linkage was made; on a page that is left to who prints pictures. `steps` puts those of a chapter
-    together. `new_page` begins one.
+    `listed` sets a list of formulas with the words for each. `figure` draws the loops, `construction` how the
+    linkage was made; a page leaves both to a module that prints pictures. `steps` joins the steps of a
+    chapter. `new_page` begins a page.
     """
 
     how: Notation
@@ -207,7 +207,7 @@ Level = Literal["formulas", "drawing"]
 
 
 def document(found: Solution, form: DocumentForm) -> str:
-    """Return the whole document."""
+    """Return a worked solution as a document of this form."""
     parts = [
         form.heading(1, found.title),
         _where(found, form),
@@ -220,7 +220,7 @@ def document(found: Solution, form: DocumentForm) -> str:
 def exercise(versions: Sequence[Solution], form: DocumentForm, level: Level = "formulas") -> str:
     """Return sheets with their numbers left open, each on pages of its own, and then the key of each.
 
-    Of several versions each has a letter.
+    Where there are several versions, each has a letter, A first.
     """
     titles = [f"{one.title}, {chr(65 + n)}" for n, one in enumerate(versions)]
     titles = titles if len(versions) > 1 else [versions[0].title]
@@ -253,7 +253,7 @@ def _open(result: Outcome, form: DocumentForm) -> str:
 
 
 def _by_owner(found: Solution) -> Iterator[Outcome]:
-    """Yield what was found, link by link and joint by joint."""
+    """Yield the results, link by link and joint by joint."""
     owners: dict[str, list[Outcome]] = {}
     for result in found.results:
         if result.value.symbol is not None:
@@ -262,7 +262,7 @@ def _by_owner(found: Solution) -> Iterator[Outcome]:
 
 
 def _results(found: Solution, form: DocumentForm) -> Iterator[str]:
-    """Yield all that was found."""
+    """Yield the list of all results, with its heading."""
     yield form.heading(2, "All results")
     solved = found.solved
     yield form.listed([_listed(_short(one.value, solved), one.unit, "", form) for one in _by_owner(found)])
@@ -294,12 +294,12 @@ def _step(step: Step, form: DocumentForm, blank: bool) -> Iterator[str]:
 
 
 def _sort(item: Item) -> type[Item]:
-    """Return what only its like is set with in one block; a line is set with equations."""
+    """Return an item's sort: neighbours of one sort are set in one block; a line counts as an equation."""
     return Equation if isinstance(item, ValueLine) else type(item)
 
 
 def _set(items: list[Item], form: DocumentForm, blank: bool) -> Iterator[str]:
-    """Yield neighbours of one sort: equations and what is given in one block, sentences one by one."""
+    """Yield the parts of neighbours of one sort: equations in one block, sentences one by one."""
     if given := [item for item in items if isinstance(item, Given)]:
         yield form.listed([_listed(item.value, item.unit, item.words, form) for item in given])
     if found := [row for item in items for row in rows(item, form.how, blank=blank)]:
@@ -328,9 +328,9 @@ def _key(found: Solution, form: DocumentForm) -> Iterator[str]:
 
 
 def _short(value: Formula, solved: Mapping[Symbol, float]) -> Formula:
-    """Return a value in as many digits as a key needs: of a result those of solving, which it may round to.
+    """Return a value in as many digits as a key needs.
 
-    Where its last digits are rounding it has fewer.
+    A result has the digits of the solver's value, and fewer where it does not round to these.
     """
     true = solved.get(value.symbol, value.value) if value.symbol and value.value else value.value
     places = min(decimals(true, _KEY_DIGITS), len(value.shown.partition(".")[2]))
@@ -362,14 +362,14 @@ def _html_listed(found: list[tuple[str, str]]) -> str:
 
 _ROW, _TAG = re.compile(r"<mtr>(.*?)</mtr>", re.S), re.compile(r"<[^>]*>|&[^;]*;")
 _HALF = 62
-"""Letters of a formula that half a page holds."""
+"""The most letters of a formula on half a page's width."""
 
 
 def _html_steps(steps: list[str]) -> str:
     """Return a chapter's steps, on paper two side by side where their formulas are short."""
     cells = []
     for step in steps:
-        # a step of words alone is wide
+        # a step with nothing but words is wide
         longest = max((len(_TAG.sub("", row)) for row in _ROW.findall(step)), default=_HALF + 1)
         drawn = step.startswith("<figure")
         kind = "drawn" if drawn else "wide" if longest > _HALF else "short"
@@ -416,7 +416,7 @@ def _latex_listed(found: list[tuple[str, str]]) -> str:
 
 _COMMAND = re.compile(r"\\[a-zA-Z]+|[{}^_ ]")
 _LONG = 84
-"""A formula of more letters than this is set smaller, to stay on its page."""
+"""The most letters of a formula in the usual size: a longer one is set smaller, to stay on its page."""
 
 
 def _latex_aligned(found: list[EquationRow]) -> str:
@@ -427,7 +427,7 @@ def _latex_aligned(found: list[EquationRow]) -> str:
 
 
 def _latex_page(_: str, body: str) -> str:
-    # a paragraph that ends before an equation would leave a line's room
+    # a paragraph that ends before an equation would leave an empty line
     return f"{_PREAMBLE}{body.replace(_BEFORE, _BEFORE[1:])}\n\\end{{document}}\n"
 
 
@@ -446,7 +446,7 @@ TEX = DocumentForm(
 
 
 _MARKS = re.compile(r"[\\`*_{}\[\]<>#$&~|]")
-"""What Markdown, or a page made of it, may take for a mark wherever it stands."""
+"""The characters that Markdown, or a page made from it, may take for a mark anywhere."""
 
 
 def _markdown_words(text: str) -> str:
@@ -454,7 +454,7 @@ def _markdown_words(text: str) -> str:
 
 
 def _without_tags(formula: str) -> str:
-    """Return a formula without signs that a page would take for the ends of a tag."""
+    """Return a formula without < and >, which a page would take for the ends of a tag."""
     return formula.replace("<", r"\lt ").replace(">", r"\gt ")
 
 

@@ -3,7 +3,7 @@
 Its parts, in reading order:
 
 - Formulas of a worked solution as trees, whose leaves hold the digits that are printed.
-- Formulas set in LaTeX or in MathML, in symbols or with the numbers put in: one walk, two notations.
+- Formulas set in LaTeX or in MathML, in symbols or with numbers: one traversal, two notations.
 """
 
 from __future__ import annotations
@@ -19,9 +19,9 @@ from linkanim.frozen import NamedTuple, frozen
 
 # Formulas of a worked solution as trees, whose leaves hold the digits that are printed.
 #
-# A leaf is a symbol with its number in shown digits, or a number alone: whoever puts the digits in gets what
-# the tree evaluates to. Angles are in degrees. What is exactly 0 or 1 drops out as a formula is put
-# together.
+# A leaf is a symbol with its number in shown digits, or a number alone: a reader who puts the digits in gets
+# what the tree evaluates to. Angles are in degrees. A term of exactly 0 and a factor of exactly 1 are left
+# out as a formula is put together.
 
 
 class Symbol(NamedTuple):
@@ -42,7 +42,7 @@ Operation = Literal[
 class Formula:
     """A formula: an operation on others, or a leaf with its `shown` digits, and a symbol if it has one.
 
-    A leaf `in_degrees` is printed with the sign of a degree.
+    A leaf that is `in_degrees` is printed with a degree sign.
     """
 
     operation: Operation
@@ -53,12 +53,12 @@ class Formula:
 
     @property
     def constant(self) -> float | None:
-        """The value of a number without a symbol; None of all else."""
+        """The value of a number without a symbol; None for anything else."""
         return float(self.shown) if self.operation == "leaf" and self.symbol is None else None
 
     @property
     def value(self) -> float:
-        """What the shown digits evaluate to; ValueError or ZeroDivisionError where that is nothing."""
+        """What the shown digits evaluate to; ValueError or ZeroDivisionError where they have no value."""
         if self.operation == "leaf":
             return float(self.shown)
         return _VALUES[self.operation](*(part.value for part in self.parts))
@@ -149,22 +149,22 @@ ZERO, ONE, TWO = number("0"), number("1"), number("2")
 
 
 def sqrt(e: Formula) -> Formula:
-    """Return the root; of a square what is squared is taken as it is, which is not negative."""
+    """Return the square root."""
     return Formula("sqrt", (e,))
 
 
 def square(e: Formula) -> Formula:
-    """Return the square; 0 and 1 of 0 and ±1."""
+    """Return the square; of 0 and ±1 the number alone."""
     return number(str(int(e.constant) ** 2)) if e.constant in (0.0, 1.0, -1.0) else Formula("square", (e,))
 
 
 def cos(e: Formula) -> Formula:
-    """Return the cosine of degrees; 0, 1 or -1 of a number of right angles."""
+    """Return the cosine of an angle in degrees; 0, 1 or -1 as a number for a multiple of 90."""
     return _turned("cos", e, ("1", "0", "-1", "0"))
 
 
 def sin(e: Formula) -> Formula:
-    """Return the sine of degrees; 0, 1 or -1 of a number of right angles."""
+    """Return the sine of an angle in degrees; 0, 1 or -1 as a number for a multiple of 90."""
     return _turned("sin", e, ("0", "1", "0", "-1"))
 
 
@@ -175,7 +175,7 @@ def _turned(operation: Literal["cos", "sin"], e: Formula, quarters: tuple[str, .
 
 
 def atan2(y: Formula, x: Formula) -> Formula:
-    """Return the angle of a way by its components, in degrees from -180 to 180."""
+    """Return the angle of a vector from its components, in degrees from -180 to 180."""
     return Formula("atan2", (y, x))
 
 
@@ -209,7 +209,7 @@ class Components(NamedTuple):
         return Components(factor * self.x, factor * self.y)
 
     def left(self) -> Components:
-        """Return the vector turned left by a right angle."""
+        """Return the vector turned by a right angle, anticlockwise."""
         return Components(-self.y, self.x)
 
 
@@ -222,11 +222,11 @@ NOWHERE = Components(ZERO, ZERO)
 
 
 def along(angle: Formula) -> Components:
-    """Return the direction at an angle."""
+    """Return the unit vector at an angle in degrees."""
     return Components(cos(angle), sin(angle))
 
 
-# Formulas set in LaTeX or in MathML, in symbols or with the numbers put in: one walk, two notations.
+# Formulas set in LaTeX or in MathML, in symbols or with numbers: one traversal, two notations.
 
 _GREEK = {
     "α": "alpha", "β": "beta", "γ": "gamma", "δ": "delta", "θ": "theta", "ω": "omega", "φ": "varphi",
@@ -234,12 +234,12 @@ _GREEK = {
 }  # fmt: skip
 _INDEX = re.compile(r"([^\W\d_]+|\W+|[^\W0-9])|([0-9]+)")
 _NOT_SET = re.compile("[^\0-\u017f]|[ĦħĸĿŀŉŦŧſ]")
-"""What LaTeX's standard fonts have no letter for."""
+"""Characters that LaTeX's standard fonts lack."""
 
 
 @frozen
 class Notation:
-    """How formulas are put together in one language; every function takes and gives markup."""
+    """How formulas are put together in one language; its functions return markup."""
 
     symbol: Callable[[Symbol], str]
     number: Callable[[str, bool], str]
@@ -296,11 +296,11 @@ class _Setting:
         return self.how.group(text) if e.shown.startswith("-") and not first else text
 
     def _grouped(self, e: Formula, *kinds: str, first: bool = False) -> str:
-        """Return a part that is not the first, in parentheses if it is of these kinds."""
+        """Return a part, in parentheses if it is of one of these kinds, or negative and not the `first`."""
         return self.how.group(self.of(e)) if e.operation in kinds else self.of(e, first)
 
     def _base(self, e: Formula) -> str:
-        """Return what is squared, in parentheses but for a plain leaf."""
+        """Return the base of a square, in parentheses unless it is a plain leaf."""
         primed = e.symbol is not None and e.symbol.mark != "" and not self.numbers
         return self.of(e, first=False) if e.operation == "leaf" and not primed else self.how.group(self.of(e))
 
@@ -314,7 +314,7 @@ class _Setting:
         return self.how.infix(e.operation, self.of(left, first), self._grouped(right, *kinds))
 
     def _dotted(self, left: Formula, right: Formula) -> bool:
-        """Whether a product needs its dot: before a number, and behind what a function could swallow."""
+        """Whether a product needs its dot: before a number, and after a function, so as not to join it."""
         while right.operation == "·":
             right = right.parts[0]
         while left.operation == "·":
@@ -324,7 +324,7 @@ class _Setting:
 
 
 def plain_latex(text: str) -> str:
-    """Return words as LaTeX sets them; what its standard fonts have no letter for is a question mark."""
+    """Return words as LaTeX sets them; a character that its standard fonts lack is a question mark."""
     return _NOT_SET.sub("?", normalize("NFC", text).translate(_TEXT))
 
 
@@ -356,7 +356,7 @@ _TEXT = str.maketrans(
 
 
 def _latex_index(text: str) -> str:
-    """Return an index or a name: letters, each number lowered."""
+    """Return an index or a name in LaTeX: numbers in it are subscripts."""
     found = [
         f"_{{{digits}}}" if digits and n else digits or _letters(word)
         for n, (word, digits) in enumerate(_INDEX.findall(text))

@@ -3,7 +3,7 @@
 Its parts, in reading order:
 
 - How each kind of joint is worked out by hand, and the one list of them.
-- The vector loops of a linkage: the two ways to each dyad's joint, as equations and as arrows.
+- The vector loops of a linkage: the two routes to each dyad's joint, as equations and as arrows.
 """
 
 from __future__ import annotations
@@ -64,13 +64,13 @@ Lengths = NDArray[np.float64]
 
 
 def place_pin(pin: Pin, work: Work) -> None:
-    """Take where the pin stands, or work it out from its length and angle."""
+    """Add the pin's place: as stated, or worked out from its length and angle."""
     origin = next((name for name, at in work.points.items() if at == NOWHERE), None)
     named = frozenset((origin, pin.name)) in work.names.lengths
     if pin.polar is not None and pin.polar.length:
         base, (length, angle) = pin.polar.base, (pin.polar.length, pin.polar.angle)
     elif named and pin.position[0] > 0 == pin.position[1]:
-        # level with the origin: its one coordinate is a length of the figure
+        # level with the origin: its one coordinate other than 0 is a length of the figure
         base, length, angle = None, pin.position[0], 0.0
     else:
         places = zip("xy", pin.position, strict=True)
@@ -85,7 +85,7 @@ def place_pin(pin: Pin, work: Work) -> None:
 
 
 def place_crank(crank: Crank, work: Work) -> None:
-    """Add the geared crank's angle, and where its pin lies."""
+    """Add where a crank's pin lies, and before it the angle if the crank is geared."""
     ends = crank.pivot, crank.name
     if crank.gear is not None:
         mate = work.linkage.crank(crank.gear.mate)
@@ -96,7 +96,7 @@ def place_crank(crank: Crank, work: Work) -> None:
 
 
 def move_crank(crank: Crank, rates: Rates, order: Order) -> None:
-    """Add how the geared crank turns, and how its pin moves."""
+    """Add how a crank's pin moves, and before it how the crank turns if it is geared."""
     ends, work = (crank.pivot, crank.name), rates.work
     if crank.gear is not None:
         mate = work.linkage.crank(crank.gear.mate)
@@ -123,7 +123,7 @@ def move_slider(slider: DrivenSlider, rates: Rates, order: Order) -> None:
 
 
 def route_of_guide(joint: DrivenSlider | RRP | RPP, work: Work) -> Route:
-    """Return the way along a joint's guide."""
+    """Return the route along a joint's guide."""
     guide = work.guide(joint.line, joint.name)
     return Route(guide.through, slide_sides(work, guide, joint.name))
 
@@ -136,7 +136,7 @@ def place_point(point: Rigid, work: Work) -> None:
 
 
 def legs(point: Rigid, work: Work) -> tuple[Symbol, Symbol]:
-    """Return the symbols of how far a point lies along its body's line, and to the left."""
+    """Return the symbols of a point's coordinates: along its body's line, and to the left of it."""
     known = iter(work.names.legs.get(point.name, ()))
     named = [Symbol("r", next(known, "")) if value else Symbol("") for value in point.at]
     if point.at[1] == 0 and not named[0].sub:
@@ -148,7 +148,7 @@ def legs(point: Rigid, work: Work) -> tuple[Symbol, Symbol]:
 def body_point(
     work: Work, on: tuple[str, str], at: tuple[float, float], names: tuple[Symbol, Symbol]
 ) -> Components:
-    """Return how far a point of a body lies from its first joint."""
+    """Return the vector from a body's first joint to a point of the body."""
     ahead = along(work.angle_of(*on))
     about = f"along {marked(on[0])}–{marked(on[1])}", f"to the left of {marked(on[0])}–{marked(on[1])}"
     p, q = (
@@ -164,7 +164,7 @@ def move_point(point: Rigid, rates: Rates, order: Order) -> None:
 
 
 def route_of_point(point: Rigid, work: Work) -> Route:
-    """Return the way from its body's first joint."""
+    """Return the route to a point of a body from the body's first joint."""
     base, points = point.on[0], work.points
     name, other = legs(point, work)
     index = name.sub if not other.letter and name.letter == "r" else base + point.name
@@ -199,7 +199,7 @@ def place_bars(joint: RRR, work: Work) -> None:
 
 
 def _direction_of_bar(joint: RRR, work: Work, span: Components, d: Formula) -> Formula:
-    """Return the first bar's angle by the cosine rule, to the side on which the joint lies."""
+    """Return the first bar's angle by the cosine rule, for the side on which the joint lies."""
     a, b = (work.length(end, joint.name, length) for end, length in joint.bars)
     ahead = work.let(Symbol("δ", joint.name), atan2(span.y, span.x), ANGLE)
     corner = _corner((square(a) + square(d) - square(b)) / (TWO * a * d), work, joint.name)
@@ -217,7 +217,7 @@ def _corner(cosine: Formula, work: Work, name: str) -> Formula:
 
 
 def _left(joint: RRR, work: Work) -> bool:
-    """Tell whether the joint lies left of the way between its bars' ends at this pose."""
+    """Return whether the joint lies left of the line from its first bar's end to its second's."""
     p, q, at = (complex(*work.pose.position[name]) for name in (*joint.ends, joint.name))
     return ((q - p).conjugate() * (at - p)).imag >= 0
 
@@ -234,10 +234,10 @@ def _why_left(joint: RRR, left: bool) -> str:
 
 
 def half_angle(joint: RRR, work: Work) -> None:
-    """Add the second bar's angle by the half-angle form, where its digits give it.
+    """Add the second bar's angle by the half-angle form; nothing where that form loses its digits.
 
     The first bar's angle is eliminated from the loop, A cos θ + B sin θ = C remains, and t = tan(θ/2) makes
-    it a quadratic: Freudenstein's way, as most books and the source reports go.
+    it a quadratic: Freudenstein's equation, as most books and the source reports solve it.
     """
     (p, q), name = joint.ends, joint.name
     a, b = (work.length(end, name, length) for end, length in joint.bars)
@@ -255,7 +255,7 @@ def half_angle(joint: RRR, work: Work) -> None:
     root = work.let(Symbol("W", name), sqrt(under), SQUARE) if under.value > 0 else ZERO
     above, below = (sine + root if _left(joint, work) else sine - root), cosine + right
     if math.hypot(above.value, below.value) < _HALF_ANGLE_LEFT * size:
-        # both vanish at 180°, and what rounding leaves of them has no direction
+        # both vanish at 180°, and rounding errors have no direction
         del work.items[before:]
         return
     found = work.let(Symbol("θ", "half"), TWO * atan2(above, below), ANGLE)
@@ -269,7 +269,7 @@ def half_angle(joint: RRR, work: Work) -> None:
 
 
 _HALF_ANGLE_LEFT = 1e-3
-"""Of their size: a half angle whose tangent has so little left above and below has lost its digits."""
+"""A share of A and B: where the parts of the fraction tan(θ/2) are smaller, the digits are lost."""
 
 
 def move_bars(joint: RRR, rates: Rates, order: Order) -> None:
@@ -288,19 +288,19 @@ def move_bars(joint: RRR, rates: Rates, order: Order) -> None:
 
 
 def loop_of_bars(joint: RRR, work: Work) -> tuple[Route, Route]:
-    """Return both ways to the pin."""
+    """Return both routes to the pin."""
     return route_of_bar(joint, work), route_of_bar(joint, work, 1)
 
 
 def beside_guide(work: Work, guide: GuideLine, point: str, joint: str) -> tuple[Formula, Formula]:
-    """Add how far a point lies forward along a guide, and to the left of it."""
+    """Add how far a point lies along a guide, and how far to its left; return both."""
     arm, u = work.points[point] - work.points[guide.through], guide.direction
     forward = work.let(Symbol("p", joint), arm.x * u.x + arm.y * u.y, LENGTH)
     return forward, work.let(Symbol("n", joint), arm.y * u.x - arm.x * u.y - guide.offset, LENGTH)
 
 
 def on_guide(work: Work, guide: GuideLine, slide: Formula) -> Components:
-    """Return the place on a guide that is so far along it."""
+    """Return the point of a guide at the distance `slide` along it."""
     u = guide.direction
     return work.points[guide.through] + u.times(slide) + u.left().times(guide.offset)
 
@@ -327,7 +327,7 @@ def place_slider_on_bar(joint: RRP, work: Work) -> None:
 
 
 def _slider_ahead(joint: RRP, work: Work) -> bool:
-    """Tell whether the slider is ahead of the bar's end at this pose."""
+    """Return whether the slider is ahead of the bar's end along the guide at this pose."""
     end, at = (complex(*work.pose.position[name]) for name in (joint.end, joint.name))
     u = work.guide(joint.line, joint.name).direction
     return ((at - end) * complex(u.x.value, -u.y.value)).real >= 0
@@ -357,12 +357,12 @@ def move_slider_on_bar(joint: RRP, rates: Rates, order: Order) -> None:
 
 
 def loop_of_slider_on_bar(joint: RRP, work: Work) -> tuple[Route, Route]:
-    """Return both ways to the slider."""
+    """Return both routes to the slider."""
     return route_of_bar(joint, work), route_of_guide(joint, work)
 
 
 def place_slot(joint: RPR, work: Work) -> None:
-    """Add the way along the slot, the slotted bar's angle and where its end is."""
+    """Add the pin's distance along the slot, the slotted bar's angle and where its end is."""
     name, pivot, pin = joint.name, joint.pivot, joint.through
     arm = work.points[pin] - work.points[pivot]
     offset = work.stated(Symbol("e", name), joint.offset, LENGTH, "the slot's offset to the left")
@@ -379,7 +379,7 @@ def place_slot(joint: RPR, work: Work) -> None:
 
 
 def _pin_ahead(joint: RPR, work: Work) -> bool:
-    """Tell whether the pin is ahead of the pivot along the bar at this pose."""
+    """Return whether the pin is ahead of the pivot along the bar at this pose."""
     pivot, pin, at = (complex(*work.pose.position[name]) for name in (joint.pivot, joint.through, joint.name))
     return ((pin - pivot) * (at - pivot).conjugate()).real >= 0
 
@@ -398,7 +398,7 @@ def move_slot(joint: RPR, rates: Rates, order: Order) -> None:
 
 
 def loop_of_slot(joint: RPR, work: Work) -> tuple[Route, Route]:
-    """Return both ways to the pin in the slot."""
+    """Return both routes to the pin in the slot."""
     pivot, name, angle = joint.pivot, joint.name, work.angle_of(joint.pivot, joint.name)
     offset = work.stated(Symbol("e", name), joint.offset, LENGTH)
     slot = GuideLine(pivot, along(angle), offset, work.frame((pivot, name)), angle)
@@ -447,7 +447,7 @@ def move_yoke(joint: RPP, rates: Rates, order: Order) -> None:
 
 
 def loop_of_yoke(joint: RPP, work: Work) -> tuple[Route, Route]:
-    """Return both ways to the pin."""
+    """Return both routes to the pin."""
     w = _along_slot(joint, work, work.guide(joint.line, joint.name))
     index = work.names.slide(joint.name).sub
     last = LoopSide(Symbol("T", index, bold=True), w.times(work.slides["t" + joint.name]))
@@ -456,7 +456,7 @@ def loop_of_yoke(joint: RPP, work: Work) -> tuple[Route, Route]:
 
 
 class Reach(NamedTuple):
-    """Within which bounds a dyad closes: of what, from joints' places as x + yi (n,), low and high."""
+    """The bounds within which a dyad closes: of `what`, as `of` joints' places x + yi (n,), low and high."""
 
     what: str
     of: Callable[[Mapping[str, Places]], Lengths]
@@ -465,7 +465,7 @@ class Reach(NamedTuple):
 
 
 def reach_of_bars(joint: RRR, work: Work) -> Reach:
-    """Add the least and the greatest distance of two bars' ends."""
+    """Add the least and the greatest distance between the ends of two bars; return these bounds."""
     p, q = joint.ends
     bars = (work.length(end, joint.name, length) for end, length in joint.bars)
     short, long = sorted(bars, key=lambda bar: bar.value)
@@ -479,7 +479,7 @@ def reach_of_bars(joint: RRR, work: Work) -> Reach:
 
 
 def reach_of_slider(joint: RRP, work: Work) -> Reach:
-    """Say how far a bar's end may be from its guide."""
+    """Say how far a bar's end may be from its guide; return this bound."""
     line, turned = joint.line, rect(1.0, joint.line.angle)
 
     def aside(at: Mapping[str, Places]) -> Lengths:
@@ -498,7 +498,7 @@ def reach_of_slider(joint: RRP, work: Work) -> Reach:
 
 
 def reach_of_slot(joint: RPR, work: Work) -> Reach | None:
-    """Say how near the pin may come to the pivot of an offset slot; one without an offset takes every pin."""
+    """Say how near the pin may come to an offset slot's pivot, and return it; None without an offset."""
     if not joint.offset:
         return None
     offset = abs(joint.offset)
@@ -513,8 +513,9 @@ def reach_of_slot(joint: RPR, work: Work) -> Reach | None:
 class KindSteps:
     """The steps of one kind of joint.
 
-    `place` adds the lines of its position, `move` those of its rates of an order. `route` is the way to it
-    from a joint before it, `loop` of a dyad the two ways that meet, `reach` its bounds.
+    `place` adds the lines of its position, `move` those of its rates of one order. `route` leads to it from
+    an earlier joint. Of a dyad, `loop` is the two routes that meet, `reach` the bounds within which it
+    closes.
     """
 
     place: Callable[[Any, Work], None]
@@ -537,10 +538,10 @@ KINDS: Mapping[type[Joint], KindSteps] = {
     RPR: KindSteps(place_slot, move_slot, route_of_bar, loop_of_slot, reach_of_slot),
     RPP: KindSteps(place_yoke, move_yoke, route_of_guide, loop_of_yoke),
 }
-"""Every kind that a linkage can be made of."""
+"""The steps of every kind of joint."""
 
 
-# The vector loops of a linkage: the two ways to each dyad's joint, as equations and as arrows.
+# The vector loops of a linkage: the two routes to each dyad's joint, as equations and as arrows.
 
 CYLINDER = Symbol("ℓ")
 """The length of the cylinder that drives."""
@@ -555,21 +556,21 @@ class LoopArrow(NamedTuple):
 
 
 class VectorLoop(NamedTuple):
-    """A dyad's loop: what is said of it, and its vectors."""
+    """A dyad's loop: the step with its equations, and its vectors."""
 
     step: Step
     arrows: tuple[LoopArrow, ...]
 
 
 class _Chain(NamedTuple):
-    """The way from a fixed pin: the pin, and the vectors with the places at which they begin."""
+    """The route from a fixed pin: the pin, and the vectors with the places at which they begin."""
 
     root: str
     sides: tuple[tuple[LoopSide, complex], ...]
 
 
 def loops_of(work: Work, places: Chapter) -> tuple[VectorLoop, ...]:
-    """Return the loop of each dyad, in the order in which they are solved by the lines of their positions."""
+    """Return each dyad's loop in solving order, a driving cylinder's first; `places` is their positions."""
     found = {
         step.title: {item.value.symbol for item in step.items if isinstance(item, ValueLine)}
         for step in places.steps
@@ -629,7 +630,7 @@ def _loop(joint: Joint, ways: _WaysFromGround, found: set[Symbol | None]) -> Vec
 
 
 def _ground(work: Work, start: str, end: str) -> tuple[LoopSide, complex]:
-    """Return the way between two fixed pins, by length and angle where it is stated so."""
+    """Return the vector between two fixed pins, by length and angle where the scene states these."""
     index, vector = work.names.length(start, end), work.points[end] - work.points[start]
     length, angle = (work.given.get(Symbol(letter, index)) for letter in "rθ")
     if length and angle:
@@ -640,14 +641,14 @@ def _ground(work: Work, start: str, end: str) -> tuple[LoopSide, complex]:
 
 
 class _WaysFromGround:
-    """The whole ways to joints from a fixed pin, each found once."""
+    """The whole routes to joints from a fixed pin, each found once."""
 
     def __init__(self, work: Work) -> None:
         self.work = work
         self._found: dict[str, _Chain] = {}
 
     def along(self, route: Route) -> _Chain:
-        """Return the whole way to where a route leads."""
+        """Return the whole route, from a fixed pin, to where a route leads."""
         sides, at = [], self.work.place(route.start)
         for side in route.sides:
             sides.append((side, at))
@@ -656,7 +657,7 @@ class _WaysFromGround:
         return _Chain(before.root, (*before.sides, *sides))
 
     def _to(self, name: str) -> _Chain:
-        """Return the way to a joint by the bar that its kind chooses; none to a fixed pin."""
+        """Return the route to a joint as its kind chooses it; one without vectors to a fixed pin."""
         if name not in self._found:
             joint = self.work.linkage.joint(name)
             further = KINDS[type(joint)].route

@@ -3,7 +3,7 @@
 Its parts, in reading order:
 
 - Where the input is and how it moves: as it was asked for, or from the phase.
-- What hangs on a linkage, worked out: centres of mass, springs and dampers, what the input delivers.
+- The loads of a linkage, worked out: centres of mass, springs and dampers, what the input delivers.
 - The worked solution of a pose: its chapters, and the results that they lead to.
 """
 
@@ -71,9 +71,10 @@ _ONCE, _TWICE = Powers(rate=1), Powers(rate=2)
 
 @frozen
 class PoseRequest:
-    """Which pose of a scene is worked out: `by` its "angle" or "phase", in rad, at its speed.
+    """The pose of a scene to work out: `value` is its "angle" or its "phase", in rad, as `by` says.
 
-    The input has an `acceleration`, in rad/s², or in the scene's length unit where a slider drives.
+    The input has this `speed`, in rad/s, and this `acceleration`, in rad/s², or in the scene's unit of length
+    per s² where a slider drives.
     """
 
     scene: Scene
@@ -83,18 +84,18 @@ class PoseRequest:
     acceleration: float = 0.0
 
     def motion(self) -> Any:
-        """Return the pose as solving gives it."""
+        """Return the pose as the solver gives it."""
         moving = {self.by: self.value, "speed": self.speed, "acceleration": self.acceleration}
         return self.scene.solve(**moving)  # type: ignore[arg-type]
 
     @property
     def swings(self) -> bool:
-        """Whether the phase is asked for of an input that turns back."""
+        """Whether the pose is asked for by the phase of an input that turns back."""
         return self.by == "phase" and not self.scene.info.full_turn
 
 
 def place_input(request: PoseRequest, rates: Rates) -> None:
-    """Add the lines of the input's place, and put its rates where they stand."""
+    """Add the lines of the input's place, and put its rates among those known."""
     work = rates.work
     joint = work.linkage.driven.joint
     ends = (joint.pivot, joint.name) if isinstance(joint, Crank) else None
@@ -146,7 +147,7 @@ def _cosine_rates(reach: Formula, phase: Formula, pace: Formula) -> tuple[Formul
 
 
 def _stroke(path: Stroke, rates: Rates, phase: tuple[Formula, Formula], symbol: Symbol) -> Formula:
-    """Add the way of what drives in a straight line, and of a cylinder the crank's angle."""
+    """Add the travel of a slider or cylinder that drives, and for a cylinder the crank's angle."""
     work = rates.work
     letter = "ℓ" if isinstance(path, CylinderStroke) else symbol.letter
     index = "" if letter == "ℓ" else symbol.sub
@@ -189,7 +190,7 @@ def _cylinder(
     return found
 
 
-# What hangs on a linkage, worked out: centres of mass, springs and dampers, what the input delivers.
+# The loads of a linkage, worked out: centres of mass, springs and dampers, what the input delivers.
 
 _WORDS = ("com_position", "com_velocity", "com_acceleration")
 
@@ -208,7 +209,7 @@ def centre_of_mass(body: Body, rates: Rates) -> Iterator[Outcome]:
 
 
 def centre_name(body: Body, rates: Rates) -> str:
-    """Return what a body's centre of mass is called: G3, or GG3 where a joint has that name."""
+    """Return the name of a body's centre of mass: G3, or GG3 where a joint is called G3."""
     linkage = rates.work.linkage
     name = f"G{link_labels(linkage)[body.name]}"
     while any(joint.name == name for joint in linkage.joints):
@@ -245,7 +246,7 @@ def _force(item: Spring | Damper, rates: Rates, length: Formula, rate: Formula) 
 
 
 def _metre(rates: Rates) -> Formula:
-    """Return one unit of length in metres, and say so where it first stands."""
+    """Return one unit of length in metres; say so in the solution once."""
     work = rates.work
     unit, metre = work.scale.unit, work.linkage.metre
     if metre != 1:
@@ -254,7 +255,7 @@ def _metre(rates: Rates) -> Formula:
 
 
 def effort(rates: Rates, known: Mapping[str, Formula]) -> Iterator[Outcome]:
-    """Add the power of all forces and masses, and what the input delivers, which is yielded.
+    """Add the power of all forces and masses and the input's torque or force, and yield the latter.
 
     `known` are the quantities worked out so far, by their tokens.
     """
@@ -275,7 +276,7 @@ def effort(rates: Rates, known: Mapping[str, Formula]) -> Iterator[Outcome]:
 
 
 def _pace(rates: Rates) -> Formula:
-    """Return the rate of what drives: an angular velocity, or a velocity in m/s."""
+    """Return the input's rate: an angular velocity in rad/s, or a velocity in m/s."""
     work, drive = rates.work, rates.work.linkage.drive
     if drive.actuator.along:
         span, moving = (
@@ -320,15 +321,15 @@ def _body_powers(rates: Rates, known: Mapping[str, Formula]) -> Iterator[Formula
 
 # The worked solution of a pose: its chapters, and the results that they lead to.
 #
-# It carries as few digits as let every result agree with solving to five significant digits. What is zero
-# shows none of their rounding, and of a force or a torque, from which nothing follows, only those that are
-# right.
+# It carries the fewest digits with which every result agrees with the solver to five significant digits. A
+# zero is shown without digits of rounding, and a force or a torque, from which nothing follows, only in
+# digits that are right.
 
 _FEWEST, _MOST = 6, 14
 _AGREES = 5e-6
-"""A result agrees to that share of itself."""
+"""The share of itself by which a result may differ from the solver's."""
 _LONG = 100.0
-"""A bar longer than so many times the usual one does not decide how many decimals lengths have."""
+"""The factor on the median bar beyond which a longest bar does not set the decimals of lengths."""
 _TINY = 1e-300
 _PRIMES = "Primes are derivatives by the input: h for angles, f for displacements."
 _BY_INPUT = (
@@ -354,7 +355,7 @@ _SINGULAR = (
 
 @frozen
 class Solution:
-    """A pose worked out: chapters as they are read, loops to draw, results, and where joints lie (x + yi)."""
+    """A pose worked out: chapters in reading order, loops to draw, results, and where joints lie (x + yi)."""
 
     request: PoseRequest
     chapters: tuple[Chapter, ...]
@@ -387,17 +388,17 @@ class Solution:
 
     @property
     def solved(self) -> dict[Symbol, float]:
-        """What solving gives for each result, by its symbol; of an angle on the same turn."""
+        """The solver's value for each result, by its symbol; an angle is on the same turn as the result."""
         return {result.value.symbol: true for result, true in _compared(self) if result.value.symbol}
 
     @property
     def title(self) -> str:
-        """What it is a solution of."""
+        """The title of the scene."""
         return self.request.scene.title
 
     @property
     def where(self) -> tuple[Symbol | str, str]:
-        """What the input is called, as a symbol where its index is a word, and where it is."""
+        """The input's name, a symbol where it has an index, and the input's value in words."""
         scene = self.request.scene
         place = float(self.request.motion().coordinate)
         letter, _, index = input_symbol(scene.linkage).partition("_{")
@@ -408,17 +409,17 @@ class Solution:
 def solution(request: PoseRequest) -> Solution:
     """Return the worked solution of a pose, which its input must reach.
 
-    It ends with positions where no rates follow, or none of five digits: at a limit and at a change point.
+    It ends with the positions where no rates follow, or none in five digits: at limits and change points.
     """
     names = names_of(figure(request.scene))
     ways = [(digits, rates) for rates in (True, False) for digits in range(_FEWEST, _MOST + 1)]
     for digits, rates in ways:
-        # a root or a quotient of rounded digits is none near a limit: more of them are taken
+        # near a limit, rounded digits may give a negative root or a zero divisor: more digits are then taken
         with suppress(ZeroDivisionError, ValueError):
             places: dict[Symbol, int] = {}
             draft = _Draft(request, names, digits, places)
             found = draft.solution(rates)
-            # what follows from a number in fewer digits is another number, and may have fewer that are right
+            # fewer digits of one number change those that follow from it, which may then need fewer, too
             while _agrees(found) and not (fewer := _right_places(found)).items() <= places.items():
                 places |= fewer
                 draft = _Draft(request, names, digits, places)
@@ -443,7 +444,7 @@ def _carried(found: Solution) -> Iterator[Step]:
 
 
 def _compared(found: Solution) -> Iterator[tuple[Outcome, float]]:
-    """Yield each result with what solving gives, of an angle on the same turn."""
+    """Yield each result with the solver's value, an angle on the same turn as the result."""
     motion, quantities = found.request.motion(), found.request.scene.quantities
     for result in found.results:
         true, worked_out = float(quantities[result.token].shown(motion)), result.value.value
@@ -461,9 +462,10 @@ def _agrees(found: Solution) -> bool:
 
 
 def _right_places(found: Solution) -> dict[Symbol, int]:
-    """Return with how many decimals zeros and `last` results are right to the last, where they have more.
+    """Return the decimals in which zeros and `last` results are right, by symbol, where more are shown.
 
-    All zeros get fewer where one shows rounding: in what follows from it others would, one after the other.
+    If one zero shows rounding, all zeros get fewer decimals: else those that follow from it would show it
+    next.
     """
     zeros: dict[Symbol, int] = {}
     right: dict[Symbol, int] = {}
@@ -484,7 +486,7 @@ def _right_places(found: Solution) -> dict[Symbol, int]:
 
 
 class _Draft:
-    """A solution in so many digits while it is written, some of its results in fewer decimals."""
+    """A solution in `digits` digits while it is written; symbols in `places` have fewer decimals."""
 
     def __init__(
         self, request: PoseRequest, names: SymbolNames, digits: int, places: Mapping[Symbol, int]
@@ -509,7 +511,7 @@ class _Draft:
         self.steps: list[Step] = []
 
     def solution(self, rates: bool) -> Solution:
-        """Return it, with velocities and accelerations or without."""
+        """Return the solution, with velocities and accelerations if `rates`."""
         places = self._placed()
         loops = loops_of(self.work, places)
         self.loops = loops
@@ -525,13 +527,13 @@ class _Draft:
         made = synthesis(self.request.scene, self.work.names)
         chapters = (given, Chapter("Vector loops", steps), places, *halves, *rest, *made)
         known = self.request.scene.quantities
-        # of parts with one name the last has the token, as it has among the quantities
+        # where two parts have one name the last has the token, as it has among the quantities
         results = tuple({one.token: one for one in self.results if one.token in known}.values())
         at = {joint.name: self.work.place(joint.name) for joint in self.linkage.joints}
         return Solution(self.request, chapters, loops, results, at, not rates, bool(made))
 
     def _step(self, title: str, write: Callable[[], object]) -> None:
-        """Add a step with the lines that are written meanwhile; none where there are none."""
+        """Add a step with the lines that `write` adds; no step where it adds none."""
         self.work.items.clear()
         write()
         if self.work.items:
@@ -557,7 +559,7 @@ class _Draft:
         return self._chapter("Positions")[0]
 
     def _half_angles(self) -> list[Chapter]:
-        """Return the chapter of the other closed form of two bars, which many books have."""
+        """Return the chapter on the half-angle form of two bars, which many books have."""
         for joint in self.linkage.joints:
             if isinstance(joint, RRR):
                 self._step(f"Joint {marked(joint.name)}", partial(half_angle, joint, self.work))
@@ -572,7 +574,7 @@ class _Draft:
         return (body for body in self.linkage.bodies if body.slider is None)
 
     def _by_input(self) -> list[Chapter]:
-        """Return the chapter of kinematic coefficients; of a slider alone, which drives, there is none."""
+        """Return the chapter of kinematic coefficients; none where nothing but a driven slider moves."""
         self.slopes.start(ONE)
         self._step("", partial(self.work.say, _BY_INPUT if self.loops else _PRIMES))
         begun = len(self.steps)
@@ -584,7 +586,7 @@ class _Draft:
         return self._chapter("Kinematic coefficients")
 
     def _in_time(self, *, has_coefficients: bool) -> Iterator[Chapter]:
-        """Yield the chapters of velocities and accelerations, which tell of coefficients if there are any."""
+        """Yield the chapters of velocities and accelerations, by the chain rule if there are coefficients."""
         titles = {"velocity": "Velocities", "acceleration": "Accelerations"}
         for order, (word, title), text in zip(ORDERS, titles.items(), _IN_TIME, strict=True):
             self._step("", partial(self.work.say, text if has_coefficients else _AS_INPUT))
@@ -599,7 +601,7 @@ class _Draft:
             yield from self._chapter(title)
 
     def _sizes(self, order: Order, word: str) -> None:
-        """Add how fast joints move, or how strongly they are accelerated."""
+        """Add the sizes of the joints' velocities, or accelerations."""
         for joint in self.linkage.joints:
             moving = self.rates.of(joint.name, order)
             if moving.x.value or moving.y.value:

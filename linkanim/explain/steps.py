@@ -5,7 +5,7 @@ Its parts, in reading order:
 - What a worked solution consists of, whatever it is printed as: chapters, steps, lines.
 - The symbols of a worked solution: those of the figure's dimensions and of the scene's links.
 - A worked solution while it is put together: what is known so far, each number in the digits it shows.
-- Velocities and accelerations, or kinematic coefficients: what is known of them so far, and the lines.
+- Velocities and accelerations, or kinematic coefficients: those known so far, and their lines.
 - Vectors from joint to joint, of which loops are made.
 """
 
@@ -51,7 +51,7 @@ class Words:
 
 
 def marked(joint: str) -> str:
-    """Return a joint's name marked as one in a text, by characters that no text of a scene has in it."""
+    """Return a joint's name as it is marked in a text, by characters that no text of a scene contains."""
     return f"\x02{joint}\x03"
 
 
@@ -98,7 +98,7 @@ class System:
 
     @property
     def worked_out(self) -> bool:
-        """Whether any entry is more than a number that is known already."""
+        """Whether any entry is a formula, more than a number that is known already."""
         return any(entry.operation != "leaf" for row in self.formulas for entry in row)
 
 
@@ -134,14 +134,14 @@ class Chapter:
 
 
 NOTHING = 5e-7
-"""Of what a number is at a typical length and rate: less is nothing but rounding."""
+"""A share of a number's size at a typical length and rate: a smaller number is nothing but rounding."""
 
 
 @frozen
 class Outcome:
-    """A number that the solution leads to: of which quantity, and below what it is nothing but rounding.
+    """A result: the token of its quantity, its value, and the size below which it is nothing but rounding.
 
-    It is `last` where no place and no rate follows from it.
+    It is `last` where no position and no rate follows from it.
     """
 
     token: str
@@ -159,10 +159,10 @@ _PLAIN = str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789")
 
 @frozen
 class SymbolNames:
-    """What lengths, angles and bodies of a linkage are called.
+    """The symbols of lengths, angles and bodies of a linkage.
 
-    `lengths` are the indices of the figure's lengths, by the two joints; `legs` those of a point of a body,
-    along its line and beside it, by its name.
+    `lengths` are the indices of the figure's lengths, by the two joints; `legs` the indices of a body's
+    point, along the body's line and beside it, by the point's name.
     """
 
     linkage: Linkage
@@ -174,15 +174,15 @@ class SymbolNames:
         return self.lengths.get(frozenset((start, end)), start + end)
 
     def angle(self, start: str, end: str) -> str:
-        """Return the index of the angle of the way from one joint to another: its body's, or its own."""
+        """Return the index of the angle of a line from joint to joint: its body's label, or both names."""
         return self._angles.get((start, end), start + end)
 
     def turning(self, frame: int) -> str:
-        """Return the index of the body that a rigid body of the linkage is."""
+        """Return the index of a rigid body's angle, by the body's number."""
         return self._bodies[frame]
 
     def slide(self, joint: str) -> Symbol:
-        """Return the symbol of a joint's way along its guide."""
+        """Return the symbol of a joint's travel along its guide."""
         labels = link_labels(self.linkage)
         block = next((labels[body.name] for body in self.linkage.bodies if body.slider == joint), "")
         return Symbol("s", block if block.isdecimal() else joint)
@@ -226,7 +226,7 @@ def _index(symbol: str) -> str:
 
 # A worked solution while it is put together: what is known so far, each number in the digits it shows.
 #
-# What follows is computed from shown digits alone, so each line gives the next one to its last digit.
+# Each line is computed from shown digits alone, so that a reader gets every last digit.
 
 
 class Powers(NamedTuple):
@@ -243,9 +243,9 @@ ANGLE = Powers(angle=True)
 
 @frozen
 class Scale:
-    """How numbers are shown: to some digits of a typical length, and of its rate at a typical speed.
+    """How numbers are shown: with `digits` digits of a typical length, and of its rate at a typical speed.
 
-    A rate is `per` something: s for time; the input's own unit for kinematic coefficients, "" for radians.
+    A rate is `per` s for time; for kinematic coefficients it is per the input's unit, "" for radians.
     """
 
     digits: int
@@ -261,7 +261,7 @@ class Scale:
         return decimals(self.length**measure.length * self.rate**measure.rate, self.digits)
 
     def outcome(self, token: str, value: Formula, measure: Powers) -> Outcome:
-        """Return a number as a result: what is less than a share of its usual size is nothing."""
+        """Return a number as a result, with the size below which it is nothing but rounding."""
         size = 100.0 if measure.angle else self.length**measure.length * self.rate**measure.rate
         return Outcome(token, value, self.unit_of(measure), NOTHING * size)
 
@@ -289,10 +289,10 @@ def _power(unit: str, power: int) -> str:
 
 @dataclass
 class Work:
-    """The positions known so far at a pose, and the lines that led to them; vectors by their joints' names.
+    """The positions known so far at a pose, and the lines that led to them.
 
-    `slides` are ways along guides; `given` what the scene states, in the order in which it is needed;
-    `places` the decimals of symbols that have fewer than the scale gives them.
+    `points` are vectors by the joints' names; `slides` travels along guides; `given` what the scene states,
+    in the order in which it is needed; `places` the decimals of symbols that have fewer than the scale gives.
     """
 
     linkage: Linkage
@@ -323,7 +323,7 @@ class Work:
         return self._line(symbol, formula, scale.decimals(measure), scale.unit_of(measure))
 
     def let_plain(self, symbol: Symbol, formula: Formula, unit: str) -> Formula:
-        """Add the line of what is neither a length nor a rate: a force, a power, in significant digits."""
+        """Add the line of a force or a power, in significant digits, and return its value."""
         return self._line(symbol, formula, decimals(formula.value, self.scale.digits), unit)
 
     def _line(self, symbol: Symbol, formula: Formula, places: int, unit: str) -> Formula:
@@ -335,13 +335,13 @@ class Work:
         return found
 
     def stated(self, symbol: Symbol, value: float, measure: Powers, words: str = "") -> Formula:
-        """Return what the scene states as a symbol's value; 0 as the number alone."""
+        """Return what the scene states as a symbol's value; 0 and multiples of 90° as numbers alone."""
         text = self.written(value, measure)
         plain = float(text) == 0 or (measure.angle and float(text) % 90 == 0)
         return number(text, measure.angle) if plain else self.known(symbol, value, measure, words)
 
     def known(self, symbol: Symbol, value: float, measure: Powers, words: str = "") -> Formula:
-        """Return a number that is given as a symbol's value, whatever it is."""
+        """Return a number that is given as a symbol's value, also where it is 0."""
         return self.quoted(symbol, self.written(value, measure), self.scale.unit_of(measure), words)
 
     def quoted(self, symbol: Symbol, text: str, unit: str, words: str = "") -> Formula:
@@ -351,7 +351,7 @@ class Work:
         return found
 
     def written(self, value: float, measure: Powers) -> str:
-        """Return a number as it was stated, or where that is long in the digits of what is worked out."""
+        """Return a number as it was stated; where that is too long, with one decimal more than a result."""
         value = (math.degrees(value) if measure.angle else value) + 0.0
         text, places = f"{value:.12g}", self.scale.decimals(measure) + 1
         short = "e" not in text and len(text.partition(".")[2]) <= places
@@ -362,7 +362,7 @@ class Work:
         return self.stated(Symbol("r", self.names.length(start, end)), value, LENGTH)
 
     def angle_of(self, start: str, end: str) -> Formula:
-        """Return the angle of the way from one joint to another, worked out where it is not known yet."""
+        """Return the angle of the line from one joint to another, worked out where it is not known yet."""
         found = self.angles.get((start, end))
         if found is None:
             span = self.points[end] - self.points[start]
@@ -371,7 +371,7 @@ class Work:
         return found
 
     def angle_symbol(self, start: str, end: str) -> Symbol:
-        """Return the symbol of the angle of the way from one joint to another."""
+        """Return the symbol of the angle of the line from one joint to another."""
         return Symbol("θ", self.names.angle(start, end))
 
     def let_point(self, joint: str, place: Components) -> None:
@@ -380,14 +380,14 @@ class Work:
         self.points[joint] = Components(x, self.let(Symbol("y", joint), place.y, LENGTH))
 
     def frame(self, ends: tuple[str, str]) -> int:
-        """Return which rigid body has two joints; 0 is the ground."""
+        """Return the number of the rigid body that has both joints; 0 is the ground."""
         found = holding(self.linkage.rigid_bodies, ends)
         assert found is not None
         return found
 
     @property
     def driver(self) -> int | str:
-        """What drives: the crank by its rigid body, or the slider by its joint."""
+        """The input: the number of the crank's rigid body, or the name of the slider's joint."""
         joint = self.linkage.driven.joint
         return self.frame((joint.pivot, joint.name)) if isinstance(joint, Crank) else joint.name
 
@@ -430,7 +430,7 @@ def decimals(value: float, digits: int) -> int:
 
 
 def rounded(value: float, places: int) -> str:
-    """Return a number to `places` decimals, as far as a float has them; a zero has no sign."""
+    """Return a number with `places` decimals, as far as a float has them; a zero has no sign."""
     text = f"{value:.{min(places, decimals(value, _FLOAT_DIGITS)) if value else places}f}"
     return text if float(text) else text.lstrip("-")
 
@@ -438,10 +438,10 @@ def rounded(value: float, places: int) -> str:
 _FLOAT_DIGITS = 13
 
 
-# Velocities and accelerations, or kinematic coefficients: what is known of them so far, and the lines.
+# Velocities and accelerations, or kinematic coefficients: those known so far, and their lines.
 #
-# Both are one course of work: in time with rates ω, α, or by the input with h, h′, which are the same rates
-# for an input that runs at 1. Each dyad's two unknowns follow from its loop, differentiated: two linear
+# Both are worked out alike: in time with rates ω, α, or by the input with h, h′, which are the same rates for
+# an input that moves at the rate 1. Each dyad's two unknowns follow from its loop, differentiated: two linear
 # equations.
 
 Order = Literal[1, 2]
@@ -451,9 +451,9 @@ Mark = Literal["˙", "¨", "′", "″"]
 
 
 class Letters(NamedTuple):
-    """How rates are written, of the first and of the second order: of angles, of ways, of coordinates.
+    """The symbols of rates of the first and the second order: of angles, of travels, of coordinates.
 
-    Ways are along a guide, s, or along a slot that crosses it, t.
+    A travel is along a guide, s, or along a slot that crosses it, t.
     """
 
     turning: tuple[Symbol, Symbol]
@@ -474,11 +474,11 @@ BY_INPUT = Letters(
 
 
 Coordinate = int | str
-"""What has a rate: the angle of a rigid body, by its number, or the travel of what slides, by its joint."""
+"""A variable with a rate: a rigid body's angle, by its number, or a slider's travel, by its joint."""
 
 
 class UnknownRate(NamedTuple):
-    """An unknown of two equations: the rate of what this is, its column, and the letter of what slides."""
+    """An unknown of two equations: the variable whose rate it is, its column, and the letter of a travel."""
 
     coordinate: Coordinate
     column: Components
@@ -486,12 +486,12 @@ class UnknownRate(NamedTuple):
 
 
 _SHORT = 3
-"""So many symbols a right side has that stands in the equations themselves."""
+"""The most symbols of a right side that stands in the equations themselves."""
 
 
 @dataclass
 class Rates:
-    """The rates known so far, of the first order and then of the second; each strut's force and rate."""
+    """The rates known so far, of the first order and then of the second, and each strut's force and rate."""
 
     work: Work
     letters: Letters
@@ -504,14 +504,14 @@ class Rates:
     slopes: Rates | None = None
     """The coefficients, from which rates in time follow by the chain rule."""
     left_over: float = 0.0
-    """By how much rates from coefficients miss the differentiated loops at the most."""
+    """The most by which rates from coefficients miss the differentiated loops."""
 
     def let(self, symbol: Symbol, formula: Formula, measure: Powers) -> Formula:
         """Add the line that gives a symbol its value, and return it."""
         return self.work.let(symbol, formula, measure, self.scale)
 
     def start(self, rate: Formula, second: Formula = ZERO) -> None:
-        """Put the input's rates where those of its body, or of its slider, stand."""
+        """Set the input's rates: those of its body, or of its slider."""
         self.known[self.work.driver, "s"] = [rate, second]
 
     def let_rate(self, coordinate: Coordinate, formula: Formula, order: Order, letter: str = "s") -> Formula:
@@ -534,7 +534,7 @@ class Rates:
         self.moving.setdefault(joint, []).append(Components(x, y))
 
     def let_carried(self, joint: str, on: tuple[str, str], arm: Components, order: Order) -> None:
-        """Add the lines that say how what a rigid body carries moves, `arm` from the first of two joints."""
+        """Add the lines of how a point of a rigid body moves, `arm` from the first of two joints `on` it."""
         self.let_moving(joint, self.of(on[0], order) + self.carried(self.work.frame(on), arm, order), order)
 
     def symbol(self, coordinate: Coordinate, order: Order, letter: str = "s") -> Symbol:
@@ -553,7 +553,7 @@ class Rates:
         return self.known[coordinate, letter][order - 1]
 
     def carried(self, frame: int, arm: Components, order: Order) -> Components:
-        """Return how much more a point of a rigid body moves than another, `arm` before it."""
+        """Return the relative velocity, or acceleration, of a rigid body's point at `arm` from another."""
         turn = arm.left().times(self.rate(frame, order))
         return turn if order == 1 else turn - self.centripetal(frame, arm)
 
@@ -562,9 +562,9 @@ class Rates:
         return arm.times(square(self.rate(frame, 1)))
 
     def guided(self, guide: GuideLine, joint: str, order: Order, *sliding: UnknownRate) -> Components:
-        """Return how the point moves of what carries a guide where a joint is.
+        """Return how that point of a guide's carrier moves which lies under a joint.
 
-        Of the second order with what Coriolis adds for what is `sliding` there.
+        The second order includes the Coriolis acceleration of what is `sliding` there.
         """
         arm = self.work.points[joint] - self.work.points[guide.through]
         base = self.of(guide.through, order) + self.carried(guide.frame, arm, order)
@@ -576,7 +576,7 @@ class Rates:
     def solve(
         self, index: str, unknowns: tuple[UnknownRate, UnknownRate], right: Components, order: Order
     ) -> None:
-        """Add the two equations and what they give; ZeroDivisionError where that is nothing.
+        """Add the two equations and their solution; ZeroDivisionError where they have none.
 
         In time each rate follows from its coefficient, and the equations are the check.
         """
@@ -605,12 +605,12 @@ class Rates:
             self.let_rate(unknown.coordinate, formula / det, order, unknown.letter)
 
     def _chain(self, slopes: Sequence[Formula], order: Order) -> Formula:
-        """Return h·θ̇ of what has these coefficients h and h′, or h′·θ̇² + h·θ̈."""
+        """Return the rate with coefficients h, h′: h·θ̇ of the first order, h′·θ̇² + h·θ̈ of the second."""
         rate, second = self.known[self.work.driver, "s"]
         return slopes[0] * rate if order == 1 else slopes[1] * square(rate) + slopes[0] * second
 
     def _right(self, right: Components, measure: Powers) -> Components:
-        """Return the right sides; long ones have lines of their own before the equations."""
+        """Return the right sides; long ones get lines of their own before the equations."""
         if max(len(list(side.leaves)) for side in right) <= _SHORT:
             return right
         return Components(*(self.let(Symbol("b", str(n)), side, measure) for n, side in enumerate(right, 1)))
@@ -638,21 +638,21 @@ class LoopSide(NamedTuple):
 
 
 class Route(NamedTuple):
-    """A way from a joint, by these vectors."""
+    """A route from a joint along vectors."""
 
     start: str
     sides: tuple[LoopSide, ...]
 
 
 def route_of_bar(joint: Joint, work: Work, which: int = 0) -> Route:
-    """Return the way to a joint by one of its bars."""
+    """Return the route to a joint along one of its bars."""
     start, length = joint.bars[which]
     symbol = Symbol("R", work.names.length(start, joint.name), bold=True)
     return Route(start, (LoopSide(symbol, work.bar(start, joint.name, length)),))
 
 
 def slide_sides(work: Work, guide: GuideLine, joint: str) -> tuple[LoopSide, ...]:
-    """Return the ways along a guide, and from it where it is offset."""
+    """Return the vectors of a travel: along the guide, and across it where the guide is offset."""
     slide = work.slides[joint]
     index = work.names.slide(joint).sub
     found = [LoopSide(Symbol("S", index, bold=True), guide.direction.times(slide))]

@@ -1,7 +1,7 @@
 """The chapter of a worked solution on how a linkage was made: from its poses, function or time ratio.
 
-Each line is computed from shown digits; what the lines lead to are the lengths of the linkage, which they
-have to give to five significant digits.
+Each line is computed from shown digits. The lines lead to the lengths of the linkage, which have to come out
+right to five significant digits.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ _AREA = Powers(2)
 
 
 def synthesis(scene: Scene, names: SymbolNames) -> tuple[Chapter, ...]:
-    """Return the chapter on what a scene was made for, in as few digits as give its lengths; none without."""
+    """Return the chapter on how a scene was synthesised, if it was, in the fewest digits that serve."""
     if not is_synthesised(scene):
         return ()
     for digits in range(_FEWEST, _MOST + 1):
@@ -48,7 +48,7 @@ def synthesis(scene: Scene, names: SymbolNames) -> tuple[Chapter, ...]:
 
 
 class _Chapter:
-    """The chapter in so many digits."""
+    """The chapter in `digits` digits while it is written."""
 
     def __init__(self, scene: Scene, names: SymbolNames, digits: int) -> None:
         self.scene = scene
@@ -72,16 +72,16 @@ class _Chapter:
 
     @property
     def chapter(self) -> Chapter:
-        """What was written."""
+        """The chapter that was written."""
         return Chapter("Synthesis", tuple(self.steps))
 
     @property
     def agrees(self) -> bool:
-        """Whether what is worked out is the linkage's."""
+        """Whether the lengths that are worked out are the linkage's."""
         return all(abs(found.value - true) <= _AGREES * abs(true) for found, true in self.compared)
 
     def _step(self, title: str, write: Callable[[], None]) -> None:
-        """Add a step with what is written meanwhile; what is given for it stands first."""
+        """Add a step with the lines that `write` adds; numbers given for them stand first."""
         self.work.items.clear()
         known = set(self.work.given)
         write()
@@ -136,7 +136,7 @@ class _Chapter:
                 self._step(title, partial(self._turns, joint, complex(place), pivot))
 
     def _poses(self, purpose: PosesPurpose) -> None:
-        """Add what is given: the origin's places, and the angles."""
+        """Add the poses as they are given: the origin's places, and the angles."""
         self.work.say(
             f"The body in its {len(purpose.poses)} poses: x and y of its origin, the angle it is turned by."
         )
@@ -145,7 +145,7 @@ class _Chapter:
             self.turned.append(self.work.known(Symbol("φ", str(n)), angle, ANGLE))
 
     def _against(self) -> None:
-        """Add each pose's turn and shift against the first."""
+        """Add each pose's rotation and displacement from the first."""
         self.work.say("Each pose against the first: turned by α, shifted by u and v.")
         (x, y), *others = self.origins
         for n, (angle, origin) in enumerate(zip(self.turned[1:], others, strict=True), start=2):
@@ -158,7 +158,7 @@ class _Chapter:
         return self.work.known(Symbol(letter, str(n)), value, LENGTH)
 
     def _poles(self, count: int) -> None:
-        """Add the poles: P lies on the midperpendicular, seen from where the way is at the angle α."""
+        """Add the poles: each on the perpendicular bisector of the origin's places, which it sees α apart."""
         self.work.say(
             "About the pole of two poses a turn takes the one to the other. It lies on the midperpendicular "
             "of the origin's places, half their distance times the cotangent of half the turn off their line."
@@ -185,7 +185,7 @@ class _Chapter:
             self.compared.append((length, self._bar(*ends)))
 
     def _chosen(self, joint: str, place: complex) -> tuple[Formula, Formula]:
-        """Return where a joint lies in the first pose, from its origin, as it was chosen."""
+        """Return where a joint lies in the first pose, relative to the pose's origin, as it was chosen."""
         own = place - complex(self.origins[0][0].value, self.origins[0][1].value)
         return (
             self.work.known(Symbol("ξ", joint), own.real, LENGTH, "chosen"),
@@ -193,7 +193,7 @@ class _Chapter:
         )
 
     def _found(self, joint: str, pivot: tuple[Formula, Formula]) -> tuple[Formula, Formula]:
-        """Return where a joint lies in the first pose, from its origin, from poses 2 and 3."""
+        """Return where a joint lies in the first pose, from its origin, by the equations of poses 2 and 3."""
         self.work.say(
             f"That {marked(joint)} is as far from its pivot in pose n as in pose 1 asks a ξ + b η = c of its "
             "place ξ, η from the first origin, with p and q the pivot's."
@@ -224,7 +224,7 @@ class _Chapter:
             yield self._length("x", index, found[0]), self._length("y", index, found[1])
 
     def _slides(self, joint: str, place: complex, line: complex) -> None:
-        """Add a joint that runs along a line: its offset from the crank's pivot in every pose."""
+        """Add a joint that slides along a line: its offset from the crank's pivot in every pose."""
         own = self._chosen(joint, place)
         angle = math.atan2(line.imag, line.real)
         direction = self.work.known(Symbol("φ", "g"), angle, ANGLE, "direction of the guide")
@@ -264,7 +264,7 @@ class _Chapter:
         self._step("Freudenstein's equation", lambda: self._freudenstein(inputs, outputs, sliding=sliding))
 
     def _freudenstein(self, inputs: list[Formula], outputs: list[Formula], *, sliding: bool) -> None:
-        """Add the equation at each point, what three of them give, and that the others agree."""
+        """Add the equation at each point, the solution of three of them, and the check of the others."""
         k1, k2, k3 = (_symbol("K", str(n)) for n in (1, 2, 3))
         theta, psi, s = _symbol("θ"), _symbol("ψ"), _symbol("s")
         if sliding:
@@ -309,7 +309,7 @@ class _Chapter:
             self.compared.append((check, w.value))
 
     def _lengths(self, one: Formula, two: Formula, three: Formula, *, sliding: bool) -> None:
-        """Add the lengths that belong to the three K."""
+        """Add the lengths that follow from the three K."""
         if sliding:
             crank = self._length("r", "2", one / TWO)
             offset = self._length("e", "", two / one)
@@ -350,7 +350,7 @@ class _Chapter:
         self.named["α"] = self.work.let(Symbol("α"), straight * (quotient - one) / (quotient + one), ANGLE)
 
     def _chord(self, purpose: TimeRatioPurpose) -> None:
-        """Add the way between the dead centres: the stroke, or the chord of the swing."""
+        """Add the distance between the dead centres: the stroke, or the chord of the swing."""
         if purpose.swing is None:
             stroke = purpose.stroke or 0.0
             self.named["H"] = self.work.known(Symbol("H"), stroke, LENGTH, "the stroke")
@@ -362,7 +362,7 @@ class _Chapter:
         self.named |= {"ψ": swing, "c": rocker, "H": chord}
 
     def _crank_and_coupler(self, *, even: bool) -> None:
-        """Add the one of them that follows from the other and the chord."""
+        """Add crank and coupler: one is chosen, the other follows from it and the chord."""
         crank, chord = self._bar("O2", "A"), self.named["H"]
         if even:
             coupler = self.work.known(Symbol("r", "3"), self._bar("A", "B"), LENGTH, "chosen")
@@ -381,7 +381,7 @@ class _Chapter:
         self.compared += [(found, crank), (coupler, self._bar("A", "B"))]
 
     def _pivot(self, named: dict[str, Formula], *, even: bool) -> None:
-        """Add how far the crank's pivot is off the chord, and of a crank-rocker the ground."""
+        """Add how far the crank's pivot is off the chord, and for a crank-rocker the ground."""
         a, b, chord = named["a"], named["b"], named["H"]
         off = number("0")
         if not even:

@@ -18,15 +18,15 @@ from linkanim.scenes.scene import PosesPurpose, Purpose, Scene, TimeRatioPurpose
 from linkanim.synthesis.constructions import is_synthesised
 
 _TRIES, _FEW = 60, 20
-"""How often lengths are drawn for a scene of few joints; those of one of more hardly ever keep its motion."""
+"""How often lengths are drawn for a scene of few joints, and how many are few; for more it is less often."""
 _LEAST, _MOST = 0.8, 1.25
 _PLACES = 48
-"""Of a path that are looked at."""
+"""Points of a path that are examined."""
 _NOTHING = 1e-9
-"""Of the linkage's size, or of a radian: less is rounding."""
+"""A share of the linkage's size, or radians, below which a difference is rounding."""
 _TRIES_ANEW, _FREE = 12, 4
 _NEAR, _TURN = 0.15, 12.0
-"""How far other poses are from those of before, in their size, and in degrees."""
+"""How far new poses lie from the given ones at most: a share of their extent, and degrees."""
 _SIMILAR = (0.5, 0.6, 0.8, 1.2, 1.5, 2.0)
 
 
@@ -34,12 +34,13 @@ def variant(scene: Scene, seed: int, fits: Callable[[Scene], bool]) -> Scene:
     """Return the scene with other lengths, always the same for one seed.
 
     Its class is the same, and so is whether its input turns fully, how many change points there are, which
-    joints run along straight lines or circles and which bodies never turn; it `fits` what else is wanted. Its
-    title says that the lengths are others. Lengths are round, and those that are equal stay so. Where no such
-    lengths are found all are larger or smaller alike.
+    joints run along straight lines or circles and which bodies never turn; it also `fits`, as the caller
+    asks. Its title says that the lengths are others. Lengths are round, and equal ones stay equal. Where no
+    such lengths are found, all are scaled by one factor; where that fails too, the scene comes back
+    unchanged.
 
-    Of a scene that was made for poses or a time ratio these are others, in round numbers, and the linkage is
-    the one that is made for them.
+    A scene that was synthesised for poses or a time ratio gets others of these, in round numbers, and the
+    linkage that is synthesised for them.
     """
     random = Random(seed)
     if scene.purpose is not None and is_synthesised(scene):
@@ -59,7 +60,7 @@ def variant(scene: Scene, seed: int, fits: Callable[[Scene], bool]) -> Scene:
 
 def _made_anew(scene: Scene, purpose: Purpose, random: Random) -> Iterator[Scene]:
     """Yield linkages for other poses, or for other time ratios."""
-    # the theory is imported where it is needed: most scenes have other lengths
+    # the synthesis is imported only where it is needed: most scenes get other lengths
     from linkanim.synthesis.guidance import guide
     from linkanim.synthesis.quick_returns import quick_return
 
@@ -71,7 +72,7 @@ def _made_anew(scene: Scene, purpose: Purpose, random: Random) -> Iterator[Scene
                 kind = "slider-crank" if sliding else "four-bar"
                 poses = _other_poses(np.array(purpose.poses), random)
                 title = f"{scene.title}, with other poses"
-                # five leave no choice: the few linkages that there are have defects as a rule
+                # five poses leave no choice: the few linkages for them usually have defects
                 made = [
                     replace(one.scene, title=title)
                     for one in guide(poses, kind=kind, count=1, **stated)
@@ -128,10 +129,10 @@ def _kind(scene: Scene) -> tuple[str, bool, int, int]:
 
 
 def _shapes(scene: Scene) -> tuple[dict[str, tuple[int, ...]], frozenset[str]]:
-    """Return what is special about its paths: of each joint's the dimensions, and the bodies that never turn.
+    """Return what is special about a scene's motion: each path's dimensions, and the bodies that never turn.
 
-    The points of a path, and with their squares of distance, span a space: of a line 2 and 3 dimensions,
-    of a circle 3 and 3, of any other curve 3 and 4.
+    They are the dimensions of the space that (1, x, y) of a path's points span, and (1, x, y, x² + y²): for a
+    line 2 and 3, for a circle 3 and 3, for any other curve 3 and 4.
     """
     cycle = scene.cycle(scene.mechanism.count(_PLACES), derivatives=0)
     size = max(scene.linkage.longest, float(np.ptp(list(cycle.position.values()))))

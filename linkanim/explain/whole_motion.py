@@ -5,8 +5,8 @@ Its parts, in reading order:
 - How far the input goes: whether the bars of each dyad reach over the whole motion.
 - Dead centres and time ratio: where the output turns back, how far it goes, and how long each way takes.
 
-What has a closed form is derived: four-bars and slider-cranks on the driven crank. Of other dyads the lengths
-give the bounds, and the motion says how near it comes to them.
+What has a closed form is derived: four-bars and slider-cranks on the driven crank. For other dyads the
+lengths give the bounds, and a search over the motion gives how near it comes to them.
 """
 
 from __future__ import annotations
@@ -53,16 +53,16 @@ from linkanim.units import significant
 
 _STRAIGHT, _ROUND = number("180", in_degrees=True), number("360", in_degrees=True)
 _TOUCHES = 1e-9
-"""Of the longest bar: a distance that is nearer to its bound comes to it."""
+"""A share of the rod: a distance that is less off its bound reaches it."""
 _NEAR = 1e-6
-"""Of the longest bar: what a search finds nearer to a bound comes to it."""
+"""A share of the longest bar: an extreme that is less off a bound by search reaches it."""
 _ONE = 1e-9
-"""A cosine that is nearer to 1 is 1."""
+"""How near to 1 a cosine, or a sine, counts as 1."""
 _ALIKE = 1e-4
-"""Time ratios that differ by a smaller share are one."""
+"""The share below which two time ratios are the same."""
 _DIGITS = 6
 _ENDS = ("back", "forward")
-"""Of a swing or a stroke."""
+"""The ends of a swing or a stroke."""
 
 
 def whole_motion(scene: Scene, work: Work) -> tuple[Chapter, ...]:
@@ -111,7 +111,7 @@ class _WholeMotion:
         self.cranked = turned
 
     def _step(self, title: str, write: Callable[[], object]) -> Step | None:
-        """Return a step with the lines that are written meanwhile, after what they take as given."""
+        """Return a step with the lines that `write` adds, after the numbers given for them; None if empty."""
         work, before = self.work, set(self.work.given)
         work.items.clear()
         write()
@@ -122,7 +122,7 @@ class _WholeMotion:
     # How far the input goes: whether the bars of each dyad reach over the whole motion.
 
     def reach(self) -> Iterator[Step]:
-        """Yield a step for each dyad whose bars may not reach, and what follows for the input."""
+        """Yield a step for each dyad that may fail to close, and the conclusion for the input."""
         steps = [self._step(f"Reach of {marked(one.name)}", partial(self._of, one)) for one in self.dyads]
         found = [step for step in steps if step]
         yield from found
@@ -164,7 +164,7 @@ class _WholeMotion:
         return _Bars(names, ground, crank, coupler, output, tilt)
 
     def _limits_of_bars(self, bars: _Bars) -> None:
-        """Add where coupler and output lie in one line: the cosine rule with the ground and the crank."""
+        """Add where coupler and output lie in one line, by the cosine rule with ground and crank."""
         work, (pivot, pin, joint, fixed) = self.work, bars.joints
         g, r = bars.ground, bars.crank
         if g.value * r.value == 0:
@@ -218,7 +218,7 @@ class _WholeMotion:
         )
 
     def _beside(self, found: _SliderCrank) -> Formula:
-        """Return how far the pivot lies left of the guide, as a symbol."""
+        """Add how far the pivot lies left of the guide, and return its symbol."""
         return self.work.let(Symbol("c", found.joint.name), found.beside, LENGTH)
 
     @staticmethod
@@ -292,7 +292,7 @@ class _WholeMotion:
     # Dead centres and time ratio: where the output turns back, how far it goes, and how long each way takes.
 
     def dead_centres(self) -> Iterator[Step]:
-        """Yield the step of the output's two dead centres; none where it does not turn back."""
+        """Yield the step on the output's two dead centres; none where the output does not turn back."""
         slider, body = output_slider(self.scene.linkage), output_body(self.scene.linkage)
         if slider is not None and self.info.stroke:
             title = f"Slider {slider.name}" if slider.name.isdecimal() else slider.name.capitalize()
@@ -403,7 +403,7 @@ class _WholeMotion:
         rate = "rate of its travel" if sliding else "angular velocity of the link"
         work.say(f"It turns back where the {rate} is zero. A search finds these places:")
         motion = scene.solve(phase=np.array(phases), derivatives=0)
-        # an angle is told in one turn; how far it goes on from there is known
+        # the first angle is given within one turn, the second by the swing from there
         first = (
             float(motion.travel[body.name][0])
             if sliding
@@ -451,7 +451,7 @@ class _WholeMotion:
             )
 
     def _found(self, symbol: Symbol, value: float, measure: Powers, words: str) -> Formula:
-        """List a number that a search found as a symbol's value, and return it."""
+        """Add a number found by search as a symbol's value, and return it."""
         shown = rounded(math.degrees(value) if measure.angle else value, self.work.scale.decimals(measure))
         found = Formula("leaf", symbol=symbol, shown=shown, in_degrees=measure.angle)
         self.work.items.append(Given(found, self.work.scale.unit_of(measure), words))
