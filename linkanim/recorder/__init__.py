@@ -2,11 +2,11 @@
 
 From the ground up; a module imports from those before it only:
 
-    plan         how a clip is cut: how many frames, at which phases
+    plan         how a clip is divided: how many frames, at which phases
     palette      the one palette of a GIF
-    encode       frames to a file, by an encoder beside us
+    encode       frames to a file, by an encoder in a process of its own
     processes    frames drawn by several processes, in their order
-    recording    from frames that can be drawn to a file that loops; `record`
+    recording    drawn frames to a file that loops; `record`
     tape_frames  a tape's states as frames; `record_tape`
     gallery      every scene as a small GIF
 """

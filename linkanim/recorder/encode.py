@@ -1,6 +1,6 @@
 """Encode frames to a file, by the ffmpeg that imageio-ffmpeg carries.
 
-An encoder is a process: it is fed through a pipe, listened to, and gone when the work is over.
+An encoder is a process: it is fed through a pipe, listened to, and ended when the work is over.
 """
 
 from __future__ import annotations
@@ -31,26 +31,26 @@ from linkanim.recorder.plan import Format
 if TYPE_CHECKING:
     from linkanim.recorder.palette import Colour
 
-# An encoder as a process: fed through a pipe, listened to, and gone when the work is over.
+# An encoder as a process: fed through a pipe, listened to, and ended when the work is over.
 
 if sys.platform == "linux":
     import fcntl
 
 Frame = bytes | bytearray | memoryview
-"""A frame's bytes, row by row: blue, green, red, and alpha or one that means nothing."""
+"""A frame's bytes, row by row: blue, green, red, and alpha or a byte without meaning."""
 
 _PATIENCE = 0.5
-"""Seconds after which an encoder that tells of no frame gets one more all the same."""
+"""Seconds after which an encoder that has reported no frame as done gets one more all the same."""
 _STILL = 60.0
-"""Seconds after which an encoder that takes nothing and tells of nothing is ended."""
+"""Seconds after which an encoder that takes nothing and reports nothing is ended."""
 _LAST_WORDS = 8
 _WIDTH = 1 << 20
 _ROOM = 100
-"""Frames that an encoder gets once it is gone: one finds it out; each further one costs threading time."""
+"""Room for frames once the encoder is gone: a writer that waits for room goes on, and finds out."""
 
 
 class _GoneError(Exception):
-    """The encoder does not read any more; its last lines and its exit code tell why."""
+    """The encoder reads no more; its last lines and its exit code tell why."""
 
 
 class _Watch:
@@ -65,7 +65,7 @@ class _Watch:
 
     @contextmanager
     def waiting(self) -> Iterator[None]:
-        """Count the time of the block as time in which there should be progress."""
+        """Expect progress during the block."""
         self._since = time.monotonic()
         try:
             yield
@@ -73,17 +73,17 @@ class _Watch:
             self._since = None
 
     def heard(self) -> None:
-        """Begin to count anew: there is progress."""
+        """Note progress: the time without it starts anew."""
         if self._since is not None:
             self._since = time.monotonic()
 
     def stop(self) -> None:
-        """Watch no longer."""
+        """Stop watching."""
         self._over.set()
         self._thread.join()
 
     def refuse_stillness(self) -> None:
-        """Raise `RecordingFailed` where the process was ended for its stillness."""
+        """Raise `RecordingFailed` where the process was ended because it made no progress."""
         if self.ended:
             raise RecordingFailed(f"the encoder made no progress for {_STILL:g} s and was ended")
 
@@ -102,10 +102,10 @@ def running(
 ) -> Iterator[Callable[[Frame], None]]:
     """Run the encoder and give the function that writes to it, not too far ahead of what is encoded.
 
-    It tells of each frame that it is done with by a line on stdout, and gets no more than `ahead` of
-    them; so its memory is the same for few frames and for many. `settings` are added to its environment.
-    When the block ends well, the encoder has; else it is gone.
-    `RecordingFailed` where it cannot be started, stops early, stands still or reports an error.
+    The encoder reports each encoded frame by a line on stdout, and gets at most `ahead` frames more than it
+    has reported; so its memory does not grow with their number. `settings` are added to its environment. When
+    the block ends, the encoder has finished; after an exception it is ended. `RecordingFailed` where it
+    cannot be started, stops early, stands still or reports an error.
     """
     room = Semaphore(ahead)
     words: deque[bytes] = deque(maxlen=_LAST_WORDS)
@@ -164,7 +164,7 @@ def told(command: Sequence[str]) -> bytes:
 
 
 def _started(command: Sequence[str], settings: Mapping[str, str] | None = None) -> subprocess.Popen[bytes]:
-    """Start the encoder in a session of its own: Ctrl-C in the terminal is for us, and we stop it."""
+    """Start the encoder in a session of its own: Ctrl-C reaches only this process, which ends the encoder."""
     pipe = subprocess.PIPE
     try:
         return subprocess.Popen(
@@ -188,7 +188,7 @@ def _pipes(process: subprocess.Popen[bytes]) -> tuple[IO[bytes], IO[bytes], IO[b
 
 
 def _widen(pipe: IO[bytes]) -> None:
-    """Have a pipe hold more than its 64 kB where it can: a frame of megabytes then goes over in few turns."""
+    """Let a pipe hold more than its 64 kB where possible: a frame of megabytes then takes fewer writes."""
     if sys.platform == "linux":
         with suppress(OSError):
             fcntl.fcntl(pipe.fileno(), fcntl.F_SETPIPE_SZ, _WIDTH)
@@ -197,7 +197,7 @@ def _widen(pipe: IO[bytes]) -> None:
 def _listening(work: Callable[..., object], *given: object) -> Thread:
     """Return a thread that the program does not wait for as it ends.
 
-    Ctrl-C may come between the thread's start and what stops it: the program would not end, for ever.
+    Ctrl-C may come after the thread's start and before the code that stops it: the program would never end.
     """
     return Thread(target=work, args=given, daemon=True)
 
@@ -206,11 +206,11 @@ def _making_room(stdout: IO[bytes], room: Semaphore, watch: _Watch) -> None:
     for _ in stdout:
         room.release()
         watch.heard()
-    room.release(_ROOM)  # the encoder is gone: whoever waits is to find out
+    room.release(_ROOM)  # the encoder is gone: a waiting writer finds out
 
 
 def _refuse_failure(code: int, words: Iterable[bytes]) -> None:
-    """Raise `RecordingFailed` with the encoder's last words where it did not end well."""
+    """Raise `RecordingFailed` with the encoder's last line where its exit code is not 0."""
     if code == 0:
         return
     lines = [line.decode(errors="replace").strip() for line in words]
@@ -229,7 +229,7 @@ def _signal_name(number: int) -> str:
 def _kill(process: subprocess.Popen[bytes]) -> None:
     """End a process and what it has started, which would keep its pipes open."""
     if sys.platform != "win32":
-        if process.returncode is None:  # else its number may be another's by now
+        if process.returncode is None:  # else its id may be another process's by now
             with suppress(OSError):
                 os.killpg(process.pid, signal.SIGKILL)
     process.kill()
@@ -250,21 +250,21 @@ def _stop(process: subprocess.Popen[bytes], listeners: Iterable[Thread]) -> None
 # Frames to a file, by the ffmpeg that imageio-ffmpeg carries.
 #
 # Frames go through a pipe as they are drawn, so that drawing and encoding overlap and memory does not grow
-# with their number. A GIF has one palette, which we choose; its indices are worked out here, where only what
-# changed is looked at (ffmpeg's filter took three times as long), and of each frame it holds what changed.
-# An MP4 is H.264 as slides play it, its colours tagged bt709 so that they come back as they were.
+# with their number. A GIF has one palette, which we choose. Its indices are worked out here, only for pixels
+# that changed (ffmpeg's filter took three times as long), and the file holds of each frame what changed. An
+# MP4 is H.264 as slide programs play it, its colours tagged bt709 so that they are shown unchanged.
 
 COLOURS = 256
-"""Of a GIF: they follow the indices of each frame, four bytes each."""
+"""Colours of a GIF: they follow the indices of each frame, four bytes each."""
 _THREADS = 2
-"""Fixed, for H.264's bytes depend on it."""
+"""Threads of the encoder: fixed, as H.264's bytes depend on their number."""
 _AHEAD = {"gif": 6, "mp4": 20, "png": 6}
-"""How many frames may be on their way; H.264 looks seventeen ahead."""
+"""How many frames the encoder may have waiting; H.264 looks seventeen ahead."""
 _LARGE, _AHEAD_OF_LARGE = 1920 * 1200, 2
-"""Of more pixels fewer frames are, and H.264 looks at none ahead: one of 3840×2160 takes it some 30 MB."""
+"""Above that many pixels, this many wait and H.264 looks at none ahead: 3840×2160 takes some 30 MB each."""
 
 _GIVING_BACK = {"MALLOC_MMAP_THRESHOLD_": "1048576", "MALLOC_ARENA_MAX": "1"}
-"""By these glibc gives a frame's memory back at once; else the encoder's threads each keep some for later."""
+"""With these glibc frees a frame's memory at once; else each of the encoder's threads keeps some."""
 
 _BT709 = "setparams=color_primaries=bt709:color_trc=bt709:colorspace=bt709"
 _TELLING = ("-stats_enc_post", "pipe:1", "-stats_enc_post_fmt", "{n}")
@@ -284,7 +284,8 @@ class Stream:
 def coding(stream: Stream, form: Format, palette: Sequence[Colour]) -> Callable[[Frame], Frame]:
     """Return the function that turns a frame into the bytes that `encoding` takes; a GIF's are indices.
 
-    `palette` has a GIF's colours, 255 at most. What it returns may lie where the next frame's will.
+    `palette` has a GIF's colours, 255 at most. The bytes returned may be overwritten by those of the next
+    frame.
     """
     if form != "gif":
         return lambda frame: frame
@@ -294,7 +295,7 @@ def coding(stream: Stream, form: Format, palette: Sequence[Colour]) -> Callable[
 
 
 def coded_size(stream: Stream, form: Format) -> int:
-    """Return how many bytes a coded frame has."""
+    """Return the number of bytes of a coded frame."""
     pixels = math.prod(stream.size)
     return pixels + 4 * COLOURS if form == "gif" else 4 * pixels
 
@@ -303,9 +304,9 @@ def coded_size(stream: Stream, form: Format) -> int:
 def encoding(stream: Stream, form: Format, part: Path) -> Iterator[Callable[[Frame], None]]:
     """Give a function that takes coded frames, one after the other, and have them encoded into `part`.
 
-    `part` is a file, for PNG a folder that gets 0001.png, .... Of a frame nothing is kept. When the block
-    ends the encoder is done; whatever else ends it, the encoder is gone. `RecordingFailed` where the encoder
-    cannot be started, stops early or reports an error.
+    `part` is a file, for PNG a folder that gets 0001.png, .... A frame's bytes may be reused once the call
+    returns. When the block ends, the encoder has finished; after an exception it is ended. `RecordingFailed`
+    where the encoder cannot be started, stops early or reports an error.
     """
     large = _is_large(stream)
     ahead, settings = (_AHEAD_OF_LARGE, _GIVING_BACK) if large else (_AHEAD[form], None)
@@ -317,16 +318,16 @@ def count_frames(part: Path, form: Format) -> int:
     """Read back how many frames a file (for PNG: a folder) holds; 0 where it cannot be read."""
     if form == "png":
         return sum(1 for _ in part.glob("*.png"))
-    # a line for each frame: how many it copied ffmpeg 7 does not say otherwise
+    # a line for each frame, as ffmpeg 7 does not otherwise say how many it copied
     copied = ["-map", "0:v:0", "-c", "copy", "-f", "framecrc", "-"]
     lines = told([ffmpeg(), "-v", "error", "-nostdin", "-i", f"file:{part}", *copied])
     return len(re.findall(rb"^\d", lines, re.MULTILINE))
 
 
 def ffmpeg() -> str:
-    """Return the encoder's path, none in the current folder; `RecordingFailed` where there is none."""
+    """Return the encoder's path, never in the current folder; `RecordingFailed` where there is none."""
     places, usual = child.path_of_programs(), os.environ.get("PATH", os.defpath)
-    os.environ["PATH"] = places  # imageio-ffmpeg runs one from there to see whether it can
+    os.environ["PATH"] = places  # imageio-ffmpeg tries to run one from there
     try:
         found = str(get_ffmpeg_exe())
         if not os.path.dirname(found):  # noqa: PTH120 -- a name that is looked for, no path
@@ -358,7 +359,7 @@ def _is_large(stream: Stream) -> bool:
 def _command(stream: Stream, form: Format, part: Path) -> list[str]:
     width, height = stream.size
     pixels = "pal8" if form == "gif" else "bgra" if stream.alpha else "bgr0"
-    # without a tag the decoder copies indices byte by byte, with it rows have to be whole words
+    # without a tag the decoder copies indices byte by byte; with it, rows must be multiples of 4 bytes
     tag = "-tag:v BIT8" if form == "gif" and width % 4 == 0 else ""
     raw = f"-f rawvideo {tag} -pix_fmt {pixels} -s {width}x{height} -framerate {stream.rate} -i pipe:0"
     match form:
@@ -373,7 +374,7 @@ def _command(stream: Stream, form: Format, part: Path) -> list[str]:
 
 
 def _gif(stream: Stream) -> list[str]:
-    # its crop to what is opaque loses pixels of the lowest row
+    # ffmpeg's cropping to what is opaque loses pixels of the lowest row
     whole = ["-gifflags", "-offsetting"] if stream.alpha else []
     return [*whole, "-loop", "0", "-f", "gif"]
 

@@ -29,7 +29,7 @@ SIZE = (400, 225)
 RATES = (20.0, 100 / 6, 12.5, 10.0)
 """Frames a second, the first that keeps a GIF within `LARGEST`."""
 FASTEST = 25.0
-"""Frames a second of a scene whose teeth none of these can follow."""
+"""Frames a second of a scene whose teeth are too fast for all `RATES`."""
 LARGEST = 150_000
 MOST = 400_000
 """A GIF that is larger even at its lowest rate is recorded at a smaller size."""
@@ -40,13 +40,13 @@ SHEET = "contact-sheet.png"
 TAPE = ".tape.json"
 
 _FRAMES_A_TOOTH = 3
-"""With two a tooth seems to stand still, with fewer to turn backwards."""
+"""With two frames a tooth seems to stand still, with fewer to turn backwards."""
 _COLUMNS = 4
 _GAP = 6
 _COLOURS = 160
-"""Of the sheet: it looks as with all of them (50 dB), in a third of the bytes."""
+"""Colours of the sheet: it looks the same as with all of its colours (50 dB), in a third of the bytes."""
 _EARLY = 0.09
-"""Which part of its period a scene is in on the sheet: not at a limit, where much lies in line."""
+"""The share of its period at which the sheet shows a scene: off its limits, where links lie in line."""
 
 
 @frozen
@@ -58,13 +58,13 @@ class Gallery:
 
 
 def make_gallery(into: Path, names: Iterable[str], watch: Callable[[str], Progress] | None = None) -> Gallery:
-    """Record scenes by name into a folder as NAME.gif, from a NAME.tape.json there if it is, and the sheet.
+    """Record scenes by name into a folder as NAME.gif, by a NAME.tape.json if one is there, and the sheet.
 
-    A GIF has as many frames a second, 25 to 10, as keep it within `LARGEST` bytes, and never so few that
-    a gear's teeth seem to stand or to turn back. The folder is made where only it is missing. Each file
-    appears when it is whole, and replaces one that we wrote; those finished stay where a later one fails.
-    `watch` gives the progress to report to, by scene. `BadInput` before any work where it cannot be a
-    folder or a name is taken by another file; else as `record`.
+    A GIF has the most frames a second, 25 to 10, that keep it within `LARGEST` bytes, and never so few that a
+    gear's teeth seem to stand or to turn back. The folder is made where only it is missing. Each file appears
+    when it is whole, and replaces one that we wrote; those finished stay where a later one fails. `watch`
+    gives the progress to report to, by scene. `BadInput` before any work where `into` cannot be a folder or a
+    name is taken by another file; other errors as `record`.
     """
     chosen = tuple(names)
     files = gallery_files(into)
@@ -97,12 +97,12 @@ def contact_sheet(scenes: Iterable[Scene]) -> bytes:
         row, column = divmod(number, _COLUMNS)
         top, left = _GAP + row * (height + _GAP), _GAP + column * (width + _GAP)
         sheet[top : top + height, left : left + width] = tile
-    # of 2 to the power `bits` colours at most: the sheet has no more, so none changes
+    # at most 2 to the power `bits` colours: the sheet has no more, so none changes
     return iio.imwrite("<bytes>", reduced(sheet), extension=".png", optimize=True, bits=8)
 
 
 def reduced(picture: Bytes) -> Bytes:
-    """Return a picture (height, width, 3) with `_COLOURS` colours at most; flat areas keep theirs."""
+    """Return a picture (height, width, 3) in at most `_COLOURS` colours; flat areas keep their colours."""
     pixels = np.insert(picture[..., ::-1], 3, 0, axis=2)
     words, which = np.unique(pixels.view(np.uint32).reshape(-1), return_inverse=True)
     palette = make_palette([pixels], most=_COLOURS)
@@ -115,19 +115,19 @@ def _gif(name: str) -> str:
 
 
 def _kept(files: FileSet, name: str, progress: Progress | None) -> Recording:
-    """Record a scene and have it take its name in the gallery; its tape lies there."""
+    """Record a scene, by its tape if the gallery has one, under its name in the gallery."""
     with replacing(files, [_gif(name)], others_go=False) as new:
         try:
             made = _recorded(files.folder, new / _gif(name), name, progress)
-        except RecordingFailed as error:  # by the name that it was to take
+        except RecordingFailed as error:  # it names the file as it would be called
             raise RecordingFailed(str(error).replace(str(new), str(files.folder))) from error
     return replace(made, path=files.folder / made.path.name)
 
 
 def _recorded(into: Path, target: Path, name: str, progress: Progress | None) -> Recording:
-    """Record a scene at the highest of the rates that keep it small; at the lowest where none does.
+    """Record a scene at the highest rate that keeps the file small; at the lowest where none does.
 
-    One that is too large even so is recorded at a smaller size.
+    Where it exceeds `MOST` bytes even so, it is recorded at a smaller size.
     """
     scene, tape = load(name), into / f"{name}{TAPE}"
     for share in SHARES:
@@ -145,7 +145,7 @@ def _recorded(into: Path, target: Path, name: str, progress: Progress | None) ->
 
 
 def _tile(scene: Scene) -> Bytes:
-    """Return (height, width, 3) of one picture of a scene."""
+    """Return one picture of a scene, (height, width, 3)."""
     clip = Clip(scene.linkage.drive.speed, scene.period, start=_EARLY * scene.period, seconds=1.0)
     plan = make_plan(clip, "png")
     pixels = np.frombuffer(SceneFrames(scene, plan, SIZE, Look()).draw(0), np.uint8)

@@ -1,4 +1,4 @@
-"""The one palette of a GIF, flat colours as they are, the rest by cutting their box; and its frames in it."""
+"""The palette of a GIF: flat colours exactly, the rest by cutting their box; and frames as its indices."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Colour = tuple[int, int, int]
 Bytes = NDArray[np.uint8]
 Floats = NDArray[np.float64]
 Words = NDArray[np.uint32]
-"""Pixels or colours as numbers: 0xrrggbb, and above these opacity or what means nothing."""
+"""Pixels or colours as numbers: 0xrrggbb, and in the highest byte opacity or nothing of meaning."""
 
 MOST = 255
 """A GIF has 256 colours; one stands for what does not change, or is transparent."""
@@ -27,29 +27,29 @@ _OPAQUE = 128
 _TO_CONES = np.array([[0.4122, 0.5363, 0.0514], [0.2119, 0.6807, 0.1074], [0.0883, 0.2817, 0.6300]]).T
 _TO_OKLAB = np.array([[0.2105, 0.7936, -0.0041], [1.9780, -2.4286, 0.4506], [0.0259, 0.7828, -0.8087]]).T
 _AT_ONCE = 4096
-"""Colours that are looked up together; for all of a photograph it took hundreds of megabytes."""
+"""Colours that are looked up together; all those of a photograph took hundreds of megabytes."""
 
 _BLOCK = 1 << 20
-"""Pixels that are looked at together; of a whole large frame their numbers alone took 200 MB."""
+"""Pixels that are compared together; for a whole large frame the indices alone took 200 MB."""
 
 
 class Indexing:
-    """Frames as a palette's indices, from 1 on, and 0 for what is transparent; each ends with the palette.
+    """Turns frames into indices of a palette, from 1 on, and 0 for transparent; each ends with the palette.
 
-    Only what is not as in the frame before is looked up, and every colour once.
+    Only pixels that differ from the frame before are looked up, and each colour once.
     """
 
     def __init__(self, palette: Sequence[Colour], pixels: int, *, alpha: bool) -> None:
         colours = np.array(palette, np.uint8)
         self._palette, self._alpha = _oklab(colours), alpha
-        self._known = np.zeros(1 << 24, np.uint8)  # the system gives only what is touched
+        self._known = np.zeros(1 << 24, np.uint8)  # the system provides only memory that is used
         self._before = np.zeros(pixels, "<u4")
         table = np.full((MOST + 1, 4), (0, 0, 0, 255), np.uint8)
         table[0], table[1 : len(colours) + 1, :3] = 0, colours[:, ::-1]
         self._bytes = np.concatenate([np.full(pixels, self._indices(self._before[:1])), table.ravel()])
 
     def __call__(self, frame: bytes | bytearray | memoryview) -> memoryview:
-        """Return a frame's bytes, which the next one's take the place of."""
+        """Return a frame's bytes, which the next call overwrites."""
         now = np.frombuffer(frame, "<u4")
         for begin in range(0, len(now), _BLOCK):
             part = slice(begin, min(begin + _BLOCK, len(now)))
@@ -78,10 +78,10 @@ def nearest(colours: Floats, palette: Floats) -> NDArray[np.intp]:
 
 
 def _product(rows: Floats, matrix: Floats) -> Floats:
-    """Return rows (n, 3) times a matrix (3, m), each row's to the same bits whichever others there are.
+    """Return rows (n, 3) times a matrix (3, m); the bits of a row's product do not depend on other rows.
 
-    A library's product has other roundings for other numbers of rows, and with them a GIF would depend on
-    which of its frames were looked at together.
+    A library's product rounds differently for other numbers of rows; a GIF would depend on which pixels were
+    looked up together.
     """
     first, second, third = (rows[:, k : k + 1] * matrix[k] for k in range(3))
     found: Floats = first + second + third
@@ -89,7 +89,7 @@ def _product(rows: Floats, matrix: Floats) -> Floats:
 
 
 def _oklab(colours: Bytes) -> Floats:
-    """Return colours (n, 3) in Oklab, where they are as far apart as they look (Ottosson 2020)."""
+    """Return colours (n, 3) in Oklab, where distances are as they look (Ottosson 2020)."""
     parts = colours / 255.0
     linear = np.where(parts <= 0.04045, parts / 12.92, ((parts + 0.055) / 1.055) ** 2.4)
     return _product(np.cbrt(_product(linear, _TO_CONES)), _TO_OKLAB)
@@ -105,9 +105,9 @@ def make_palette(
 ) -> Bytes:
     """Return up to `most` colours (n, 3) as red, green, blue for frames like the samples.
 
-    `samples` are frames of bytes blue, green, red, and alpha where `alpha`, else anything. The
+    `samples` are frames of bytes blue, green, red, and alpha if `alpha`, else a byte without meaning. The
     `given` colours and the most frequent ones (the flat areas) are in it exactly; where there are more
-    than `most`, the others are means of boxes, each cut at the mean of the axis where it errs most,
+    than `most`, the others are means of boxes, each cut at the mean along the axis of its largest error,
     the box of the largest squared error first.
     """
     colours, weights = _counted(samples, alpha)
@@ -126,7 +126,7 @@ def make_palette(
 
 def _counted(samples: Iterable[Bytes], alpha: bool) -> tuple[Bytes, NDArray[np.int64]]:
     """Return each opaque colour (n, 3) of the samples once, and how many pixels have it."""
-    # map lets go of each sample before it asks for the next, which may be drawn in its place
+    # map releases each sample before it asks for the next, which may be drawn in the same memory
     runs = np.concatenate(list(map(partial(_runs, alpha=alpha), samples)))
     runs.sort()
     values = (runs >> _LENGTH_BITS).astype(np.uint32)
@@ -135,7 +135,7 @@ def _counted(samples: Iterable[Bytes], alpha: bool) -> tuple[Bytes, NDArray[np.i
 
 
 def _runs(sample: Bytes, *, alpha: bool) -> NDArray[np.uint64]:
-    """Return the opaque runs of equal pixels, far fewer than these: 0xrrggbb, and their length below it."""
+    """Return the opaque runs of equal pixels as numbers: 0xrrggbb above, the length in the low 32 bits."""
     pixels = np.ascontiguousarray(sample).view("<u4").reshape(-1)
     starts = np.flatnonzero(np.concatenate([[True], pixels[1:] != pixels[:-1]]))
     lengths = np.diff(starts, append=len(pixels)).astype(np.uint64)
@@ -146,7 +146,7 @@ def _runs(sample: Bytes, *, alpha: bool) -> NDArray[np.uint64]:
 
 
 class _Box(NamedTuple):
-    """Some of the colours; ordered by squared error, largest first, then by age."""
+    """Some of the colours; boxes are ordered by squared error, stored negative, largest first, then age."""
 
     error: float
     age: int

@@ -1,4 +1,4 @@
-"""How a clip is cut: how many frames, how long each stands, and at which phases."""
+"""How a clip is divided: how many frames, how long each stands, and at which phases."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ RATES = (0.01, 1000)
 """The lowest and the highest number of frames a second."""
 
 HOLD = 2
-"""So many seconds longer than the others the last step of a construction stands."""
+"""Seconds that the last step of a construction stands longer than the others."""
 _CENTISECONDS = 100
 _SHORTEST_DELAY = 2
 """Browsers show a delay of 1 cs as 10 cs."""
@@ -30,11 +30,11 @@ _FINEST = 10_000
 
 
 class Clip(NamedTuple):
-    """What is asked for: `speed` is dφ/dt (rad/s, signed), `period` the true period (rad of phase).
+    """The clip that is asked for: `speed` is dφ/dt (rad/s, signed), `period` the true period (rad of phase).
 
-    `periods` true periods, or `seconds` where it is not None; `fps` frames a second; `start` is the
-    first frame's phase (rad). With `steps` it shows so many steps of a
-    construction instead, a second each and the last one longer; nothing moves.
+    `periods` true periods, or `seconds` where it is not None; `fps` frames a second; `start` is the first
+    frame's phase (rad). With `steps` it shows that number of steps of a construction instead, a second each
+    and the last one `HOLD` s longer; nothing moves.
     """
 
     speed: float
@@ -56,10 +56,10 @@ class Clip(NamedTuple):
 
 @frozen
 class Plan:
-    """What is recorded: `frames` at `rate` frames a second share out `sweep` of phase (rad, signed).
+    """The clip that is recorded: `frames` at `rate` frames a second divide `sweep` of phase (rad, signed).
 
-    The frame after the last would be `sweep` further than the first: a whole number of true periods,
-    where `closes`.
+    The frame after the last would be `sweep` further than the first: a whole number of true periods, if the
+    clip `closes`.
     """
 
     frames: int
@@ -73,7 +73,7 @@ class Plan:
         return self.clip.start + self.sweep * (frame / self.frames)
 
     def step(self, frame: int) -> int:
-        """Return which step a frame shows, from 1."""
+        """Return the number of the step that a frame shows, from 1."""
         return min(int(frame / self.rate), self.clip.steps - 1) + 1
 
     @property
@@ -88,7 +88,7 @@ class Plan:
 
     @property
     def summary(self) -> str:
-        """The clip in words: frames, length, periods and speed, with what rounding moved by over 1 cs."""
+        """The clip in words: frames, length, periods, speed; also what was asked, if over 1 cs off."""
         clip = f"{self.frames} frames at {short(float(self.rate))} fps, {short(self.seconds)} s"
         if self.clip.steps:
             return f"{clip}, {self.clip.steps} steps of a second"
@@ -112,9 +112,9 @@ class Plan:
 def make_plan(clip: Clip, form: Format) -> Plan:
     """Choose frames and rate together, so that frames / rate is the length asked for.
 
-    GIF: the delay is whole hundredths of a second, the one beside 1/fps that comes nearer to the length.
-    MP4: frames = round(length x fps) at the exact rate frames / length. PNG: at `fps`, as numbered
-    frames are played. `BadInput` for a speed of zero, a number that is not finite, fewer than two
+    GIF: the delay is in whole hundredths of a second, that neighbour of 1/fps which comes nearer to the
+    length. MP4: frames = round(length x fps) at the exact rate frames / length. PNG: at `fps`, at which
+    numbered frames are played. `BadInput` for a speed of zero, a number that is not finite, fewer than two
     frames a period, or more than `MOST_FRAMES`.
     """
     _refuse_nonsense(clip)

@@ -1,10 +1,10 @@
-"""A clip's frames drawn by several processes, in the clip's order: the same bytes, whoever draws them.
+"""A clip's frames drawn by several processes, in the clip's order, with the same bytes as by one.
 
-Each process is a copy of ours, by `fork`, so that it begins with all that has been worked out and nothing
-has to be sent to it. It draws every n-th frame, and codes it for the encoder, into memory that it shares with
-us, a few frames ahead, and ends as soon as we do. With two cores it would gain nothing: one draws, the other
-encodes. What one of them cannot draw we draw ourselves: so an error is raised here, and a
-process that the system ends for its memory costs time alone.
+Each process is a copy of ours, by `fork`, so that it begins with all that has been worked out and nothing has
+to be sent to it. It draws every n-th frame, and codes it for the encoder, into memory that it shares with us,
+a few frames ahead, and ends as soon as we do. Two cores would gain nothing: one draws, the other encodes. A
+frame that a process cannot draw is drawn here: so an error is raised here, and a process that the system ends
+for lack of memory costs only time.
 """
 
 from __future__ import annotations
@@ -21,25 +21,25 @@ from threading import active_count
 from linkanim.recorder.encode import Frame
 
 MOST = 4
-"""Processes: so many draw faster than any encoder takes frames."""
+"""The most processes: these draw faster than any encoder takes frames."""
 _AHEAD = 2
-"""Frames that a process has ready at most."""
+"""The most frames that a process has ready."""
 _FEWEST = 8
-"""Frames that are worth a process."""
+"""The fewest frames for each process."""
 _ROOM = 400_000_000
-"""Bytes that all of them may take for frames."""
+"""The most bytes that all processes take for frames."""
 _DONE = b"."
 
 
 def processes_for(frames: int, size: int) -> int:
     """Return how many processes draw the frames, of `size` bytes each; 0 where this process draws them.
 
-    Only Linux copies a process in which libraries have been at work; and a copy has none of our threads, but
-    what they hold is held for ever.
+    Only Linux safely copies a process in which libraries have run. A process with other threads is not
+    copied: the copy would lack them, and locks that they hold would never be released.
     """
     if sys.platform != "linux" or active_count() > 1:
         return 0
-    # those ready, the one that is drawn, and what stands still in it
+    # the frames that are ready, the one being drawn, and the static parts of the picture
     fitting = _ROOM // (size * (_AHEAD + 2))
     cores = len(os.sched_getaffinity(0)) - 1  # the encoder has one
     number = min(cores, MOST, frames // _FEWEST, fitting)
@@ -52,8 +52,9 @@ def drawing(
 ) -> Iterator[Callable[[int], Frame]]:
     """Give a function like `draw`, to be called for the frames 0, 1, 2, ... in turn, that shares the work.
 
-    A frame's bytes, `size` of them, have to be let go before the next is asked for. When the block ends,
-    however it does, the processes are gone. Where the system starts none it is `draw` itself.
+    A frame's bytes, `size` of them, must not be used after the next call. When the block ends, also by an
+    exception, the processes are ended. Without processes, or where the system starts none, it is `draw`
+    itself.
     """
     if not processes:
         yield draw
@@ -71,7 +72,7 @@ def drawing(
 
 
 class _Drawer:
-    """A process that draws some of the frames, and our end of what we share with it."""
+    """A process that draws some of the frames, and our end of the memory and pipes shared with it."""
 
     def __init__(
         self, draw: Callable[[int], Frame], numbers: range, size: int, others: list[_Drawer]
@@ -91,7 +92,7 @@ class _Drawer:
                 _end_with_parent(self._ready, self._room, *(end for other in others for end in other._ends))
                 self._work(numbers, ready, room)
             finally:
-                os._exit(0)  # nothing of ours is to be cleared away or written by a copy
+                os._exit(0)  # a copy must not clean up or flush anything of ours
         os.close(ready)
         os.close(room)
 
@@ -100,7 +101,7 @@ class _Drawer:
         return self._ready, self._room
 
     def _work(self, numbers: range, ready: int, room: int) -> None:
-        """Draw frames, in the process itself, as long as there is room for them and somebody takes them."""
+        """Draw frames, in the process itself, while there is room for them and somebody takes them."""
         for turn, number in enumerate(numbers):
             if turn >= _AHEAD and not os.read(room, 1):
                 return
@@ -112,15 +113,15 @@ class _Drawer:
         return self._memory[begin : begin + self._size]
 
     def frame(self, number: int) -> Frame:
-        """Return the next frame of this process, drawn here where that gave up."""
+        """Return the next frame of this process, drawn here if that process gave up."""
         turn, self._taken = self._taken, self._taken + 1
         if turn:
-            with suppress(BrokenPipeError):  # the place of the one before is free
+            with suppress(BrokenPipeError):  # the place of the frame before is free
                 os.write(self._room, _DONE)
         return self._place(turn) if os.read(self._ready, 1) else self._draw(number)
 
     def end(self) -> None:
-        """End the process: it has nothing that others need."""
+        """End the process."""
         for end in self._ends:
             os.close(end)
         with suppress(ProcessLookupError):
@@ -129,17 +130,17 @@ class _Drawer:
 
 
 def _copy() -> int:
-    """Fork: return 0 in the copy, its number in ours; OSError where the system copies no process."""
+    """Fork: return 0 in the copy, the copy's id in this process; OSError where the system cannot copy one."""
     if sys.platform != "win32":
         with warnings.catch_warnings():
-            # of numpy's threads, which it stops and starts anew itself
+            # the warning is about numpy's threads, which numpy itself stops and starts anew
             warnings.simplefilter("ignore", DeprecationWarning)
             return os.fork()
     raise OSError("no process is copied here")
 
 
 def _end_with_parent(*ends: int) -> None:
-    """Leave Ctrl-C to the process copied, and let go of its ends of pipes: each has to see the other go."""
+    """Leave Ctrl-C to the parent, and close the parent's ends of pipes: each side must see the other end."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     for end in ends:

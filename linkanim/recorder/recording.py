@@ -1,4 +1,4 @@
-"""Record frames that can be drawn to a file that loops; `record` does so with a scene's motion."""
+"""Record drawn frames to a file that loops; `record` does so with a scene's motion."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from linkanim.recorder.palette import Colour
     from linkanim.scenes.scene import Scene
 
-# From frames that can be drawn to a file that loops.
+# Drawn frames to a file that loops.
 
 SUFFIXES = (".gif", ".mp4", ".png")
 Progress = Callable[[int, int], None]
@@ -51,18 +51,18 @@ class Frames(Protocol):
 
     @property
     def alpha(self) -> bool:
-        """Whether the fourth byte of a pixel is its opacity; else it means nothing."""
+        """Whether the fourth byte of a pixel is its opacity; else that byte has no meaning."""
 
     @property
     def colours(self) -> Sequence[Colour]:
-        """The colours that a GIF's palette has to have exactly."""
+        """The colours that a GIF's palette has to contain exactly."""
 
     @property
     def independent(self) -> bool:
         """Whether a frame costs the same whichever was drawn before it."""
 
     def draw(self, frame: int) -> Frame:
-        """Return a frame's bytes, to be let go before the next is drawn: that may be in their place."""
+        """Return a frame's bytes, which the next call may overwrite."""
 
 
 @frozen
@@ -101,7 +101,7 @@ class Recording:
         return None
 
     def _repr_png_(self) -> bytes | None:
-        """Show the first of numbered frames in a notebook."""
+        """Show the first numbered frame in a notebook."""
         return self.path.read_bytes() if self.path.suffix.lower() == ".png" else None
 
     @property
@@ -112,7 +112,7 @@ class Recording:
 
 
 Target = str | os.PathLike[str] | manifest.Output
-"""Where to: a path is a name that its user gave."""
+"""The file to write; a path counts as a name that its user gave."""
 
 
 def checked_path(path: Target) -> tuple[manifest.Output, Format]:
@@ -124,11 +124,11 @@ def checked_path(path: Target) -> tuple[manifest.Output, Format]:
 
 
 def write(frames: Frames, plan: Plan, path: Target, progress: Progress | None = None) -> Recording:
-    """Draw and encode `plan.frames` frames into a file whose ending says the format.
+    """Draw and encode `plan.frames` frames into a file whose ending states the format.
 
-    The file appears when it is whole, or not at all; one that was there is replaced then, of numbered
-    frames only those that we wrote. `progress` is called with (frames done, frames in all). `BadInput`
-    before any work where the path, the size or transparency in MP4 cannot be, or a frame's name is taken;
+    The file appears when it is whole, or not at all. It then replaces an old one; numbered frames replace
+    only frames that we wrote. `progress` is called with (frames done, frames in all). `BadInput` before any
+    work for a path or a size that is impossible, for transparency in MP4, and where a frame's name is taken;
     `RecordingFailed` where disk or encoder give up.
     """
     output, form = checked_path(path)
@@ -153,7 +153,7 @@ def write(frames: Frames, plan: Plan, path: Target, progress: Progress | None = 
 def _numbering(target: Path, made: Sequence[Path]) -> Iterator[Path]:
     """Give a new folder for 0001.png, 0002.png, ..., which become NAME-0001.png, ... together at the end.
 
-    Those that we wrote before are replaced, and the higher-numbered ones go.
+    Frames that we wrote before are replaced, and those with higher numbers removed.
     """
     numbered = re.escape(target.stem) + r"-\d{4,}" + re.escape(target.suffix)
     files = manifest.FileSet(target.parent, target.name, numbered)
@@ -165,7 +165,7 @@ def _numbering(target: Path, made: Sequence[Path]) -> Iterator[Path]:
 
 @contextmanager
 def _saying_why(target: Path) -> Iterator[None]:
-    """Have every failure meanwhile be a `RecordingFailed` that names the target."""
+    """Turn a failure of the block into a `RecordingFailed` that names the target."""
     try:
         yield
     except RecordingFailed as error:
@@ -179,7 +179,7 @@ def _encode(frames: Frames, plan: Plan, part: Path, form: Format, progress: Prog
     code = coding(stream, form, palette_of(frames, plan.frames) if form == "gif" else ())
     size = coded_size(stream, form)
     processes = processes_for(plan.frames, size) if frames.independent else 0
-    # before the encoder is there: a copy of ours that held its pipe would keep it waiting for more
+    # started before the encoder: a copy of this process that held its pipe would keep it waiting for more
     with (
         drawing(lambda frame: code(frames.draw(frame)), plan.frames, size, processes) as coded,
         encoding(stream, form, part) as send,
@@ -191,7 +191,7 @@ def _encode(frames: Frames, plan: Plan, part: Path, form: Format, progress: Prog
 
 
 def palette_of(frames: Frames, count: int) -> list[Colour]:
-    """Return the palette of a few frames spread over the clip."""
+    """Return a palette made from a few frames spread over the clip."""
     chosen = sorted({k * count // _SAMPLES for k in range(_SAMPLES)})
     samples = (np.frombuffer(frames.draw(k), np.uint8) for k in chosen)
     palette = make_palette(samples, frames.colours, alpha=frames.alpha).tolist()
@@ -202,7 +202,7 @@ def palette_of(frames: Frames, count: int) -> list[Colour]:
 
 
 class SceneFrames:
-    """Pictures of a scene at the phases of a plan; `noted` as in the overlay."""
+    """Pictures of a scene at the phases of a plan; `noted` adds notes on limits and change points."""
 
     independent = True
 
@@ -218,7 +218,7 @@ class SceneFrames:
         self._surface = offscreen(size, alpha=self.alpha)
 
     def draw(self, frame: int) -> Frame:
-        """Return the bytes of a frame, to be let go before the next is drawn in their place."""
+        """Return the bytes of a frame, which the next call overwrites."""
         phase, speed = self._plan.phase(frame), self._plan.speed
         self._printer.print(self._surface, self._picture, phase, speed, self._over)
         return pixel_view(self._surface)
@@ -241,7 +241,7 @@ class ConstructionFrames(SceneFrames):
         self._drawn = 0
 
     def draw(self, frame: int) -> Frame:
-        """Return the bytes of a frame; those of one step are drawn once."""
+        """Return the bytes of a frame; the frames of one step are drawn once."""
         step, speed = self._plan.step(frame), self._plan.clip.speed
         if step != self._drawn:
             over = Overlay(construction=self._before + step)
@@ -271,17 +271,17 @@ def record(
 
     `size` is in pixels. `speed` is dφ/dt in rad/s, the scene's own if it is None. `seconds` sets the length
     instead of `periods` (true periods); the clip need not close then. `start` is the phase of the first
-    frame. With `noted` the text notes nearby limits and change points. With a `construction` its steps are
-    recorded, the first `steps` of them if that is not None, a second each, over the pose at `start`, and no
-    motion. `progress` is called with (frames
-    done, frames in all). The file appears when it is whole, or not at all. `BadInput`, before any work, for
-    what cannot be recorded; `RecordingFailed` if the disk or the encoder gives up.
+    frame. With `noted` the text notes nearby limits and change points. With a `construction`, its steps are
+    recorded instead of motion, over the pose at `start`, a second each; only the first `steps` if that is not
+    None. `progress` is called with (frames done, frames in all). The file appears when it is whole, or not at
+    all. `BadInput`, before any work, for what cannot be recorded; `RecordingFailed` if the disk or the
+    encoder gives up.
     """
     _, form = checked_path(path)
     refuse_size(size)
     rate = scene.linkage.drive.speed if speed is None else speed
     if construction:
-        # with it comes the synthesis, which a motion does not need
+        # a construction imports the synthesis, which a motion does not need
         from linkanim.picture.constructed import steps_of
 
         count = min(len(steps_of(scene, construction, start)), steps or MOST_FRAMES)
@@ -292,7 +292,7 @@ def record(
 
 
 def theme_colours(theme: str) -> tuple[Colour, ...]:
-    """Return every colour of a theme, flat areas of which a GIF has to show exactly."""
+    """Return every colour of a theme: a GIF has to show flat areas of these exactly."""
     plain: list[Colour] = []
     for value in astuple(theme_of(theme)):
         plain += value if isinstance(value[0], tuple) else [value]

@@ -40,7 +40,7 @@ _LONGER = 1280
 
 
 class TapeFrames:
-    """Pictures of what a tape does. Drawn in their order each costs one; going back starts anew."""
+    """Pictures of what a tape does. In order each takes one step of the tape; going back replays it."""
 
     independent = False
 
@@ -57,7 +57,7 @@ class TapeFrames:
         self._next = 0
 
     def draw(self, frame: int) -> Frame:
-        """Return the bytes of a frame, to be let go before the next is drawn in their place."""
+        """Return the bytes of a frame, which the next call overwrites."""
         state, phase = self._at(frame)
         picture, over = self._framing.at(state, self.size), _lasting(overlay(state), photo=self._photo)
         if over.build and over.build.photo:
@@ -71,12 +71,12 @@ class TapeFrames:
             self._ahead, self._next, self._framing = self._tape.pictures(self._fps), 0, Framing()
         skipped, self._next = frame - self._next, frame + 1
         for state, _ in islice(self._ahead, skipped):
-            self._framing.at(state, self.size)  # what the view has been through is seen in it
+            self._framing.at(state, self.size)  # the view depends on what it has been through
         return next(self._ahead)
 
 
 def _lasting(over: Overlay, *, photo: bool = False) -> Overlay:
-    """Return what of an overlay is about the linkage: lists, help, notes; no marks and no short words."""
+    """Return what an overlay says of the linkage: lists, help, notes; no marks and no short messages."""
     build = over.build and replace(over.build, tools=None, photo=over.build.photo if photo else None)
     bare = replace(over, build=build, toast=None, chip=None, hint=None, watch=None, bar=None, tools=None)
     return replace(bare, paused=False, grip=False, shutter=0)
@@ -103,10 +103,10 @@ def record_tape(
     progress: Progress | None = None,
     photo: bool = False,
 ) -> Recording:
-    """Record what a tape does, at any size; a tape in which nothing is done, as the scene's loop.
+    """Record what a tape does; a tape without actions gives the scene's loop.
 
-    Without a size it is of the window's shape, so that all stands where it was seen. A `photo` behind what is
-    built is in it if that is asked for; one that cannot be shown is then `BadInput`.
+    Without a `size` it has the window's shape, so that all stands where it was seen. With `photo` the
+    photograph behind what is built is recorded, too; `BadInput` if it cannot be shown.
 
     The loop starts at the phase at which the tape does. Errors as `record`, and `BadInput` for a
     file that is not a tape of this version.
