@@ -2,10 +2,10 @@
 
 Its parts, in reading order:
 
-- An answer: a linkage as a scene, and how well it follows the curve, as the solver says.
-- Every answer as the solver runs it: its whole turn, one closure, the points in order, true distances.
+- An answer: a linkage as a scene, and how well it follows the curve according to the solver.
+- Every answer checked by the solver: its whole turn, one closure, the points in order, true distances.
 - Roberts's theorem: the cognates of an answer that are answers, too.
-- An answer as plain numbers, as it goes from one process to another and onto a tape; and back to a scene.
+- An answer as plain numbers for another process or a tape, and back to a scene.
 - Answers as scene files: the first under the name that was asked for, the others numbered.
 """
 
@@ -34,10 +34,10 @@ from linkanim.synthesis.fitting import FEW, PathTask
 from linkanim.synthesis.linkages import FOUR_BAR, Complex, Linkage4, LinkageKind, Real
 from linkanim.synthesis.roberts import CognateJoints, cognate_joints
 
-# An answer: a linkage as a scene, and how well it follows the curve, as the solver says.
+# An answer: a linkage as a scene, and how well it follows the curve according to the solver.
 
 _ROOM_POSES = 144
-"""Over a period, of which the room is taken that an answer sweeps."""
+"""The number of poses over a period from which an answer's room is measured."""
 
 
 @frozen(eq=False, kw_only=True)
@@ -46,12 +46,12 @@ class CouplerLinkage(ABC):
 
     scene: Scene
     parameters: Mapping[str, float]
-    """Pivots x, y, x4, y4, lengths, and the coupler point along A -> B and across, to its left."""
+    """The pivots (x, y, x4, y4), the lengths, and the coupler point along A -> B and to the left of it."""
     closure: str
     angles: Real
-    """Of the crank, where the coupler is at each point or pose that it was made for, in their order."""
+    """The crank's angle at each point or pose that the linkage was made for, in their order."""
     transmission_angle: float
-    """The least; where the input does not turn fully, over the part that it was made for."""
+    """The least one; where the input does not turn fully, over the range that it was made for."""
     size: float
     """The longest link, or side of the coupler."""
 
@@ -67,7 +67,7 @@ class CouplerLinkage(ABC):
 
     @property
     def row(self) -> Real:
-        """The parameters as a row of its kind."""
+        """The parameters as a row, in the order of the kind."""
         return np.array([self.parameters[name] for name in self.kind.parameters])
 
     @property
@@ -82,9 +82,9 @@ class CouplerLinkage(ABC):
 
 
 class Figures(NamedTuple):
-    """What an answer is judged by: the less of the first three, and the greater the angle, the better.
+    """The figures by which answers are compared: the first three are to be small, the angle large.
 
-    `deviation` is by what answers are ranked, `size` the longest link and `room` the diagonal of the
+    `deviation` is the error that ranks answers, `size` the longest link, and `room` the diagonal of the
     rectangle that all joints sweep, each as a share of the curve's size; `angle` is the least transmission
     angle (rad).
     """
@@ -97,20 +97,20 @@ class Figures(NamedTuple):
 
 @frozen(eq=False, kw_only=True)
 class Fit(CouplerLinkage):
-    """A linkage beside the drawn curve; distances in the curve's unit."""
+    """A linkage that follows a drawn curve, with its deviations, in the curve's unit."""
 
     rms: float
-    """Root mean square of the points' distances to the curve near where the coupler point passes them; with
-    prescribed timing, to where it is then."""
+    """Root mean square of the points' distances to the coupler curve where it passes them; with prescribed
+    timing, to the coupler point at that time."""
     largest: float
     """The largest of those distances."""
     stray: float
-    """How far the coupler point goes from the points' polyline at the most."""
+    """The largest distance of the coupler point from the points' polyline."""
     task: PathTask = field(repr=False)
     exact: Fit | None = field(default=None, repr=False)
     """The answer before its lengths were rounded."""
     cognate: bool = False
-    """Whether it is a Roberts cognate of an answer before it."""
+    """Whether the answer is a Roberts cognate of an earlier one."""
 
     @property
     def kind(self) -> LinkageKind:
@@ -119,25 +119,25 @@ class Fit(CouplerLinkage):
 
     @cached_property
     def joints(self) -> Complex:
-        """Fixed pins, and all joints where the crank is at the first and at the middle point of the curve."""
+        """The fixed pins, and all joints at the first and at the middle point of the curve."""
         angles = self.angles[None, [0, len(self.angles) // 2]]
         joints: Complex = self.task.kind.joints(self.row[None], np.array([self.closure_sign]), angles)[0]
         return joints
 
     def apart(self, other: Fit) -> float:
-        """Return how far two answers' joints are apart, in curve sizes, however their parameters are told."""
+        """Return how far two answers' joints are apart, in curve sizes, whatever their parameters are."""
         return float(np.abs(self.joints - other.joints).max() / self.task.curve.size)
 
     @property
     def error(self) -> float:
-        """By what answers are ranked: the root mean square, and how far the path strays between points."""
+        """The error that ranks answers: the root mean square, and how far the path strays between points."""
         if len(self.angles) <= FEW:
             return self.rms
         return math.hypot(self.rms, max(0.0, self.stray - self.largest - self.task.curve.longest_step / 2))
 
     @cached_property
     def figures(self) -> Figures:
-        """What it is judged by beside other answers."""
+        """The figures by which the answer is compared with others."""
         places = [as_complex(at) for at in self.scene.cycle(_ROOM_POSES, derivatives=0).position.values()]
         swept = np.concatenate([np.ravel(place) for place in places])
         size = self.task.curve.size
@@ -150,7 +150,7 @@ def document_of(
 ) -> dict[str, Any]:
     """Return a linkage as a scene's document, its crank starting at an angle, in a sense (±1).
 
-    `stated` is its source, and its title and unit of length if these are not the usual ones.
+    `stated` gives its source, and its title and unit of length if these are not the usual ones.
     """
     angle, sense = start
     return {
@@ -174,7 +174,7 @@ def parameters_of(kind: LinkageKind, row: Iterable[float]) -> dict[str, float]:
 
 
 def rounded(task: PathTask, row: Real) -> Real:
-    """Return a row as it is written, to twelve digits after the curve's first: one input gives one file."""
+    """Return a row rounded as it is written, to 1e-12 of the curve's size: equal inputs give equal files."""
     values = [
         round(float(value), 13 if name == "line_angle" else task.quantum) + 0.0
         for name, value in zip(task.kind.parameters, row, strict=True)
@@ -182,24 +182,24 @@ def rounded(task: PathTask, row: Real) -> Real:
     return np.array(values)
 
 
-# Every answer as the solver runs it: its whole turn, one closure, the points in order, true distances.
+# Every answer checked by the solver: its whole turn, one closure, the points in order, true distances.
 
 _POSES = 1440
-"""Over the turn, or between the first and the last point, at which the path is compared with the polyline."""
+"""The number of poses, over the turn or the curve, at which the path is compared with the polyline."""
 _STEPPED, _BEYOND = 200, 0.02
-"""Points at the most that are looked for in steps along the curve, and how far beyond its ends they go."""
+"""The most points that are found by steps along the curve, and how far these go beyond its ends."""
 _FOOT_STEPS = 12
 _FARTHEST_STEP, _LAST_STEP = 0.1, 1e-9
 _SLACK = 1e-9
 _RUN, _MOST_RUNS = 16, 128
-"""Segments of a polyline that are looked at together at the least, and how many such runs at the most."""
+"""The least number of a polyline's segments in one run, and the largest number of runs."""
 
 
 def checked(task: PathTask, row: Real, closure: float, angles: Real) -> Fit | None:
-    """Return the answer as the solver runs it; None where it is none after all.
+    """Return the answer as the solver runs it; None where the solver rejects it.
 
-    That is where it does not assemble, does not turn fully or not over the whole of an open curve, passes
-    the points out of order, or breaks a limit. `angles` (n,) are those of the crank at the points.
+    It is rejected where it does not assemble, does not turn fully (or over the whole of an open curve),
+    passes the points out of order, or breaks a limit. `angles` (n,) are the crank's at the points.
     """
     if not keeps(task, row):
         return None
@@ -215,10 +215,11 @@ def checked(task: PathTask, row: Real, closure: float, angles: Real) -> Fit | No
 
 
 def checked_by_phase(task: PathTask, row: Real, closures: Real, angles: Real) -> Fit | None:
-    """Return an answer that swings through its limits along the curve; None where it is none after all.
+    """Return an answer whose crank swings to its limits along the curve; None where the solver rejects it.
 
-    That is where it does not swing, passes the points out of order, or breaks a limit. `closures` and
-    `angles` (n,) are those at the points. No angle that is asked for is kept at a limit, and no timing.
+    It is rejected where it does not swing, passes the points out of order, or breaks a limit. `closures` and
+    `angles` (n,) are those at the points. A task with a least transmission angle, or with timing, has no
+    such answer.
     """
     task, closure = task.swinging(), float(closures[0])
     if task.timing is not None or not keeps(task, row):
@@ -228,7 +229,7 @@ def checked_by_phase(task: PathTask, row: Real, closures: Real, angles: Real) ->
         if scene.info.full_turn:
             return None
         low, high = scene.info.input_range
-        # while the sine of the phase is above zero the closure is the one that is named
+        # the scene names the closure of phases whose sine is positive
         share = np.remainder(angles - (low + high) / 2 + math.pi, 2 * math.pi) - math.pi
         forth = np.arccos(np.clip(-share / ((high - low) / 2), -1.0, 1.0))
         phases = np.where(closures == closure, forth, 2 * math.pi - forth)
@@ -243,7 +244,7 @@ def checked_by_phase(task: PathTask, row: Real, closures: Real, angles: Real) ->
 
 
 class _Answer(NamedTuple):
-    """A linkage as a scene, its row of parameters and its closure, and what its places are given by."""
+    """A linkage as a scene, its row of parameters and closure, and what its places are: angles or phases."""
 
     scene: Scene
     row: Real
@@ -252,7 +253,7 @@ class _Answer(NamedTuple):
 
     @property
     def round(self) -> float:
-        """How far its places go until it has traced its whole curve."""
+        """The range of the places for the whole curve."""
         return 2 * math.pi if self.by == "angle" else self.scene.period
 
     def traced(self, places: Real) -> Complex:
@@ -269,9 +270,9 @@ def _scene(task: PathTask, row: Real, closure: float, start: tuple[float, float]
 
 
 def _fit(task: PathTask, answer: _Answer, places: Real) -> Fit | None:
-    """Return an answer with how far it is off and strays, and its least transmission angle.
+    """Return an answer with its deviations and its least transmission angle.
 
-    None where it does not pass the points near given places, in order, or not above the least angle.
+    None where it does not pass the points in order near given places, or falls below the least angle.
     """
     if not _in_order(task, places, answer.round):
         return None
@@ -296,7 +297,7 @@ def _fit(task: PathTask, answer: _Answer, places: Real) -> Fit | None:
 
 
 def keeps(task: PathTask, row: Real) -> bool:
-    """Return whether a linkage keeps to all limits, to rounding."""
+    """Return whether a linkage keeps all limits, but for rounding."""
     slack = task.requirements.slack(task.kind, row[None])
     mask, values = task.requirements.held(task.kind)
     given = np.abs(row - values) * mask
@@ -304,11 +305,11 @@ def keeps(task: PathTask, row: Real) -> bool:
 
 
 def _feet(answer: _Answer, task: PathTask, places: Real) -> tuple[Real, Real]:
-    """Return the places at which the points are passed, in order, and how far each one is off.
+    """Return the places at which the points are passed, in order, and how far each point is off.
 
-    Points are as far off as the nearest place of the curve near by, or, with prescribed timing, as where the
-    coupler point is then. Neighbours whose nearest places have changed places are in order as long as that
-    is by no more than points are off.
+    A point's distance is to the nearest place of the curve near by, or, with prescribed timing, to the
+    coupler point at that time. Neighbours whose nearest places are in the wrong order still count as ordered
+    if they are exchanged by no more than the points are off.
     """
     points = task.curve.points
     if task.timing is not None:
@@ -325,10 +326,10 @@ def _feet(answer: _Answer, task: PathTask, places: Real) -> tuple[Real, Real]:
 
 
 def _passed(answer: _Answer, task: PathTask, places: Real) -> Real:
-    """Return the places, of equal steps along the curve, that are nearest to the points in their order.
+    """Return the places, among equal steps along the curve, that are nearest to the points in their order.
 
-    That is the least sum of squares of all ways to pass them in order; the given places where it would take
-    more than a round.
+    Of all ways to pass the points in order it is the one with the least sum of squares; the given places
+    are returned where it would take more than one round.
     """
     chosen = task.thinned(_STEPPED)
     span = (
@@ -351,7 +352,7 @@ def _passed(answer: _Answer, task: PathTask, places: Real) -> Real:
 
 
 def _ascending(places: Real, most: float) -> Real:
-    """Return places sorted, those that go on beyond the curve's end where it begins."""
+    """Return places sorted; those beyond the end of a closed curve continue at its beginning."""
     ascending = np.sort(places)
     while ascending[-1] - ascending[0] > most:
         ascending[0], ascending[-1] = ascending[-1] - most, ascending[0] + most
@@ -392,7 +393,7 @@ def _in_order(task: PathTask, places: Real, most: float) -> bool:
 
 
 def _least_transmission(answer: _Answer, task: PathTask, places: Real) -> float:
-    """Return the least transmission angle: over the turn, of an input that swings along the curve."""
+    """Return the least transmission angle: over the turn, or along the curve if the input swings."""
     whole = answer.by == "phase" and task.curve.closed
     if whole or answer.scene.info.full_turn:
         known = answer.scene.info.transmission
@@ -403,8 +404,8 @@ def _least_transmission(answer: _Answer, task: PathTask, places: Real) -> float:
 
 
 def _stray(answer: _Answer, task: PathTask, places: Real) -> float:
-    """Return how far the coupler point goes from the points' polyline all along it, of an open one between
-    its ends.
+    """Return the largest distance of the coupler point from the points' polyline, all round or between the
+    ends of an open curve.
     """
     last = (
         places[0] + math.copysign(answer.round, places[-1] - places[0]) if task.curve.closed else places[-1]
@@ -413,10 +414,10 @@ def _stray(answer: _Answer, task: PathTask, places: Real) -> float:
 
 
 def _farthest(path: Complex, curve: DrawnCurve) -> float:
-    """Return how far a path goes from the points' polyline: from the nearest of its segments.
+    """Return the largest distance of a path from the points' polyline, which is to the nearest segment.
 
-    Infinite where the path breaks off. Of the segments, taken in runs, only runs are looked at that may
-    hold the nearest one.
+    It is infinite where the path breaks off. The segments are grouped in runs, and only the runs that may
+    contain the nearest segment are searched.
     """
     start, side = curve.polyline[:-1], np.diff(curve.polyline)
     runs = np.array_split(np.arange(len(side)), 1 + min(len(side) // _RUN, _MOST_RUNS))
@@ -433,7 +434,7 @@ def _farthest(path: Complex, curve: DrawnCurve) -> float:
 
 
 def _off(places: Complex, start: Complex, side: Complex) -> Real:
-    """Return how far places (n,) are from the nearest of some segments (m,)."""
+    """Return the distances (n,) of places from the nearest of some segments (m,)."""
     from_start, side = places - start[:, None], side[:, None]
     with np.errstate(invalid="ignore"):  # segments without a length
         share = np.nan_to_num((from_start.real * side.real + from_start.imag * side.imag) / np.abs(side) ** 2)
@@ -445,14 +446,15 @@ def _off(places: Complex, start: Complex, side: Complex) -> Real:
 # Roberts's theorem: the cognates of an answer that are answers, too.
 
 _TIMED = 1e-9
-"""By how much crank angles (rad) may be off those that are given."""
+"""The largest difference of crank angles (rad) from those that are given."""
 
 
 def cognates_of(fit: Fit) -> Iterator[Fit]:
     """Yield a four-bar's two cognates, driven at O6 or O2, as far as they are answers to the same task.
 
-    One may be a double-rocker, whose curve then is that of both its closures; one of which a link would
-    vanish, as where the coupler point is a pin, is left out, as is what breaks a limit or the timing.
+    One may be a double-rocker, whose curve is then traced by both its closures. A cognate is left out if
+    one of its links would vanish (as where the coupler point is a pin), or if it breaks a limit or the
+    timing.
     """
     point = fit.task.kind.points(fit.row[None], np.array([fit.closure_sign]), fit.angles[None])[0]
     for pivot, crank, rocker, other in _cognates(fit, point):
@@ -469,7 +471,7 @@ def cognates_of(fit: Fit) -> Iterator[Fit]:
 
 
 def _timed(fit: Fit, angles: Real) -> Real | None:
-    """Return crank angles at the points, whole turns nearer to those given; None where they are not."""
+    """Return crank angles shifted by whole turns to those given; None where they are not the same."""
     task = fit.task
     if task.timing is None:
         return angles
@@ -481,7 +483,7 @@ def _timed(fit: Fit, angles: Real) -> Real | None:
 
 
 def _cognates(fit: Fit, point: Complex) -> tuple[CognateJoints[Complex], CognateJoints[Complex]]:
-    """Return both cognates' joints at the points: whose crank turns as the first one's, and the other."""
+    """Return both cognates' joints at the points, as `cognate_joints` orders them."""
     x, y, crank, coupler, along, across, x4, y4, _ = fit.row
     o2, share = complex(x, y), complex(along, across) / coupler
     pin_a = o2 + crank * np.exp(1j * fit.angles)
@@ -489,17 +491,17 @@ def _cognates(fit: Fit, point: Complex) -> tuple[CognateJoints[Complex], Cognate
     return cognate_joints((o2, complex(x4, y4)), share, (pin_a, pin_b, point))
 
 
-# An answer as plain numbers, as it goes from one process to another and onto a tape; and back to a scene.
+# An answer as plain numbers for another process or a tape, and back to a scene.
 
 NAME = "path"
 """What the scene of an answer is called, and its file."""
 EARLIER = 4 + len(FOUR_BAR.parameters)
 NUMBERS = EARLIER + 2
-"""Of an answer; on older tapes it is without the last two."""
+"""How many numbers an answer has; on older tapes the last two are missing."""
 
 
 class PathAnswer(NamedTuple):
-    """A four-bar beside a stroke: by how much of its size in percent it is off, and what it is.
+    """A four-bar that follows a stroke, with its deviation in percent of the stroke's size.
 
     `closure` is +1 or -1, `start` the crank's angle at the stroke's first point (rad), `sense` +1 or -1 as it
     turns from there, `row` the parameters of a four-bar. `size` is its longest link as a share of the
@@ -516,16 +518,16 @@ class PathAnswer(NamedTuple):
 
     @property
     def figures(self) -> Figures:
-        """What it is judged by beside others; the room that it sweeps is not known here."""
+        """The figures by which it is compared with others, without the room that it sweeps."""
         return Figures(self.off / 100, self.size, self.size, self.angle)
 
     @property
     def numbers(self) -> tuple[float, ...]:
-        """All of it in a row."""
+        """The whole answer as one row of numbers."""
         return (*self[:4], *self.row, self.size, self.angle)
 
     def scene(self, unit: str, towards: Scene | None = None) -> Scene:
-        """Return the linkage as a scene, maybe on the way `towards` another; errors as reading a file."""
+        """Return the linkage as a scene, or as a step `towards` another; errors as of a scene file."""
         source = "made by linkanim for a path drawn in the window"
         start = self.start, self.sense
         document = document_of(FOUR_BAR, self.row, self.closure, start, source=source, length_unit=unit)
@@ -540,7 +542,7 @@ def answer_of(fit: Fit) -> PathAnswer:
 
 
 def answer_from(numbers: tuple[float, ...]) -> PathAnswer:
-    """Return the answer that is all of these `NUMBERS` numbers; the last two may be missing."""
+    """Return the answer whose `numbers` these are; the last two may be missing."""
     off, closure, start, sense = numbers[:4]
     return PathAnswer(off, closure, start, sense, tuple(numbers[4:EARLIER]), *numbers[EARLIER:])
 
@@ -552,7 +554,7 @@ _TURN = np.linspace(0.0, 2 * math.pi, 73)
 def turning_cognates(answer: PathAnswer) -> tuple[PathAnswer | None, PathAnswer | None]:
     """Return both cognates of an answer, None for one whose crank does not turn fully on one closure.
 
-    They trace the same curve, and are as far off. Of an answer whose own crank swings there is none.
+    They trace the same curve with the same deviation. An answer whose own crank swings has none.
     """
     row, sign = np.array([answer.row]), np.array([answer.closure])
     angles = answer.start + answer.sense * _TURN
@@ -597,14 +599,14 @@ def _turning(answer: PathAnswer, joints: CognateJoints[Complex], point: complex)
 
 
 def file_set(target: Path) -> FileSet:
-    """Return the set that answers are written as: NAME.toml, NAME-2.toml, ..."""
+    """Return the set of files to which answers are written: NAME.toml, NAME-2.toml, ..."""
     return FileSet(target.parent, target.name, rf"{re.escape(target.stem)}(-\d+)?\.toml")
 
 
 def write(scenes: Sequence[Scene], target: Path) -> list[Path]:
-    """Write the answers, all or none, and return their paths; what an older run wrote more of goes.
+    """Write the answers, all or none, and return their paths; an older run's further files are removed.
 
-    BadInput where a name is taken by a file that is not ours, or was changed since.
+    BadInput where a name is taken by a file that is not ours, or by one that was changed since.
     """
     names = [target.name, *(f"{target.stem}-{number}.toml" for number in range(2, len(scenes) + 1))]
     with replacing(file_set(target), names) as folder:

@@ -3,8 +3,7 @@
 Its parts, in reading order:
 
 - An atlas of coupler curves: many linkages from one seed, each curve at points equally far along it.
-- Which curves of the atlas are most like a drawn one: over shift along, turn, scale, sense and mirror
-  image.
+- The search for the most similar curves: over the shift along the curve, turn, scale, sense and mirror image.
 """
 
 from __future__ import annotations
@@ -23,25 +22,25 @@ from linkanim.synthesis.linkages import Complex, Indices, LinkageKind, Real
 
 # An atlas of coupler curves: many linkages from one seed, each curve at points equally far along it.
 #
-# It is made once in a process, in about a second, and is the same every time. Only one closure is in it: the
-# other one's curves are its mirror images.
+# It is made once in a process, in about a second, and is the same every time. It has only one closure: the
+# other closure's curves are mirror images.
 
 CURVES = 20_000
 POINTS = 64
-"""Along each curve."""
+"""The number of points along each curve."""
 _POSES = 96
-"""At equal crank angles, between which a curve's points are interpolated."""
+"""The number of poses, at equal crank angles, between which a curve's points are interpolated."""
 _AT_ONCE = 2_000
-"""Curves, so that memory does not grow with the atlas beyond what it holds."""
+"""The number of curves made at once, which limits the memory for intermediate results."""
 _SEED = 25
 _WORST = math.radians(4)
 """The least transmission angle of a linkage in the atlas."""
 
 
 class Atlas(NamedTuple):
-    """Linkages (J, p) of one kind and closure +1, their curves, and at which crank angles their points are.
+    """Linkages (J, p) of one kind and closure +1, their curves' points, and the crank angles of these.
 
-    Curves are centred and have a mean square of 1 / POINTS: `centre` and `scale` take them back.
+    Curves are centred and scaled to a mean square of 1 / POINTS: `centre` and `scale` undo this.
     """
 
     kind: LinkageKind
@@ -72,7 +71,7 @@ def atlas(kind: LinkageKind, count: int = CURVES) -> Atlas:
 
 
 def _sampled(kind: LinkageKind, count: int) -> Real:
-    """Return linkages whose crank turns fully, the first `count` of a row of random ones."""
+    """Return the first `count` linkages of a random sequence whose crank turns fully."""
     random = np.random.default_rng(_SEED)
     sound: list[Real] = []
     while sum(map(len, sound)) < count:
@@ -91,7 +90,7 @@ def _along(kind: LinkageKind, rows: Real, first: int) -> tuple[Real, Complex]:
     points = kind.points(rows, closure, np.broadcast_to(turn, (len(rows), len(turn))))
     length = np.zeros((len(rows), len(turn)))
     np.cumsum(np.abs(np.diff(points, axis=1)), axis=1, out=length[:, 1:])
-    # One search for all rows: each has its lengths between 2j and 2j + 1.
+    # One search serves all rows: row j's lengths are moved to between 2j and 2j + 1.
     length /= length[:, -1:]
     own = 2.0 * np.arange(first, first + len(rows))[:, None]
     places = np.arange(POINTS) / POINTS
@@ -104,16 +103,16 @@ def _along(kind: LinkageKind, rows: Real, first: int) -> tuple[Real, Complex]:
     return angles, between.reshape(len(rows), POINTS)
 
 
-# Which curves of the atlas are most like a drawn one: over shift along, turn, scale, sense and mirror image.
+# The search for the most similar curves: over the shift along the curve, turn, scale, sense and mirror image.
 #
 # With curves centred, the best turn and scale of one onto the other leave 1 - |c|² of the mean square, where
-# c is their inner product; over all shifts along the curve the products are one Fourier transform.
+# c is their inner product; one Fourier transform gives the products for all shifts along the curve.
 
 _SHARES = (0.12, 0.2, 0.3, 0.42, 0.56, 0.72, 0.9)
-"""Of a coupler curve, that an open curve is looked for as."""
+"""The shares of a coupler curve with which an open curve is compared."""
 _FEW_SEED, _FEW_TRIES = 6, 2
 _TIMED, _TIMED_POINTS, _STARTS = 4_000, 24, 36
-"""Curves, points and starts that are tried with prescribed timing."""
+"""The numbers of curves, points and starts that are tried with prescribed timing."""
 VARIANTS = tuple((mirrored, reverse) for mirrored in (False, True) for reverse in (False, True))
 
 
@@ -129,7 +128,7 @@ class Candidates(NamedTuple):
     sense: Real
 
     def take(self, chosen: Indices | NDArray[np.bool_]) -> Candidates:
-        """Return some of them."""
+        """Return the chosen candidates."""
         return Candidates(*(part[chosen] for part in self))
 
 
@@ -141,9 +140,10 @@ def matched(atlas: Atlas, curve: DrawnCurve, count: int) -> Candidates:
 def matched_in_time(
     atlas: Atlas, points: Complex, timing: Real, count: int, *, free_start: bool
 ) -> Candidates:
-    """Return the best candidates of those that pass each point at its crank angle, or all shifted by one.
+    """Return the best candidates for prescribed timing, the crank angle at each point.
 
-    Where the start is not free a linkage may only be turned with its crank.
+    With `free_start` all angles may be shifted by one angle; else a linkage may be turned only together
+    with its crank.
     """
     rows, hits = atlas.rows[:_TIMED], list[tuple[Real, Candidates]]()
     chosen = np.linspace(0, len(points) - 1, min(len(points), _TIMED_POINTS)).round().astype(np.intp)
@@ -159,7 +159,7 @@ def matched_in_time(
 
 
 def matched_few(atlas: Atlas, curve: DrawnCurve, count: int) -> Candidates:
-    """Return candidates for points too few to say what lies between: crank angles are tried at random."""
+    """Return candidates for few points, between which the curve is unknown, by random crank angles."""
     random = np.random.default_rng(_FEW_SEED)
     hits, points = list[tuple[Real, Candidates]](), curve.points
     reach = 2 * math.pi * (1.0 if curve.closed else 0.8)
@@ -179,7 +179,7 @@ def matched_few(atlas: Atlas, curve: DrawnCurve, count: int) -> Candidates:
 
 
 def _best(hits: Iterable[tuple[Real, Candidates]], count: int) -> Candidates:
-    """Return the best `count` of sets of candidates with their scores."""
+    """Return the best `count` candidates of several sets, each with its scores."""
     scores, parts = zip(*hits, strict=True)
     return joined(parts).take(np.argsort(-np.concatenate(scores), kind="stable")[:count])
 
@@ -206,7 +206,7 @@ def joined(parts: Iterable[Candidates]) -> Candidates:
 
 
 def _hits(atlas: Atlas, curve: DrawnCurve, count: int) -> Iterator[tuple[Real, Candidates]]:
-    """Yield the best of each variant, and for an open curve of each share of the curve that it may be."""
+    """Yield the best of each variant, for an open curve also of each share of the coupler curve."""
     for share in (1.0,) if curve.closed else _SHARES:
         steps = POINTS if curve.closed else round(share * POINTS)
         last = steps if curve.closed else steps - 1
@@ -226,7 +226,7 @@ def _hits(atlas: Atlas, curve: DrawnCurve, count: int) -> Iterator[tuple[Real, C
 
 
 def _window(atlas: Atlas, steps: int) -> Real:
-    """Return the root of the square sum (J, POINTS) of each stretch of points about its own centre."""
+    """Return the root (J, POINTS) of the sum of squares of each stretch of points about its centre."""
     twice = np.concatenate([atlas.shape, atlas.shape[:, :steps]], axis=1)
     total = np.cumsum(twice, axis=1)
     square = np.cumsum(twice.real**2 + twice.imag**2, axis=1)
@@ -250,7 +250,7 @@ def _correlated(atlas: Atlas, sought: Complex, size: Real | None) -> tuple[Real,
 def _laid(
     atlas: Atlas, rows: Real, points: Complex, angles: Real, sense: Real, *, mirrored: bool
 ) -> Candidates:
-    """Return linkages laid over points that they pass at crank angles of their own, then mirrored back."""
+    """Return linkages laid over the points that they pass at crank angles; `mirrored` ones are mirrored back."""
     kind, closure = atlas.kind, np.ones(len(rows))
     turn, shift = overlaid(kind.points(rows, closure, angles), points)
     rows, angles = kind.placed(rows, turn, shift), angles + np.angle(turn)[:, None]
@@ -260,7 +260,7 @@ def _laid(
 
 
 def _angles(atlas: Atlas, which: Indices, places: Real) -> Real:
-    """Return the crank angles at places along curves, in points and beyond the last one."""
+    """Return the crank angles at places along curves, counted in points, also beyond the last one."""
     before = np.floor(places).astype(np.intp)
 
     def at(index: Indices) -> Real:

@@ -1,8 +1,8 @@
 """Burmester's theory: which points of a body stay on a circle, or on a line, through its poses.
 
-A point of the body that has one distance m to a fixed point in all poses is a circle point z (told by where
-it lies in the first pose), m its centre point: a bar may join them. With pose j turned by e^(iα) and shifted
-by δ from the first, both told from the first pose's origin, that asks
+A circle point z of the body has the same distance from a fixed point m, its centre point, in all poses, so
+that a bar may join them; z is given by its place in the first pose. Pose j is turned by e^(iα) and shifted by
+δ from the first. With coordinates from the first pose's origin the condition is
 
     |δ|²/2 + Re(δ̄ e^(iα) z) - Re(m̄ (δ + (e^(iα) - 1) z)) = 0,
 
@@ -34,24 +34,24 @@ from linkanim.mechanics.precise import context, sine_and_cosine
 from linkanim.synthesis.linkages import Complex, Indices, Real
 
 FEWEST, MOST = 2, 5
-"""Poses."""
+"""The least and the largest number of poses."""
 SAME = 1e-9
-"""Of the poses' size, and in radians: what differs by less is one."""
+"""The distance, in the poses' size, or angle (rad), below which two are the same."""
 _ROUNDING = 2.0**-40
-"""Of the farthest coordinate: by so much poles that are one may be apart."""
+"""The distance, as a share of the farthest coordinate, by which equal poles may differ."""
 _LARGEST = 1e30
-"""Of x and y: what is larger cannot be computed with, and no scene file takes it."""
+"""The largest x or y: a larger number cannot be computed with, and no scene file takes it."""
 STRAIGHT = 1e-12
-"""Of the poses' size: a point that strays from a line by no more runs along it."""
+"""The distance from a line, in the poses' size, up to which a point counts as running along it."""
 _FAR = 1e6
-"""Of the poses' size: a point farther away is none that a bar ends at."""
+"""The farthest end of a bar, in the poses' size."""
 _LOOSE = 1e-6
-"""Of a length, by how much it may differ from pose to pose before it is polished."""
+"""How much a length may differ from pose to pose, as a share of it, before it is polished."""
 _FLAT = 1e-13
-"""Of its greatest value: a discriminant that dips below zero by no more only touches it."""
+"""A discriminant that falls below zero by this share of its greatest value only touches zero."""
 _ROOT_STEPS = 200
 _FINE, _FOOT_STEPS = 720, 60
-"""Of a circuit, where the point nearest to another one is looked for, and steps towards that."""
+"""The samples of a circuit in a search for the point nearest to another, and the steps towards it."""
 
 
 class Bars(NamedTuple):
@@ -61,7 +61,7 @@ class Bars(NamedTuple):
     centre: Complex
 
     def take(self, chosen: Indices) -> Bars:
-        """Return some of them."""
+        """Return the chosen bars."""
         return Bars(self.circle[chosen], self.centre[chosen])
 
 
@@ -76,8 +76,8 @@ class Slides(NamedTuple):
 class Poses:
     """Two to five poses of a body: its origin's places as x + yi, and the angles by which it is turned (rad).
 
-    BadInput for too few or too many of them, for two that are one, for what is not finite, and for angles
-    that turn more than once.
+    BadInput for too few or too many poses, for two equal ones, for numbers that are not finite, and for
+    angles of more than one turn.
     """
 
     origins: Complex
@@ -108,7 +108,7 @@ class Poses:
 
     @property
     def count(self) -> int:
-        """How many there are."""
+        """The number of poses."""
         return len(self.origins)
 
     @cached_property
@@ -125,28 +125,28 @@ class Poses:
 
     @cached_property
     def turns(self) -> Complex:
-        """By what each pose is turned against the first, as unit numbers."""
+        """The turn of each pose from the first, as complex numbers of modulus 1."""
         return np.asarray(np.exp(1j * (self.angles - self.angles[0])))
 
     @cached_property
     def shifts(self) -> Complex:
-        """By what each pose's origin is shifted against the first's."""
+        """The shift of each pose's origin from the first's."""
         return np.asarray(self.origins - self.origins[0])
 
     def places(self, points: Complex | complex) -> Complex:
-        """Return where points of the body, told in the first pose, lie in all poses (..., n)."""
+        """Return where points of the body, given in the first pose, lie in all poses (..., n)."""
         within = np.asarray(points)[..., None] - self.origins[0]
         return np.asarray(self.origins + self.turns * within)
 
     def images(self, points: Complex | complex) -> Complex:
-        """Return fixed points as the body in each pose sees them, laid on the first pose (..., n)."""
+        """Return fixed points as seen from the body in each pose, in coordinates of the first (..., n)."""
         return np.asarray(self.origins[0] + (np.asarray(points)[..., None] - self.origins) / self.turns)
 
     @cached_property
     def inverse(self) -> Poses:
-        """The poses of the fixed plane as the body sees it, laid on its first pose.
+        """The poses of the fixed plane as seen from the body, in the first pose's coordinates.
 
-        Its centre points are the circle points of these, and the other way round.
+        Circle points and centre points are exchanged in it.
         """
         origins = self.images(complex(self.origins[0]))
         return Poses(origins, 2 * self.angles[0] - self.angles)
@@ -166,7 +166,7 @@ class Poses:
 
     @cached_property
     def one_pole(self) -> complex | None:
-        """The point about which three poses or more are turned, all of them; None where they are not."""
+        """The one point about which three poses or more are all turned; None where there is none."""
         poles = list(self.poles.values())
         pairs = self.count * (self.count - 1) // 2
         if self.count == FEWEST or len(poles) < pairs:
@@ -178,7 +178,7 @@ class Poses:
 
 
 def _rows(poses: Poses, centres: Complex) -> Real:
-    """Return the equations of the circle points of centres, (k, n - 1, 3): of 1 and of z's x and y."""
+    """Return the equations of centres' circle points (k, n - 1, 3): coefficients of 1, and z's x and y."""
     shift, turn = poses.shifts[1:], poses.turns[1:]
     centre = (np.asarray(centres) - poses.origins[0])[:, None]
     factor = np.conj(shift) * turn - np.conj(centre) * (turn - 1)
@@ -189,7 +189,8 @@ def _rows(poses: Poses, centres: Complex) -> Real:
 def circle_points(poses: Poses, centres: Complex) -> Complex:
     """Return the circle points of centre points (k,) of three poses, or of a cubic's of four; NaN for none.
 
-    There is none where the centre's images in the body lie on a line, or are one, nor off the cubic.
+    There is none where the centre's images in the body lie on a line or coincide, or where it is off the
+    cubic.
     """
     rows = np.moveaxis(_rows(poses, centres), 0, -1)
     pairs = [_cross(one, other) for one, other in combinations(rows, 2)]
@@ -216,7 +217,7 @@ def centre_points(poses: Poses, circles: Complex) -> Complex:
 
 
 def polished(poses: Poses, bars: Bars) -> Bars:
-    """Return bars that are off by rounding, moved by as little as makes their distances alike."""
+    """Return bars without rounding errors: moved by the least that makes their lengths equal in all poses."""
     circle, centre = bars
     for _ in range(2):
         places = poses.places(circle)
@@ -241,7 +242,7 @@ _Row = tuple[_Linear, _Linear, _Linear]
 
 
 def _equation(shift: tuple[Any, Any], turn: tuple[Any, Any]) -> _Row:
-    """Return a pose's equation as linear functions of the centre: of 1 and of z's x and y."""
+    """Return a pose's equation: the coefficients of 1, and z's x and y, as linear functions of the centre."""
     (x, y), (c, s) = shift, turn
     return (
         (-x, -y, (x * x + y * y) / 2),
@@ -251,7 +252,7 @@ def _equation(shift: tuple[Any, Any], turn: tuple[Any, Any]) -> _Row:
 
 
 def _cubic(rows: Sequence[_Row]) -> list[Any]:
-    """Return the determinant of three equations: of x³, x²y, xy², y³, x², xy, y², x, y, 1.
+    """Return the determinant of three equations: the coefficients of x³, x²y, xy², y³, x², xy, y², x, y, 1.
 
     The first four are α, β, α, β: it is a circular cubic.
     """
@@ -264,7 +265,7 @@ def _cubic(rows: Sequence[_Row]) -> list[Any]:
 
 
 def _times(one: _Linear, other: _Linear) -> list[Any]:
-    """Return the product of linear functions: of x², xy, y², x, y, 1."""
+    """Return the product of linear functions: the coefficients of x², xy, y², x, y, 1."""
     (a, b, c), (d, e, f) = one, other
     return [a * d, a * e + b * d, b * e, a * f + c * d, b * f + c * e, c * f]
 
@@ -274,7 +275,7 @@ def _minus(one: list[Any], other: list[Any]) -> list[Any]:
 
 
 def _raised(linear: _Linear, conic: list[Any]) -> list[Any]:
-    """Return the product of a linear function and a conic, as `_cubic` has it."""
+    """Return the product of a linear function and a conic: coefficients in the order of `_cubic`."""
     a, b, c = linear
     xx, xy, yy, x, y, one = conic
     return [
@@ -288,9 +289,9 @@ def _raised(linear: _Linear, conic: list[Any]) -> list[Any]:
 
 
 class CurveCircuit(NamedTuple):
-    """A part of the cubic as lines through its pole meet it: between two directions, or all the way round.
+    """A part of the cubic, by the lines through a pole that meet it: between two directions, or all round.
 
-    `sign` is that of the root; 0 where it changes at both ends and the part is one closed curve.
+    `sign` is the sign of the root; 0 where it changes at both ends, so that the part is one closed curve.
     """
 
     low: float
@@ -302,7 +303,7 @@ class CurveCircuit(NamedTuple):
 class CentreCurve:
     """The centre points of four poses: circuits, each walked by a phase from 0 to 2π.
 
-    A circuit may run through infinity. A body that turns nowhere has no such curve: BadInput.
+    A circuit may run through infinity. BadInput for a body that does not turn, which has no such curve.
     """
 
     poses: Poses
@@ -317,7 +318,8 @@ class CentreCurve:
     def _about(self) -> tuple[complex, Real]:
         """The pole that the lines run through, and the curve's coefficients about it, at size 1.
 
-        They are of x³ and y³, of x², xy and y², of x and y. The pole is the one at which they vanish least.
+        The coefficients are of x³ and y³, of x², xy and y², of x and y. Of all poles it is the one at which
+        they are farthest from all vanishing along a line.
         """
         poles = [
             (pole - self.poses.origins[0]) / self.poses.size
@@ -383,7 +385,7 @@ class CentreCurve:
             return np.asarray(self.poses.origins[0] + self.poses.size * place)
 
     def nearest(self, point: complex) -> complex:
-        """Return the curve's point nearest to a point, from where samples are nearest."""
+        """Return the curve's point nearest to a point, by steps from the nearest sample."""
         start, size = complex(self.poses.origins[0]), self.poses.size
         aim = (point - start) / size
         samples = (self.sampled(_FINE) - start) / size
@@ -392,7 +394,7 @@ class CentreCurve:
         return start + size * min(feet, key=lambda one: abs(one - aim))
 
     def _footed(self, place: complex, aim: complex) -> complex:
-        """Return the foot of a point on the curve: along the tangent towards it, and back on the curve."""
+        """Return the curve's point nearest to `aim`, by steps along the tangent and back on the curve."""
         for _ in range(_FOOT_STEPS):
             value, slope = _value_and_slope(self._form, place)
             if not slope:
@@ -402,7 +404,7 @@ class CentreCurve:
         return place
 
     def sampled(self, count: int) -> Complex:
-        """Return points of all circuits, `count` of each; none of a curve that has no circuit."""
+        """Return points of all circuits, `count` of each; none if the curve has no circuit."""
         phases = _around(count)
         circuits = [self.at(circuit, phases) for circuit in range(len(self.circuits))]
         return np.concatenate([np.zeros(0, np.complex128), *circuits])
@@ -429,7 +431,7 @@ def _value_and_slope(form: list[float], place: complex) -> tuple[float, complex]
 
 
 def _around(count: int) -> Real:
-    """Return angles all round, half a step from 0."""
+    """Return `count` even angles all round, the first half a step from 0."""
     return np.asarray((np.arange(count) + 0.5) * (math.tau / count), dtype=np.float64)
 
 
@@ -450,7 +452,7 @@ def _discriminant(form: Real, angles: Real) -> Real:
 
 
 def _discriminant_zeros(form: Real) -> list[float]:
-    """Return the directions from 0 to π at which the two roots become one, and none that only touches.
+    """Return the directions from 0 to π at which the two roots become one and then vanish.
 
     In e^(2it) the discriminant is a polynomial of the fourth degree; five values give it.
     """
@@ -467,7 +469,7 @@ def _discriminant_zeros(form: Real) -> list[float]:
 
 
 def _crossings(form: Real, near: list[float]) -> list[float]:
-    """Return of directions those between which the discriminant changes its sign by more than rounding."""
+    """Return the directions at which the discriminant changes its sign by more than rounding."""
     if not near:
         return []
     most = float(np.abs(_discriminant(form, np.linspace(0, math.pi, 64))).max())
@@ -483,17 +485,17 @@ def _crossings(form: Real, near: list[float]) -> list[float]:
 # Five poses: two conics meet in four points.
 
 _COSINE, _SINE = Fraction(20, 29), Fraction(21, 29)
-"""Of the axes in which five poses are solved: no two answers of a drawn symmetry lie above each other."""
+"""The turn of the axes in which five poses are solved, so that no two symmetric answers have the same x."""
 _NOTHING, _MET = Decimal("1e-38"), Decimal("1e-15")
-"""In fifty digits, of what a number is made of: less is rounding; and what an equation is met to."""
+"""With fifty digits: the share of a sum's terms below which it is zero, and the error of a met equation."""
 
 
 def burmester_points(poses: Poses) -> Bars:
     """Return the bars of five poses, at most four, each to the last digit of a float.
 
-    Everything is worked out in fifty digits: what nearly coincides or nearly vanishes costs some of those,
-    and none of a float's. Points farther than a million sizes away are left out. BadInput for poses that
-    have more than finitely many.
+    All is computed with fifty digits, so that the digits lost where points nearly coincide or terms nearly
+    cancel are beyond a float's. Points farther than a million sizes away are left out. BadInput for poses
+    that have infinitely many bars.
     """
     with localcontext(context()):
         size = Decimal(poses.size)
@@ -511,7 +513,7 @@ _Point = tuple[Decimal, Decimal]
 
 
 def _exact_equation(poses: Poses, pose: int, size: Decimal) -> _Row:
-    """Return a pose's equation in all digits, at size 1 and in turned axes."""
+    """Return a pose's equation with all digits, at size 1 and in turned axes."""
     first, origin = complex(poses.origins[0]), complex(poses.origins[pose])
     x, y = (
         (Decimal(b) - Decimal(a)) / size for a, b in ((first.real, origin.real), (first.imag, origin.imag))
@@ -559,9 +561,9 @@ def _centres(rows: Sequence[_Row]) -> Iterator[_Point]:
 def _conics(rows: Sequence[_Row]) -> tuple[list[Decimal], list[Decimal]]:
     """Return two conics through the centre points: cubics of three equations each, freed of x³ and y³.
 
-    Where all four cubics go to infinity one way, there is a centre point there, as of five poses whose
-    origins lie in line: one cubic frees the three others, whose conics meet in the three points that are
-    left, and two of them in one point more, which no circle point goes with.
+    If all four cubics have the same real direction to infinity, one centre point lies there, for example if
+    the five origins lie in line. Then one cubic frees the three others; their conics meet in the three other
+    centre points, and two of them in one more point, which has no circle point.
     """
     cubics = [_cubic([row for row in rows if row is not left_out]) for left_out in rows]
     pairs = list(combinations(range(len(cubics)), 2))
@@ -593,7 +595,7 @@ def _conics(rows: Sequence[_Row]) -> tuple[list[Decimal], list[Decimal]]:
 
 
 def _freed(cubic: list[Decimal], *shares: tuple[list[Decimal], Decimal]) -> list[Decimal]:
-    """Return the conic that is left of a cubic less shares of others, at size 1."""
+    """Return the conic that remains of a cubic when multiples of others are subtracted, at size 1."""
     conic = cubic[4:]
     for other, share in shares:
         conic = [part - share * less for part, less in zip(conic, other[4:], strict=True)]
@@ -606,7 +608,7 @@ _Polynomial = list[Decimal]
 
 
 def _by_y(conic: list[Decimal]) -> tuple[_Polynomial, _Polynomial, _Polynomial]:
-    """Return a conic as polynomials in x that go with y², y and 1."""
+    """Return a conic as polynomials in x: the coefficients of y², y and 1."""
     xx, xy, yy, x, y, one = conic
     return [yy], [y, xy], [one, x, xx]
 
@@ -673,7 +675,7 @@ def _between(parts: _Polynomial, slope: _Polynomial, ends: tuple[Decimal, Decima
 
 
 def _with_circle(rows: Sequence[_Row], centre: _Point) -> Iterator[tuple[_Point, _Point]]:
-    """Yield the circle point of a centre point, and that; nothing where it lies at infinity, or is none."""
+    """Yield the circle point of a centre point, and the latter; nothing if there is none, or at infinity."""
     x, y = centre
     lines = [tuple(a * x + b * y + c for a, b, c in row) for row in rows]
     crossings = [_cross(one, other) for one, other in combinations(lines, 2)]
@@ -696,9 +698,9 @@ def _cross(one: Any, other: Any) -> tuple[Any, Any, Any]:
 
 
 def ball_point(poses: Poses) -> Slides:
-    """Return the point of four or five poses that runs along a line, and that line's direction; none or one.
+    """Return the one point, if any, of four or five poses that runs along a line, and the line's direction.
 
-    Poses that are all parallel have every point run along a line, or none: then it is the origin.
+    If all poses are parallel, either every point runs along a line, and the origin is returned, or none does.
     """
     if not poses.poles:
         along = poses.shifts[int(np.abs(poses.shifts).argmax())]
@@ -714,7 +716,7 @@ def ball_point(poses: Poses) -> Slides:
 
 
 def slides_through(poses: Poses, points: Complex) -> Slides:
-    """Return points (k,) with the direction from their first place to the one farthest from there."""
+    """Return points (k,), each with the direction from its first place to its farthest one."""
     steps = poses.places(points) - np.asarray(points)[:, None]
     longest = steps[np.arange(len(steps)), np.abs(steps).argmax(axis=1)]
     with np.errstate(all="ignore"):
@@ -722,9 +724,9 @@ def slides_through(poses: Poses, points: Complex) -> Slides:
 
 
 def slide_points(poses: Poses, angles: Real) -> Complex:
-    """Return points of three poses that run along a line, at angles round the circle on which they lie.
+    """Return points of three poses that run along a line, at angles round the circle on which they all lie.
 
-    Where that is a straight line, all angles from 0 to 2π go along it; NaN where there is none.
+    If that circle is a straight line, the angles from 0 to 2π cover it; NaN where there is no point.
     """
     square, linear, constant = _in_line(poses, 1, 2)
     with np.errstate(all="ignore"):
@@ -748,7 +750,8 @@ def _in_line(poses: Poses, one: int, other: int) -> tuple[float, complex, float]
 def _ball_points(poses: Poses) -> Iterator[complex]:
     """Yield Ball's point of the first four poses as each pole gives it.
 
-    Two of the circles on which points lie that three poses have in line meet in a pole, and there.
+    The points that run along a line for three poses lie on a circle; two such circles meet in a pole and in
+    Ball's point.
     """
     for one, other in combinations(range(4), 2):
         order = [one, other, *(pose for pose in range(4) if pose not in (one, other))]
@@ -769,7 +772,7 @@ def _ball_points(poses: Poses) -> Iterator[complex]:
 
 
 def _straightened(poses: Poses, point: complex) -> Slides:
-    """Return a point moved, with its direction, to where its places lie in line as well as they can."""
+    """Return a point moved to where its places lie best in line, with the direction of this line."""
     direction = complex(slides_through(poses, np.array([point])).direction[0])
     for _ in range(3):
         steps = (poses.places(point) - point)[1:] / direction

@@ -1,6 +1,6 @@
 """The construction of a synthesis as a lecturer draws it: marks in the scene's unit, step by step.
 
-What a scene was made for, its `purpose`, and its joints are all that is read; a scene without one has none.
+It is made from the scene's `purpose` (what it was made for) and its joints; without a purpose there is none.
 """
 
 from __future__ import annotations
@@ -26,24 +26,23 @@ Shape = Literal["plate", "line", "dashed", "thin", "bar", "dot", "ring", "cross"
 Tone = Literal["ink", "dim", "first", "second", "third", "fourth"]
 
 _NEAR, _FAR = 2.0, 4.0
-"""Of the poses' size: what the picture is fitted to lies so near; a pole farther from there is not drawn."""
+"""The distances, in the poses' size, up to which the picture is fitted, and up to which a pole is drawn."""
 _INNER, _OUTER = 0.6, 1.1
-"""The scales of input and output, in links."""
+"""The radii of the scales of input and output, in lengths of their links."""
 _SWING = 0.35
 """How far an arc runs to each side of a dead centre (rad)."""
 _CURVE = 1600
 _ARC = 64
 _ALIKE = 1e-6
-"""A rod that differs from its crank by less than this part is as long."""
+"""The share of its length by which a rod may differ from its crank and count as equally long."""
 _SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 
 
 class Mark(NamedTuple):
-    """What is drawn: a shape through or at points (x + yi), what it is called, and in which tone.
+    """A mark to draw: a shape through or at points (x + yi), its label, and its tone.
 
-    A frame's points are its origin and the end of its x axis; an arc's are its points one by one; a word has
-    nothing but its name, about its point. What
-    `spreads` does not count when the picture is fitted.
+    A frame's points are its origin and the end of its x axis; an arc's are all points along it; a word is
+    only its label, about its point. A mark that `spreads` does not count when the picture is fitted.
     """
 
     shape: Shape
@@ -54,14 +53,14 @@ class Mark(NamedTuple):
 
 
 class ConstructionStep(NamedTuple):
-    """A step: what is done, in a sentence, and the marks that it adds."""
+    """A step of a construction: a sentence about it, and the marks that it adds."""
 
     words: str
     marks: tuple[Mark, ...]
 
 
 def construction(scene: Scene) -> tuple[ConstructionStep, ...]:
-    """Return the steps of a scene's synthesis; BadInput where it was made for nothing that is known."""
+    """Return the steps of a scene's synthesis; BadInput for a scene without a known purpose."""
     match scene.purpose if is_synthesised(scene) else None:
         case PosesPurpose() as purpose:
             return tuple(_guided(scene, purpose))
@@ -97,9 +96,9 @@ def _at(*points: complex) -> Complex:
 
 
 class GuidedBody(NamedTuple):
-    """Poses, and where the coupler's two joints and what holds them are in the first of them.
+    """Poses, and in the first of them the coupler's two joints and their pivots.
 
-    `held` is each joint's pivot; None of a joint that slides, whose line's direction is `line`.
+    `held` is each joint's pivot, None for a joint that slides on a line with the direction `line`.
     """
 
     poses: Poses
@@ -204,9 +203,9 @@ def _pole(poses: Poses, pair: tuple[int, int], pole: complex) -> Mark:
 
 
 def pose_marks(poses: Poses, count: int = _CURVE) -> tuple[Mark, ...]:
-    """Return what the theory has of poses: their poles, the curves of four, Burmester's points of five.
+    """Return the marks of Burmester's theory: poles, the curves of four poses, the points of five.
 
-    A curve is drawn by so many points of each of its circuits.
+    A curve is drawn by `count` points of each of its circuits.
     """
     steps = _pole_triangle(poses) if poses.count <= 3 else _curves(poses, count) if poses.poles else ()
     return tuple(mark for step in steps for mark in step.marks)
@@ -249,7 +248,7 @@ def _curves(poses: Poses, count: int = _CURVE) -> Iterator[ConstructionStep]:
 def _of_last(poses: Poses, phases: Real) -> Iterator[ConstructionStep]:
     """Yield the curve of the first three poses and the last: two such curves meet in Burmester's points.
 
-    Of the nine points that two cubics share two are those of all circles, and three are poles.
+    Of the nine points that two cubics share, two are the circular points at infinity, and three are poles.
     """
     which = np.array([0, 1, 2, -1])
     others = Poses(poses.origins[which], poses.angles[which])
@@ -324,7 +323,7 @@ def _generated(scene: Scene, purpose: FunctionPurpose) -> Iterator[ConstructionS
 def _freudenstein(scene: Scene, purpose: FunctionPurpose, r1: float | None) -> Iterator[ConstructionStep]:
     """Yield Freudenstein's equations with their numbers, and the lengths that they lead to.
 
-    `r1` is the ground's, None of a slider.
+    `r1` is the ground's length, None for a slider.
     """
     theta, place = np.array(purpose.input), np.array(purpose.output)
     if r1 is None:
@@ -357,7 +356,7 @@ def _freudenstein(scene: Scene, purpose: FunctionPurpose, r1: float | None) -> I
 
 
 def _joined(value: float) -> str:
-    """Return a number behind another one, its sign between them."""
+    """Return a number as a term after another one, with its sign as the operator between them."""
     return f"{'−' if value < 0 else '+'} {four_digits(abs(value))}"
 
 
@@ -373,9 +372,9 @@ def _arc(centre: complex, first: float, last: float, reach: float) -> Complex:
 
 
 class InLineCentres(NamedTuple):
-    """A linkage in both dead centres of its output: the crank's pivot, its pins, the output's pins.
+    """A linkage in both dead centres of its output: the crank's pivot, the crank's pins, the output's pins.
 
-    `pivot` is the rocker's, None of a slider; `angle` that between the two directions (rad).
+    `pivot` is the rocker's, None for a slider; `angle` is that between the two directions (rad).
     """
 
     crank_pivot: complex
@@ -386,7 +385,7 @@ class InLineCentres(NamedTuple):
 
 
 class InLineParts(NamedTuple):
-    """The joints of a crank and of the coupler on it; `held` is the rocker's pivot, None of a slider."""
+    """The joints of a crank and its coupler; `held` is the rocker's pivot, None for a slider."""
 
     pivot: str
     pin: str
@@ -397,8 +396,8 @@ class InLineParts(NamedTuple):
 def in_line_parts(scene: Scene) -> InLineParts | None:
     """Return the joints of a slider-crank or a crank-rocker whose crank is the input; None of others.
 
-    Of a longer chain it is the first loop. A coupler whose end does not swing has no dead centres; nor has a
-    rod as long as its crank, whose end may rest in the crank's pivot.
+    In a longer chain these are the first loop's joints. A coupler whose end does not swing has no dead
+    centres, nor has a rod as long as its crank, whose end may stay at the crank's pivot.
     """
     linkage = scene.linkage
     crank = linkage.driven.joint
@@ -444,7 +443,7 @@ def dead_centres(scene: Scene) -> InLineCentres:
 
 
 def _in_line(scene: Scene, parts: InLineParts, phase: float, start: complex) -> float:
-    """Return the phase near by at which crank and coupler lie in line, by Newton's steps."""
+    """Return the phase near a given one at which crank and coupler lie in line, by Newton's steps."""
     for _ in range(8):
         pose = scene.pose(phase, 1, speed=1.0)
         pin, end = (complex(*pose.position[name]) - start for name in (parts.pin, parts.end))

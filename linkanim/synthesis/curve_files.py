@@ -26,37 +26,37 @@ from linkanim.units import shown
 
 # An SVG's first path as points: lines, cubic and quadratic curves, and arcs (SVG 1.1, 8.3 and F.6).
 #
-# The `transform` of the path and of the groups about it is followed (7.6); a viewBox is not, whose unit says
-# nothing of lengths.
+# The `transform` of the path and of the groups about it is applied (7.6); a viewBox is not, as its unit says
+# nothing about lengths.
 
 _STEPS = 24
-"""Points along each curved piece."""
+"""The number of points along each curved piece."""
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
 _TOKEN = re.compile(rf"(?P<letter>[MmZzLlHhVvCcSsQqTtAa])|(?P<number>{_NUMBER.pattern})|[\s,]+")
 _FLAG = re.compile(r"[\s,]*(?P<number>[01])(?P<letter>)")
 _TAKES = {"M": 2, "L": 2, "H": 1, "V": 1, "C": 6, "S": 4, "Q": 4, "T": 2, "A": 7, "Z": 0}
 _MOST_PIECES = 5_000
 _LARGEST = 1e100
-"""Of a number: beyond it sizes of curves are no numbers any more."""
+"""The largest number that is read: beyond it a curve's size would overflow."""
 _FLAT, _STRAIGHT = 1e-12, 1e12
-"""An ellipse with a radius that is less of the other, or with radii of more half chords, is a line."""
+"""An arc is a line if one radius is less than this share of the other, or exceeds so many half chords."""
 _NOT_DRAWN = frozenset({"defs", "clipPath", "mask", "marker", "pattern", "symbol"})
 _TRANSFORM = re.compile(r"[\s,]*(matrix|translate|scale|rotate|skewX|skewY)\s*\(([-+\deE.,\s]*)\)")
 _ARGUMENTS = {
     "matrix": (6,), "translate": (1, 2), "scale": (1, 2), "rotate": (1, 3), "skewX": (1,), "skewY": (1,),
 }  # fmt: skip
-"""How many numbers each transformation takes."""
+"""The numbers of arguments that each transformation takes."""
 
 
 class _Affine(NamedTuple):
-    """Where the axes' units and the origin come to lie."""
+    """An affine map, by the images of the axes' unit vectors and of the origin."""
 
     x: complex = 1.0 + 0.0j
     y: complex = 1.0j
     origin: complex = 0.0j
 
     def after(self, inner: _Affine) -> _Affine:
-        """Return what comes of a transformation within this one."""
+        """Return the map that applies `inner` first, then this one."""
         x, y, origin = (self.x * image.real + self.y * image.imag for image in inner)
         return _Affine(x, y, origin + self.origin)
 
@@ -71,9 +71,9 @@ class _Pen(NamedTuple):
 
 
 def first_path(text: str, where: str) -> Complex:
-    """Return points along the first path of an SVG that draws anything; only its first stroke.
+    """Return points along the first stroke of the first path in an SVG that draws anything.
 
-    BadInput where it is no SVG, has no path, or the path cannot be read.
+    BadInput where the text is no SVG, has no path, or the path cannot be read.
     """
     if "<!DOCTYPE" in text or "<!ENTITY" in text:
         text = re.sub(r"<!DOCTYPE[^>\[]*>", "", text)
@@ -86,14 +86,14 @@ def first_path(text: str, where: str) -> Complex:
     for element, place in _drawn_elements(root, where):
         drawn = element.get("d", "").strip()
         if _name(element) == "path" and drawn:
-            with np.errstate(all="ignore"):  # what is no number any more is refused as a point
+            with np.errstate(all="ignore"):  # an overflow is refused later, as a point
                 points = _points(drawn, where)
                 return place.x * points.real + place.y * points.imag + place.origin
     raise BadInput(f"{where}: has no path; convert its shapes to paths first")
 
 
 def _drawn_elements(root: ElementTree.Element, where: str) -> Iterator[tuple[ElementTree.Element, _Affine]]:
-    """Yield an element and all within it that are drawn, in their order, with where each one lies."""
+    """Yield an element and all drawn elements in it, in their order, each with its map to the plane."""
     waiting = [(root, _Affine())]
     while waiting:
         element, place = waiting.pop()
@@ -157,7 +157,7 @@ def _points(drawn: str, where: str) -> Complex:
 
 
 def _pieces(drawn: str, where: str) -> Iterator[tuple[str, list[float]]]:
-    """Yield each command's letter with its numbers, repeated ones each on its own; M is followed by L."""
+    """Yield each command's letter and numbers, a repeated command as several; after an M they are L."""
     letter, values, place = "", list[float](), 0
     while place < len(drawn):
         match = (_FLAG if letter in ("A", "a") and len(values) in (3, 4) else _TOKEN).match(drawn, place)
@@ -190,7 +190,7 @@ def _number(text: str, what: str, where: str) -> float:
 
 
 def _drawn(pen: _Pen, letter: str, values: list[float]) -> tuple[_Pen, list[complex]]:
-    """Return where the pen is after a piece, and the points along that."""
+    """Return where the pen is after a piece, and the points along the piece."""
     own, origin = letter.upper(), pen.at if letter.islower() else 0j
     if own in "HV":
         own_at = pen.at - origin
@@ -211,7 +211,7 @@ def _drawn(pen: _Pen, letter: str, values: list[float]) -> tuple[_Pen, list[comp
 
 
 def _controls(pen: _Pen, own: str, ends: list[complex]) -> list[complex]:
-    """Return a piece's control points and its end; smooth ones begin with the last one's mirror image."""
+    """Return a piece's control points and end; a smooth piece's first one mirrors the last piece's."""
     if own == "S":
         return [2 * pen.at - pen.cubic, *ends]
     return [2 * pen.at - pen.quadratic, *ends] if own == "T" else ends
@@ -227,7 +227,7 @@ def _bezier(controls: list[complex]) -> list[complex]:
 
 
 def _arc(start: complex, values: list[float], end: complex) -> list[complex]:
-    """Return points along an elliptic arc by its ends, its radii raised where they are too short."""
+    """Return points along an elliptic arc between two ends; radii that are too short are enlarged."""
     rx, ry, tilt, large, sweep = abs(values[0]), abs(values[1]), math.radians(values[2]), values[3], values[4]
     size, turn = max(rx, ry), cmath.exp(1j * tilt)
     if min(rx, ry) <= _FLAT * size:
@@ -263,14 +263,14 @@ _MOST_COLUMNS = 3
 
 
 class CurveFile(NamedTuple):
-    """Points as x + yi, and what the third column says of each: the crank's angle in radians, or nothing."""
+    """Points as x + yi, and the third column, if any: the crank's angle (rad) at each point."""
 
     points: Complex
     angles: Real | None
 
 
 def read_curve(path: Path) -> CurveFile:
-    """Return the curve in a file, by its ending an SVG or else a table.
+    """Return the curve in a file: an SVG if its name ends so, else a table.
 
     A table has two columns, x and y, or three, the last an angle in degrees. An SVG's y axis is turned up.
     BadInput, naming file and line, where it cannot be read.

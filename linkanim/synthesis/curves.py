@@ -24,12 +24,12 @@ from linkanim.synthesis.linkages import Complex, Indices, Real
 
 LEAST_POINTS = 3
 _FARTHEST = 1e150
-"""Of a coordinate: squares of what lies beyond are no numbers any more."""
+"""The largest coordinate: the square of a larger one would overflow."""
 
 
 @frozen(eq=False)
 class DrawnCurve:
-    """Points (n,) as x + yi in their order; the first of a closed curve stands once."""
+    """Points (n,) as x + yi in their order; a closed curve's first point is not repeated at its end."""
 
     points: Complex
     closed: bool
@@ -46,7 +46,7 @@ class DrawnCurve:
 
     @cached_property
     def polyline(self) -> Complex:
-        """The points, of a closed curve with the first once more at the end."""
+        """The points, with a closed curve's first point repeated at the end."""
         return np.append(self.points, self.points[0]) if self.closed else self.points
 
     @cached_property
@@ -66,7 +66,7 @@ class DrawnCurve:
         return np.interp(places, own, self.polyline.real) + 1j * np.interp(places, own, self.polyline.imag)
 
     def thinned(self, count: int) -> Indices:
-        """Return which points to take so that at most `count` are about equally far along the curve."""
+        """Return the indices of at most `count` points that are about evenly spaced along the curve."""
         if len(self.points) <= count:
             return np.arange(len(self.points))
         even = np.linspace(0.0, self.places[-1], count)
@@ -114,27 +114,27 @@ def _as_complex(points: ArrayLike) -> Complex:
 # A stroke drawn by hand: closed where it ends near its start, smoothed between corners, bent.
 
 POINTS = 72
-"""Of a stroke, about as many."""
+"""The number of points of a stroke, about."""
 _SAMPLES = 288
-"""Equally far along it, over which it is smoothed."""
+"""The number of evenly spaced samples of a stroke over which it is smoothed."""
 _NEAR = 0.15
-"""Of its size: a stroke whose ends are no further apart is closed."""
+"""The largest distance between the ends of a stroke that counts as closed, as a share of its size."""
 _GAP = 0.15
-"""Of a stroke's length: its last part, which is led to its start where it is closed."""
+"""The last part of a closed stroke that is bent towards its start, as a share of its length."""
 _ARM, _SHARP = 0.025, math.radians(50)
-"""Of the length, before and after a point; where the two ways differ by that angle, it is a corner."""
+"""How a corner is found: the directions over this share of the length before and after differ so (rad)."""
 _WIDTH = 0.016
-"""Of the length, by how much it is smoothed."""
+"""The width of the smoothing, as a share of the length."""
 _SAME = 1e-6
-"""Of the size: a path back that differs by less is the same."""
+"""The distance, as a share of the size, below which a path back is the same as the path there."""
 _REACH = 0.1
-"""Of the points, that a point takes along to either side."""
+"""The share of the points that a dragged point takes along to either side."""
 
 
 def stroke_of(points: Complex) -> DrawnCurve:
-    """Return the curve that was meant by a stroke's points (n,), as the hand gave them.
+    """Return the curve that was meant by the points (n,) of a stroke drawn by hand.
 
-    BadInput for fewer than three that differ, and for a stroke without extent.
+    BadInput for fewer than three different points, and for a stroke without extent.
     """
     points = points[np.append(True, np.diff(points) != 0)]
     raw = drawn(points, closed=False)
@@ -144,7 +144,7 @@ def stroke_of(points: Complex) -> DrawnCurve:
 
 
 def _joined(even: Complex) -> Complex:
-    """Return a stroke's samples with its ends joined: what runs on past the start is cut, or led to it."""
+    """Return a stroke's samples with its ends joined: an overlap is cut off, a gap is bent together."""
     tail = round(_GAP * _SAMPLES)
     even = even[: len(even) - tail + int(np.abs(even[-tail:] - even[0]).argmin()) + 1]
     heading, gap = even[-1] - even[-1 - tail // 4], even[0] - even[-1]
@@ -154,7 +154,7 @@ def _joined(even: Complex) -> Complex:
 
 
 def trace_of(path: Complex) -> DrawnCurve:
-    """Return the curve that a joint's places (n,) over a period are; one that goes back on itself is open.
+    """Return the curve through a joint's places (n,) over a period; a path there and back is an open curve.
 
     BadInput for a joint that stands still.
     """
@@ -168,7 +168,7 @@ def trace_of(path: Complex) -> DrawnCurve:
 
 
 def bent(curve: DrawnCurve, point: int, to: complex) -> DrawnCurve:
-    """Return the curve with a point put elsewhere, its neighbours going along, less the further they are."""
+    """Return the curve with one point moved; its neighbours follow, the less the further they are."""
     count = len(curve.points)
     away = np.abs(np.arange(count) - point)
     if curve.closed:
@@ -178,7 +178,7 @@ def bent(curve: DrawnCurve, point: int, to: complex) -> DrawnCurve:
 
 
 def _smoothed(even: Complex, *, closed: bool) -> Complex:
-    """Return about `POINTS` points along the smoothed pieces between corners, these among them.
+    """Return about `POINTS` points along the smoothed pieces between corners, and the corners.
 
     `even` has the first point of a closed curve once more at its end.
     """
@@ -195,7 +195,7 @@ def _smoothed(even: Complex, *, closed: bool) -> Complex:
 
 
 def _piece(part: Complex) -> Complex:
-    """Return a part between two corners smoothed, its ends where they are."""
+    """Return a part between two corners, smoothed, with its ends unmoved."""
     reach = min(len(part) - 1, _SAMPLES // 8)
     wider = np.pad(part, reach, mode="reflect", reflect_type="odd")
     smooth = _blurred(wider)[reach : reach + len(part)]
@@ -204,12 +204,12 @@ def _piece(part: Complex) -> Complex:
 
 
 def _resampled(points: Complex, steps: int) -> Complex:
-    """Return points at `steps` equal steps along a polyline, its ends among them."""
+    """Return points at `steps` equal steps along a polyline, both ends included."""
     return DrawnCurve(points, closed=False).at(np.linspace(0.0, 1.0, steps + 1))
 
 
 def _blurred(points: Complex) -> Complex:
-    """Return points smoothed by a bell curve, and what that takes off a bend put back on."""
+    """Return points smoothed by a bell curve, corrected for the flattening of bends by it."""
     width = _WIDTH * _SAMPLES
     bell = np.exp(-0.5 * (np.arange(-int(4 * width), int(4 * width) + 1) / width) ** 2)
     bell /= bell.sum()
@@ -221,7 +221,7 @@ def _blurred(points: Complex) -> Complex:
 
 
 def _corners(even: Complex, *, closed: bool) -> Indices:
-    """Return the samples at which the stroke turns sharply: of a run of them the sharpest."""
+    """Return the samples at which the stroke turns sharply: the sharpest of each run of neighbours."""
     arm = round(_ARM * _SAMPLES)
     turn = (
         _turns(np.concatenate([even[:-1]] * 3), arm)[_SAMPLES : 2 * _SAMPLES] if closed else _turns(even, arm)

@@ -1,10 +1,9 @@
-"""Fit many candidates to a drawn curve at once, within what is asked for.
+"""Fit many candidates to a drawn curve at once, within the requested limits.
 
 Its parts, in reading order:
 
-- What is asked for: a drawn curve, a kind of linkage, how the crank goes with the points, and limits.
-- Least squares over many candidates at once: Levenberg and Marquardt's steps, each point's crank angle
-  free.
+- The task: a drawn curve, a kind of linkage, the crank angles at the points if they are given, and limits.
+- Least squares over many candidates at once: Levenberg and Marquardt's steps, each point's crank angle free.
 """
 
 from __future__ import annotations
@@ -23,17 +22,17 @@ from linkanim.synthesis.atlas import Candidates
 from linkanim.synthesis.curves import DrawnCurve
 from linkanim.synthesis.linkages import Indices, LinkageKind, Real, Requirements, TracedPoints
 
-# What is asked for: a drawn curve, a kind of linkage, how the crank goes with the points, and limits.
+# The task: a drawn curve, a kind of linkage, the crank angles at the points if they are given, and limits.
 
 FEW = 12
-"""So few points say nothing about the path between them."""
+"""The largest number of points that say nothing about the path between them."""
 EXACTLY = 1e10
-"""What a point that is to be passed through exactly weighs beside another one."""
+"""The weight of a point that is to be passed exactly; another point has about 1."""
 
 
 @frozen(eq=False)
 class PathTask:
-    """A curve in its unit, with its points' weights and what its linkages have to be.
+    """A curve in its unit, its points' weights, and the kind, timing and limits of its linkages.
 
     `timing` is None where crank angles are free, else the crank's angle at each point; with `free_start` all
     of those may be shifted by one angle.
@@ -55,7 +54,7 @@ class PathTask:
         return DrawnCurve((self.curve.points - self.curve.centre) / self.curve.size, self.curve.closed)
 
     def thinned(self, count: int) -> Indices:
-        """Return which points to take: about `count` equally far along, and those to be passed exactly."""
+        """Return the indices of about `count` evenly spaced points, and of those to be passed exactly."""
         return np.union1d(self.normal.thinned(count), np.flatnonzero(self.weights >= EXACTLY))
 
     @property
@@ -64,7 +63,7 @@ class PathTask:
         return self.timing is None and len(self.curve.points) > FEW
 
     def problem(self, chosen: Indices) -> PathTask:
-        """Return the same for some of the points, at size 1 about the origin."""
+        """Return the task for the chosen points, at size 1 about the origin."""
         return replace(
             self,
             curve=DrawnCurve(self.normal.points[chosen], self.curve.closed),
@@ -91,30 +90,31 @@ class PathTask:
 
     @property
     def quantum(self) -> int:
-        """To how many decimals lengths are written: to a share of 1e-12 of the curve's size."""
+        """The number of decimals of written lengths, which is that of 1e-12 of the curve's size."""
         return 12 - math.floor(math.log10(self.curve.size))
 
 
 # Least squares over many candidates at once: Levenberg and Marquardt's steps, each point's crank angle free.
 #
 # A point counts by its distance to the curve, orthogonal distance regression: the crank's angle at a point
-# is eliminated by projecting on the curve's normal there (Boggs, Byrd and Schnabel), and follows after each
-# step. With prescribed timing both components count. Limits that a step would break hold in it as equations.
+# is eliminated by projecting on the curve's normal there (Boggs, Byrd and Schnabel), and is updated after
+# each step. With prescribed timing both components count. A limit that a step would break is an equation in
+# it.
 
 _FIRST_DAMPING, _LEAST_DAMPING = 1e-3, 1e-15
 _STANDING, _PATIENCE, _EXACT = 1e-6, 12, 1e-31
-"""A share of the merit that is no gain, in how many steps on end, and a merit that is rounding."""
+"""When to stop: after so many steps in a row that gain less than a share of the merit, or at this merit."""
 _NEARER = 0.1
-"""What a step leaves of the slack of a limit that it would break otherwise."""
+"""The share of a limit's slack that is left by a step that would break the limit otherwise."""
 _OF_GAP = 0.45
-"""Of the gap to its neighbour a crank angle goes in a step, so that points keep their order."""
+"""The longest step of a crank angle, as a share of the gap to its neighbour, so that the order is kept."""
 _BROKEN = 1e3
-"""What a limit broken by one curve size weighs beside one point that is as far off."""
+"""The weight of a limit that is broken by one curve size; a point that is as far off has 1."""
 _DIFFERENCE = 1e-7
 
 
 class _State(NamedTuple):
-    """Candidates with what is known at them: traced points, slack of the limits, and the merit."""
+    """Candidates with their traced points, the slack of their limits, and their merit."""
 
     candidates: Candidates
     traced: TracedPoints
@@ -124,7 +124,7 @@ class _State(NamedTuple):
 
 
 def _merged(mine: Any, other: Any, where: NDArray[np.bool_]) -> Any:
-    """Return a state, or a part of it, with the rows of another one where said."""
+    """Return a state, or a part of it, with the rows of another one where the mask is true."""
     if isinstance(mine, tuple):
         return type(mine)(*(_merged(*pair, where) for pair in zip(mine, other, strict=True)))
     return np.where(where.reshape(-1, *[1] * (mine.ndim - 1)), other, mine)
@@ -135,8 +135,9 @@ def refined(
 ) -> tuple[Candidates, Real]:
     """Return the candidates after at most `steps` steps, and the merit of each: its mean square error.
 
-    Infinite where a candidate cannot be closed; limits that are broken weigh on it, and where it is
-    `guarded` ways that stray between points: good answers may lie behind such ways.
+    The merit is infinite where a candidate cannot be closed. Broken limits are added to it, and, if
+    `guarded`, how far the path strays between points; unguarded steps may pass through such paths to a
+    good answer.
     """
     state = _state(problem, candidates, guarded=guarded)
     damping = np.full(len(state.cost), _FIRST_DAMPING)
@@ -154,7 +155,7 @@ def refined(
 
 
 def merit(problem: PathTask, candidates: Candidates) -> Real:
-    """Return each candidate's merit, ways that stray between points counted."""
+    """Return each candidate's merit, with how far its path strays between points."""
     return _state(problem, candidates, guarded=True).cost
 
 
@@ -174,9 +175,9 @@ def _state(problem: PathTask, candidates: Candidates, *, guarded: bool) -> _Stat
 
 
 def _between(problem: PathTask, candidates: Candidates, traced: TracedPoints) -> Real:
-    """Return the mean square of how far the curve strays halfway between points, beyond what is usual there.
+    """Return the mean square of how far the curve strays halfway between points, beyond a usual distance.
 
-    That is as far as the next point is, and as far as the curve is off at the points themselves.
+    The usual distance is that to the next point, and how far the curve is off at the points themselves.
     """
     before = 0 if problem.curve.closed else 1
     points, angles, places = problem.curve.points, candidates.angles, traced.point
@@ -194,7 +195,7 @@ def _between(problem: PathTask, candidates: Candidates, traced: TracedPoints) ->
 
 
 def _stepped(problem: PathTask, state: _State, damping: Real) -> Candidates:
-    """Return where one step leads from every candidate."""
+    """Return the candidates after one step."""
     with np.errstate(all="ignore"):
         residual, slopes = _equations(problem, state)
         change = _change(problem, state, residual, slopes, damping)
@@ -204,7 +205,7 @@ def _stepped(problem: PathTask, state: _State, damping: Real) -> Candidates:
 
 
 def _equations(problem: PathTask, state: _State) -> tuple[Real, Real]:
-    """Return residuals (B, m) and their slopes (B, m, p), by a free start's angle, too."""
+    """Return residuals (B, m) and their slopes (B, m, p) by the parameters and a free start's angle."""
     root = np.sqrt(problem.weights)
     off = (problem.curve.points - state.traced.point) * root
     slopes = state.traced.slopes * root[:, None]
@@ -228,7 +229,7 @@ def _change(problem: PathTask, state: _State, residual: Real, slopes: Real, damp
     scale = diagonal.mean(axis=1, keepdims=True)
     diagonal += damping[:, None] * (diagonal + 1e-3 * scale) + 1e-15 * scale
     nowhere = ~(np.isfinite(normal).all(axis=(1, 2)) & np.isfinite(right).all(axis=1) & (scale[:, 0] > 0))
-    normal[nowhere], right[nowhere] = np.eye(count), 0.0  # one that cannot be closed stays as it is
+    normal[nowhere], right[nowhere] = np.eye(count), 0.0  # a candidate that cannot be closed stays as it is
     mask, _ = problem.requirements.held(problem.kind)
     equations = np.zeros((len(right), len(mask), count))
     equations[:, range(len(mask)), range(len(mask))] = mask
@@ -256,7 +257,7 @@ def _slack_slopes(problem: PathTask, rows: Real, slack: Real) -> Real:
 
 
 def _solved(normal: Real, right: Real, equations: Real, targets: Real) -> Real:
-    """Return the least squares' step (B, p) that keeps to equations (B, m, p); rows of zeros are none."""
+    """Return the least-squares step (B, p) that keeps equations (B, m, p); a row of zeros is no equation."""
     used = np.abs(equations).max(axis=(0, 2)) > 0
     equations, targets = equations[:, used], targets[:, used]
     count, extra = normal.shape[1], equations.shape[1]
@@ -275,7 +276,7 @@ def _solved(normal: Real, right: Real, equations: Real, targets: Real) -> Real:
 
 
 def _solutions(matrices: Real, right: Real) -> Real:
-    """Return the solutions of linear equations (B, n, n); 0, which changes nothing, of those without one."""
+    """Return the solutions of linear equations (B, n, n), 0 where there is none, so that nothing changes."""
     try:
         return np.asarray(np.linalg.solve(matrices, right[..., None])[..., 0])
     except np.linalg.LinAlgError:
@@ -287,7 +288,7 @@ def _solutions(matrices: Real, right: Real) -> Real:
 
 
 def _turned(problem: PathTask, state: _State, change: Real) -> Real:
-    """Return how far the crank turns on at each point (B, n)."""
+    """Return by how much each point's crank angle changes in a step (B, n)."""
     if problem.timing is not None:
         return change[:, -1:] if problem.free_start else np.zeros((len(change), 1))
     traced, size = state.traced, state.candidates.rows.shape[1]

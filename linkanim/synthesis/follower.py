@@ -1,7 +1,7 @@
-"""Linkages for a stroke or for poses while they are dragged: a process beside the window.
+"""Find linkages for a stroke or for poses while they are dragged: a process beside the window.
 
 It reads requests from its standard input, a line of JSON each, and writes replies to its standard output. A
-request that comes while another one is worked on ends that.
+new request ends the work on the one before it.
 """
 
 from __future__ import annotations
@@ -28,17 +28,17 @@ from linkanim.synthesis.path import task_of
 from linkanim.synthesis.search import ALIKE, best_fits, glimpsed, refitted
 
 COUNT = 6
-"""Answers for a stroke."""
+"""The number of answers for a stroke."""
 _MUCH = math.log(1.5)
-"""By how much another answer has to be better, so that the one that is shown gives way to it."""
+"""The least difference in cost for which a better answer replaces the one that is shown."""
 _KEPT = 128
-"""Fits that are known."""
+"""The number of latest fits that are kept."""
 
 
 class Follow(NamedTuple):
-    """What is asked: linkages along points (x, y), with fixed pins given or None.
+    """A request for linkages along points (x, y), with fixed pins given or None.
 
-    `near` are the numbers of an answer to go on from, if any; without `search` only that one is fitted again.
+    `near` are the numbers of an answer to start from, if any; without `search` only that one is fitted again.
     """
 
     stroke: int
@@ -50,10 +50,10 @@ class Follow(NamedTuple):
 
 
 class FollowPoses(NamedTuple):
-    """What is asked: linkages through poses (x, y, angle in rad), sliding or not, with fixed pins given.
+    """A request for linkages through poses (x, y, angle in rad), sliding or not, with fixed pins given.
 
-    `near` and `search` as of a stroke. `moved` is the number of a joint of `near` and the x and y that it is
-    to have in the first pose, if any. The transmission angle weighs so much more than the size.
+    `near` and `search` are those of a `Follow`. `moved`, if any, is the number of a joint of `near` and its
+    wanted x and y in the first pose. `weight` is that of the transmission angle against the size.
     """
 
     stroke: int
@@ -70,16 +70,16 @@ Request = Follow | FollowPoses
 
 
 def request_from(line: str) -> Request:
-    """Return what a line of JSON asks."""
+    """Return the request in a line of JSON."""
     known = json.loads(line)
     return FollowPoses(**known) if "poses" in known else Follow(**known)
 
 
 class Reply(NamedTuple):
-    """Answers to a request, the numbers of all of them in a row, which one is shown; or why there is none.
+    """Answers to a request: all their numbers in a row, and which one is shown; or why there is none.
 
-    One that is not `whole` is a single answer, to go in the place of the one that is shown. `way` holds the
-    numbers of further answers, from the exact end of the front to the compact one.
+    A reply that is not `whole` is a single answer, which replaces the one that is shown. `way` holds the
+    numbers of further answers, from the exact end of the front to the compact end.
     """
 
     stroke: int
@@ -91,7 +91,7 @@ class Reply(NamedTuple):
 
 
 class Follower:
-    """Answers one request after the other; it knows the last fits, to go on from them."""
+    """Answers one request after the other; it keeps the latest fits, to start from them."""
 
     def __init__(self) -> None:
         self._known: dict[tuple[float, ...], Fit | GuidedLinkage] = {}
@@ -107,7 +107,7 @@ class Follower:
             yield Reply(request.stroke, whole=True, error=str(error))
 
     def _told(self, fits: Sequence[Fit | GuidedLinkage]) -> tuple[float, ...]:
-        """Return the numbers of answers, which are known from now on."""
+        """Keep answers, and return their numbers in a row."""
         rows = [(answer_of(one) if isinstance(one, Fit) else pose_answer_of(one)).numbers for one in fits]
         self._known |= dict(zip(rows, fits, strict=True))
         self._known = dict(list(self._known.items())[-_KEPT:])
@@ -116,10 +116,10 @@ class Follower:
     def _fits(
         self, request: Follow, pulse: Callable[[], None]
     ) -> Iterator[tuple[tuple[Fit, ...], int | None, tuple[Fit, ...]]]:
-        """Yield answers, which of them is shown, and the way: the answers along the front.
+        """Yield answers, the index of the one that is shown, and the way: the answers along the front.
 
-        It is None where it is only one that is followed. First come answers from many limits, then with them
-        those that are the most exact of all.
+        The index is None where a single answer is fitted again. First come the answers within many limits,
+        then these with the most exact ones of all.
         """
         task = task_of(request.points, request.closed, pivots=request.pivots, name=NAME)
         before = self._known.get(tuple(request.near)) if request.near else None
@@ -143,7 +143,7 @@ class Follower:
     def _guided(
         self, request: FollowPoses
     ) -> Iterator[tuple[tuple[GuidedLinkage, ...], int | None, tuple[GuidedLinkage, ...]]]:
-        """Yield linkages through poses and which of them is shown, likewise, without a way."""
+        """Yield linkages through poses, and the index of the one that is shown, as `_fits`, without a way."""
         kind = "slider-crank" if request.sliding else "four-bar"
         task = guidance.task_of(request.poses, kind=kind, pivots=request.pivots, name=guidance.POSES_NAME)
         before = self._known.get(tuple(request.near)) if request.near else None
@@ -164,7 +164,7 @@ class Follower:
 
 
 def _shown(front: Sequence[Fit], before: Fit | None) -> Fit:
-    """Return the answer to be shown: that which is shown already, unless another one is much better."""
+    """Return the answer to be shown: the one that is shown already, unless another is much better."""
     best = front[knee([fit.figures for fit in front])]
     if before is None or cost(before.figures) > cost(best.figures) + _MUCH:
         return best
@@ -172,7 +172,7 @@ def _shown(front: Sequence[Fit], before: Fit | None) -> Fit:
 
 
 def lines_of(stream: TextIO) -> SimpleQueue[str | None]:
-    """Return a queue of a stream's lines as they come, None at its end, to be looked into without waiting."""
+    """Return a queue of a stream's lines, None at its end, which a thread fills as they come."""
     lines: SimpleQueue[str | None] = SimpleQueue()
 
     def read() -> None:
@@ -186,7 +186,7 @@ def lines_of(stream: TextIO) -> SimpleQueue[str | None]:
 
 
 def main() -> None:
-    """Answer requests until there are no more; with the word `paths` be ready for strokes at once."""
+    """Answer requests until there are no more; with the argument `paths` prepare for strokes first."""
     requests = lines_of(sys.stdin)
     if "paths" in sys.argv:
         atlas(FOUR_BAR)
@@ -200,7 +200,7 @@ class _Newer(Exception):
 
 
 def _served(follower: Follower, request: Request, requests: SimpleQueue[str | None]) -> str | None:
-    """Write the replies to a request, until another one comes; return the last that has, None at the end."""
+    """Write the replies to a request until a newer one comes; return the newest one, None at the end."""
 
     def pulse() -> None:
         if not requests.empty():

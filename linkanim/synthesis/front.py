@@ -1,12 +1,12 @@
 """Search the front of answers to a drawn path: deviation, size and transmission angle judged together.
 
-An answer is on the front where no other is as good in all of them (Pareto). It is searched by limits: many
-candidates are fitted at once, each within a longest link and above a least transmission angle of its own.
+An answer is on the front if no other is as good in all three (Pareto). The front is searched by limits: many
+candidates are fitted at once, each within its own longest link and least transmission angle.
 
 Its parts, in reading order:
 
-- Which answers are on the front, the one that one would choose, and a few that differ to the eye.
-- Search: fits within many pairs of limits, and the way along the front from the exact end to the compact.
+- The front: which answers are on it, which one would be chosen, and a few that look different.
+- Search: fits within many pairs of limits, and answers along the front from the exact end to the compact end.
 """
 
 from __future__ import annotations
@@ -26,32 +26,32 @@ from linkanim.synthesis.fitting import PathTask, merit, refined
 from linkanim.synthesis.linkages import FOUR_BAR, Indices, Real
 from linkanim.synthesis.search import ALIKE, MATCHED, spread, started, verified
 
-# Which answers are on the front, the one that one would choose, and a few that differ to the eye.
+# The front: which answers are on it, which one would be chosen, and a few that look different.
 
 Preference = Literal["exact", "compact", "angle"]
 PREFERENCES: tuple[Preference, ...] = ("exact", "compact", "angle")
 _SEEN = 3e-3
-"""A deviation that nobody sees: answers that are nearer are equally exact where one is chosen."""
+"""A deviation that cannot be seen: answers below it are equally exact when one is chosen."""
 _TRADE = math.log(1.5, 2)
-"""How size counts beside deviation: twice the size has to save a third of the deviation."""
+"""The weight of size against deviation: an answer of twice the size has to save a third of the deviation."""
 _COMPACT, _NEAR = 2.5, 1.5
-"""No larger answer is chosen where one of that size is within that factor of the best deviation."""
+"""No answer above this size is chosen if one below it is within this factor of the best deviation."""
 _STILL_NEAR = 2.0
-"""Then one is chosen within that factor: a better transmission angle is worth so much."""
+"""The factor of the best deviation that is allowed in this choice for a better transmission angle."""
 _WELL = math.radians(35)
 """From this transmission angle on a linkage runs well; below, the angle counts as much as the deviation."""
 _FARTHEST, _TIMES = 0.03, 3.0
-"""Of the curve's size, or times the best deviation: an answer that is further off follows it no more."""
+"""The largest deviation of an answer: this share of the curve's size, or so many times the best one."""
 _JAMS = math.radians(5)
-"""Below this transmission angle a linkage all but jams: such an answer is left out where others follow."""
+"""Below this transmission angle a linkage nearly jams: such an answer is left out if there are others."""
 _FOLLOWED = 1e-4
-"""Of the curve's size: answers on the front that are nearer follow it equally well."""
+"""The deviation, as a share of the curve's size, below which answers on the front are equally exact."""
 _SLACK = Figures(1.01, 1.01, 1.01, math.radians(0.3))
-"""By what factors, and angle, answers are told apart on the front."""
+"""The factors, and the angle, below which figures on the front count as equal."""
 
 
 def front_of(fits: Iterable[Fit]) -> tuple[Fit, ...]:
-    """Return those that follow the curve and are on the front, the most exact first."""
+    """Return the answers that follow the curve and are on the front, the most exact first."""
     ordered = sorted(fits, key=lambda fit: (cost(fit.figures), *fit.figures))
     best = min((fit.figures.deviation for fit in ordered), default=0.0)
     follow = [fit for fit in ordered if fit.figures.deviation <= max(_TIMES * best, _FARTHEST)]
@@ -63,7 +63,7 @@ def front_of(fits: Iterable[Fit]) -> tuple[Fit, ...]:
 
 
 def _beats(one: Figures, other: Figures) -> bool:
-    """Return whether one is as good as another in all, but for what nobody would tell apart."""
+    """Return whether one is as good as another in all figures, small differences ignored."""
     if one.deviation > max(_SLACK.deviation * other.deviation, _FOLLOWED):
         return False
     smaller = one.size <= _SLACK.size * other.size and one.room <= _SLACK.room * other.room
@@ -71,21 +71,21 @@ def _beats(one: Figures, other: Figures) -> bool:
 
 
 def cost(figures: Figures) -> float:
-    """Return one number for all figures, the less the better, of which differences count: a logarithm."""
+    """Return the logarithm (base e) of one cost for all figures: differences of it are comparable."""
     seen = max(figures.deviation, _SEEN) * _of_angle(figures)
     return math.log(seen) + _TRADE * math.log(max(figures.size, figures.room / 2))
 
 
 def _of_angle(figures: Figures) -> float:
-    """Return by what factor a deviation weighs more where the transmission angle is poor."""
+    """Return the factor by which a poor transmission angle raises the deviation."""
     return max(math.sin(_WELL) / max(math.sin(figures.angle), 1e-6), 1.0)
 
 
 def knee(front: Sequence[Figures]) -> int:
-    """Return which answer one would choose.
+    """Return the index of the answer that would be chosen.
 
-    None is taken that doubles the size for less than a third of the deviation, nor one of more than 2.5 curve
-    sizes where one of those is within 1.5 times the best deviation.
+    It does not double the size to save less than a third of the deviation, nor is it larger than 2.5 curve
+    sizes if a smaller one is within 1.5 times the best deviation.
     """
     off = [max(one.deviation, _SEEN) for one in front]
 
@@ -101,7 +101,7 @@ def knee(front: Sequence[Figures]) -> int:
 
 
 def preferred(fits: Iterable[Fit], prefer: Preference) -> list[Fit]:
-    """Return answers in the order in which one prefers them: by deviation, size or transmission angle."""
+    """Return answers sorted by what is preferred: deviation, size or transmission angle."""
     keys: dict[Preference, Callable[[Figures], float]] = {
         "exact": lambda figures: figures.deviation,
         "compact": lambda figures: max(figures.size, figures.room / 2),
@@ -111,7 +111,7 @@ def preferred(fits: Iterable[Fit], prefer: Preference) -> list[Fit]:
 
 
 def differing(fits: Iterable[Fit], count: int) -> list[Fit]:
-    """Return the first few of answers that differ to the eye."""
+    """Return the first `count` answers that look different."""
     different: list[Fit] = []
     for fit in fits:
         if len(different) < count and not any(fit.apart(one) <= ALIKE for one in different):
@@ -120,10 +120,10 @@ def differing(fits: Iterable[Fit], count: int) -> list[Fit]:
 
 
 def cards(front: Sequence[Fit], shown: Fit, count: int) -> tuple[Fit, ...]:
-    """Return at most `count` of the front that differ to the eye, the most exact first.
+    """Return at most `count` answers of the front that look different, the most exact first.
 
-    Among them are the one that is shown, the ends of the front and, between, those that are farthest from
-    the others in their figures.
+    Among them are the shown answer, the ends of the front and, between these, the answers whose figures
+    differ most from the others'.
     """
     ends = [preferred(front, prefer)[0] for prefer in PREFERENCES] if front else []
     chosen = differing([shown, *ends], count)
@@ -136,7 +136,7 @@ def cards(front: Sequence[Fit], shown: Fit, count: int) -> tuple[Fit, ...]:
 
 
 def names_of(cards: Sequence[Figures]) -> tuple[str, ...]:
-    """Say of each of some answers what it is among them; "" where it is the best in nothing."""
+    """Return for each answer the words for what it is best in; "" where it is the best in nothing."""
     names = ["" for _ in cards]
     if cards:
         names[knee(cards)] = "balanced"
@@ -150,30 +150,30 @@ def names_of(cards: Sequence[Figures]) -> tuple[str, ...]:
 
 
 def _away(one: Figures, other: Figures) -> float:
-    """Return how much two answers differ in their figures."""
+    """Return the distance of two answers in their figures."""
     off = math.log(max(one.deviation, _SEEN) / max(other.deviation, _SEEN))
     return math.hypot(off, math.log(one.size / other.size), (one.angle - other.angle) / _WELL)
 
 
-# Search: fits within many pairs of limits, and the way along the front from the exact end to the compact.
+# Search: fits within many pairs of limits, and answers along the front from the exact end to the compact end.
 
 _SIZES, _ANGLES = np.geomspace(0.5, 8.0, 12), np.radians([5.0, 15.0, 30.0, 42.0])
 """Longest links in curve sizes, and least transmission angles: candidates are fitted within each pair."""
 _POOL, _OPEN_POOL = 600, 300
 _POOL_CURVES, _OPEN_CURVES = CURVES, CURVES // 4
-"""So many of the atlas's best, among so many of its curves, from which candidates start."""
+"""How many of the best of the atlas's first curves candidates start from, for a closed or an open curve."""
 _STARTS, _LARGER = 8, 1.3
-"""For each pair of limits: so many candidates, which may be larger than the limit by that factor."""
+"""For each pair of limits, the number of starts, and the factor by which they may exceed the size."""
 _POINTS, _STEPS, _KEPT = (32, 64), (12, 40), (3, 1)
-"""In two stages: points, steps, and how many candidates of each pair are kept."""
+"""For each of two stages: the points, the steps, and the candidates of each pair that are kept."""
 _STEP, _MOST_BETWEEN, _WAY_STEPS = 0.06, 6, 25
-"""From answer to answer along the front: the share by which the size changes, and at the most so many."""
+"""Answers along the front: the share by which size changes, the most between two, and steps for each."""
 _LITTLE = 0.25
-"""Along the front a transmission angle counts by this power of what it counts elsewhere."""
+"""The power to which the factor of a transmission angle is raised when answers along the front are chosen."""
 
 
 class _Limited(NamedTuple):
-    """Candidates at some points, and each one's longest link in curve sizes and least transmission angle."""
+    """Candidates, each with its own limits: longest link (in curve sizes) and least transmission angle."""
 
     candidates: Candidates
     sizes: Real
@@ -183,7 +183,7 @@ class _Limited(NamedTuple):
         return _Limited(self.candidates.take(chosen), self.sizes[chosen], self.angles[chosen])
 
     def problem(self, task: PathTask, chosen: Indices) -> PathTask:
-        """Return what is asked of the candidates at chosen points, each within limits of its own."""
+        """Return the task at chosen points, with each candidate's own limits."""
         own = task.requirements
         largest = np.minimum(self.sizes * task.curve.size, own.largest)[:, None]
         limits = replace(own, largest=largest, least_angle=np.maximum(self.angles, own.least_angle))
@@ -193,7 +193,7 @@ class _Limited(NamedTuple):
 def searched_front(
     task: PathTask, known: Iterable[Fit] = (), pulse: Callable[[], None] = lambda: None
 ) -> tuple[Fit, ...]:
-    """Return the front of what is found within many limits and of answers that are known.
+    """Return the front of the answers found within many limits, and of known ones.
 
     The most exact comes first. `pulse` is called meanwhile.
     """
@@ -211,7 +211,7 @@ def searched_front(
 
 
 def with_cognates(front: Sequence[Fit], pulse: Callable[[], None] = lambda: None) -> tuple[Fit, ...]:
-    """Return the front of a front and the cognates of its answers, which are as exact at another size."""
+    """Return the front of given answers and their cognates, which are as exact but of another size."""
     if not front or front[0].kind is not FOUR_BAR:
         return tuple(front)
     more: list[Fit] = []
@@ -236,9 +236,9 @@ def _fitted(
 
 
 def _starts(task: PathTask, pool: Candidates) -> _Limited:
-    """Return candidates for each pair of limits: those most like the curve of those that are small enough.
+    """Return for each pair of limits the candidates that are most similar to the curve and small enough.
 
-    Ones that keep to the angle come first.
+    Those that keep the least transmission angle come first.
     """
     size = task.kind.link_lengths(pool.rows).max(axis=1) / task.curve.size
     which: list[Indices] = []
@@ -255,7 +255,7 @@ def _starts(task: PathTask, pool: Candidates) -> _Limited:
 
 
 def _best_of_each(now: _Limited, costs: Real, count: int) -> Indices:
-    """Return the best few candidates of each pair of limits."""
+    """Return the indices of the best `count` candidates of each pair of limits."""
     order = np.lexsort((costs, now.angles, now.sizes))
     order = order[np.isfinite(costs[order])]
     pairs = np.stack([now.sizes[order], now.angles[order]])
@@ -267,9 +267,9 @@ def _best_of_each(now: _Limited, costs: Real, count: int) -> Indices:
 def way_along(
     task: PathTask, front: Sequence[Fit], pulse: Callable[[], None] = lambda: None
 ) -> tuple[Fit, ...]:
-    """Return answers from the exact end of a front to the compact one, each somewhat like its neighbours.
+    """Return answers from the exact end of a front to the compact end, each similar to its neighbours.
 
-    Between those of the front that are the best of their size, answers are fitted from both.
+    Between two neighbours on the front, the best of their sizes, answers are fitted starting from both.
     """
     exact, compact = (preferred(front, prefer)[0] for prefer in ("exact", "compact"))
     ends = _along(front, {exact, compact, front[knee([fit.figures for fit in front])]})
@@ -296,7 +296,7 @@ def way_along(
 
 
 def _along(fits: Iterable[Fit], ends: Set[Fit]) -> list[Fit]:
-    """Return those that are the most exact of their size, the largest first, and the `ends`.
+    """Return the answers that are the most exact of their size, the largest first, and the `ends`.
 
     A much better transmission angle makes up for a little deviation.
     """

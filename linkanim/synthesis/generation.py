@@ -3,7 +3,7 @@
 Its parts, in reading order:
 
 - The function that a linkage is to generate: an expression in x as one types it, or a table.
-- `linkanim.function`: a function to the linkages whose output follows it as their input turns.
+- `linkanim.function`: from a function to the linkages whose output follows it as their input turns.
 """
 
 from __future__ import annotations
@@ -32,16 +32,16 @@ from linkanim.units import shown
 # The function that a linkage is to generate: an expression in x as one types it, or a table.
 #
 # An expression is read by a small grammar of its own over Python's syntax: numbers, x, pi and e, the four
-# operations, powers as ^ or **, and the functions in `FUNCTIONS`. Nothing else is looked up, and nothing
+# operations, powers as ^ or **, and the functions in `FUNCTIONS`. No other name is looked up, and no code is
 # run.
 
 LONGEST = 200
-"""Characters of an expression."""
+"""The most characters of an expression."""
 FEWEST_ROWS, MOST_ROWS = 4, 2000
 _LOOKED_AT = 721
-"""Places at which a function is looked at."""
+"""The number of places at which a function is evaluated to check it."""
 _FLAT = 1e-12
-"""Of its values' size: a function that changes by no more is constant."""
+"""The change, as a share of its values' size, up to which a function is constant."""
 
 FUNCTIONS: Mapping[str, Callable[[Real], Real]] = {
     "sin": np.sin,
@@ -77,9 +77,9 @@ _UNARY: Mapping[type[ast.unaryop], Callable[[Real], Real]] = {
 
 @frozen(eq=False)
 class GivenFunction:
-    """A function in words, over x from `first` to `last`, and what gives its values (k,) at x (k,).
+    """A function in words, over x from `first` to `last`, with the callable for its values (k,) at x (k,).
 
-    BadInput for a range that is none, for values that are no numbers, and for a constant.
+    BadInput for an empty range, for values that are no numbers, and for a constant.
     """
 
     words: str
@@ -116,7 +116,7 @@ class GivenFunction:
 
     @cached_property
     def span(self) -> float:
-        """By how much y grows from the first x to the last; of one that turns back, from least to most."""
+        """The growth of y from the first x to the last; for a function that turns back, least to greatest."""
         y = self(np.linspace(self.first, self.last, _LOOKED_AT))
         steps = np.diff(y)
         if (steps >= 0).all() or (steps <= 0).all():
@@ -132,13 +132,13 @@ class GivenFunction:
         return np.asarray((self(x) - self.start) / self.span)
 
     def chebyshev(self, count: int) -> Real:
-        """Return `count` x as Chebyshev spaces them: where a polynomial of that degree swings least."""
+        """Return `count` values of x with Chebyshev's spacing: the zeros of his polynomial of that degree."""
         middle, half = (self.first + self.last) / 2, (self.last - self.first) / 2
         return np.asarray(middle - half * np.cos((2 * np.arange(count) + 1) * math.pi / (2 * count)))
 
 
 def expression(text: str, first: float, last: float) -> GivenFunction:
-    """Return the function that a text such as "y = log10(x)" says; BadInput with the way out for others."""
+    """Return the function of a text such as "y = log10(x)"; BadInput, with what to write, for other texts."""
     stated = text.strip()
     left, sign, right = stated.partition("=")
     body = right if sign else stated
@@ -157,7 +157,7 @@ def expression(text: str, first: float, last: float) -> GivenFunction:
 
 
 def _read(node: ast.expr, text: str) -> Callable[[Real], Real]:
-    """Return what gives the values of a part of an expression."""
+    """Return the callable for the values of a part of an expression."""
     match node:
         case ast.Constant(value=int() | float() as number) if not isinstance(number, bool):
             constant = float(number)
@@ -209,7 +209,7 @@ def table(rows: Sequence[tuple[float, float]], words: str = "y of a table") -> G
 
 
 def _bends(x: Real, y: Real) -> Real:
-    """Return the second derivatives of the natural cubic spline, by elimination in three diagonals."""
+    """Return the second derivatives of the natural cubic spline, by elimination in a tridiagonal system."""
     step, slope = np.diff(x), np.diff(y) / np.diff(x)
     diagonal, right = 2 * (step[1:] + step[:-1]), 6 * np.diff(slope)
     for n in range(1, len(diagonal)):
@@ -230,7 +230,7 @@ def _spline(x: Real, y: Real, bends: Real, at: Real) -> Real:
     return np.asarray(low * y[n] + high * y[n + 1] + bent * step**2 / 6)
 
 
-# `linkanim.function`: a function to the linkages whose output follows it as their input turns.
+# `linkanim.function`: from a function to the linkages whose output follows it as their input turns.
 #
 # x is read on the input crank, y on the output, each on an even scale. What the output does is y at as many
 # x as there are precision points, to the last digits, and differs from it between them by the structural
@@ -247,44 +247,44 @@ def _spline(x: Real, y: Real, bends: Real, at: Real) -> Real:
 COUNT = 3
 FEWEST_POINTS, MOST_POINTS = 3, 5
 GROUND, STROKE = 100.0, 100.0
-"""The four-bar's ground, and the slider's stroke, where nothing is said of them."""
+"""The default lengths of the four-bar's ground and of the slider's stroke."""
 
 _FREE = tuple(math.radians(angle) for angle in (60, 90, 120))
-"""Ranges that are tried where one is free."""
+"""The ranges (rad) that are tried where one is free."""
 _LEAST = math.radians(35)
 """Transmission angles below this one count against a linkage."""
 _SLIMMEST = 40.0
-"""The longest link in shortest ones, beyond which a linkage is none."""
+"""The largest ratio of the longest link to the shortest one."""
 _TRIED, _SEEN, _CURVE = 18, 41, 60
-"""Directions of each scale, places along the range, and bars of a curve that are tried."""
+"""The numbers of each scale's directions, of places along the range, and of a curve's bars that are tried."""
 _PLACES = 401
-"""Along the range, at which extremes are looked for."""
+"""The number of places along the range among which extremes are searched."""
 _EXCHANGES = 25
 _SHARES = (1.0, 0.5, 0.25, 0.1, 0.03)
-"""Of a step of Newton's, the first that makes the largest error less is taken."""
+"""The shares of a Newton step that are tried until one reduces the largest error."""
 _LEVEL = 1e-9
-"""Of the error: by how much its extremes may differ when they are level."""
+"""The largest difference, as a share of the error, of extremes that count as equal."""
 _SAME, _ALIKE = 1e-6, 1e-3
-"""Of an angle, and of the longest link: what differs by less is one."""
+"""The differences, in angle (rad) and as a share of the longest link, below which two are the same."""
 _FARTHEST = 3.0
-"""In strokes: how far to either side of the crank's pivot the slider's scale is tried to begin."""
+"""How far to either side of the crank's pivot, in strokes, beginnings of the slider's scale are tried."""
 _KEPT, _MORE = 4, 7
-"""Linkages that are kept of those for one pair of ranges, and looked at beside those that are asked for."""
+"""The linkages that are kept for each pair of ranges, and those that are improved beyond the count."""
 _HALVINGS = 50
 _FINEST = 1e-15
 _POOR = 5.0
-"""What a transmission angle below the least costs: the error times the ratio of their sines, so often."""
+"""The power of the ratio of sines by which a transmission angle below the least raises the error."""
 _DIGITS = 11
 _FINE = 2001
-"""Places at which the solver's errors are looked at."""
+"""The number of places at which the solver's errors are computed."""
 _NARROWEST, _WIDEST = math.radians(1), math.radians(340)
 
 
 @frozen(eq=False)
 class FunctionTask:
-    """A function, ranges and starts of both scales, None for one that is free, and how many precision points.
+    """A function, the ranges and starts of both scales (None if free), and the number of precision points.
 
-    Ranges and starts are angles (rad), those of a slider lengths; a negative range is run backwards.
+    Ranges and starts are angles (rad), for a slider lengths; a negative range runs backwards.
     """
 
     function: GivenFunction
@@ -303,27 +303,27 @@ class FunctionTask:
 
     @property
     def length(self) -> float:
-        """What the generator's unit of length stands for."""
+        """The generator's unit of length, in the scene's unit."""
         if self.generator.turning:
             return GROUND
         return STROKE if self.output_range is None else abs(self.output_range)
 
     @property
     def scales(self) -> tuple[float, float]:
-        """The units in which the generator has its input and its output."""
+        """The generator's units of input and output."""
         return 1.0, 1.0 if self.generator.turning else self.length
 
 
 @frozen(eq=False)
 class Generated:
-    """A linkage beside the function; y's unit for errors, angles in radians, of a slider lengths."""
+    """A linkage that generates a function; errors in y's unit, angles in radians, for a slider lengths."""
 
     scene: Scene = field(repr=False)
     parameters: Mapping[str, float]
     error: float
     """The largest structural error."""
     extremes: tuple[tuple[float, float], ...]
-    """Where the structural error is greatest and least along x, with its value, the ends among them."""
+    """The extremes of the structural error as (x, error), with both ends."""
     points: Real
     """The precision points: x at which there is no error."""
     input_start: float
@@ -331,9 +331,9 @@ class Generated:
     output_start: float
     output_range: float
     transmission_angle: float
-    """The least over the range."""
+    """The least one over the range (rad)."""
     chebyshev: float
-    """The largest structural error of the linkage that it was levelled from, with Chebyshev's points."""
+    """The largest structural error before levelling, with Chebyshev's points."""
     task: FunctionTask = field(repr=False)
 
     def errors(self, x: Real) -> Real:
@@ -366,14 +366,14 @@ class Designs(NamedTuple):
     output_range: Real
 
     def take(self, chosen: Any) -> Designs:
-        """Return some of them."""
+        """Return the chosen designs."""
         return Designs(*(part[chosen] for part in self))
 
 
 class Generator(ABC):
     """A kind of linkage that generates functions, by its parameters at the first x.
 
-    A row has the input's link first, and the input's and the output's places at the first x last.
+    A row begins with the input link's length, and ends with the places of input and output at the first x.
     """
 
     name: str
@@ -381,11 +381,11 @@ class Generator(ABC):
     links: tuple[str, ...]
     output: str
     reading: str
-    """Which of a motion's quantities y is read on."""
+    """The quantity of a motion on which y is read."""
     turning: bool
-    """Whether that is an angle."""
+    """Whether the output is an angle."""
     in_line: float
-    """The crank's angle, half turns aside, at which the transmission angle is at an extreme."""
+    """The crank's angle (rad), up to half turns, at which the transmission angle has an extreme."""
 
     @abstractmethod
     def lengths(self, rows: Real) -> Real:
@@ -393,11 +393,11 @@ class Generator(ABC):
 
     @abstractmethod
     def poses(self, inputs: Real, outputs: Real) -> Poses:
-        """Return the poses of the input link as the output sees it, at ways of both since the first x."""
+        """Return the input link's poses as seen from the output, by both movements since the first x."""
 
     @abstractmethod
     def rows(self, poses: Poses, bars: Bars, first: tuple[float, float]) -> Real:
-        """Return the rows of couplers (k,) of such poses, the ways at the first of which are `first`."""
+        """Return the rows of couplers (k,) for such poses; `first` is the movement at the first pose."""
 
     @abstractmethod
     def through(self, inputs: Real, outputs: Real) -> Real:
@@ -405,18 +405,18 @@ class Generator(ABC):
 
     @abstractmethod
     def outputs(self, rows: Real, closure: Real, inputs: Real, near: Real) -> tuple[Real, Real]:
-        """Return how far the output has moved (k, n) where the input has, and cos μ; NaN where it cannot be.
+        """Return the movement of the output (k, n) by that of the input, and cos μ; NaN if it cannot close.
 
-        An angle is told in the turn in which it is nearest to `near`.
+        An angle is given in the turn in which it is nearest to `near`.
         """
 
     @abstractmethod
     def closures(self, rows: Real, inputs: Real, outputs: Real) -> Real:
-        """Return +1 or -1 (k, n) for how the linkage closes at ways of both, which it passes."""
+        """Return the closures +1 or -1 (k, n) at movements of input and output that the linkage passes."""
 
     @abstractmethod
     def slopes(self, row: Real, inputs: Real, outputs: Real) -> Real:
-        """Return how outputs (n,) change with each parameter (n, p), less the change of the scale's start."""
+        """Return the slopes (n, p) of the outputs by the parameters, relative to the scale's start."""
 
     @abstractmethod
     def document(self, row: Real, closure: float, scale: float) -> dict[str, Any]:
@@ -437,12 +437,12 @@ class FourBarGenerator(Generator):
         return np.column_stack([np.ones(len(rows)), rows[:, :3]])
 
     def poses(self, inputs: Real, outputs: Real) -> Poses:
-        """Return the crank as the rocker sees it."""
+        """Return the crank's poses as seen from the rocker."""
         turned = inputs - outputs
         return Poses(-np.exp(-1j * outputs), turned - math.tau * np.round((turned - turned[0]) / math.tau))
 
     def rows(self, poses: Poses, bars: Bars, first: tuple[float, float]) -> Real:
-        """Return the rows of couplers between both; that of length 1 between the pivots is none."""
+        """Return the rows of couplers between both, without that of length 1 between the pivots."""
         pin = (bars.circle - poses.origins[0]) * np.exp(1j * (first[1] - first[0]))
         lengths = np.abs(pin), np.abs(bars.circle - bars.centre), np.abs(bars.centre)
         rows = np.stack([*lengths, np.angle(pin), np.angle(bars.centre)], axis=1)
@@ -464,7 +464,7 @@ class FourBarGenerator(Generator):
         square = np.abs(diagonal) ** 2
         with np.errstate(all="ignore"):
             root = np.sqrt(((coupler + rocker) ** 2 - square) * (square - (coupler - rocker) ** 2))
-            # B from O4: seen from there the root has the other sign
+            # B as seen from O4, where the root has the other sign
             arm = -diagonal * (
                 square + (rocker - coupler) * (rocker + coupler) - 1j * closure[:, None] * root
             )
@@ -528,11 +528,11 @@ class SliderGenerator(Generator):
         return np.asarray(rows[:, :2])
 
     def poses(self, inputs: Real, outputs: Real) -> Poses:
-        """Return the crank as the slider sees it."""
+        """Return the crank's poses as seen from the slider."""
         return Poses(-outputs.astype(np.complex128), inputs)
 
     def rows(self, poses: Poses, bars: Bars, first: tuple[float, float]) -> Real:
-        """Return the rows of rods between both."""
+        """Return the rows of rods between crank and slider."""
         pin = (bars.circle - poses.origins[0]) * np.exp(-1j * first[0])
         rod = np.abs(bars.circle - bars.centre)
         rows = np.stack([np.abs(pin), rod, bars.centre.imag, np.angle(pin), bars.centre.real], axis=1)
@@ -597,7 +597,7 @@ GENERATORS: Mapping[str, Generator] = {one.name: one for one in (FourBarGenerato
 
 
 def _solved(matrices: Real, right: Real) -> Real:
-    """Return the solutions of linear equations (k, 3, 3), NaN of those that have none."""
+    """Return the solutions of linear equations (k, 3, 3), NaN where there is none."""
     sound = np.abs(np.linalg.det(matrices)) > 1e-12
     solutions = np.full(right.shape, np.nan)
     solutions[sound] = np.linalg.solve(matrices[sound], right[sound][..., None])[..., 0]
@@ -680,7 +680,7 @@ def task_of(
 
 
 def answers(task: FunctionTask, count: int = COUNT) -> tuple[Generated, ...]:
-    """Return the best few linkages that differ, each as the solver runs it; BadInput where there is none."""
+    """Return the best different linkages, each as the solver runs it; BadInput where there is none."""
     linkages: list[Generated] = []
     for design in _candidates(task, count):
         one = checked(task, design)
@@ -707,11 +707,11 @@ class _Design(NamedTuple):
     chebyshev: float = math.nan
     """The largest error before it was levelled."""
     left: tuple[int, ...] = ()
-    """The numbers by which it could not be levelled yet."""
+    """The columns of the parameters by which it could not be levelled yet."""
 
 
 def _candidates(task: FunctionTask, count: int) -> Iterator[_Design]:
-    """Yield linkages, the best first: those through precision points, the better of them levelled."""
+    """Yield linkages through precision points, the best first, and the better of them levelled."""
     few = range(FEWEST_POINTS if task.fewer else task.points, task.points + 1)
     designs = [
         design for points in few for ranges in _ranges(task) for design in _through(task, ranges, points)
@@ -727,7 +727,7 @@ def _candidates(task: FunctionTask, count: int) -> Iterator[_Design]:
 
 
 def _different(task: FunctionTask, designs: list[_Design]) -> list[_Design]:
-    """Return linkages, the best first, none of them like one before it."""
+    """Return linkages, the best first, each different from all earlier ones."""
     different: list[tuple[_Design, Real]] = []
     for one in sorted(designs, key=lambda design: _merit(task, design)):
         lengths = task.generator.lengths(one.row[None])[0]
@@ -747,7 +747,7 @@ def _ranges(task: FunctionTask) -> Iterator[tuple[float, float]]:
         if task.output_range is not None:
             yield wide, math.copysign(1.0, task.output_range) if sliding else task.output_range
             continue
-        # a slider that runs backwards is one that runs forwards, turned round
+        # a slider that runs backwards is a turned one that runs forwards
         yield from ((wide, high) for high in ((1.0,) if sliding else (*_FREE, *(-high for high in _FREE))))
 
 
@@ -757,7 +757,7 @@ def _through(task: FunctionTask, ranges: tuple[float, float], points: int) -> li
     inputs, outputs = task.function.x_share(x) * ranges[0], task.function.y_share(x) * ranges[1]
     try:
         rows = _rows_of_three(task, inputs, outputs) if points == 3 else _rows_of_more(task, inputs, outputs)
-    except BadInput:  # of poses that are one: a function that comes back to where it was
+    except BadInput:  # for equal poses: the function returns to an earlier value
         return []
     rows = rows[np.isfinite(rows).all(axis=1) & (rows[:, :2] > 0).all(axis=1)]
     generator = task.generator
@@ -810,7 +810,7 @@ def _rows_of_more(task: FunctionTask, inputs: Real, outputs: Real) -> Real:
 def _at_start(
     task: FunctionTask, poses: Poses, curve: CentreCurve, circuit: int, first: tuple[float, float]
 ) -> Real:
-    """Return the rows of a circuit at which the scale that has a given start begins there."""
+    """Return the rows of a circuit at which a scale with a given start begins there."""
     column, start = (3, task.input_start) if task.output_start is None else (4, task.output_start)
     assert start is not None
     start = start / task.scales[column - 3]
@@ -850,7 +850,7 @@ def _generated(
 
 
 def _merits(task: FunctionTask, rows: Real, closure: Real, ranges: tuple[float, float]) -> Real:
-    """Return what is to be small: the largest error, and what poor transmission and slim links cost."""
+    """Return the costs: the largest error, raised for poor transmission angles and slim links."""
     x = np.linspace(task.function.first, task.function.last, _SEEN)
     error, cosine = _generated(task, rows, closure, ranges, x)
     with np.errstate(all="ignore"):
@@ -868,10 +868,10 @@ def _merit(task: FunctionTask, design: _Design) -> float:
 
 
 def _levelled(task: FunctionTask, design: _Design) -> _Design:
-    """Return the linkage whose largest error is the least near by, or itself where none is found.
+    """Return the linkage near by with the smallest largest error, or the same one where none is found.
 
-    Changed are as many of its numbers as it has precision points, or where that is left open all that are
-    not given.
+    As many of its numbers are changed as it has precision points, or, if that is not prescribed, all that
+    are not given.
     """
     starts = [column for column, start in ((4, task.output_start), (3, task.input_start)) if start is None]
     few = starts[: design.points - FEWEST_POINTS]
@@ -882,7 +882,7 @@ def _levelled(task: FunctionTask, design: _Design) -> _Design:
 
 
 def _again(task: FunctionTask, design: _Design) -> _Design:
-    """Return a linkage whose exchange ended early, begun again where the errors' squares are least."""
+    """Return a linkage whose exchange ended early, restarted from the least sum of squared errors."""
     if not design.left:
         return design
     columns = list(design.left)
@@ -893,8 +893,8 @@ def _again(task: FunctionTask, design: _Design) -> _Design:
 def _exchanged(task: FunctionTask, design: _Design, columns: list[int]) -> _Design:
     """Return a linkage with its largest error made least by some of its numbers.
 
-    Remez's exchange: the row is changed by Newton's steps until the errors at as many places as numbers are
-    changed, and one more, are equal and alternate; then the places go on to where the errors are greatest.
+    Remez's exchange: with n numbers to change, Newton's steps make the errors at n + 1 places equal and
+    alternating; then the places are moved to the new extremes of the error.
     """
     x = np.linspace(task.function.first, task.function.last, _PLACES)
     places = _alternating(task, design, x, len(columns) + 1)
@@ -932,7 +932,7 @@ def _errors(task: FunctionTask, design: _Design, x: Real) -> Real:
 
 
 def _alternating(task: FunctionTask, design: _Design, x: Real, count: int) -> Real | None:
-    """Return `count` places at which the error is greatest to either side in turn; None if fewer."""
+    """Return `count` extremes of the error with alternating signs; None if there are fewer."""
     places = _extremes(lambda at: _errors(task, design, at), x)
     error = _errors(task, design, places)
     peaks: list[int] = []
@@ -942,7 +942,7 @@ def _alternating(task: FunctionTask, design: _Design, x: Real, count: int) -> Re
         else:
             peaks.append(int(n))
     while len(peaks) > count:
-        # neighbours go in pairs, so that signs still go on in turn, but for the last one too many
+        # neighbours are removed in pairs, so that signs still alternate, except a last single one
         heights = np.abs(error[peaks])
         pairs = np.maximum(heights[1:], heights[:-1])
         if len(peaks) == count + 1 or min(heights[0], heights[-1]) < pairs.min():
@@ -954,7 +954,7 @@ def _alternating(task: FunctionTask, design: _Design, x: Real, count: int) -> Re
 
 
 def _extremes(errors: Callable[[Real], Real], x: Real) -> Real:
-    """Return the ends and the places at which errors turn, between samples by parabolas, twice."""
+    """Return the ends and the extremes of the errors, refined between samples by parabolas, twice."""
     values = errors(x)
     steps = np.diff(values)
     inner = np.flatnonzero(steps[:-1] * steps[1:] <= 0) + 1
@@ -970,7 +970,7 @@ def _extremes(errors: Callable[[Real], Real], x: Real) -> Real:
 
 
 def _step(task: FunctionTask, design: _Design, places: Real, error: Real, columns: list[int]) -> Real | None:
-    """Return Newton's step of the row towards errors that are equal and alternate."""
+    """Return Newton's step of the row towards errors that are equal and alternating."""
     signs = np.where(np.arange(len(places)) % 2 == 0, 1.0, -1.0)
     return _solved_for(task, design, places, error, columns, -signs[:, None])
 
@@ -978,7 +978,7 @@ def _step(task: FunctionTask, design: _Design, places: Real, error: Real, column
 def _solved_for(
     task: FunctionTask, design: _Design, places: Real, error: Real, columns: list[int], more: Real
 ) -> Real | None:
-    """Return the step of a row that takes errors to none, as well as it can, with `more` unknowns (n, m)."""
+    """Return the least-squares step of a row that removes errors, with `more` unknowns' columns (n, m)."""
     function = task.function
     unit = function.span / design.output_range
     reached = error / unit + function.y_share(places) * design.output_range
@@ -992,7 +992,7 @@ def _solved_for(
 
 
 def _smoothed(task: FunctionTask, design: _Design, columns: list[int]) -> _Design:
-    """Return a linkage whose errors' squares are less, by Gauss and Newton's steps."""
+    """Return a linkage with a smaller sum of squared errors, by Gauss-Newton steps."""
     x = task.function.chebyshev(_SEEN)
     error = _errors(task, design, x)
     for _ in range(_EXCHANGES):
@@ -1011,7 +1011,7 @@ def _smoothed(task: FunctionTask, design: _Design, columns: list[int]) -> _Desig
 
 
 def checked(task: FunctionTask, design: _Design) -> Generated | None:
-    """Return a linkage as it is written and as the solver runs it; None where it cannot cover the range."""
+    """Return a linkage with rounded lengths as the solver runs it; None where it cannot cover the range."""
     generator, function, length = task.generator, task.function, task.length
     row = design.row.copy()
     row[:3] = np.round(row[:3] * length, _DIGITS) / length
@@ -1100,7 +1100,7 @@ def _solved_errors(
 
 
 def _zeros(errors: Callable[[Real], Real], x: Real, values: Real, at_once: int) -> Real:
-    """Return where errors change their sign, between samples by halving, so many times at once."""
+    """Return where errors change their sign, halving between samples, `at_once` halvings in each call."""
     turns = np.flatnonzero(values[:-1] * values[1:] <= 0)
     low, high, below = x[turns], x[turns + 1], values[turns]
     parts, each = 2**at_once, np.arange(len(turns))
@@ -1115,7 +1115,7 @@ def _zeros(errors: Callable[[Real], Real], x: Real, values: Real, at_once: int) 
 
 
 def _least_transmission(task: FunctionTask, design: _Design) -> float:
-    """Return the least transmission angle over the range: at its ends, or where the crank is in line."""
+    """Return the least transmission angle over the range: at an end, or where the crank is `in_line`."""
     first, wide = float(design.row[3]), design.input_range
     lines = task.generator.in_line + math.pi * np.arange(-6.0, 7.0)
     shares = np.concatenate([[0.0, 1.0], (lines - first) / wide])

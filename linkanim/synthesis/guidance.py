@@ -1,11 +1,11 @@
 """`linkanim.guide`: poses to the linkages whose coupler passes them, each checked on the solver.
 
-A four-bar is two bars of Burmester's theory, a slider-crank one of them and a point that runs along a line;
-what is free is sampled, all combinations are judged at once, and the best are followed to where they are
-best. Whether a linkage gets from pose to pose is told in the words of Norton (Design of Machinery) and
-McCarthy (Geometric Design of Linkages): it has a defect of *circuit* where it would have to be taken apart
-to get from one pose to another, of *branch* where it would have to pass a limit of its input, and of *order*
-where it passes the poses in another order.
+A four-bar is made of two bars of Burmester's theory, a slider-crank of one bar and a point that runs along a
+line. Free choices are sampled, all combinations are judged at once, and the best are improved step by step.
+The defects are named as by Norton (Design of Machinery) and McCarthy (Geometric Design of Linkages): a
+linkage has a defect of *circuit* where it would have to be taken apart to get from one pose to another, of
+*branch* where it would have to pass a limit of its input, and of *order* where it passes the poses in another
+order.
 """
 
 from __future__ import annotations
@@ -57,46 +57,46 @@ from linkanim.synthesis.linkages import (
 from linkanim.units import shown
 
 LARGEST = 8.0
-"""Of a link, in the poses' sizes."""
+"""The longest link by default, in the poses' sizes."""
 COUNT = 6
 DEFECTS = ("circuit", "branch", "order")
 PREFERENCES: Mapping[str, float] = {"compact": 0.5, "angle": 6.0}
-"""What may be preferred: by how much more a transmission angle weighs than a size."""
+"""The values of `prefer`, each with the weight of the transmission angle against the size."""
 USUAL_WEIGHT = 2.0
 
 _SAMPLES = {2: 160, 3: 160, 4: 72}
-"""Bars that are tried, of each circuit where they lie on a curve."""
+"""The number of bars that are tried for so many poses; for four, on each circuit of the curve."""
 _ON_A_CURVE = 4
-"""Poses whose pivots lie on a curve; where they are to lie in a box it is sampled so many times as close."""
+"""The number of poses whose pivots lie on a curve, and how much more closely it is sampled in a box."""
 _CLOSER = 20
 _REACH = 1.6
-"""In the poses' sizes: how far from their middle free pivots are tried."""
+"""The distance from the poses' middle, in their sizes, up to which free pivots are tried."""
 _ON_CURVE = 1e-4
-"""Of the poses' size: a given pivot that is nearer to where one can be stands there."""
+"""The distance, in the poses' size, within which a given pivot is moved to a possible one."""
 _GIVEN = 1e-13
-"""Of the poses' size: by so much rounding may move a pivot that is given."""
+"""The distance, in the poses' size, by which rounding may move a given pivot."""
 _MET = 1e-6
-"""Of the poses' size: a pose that a linkage passes at this distance is one that it passes."""
+"""The distance, in the poses' size, up to which a pose counts as passed."""
 _EXACT = 1e-14
-"""Of the poses' size: at this distance no step of Newton's goes nearer."""
+"""The distance, in the poses' size, at which Newton's steps end."""
 _APART = 0.25
-"""Of the poses' size: linkages from which better ones are looked for lie that far apart."""
+"""The least distance, in the poses' size, of linkages from which better ones are searched."""
 _PREFERRED = 2
-"""Linkages that are followed to where they are smallest, and to the best angle."""
+"""The number of linkages that are improved towards the smallest size, and towards the best angle."""
 _MORE = 4
-"""Linkages that are looked at beside those that are asked for: some come to be alike."""
+"""The number of linkages beyond the requested count that are improved, as some become equal."""
 _ROUNDS, _NARROWER = 8, 0.4
 _USUAL_LEAST = math.radians(40)
 """A transmission angle below this one, the usual least, counts twice."""
 _TURNING, _DEFECT = 0.5, 1e3
-"""What a crank that turns fully is worth, as a size's logarithm, and what a defect costs."""
+"""The gain for a crank that turns fully, as a logarithm of the size, and the cost of a defect."""
 _CLOSED = 1e-12
-"""By how much a cosine may be beyond 1 at a change point."""
+"""The most by which a cosine may exceed 1 at a change point."""
 _FINEST = 720
 _STEP = 0.1
-"""The farthest in a step of Newton's, in radians."""
+"""The longest step of Newton's method (rad)."""
 _ALIKE = 0.15
-"""Of the poses' size: answers whose joints are apart by no more look the same."""
+"""The distance of joints, in the poses' size, up to which two answers look the same."""
 _DIGITS = 15
 
 
@@ -109,7 +109,7 @@ class GuideTask:
     pivots: tuple[complex, ...]
     requirements: Requirements
     boxes: tuple[Box, ...] = ()
-    """In which the pins that are not given lie: all in one, or one in each of two."""
+    """The boxes for the pins that are not given: one for all, or two with one pin in each."""
     unit: str = "mm"
     name: str = "guide"
     source: str = "made by linkanim for poses"
@@ -119,19 +119,19 @@ class GuideTask:
 class GuidedLinkage(CouplerLinkage):
     """A linkage and the poses that it was made for.
 
-    Its least transmission angle is that from the first pose to the last, of one with defects at the poses.
+    Its least transmission angle is taken from the first pose to the last; with defects, at the poses only.
     """
 
     phases: Real
-    """At which it is nearest to each pose."""
+    """The phases at which the linkage is nearest to each pose."""
     lean: float
-    """The coupler's angle less that of the pose it is in."""
+    """The coupler's angle minus that of the pose it is in (rad)."""
     bars: tuple[Complex, Complex]
-    """Each bar's joint on the coupler, in the first pose, and its pivot; of a slider its joint, twice."""
+    """Each bar's joint on the coupler, in the first pose, and its pivot; for a slider, its joint twice."""
     error: float
-    """The largest deviation: of the origin from a pose's, or of the turn from a pose's at the poses' size."""
+    """The largest deviation from a pose: of the origin, or of the angle times the poses' size."""
     defects: tuple[str, ...]
-    """Of `DEFECTS`, those that keep it from running through the poses in their order."""
+    """The `DEFECTS` that prevent it from running through the poses in their order."""
     task: GuideTask = field(repr=False)
 
     @property
@@ -238,7 +238,7 @@ def _boxes(
 
 
 def _pivot(pivot: Sequence[float]) -> complex:
-    """Return where a fixed pin is to be."""
+    """Return a requested fixed pin as x + yi; BadInput where it is no point."""
     try:
         values = tuple(float(value) for value in pivot)
     except (TypeError, ValueError):
@@ -249,9 +249,9 @@ def _pivot(pivot: Sequence[float]) -> complex:
 
 
 class _EndChoice(NamedTuple):
-    """What is free of one end of the coupler: rows of parameters to try, and how they make its bar or slide.
+    """The free choices at one end of the coupler: rows of parameters to try, and what makes its bar or slide.
 
-    `steps` is how far each parameter is moved at first to find a better one; none of it is free where empty.
+    `steps` are the first steps of the parameters in the search for a better row; empty where none is free.
     """
 
     rows: Real
@@ -260,11 +260,11 @@ class _EndChoice(NamedTuple):
 
     @property
     def free(self) -> bool:
-        """Whether there is anything to choose that can be moved."""
+        """Whether there are parameters that can be moved."""
         return any(self.steps)
 
     def around(self, row: Real, scale: float) -> Real:
-        """Return a row (1, d) and those to either side of it in each parameter."""
+        """Return a row (1, d), and the rows with one parameter moved to either side by a step."""
         moves = np.diag(self.steps)[np.flatnonzero(self.steps)] * scale
         return np.concatenate(
             [row, *(row + factor * moves for factor in (-1.0, -0.3, 0.3, 1.0) if len(moves))]
@@ -272,7 +272,7 @@ class _EndChoice(NamedTuple):
 
 
 def _all_of(ends: Bars | Slides) -> _EndChoice:
-    """Return a choice among so many and no others."""
+    """Return a choice among these bars or slides, without free parameters."""
     rows = np.arange(len(ends[0]), dtype=np.float64)[:, None]
     return _EndChoice(rows, lambda rows: type(ends)(*(part[rows[:, 0].astype(int)] for part in ends)), (0.0,))
 
@@ -296,7 +296,7 @@ def _bars(task: GuideTask) -> _EndChoice:
 
 
 _STEPS = np.array([0.8191725133961645, 0.6710436067037893, 0.5497004779019703])
-"""Powers of the root of x⁴ = x + 1, whose multiples are evenly scattered (Roberts's sequence)."""
+"""Negative powers of the root of x⁴ = x + 1, whose multiples are evenly scattered (Roberts's sequence)."""
 
 
 def _scattered(poses: Poses, count: int, boxes: Sequence[Box] = ()) -> Real:
@@ -311,7 +311,7 @@ def _scattered(poses: Poses, count: int, boxes: Sequence[Box] = ()) -> Real:
 
 
 def _of_two(poses: Poses, rows: Real) -> Bars:
-    """Return the bars of two poses by their pivots, and how far along the midline of the pivot's images."""
+    """Return the bars of two poses by their pivots, and by places on the midperpendicular of the images."""
     centre = rows[:, 0] + 1j * rows[:, 1]
     first, second = poses.images(centre).T
     chord = second - first
@@ -361,7 +361,7 @@ def _phases_in(boxes: Sequence[Box], curve: CentreCurve) -> Real:
 
 
 def _held(task: GuideTask, pivot: complex) -> _EndChoice:
-    """Return the bars that end at a given pivot; BadInput where there is none, saying where one could be."""
+    """Return the bars that end at a given pivot; BadInput where there is none, with the nearest possible."""
     poses = task.poses
     where = f"the pivot at {pivot.real:g}, {pivot.imag:g}"
     if poses.count == 2:
@@ -381,7 +381,7 @@ def _held(task: GuideTask, pivot: complex) -> _EndChoice:
                 f"{where}: is no centre point of these four poses; the nearest one is "
                 f"{nearest.real:.6g}, {nearest.imag:.6g}"
             )
-        # where the curve all but crosses itself its foot is worth less than the pivot that was given
+        # where the curve nearly crosses itself, its nearest point is less exact than the given pivot
         tried = np.array([pivot, nearest])
         circles = circle_points(poses, tried)
         chosen = np.array([0 if np.isfinite(circles[0]) else 1])
@@ -456,16 +456,16 @@ class _Pairs(NamedTuple):
 
 
 def _paired(first: Bars, second: Bars | Slides) -> _Pairs:
-    """Return every bar with every end."""
+    """Return all pairs of a crank and another end."""
     one, other = (part.ravel() for part in np.indices((len(first[0]), len(second[0]))))
     return _Pairs(first.circle[one], first.centre[one], second[0][other], second[1][other])
 
 
 class _Judged(NamedTuple):
-    """What is known of linkages (k,): parameters, the least transmission angle, defects, the longest link.
+    """The properties of linkages (k,): parameters, least transmission angle, defects, longest link.
 
-    `angles` are those of the crank at each pose (k, n), growing or falling as they are passed; `closures`
-    are +1 or -1 at each; `turning` says whether the crank turns fully.
+    `angles` are the crank's at each pose (k, n), growing or falling in the order of passing; `closures` are
+    +1 or -1 at each pose; `turning` says whether the crank turns fully.
     """
 
     rows: Real
@@ -478,12 +478,12 @@ class _Judged(NamedTuple):
 
 
 def _judged(task: GuideTask, pairs: _Pairs) -> _Judged:
-    """Return what linkages come to, in closed form.
+    """Return the properties of linkages, in closed form.
 
     With τ the crank's angle from the ground line, or from the line's normal, the cosine of the angle at the
     coupler's end is c = p + q·cos τ for both kinds (for the slider-crank its rod against its line's normal).
     The linkage closes while |c| ≤ 1: a crank has a limit near τ = 0, where |p + q| > 1, and near τ = π,
-    where |p - q| > 1; with both, what lies to either side of the ground line are circuits of their own.
+    where |p - q| > 1; with both limits, the ranges on the two sides of the ground line are separate circuits.
     """
     poses, sliding = task.poses, task.kind is SLIDER_CRANK
     pins, ends = poses.places(pairs.pin), poses.places(pairs.end)
@@ -506,7 +506,7 @@ def _judged(task: GuideTask, pairs: _Pairs) -> _Judged:
         angle = np.angle(crank / reference[:, None])
         # a link of no length closes nowhere
         p, q = (np.where(np.isfinite(part), part, np.nan) for part in (p, q))
-    # where c reaches 1 and goes no farther the two closures meet: a change point
+    # where the greatest c is 1 the two closures meet: a change point
     near, far = (np.abs(place) - 1 for place in (p + q, p - q))
     changes = (np.abs(near) <= _CLOSED).astype(int) + (np.abs(far) <= _CLOSED)
     near, far = near <= _CLOSED, far <= _CLOSED
@@ -542,9 +542,9 @@ def _judged(task: GuideTask, pairs: _Pairs) -> _Judged:
 
 
 def _passed(angle: Real, turning: NDArray[np.bool_]) -> Real:
-    """Return the crank's angles at the poses as they are passed, within one turn where it turns fully.
+    """Return the crank's angles at the poses in the order of passing, within one turn if it turns fully.
 
-    Of the two senses it is that in which the poses are in order, or else the one that grows.
+    Of the two senses, the one in which the poses are in order is taken, or else the positive one.
     """
     forth = angle[:, :1] + (angle - angle[:, :1]) % math.tau
     back = angle[:, :1] - (angle[:, :1] - angle) % math.tau
@@ -557,7 +557,7 @@ def _passed(angle: Real, turning: NDArray[np.bool_]) -> Real:
 
 
 def _merit(task: GuideTask, judged: _Judged, weight: float) -> Real:
-    """Return what is to be small: defects first, then size against the transmission angle, by its weight."""
+    """Return the costs: of defects first, then of size against the transmission angle times its weight."""
     with np.errstate(all="ignore"):
         sine = np.log(np.sin(judged.transmission))
         merit = np.log(judged.size / task.poses.size) - weight * sine
@@ -573,7 +573,7 @@ def _merit(task: GuideTask, judged: _Judged, weight: float) -> Real:
 
 
 def _outside(task: GuideTask, pivots: Complex) -> Real:
-    """Return how far pivots (k, m) that are not given lie outside the box, or of two one outside each."""
+    """Return how far pivots (k, m) that are not given lie outside the box; of two boxes, one in each."""
     beyond = []
     for x, y, width, height in task.boxes:
         sides = x - pivots.real, pivots.real - x - width, y - pivots.imag, pivots.imag - y - height
@@ -588,10 +588,10 @@ def _outside(task: GuideTask, pivots: Complex) -> Real:
 
 
 def answers(task: GuideTask, count: int = COUNT, weight: float | None = None) -> tuple[GuidedLinkage, ...]:
-    """Return the best few linkages that differ, each as the solver runs it; BadInput where there is none.
+    """Return the best different linkages, each as the solver runs it; BadInput where there is none.
 
-    With a `weight` the transmission angle counts so much more than the size; without one as usual, the
-    smallest and that of the best angle among them.
+    `weight` is that of the transmission angle against the size; without it the usual one counts, and the
+    smallest linkage and the one with the best angle are among the answers.
     """
     ends = _ends(task)
     free = any(choice.free for pair in ends for choice in pair)
@@ -604,7 +604,7 @@ def answers(task: GuideTask, count: int = COUNT, weight: float | None = None) ->
         one = checked(task, pairs)
         if one is not None:
             linkages.append(one)
-        # where nothing is free they come in the order of their defects
+        # without free parameters the linkages come in the order of their defects
         if sum(not one.defects for one in linkages) >= count or (not free and len(linkages) >= count):
             break
     if not linkages:
@@ -613,7 +613,7 @@ def answers(task: GuideTask, count: int = COUNT, weight: float | None = None) ->
 
 
 def _none_keeps(task: GuideTask, ends: list[tuple[_EndChoice, _EndChoice]]) -> str:
-    """Return why there is no answer, with what the smallest linkage would need."""
+    """Return why there is no answer, with the limits that the smallest linkage would need."""
     limits = [("the box", "a pin in each box")[len(task.boxes) - 1]] if task.boxes else []
     named = ", ".join([*limits, "the longest link"]) + " and the least transmission angle"
     sizes = [_judged(task, _all_pairs(pair)).size for pair in ends]
@@ -632,7 +632,7 @@ def _all_pairs(ends: tuple[_EndChoice, _EndChoice]) -> _Pairs:
 
 
 def _ends(task: GuideTask) -> list[tuple[_EndChoice, _EndChoice]]:
-    """Return for each way to hold the coupler what its crank may be, and what its other end."""
+    """Return for each way to hold the coupler the choices of its crank and of its other end."""
     held = [_held(task, pivot) for pivot in task.pivots]
     if task.kind is SLIDER_CRANK:
         return [(held[0] if held else _bars(task), _slides(task))]
@@ -643,7 +643,7 @@ def _ends(task: GuideTask) -> list[tuple[_EndChoice, _EndChoice]]:
 
 
 class _Seed(NamedTuple):
-    """A linkage among those that were tried: by the ways to hold it and the parameters of both ends."""
+    """A linkage that was tried: the choices at both ends, and the parameters of each."""
 
     ends: tuple[_EndChoice, _EndChoice]
     rows: tuple[Real, Real]
@@ -653,9 +653,9 @@ class _Seed(NamedTuple):
 def _candidates(
     task: GuideTask, ends: list[tuple[_EndChoice, _EndChoice]], count: int, weight: float | None
 ) -> Iterator[_Pairs]:
-    """Yield linkages one by one, the best first: what is free of them is followed to where they are best.
+    """Yield linkages one by one, the best first, with their free parameters improved.
 
-    The first are, where no weight is given, the best, the smallest and that of the best angle.
+    If no weight is given, the first are the best, the smallest and the one with the best angle.
     """
     many, usual = max(count, COUNT) + _MORE, USUAL_WEIGHT if weight is None else weight
     seeds = [seed for pair in ends for seed in _seeds(task, pair, many, usual)]
@@ -674,7 +674,7 @@ def _candidates(
 
 
 def _seeds(task: GuideTask, ends: tuple[_EndChoice, _EndChoice], count: int, weight: float) -> list[_Seed]:
-    """Return the best of all combinations of sampled ends whose joints lie apart."""
+    """Return the best combinations of sampled ends, with joints well apart from each other's."""
     first, second = ends
     pairs = _all_pairs(ends)
     merit = _merit(task, _judged(task, pairs), weight)
@@ -690,7 +690,7 @@ def _seeds(task: GuideTask, ends: tuple[_EndChoice, _EndChoice], count: int, wei
 
 
 def _apart_ones(places: Complex, order: Indices, least: float, count: int) -> list[int]:
-    """Return `count` linkages in their order, each with joints farther than `least` from all before."""
+    """Return `count` linkages in the given order, with joints farther than `least` from all earlier ones."""
     picked: list[int] = []
     left = order
     while len(left) and len(picked) < count:
@@ -701,7 +701,7 @@ def _apart_ones(places: Complex, order: Indices, least: float, count: int) -> li
 
 
 def _followed(task: GuideTask, seed: _Seed, weight: float) -> _Seed:
-    """Return a linkage whose free choices were moved, step by shorter step, while it became better."""
+    """Return a linkage improved by moving its free parameters in ever shorter steps."""
     first, second = seed.ends
     rows, scale = seed.rows, 1.0
     merit = float(_merit(task, _judged(task, _made(task, seed)), weight)[0])
@@ -719,7 +719,7 @@ def _followed(task: GuideTask, seed: _Seed, weight: float) -> _Seed:
 
 
 def _made(task: GuideTask, seed: _Seed) -> _Pairs:
-    """Return a linkage, its bars alike in all poses to the last digits."""
+    """Return a linkage whose bars have equal lengths in all poses, to the last digits."""
     first, second = (choice.make(row) for choice, row in zip(seed.ends, seed.rows, strict=True))
     exact = polished(task.poses, second) if isinstance(second, Bars) else second
     return _paired(polished(task.poses, first), exact)
@@ -728,11 +728,11 @@ def _made(task: GuideTask, seed: _Seed) -> _Pairs:
 def followed(
     task: GuideTask, before: GuidedLinkage, moved: tuple[int, complex] | None = None
 ) -> GuidedLinkage | None:
-    """Return the linkage of poses that have moved a little that is nearest to one of before; None for none.
+    """Return the linkage for slightly moved poses that is nearest to the one `before`, or None.
 
-    What was free keeps its pivot, or its place on the curve of pivots; of five poses each bar goes to the
-    nearest of Burmester's. Pivots that are given take the place of those that were nearest to them. Of the
-    joint `moved`, 0 or 1, the place in the first pose is given instead: its pivot follows.
+    A free bar keeps its pivot, or its place on the curve of pivots; for five poses it becomes the nearest of
+    Burmester's bars. Given pivots replace the nearest ones. `moved` is the number of a joint, 0 or 1, and its
+    given place in the first pose, which its pivot follows.
     """
     poses, sliding = task.poses, task.kind is SLIDER_CRANK
     known = [(complex(joint), complex(pivot)) for joint, pivot in before.bars]
@@ -751,7 +751,7 @@ def followed(
 
 
 def _held_by(pivots: Sequence[complex], bars: list[tuple[complex, complex]]) -> list[tuple[complex, complex]]:
-    """Return bars, those that are nearest to given pivots at these."""
+    """Return the bars, with the pivots that are nearest to given ones replaced by these."""
     held, free = list(bars), list(range(len(bars)))
     for pivot in pivots[: len(bars)]:
         nearest = min(free, key=lambda n: abs(bars[n][1] - pivot))
@@ -761,10 +761,10 @@ def _held_by(pivots: Sequence[complex], bars: list[tuple[complex, complex]]) -> 
 
 
 def _bar_of(poses: Poses, joint: complex, pivot: complex) -> Bars | None:
-    """Return the bar of a joint of the body in the first pose, its pivot near one of before; None for none.
+    """Return the bar of a joint in the first pose, its pivot near the former one; None if there is none.
 
-    Two poses leave the pivot on the midperpendicular, three put it where two of those meet. Of four the
-    joint goes to the nearest point of the curve of circle points; five leave no joint free.
+    For two poses the pivot is on the midperpendicular, for three where two of these meet. For four the joint
+    is moved to the nearest point of the curve of circle points; for five no joint is free.
     """
     if poses.count == 2:
         first, second = poses.places(joint)
@@ -782,7 +782,7 @@ def _bar_of(poses: Poses, joint: complex, pivot: complex) -> Bars | None:
 
 
 def _choices(poses: Poses) -> Bars | CentreCurve | None:
-    """Return what leaves no free choice of a bar's pivot: Burmester's bars, or the curve of the pivots."""
+    """Return the possible pivots where they are restricted: Burmester's bars, or the curve; None if free."""
     if poses.count < 4 or not poses.poles:
         return None
     return CentreCurve(poses) if poses.count == 4 else burmester_points(poses)
@@ -791,7 +791,7 @@ def _choices(poses: Poses) -> Bars | CentreCurve | None:
 def _nearest_bar(
     choices: Bars | CentreCurve | None, poses: Poses, joint: complex, pivot: complex
 ) -> Bars | None:
-    """Return the bar that is nearest to one with that joint in the first pose, and that pivot."""
+    """Return the possible bar nearest to a joint in the first pose and a pivot."""
     if isinstance(choices, Bars):
         off = np.abs(choices.circle - joint) + np.abs(choices.centre - pivot)
         return choices.take(np.array([off.argmin()])) if len(off) else None
@@ -828,7 +828,7 @@ def _nearest_slide(poses: Poses, joint: complex) -> Slides | None:
 
 
 def checked(task: GuideTask, pairs: _Pairs) -> GuidedLinkage | None:
-    """Return a linkage as it is written and as the solver runs it; None where it does not assemble."""
+    """Return a linkage with rounded parameters as the solver runs it; None where it does not assemble."""
     judged, kind = _judged(task, pairs), task.kind
     row = _written(task, judged.rows[0])
     closures, angles = judged.closures[0], judged.angles[0]
@@ -838,7 +838,7 @@ def checked(task: GuideTask, pairs: _Pairs) -> GuidedLinkage | None:
         phases, off = _met(task, scene, angles, lean)
         defects = _defects(scene, phases, off <= _MET * task.poses.size)
         for pose in np.flatnonzero(off > _MET * task.poses.size):
-            # it is met after the linkage was taken apart and put together the other way
+            # the pose is passed only after the linkage was taken apart and assembled the other way
             other = _scene(task, row, closures[pose], angles[[pose, pose]])
             off[pose] = _met(task, other, angles, lean)[1][pose]
     except (AssemblyError, SceneError):
@@ -860,9 +860,9 @@ def checked(task: GuideTask, pairs: _Pairs) -> GuidedLinkage | None:
 
 
 def _written(task: GuideTask, row: Real) -> Real:
-    """Return parameters to fifteen digits after the poses' first: one input gives one file.
+    """Return parameters rounded to 1e-15 of the poses' size: equal inputs give equal files.
 
-    Pivots that are given stand where they are given, not beside that place by rounding.
+    Given pivots are exactly where they were given, without rounding.
     """
     size, row = task.poses.size, row.copy()
     for x in task.kind.pins:
@@ -889,7 +889,7 @@ def _scene(task: GuideTask, row: Real, closure: float, angles: Real) -> Scene:
 
 
 def _stated(poses: Iterable[Sequence[float]], unit: str) -> dict[str, object]:
-    """Return poses, rows of x, y and angle, as the scene's file keeps them."""
+    """Return poses, rows of x, y and angle (rad), as the scene's file keeps them."""
     return {
         "poses": [
             [f"{x!r} {unit}", f"{y!r} {unit}", f"{round(math.degrees(angle), 12)!r} deg"]
@@ -899,10 +899,11 @@ def _stated(poses: Iterable[Sequence[float]], unit: str) -> dict[str, object]:
 
 
 def _met(task: GuideTask, scene: Scene, angles: Real, lean: float) -> tuple[Real, Real]:
-    """Return the phases at which a linkage is nearest to each pose, and how far it is from it then.
+    """Return the phases at which a linkage is nearest to each pose, and its distances from the poses.
 
-    Of the phases at which the crank stands at a pose's angle, on the way there or back, in any turn of a
-    true period; beside a limit, where an angle says little of them, a step of Newton's goes on from there.
+    They are chosen among the phases at which the crank has a pose's angle, on the way there or back, in any
+    turn of a true period. Near a limit, where the angle does not determine the phase well, Newton's steps
+    improve them.
     """
     turns = math.tau * np.arange(round(scene.period / math.tau))
     home = np.array([phase_along(scene, 0.0, cmath.exp(1j * angle)) for angle in angles])[:, None]
@@ -927,7 +928,7 @@ def _nearer(scene: Scene, points: Complex, phases: Real) -> Real:
 
 
 def _off(task: GuideTask, scene: Scene, phases: Real, lean: float) -> Real:
-    """Return how far the coupler is from each pose at phases (n, k): its origin, or its turn at that size."""
+    """Return the coupler's distance from each pose at phases (n, k): the larger of those of `error`."""
     motion, poses = scene.solve(phase=phases.ravel(), derivatives=0), task.poses
     away = as_complex(motion.position["P"]).reshape(phases.shape) - poses.origins[:, None]
     angles = np.asarray(motion.angle[task.kind.links[1]]).reshape(phases.shape)
@@ -936,7 +937,7 @@ def _off(task: GuideTask, scene: Scene, phases: Real, lean: float) -> Real:
 
 
 def _defects(scene: Scene, phases: Real, met: NDArray[np.bool_]) -> tuple[str, ...]:
-    """Return the defects of a linkage that meets some of its poses at phases of the circuit it is on."""
+    """Return the defects of a linkage by its poses' phases, and which poses it passes on its circuit."""
     defects = [] if met.all() else ["circuit"]
     if scene.info.full_turn:
         forth = (phases - phases[0]) % scene.period
@@ -970,10 +971,10 @@ def _bars_apart(one: tuple[Complex, Complex], other: tuple[Complex, Complex], si
     return float(min(straight, crossed) / size)
 
 
-# An answer as plain numbers, as it goes from one process to another and onto a tape; and back to a scene.
+# An answer as plain numbers for another process or a tape, and back to a scene.
 
 POSE_NUMBERS = 16
-"""Of an answer."""
+"""How many numbers an answer has."""
 _MOST_PARAMETERS = 9
 
 
@@ -995,7 +996,7 @@ class PoseAnswer(NamedTuple):
 
     @property
     def numbers(self) -> tuple[float, ...]:
-        """All of it in a row."""
+        """The whole answer as one row of numbers."""
         return (*self[:7], *self.row)
 
     @property
@@ -1005,7 +1006,7 @@ class PoseAnswer(NamedTuple):
 
     @property
     def named_defects(self) -> tuple[str, ...]:
-        """Its defects."""
+        """The names of its defects."""
         return tuple(name for n, name in enumerate(DEFECTS) if int(self.defects) >> n & 1)
 
     @property
@@ -1017,7 +1018,7 @@ class PoseAnswer(NamedTuple):
         return dict(zip(names, places.tolist(), strict=True))
 
     def scene(self, unit: str, poses: Iterable[Sequence[float]], towards: Scene | None = None) -> Scene:
-        """Return the linkage as a scene, maybe on the way `towards` another; errors as reading a file."""
+        """Return the linkage as a scene, or as a step `towards` another; errors as of a scene file."""
         stated = {"source": "made by linkanim for poses set in the window", "length_unit": unit}
         rows = list(poses)
         stated["title"] = f"{self.kind.name.capitalize()} through {len(rows)} poses"
@@ -1028,7 +1029,7 @@ class PoseAnswer(NamedTuple):
 
 
 POSES_NAME = "poses"
-"""Of a scene that was made in the window for poses."""
+"""The name of a scene that was made in the window for poses."""
 
 
 def pose_answer_of(one: GuidedLinkage) -> PoseAnswer:
@@ -1048,6 +1049,6 @@ def pose_answer_of(one: GuidedLinkage) -> PoseAnswer:
 
 
 def pose_answer_from(numbers: tuple[float, ...]) -> PoseAnswer:
-    """Return the answer that is all of these `POSE_NUMBERS` numbers."""
+    """Return the answer whose `numbers` these are."""
     sliding, closure, start, sense, defects, transmission, size, *row = numbers
     return PoseAnswer(sliding, closure, start, sense, defects, transmission, size, tuple(row))

@@ -3,7 +3,7 @@
 Its parts, in reading order:
 
 - The linkages whose coupler point is to run along a path: a four-bar and a slider-crank, many at once.
-- What an answer has to keep to: where pivots lie, how long links are, which values are given.
+- The limits on an answer: where pivots lie, how long links are, which values are given.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ class TracedPoints(NamedTuple):
 
 
 class _Closed(NamedTuple):
-    """The coupler's direction, the normal of B's path, and what B is moved by: each (B, n)."""
+    """The coupler's direction, the normal N of B's path, and N·dB by each ground parameter: (B, n)."""
 
     direction: Complex
     normal: Complex
@@ -58,15 +58,15 @@ class LinkageKind(ABC):
     name: str
     parameters: tuple[str, ...]
     links: tuple[str, ...]
-    """Those that are lengths of links, above zero."""
+    """The parameters that are lengths of links, above zero."""
     pins: tuple[int, ...]
-    """Where the x of each fixed pin stands."""
+    """The column of each fixed pin's x; its y is in the next one."""
     carried = False
     """Whether the ground of B moves with the pin O2."""
     sides: tuple[str, str]
     """What the closures +1 and -1 are called in a scene."""
     mirror: tuple[float, ...]
-    """What the parameters, and last the closure, are multiplied with to mirror the linkage in the x axis."""
+    """The factors of the parameters, and last of the closure, that mirror the linkage in the x axis."""
 
     @abstractmethod
     def close(self, rows: Real, closure: Real, pin: Complex) -> _Closed:
@@ -78,7 +78,7 @@ class LinkageKind(ABC):
 
     @abstractmethod
     def closing(self, row: Mapping[str, float]) -> tuple[dict[str, Any], dict[str, Any], dict[str, Any]]:
-        """Return the fixed pins beside O2, what holds B, and the body that B is on beside the rod."""
+        """Return the tables of the fixed pins except O2, of the joint B, and of B's other body."""
 
     @abstractmethod
     def random_rows(self, random: np.random.Generator, count: int) -> Real:
@@ -86,7 +86,7 @@ class LinkageKind(ABC):
 
     @abstractmethod
     def link_lengths(self, rows: Real) -> Real:
-        """Return the lengths of all links (B, m), those of the coupler point's arms among them, B's last."""
+        """Return the lengths of all links (B, m), with the coupler point's arms to A and, last, to B."""
 
     def document(self, row: Mapping[str, float], closure: float) -> dict[str, object]:
         """Return the tables [ground], [joints] and [bodies] of a scene with that linkage."""
@@ -127,7 +127,7 @@ class LinkageKind(ABC):
         return pin + _arm(rows) * self.close(rows, closure[:, None], pin).direction
 
     def joints(self, rows: Real, closure: Real, angles: Real) -> Complex:
-        """Return the fixed pins, then the pins A, B and P at crank angles (B, n), in a row (B, m)."""
+        """Return the fixed pins, then A, B and P at crank angles (B, n), side by side (B, m)."""
         pin, _ = _pins(rows, angles)
         direction = self.close(rows, closure[:, None], pin).direction
         return np.concatenate(
@@ -142,7 +142,7 @@ class LinkageKind(ABC):
         turn = 1j * arm * direction / (rows[:, 3:4] * _dot(normal, 1j * direction))
 
         def moved(step: Complex | complex) -> Complex:
-            """Return how the point moves when the pin moves a step and B's own path stays."""
+            """Return how far the coupler point moves when the pin A moves by a step and B's path stays."""
             return step - turn * _dot(normal, step)
 
         one = np.ones_like(pin)
@@ -153,7 +153,7 @@ class LinkageKind(ABC):
 
 
 def _pins(rows: Real, angles: Real) -> tuple[Complex, Complex]:
-    """Return the crank's pins and its directions."""
+    """Return the pins A, and the unit vectors along the crank."""
     spoke = np.cos(angles) + 1j * np.sin(angles)
     return rows[:, 0:1] + 1j * rows[:, 1:2] + rows[:, 2:3] * spoke, spoke
 
@@ -204,7 +204,7 @@ class FourBarKind(LinkageKind):
         return np.stack([rows[:, 2], rows[:, 3], arm, rows[:, 8], ground, other], axis=1)
 
     def slack(self, rows: Real, least_angle: float | Real) -> Real:
-        """Return how far the two extremes of the transmission angle are from the least."""
+        """Return a margin for each extreme of the transmission angle, positive above the least angle."""
         crank, a, b = rows[:, 2], rows[:, 3], rows[:, 8]
         ground = np.hypot(rows[:, 6] - rows[:, 0], rows[:, 7] - rows[:, 1])
         share = 4 * a * b * np.sin(least_angle / 2) ** 2
@@ -260,7 +260,7 @@ class SliderCrankKind(LinkageKind):
         return np.stack([rows[:, 2], rows[:, 3], arm, other], axis=1)
 
     def slack(self, rows: Real, least_angle: float | Real) -> Real:
-        """Return how far the rod is from too steep, on either side of the line."""
+        """Return a margin for the rod's steepest angle to either side, positive where it is allowed."""
         reach, offset = rows[:, 3] * np.cos(least_angle) - rows[:, 2], rows[:, 7]
         return np.stack([reach - offset, reach + offset], axis=-1)
 
@@ -288,7 +288,7 @@ KINDS: Mapping[str, LinkageKind] = {kind.name: kind for kind in (FOUR_BAR, SLIDE
 
 
 class Linkage4(NamedTuple):
-    """A four-bar as its joints stand at one moment (x + yi): its bars are as long as they are apart."""
+    """A four-bar by its joints at one moment (x + yi), whose distances are the lengths of its bars."""
 
     O2: complex
     A: complex
@@ -298,7 +298,7 @@ class Linkage4(NamedTuple):
 
     @property
     def row(self) -> tuple[float, ...]:
-        """Its parameters as those of `FOUR_BAR`."""
+        """Its parameters, in the order of `FOUR_BAR`."""
         arm = (self.P - self.A) * (self.B - self.A).conjugate() / abs(self.B - self.A)
         crank, coupler, rocker = abs(self.A - self.O2), abs(self.B - self.A), abs(self.B - self.O4)
         pins = self.O2.real, self.O2.imag, self.O4.real, self.O4.imag
@@ -326,21 +326,21 @@ class Linkage4(NamedTuple):
         return cls(*map(complex, joints))
 
 
-# What an answer has to keep to: where pivots lie, how long links are, which values are given.
+# The limits on an answer: where pivots lie, how long links are, which values are given.
 
 LEAST_ANGLE = math.radians(0.1)
-"""Below this transmission angle a linkage is all but at a change point: no answer goes there."""
+"""The least transmission angle (rad) of any answer: below it a linkage is nearly at a change point."""
 MOST_ANSWERS = 50
 SHORTEST = 1e-3
-"""Of a link, in curve sizes."""
+"""The shortest length of a link, in curve sizes."""
 
 
 @frozen(eq=False)
 class Requirements:
-    """Limits in the units of the points they go with.
+    """Limits on linkages, in the unit of their points.
 
-    `least_angle` is the transmission angle asked for, 0 where none is, and above `LEAST_ANGLE` all the same;
-    `box` is x, y, width and height, in which all pivots lie; `given` are values of parameters that stay;
+    `least_angle` is the requested transmission angle, 0 for none; it is kept above `LEAST_ANGLE` in any case.
+    `box` is x, y, width and height, in which all pivots lie; `given` are the values of parameters that stay;
     `full_turn` says whether the crank has to turn fully. Where many candidates are fitted at once, each may
     have a longest link (B, 1) and a least angle (B,) of its own.
     """
@@ -363,7 +363,7 @@ class Requirements:
         box: Sequence[float] | None,
         given: Mapping[str, float] | None = None,
     ) -> Self:
-        """Return limits as they are asked for, the longest link in `sizes`; BadInput where they are none."""
+        """Return the requested limits, the longest link in `sizes`; BadInput where one makes no sense."""
         if not (math.isfinite(largest) and largest > 0):
             raise BadInput(f"largest={largest!r}: give the longest link in {sizes}, a number such as 3")
         if not 0 <= least_angle < math.pi / 2:
@@ -378,7 +378,7 @@ class Requirements:
         )
 
     def slack(self, kind: LinkageKind, rows: Real) -> Real:
-        """Return (B, m), negative for each limit that is broken; the two of a full turn come first."""
+        """Return by how much each limit is kept (B, m), negative if broken; a full turn's two come first."""
         turning = [kind.slack(rows, self.angle_to_keep("angle"))] if self.full_turn else []
         lengths = kind.link_lengths(rows)
         limits = [self.largest - lengths, lengths - self.shortest]
@@ -389,9 +389,10 @@ class Requirements:
         return np.concatenate([*turning, *limits], axis=1)
 
     def angle_to_keep(self, by: str) -> float | Real:
-        """Return the least transmission angle of an answer that goes along the curve by its crank's "angle".
+        """Return the least transmission angle to keep, if the curve is followed by the crank's "angle".
 
-        One that goes by "phase", through its limits, keeps what is asked for only: there it is 0.
+        An answer that is moved by "phase", through the limits of its crank, has angle 0 there: it keeps only
+        what is requested.
         """
         return np.maximum(self.least_angle, LEAST_ANGLE) if by == "angle" else self.least_angle
 
@@ -401,7 +402,7 @@ class Requirements:
         return mask, np.array([float(self.given.get(name, 0.0)) for name in kind.parameters])
 
     def placed(self, shift: complex, scale: float) -> Requirements:
-        """Return the same in coordinates whose origin is `shift` and whose unit is `scale`."""
+        """Return the limits in coordinates whose origin is `shift` and whose unit is `scale`."""
 
         def placed(name: str, value: float) -> float:
             """Return a parameter's value in those coordinates."""
@@ -416,7 +417,7 @@ class Requirements:
 
 
 def refuse_count(count: int) -> None:
-    """Raise BadInput for a number of answers that is none, too large, or not whole."""
+    """Raise BadInput for a number of answers that is not whole, not positive, or too large."""
     if not isinstance(count, int | np.integer) or not 1 <= count <= MOST_ANSWERS:
         raise BadInput(f"count={shown(count)}: give a whole number from 1 to {MOST_ANSWERS}")
 
@@ -432,7 +433,7 @@ def holds(box: Sequence[float], pivot: complex) -> bool:
 
 
 def box_of(box: Sequence[float]) -> Box:
-    """Return a box as it is asked for; BadInput where it is none, or has no room."""
+    """Return a requested box as numbers; BadInput where it is not four numbers, or has no area."""
     values = tuple(float(value) for value in box)
     if len(values) != 4 or not all(map(math.isfinite, values)):
         raise BadInput(f"box={shown(str(list(box)))}: give x, y, width and height, four numbers")

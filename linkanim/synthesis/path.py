@@ -20,7 +20,7 @@ from linkanim.synthesis.search import SAME, Progress, best_fits, rounded_to, wit
 from linkanim.units import shown
 
 LARGEST = 8.0
-"""Of a link, in curve sizes."""
+"""The longest link by default, in curve sizes."""
 COUNT = 5
 
 Pair = Sequence[float]
@@ -69,7 +69,7 @@ def path(
 
 
 def _with_cognates(fits: Sequence[Fit], rounding: float | None) -> tuple[Fit, ...]:
-    """Return each answer with its cognates after it; one that is a cognate of another stands once."""
+    """Return each answer, followed by its cognates; no linkage is listed twice."""
     listed: list[Fit] = []
     for fit in fits:
         if all(fit.apart(one) > SAME for one in listed):
@@ -154,7 +154,7 @@ def _given(
 
 
 def _refuse_contradictions(kind: LinkageKind, limits: Requirements) -> None:
-    """Refuse given values that break a limit whatever the others are."""
+    """Raise BadInput for given values that break a limit whatever the other parameters are."""
     given = limits.given
     for name in kind.links:
         if given.get(name, 0.0) > limits.largest:
@@ -172,7 +172,7 @@ def _refuse_contradictions(kind: LinkageKind, limits: Requirements) -> None:
 
 
 def _timing(timing: float | ArrayLike | None, free: bool | None, count: int) -> tuple[Real | None, bool]:
-    """Return the crank's angle at each point, and whether one angle more is free."""
+    """Return the crank's angle at each point, and whether all of them may be shifted by one angle."""
     if timing is None:
         return None, True
     angles = np.asarray(timing, dtype=np.float64)

@@ -4,12 +4,12 @@ In its two dead centres a crank a and its coupler b lie in line: the output's pi
 from the crank's pivot, and between the two directions lies the angle α of the time ratio, which is
 Q = (180° + α)/(180° - α). So the pivot sees the chord H between the dead centres at the angle α: it lies
 on a circle through both (Alt, 1925; VDI 2130). By the law of cosines H² = 4b² sin²(α/2) + 4a² cos²(α/2),
-which leaves one choice:
+which leaves one free parameter t:
 
     b sin(α/2) = (H/2) sin t,    a cos(α/2) = (H/2) cos t,
 
-the pivot (b² - a²) sin α / H off the chord's line. Without a quick return α is 0 and a half the chord, and
-the longer b, the better the linkage transmits: there it is taken as four cranks.
+and the pivot is (b² - a²) sin α / H off the chord's line. Without a quick return α is 0, a is half the chord,
+and the longer b is, the better the linkage transmits: there b is taken as four cranks.
 """
 
 from __future__ import annotations
@@ -32,21 +32,21 @@ from linkanim.units import shown
 
 COUNT = 5
 _TABLES: Mapping[str, str] = {"slider-crank": "slider-crank", "crank-rocker": "four-bar"}
-"""Each kind, and the table that a scene file keeps it in."""
+"""For each kind, the table of a scene file that holds it."""
 KINDS = tuple(_TABLES)
 LONGEST = 100.0
-"""The longest link of a crank-rocker, of which nothing but angles is asked."""
+"""The longest link of a crank-rocker for which only angles are given."""
 _EVEN = 1e-6
-"""A quick return's angle (rad) below this is none."""
+"""The angle α (rad) below which there is no quick return."""
 _ROD = 4.0
-"""In cranks, the rod of a slider-crank without a quick return: the longer, the better it transmits."""
+"""The rod's length, in cranks, of a slider-crank without a quick return."""
 _LONGEST_ROD = 12.0
-"""In cranks: towards a crank of nothing a family's angle may still grow."""
+"""The longest rod of a family, in cranks, as its angle may still grow while the crank goes to zero."""
 _TRIED = 2001
 _NARROWINGS = 60
 _GOLDEN = (math.sqrt(5) - 1) / 2
 _STEEPEST = math.radians(1.0)
-"""A transmission angle below this is none."""
+"""The least transmission angle (rad) of a member."""
 _DIGITS = 12
 
 
@@ -63,9 +63,9 @@ class QuickReturn:
     output: float
     """The slider's stroke, or the rocker's swing (rad)."""
     transmission_angle: float
-    """The least over the turn."""
+    """The least one over the turn (rad)."""
     best: bool
-    """Whether it is the one to take: that of the largest least angle."""
+    """Whether it is the member with the largest least transmission angle."""
 
     @property
     def class_name(self) -> str:
@@ -80,10 +80,10 @@ class QuickReturn:
 
 @frozen
 class DeadCentreFamily:
-    """Linkages of one stroke or swing and one time ratio, by the angle t (rad) or a rod's length in cranks.
+    """Linkages with one stroke or swing and one time ratio, by the angle t (rad) or a rod's length in cranks.
 
-    Members lie from `low` to `high`, on one `side`: the crank's pivot on that of the chord's where the
-    rocker's is (+1), or on the other (-1). The chord is of length 1.
+    Members have t from `low` to `high`. `side` is +1 where the crank's pivot lies on the same side of the
+    chord as the rocker's, else -1. The chord has length 1.
     """
 
     kind: str
@@ -94,7 +94,7 @@ class DeadCentreFamily:
     high: float
 
     def lengths(self, t: Real) -> tuple[Real, Real, Real]:
-        """Return crank, coupler, and how far the crank's pivot is off the chord's line."""
+        """Return crank, coupler, and the distance of the crank's pivot from the chord's line."""
         if self.angle < _EVEN:
             return np.full_like(t, 0.5), 0.5 * t, np.zeros_like(t)
         crank = np.cos(t) / (2 * math.cos(self.angle / 2))
@@ -102,7 +102,7 @@ class DeadCentreFamily:
         return crank, coupler, (coupler**2 - crank**2) * math.sin(self.angle)
 
     def rocker(self, t: Real) -> tuple[Real, Real, Real, Real]:
-        """Return crank, coupler, rocker and ground; NaN where the dead centres are not of one circuit.
+        """Return crank, coupler, rocker and ground; NaN if the dead centres are in different circuits.
 
         The ground is negative where the coupler's end lies to the right of the line from A to O4.
         """
@@ -122,11 +122,11 @@ class DeadCentreFamily:
         return crank, coupler, rocker, np.where(sides[0] * sides[1] > 0, np.sign(sides[0]) * ground, np.nan)
 
     def transmission(self, t: Real) -> Real:
-        """Return the least transmission angle over a turn; NaN of what does not turn fully."""
+        """Return the least transmission angle (rad) over a turn; NaN for a crank that does not turn fully."""
         with np.errstate(all="ignore"):
             if self.kind == "slider-crank":
                 crank, coupler, off = self.lengths(t)
-                # beyond the pivot's foot the nearer dead centre is one of the other circuit
+                # if the pivot's foot is between the dead centres, the nearer one is in the other circuit
                 cosine = np.where(4 * crank * coupler > 1, (crank + np.abs(off)) / coupler, np.nan)
             else:
                 crank, coupler, rocker, ground = self.rocker(t)
@@ -138,18 +138,18 @@ class DeadCentreFamily:
             return np.where(cosine < 1, np.arctan2(np.sqrt((1 - cosine) * (1 + cosine)), cosine), np.nan)
 
     def at(self, crank: float, coupler: float) -> float:
-        """Return where links of such lengths, in any unit, stand: t."""
+        """Return the t of a crank and a coupler, in any unit."""
         if self.angle < _EVEN:
             return coupler / crank
         return math.atan2(coupler * math.sin(self.angle / 2), crank * math.cos(self.angle / 2))
 
     def place_of(self, t: float) -> float:
-        """Return how far along it a member is, from 0 to 1."""
+        """Return how far along the family a member is, from 0 to 1."""
         return min(max((t - self.low) / (self.high - self.low), 0.0), 1.0)
 
     @cached_property
     def best(self) -> float:
-        """Where the least transmission angle is greatest: between samples by the golden section."""
+        """The t of the greatest least transmission angle, by the golden section between samples."""
         if self.angle < _EVEN:
             return min(max(_ROD, self.low), self.high)
         places = np.linspace(self.low, self.high, _TRIED)
@@ -243,8 +243,8 @@ def quick_return(
 class FamilyMember(NamedTuple):
     """A scene as a member of the family of its time ratio: the family, and the chord in the scene's unit.
 
-    `place`, from 0 to 1, is where it stands. `transmission` is its least transmission angle (rad), `best`
-    that of the member where it is greatest.
+    `place`, from 0 to 1, is where in the family it is. `transmission` is its least transmission angle (rad),
+    `best` the greatest one in the family.
     """
 
     family: DeadCentreFamily
@@ -255,9 +255,9 @@ class FamilyMember(NamedTuple):
 
 
 def member_of(scene: Scene) -> FamilyMember | None:
-    """Return where a scene stands in the family of its time ratio; None where it belongs to none.
+    """Return where a scene is in the family of its time ratio; None where it belongs to none.
 
-    A scene whose lengths were changed since stands where the member of the same time ratio is nearest.
+    A scene whose lengths were changed has the place of the nearest member with the same time ratio.
     """
     purpose = scene.purpose
     kind = next((one for one, table in _TABLES.items() if table in scene.document), "")
@@ -285,7 +285,7 @@ def member_of(scene: Scene) -> FamilyMember | None:
 
 
 def moved_along(scene: Scene, place: float) -> Scene:
-    """Return the member of a scene's family that stands at a place, 0 to 1; its chord stays.
+    """Return the member of a scene's family at a place, 0 to 1, with the same chord.
 
     BadInput for a scene that belongs to no family.
     """
@@ -301,7 +301,7 @@ def moved_along(scene: Scene, place: float) -> Scene:
 def _sized(
     family: DeadCentreFamily, t: float, chord: float | None
 ) -> tuple[float, dict[str, float], dict[str, Any]]:
-    """Return a member's chord, parameters and tables; without a chord its longest link has a usual length."""
+    """Return a member's chord, parameters and tables; without a chord, its longest link is `LONGEST`."""
     sliding, at = family.kind == "slider-crank", np.array([t])
     values = [float(part[0]) for part in (family.lengths(at) if sliding else family.rocker(at))]
     scale = chord or LONGEST / max(map(abs, values))
@@ -338,7 +338,7 @@ def _made(
 
 
 def _stated(family: DeadCentreFamily, scale: float, unit: str) -> dict[str, str]:
-    """Return what the output does as the scene's file keeps it."""
+    """Return the purpose, a stroke or a swing and a time ratio, as the scene's file keeps it."""
     if family.kind == "slider-crank":
         return {"stroke": f"{round(scale, _DIGITS)!r} {unit}"}
     return {"swing": f"{round(math.degrees(family.swing), _DIGITS)!r} deg"}

@@ -14,13 +14,13 @@ from numpy.typing import NDArray
 
 Places = TypeVar("Places", complex, NDArray[np.complex128])
 CognateJoints = tuple[complex, Places, Places, complex]
-"""A cognate's pivot, the pins of its crank and of its rocker, and that one's pivot, as x + yi."""
+"""A cognate's crank pivot, crank pin, rocker pin and rocker pivot, as x + yi."""
 
 
 def cognate_joints(
     pivots: tuple[complex, complex], share: complex, pins: tuple[Places, Places, Places]
 ) -> tuple[CognateJoints[Places], CognateJoints[Places]]:
-    """Return both cognates' joints: of that whose crank turns as the first one's, and of the other.
+    """Return both cognates' joints: first the one whose crank turns as the given one's, then the other.
 
     `pivots` are O2 and O4, `share` is k, and `pins` are A, B and P at one moment or, as arrays, at many.
     """

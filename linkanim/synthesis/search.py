@@ -3,7 +3,7 @@
 Its parts, in reading order:
 
 - From a drawn curve to the linkages that follow it: atlas, refinement, check.
-- Answers in round lengths: one length after the other is rounded and held, and the rest is fitted again.
+- Answers in round lengths: one length after the other is rounded and fixed, and the rest is fitted again.
 """
 
 from __future__ import annotations
@@ -41,35 +41,36 @@ _STAGES = (_Stage(80, 32, 12), _Stage(24, 64, 40), _Stage(8, 200, 150))
 _WIDER_STAGES = (_Stage(2000, 32, 8), _Stage(300, 64, 40), _Stage(40, 64, 200))
 _FOREIGN_STAGES = (_Stage(600, 32, 8), _Stage(80, 64, 40), _Stage(12, 200, 150))
 MATCHED = 128
-"""Points at the most at which a curve is looked for in the atlas."""
+"""The largest number of a curve's points that are compared with the atlas."""
 _REFIT_STEPS = 30
 _GLIMPSED, _GLIMPSED_OPEN = CURVES, CURVES // 5
-"""Curves of the atlas among which the first answer is: of each an open curve may be one of several shares."""
+"""The curves of the atlas that are searched first; fewer for an open curve, compared with several shares."""
 _GOOD = 1e-3
-"""Of the curve's size: where an open curve is followed no better by a crank that turns, it may swing."""
+"""The deviation, as a share of the curve's size, above which an open curve's crank may swing."""
 _FOLLOWED, _FOREIGN = 1e-4, 1e-2
-"""Of the curve's size: between them the best answer is likely a false minimum, and many more are tried.
+"""Deviations, as shares of the curve's size, between which the best answer is likely a false minimum.
 
-Below, the curve is followed; above, it is none of this kind's, and a few more candidates help a little.
+There many more candidates are tried. Below, the curve is followed; above, no linkage of this kind follows it,
+and a few more candidates help a little.
 """
 SAME = 1e-4
-"""Of the curve's size: answers whose joints are apart by less are one."""
+"""The distance of joints, as a share of the curve's size, below which two answers are the same."""
 ALIKE = 0.05
-"""Of the curve's size: answers whose joints are apart by no more look the same."""
+"""The distance of joints, as a share of the curve's size, up to which two answers look the same."""
 _FITTED = 1e-6
-"""Of the curve's size: answers better than this are equally good, and the one that turns best comes first."""
+"""An error, as a share of the curve's size: below it the transmission angle ranks the answers."""
 _EQUAL = 6
-"""Decimals to which figures are told apart: those of a curve's cognates differ by rounding only."""
+"""The decimals to which figures are compared, as those of cognates differ by rounding."""
 _CLOSED = 1e-24
-"""A merit that is as good as none: candidates that are off by so little are equal."""
+"""A merit that counts as zero: candidates below it are equal."""
 
 
 def best_fits(
     task: PathTask, count: int, progress: Progress | None = None, *, widely: bool = True
 ) -> tuple[Fit, ...]:
-    """Return the best few answers that differ, the best first; BadInput where there is none.
+    """Return the `count` best different answers, the best first; BadInput where there is none.
 
-    Where the first candidates do not follow the curve, more are tried, which takes longer, if `widely`.
+    With `widely`, more candidates are tried where the first do not follow the curve, which takes longer.
     """
     fits = _searched(task, count, progress, widely=widely)
     if not task.curve.closed and (not fits or fits[0].error > _GOOD * task.curve.size):
@@ -90,7 +91,7 @@ def _none_fits(task: PathTask) -> str:
 
 
 def glimpsed(task: PathTask) -> Fit | None:
-    """Return the atlas's best as it is, in a tenth of a second, once the atlas is made."""
+    """Return the atlas's best curve without refinement: in a tenth of a second, once the atlas is made."""
     chosen = task.thinned(MATCHED)
     start = started(task, chosen, _STAGES[0].candidates, _GLIMPSED if task.curve.closed else _GLIMPSED_OPEN)
     traced = task.kind.points(start.rows, start.closure, start.angles)
@@ -127,7 +128,7 @@ def _through(
 
 
 def _enough(fits: Iterator[Fit], count: int) -> Iterator[Fit]:
-    """Yield answers, the best first, until `count` differ and one more follows."""
+    """Yield answers, the best first, until there are `count` different ones and one more."""
     seen: list[Fit] = []
     for fit in fits:
         yield fit
@@ -139,7 +140,7 @@ def _enough(fits: Iterator[Fit], count: int) -> Iterator[Fit]:
 def _refined_through(
     task: PathTask, stages: tuple[_Stage, ...], progress: Progress | None
 ) -> tuple[Candidates, Indices]:
-    """Return the best candidates after all stages, the best first, at size 1, and the points chosen last."""
+    """Return the best candidates of the last stage, the best first, at size 1, and that stage's points."""
     chosen = task.thinned(MATCHED)
     now = started(task, chosen, stages[0].candidates)
     cost = np.zeros(len(now.rows))
@@ -166,7 +167,7 @@ def _by_merit(cost: Real) -> Indices:
 def refitted(task: PathTask, fit: Fit) -> Fit | None:
     """Return an answer fitted again to a task that may have other points, weights or given values.
 
-    The task's points are as many as the answer's. None where it ends nowhere.
+    The task has as many points as the answer. None where no answer is found.
     """
     start = Candidates(fit.row[None], np.array([fit.closure_sign]), fit.angles[None], np.array([fit.sense]))
     chosen = task.thinned(_STAGES[-1].points)
@@ -177,7 +178,7 @@ def refitted(task: PathTask, fit: Fit) -> Fit | None:
 
 
 def spread(task: PathTask, candidates: Candidates, before: Indices, after: Indices) -> Real:
-    """Return the crank angles at some points from those at others."""
+    """Return the crank angles at the points `after`, interpolated from those at the points `before`."""
     if np.array_equal(before, after):
         return candidates.angles
     if task.timing is not None:
@@ -190,7 +191,7 @@ def spread(task: PathTask, candidates: Candidates, before: Indices, after: Indic
 
 
 def verified(task: PathTask, normal: Candidates, chosen: Indices) -> Iterator[Fit]:
-    """Yield the answers among candidates of size 1 at chosen points; of linkages that are the same, one."""
+    """Yield the answers among candidates of size 1 at chosen points, each linkage once."""
     everywhere = spread(task, normal, chosen, np.arange(len(task.normal.points)))
     scaled = task.scaled(normal._replace(angles=everywhere))
     middle = everywhere.shape[1] // 2
@@ -205,7 +206,7 @@ def verified(task: PathTask, normal: Candidates, chosen: Indices) -> Iterator[Fi
 
 
 def best_of(fits: Iterable[Fit], count: int) -> tuple[Fit, ...]:
-    """Return the best of those that differ by more than rounding."""
+    """Return the best `count` answers that differ by more than rounding."""
     distinct: list[Fit] = []
     for fit in ranked(fits):
         if not any(_same(fit, other) for other in distinct):
@@ -216,8 +217,8 @@ def best_of(fits: Iterable[Fit], count: int) -> tuple[Fit, ...]:
 def ranked(fits: Iterable[Fit]) -> list[Fit]:
     """Return answers, the best first: by error, then transmission angle, longest link and place.
 
-    Each of these decides only among answers that rounding alone tells apart by those before it, so that the
-    order is the same wherever numbers come to lie in memory.
+    Each of these decides only among answers that differ by no more than rounding in those before it, so that
+    the order does not depend on how numbers are aligned in memory.
     """
     return _ranked([(_figures(fit), fit) for fit in fits])
 
@@ -229,7 +230,7 @@ def _figures(fit: Fit) -> tuple[float, ...]:
 
 
 def _ranked(fits: Sequence[tuple[tuple[float, ...], Fit]], figure: int = 0) -> list[Fit]:
-    """Return answers in the order of a figure, those in which it is equal in the order of the next."""
+    """Return answers sorted by a figure, and those with an equal one sorted by the next figure."""
     if len(fits) < 2 or figure == len(fits[0][0]):
         return [fit for _, fit in fits]
     ordered = sorted(fits, key=lambda pair: pair[0][figure])
@@ -242,13 +243,13 @@ def _same(one: Fit, other: Fit) -> bool:
     return one.apart(other) <= SAME
 
 
-# Answers in round lengths: one length after the other is rounded and held, and the rest is fitted again.
+# Answers in round lengths: one length after the other is rounded and fixed, and the rest is fitted again.
 
 
 def with_round_lengths(fits: tuple[Fit, ...], step: float) -> tuple[Fit, ...]:
     """Return answers whose lengths and pivots are multiples of a step, the best first.
 
-    Each knows what it was before (`exact`). BadInput where nothing that follows the curve is left.
+    Each has its form before rounding in `exact`. BadInput where no answer that follows the curve is left.
     """
     round_ones = [fit for fit in (rounded_to(fit, step) for fit in fits) if fit is not None]
     if not round_ones:
