@@ -64,7 +64,7 @@ def rows(item: Item, how: Notation, *, blank: bool = False) -> Iterator[Equation
 
 
 def _line(line: ValueLine, how: Notation, blank: bool) -> Iterator[EquationRow]:
-    """Yield a line's sides, as many of them in a row as a reader takes in."""
+    """Yield the rows of a line: short formulas share a row with their numbers and value."""
     sides = [typeset(line.formula, how)] if line.formula.symbolic else []
     if not blank and line.formula.operation != "leaf":
         sides.append(typeset(line.formula, how, numbers=True))
@@ -203,7 +203,7 @@ class DocumentForm:
 
 
 Level = Literal["formulas", "drawing"]
-"""What an exercise gives beside its numbers: the formulas, or nothing but the drawing."""
+"""What an exercise gives besides its numbers: the formulas, or only the drawing."""
 
 
 def document(found: Solution, form: DocumentForm) -> str:
@@ -235,7 +235,7 @@ def exercise(versions: Sequence[Solution], form: DocumentForm, level: Level = "f
 
 
 def _drawn_alone(found: Solution, form: DocumentForm) -> Iterator[str]:
-    """Yield what is given, the drawing, and what is asked for, each with room for its number."""
+    """Yield the given values, the drawing, and the unknowns, each with room for its number."""
     given, *_ = found.chapters
     yield form.heading(2, given.title)
     for step in given.steps:
@@ -275,7 +275,7 @@ def _where(found: Solution, form: DocumentForm) -> str:
 
 
 def chapters(found: Solution, form: DocumentForm, *, blank: bool = False) -> Iterator[str]:
-    """Yield the parts of a solution; where `blank` its numbers are left open."""
+    """Yield the parts of a solution; if `blank`, its numbers are left open."""
     for chapter in found.chapters:
         yield form.heading(2, chapter.title)
         drawn = form.figure(found) if chapter is found.loop_chapter else ""
@@ -318,7 +318,7 @@ def _listed(value: Formula, unit: str, words: str, form: DocumentForm) -> tuple[
 
 
 def _key(found: Solution, form: DocumentForm) -> Iterator[str]:
-    """Yield all that is worked out, chapter by chapter."""
+    """Yield all values that are worked out, chapter by chapter."""
     solved = found.solved
     for chapter in found.chapters:
         lines = [item for item in chapter.items if isinstance(item, ValueLine)]
@@ -366,7 +366,7 @@ _HALF = 62
 
 
 def _html_steps(steps: list[str]) -> str:
-    """Return a chapter's steps, on paper two side by side where their formulas are short."""
+    """Return a chapter's steps; on paper, steps with short formulas are two side by side."""
     cells = []
     for step in steps:
         # a step with nothing but words is wide

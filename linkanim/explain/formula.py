@@ -65,7 +65,7 @@ class Formula:
 
     @property
     def symbolic(self) -> bool:
-        """Whether any symbol stands in it."""
+        """Whether the formula has any symbol."""
         return self.symbol is not None or any(part.symbolic for part in self.parts)
 
     @property
@@ -205,7 +205,7 @@ class Components(NamedTuple):
         return Components(-self.x, -self.y)
 
     def times(self, factor: Formula) -> Components:
-        """Return the vector times a number, which is written first."""
+        """Return the vector times a factor, which is written first."""
         return Components(factor * self.x, factor * self.y)
 
     def left(self) -> Components:
@@ -262,7 +262,7 @@ def typeset(e: Formula, how: Notation, *, numbers: bool = False) -> str:
 
 @frozen
 class _Setting:
-    """How a formula is set; a minus that is not the `first` sign of its formula stands in parentheses."""
+    """The printing of one formula; a minus that is not the `first` sign is put in parentheses."""
 
     how: Notation
     numbers: bool

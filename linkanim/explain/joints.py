@@ -544,11 +544,11 @@ KINDS: Mapping[type[Joint], KindSteps] = {
 # The vector loops of a linkage: the two routes to each dyad's joint, as equations and as arrows.
 
 CYLINDER = Symbol("ℓ")
-"""The length of the cylinder that drives."""
+"""The length of the driving cylinder."""
 
 
 class LoopArrow(NamedTuple):
-    """A vector of a loop where it lies, x + yi in the scene's unit."""
+    """A vector of a loop in its place, x + yi in the scene's unit."""
 
     symbol: Symbol
     begin: complex
@@ -584,7 +584,7 @@ def loops_of(work: Work, places: Chapter) -> tuple[VectorLoop, ...]:
 
 
 def _cylinder(length: Formula, work: Work) -> VectorLoop:
-    """Return the loop of a cylinder that drives the crank, from the crank's pivot over its foot and head."""
+    """Return the loop of a cylinder that drives the crank: crank's pivot, cylinder's foot and head."""
     between, crank = work.linkage.drive.actuator.along, work.linkage.driven
     assert between is not None
     (pivot, foot, head), turned = (crank.pivot, *between), work.angles[crank.pivot, crank.joint.name]

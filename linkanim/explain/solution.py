@@ -108,7 +108,7 @@ def place_input(request: PoseRequest, rates: Rates) -> None:
 
 
 def _stated(request: PoseRequest, rates: Rates, symbol: Symbol) -> Formula:
-    """Take the angle as it is asked for, or from the start and the phase."""
+    """Return the requested angle, or the angle by the start and the phase."""
     work = rates.work
     rate = work.known(rates.symbol(work.driver, 1), request.speed, _ONCE, "the input")
     second = ZERO
@@ -494,7 +494,7 @@ class _Draft:
         self.request, self.motion = request, request.motion()
         self.linkage = request.scene.linkage
         bars = sorted(abs(value) for joint in self.linkage.joints for _, value in joint.bars) or [1.0]
-        # one bar far longer than the others does not take their digits
+        # a single bar far longer than the others does not reduce their digits
         length = min(bars[-1], _LONG * bars[len(bars) // 2]) or bars[-1]
         angular = self.linkage.drive.coordinate.is_angle
         rate, second = abs(float(self.motion.coordinate_rate)), abs(float(self.motion.coordinate_second))
@@ -610,7 +610,7 @@ class _Draft:
                 self.results.append(self.rates.scale.outcome(f"{joint.name}.{word}", size, Powers(1, order)))
 
     def _left_over(self, order: Order) -> str:
-        """Return by how much the rates of an order miss the differentiated loops at the most."""
+        """Return words for the largest residual of the differentiated loops at the rates of an order."""
         found, self.rates.left_over = self.rates.left_over, 0.0
         return f"{told(found, 2)} {self.rates.scale.unit_of(Powers(1, order))}"
 
@@ -629,7 +629,7 @@ class _Draft:
                 self.results.append(rates.scale.outcome(token, rates.rate(frame, order), measure))
 
     def _parts(self) -> Iterator[Chapter]:
-        """Yield the chapters of centres of mass, of springs and dampers, and of what the input delivers."""
+        """Yield the chapters of centres of mass, springs and dampers, and of the input's torque or force."""
         for body in self._turning():
             if body.com is not None:
                 self._found(f"Link {body.name}", centre_of_mass(body, self.rates))

@@ -2,7 +2,7 @@
 
 Its parts, in reading order:
 
-- What a worked solution consists of, whatever it is printed as: chapters, steps, lines.
+- The parts of a worked solution, in any kind of document: chapters, steps, lines.
 - The symbols of a worked solution: those of the figure's dimensions and of the scene's links.
 - A worked solution while it is put together: what is known so far, each number in the digits it shows.
 - Velocities and accelerations, or kinematic coefficients: those known so far, and their lines.
@@ -40,7 +40,7 @@ from linkanim.picture.dimensions import symbols
 from linkanim.picture.figure import Figure
 from linkanim.units import signed
 
-# What a worked solution consists of, whatever it is printed as: chapters, steps, lines.
+# The parts of a worked solution, in any kind of document: chapters, steps, lines.
 
 
 @frozen
@@ -129,7 +129,7 @@ class Chapter:
 
     @property
     def items(self) -> Iterator[Item]:
-        """All that stands in it."""
+        """All items of all steps."""
         return (item for step in self.steps for item in step.items)
 
 
@@ -230,7 +230,7 @@ def _index(symbol: str) -> str:
 
 
 class Powers(NamedTuple):
-    """What a number measures: powers of a length and of a rate, or an angle in degrees."""
+    """The dimension of a number: powers of a length and of a rate, or an angle in degrees."""
 
     length: int = 0
     rate: int = 0
@@ -255,7 +255,7 @@ class Scale:
     per: str = "s"
 
     def decimals(self, measure: Powers) -> int:
-        """Return how many decimals a number of a measure has."""
+        """Return the number of decimals that a number of a measure is shown with."""
         if measure.angle:
             return self.digits - 2
         return decimals(self.length**measure.length * self.rate**measure.rate, self.digits)
@@ -312,13 +312,13 @@ class Work:
         self.items.append(Words(signed(text)))
 
     def say_once(self, text: str) -> None:
-        """Add a sentence where it has not been said before."""
+        """Add a sentence if it was not added before."""
         if text not in self.told:
             self.told.add(text)
             self.say(text)
 
     def let(self, symbol: Symbol, formula: Formula, measure: Powers, scale: Scale | None = None) -> Formula:
-        """Add the line that gives a symbol its value, and return it; a number alone needs no line."""
+        """Add the line of a symbol's value, and return the symbol; a number alone needs no line."""
         scale = scale or self.scale
         return self._line(symbol, formula, scale.decimals(measure), scale.unit_of(measure))
 
@@ -345,7 +345,7 @@ class Work:
         return self.quoted(symbol, self.written(value, measure), self.scale.unit_of(measure), words)
 
     def quoted(self, symbol: Symbol, text: str, unit: str, words: str = "") -> Formula:
-        """Return a number that is given as a symbol's value in these digits, an exponent written out."""
+        """Return a symbol with a value given in these digits, an exponent written out."""
         found = Formula("leaf", symbol=symbol, shown=f"{Decimal(text):f}", in_degrees=unit == "°")
         self.given.setdefault(symbol, Given(found, unit, words))
         return found
@@ -415,7 +415,7 @@ class Work:
 
 
 class GuideLine(NamedTuple):
-    """A line of travel: a joint it runs through, its direction and angle, its offset, and what carries it."""
+    """A line of travel: a joint it runs through, its direction, angle and offset, and the body it is on."""
 
     through: str
     direction: Components
@@ -507,7 +507,7 @@ class Rates:
     """The most by which rates from coefficients miss the differentiated loops."""
 
     def let(self, symbol: Symbol, formula: Formula, measure: Powers) -> Formula:
-        """Add the line that gives a symbol its value, and return it."""
+        """Add the line of a symbol's value, and return the symbol."""
         return self.work.let(symbol, formula, measure, self.scale)
 
     def start(self, rate: Formula, second: Formula = ZERO) -> None:

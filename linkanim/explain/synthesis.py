@@ -109,7 +109,7 @@ class _Chapter:
         rows: tuple[tuple[Formula, ...], ...],
         measures: tuple[Powers, Powers, Powers],
     ) -> tuple[Formula, Formula]:
-        """Add two equations and what they give by Cramer's rule; `measures` of determinant and unknowns."""
+        """Add two equations and their solution by Cramer's rule; `measures`: determinant, both unknowns."""
         (a, b, c), (d, e, f) = rows
         self.work.items.append(System(unknowns, ((a, b, c), (d, e, f)), ((a, b, c), (d, e, f))))
         det = self.work.let(Symbol("D"), a * e - b * d, measures[0])

@@ -66,7 +66,7 @@ _ENDS = ("back", "forward")
 
 
 def whole_motion(scene: Scene, work: Work) -> tuple[Chapter, ...]:
-    """Return the chapters on the whole motion; none where nothing has to close and nothing turns back.
+    """Return the chapters on the whole motion; empty where no dyad has to close and no output turns back.
 
     `work` has the positions of a pose, whose symbols are used.
     """
@@ -100,7 +100,7 @@ class _SliderCrank(NamedTuple):
 
 
 class _WholeMotion:
-    """Chapters while they are written."""
+    """The chapters on the whole motion, while they are written."""
 
     def __init__(self, scene: Scene, work: Work) -> None:
         self.scene, self.work, self.info = scene, work, scene.info

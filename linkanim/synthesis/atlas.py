@@ -250,7 +250,7 @@ def _correlated(atlas: Atlas, sought: Complex, size: Real | None) -> tuple[Real,
 def _laid(
     atlas: Atlas, rows: Real, points: Complex, angles: Real, sense: Real, *, mirrored: bool
 ) -> Candidates:
-    """Return linkages laid over the points that they pass at crank angles; `mirrored` ones are mirrored back."""
+    """Return linkages laid over the points that they pass at crank angles; mirrored back if `mirrored`."""
     kind, closure = atlas.kind, np.ones(len(rows))
     turn, shift = overlaid(kind.points(rows, closure, angles), points)
     rows, angles = kind.placed(rows, turn, shift), angles + np.angle(turn)[:, None]

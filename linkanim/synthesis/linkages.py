@@ -25,8 +25,8 @@ from linkanim.units import shown
 #
 # A row of parameters is a linkage; a closure is +1 (B left of A -> O4, or forward along the line) or -1. The
 # pin is A = O2 + crank·e^(iθ), and B closes on the ground: N·B = c, where N is the normal of the path that B
-# is held to (a circle about O4, or a line). What a small change of A, the rod or the ground does to the
-# coupler's angle, and so to the coupler point, follows from that one line for both kinds.
+# is held to (a circle about O4, or a line). For both kinds the derivatives of the coupler's angle, and so of
+# the coupler point, by A, the rod and the ground follow from this one equation.
 
 Real = NDArray[np.float64]
 Complex = NDArray[np.complex128]
