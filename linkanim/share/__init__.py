@@ -2,8 +2,8 @@
 
 From the ground up; a module imports from those before it only:
 
-    movers   what of a picture moves, how, and in which colours
-    lengths  a linkage as the page's own solver knows it
+    movers   the parts of a picture that move, how, and in which colours
+    lengths  a linkage as data for the page's own solver
     page     the page itself
     site     every scene as a page, and an index of them
 """

@@ -1,4 +1,4 @@
-"""A linkage as the page's solver knows it: its joints in the order in which they close, and their lengths."""
+"""A linkage as data for the page's solver: its joints in the order in which they close, and their lengths."""
 
 from __future__ import annotations
 
@@ -11,18 +11,18 @@ from linkanim.scenes.scene import Scene
 
 LINKS = ("ground", "input", "coupler", "output")
 _JUST_AFTER = 1e-3
-"""In phase: where the closure of a dyad that another joint's side names is read off."""
+"""The phase (rad) at which the side of a dyad is read off whose `side` refers to another joint."""
 _LEAST, _MOST = 0.2, 2.0
-"""Between which shares of its length a bar's slider runs."""
+"""The range of a bar's slider, in shares of the bar's length."""
 _ASIDE = 0.5
-"""Of the longest bar: so far to either side go the sliders of offsets and of points beside a line."""
+"""The range to either side of sliders for offsets and points, as a share of the longest bar."""
 
 
 def model(scene: Scene) -> dict[str, Any] | None:
     """Return the linkage with its lengths for the page's own solver; None where that cannot solve it.
 
-    Such are an input which is no crank, a line that a body carries, a true period of several turns, and
-    a smooth path through a change point, on which no closure has a name.
+    It cannot solve an input that is no crank, a line that a body carries, a true period of several turns, or
+    a smooth path through a change point, along which no closure keeps its name.
     """
     linkage = scene.linkage
     if linkage.drive.actuator.along is not None or scene.info.change_points or scene.info.true_period != 1:
@@ -50,7 +50,7 @@ def model(scene: Scene) -> dict[str, Any] | None:
 
 
 def _level(scene: Scene) -> float:
-    """Return the direction left of which the stretch of an input lies that is taken without a start."""
+    """Return the direction (rad) to whose left an input's range lies that is taken without a start."""
     linkage, loops = scene.linkage, scene.mechanism.assembly.loops
     first = next((name for name, loop in loops.items() if loop.pin == linkage.drive.joint), None)
     if first is None:
@@ -58,7 +58,7 @@ def _level(scene: Scene) -> float:
     loop = loops[first]
     ends = {loop.crank.pivot, *linkage.joint(first).pins}
     pins = [pin.name for pin in linkage.pins if pin.name in ends]
-    # a ground that runs from the pin that is stated later has what lies above it on its right
+    # where the ground runs from the pin that is stated later, the side above it is on its right
     back = loop.ground is not None and pins[0] != loop.crank.pivot
     return float(loop.root.reference) + (pi if back else 0.0)
 
@@ -75,7 +75,7 @@ class _Model:
         )
 
     def joint(self, joint: Joint) -> dict[str, Any] | None:
-        """Return a joint with the numbers of its lengths; None of a kind that the solver does not know."""
+        """Return a joint with the numbers of its lengths; None for a kind that the solver does not know."""
         match joint:
             case Pin():
                 return {"name": joint.name, **self._pin(joint)}
@@ -182,7 +182,7 @@ class _Model:
         return number
 
     def _side(self, joint: RRR) -> int:
-        """Return on which side of its ends a joint lies, as the scene names it, or as it begins."""
+        """Return the side of its ends on which a joint lies, 1 left or -1: as stated, or as at the start."""
         if joint.side_of is None:
             return joint.side
         places = self.scene.pose(_JUST_AFTER, 0).position

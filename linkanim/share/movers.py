@@ -1,7 +1,8 @@
-"""Tell what of a picture moves on a page, how, and in which colours.
+"""Find the parts of a picture that move on a page, how, and in which colours.
 
-Each group is SVG, and has what its script moves it by. Tracks say where joints run in pixels, as nodes
-between which a quintic is close enough for the largest screens. Colours are pairs, of light and of dark.
+Each group is SVG, with the data by which the page's script moves it. Tracks are the paths of joints in
+pixels, as nodes between which a quintic is close enough for the largest screens. Colours are pairs, of the
+light and the dark theme.
 """
 
 from __future__ import annotations
@@ -34,12 +35,12 @@ from linkanim.picture.theme import theme_of
 from linkanim.picture.view import View
 from linkanim.scenes.scene import Scene
 
-# Colours of a page that goes by its reader's setting: each is one of a pair, of light and of dark.
+# Colours of a page that follows its reader's setting: each has a pair, of the light and the dark theme.
 
 
 @frozen
 class Pairs:
-    """The colours met so far, numbered in their order; a page's styles have them as --c0, --c1 and on."""
+    """The colours met so far, numbered in their order; a page's styles call them --c0, --c1, ...."""
 
     numbers: dict[tuple[Colour, Colour], int] = field(default_factory=dict)
 
@@ -83,7 +84,7 @@ class Pairs:
         return self.numbers.setdefault((light, dark), len(self.numbers))
 
     def _coded(self, light: Item, dark: Item) -> Item:
-        """Return an item with the number of its pair for its colour."""
+        """Return an item whose colour is the number of its pair."""
         colour = self._code(light.colour, dark.colour)
         if not (isinstance(light, Caption) and isinstance(dark, Caption)):
             return light._replace(colour=colour)
@@ -98,7 +99,7 @@ class Pairs:
 
 
 def _shorter(element: str) -> str:
-    """Return a path with its points from one to the next, in half the letters; another element as it is."""
+    """Return a path with relative coordinates, in half the characters; another element as it is."""
     return _LOOP.sub(_stepwise, element) if element.startswith("<path") else element
 
 
@@ -117,33 +118,33 @@ def _number(step: float) -> str:
 _LOOP = re.compile("M([^MZ]*)Z")
 
 
-# Where joints run in pixels, as nodes between which a quintic is close enough for the largest screens.
+# The paths of joints in pixels, as nodes between which a quintic is close enough for the largest screens.
 #
 # A node has the position and its first two derivatives by phase, from the solver; between two nodes runs the
-# polynomial of fifth degree that has them at both ends (Hermite). Nodes lie where they are needed. Of a
-# scene that comes back by the way it came they are those of the way there: at its ends rates change sign at
+# polynomial of fifth degree that has them at both ends (Hermite). Nodes lie where they are needed. For a
+# scene that returns along the same path they are those of the first half: at its ends rates change sign at
 # once.
 
 GRID = 1 << 16
-"""Nodes lie at whole numbers of so many parts of the true period."""
+"""The equal parts of the true period, at whose ends nodes may lie."""
 NEAR = 3e-4
 """How far off a curve may be between its nodes, in pixels of the picture: 0.0012 at 3840 × 2160."""
 _FIRST = 16
-"""Into how many parts of a drive's turn a curve is cut at first, at the least."""
+"""The fewest parts into which a curve is divided at first, for each turn of the drive."""
 _PROBES = (0.25, 0.5, 0.75)
-"""Where between two nodes is looked how far off it is."""
+"""Where between two nodes the error is checked, in shares of the stretch."""
 _STEPS = 1 << 30
-"""Of positions, to the farthest of all."""
+"""Steps of positions, from 0 to the farthest of all."""
 LARGEST_SINGLE = float(np.finfo(np.float32).max)
-"""What 32 bits hold at the most: of rates beside a place where they are unbounded no more is kept."""
+"""The largest number of 32 bits: larger rates, beside a place where they are unbounded, are cut to it."""
 _NOWHERE = complex(-1e4, -1e4)
-"""Where a joint lies that is nowhere (NaN)."""
+"""Where a joint is drawn that has no position (NaN): outside the picture."""
 
 Whole = NDArray[np.int64]
 
 
 def centre(body: str) -> str:
-    """Return what a body's centre of mass is called among the points."""
+    """Return the name of a body's centre of mass among the points."""
     return f"{body} (centre of mass)"
 
 
@@ -157,7 +158,7 @@ class Track:
 
 
 def tracks(scene: Scene, view: View) -> dict[str, Track]:
-    """Return the tracks of joints and centres of mass over a true period of phase, or over its way there."""
+    """Return the tracks of joints and centres of mass over a true period; over its half if it retraces."""
     joints = scene.linkage.joints
     centres = (centre(body.name) for body in scene.linkage.bodies if body.com is not None)
     names, fixed = (*(one.name for one in joints), *centres), {one.name for one in joints if one.fixed}
@@ -180,7 +181,7 @@ def tracks(scene: Scene, view: View) -> dict[str, Track]:
 
 
 def _looked_at(open_: Mapping[str, Whole], step: int) -> Whole:
-    """Return the places on the grid at which stretches begin and end, and are looked at between."""
+    """Return the places on the grid at which stretches begin, end, and are checked between."""
     shares = np.array((0.0, *_PROBES, 1.0)) * step
     begins = np.unique(np.concatenate([*open_.values()]))
     found: Whole = np.unique(np.add.outer(begins, shares.astype(np.int64)) % GRID)
@@ -188,7 +189,7 @@ def _looked_at(open_: Mapping[str, Whole], step: int) -> Whole:
 
 
 def _halved(open_: Mapping[str, Whole], solved: _Solved, step: int) -> Iterator[tuple[str, Whole]]:
-    """Yield both halves of the stretches that are too far off."""
+    """Yield the beginnings of both halves of each stretch whose error is above `NEAR`."""
     width = solved.scene.period * step / GRID
     for name, begins in open_.items():
         ends = (begins + step) % GRID
@@ -221,7 +222,7 @@ class _Solved:
 
 
 def _pixels(motion: Motion, scene: Scene, view: View) -> Iterator[Loop]:
-    """Yield each point's position and derivatives (3, n) in pixels; what is not known does not move."""
+    """Yield each point's position and derivatives (3, n) in pixels; one without a position does not move."""
     joints = (joint.name for joint in scene.linkage.joints)
     centres = (body.name for body in scene.linkage.bodies if body.com is not None)
     kinds: tuple[Any, ...] = (motion.position, motion.velocity, motion.acceleration)
@@ -251,7 +252,7 @@ def quintic(begin: Loop, end: Loop, width: float) -> Loop:
 
 
 def evaluated(coefficients: Loop, share: Any) -> Any:
-    """Return a polynomial's values at shares of its way, 0 to 1 (Horner)."""
+    """Return a polynomial's values at shares of its stretch, 0 to 1 (Horner)."""
     value = coefficients[-1]
     for one in coefficients[-2::-1]:
         value = value * share + one
@@ -286,20 +287,20 @@ def packed(values: Any, kind: str) -> str:
     return base64.b64encode(np.ascontiguousarray(values, kind).tobytes()).decode("ascii")
 
 
-# What of a picture moves on a page, and how: each group of it as SVG, and what its script moves it by.
+# The moving parts of a picture: each group as SVG, with the data by which the page's script moves it.
 
 Mover = dict[str, Any]
-"""What a group is moved by: its `kind`, the points it follows, its measures in pixels, its colours."""
+"""The data that moves a group: its `kind`, the points it follows, its measures in pixels, its colours."""
 
 
 @frozen
 class Movable:
-    """A group as SVG, and what moves it; None where it stands still."""
+    """A group as SVG, and the data that moves it; None where it stands still."""
 
     shapes: str
     mover: Mover | None = None
     transform: str = ""
-    """Where it lies at the start."""
+    """Its place at the start."""
 
 
 @frozen
@@ -318,7 +319,7 @@ class Mobile:
         return {**self.light.drawing.places(pose), **masses}
 
     def movables(self) -> Iterator[Movable]:
-        """Yield all that is drawn, back to front, as it lies at the start."""
+        """Yield all that is drawn, back to front, in its place at the start."""
         pose, _ = self.light.poses(0.0)
         for one, other in zip(self.light.groups(pose), self.dark.groups(pose), strict=True):
             yield from self._movable(one, other, pose)
@@ -364,7 +365,7 @@ class Mobile:
             yield Movable(shapes, {"kind": "label", **_placed(label, light), **_shown(label)})
 
     def _live(self, group: Group, light: Any, dark: Any) -> Mover:
-        """Return what a script draws anew at every pose."""
+        """Return the data of what the script draws anew at every pose."""
         match light:
             case Coil():
                 return self._coil(light, dark)
@@ -408,7 +409,7 @@ class Mobile:
         return {"kind": "damping", "between": list(light.between), **size, "barrel": barrel, "head": head}
 
     def _arrows(self, light: Arrows, dark: Arrows) -> Mover:
-        """Return arrows; `gain` is their length in pixels for one pixel by radian (or radian²) of phase."""
+        """Return the data of arrows; `gain` is their length for a rate of 1 pixel/rad (or /rad²) of phase."""
         order, scene = ORDER[light.kind], self.light.scene
         gain = light.scale(light.drive) * abs(light.drive) ** order / self.light.view.scale
         colours = self.pairs.variables((light.colour, light.halo), (dark.colour, dark.halo))
@@ -423,7 +424,7 @@ def _line(label: Label, names: Names) -> Caption:
 
 
 def _shown(label: Label) -> Mover:
-    """Return how far a label shows over the cycle, in 255ths."""
+    """Return the opacity of a label over the cycle, in 255ths."""
     assert label.shown is not None
     return {"shown": packed(np.rint(255 * label.shown), "u1")}
 

@@ -1,6 +1,6 @@
 """Write a scene as one HTML file: the picture, its motion, and the script that moves it.
 
-Its rows of numbers and its chart cover one true period, both ways round.
+Its rows of numbers and its chart cover one true period, in both directions.
 """
 
 from __future__ import annotations
@@ -42,41 +42,42 @@ from linkanim.scenes.scene import Scene
 from linkanim.share.lengths import model
 from linkanim.share.movers import LARGEST_SINGLE, Mobile, Pairs, packed, packed_tracks, tracks
 
-# The numbers of a page over one true period, both ways round: rows of words, and the chart.
+# The numbers of a page over one true period, in both directions: rows of values, and the chart.
 
 CHART = (960, 300)
 _TEXT = (26, 22)
 """The heights of a chart's text and of its small text."""
 _LINE = 2.0
 _MOMENTS, _A_TURN, _MOST = 240, 40, 2880
-"""How many steps a table has for a drive's turn, for one of the quickest crank, and in all at most.
+"""The steps of a table for a turn of the drive, for one of the quickest crank, and the most in all.
 
-Cubics run between its entries.
+Between its entries the page interpolates by cubics.
 """
 _INSIDE = 1e-9
-"""How far inside of a way there, or back, its table's ends are, in phase."""
+"""How far inside a part of the period the ends of its table lie, in phase."""
 _NEAR, _NEARER = 1e-3, 1e-4
-"""So far from an end, in phase, is looked how steeply something grows towards it."""
+"""The distances from an end, in phase, at which it is measured how steeply a quantity grows towards it."""
 
 
 def input_words(scene: Scene) -> str:
-    """Return what the input's coordinate is called: "crank angle"."""
+    """Return the name of the input's coordinate: "crank angle"."""
     return f"{scene.info.input_name} {scene.linkage.drive.coordinate.name}"
 
 
 def parts_of(scene: Scene) -> int:
-    """Return in how many equal parts a true period's tables are: each way there and back of a swing is one.
+    """Return the number of equal parts of a true period's tables: two for a swing, one there and one back.
 
-    At its ends rates may change their sign at once, or grow without bound.
+    At the ends of a swing rates may change their sign at once, or grow without bound.
     """
     return 1 if scene.info.full_turn else 2 * round(scene.period / radians(360))
 
 
 def rows(scene: Scene, speed: float) -> Iterator[dict[str, Any]]:
-    """Yield what is told of every pose: where the input is, its speed, struts, what drives it.
+    """Yield the rows of a pose's values: where the input is, its speed, struts, what drives it.
 
-    `values` are of equal steps over each part of the period with its end, forth and back; where they are the
-    same but for their sign, `back` is that. `text` does not change.
+    `values` are at equal steps over each part of the period, its end included, forward and backward. Where
+    the two differ at most by a sign, only the first are given, and `back` is the sign; else it is 0. `text`
+    does not change.
     """
     drive, phases = scene.linkage.drive.coordinate, _phases(scene, 0.0, scene.period)
     motion = scene.solve(phase=phases, speed=speed)
@@ -94,7 +95,7 @@ def rows(scene: Scene, speed: float) -> Iterator[dict[str, Any]]:
 
 
 def _phases(scene: Scene, begin: float, end: float) -> NDArray[np.float64]:
-    """Return phases at equal steps from one to another, part by part with its ends."""
+    """Return phases at equal steps from `begin` to `end`, part by part, each with its ends."""
     parts = parts_of(scene)
     count = scene.mechanism.count(_MOMENTS * round(scene.period / radians(360)), a_turn=_A_TURN)
     count = max(min(count, _MOST) // parts, 3)
@@ -108,7 +109,7 @@ def _phases(scene: Scene, begin: float, end: float) -> NDArray[np.float64]:
 
 
 _Poles = tuple[int, int]
-"""As which powers of its sine and cosine, of half the phase, something grows towards the ends of a swing."""
+"""The powers of 1/sin and 1/cos of half the phase with which a quantity grows at the ends of a swing."""
 
 
 def _poles(scene: Scene, of: Quantity) -> _Poles:
@@ -130,7 +131,7 @@ def _order(scene: Scene, of: Quantity, end: float) -> int:
 
 
 def _weight(phases: NDArray[np.float64], poles: _Poles) -> NDArray[np.float64]:
-    """Return what a table's values are times, so that they do not grow."""
+    """Return the factors (n,) on a table's values that keep these from growing."""
     low, high = poles
     weight: NDArray[np.float64] = np.abs(np.sin(phases / 2)) ** low * np.abs(np.cos(phases / 2)) ** high
     return weight
@@ -150,13 +151,13 @@ def _row(label: str, unit: str, step: float, values: list[NDArray[np.float64]]) 
 
 
 def _kind(values: list[NDArray[np.float64]]) -> str:
-    """Return the kind of numbers that holds values: 32 bits, or 64 where one is too large for them."""
+    """Return the type of numbers that holds values: floats of 32 bits, or of 64 where one is too large."""
     largest = max(float(np.abs(one[np.isfinite(one)]).max(initial=0.0)) for one in values)
     return "<f4" if largest < LARGEST_SINGLE else "<f8"
 
 
 def _said(kind: str) -> dict[str, str]:
-    """Return what a page is told of a kind of numbers: nothing of the usual one."""
+    """Return the entry that tells a page the type of numbers; none for the usual one."""
     return {} if kind == "<f4" else {"kind": kind[1:]}
 
 
@@ -166,9 +167,9 @@ def _digits(step: float) -> int:
 
 
 def charts(figure: Figure, themes: tuple[Theme, Theme], shown: tuple[str, float], pairs: Pairs) -> list[Any]:
-    """Return the chart of a quantity at a speed for both ways round, each with its frame in SVG.
+    """Return the chart of a quantity at a speed for both directions, each with its frame in SVG.
 
-    BadInput with the nearest ones and the list where the scene has no such quantity.
+    `BadInput`, with the nearest names and the list, where the scene has no such quantity.
     """
     token, speed = shown
     of = quantity(figure.scene, token)
@@ -179,7 +180,7 @@ def charts(figure: Figure, themes: tuple[Theme, Theme], shown: tuple[str, float]
 
 
 def _columns(panel: ChartPanel) -> list[NDArray[np.float64]]:
-    """Return the tables of a chart's curves: as they are drawn, or of an input that swings solved anew."""
+    """Return the tables of a chart's curves: as drawn, or for an input that swings solved anew."""
     course, (x, values), scene = panel.course, panel.curves, panel.figure.scene
     if scene.info.full_turn:
         even = np.linspace(0.0, course.span, min(len(panel.figure.cycle.phase), _MOST) + 1)
@@ -231,21 +232,21 @@ _POLICY = (
 )
 """What a page may load: nothing but its own style and the one script that it comes with."""
 LARGEST = 200_000
-"""Bytes of a page at the most."""
+"""The most bytes of a page."""
 _SHARED = 200
-"""Bytes from which on shapes that come again are used again."""
+"""The fewest bytes of shapes that are stored once where they occur again."""
 _TALL = 0.8
-"""How high for its width a picture is that has its chart beside it."""
+"""The ratio of height to width above which a picture has its chart beside it."""
 _OF_TRACKS = ("curve", "recent", "arrows")
-"""The kinds of movers that follow points alone, whatever the lengths of links."""
+"""The kinds of movers that follow only points, and so hold for any lengths of links."""
 _WIDTH, _HEIGHTS = 960, (480, 900)
 
 
 @frozen
 class Shared:
-    """What a page is asked to show: a scene at a speed (rad/s; its own), a quantity's chart, names 0 to 2.
+    """What a page is asked to show: a scene, its speed (rad/s), a quantity to chart, names 0 to 2.
 
-    Without a theme it goes by its reader's setting.
+    Without a speed it is the scene's own; without a theme the page follows its reader's setting.
     """
 
     scene: Scene
@@ -256,12 +257,12 @@ class Shared:
 
     @property
     def themes(self) -> tuple[ThemeName, ThemeName]:
-        """The themes of a page by its reader's setting, light and dark; twice the one that is stated."""
+        """The themes of a page for its reader's settings, light and dark; a stated one twice."""
         return (self.theme, self.theme) if self.theme else ("light", "dark")
 
 
 def document(shared: Shared) -> str:
-    """Return the page as HTML, which loads nothing; one closure alone where there is no room for both.
+    """Return the page as HTML, which loads nothing; it has one closure where there is no room for both.
 
     BadInput for a chart of no quantity of the scene, for a speed of zero, and where the page would be larger
     than `LARGEST`: its gears take very many turns to be back, or it has very many joints and bodies.
@@ -317,7 +318,7 @@ def _whole(shared: Shared, size: tuple[int, int], closures: Sequence[tuple[Pictu
     }
     found = _short(found)
     if lengths := sides[0].model():
-        found["model"] = lengths  # in all its digits: it is solved, not drawn alone
+        found["model"] = lengths  # in all its digits: it is solved, not only drawn
     sheet = pairs.styles(shared.themes, shared.theme)
     script = "\n".join(map(_bare, map(packaged, ("solver.js", "lengths.js", "page.js"))))
     kind = scene.info.class_name
@@ -344,7 +345,7 @@ def _bare(script: str) -> str:
 
 
 def _size(scene: Scene) -> tuple[int, int]:
-    """Return a picture's size in pixels, as high as the scene is for its width, within bounds."""
+    """Return a picture's size in pixels, in the shape of the scene, within bounds."""
     box = figure(scene).box
     wide, high = box.right - box.left, box.high - box.low
     low, tall = _HEIGHTS
@@ -360,9 +361,9 @@ class _Side:
         self._movables = tuple(Mobile(light, dark, pairs).movables())
 
     def markup(self, number: int, known: dict[str, str]) -> str:
-        """Return its groups, those that move numbered; hidden but for the first.
+        """Return its groups, numbered if they move; hidden unless the closure is the first.
 
-        Shapes that are `known`, by the name of the group that has them, are used again.
+        Shapes that are `known` are used again, by the id of the group that has them.
         """
         moving, groups = count(), ""
         for one in self._movables:
@@ -372,7 +373,7 @@ class _Side:
         return f"<g id='side{number}'{' hidden' if number else ''}>{groups}</g>"
 
     def model(self) -> dict[str, Any] | None:
-        """Return what the page's solver knows of it for other lengths; None where it cannot solve it."""
+        """Return the linkage for the page's solver, for other lengths; None where that cannot solve it."""
         found, linkage = model(self._scene), self._scene.linkage
         if found is None:
             return None
@@ -390,7 +391,7 @@ class _Side:
         return {**found, "links": links, "movers": movers, "unit": self._scene.length_unit}
 
     def data(self) -> dict[str, Any]:
-        """Return what its script knows of it."""
+        """Return the closure's data for the page's script."""
         scene, view, shared = self._scene, self._picture.view, self._shared
         speed = shared.speed or scene.linkage.drive.speed
         themes, token = (self._picture.theme, self._dark.theme), shared.chart
@@ -407,7 +408,7 @@ class _Side:
 
 
 def _once(shapes: str, known: dict[str, str]) -> str:
-    """Return shapes, or what uses the same ones again."""
+    """Return shapes, or a reference to the same shapes on the page."""
     if shapes in known:
         return f'<use href="#{known[shapes]}"/>'
     if len(shapes) < _SHARED:

@@ -22,16 +22,16 @@ from linkanim.share.page import Shared, document, packaged
 INDEX = "index.html"
 _SIZE = (240, 150)
 _EARLY = 0.09
-"""Which part of its period a scene is in on the index: not at a limit, where much lies in line."""
+"""The share of its period at which the index shows a scene: off its limits, where links lie in line."""
 
 
 def write_site(folder: Path, names: Iterable[str], shared: Shared, unit: str | None = None) -> None:
-    """Write a page for each scene, as `shared` has the first, as NAME.html into a folder, and the index.
+    """Write a page for each scene as NAME.html into a folder, and the index; `shared` says how.
 
     Lengths are shown in `unit`, each scene's own where it is None.
 
     All appear together or none does; they replace only files that we wrote. `BadInput` before any work where
-    it cannot be a folder or a name is taken by another file.
+    `folder` cannot be a folder or a name is taken by another file.
     """
     chosen = tuple(names)
     pages = [f"{name}.html" for name in chosen]
