@@ -1,4 +1,4 @@
-"""How scenes and motions show themselves in a notebook: told to IPython by name, imported when shown.
+"""How scenes and motions show themselves in a notebook: registered with IPython by name, imported when shown.
 
 It stands below all rooms, since a scene's figure and a motion's chart need what they offer together.
 """
@@ -9,7 +9,7 @@ from typing import Any
 
 
 def register(shell: Any) -> None:
-    """Tell IPython's shell, if it runs one, what shows scenes and motions; nothing is imported for it."""
+    """Register with IPython's shell, if there is one, how to show scenes and motions; imports nothing."""
     if shell is None:
         return
     page = shell.display_formatter.formatters["text/html"]

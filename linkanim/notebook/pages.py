@@ -1,4 +1,4 @@
-"""What a notebook shows: of a scene the page that moves and its facts, of a motion its table and a chart."""
+"""What a notebook shows: for a scene a moving page and its facts, for a motion its table and a chart."""
 
 from __future__ import annotations
 
@@ -31,14 +31,14 @@ from linkanim.units import significant, typeset
 
 _FIGURE, _CHART, _FRAME = (560, 360), (640, 260), (720, 560)
 _ENDS = 5
-"""So many rows of a motion's table at either end; what lies between is left out."""
+"""The rows of a motion's table that are shown at either end; those between are left out."""
 _DIGITS = 6
 
 
 def scene_html(scene: Scene) -> str:
-    """Return the page on which a scene moves, and what is known of it.
+    """Return the page on which a scene moves, and its facts, as HTML.
 
-    A notebook that is not trusted leaves frames out, and shows the figure that stands behind it.
+    A notebook that is not trusted leaves frames out, and shows the figure behind the page.
     """
     svg = b64encode(Figured(scene, _FIGURE, Look(names=1, hud=False)).document().encode()).decode()
     size, source = f"width='{_FIGURE[0]}' height='{_FIGURE[1]}'", f"data:image/svg+xml;base64,{svg}"
@@ -59,7 +59,7 @@ def _moving(scene: Scene) -> str:
 
 
 def motion_html(motion: Motion) -> str:
-    """Return a motion's table, and of several instants in a row the chart of what its output does."""
+    """Return a motion's table as HTML, and for several instants in a row the chart of its output."""
     table = _table(motion)
     if np.ndim(motion.phase) != 1 or len(motion.phase) < 2:
         return table
@@ -76,13 +76,13 @@ def _unit(motion: Motion) -> str:
 
 
 def _quantities(motion: Motion) -> Mapping[str, Quantity]:
-    """Return all quantities by their tokens, bodies called by what they do."""
+    """Return all quantities by their tokens; bodies have the names of their functions (crank, rocker)."""
     solved = mechanism(motion.mechanism.linkage)
     return register(solved.linkage, link_names(solved, turning_bodies(solved)))
 
 
 def _shown(motion: Motion) -> Iterator[Quantity]:
-    """Yield what the table has: where moving joints are, and how far bodies have turned or slid."""
+    """Yield the quantities of the table: positions of moving joints, angles or travels of bodies."""
     linkage, known = motion.mechanism.linkage, _quantities(motion)
     for joint in linkage.joints:
         if not joint.fixed:
@@ -92,7 +92,7 @@ def _shown(motion: Motion) -> Iterator[Quantity]:
 
 
 def _table(motion: Motion) -> str:
-    """Return the input's angle, phase, joints and bodies, a row for each instant."""
+    """Return a table of the input, the phase, joints and bodies, with a row for each instant."""
     unit, coordinate, shown = _unit(motion), motion.mechanism.linkage.drive.coordinate, list(_shown(motion))
     titles = [f"input {coordinate.name} ({coordinate.shown_unit(unit)})", "phase (°)"]
     titles += [one.headed(unit) for one in shown]
@@ -113,7 +113,7 @@ def _row(values: Any) -> str:
 
 
 def _telling(motion: Motion) -> Quantity:
-    """Return the quantity that is charted: how fast the output moves, or where it is without rates."""
+    """Return the charted quantity: the output's velocity, or its position in a motion without rates."""
     linkage, known = motion.mechanism.linkage, _quantities(motion)
     output = output_body(linkage)
     if output is None:
