@@ -1,4 +1,4 @@
-"""What is cut or printed: parts on sheets as SVG and DXF, on pages in true size as PDF, as bodies in STL."""
+"""Files to cut or print: parts on sheets as SVG and DXF, on pages in true size as PDF, as bodies in STL."""
 
 from __future__ import annotations
 
@@ -24,28 +24,28 @@ if TYPE_CHECKING:
     from manifold3d import Manifold
 
 _BETWEEN = 3.0
-"""Between parts on a sheet, and between them and its edge, in mm."""
+"""The distance between parts on a sheet, and from parts to its edge, in mm."""
 _PIXELS = 96 / 25.4
-"""To a millimetre."""
+"""Pixels in a millimetre."""
 _INK, _PAPER = (20, 20, 20), (255, 255, 255)
 _HAIR = 0.2
-"""How thick a line on paper is, in mm."""
+"""The width of a line on paper, in mm."""
 _RULER = 100
 _OVERLAP = 10.0
-"""By which pages of one part lie over each other, in mm."""
+"""The overlap of the pages of one part, in mm."""
 _MOST_PAGES = 100
 _READABLE = 2.0
-"""The least height of words on paper, in mm; those that have less room stand above their part."""
+"""The least height of words on paper, in mm; words with less room stand above their part."""
 _LETTER = 0.55
-"""How wide a letter is on the whole, in heights of the words."""
+"""The usual width of a letter, in heights of the words."""
 _SUNK = 1 / 3
 """How deep a printed pin's head and its cap lie in the plates, as a share of their thickness."""
 
 
 class FlatPart(NamedTuple):
-    """A flat part as it is cut: what is written on it and where, its edge, and those of what is cut out.
+    """A flat part as it is cut: the words on it and their place, its outer edge, and the edges of its holes.
 
-    Words on it are no higher than `room`, in mm.
+    The words are at most `room` mm high.
     """
 
     label: str
@@ -56,11 +56,11 @@ class FlatPart(NamedTuple):
 
 
 def flat_parts(made: MadeLinkage) -> list[FlatPart]:
-    """Return every plate, and the rings that keep layers apart, with what the cut takes away allowed for."""
+    """Return every plate, and the rings that keep layers apart, enlarged by half the width of the cut."""
     grown = made.kerf / 2
     parts = []
     for number, plate in enumerate(made.plates):
-        # a tongue has no room for its name
+        # a slider's tongue has no room for its name
         label = made.numbers[number] if plate.role == "slider" else made.label(number)
         parts.append(FlatPart(label, plate.clearest, plate.outline(grown), tuple(plate.cuts(grown))))
     for pin in made.pins:
@@ -74,7 +74,7 @@ def flat_parts(made: MadeLinkage) -> list[FlatPart]:
 
 
 def _room_in_ring(outer: float, inner: float, wide: float) -> float:
-    """Return how high words may be amid a ring below its hole that are so many times as wide."""
+    """Return how high words may be on a ring, below its hole, that are `wide` times as wide as high."""
     middle, rim = (outer + inner) / 2, 0.96 * outer
     # their lower corners lie on the rim: (wide h / 2)² + (middle + h / 2)² = rim²
     square = (wide**2 + 1) / 4
@@ -83,7 +83,7 @@ def _room_in_ring(outer: float, inner: float, wide: float) -> float:
 
 
 class _Sheets(NamedTuple):
-    """Parts on sheets side by side: where each lies, how many sheets there are, and the step to the next."""
+    """Parts on sheets side by side: each part's place, the number of sheets, and the step to the next."""
 
     parts: list[FlatPart]
     laid: list[Laid]
@@ -91,7 +91,7 @@ class _Sheets(NamedTuple):
     step: float
 
     def places(self) -> Iterator[tuple[FlatPart, complex, complex]]:
-        """Yield each part, where its frame's origin lies and its direction."""
+        """Yield each part, with the place of its frame's origin and the frame's direction."""
         for part, laid in zip(self.parts, self.laid, strict=True):
             yield part, laid.at + complex(_BETWEEN + laid.sheet * self.step, _BETWEEN), laid.turn
 
@@ -142,7 +142,7 @@ def svg(made: MadeLinkage) -> str:
 
 
 def _path(outline: Outline, high: float) -> str:
-    """Return an outline as path data, its arcs as such, y down."""
+    """Return an outline as path data, with arcs as arcs, y down."""
     start = outline[0][0]
     data = f"M{start.real:.6f} {high - start.imag:.6f}"
     for (begin, bulge), (end, _) in zip(outline, outline[1:] + outline[:1], strict=True):
@@ -156,7 +156,7 @@ def _path(outline: Outline, high: float) -> str:
 
 
 def require(library: str, what: str) -> None:
-    """Raise BadInput where a library of the extra is not installed, naming what installs it."""
+    """Raise BadInput where a library of the extra `make` is not installed; it says how to install it."""
     if find_spec(library) is None:
         raise BadInput(
             f'{what} needs {library}, which is not installed; install with: pip install "linkanim[make]"'
@@ -206,7 +206,7 @@ def dxf(made: MadeLinkage) -> str:
 def paper(made: MadeLinkage) -> bytes:
     """Return pages with all flat parts in true size as PDF, each with a ruler of 100 mm. Needs fpdf2.
 
-    What is longer than a page goes over several, which overlap and have crosses to lay over each other.
+    A part longer than a page goes over several, which overlap and have crosses to lay over each other.
     BadInput for more than a hundred pages.
     """
     parts, (wide, high) = flat_parts(made), made.sheet
@@ -231,7 +231,7 @@ def paper(made: MadeLinkage) -> bytes:
 
 
 class _Tiles(NamedTuple):
-    """A part over several pages, `across` of them beside each other and so many `up`."""
+    """A part over several pages, `across` of them side by side and `up` one above another."""
 
     part: FlatPart
     room: tuple[float, float]
@@ -242,7 +242,7 @@ class _Tiles(NamedTuple):
 
     @classmethod
     def of(cls, part: FlatPart, room: tuple[float, float]) -> _Tiles:
-        """Return a part turned so that it takes fewest pages."""
+        """Return a part turned so that it takes the fewest pages."""
         points = polygon(part.edge)
 
         def tiles(turn: complex) -> _Tiles:
@@ -257,7 +257,7 @@ class _Tiles(NamedTuple):
         return min(tiles(long), tiles(1j * long), key=lambda one: one.across * one.up)
 
     def pages(self, made: MadeLinkage) -> Iterator[list[Item]]:
-        """Yield what is on each page that has anything of the part on it."""
+        """Yield the content of each page on which some of the part lies."""
         step = self.room[0] - _OVERLAP, self.room[1] - _OVERLAP
         points = np.array([self.turn * point for point in polygon(self.part.edge)])
         for row in range(self.up):
@@ -276,7 +276,7 @@ class _Tiles(NamedTuple):
                 yield items
 
     def _crosses(self, made: MadeLinkage, column: int, row: int) -> Iterator[Item]:
-        """Yield the crosses of a page: amid what it shares with its neighbours, near both ends of that."""
+        """Yield the crosses of a page: in the middle of each overlap with a neighbour, near both ends."""
         half, (wide, high) = _OVERLAP / 2, self.room
         xs = [half] * (column > 0) + [wide - half] * (column + 1 < self.across)
         ys = [half] * (row > 0) + [high - half] * (row + 1 < self.up)
@@ -288,7 +288,7 @@ class _Tiles(NamedTuple):
 
 
 def _on_page(made: MadeLinkage, place: complex) -> complex:
-    """Return where a place in the room of a page lies on it, in pixels from its upper left."""
+    """Return a place within a page's margins (x + yi, mm, y up) in pixels from the page's upper left."""
     return _PIXELS * complex(MARGIN + place.real, made.sheet[1] - MARGIN - FOOT - place.imag)
 
 
@@ -304,7 +304,7 @@ def _drawn(made: MadeLinkage, part: FlatPart, at: complex, turn: complex) -> Ite
                 yield _line(made, middle - arm, middle + arm, _HAIR / 2)
     if part.label:
         size = min(max(made.sizes.bar / 3, _READABLE), 5.0, max(part.room, _READABLE))
-        # words lie level on the page; a ring's stay below its hole however it is turned
+        # words are level on the page; those of a ring stay below its hole however it is turned
         place = _on_page(made, at + (part.at if math.isfinite(part.room) else turn * part.at))
         if part.room < _READABLE:
             top = max((at + turn * point).imag for point in polygon(part.edge))
@@ -328,9 +328,9 @@ def _words(made: MadeLinkage, text: str, place: complex) -> Caption:
 
 
 def _frame(made: MadeLinkage, number: str) -> Iterator[Item]:
-    """Yield what is on every page: its margins left white, the ruler, and how to print it."""
+    """Yield the frame of every page: white margins, the ruler, and how to print it."""
     wide, high = (side * _PIXELS for side in made.sheet)
-    # less than a line's width off what is drawn at their edge
+    # so that lines at the margins' edge stay visible
     edge, foot = (MARGIN - _HAIR) * _PIXELS, (MARGIN + FOOT - _HAIR) * _PIXELS
     for left, right, top, low in (
         (0.0, wide, 0.0, edge),
@@ -362,11 +362,11 @@ def bodies(made: MadeLinkage) -> Iterator[tuple[str, bytes]]:
 
     BadInput for a part that is larger than a sheet's size, where one is given.
 
-    A pin's head lies sunk in its lowest plate and a cap, stuck on the pin, in its highest; neither is where
-    that plate has a slot for it. All plates but the ground turn on it.
+    A pin's head is sunk in its lowest plate, and a cap, stuck on the pin, in its highest; a plate with a slot
+    for the pin has neither. All plates but the ground turn on the pin.
     """
     sizes = made.sizes
-    _sheets(made)  # the bed holds each of them
+    _sheets(made)  # refuses a part that the printer's bed does not hold
     thick = sizes.thickness
     sunk, head = _SUNK * thick, _head(made)
     for number, plate in enumerate(made.plates):
@@ -374,7 +374,7 @@ def bodies(made: MadeLinkage) -> Iterator[tuple[str, bytes]]:
         (origin, direction), places = made.placed(0.0)[number], made.pinned(0.0)
         for pin, place in zip(made.pins, places, strict=True):
             at = (place - origin) * direction.conjugate()
-            # Beyond the plate's face, so that none of it is left there.
+            # The disc extends beyond the plate's face, so that no skin is left there.
             for end, foot in ((pin.low, -1.0), (pin.high, thick - sunk)):
                 if number == _end_plate(made, pin, end):
                     body -= _disc(at, head + sizes.clearance, sunk + 1.0, foot)
@@ -396,12 +396,12 @@ def bodies(made: MadeLinkage) -> Iterator[tuple[str, bytes]]:
 
 
 def _head(made: MadeLinkage) -> float:
-    """Return the diameter of a printed pin's head, within the narrowest plate, a tongue."""
+    """Return the diameter of a printed pin's head: it fits into the narrowest plate, a tongue."""
     return made.sizes.hole + made.sizes.wall / 2
 
 
 def _end_plate(made: MadeLinkage, pin: MadePin, layer: int) -> int | None:
-    """Return the plate in a layer in which a pin's head or cap lies: not in a slot, and not of a dowel."""
+    """Return the plate in a layer that holds a pin's head or cap; None for a slot, and for a dowel."""
     if pin.stuck:
         return None
     return next((n for n in pin.plates if made.layer[n] == layer and n not in pin.sliding), None)

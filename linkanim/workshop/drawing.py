@@ -1,4 +1,4 @@
-"""Pictures of what is made, as items for a surface or a file: a plan by layers, from the side, exploded."""
+"""Pictures of a made linkage, as items for a surface or a file: a plan by layers, from the side, exploded."""
 
 from __future__ import annotations
 
@@ -21,17 +21,18 @@ from linkanim.workshop.made import MadeLinkage, MadePin
 from linkanim.workshop.shapes import polygon
 
 _CHORD = 0.05
-"""How far a drawn outline stays within its arcs, in mm."""
+"""How far the sides of a drawn outline may stay within its arcs, in mm."""
 _TEXT = 15
 _SHADOW = ((2 + 2.5j, 0.16), (3.5 + 4.5j, 0.1))
-"""How far a plate's shadow lies from it, in pixels, and how dark it is: twice, for its soft edge."""
+"""The offsets of a plate's shadow, in pixels, and its opacities: two of each, for a soft edge."""
 
 
 @frozen
 class Drawn:
-    """What is made, drawn at a phase: `size` in pixels, colours by layer.
+    """A made linkage, drawn at a phase: `size` in pixels, colours by layer.
 
-    The plates of `shown` are drawn, all where it is None; of those the ones that are not `new` are pale.
+    Only the plates in `shown` are drawn, all if it is None. Where `new` is given, plates that are not in it
+    are pale.
     """
 
     made: MadeLinkage
@@ -43,7 +44,7 @@ class Drawn:
 
     @cached_property
     def _loops(self) -> list[tuple[Loop, ...]]:
-        """The edge of each plate and those of its cuts, where they lie at the phase, in mm."""
+        """The edges of each plate and of its cuts, placed at the phase, in mm."""
         loops = []
         for plate, (at, turn) in zip(self.made.plates, self.made.placed(self.phase), strict=True):
             outlines = (plate.outline(), *plate.cuts())
@@ -62,14 +63,14 @@ class Drawn:
         return sorted(shown, key=lambda number: (self.made.layer[number], number))
 
     def _colour(self, number: int) -> Colour:
-        """Return a plate's colour: its layer's, pale where others are new."""
+        """Return a plate's colour: its layer's, pale if the plate is not new."""
         layer, theme = self.made.layer[number], self.theme
         colour = layer_colour(layer, theme)
         pale = self.new is not None and number not in self.new
         return mixed(colour, theme.background, 0.72 if pale and layer else 0.0)
 
     def _pins(self) -> list[tuple[MadePin, complex]]:
-        """Return the pins of what is shown, and where they are, in mm."""
+        """Return the pins of the shown plates, and their places, in mm."""
         shown = set(self._order())
         places = zip(self.made.pins, self.made.pinned(self.phase), strict=True)
         return [(pin, at) for pin, at in places if shown & set(pin.plates)]
@@ -82,7 +83,8 @@ class Drawn:
         for layer in range(self.made.layers + 2):
             lying = [number for number in self._order() if self.made.layer[number] == layer]
             if layer:
-                # All of a layer before its plates: none throws its shadow on another.
+                # All shadows of a layer before its plates: no plate throws its shadow on another of its
+                # layer.
                 for number in lying:
                     yield from self._shadow(number, view)
             for number in lying:
@@ -106,7 +108,7 @@ class Drawn:
             yield from self._key()
 
     def _shadow(self, number: int, view: View) -> Iterator[Layer]:
-        """Yield what a plate throws on all below it; one that is pale throws none."""
+        """Yield the shadow that a plate throws on those below it; a pale plate throws none."""
         if self.new is None or number in self.new:
             edge = _in_view(self._loops[number][0], view)
             for far, alpha in _SHADOW:
@@ -135,7 +137,7 @@ class Drawn:
     def _names(
         self, wanted: Iterable[tuple[str, Sequence[tuple[float, float]]]], taken: Sequence[Rect]
     ) -> Iterator[Caption]:
-        """Yield pins' names, each at the first of its places where nothing is yet, or else at the first.
+        """Yield pins' names, each at the first of its places that is free, or at the first if none is.
 
         A place is the middle of a name's upper edge.
         """
@@ -147,7 +149,7 @@ class Drawn:
         left, top, right, low = edges
 
         def free_of(box: Rect) -> bool:
-            # of a large linkage there are ten thousand places, each beside hundreds of things
+            # a large linkage has ten thousand places, each compared with hundreds of boxes
             apart = (left >= box.right) | (box.x >= right) | (top >= box.bottom) | (box.y >= low)
             return bool(apart.all())
 
@@ -166,7 +168,7 @@ class Drawn:
             yield Caption(text, (spot.middle.real, spot.y), _TEXT, self.theme.ink, "centre", halo=halo)
 
     def _number(self, number: int, view: View) -> Iterator[Item]:
-        """Yield a plate's number in a disc, where it is farthest from holes."""
+        """Yield a plate's number in a disc, where the plate has most room between its holes."""
         if self.made.layer[number] == 0 and self.made.plates[number].role == "ground":
             return
         at, turn = self.made.placed(self.phase)[number]
@@ -184,7 +186,7 @@ class Drawn:
         )
 
     def _key(self) -> Iterator[Item]:
-        """Yield which colour is which layer, from the top down."""
+        """Yield the key of the layers' colours, from the top down."""
         layers = range(self.made.layers, -1, -1)
         for row, layer in enumerate(layers):
             number = next(n for n, one in enumerate(self.made.layer) if one == layer)
@@ -194,7 +196,7 @@ class Drawn:
             yield Caption("ground" if layer == 0 else f"layer {layer}", (37, top - 3), _TEXT, self.theme.ink)
 
     def side(self) -> Iterator[Item]:
-        """Yield the layers seen from the side: plates as far as they reach, pins from end to end."""
+        """Yield the layers seen from the side: plates over their extent, pins from end to end."""
         width, height = self.size
         across = self._box.right - self._box.left < self._box.high - self._box.low
         spans = [_span(loops[0] * (-1j if across else 1)) for loops in self._loops]
@@ -264,7 +266,7 @@ class Drawn:
 def preview(made: MadeLinkage, size: tuple[int, int] = (1280, 640)) -> Illustration:
     """Return the layers in one picture: seen from above, and beside that lifted off each other.
 
-    The linkage stands as its joints are farthest apart.
+    The linkage is in the pose in which its joints are farthest apart.
     """
     width, height = size
     drawn = Drawn(made, figure(made.scene).clearest, (width // 2, height))
@@ -292,7 +294,7 @@ def _around(loop: Loop) -> Rect:
 
 
 def _corner_places(radius: float) -> Iterator[tuple[float, float]]:
-    """Yield where a name may stand beside a pin, from its middle: upper right first, then around it."""
+    """Yield where a name may stand, from its pin's middle: upper right first, then around it."""
     for far in (1.0, 1.8):
         aside, up = far * (radius + 12), far * 0.5 * (radius + _TEXT)
         yield from ((aside, -up), (aside, up), (-aside, -up), (-aside, up), (0, -1.8 * up), (0, 1.8 * up))

@@ -1,4 +1,4 @@
-"""What is made, as a folder: the parts for a way of making, how to put them together, and all numbers."""
+"""A made linkage as a folder: the parts for a way of making, instructions for assembly, and all numbers."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ _NEEDS = {"cardboard": ("fpdf", "a PDF"), "laser": ("ezdxf", "a DXF"), "print": 
 
 
 def write(made: MadeLinkage, output: str | os.PathLike[str]) -> list[Path]:
-    """Write what is made into a folder, and return the paths, the sheet's first.
+    """Write a made linkage into a folder, and return the paths, the instructions' first.
 
-    What else is there stays; of an older set there only what we wrote is replaced. BadInput for what cannot
-    be made, for a library that is missing, and where one of our names is taken.
+    Other files there stay; of an older set only what we wrote is replaced. BadInput for a linkage that cannot
+    be made, for a missing library, and where one of our names is taken.
     """
     if made.refused is not None:
         raise BadInput(made.refused)
@@ -46,5 +46,5 @@ def write(made: MadeLinkage, output: str | os.PathLike[str]) -> list[Path]:
 
 
 def _plain(name: str) -> str:
-    """Return a name that any file system takes."""
+    """Return a name that any file system accepts."""
     return re.sub(r"[^\w.-]+", "-", name, flags=re.ASCII)

@@ -1,4 +1,4 @@
-"""Gear wheels that keep a linkage's centre distances: which mesh, with how many teeth, of involute flanks."""
+"""Gear wheels that keep a linkage's centre distances: which mesh, their teeth, their involute flanks."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ from linkanim.workshop.shapes import Outline, straight
 
 _PRESSURE = math.radians(20)
 _FEWEST = 18
-"""Teeth, so that none is undercut: 2/sin² 20° = 17.1 (ISO 21771)."""
+"""The fewest teeth, so that none is undercut: 2/sin² 20° = 17.1 (ISO 21771)."""
 _FEWEST_INSIDE = 34
-"""Of a ring, so that its teeth end outside of its base circle."""
+"""The fewest teeth of a ring, so that its teeth end outside its base circle."""
 _FEWER = 10
-"""By so many a wheel within a ring has fewer teeth, so that it comes out of its gaps again."""
+"""The least difference of teeth between a ring and a wheel in it, so that their teeth do not collide."""
 _TIP, _FOOT = 0.9, 1.15
-"""How far a tooth reaches beyond the pitch circle, and the gap below it, in modules."""
+"""How far a tooth reaches beyond the pitch circle, and a gap within it, in modules."""
 _SMALLEST = 0.6
-"""Module in mm below which no tooth can be cut."""
+"""The least module in mm: smaller teeth cannot be cut."""
 _FLANK = 8
-"""Steps of a flank of module 1; their sides then stay within 0.004 mm of it."""
+"""The straight steps of a flank of module 1, which are then within 0.004 mm of it."""
 
 
 class NotFlat(BadInput):
@@ -31,9 +31,9 @@ class NotFlat(BadInput):
 
 
 class GearWheel(NamedTuple):
-    """A wheel about the joint `centre` that turns with the direction from there to `arm`; None: with nothing.
+    """A wheel about the joint `centre` that turns with the line from there to `arm`, or stands still (None).
 
-    `tooth` is the angle of a tooth ahead of that direction, of a ring's gap (radians); `module` in mm.
+    `tooth` is the angle of a tooth from that line, or of a ring's gap (radians); `module` is in mm.
     """
 
     centre: str
@@ -50,21 +50,21 @@ class GearWheel(NamedTuple):
 
     @property
     def tip(self) -> float:
-        """The radius to which teeth reach: outwards, or inwards of a ring."""
+        """The radius to which teeth reach: outwards, or for a ring inwards."""
         return self.radius + (-_TIP if self.ring else _TIP) * self.module
 
     @property
     def root(self) -> float:
-        """The radius of the gaps' ground."""
+        """The radius of the gaps' bottom."""
         return self.radius + (_FOOT if self.ring else -_FOOT) * self.module
 
     def outline(self, play: float, grown: float) -> Outline:
         """Return the teeth about the centre: a wheel's outer edge, a ring's inner one.
 
-        Flanks are involutes of the base circle, each set back by `play`; the whole is `grown` for what the
-        cut takes away. Half the angle of a tooth at a radius is pi/2z + inv(20 deg) - inv(angle there), with
-        inv a = tan a - a (ISO 21771); setting a flank back by s turns it by s over the base radius. Below
-        the base circle a flank is radial. A ring's gaps are such teeth.
+        Flanks are involutes of the base circle, each set back by `play` (mm); the whole is `grown` by half a
+        cut's width. Half the angle of a tooth at a radius is pi/2z + inv(20 deg) - inv(angle there), with inv
+        a = tan a - a (ISO 21771); setting a flank back by s turns it by s over the base radius. Below the
+        base circle a flank is radial. A ring's gaps have the shape of such teeth.
         """
         out = -1.0 if self.ring else 1.0
         base, set_back = self.radius * math.cos(_PRESSURE), (grown - play) * out
@@ -89,9 +89,9 @@ class Mesh(NamedTuple):
 
 
 def meshes(linkage: Linkage, scale: float, module: float) -> Iterator[Mesh]:
-    """Yield a linkage's gear pairs, their teeth of about a module, its lengths times `scale` in mm.
+    """Yield a linkage's gear pairs; `scale` is mm per unit of length, `module` the wanted module in mm.
 
-    NotFlat, with what the matter is, for pairs that two wheels cannot be; BadInput for teeth too small.
+    NotFlat, with the reason, for pairs that two wheels cannot form; BadInput for teeth that are too small.
     """
     cranks = {crank.name: crank for crank in linkage.cranks}
     for crank in cranks.values():
@@ -123,7 +123,7 @@ def _spur(linkage: Linkage, crank: Crank, driver: Crank, scale: float, module: f
         raise NotFlat(f"the gear pair {driver.name}, {crank.name} has both wheels on one pin")
     teeth, size = _teeth((abs(ratio).numerator, ratio.denominator), scale * abs(apart), module, ring=False)
     angle = cmath.phase(apart)
-    # A tooth of the first points along its crank; where it meets the second, that one has a gap.
+    # A tooth of the first wheel points along its crank; where it meets the second, that has a gap.
     tooth = angle + math.pi + math.pi / teeth[1] - float(ratio) * angle - crank.gear.offset
     return Mesh(
         GearWheel(driver.pivot, driver.name, teeth[0], size, 0.0),
@@ -134,8 +134,8 @@ def _spur(linkage: Linkage, crank: Crank, driver: Crank, scale: float, module: f
 def _planet(linkage: Linkage, crank: Crank, arm: Crank, scale: float, module: float) -> Mesh:
     """Return the wheel that stands still and the planet that rolls on it.
 
-    Rolling makes the planet turn 1 - R/r times as often as its arm inside a ring, where R - r is the arm,
-    and 1 + R/r times outside a wheel, where R + r is.
+    Inside a ring of radius R, with an arm R - r, the planet turns 1 - R/r times as often as its arm; on a
+    wheel, with an arm R + r, 1 + R/r times.
     """
     assert crank.gear is not None
     ratio = crank.gear.ratio

@@ -1,11 +1,12 @@
-"""In which layer each plate lies, so that over the whole period nothing meets: the least number, exactly.
+"""The layer of each plate, so that no parts collide over the true period: as few layers as possible.
 
-Layer 0 is the ground. What meets at any phase may not share a layer: two plates; a plate and a pin on its way
-from its lowest plate to its highest; two pins. Each such clash is a choice between two alternatives, each of
-them pairs (a, b), a lying below b: of plates i and j, i below j or j below i; of plate i and a pin through
-the plates S, i below all of S or above all of S. Which of them hold together is decided by backtracking:
-each plate has a range of layers that pairs narrow, an alternative that leaves none falls away, one that is
-left alone is taken. Where no order keeps all apart, those clashes are to blame without any of which one does.
+Layer 0 is the ground. Parts that meet at any phase may not share a layer: two plates; a plate and a pin,
+which fills the layers from its lowest plate to its highest; two pins. Each such clash is a choice between two
+alternatives, each a set of pairs (a, b) with a below b: for plates i and j, i below j or j below i; for plate
+i and a pin through the plates S, i below all of S or above all of S. A consistent choice is found by
+backtracking: pairs narrow the range of layers of each plate, an alternative that leaves a plate no layer is
+dropped, and one that is left alone is taken. Where no order keeps all apart, a set of clashes is to blame
+from which none can be left out without an order becoming possible.
 
 Plates that are made to touch, such as two wheels, lie in one layer: they are one node.
 """
@@ -22,14 +23,14 @@ from linkanim.workshop.sweep import Cycle, MovingPiece, Nearness
 Below = tuple[int, int]
 """The first node lies in a lower layer than the second."""
 Choice = tuple[tuple[Below, ...], ...]
-"""Alternatives of which one must hold, each with all of its pairs."""
+"""Alternatives of which one must hold; all pairs of an alternative hold together."""
 
 _MOST_WORK = 250_000
-"""After so many looks at a choice the search for one layer less is given up."""
+"""The most examinations of a choice before the search for one layer fewer is given up."""
 
 
 class Clash(NamedTuple):
-    """Two parts that would meet in one layer, by what they are called, and the phase of that."""
+    """Two parts that would meet in one layer, by name, and the phase (rad) at which they would."""
 
     one: str
     other: str
@@ -37,10 +38,11 @@ class Clash(NamedTuple):
 
 
 class Stack(NamedTuple):
-    """The layer of each plate, and the pins, by number, that hang from a bridge in the layer above all.
+    """The layer of each plate, and the pins, by number, that hang from a bridge above all layers.
 
-    `least` is whether fewer layers are known to be impossible. `room` is how near a pin comes, from edge to
-    edge, to plates and pins that it does not touch: (plate or pin, pin), pins numbered after all plates.
+    `least` is whether fewer layers are known to be impossible. `room` is the least distance in mm, from edge
+    to edge, between a pin and a plate or pin that it does not touch: by (plate or pin, pin), pins numbered
+    after all plates.
     """
 
     layers: tuple[int, ...]
@@ -50,17 +52,17 @@ class Stack(NamedTuple):
 
 
 class Unstackable(NamedTuple):
-    """The clashes to blame, and the fixed pins that a bridge would have to carry; none where none helps."""
+    """The clashes to blame, and the fixed pins that a bridge would have to carry; none if no bridge helps."""
 
     clashes: tuple[Clash, ...]
     bridged: tuple[str, ...]
 
 
 def stacked(cycle: Cycle, kit: Kit, *, hole: float, gap: float, bridge: bool) -> Stack | Unstackable:
-    """Return the layers of all plates, as few as there can be; why not, where there are none.
+    """Return the layers of all plates, as few as possible; where there are none, the reason.
 
-    Pins are as wide as their `hole`, and what lies in one layer passes at a distance of `gap`. With a
-    `bridge` fixed pins may hang from it: as few as will do.
+    Pins are as wide as their `hole`, and parts of one layer pass at a distance of at least `gap` (mm). With a
+    `bridge`, fixed pins may hang from it: as few as suffice.
     """
     near = _near(cycle, kit, hole, gap)
     clashes = [pair for pair, how in near.items() if not how.apart]
@@ -81,7 +83,7 @@ def stacked(cycle: Cycle, kit: Kit, *, hole: float, gap: float, bridge: bool) ->
 
 
 def _near(cycle: Cycle, kit: Kit, hole: float, gap: float) -> dict[tuple[int, int], Nearness]:
-    """Return how near plates and pins come that may meet; pins are numbered after all plates."""
+    """Return how near plates and pins come, by pairs that may meet; pins are numbered after all plates."""
     plates, pins = range(1, len(kit.plates)), list(enumerate(kit.pins, start=len(kit.plates)))
     pairs = [(i, j) for i, j in combinations(plates, 2) if (i, j) not in kit.paired]
     pairs += [(i, number) for i in plates for number, pin in pins if i not in pin.plates]
@@ -91,13 +93,13 @@ def _near(cycle: Cycle, kit: Kit, hole: float, gap: float) -> dict[tuple[int, in
 
 
 def pieces_of(kit: Kit, hole: float) -> list[MovingPiece]:
-    """Return what of all plates, and then of all pins, may touch other parts."""
+    """Return the shapes of all plates, and then of all pins, that may touch other parts."""
     plates = [plate.piece for plate in kit.plates]
     return plates + [MovingPiece(pin.frame, ((pin.at,),), hole / 2) for pin in kit.pins]
 
 
 def _nodes(kit: Kit, hanging: Sequence[int]) -> list[list[int]]:
-    """Return each plate's node, then those that each pin goes through: 0 is the ground, a bridge the last."""
+    """Return each plate's node, then the nodes that each pin goes through: 0 is the ground, a bridge last."""
     node = {plate: number for number, group in enumerate(kit.groups) for plate in group}
     nodes = [[node[plate]] for plate in range(len(kit.plates))]
     for number, pin in enumerate(kit.pins):
@@ -107,14 +109,14 @@ def _nodes(kit: Kit, hanging: Sequence[int]) -> list[list[int]]:
 
 
 def _clashing(through: Sequence[Sequence[int]], clashes: Sequence[tuple[int, int]]) -> Iterator[Choice]:
-    """Yield what each clash leaves: all of the one below all of the other, or above."""
+    """Yield each clash as a choice: all of the one below all of the other, or above."""
     for one, other in clashes:
         up = tuple((a, b) for a in through[one] for b in through[other])
         yield up, tuple((b, a) for a, b in up)
 
 
 def _framing(top: int, bridge: bool) -> Iterator[Choice]:
-    """Yield that all lies above the ground, and below a bridge."""
+    """Yield the conditions that all lies above the ground, and below a bridge."""
     for number in range(1, top):
         yield (((0, number),),)
     if bridge:
@@ -124,7 +126,7 @@ def _framing(top: int, bridge: bool) -> Iterator[Choice]:
 def _to_blame(
     kit: Kit, near: dict[tuple[int, int], Nearness], clashes: Sequence[tuple[int, int]]
 ) -> tuple[Clash, ...]:
-    """Return clashes that cannot be kept together, though without any one of them the others can."""
+    """Return clashes that cannot all be resolved, though without any one of them the others can."""
     frame, through, nodes = list(_framing(len(kit.groups), False)), _nodes(kit, ()), len(kit.groups)
     blamed = list(clashes)
     for pair in clashes:
@@ -151,11 +153,11 @@ class _GivenUp(Exception):
 def _ordered(nodes: int, choices: Sequence[Choice]) -> _Order | None:
     """Return a layer for each node, from 0, in the least number of layers; None where there is no order.
 
-    As many layers as nodes suffice where any do: nodes that share a layer can be parted, since whatever
-    passes through it passes them both.
+    Where there is an order, as many layers as nodes suffice: nodes that share a layer can be put in two,
+    since whatever passes through that layer passes both.
     """
     fewest = _clique(nodes, choices)
-    # Most have an order in little more than that: ranges of few layers are soon narrowed.
+    # Mostly there is an order in few more layers than that, and ranges of few layers are soon narrowed.
     best = _tried(nodes, choices, min(2 * fewest, nodes)) or _solved(nodes, choices, nodes)
     if best is None:
         return None
@@ -175,7 +177,7 @@ def _tried(nodes: int, choices: Sequence[Choice], layers: int) -> tuple[int, ...
 
 
 def _clique(nodes: int, choices: Sequence[Choice]) -> int:
-    """Return how many nodes there are no two of which can share a layer: so many layers it takes at least."""
+    """Return the most nodes of which no two can share a layer: a lower bound of the layers."""
     apart = [0] * nodes
     for choice in choices:
         pairs = [{frozenset(pair) for pair in one} for one in choice]
@@ -199,9 +201,9 @@ def _clique(nodes: int, choices: Sequence[Choice]) -> int:
 def _solved(
     nodes: int, choices: Sequence[Choice], layers: int, most_work: int | None = None
 ) -> tuple[int, ...] | None:
-    """Return the lowest layer of each node, one alternative of each choice taken; None where none can be.
+    """Return a layer for each node, with one alternative of each choice met; None where that is impossible.
 
-    `_GivenUp` after so many looks at a choice.
+    `_GivenUp` after more than `most_work` examinations of a choice.
     """
     work = 0
 
@@ -229,7 +231,7 @@ def _solved(
         work += len(left)
         if most_work is not None and work > most_work:
             raise _GivenUp
-        # First the choice that leaves least room.
+        # The choice that leaves the least room comes first.
         first = min(left, key=lambda one: min(high[b] - low[a] for pairs in one for a, b in pairs))
         rest = [one for one in left if one is not first]
         tries = (search([*low], [*high], [*pairs, *one], rest) for one in first)
@@ -239,7 +241,7 @@ def _solved(
 
 
 def _narrowed(low: list[int], high: list[int], pairs: Sequence[Below]) -> bool:
-    """Narrow ranges to what pairs leave of them; return whether each node still has a layer."""
+    """Narrow the ranges `low` to `high` by the pairs; return whether each node still has a layer."""
     changed = True
     while changed:
         changed = False
@@ -254,7 +256,7 @@ def _narrowed(low: list[int], high: list[int], pairs: Sequence[Below]) -> bool:
 
 
 def _compact(layers: Sequence[int], choices: Sequence[Choice], pins: Sequence[Sequence[int]]) -> list[int]:
-    """Return the layers with nodes moved, one by one, as long as that makes pins shorter."""
+    """Return the layers after moving single nodes as long as that makes pins shorter."""
     best = list(layers)
 
     def length(levels: Sequence[int]) -> int:

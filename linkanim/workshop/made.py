@@ -1,4 +1,4 @@
-"""What is made: the parts of a scene and their layers, as a value; or why it cannot be made."""
+"""A made linkage: the parts of a scene and their layers, as a value; or why it cannot be made."""
 
 from __future__ import annotations
 
@@ -25,13 +25,13 @@ from linkanim.workshop.shapes import box, polygon
 from linkanim.workshop.sweep import GROUND, Cycle
 
 _CHORD = 0.05
-"""How far a drawn outline stays within its arcs, in mm."""
+"""How far the sides of a drawn outline may stay within its arcs, in mm."""
 _TRUE = 1e-12
-"""By so much a scale of 1 may be off."""
+"""How far a scale may be off 1 and still be true size."""
 SLENDER = 14.0
 """A usual bar's length over its width."""
 _THINNER = (0.7, 0.5, 0.25)
-"""Shares of the width of bars and holes that are tried where these cannot be laid in layers."""
+"""Shares of the width of bars and holes that are tried where the full width has no layers."""
 
 
 class Spacer(NamedTuple):
@@ -44,9 +44,9 @@ class Spacer(NamedTuple):
 class MadePin(NamedTuple):
     """A pin with the lowest and the highest layer that it reaches; 0 is the ground.
 
-    It moves with the point `at` of a frame, through plates by their numbers, in a slot of those that are
-    `sliding`. One that is fixed is carried from its `side`: from the ground below, or from a bridge above. It
-    is stuck in what carries it and turns in its other plates; a dowel or a post is `stuck` in all.
+    It moves with the point `at` of a frame, and goes through `plates` (numbers), in a slot of those that are
+    `sliding`. A fixed pin is carried from its `side`: from the ground below, or from a bridge above. It is
+    stuck in what carries it and turns in its other plates; a dowel or a post is `stuck` in all.
     """
 
     name: str
@@ -65,7 +65,7 @@ class MadePin(NamedTuple):
 class MadeLinkage:
     """A scene's parts and their layers, or in a sentence why it cannot be made flat: `refused`.
 
-    `layer[n]` is that of `plates[n]`, counted from plate 0, the ground, in layer 0. `fewest` is whether fewer
+    `layer[n]` is the layer of `plates[n]`; plate 0 is the ground, in layer 0. `fewest` is whether fewer
     layers are known to be impossible. `sheet` is the size of the material, or of the paper.
     """
 
@@ -83,12 +83,12 @@ class MadeLinkage:
 
     @property
     def layers(self) -> int:
-        """How many layers lie on the ground."""
+        """The number of layers on the ground."""
         return max(self.layer, default=0)
 
     @property
     def ratio(self) -> float:
-        """How many times as large as the scene it is made."""
+        """The scale at which it is made: 1 is true size."""
         return self.sizes.scale / true_scale(self.scene)
 
     @property
@@ -100,13 +100,13 @@ class MadeLinkage:
 
     @property
     def layer_words(self) -> str:
-        """In how many layers its links lie, in words; in none where all slide in the ground's own."""
+        """The number of layers in words; there is none where all parts slide within the ground."""
         layers = "1 layer" if self.layers == 1 else f"{self.layers} layers"
         return f"in {layers} on the ground" if self.layers else "all within the ground"
 
     @cached_property
     def numbers(self) -> tuple[str, ...]:
-        """The plates' numbers: the ground's is 1, those of links are the figures', others come after them."""
+        """The plates' numbers: 1 for the ground, those of figures for links, free ones from 2 for others."""
         given = {body.name: number for body, number in figure(self.scene).numbers.items()}
         wanted = [next((given[name] for name in plate.bodies if name in given), "") for plate in self.plates]
         wanted[:1] = ["1"]
@@ -142,12 +142,12 @@ class MadeLinkage:
         return Layered(self.scene, self.ratio, tuple(plates), tuple(pins))
 
     def placed(self, phase: float) -> list[tuple[complex, complex]]:
-        """Return where each plate's frame lies at a phase: its origin in mm, and its direction."""
+        """Return the place of each plate's frame at a phase: its origin (mm) and its direction, as x + yi."""
         pose = self.scene.pose(phase, 0)
         return [self._lying(plate.frame, pose) for plate in self.plates]
 
     def pinned(self, phase: float) -> list[complex]:
-        """Return where each pin is at a phase, in mm."""
+        """Return the place of each pin at a phase, as x + yi in mm."""
         pose = self.scene.pose(phase, 0)
         frames = (self._lying(pin.frame, pose) for pin in self.pins)
         return [at + turn * pin.at for pin, (at, turn) in zip(self.pins, frames, strict=True)]
@@ -161,7 +161,7 @@ class MadeLinkage:
     def as_object(self) -> dict[str, object]:
         """Return what `linkanim make --json` prints: lengths in mm, each part in its own frame.
 
-        `parts` are the scene's bodies, `fittings` what is needed besides, `pins` those at its joints.
+        `parts` are the scene's bodies, `fittings` other plates, `pins` the pins at its joints.
         """
         every = [(bool(plate.bodies), self._part(number)) for number, plate in enumerate(self.plates)]
         return {
@@ -216,7 +216,7 @@ def true_scale(scene: Scene) -> float:
 
 
 def laid(made: MadeLinkage, *, bridge: bool) -> MadeLinkage:
-    """Return it with its plates and pins in layers, or with the reason why there are none.
+    """Return `made` with its plates and pins in layers, or with the reason why there are none.
 
     With a `bridge` fixed pins may hang from a plate above all others. NotFlat and BadInput as `kit`; BadInput
     where holes leave too little between them.
@@ -260,7 +260,7 @@ def _why_not(why: Unstackable, cycle: Cycle, sizes: Sizes) -> str:
 
 
 def _shares(cycle: Cycle, sizes: Sizes) -> Iterator[float]:
-    """Yield shares of a bar's width to try: a few, and of wide ones so many as lead to a usual one."""
+    """Yield shares of a bar's width to try: a few, and for wide bars halves down to the usual width."""
     yield from _THINNER
     share, usual = _THINNER[-1], cycle.scene.linkage.longest * sizes.scale / SLENDER
     while sizes.bar * share > usual:
@@ -278,7 +278,7 @@ def _is_stackable(cycle: Cycle, sizes: Sizes) -> bool:
 
 
 def _pin(parts: Kit, stack: Stack, number: int, sizes: Sizes) -> MadePin:
-    """Return a pin as far as it reaches, with a ring in each layer between its plates where one has room."""
+    """Return a pin with its ends, and with a ring in each layer between its plates that has room for one."""
     pin, hangs = parts.pins[number], number in stack.hanging
     plates = tuple(plate for plate in pin.plates if plate or not hangs)
     levels = {stack.layers[plate] for plate in plates} | ({max(stack.layers) + 1} if hangs else set())
@@ -295,7 +295,7 @@ def _pin(parts: Kit, stack: Stack, number: int, sizes: Sizes) -> MadePin:
 
 
 def _reach(parts: Kit, stack: Stack, number: int, layer: int, sizes: Sizes) -> float:
-    """Return the radius that a ring on a pin can have in a layer: a bar's, or what others leave."""
+    """Return the radius that a ring on a pin can have in a layer: half a bar, or what others leave."""
     first = len(parts.plates)
     own, reach = first + number, sizes.bar / 2
     for (one, other), room in stack.room.items():
@@ -308,7 +308,7 @@ def _reach(parts: Kit, stack: Stack, number: int, layer: int, sizes: Sizes) -> f
 
 
 def _bridged(cycle: Cycle, made: MadeLinkage) -> MadeLinkage:
-    """Return it with a bridge over all that moves, on two posts beside that, for the pins that hang."""
+    """Return `made` with a bridge for the hanging pins, over all that moves, on two posts beside it."""
     sizes, top, number = made.sizes, made.layers + 1, len(made.plates)
     hanging = {pin.name: complex(cycle.seen(pin.name, GROUND)[0]) for pin in made.pins if pin.side == "above"}
     swept = [
@@ -345,6 +345,6 @@ def _pair(point: complex) -> tuple[float, float]:
 
 
 def _framed(frame: Frame) -> dict[str, object]:
-    """Return how a frame lies: where its origin is, from which joint to which its x axis is turned from."""
+    """Return a frame as data: its origin, the joints of its line, and the angle of its x axis from it."""
     turned = math.atan2(frame.turn.imag, frame.turn.real)
     return {"origin": frame.origin, "towards": frame.axis, "turned": turned}

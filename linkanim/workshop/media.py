@@ -1,4 +1,4 @@
-"""The ways of making parts, and the sizes of what they are made of; it loads nothing."""
+"""The ways of making parts, and the sizes of paper; this module loads nothing."""
 
 from __future__ import annotations
 

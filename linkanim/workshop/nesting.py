@@ -8,11 +8,11 @@ from linkanim.frozen import NamedTuple
 from linkanim.workshop.shapes import Outline, box, polygon, upright
 
 MARGIN, FOOT = 10.0, 16.0
-"""What a page has at each edge that is not printed on, and what the ruler takes at its foot."""
+"""The margin of a page that is not printed on, and the room for the ruler at its foot, in mm."""
 
 
 class Laid(NamedTuple):
-    """A part on a sheet: its number and the sheet's, where its frame's origin lies, and its direction."""
+    """A part on a sheet: its number, the sheet's number, the place of its frame's origin, its direction."""
 
     part: int
     sheet: int
@@ -21,7 +21,7 @@ class Laid(NamedTuple):
 
 
 class Oversize(NamedTuple):
-    """A part that no sheet holds: its number, its length and its width as it lies best."""
+    """A part that no sheet holds: its number, and the sides of its smallest rectangle, in mm."""
 
     part: int
     long: float
@@ -38,10 +38,10 @@ class _Row(NamedTuple):
 
 
 def nested(outlines: Sequence[Outline], room: tuple[float, float], between: float) -> list[Laid | Oversize]:
-    """Return where each outline lies, in the order given; a sheet's room has its origin at the lower left.
+    """Return the place of each outline, in the order given; a sheet's room has its origin at the lower left.
 
-    Each goes into the first row that has room for it, else into a new one, on a new sheet where the last has
-    none left (first fit by decreasing height). A part that fits across only stands upright.
+    Each goes into the first row with room for it, else into a new row, on a new sheet where the last has no
+    room (first fit by decreasing height). A part that fits only upright is put upright.
     """
     sizes = []
     for outline in outlines:

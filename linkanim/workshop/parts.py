@@ -1,8 +1,8 @@
-"""A linkage as flat parts: plates with holes and slots, the pins through them, and what shares a layer.
+"""A linkage as flat parts: plates with holes and slots, the pins through them, plates that share a layer.
 
-Every rigid body becomes a plate: of two joints a bar with round ends, of more the hull around them. What
-slides along a line becomes a tongue in a slot; a pin runs in the slot of a bar that turns. A gear pair
-becomes two wheels. The ground is a plate, too, with the fixed pins in it. Lengths are in mm.
+Every rigid body becomes a plate: with two joints a bar with round ends, with more the hull around them. A
+slider becomes a tongue in a slot; a pin runs in the slot of a bar that turns. A gear pair becomes two wheels.
+The ground is a plate, too, with the fixed pins in it. Lengths are in mm.
 """
 
 from __future__ import annotations
@@ -27,20 +27,20 @@ from linkanim.workshop.sweep import GROUND, Cycle, MovingPiece, Real, hulls_apar
 Role = Literal["ground", "link", "slider", "wheel", "ring", "bridge"]
 
 _STILL = 1e-7
-"""By so much of the longest link what keeps its place is off for rounding."""
+"""A share of the longest link: a point that moves less keeps its place, apart from rounding."""
 _MOST_PLATES = 150
 _POSTS = 4
 _RING_CELLS = 48
 _LEAST_BETWEEN = 1.0
-"""What two cuts leave between them, in mm, where bars are wide."""
+"""The most that has to be left between two cuts, in mm: enough where bars are wide."""
 
 
 @frozen
 class Sizes:
     """Widths and distances of all parts, in mm; `scale` is mm for one unit of length of the scene.
 
-    A pin is thinner than the holes that turn on it by `clearance`. What passes in one layer does so at a
-    distance of `gap`.
+    A pin is thinner by `clearance` than the holes that turn on it. Parts of one layer pass at a distance of
+    at least `gap`.
     """
 
     scale: float
@@ -52,7 +52,7 @@ class Sizes:
 
     @property
     def wall(self) -> float:
-        """What a bar has left beside a hole."""
+        """The width that is left of a bar on either side of a hole."""
         return (self.bar - self.hole) / 2
 
     @property
@@ -62,7 +62,7 @@ class Sizes:
 
     @property
     def between(self) -> float:
-        """What two cuts leave between them at least."""
+        """The least that two cuts leave between them."""
         return min(self.wall / 2, _LEAST_BETWEEN)
 
     @property
@@ -77,7 +77,7 @@ class Sizes:
 
 
 class Hole(NamedTuple):
-    """A round hole: its middle, its diameter, and the joint that it is for; "" of one for a dowel."""
+    """A round hole: its middle, its diameter, and the joint that it is for; "" for a dowel's."""
 
     at: complex
     diameter: float
@@ -94,7 +94,7 @@ class Slot(NamedTuple):
 
 
 class Toothing(NamedTuple):
-    """The teeth of a plate: the wheel's middle in the plate's frame, its direction there, and its play."""
+    """The teeth of a plate: the wheel, its middle and direction in the plate's frame, and its play in mm."""
 
     wheel: GearWheel
     middle: complex
@@ -110,7 +110,7 @@ class Toothing(NamedTuple):
 class Plate:
     """A flat part in its own frame; `bodies` are those of the scene that it is made of.
 
-    Its outline is the hull of `corners` with a rim of `radius`, or that of its teeth; a ring's are inside.
+    Its outline is the hull of `corners` with a rim of `radius`, or its teeth; a ring's teeth are inside.
     """
 
     name: str
@@ -124,13 +124,13 @@ class Plate:
     teeth: Toothing | None = None
 
     def outline(self, grown: float = 0.0) -> Outline:
-        """Return its outer edge, moved outwards by what a cut takes away."""
+        """Return its outer edge, moved outwards by `grown` mm."""
         if self.teeth is None or self.teeth.wheel.ring:
             return rounded(self.corners, self.radius + grown)
         return self.teeth.outline(grown)
 
     def cuts(self, grown: float = 0.0) -> Iterator[Outline]:
-        """Yield the edges of its holes, its slots and a ring's teeth, moved inwards by what a cut takes."""
+        """Yield the edges of its holes, its slots and a ring's teeth, moved inwards by `grown` mm."""
         for hole in self.holes:
             yield rounded([hole.at], hole.diameter / 2 - grown)
         for slot in self.slots:
@@ -140,13 +140,13 @@ class Plate:
 
     @property
     def piece(self) -> MovingPiece:
-        """What of it may touch other parts; of a wheel the disc that its teeth reach."""
+        """Its shape that may touch other parts; for a wheel the disc that its teeth reach."""
         if self.teeth is None:
             return MovingPiece(self.frame, (self.corners,), self.radius)
         wheel = self.teeth.wheel
         if not wheel.ring:
             return MovingPiece(self.frame, ((self.teeth.middle,),), wheel.tip)
-        # Bars in a round, wide enough for the arcs that they stand for.
+        # A ring is a polygon of bars, wide enough to cover the arcs.
         half = math.pi / _RING_CELLS
         middle, thick = (wheel.tip + self.radius) / 2, (self.radius - wheel.tip) / 2
         ring = [self.teeth.middle + cmath.rect(middle, 2 * half * n) for n in range(_RING_CELLS + 1)]
@@ -155,7 +155,7 @@ class Plate:
 
     @property
     def clearest(self) -> complex:
-        """The place on it, between holes or amid its corners, that is farthest from its edge and its cuts."""
+        """The place on it, between holes or at corners, with most room from its edge and its cuts."""
         cuts = [
             *((hole.at, hole.at) for hole in self.holes),
             *((slot.begin, slot.end) for slot in self.slots),
@@ -180,10 +180,10 @@ class Plate:
 
 
 class KitPin(NamedTuple):
-    """A pin through plates, by their numbers, that moves with a point of a frame.
+    """A pin through `plates` (numbers) that moves with the point `at` of a frame.
 
-    It runs in a slot of those that are `sliding`. A dowel, which keeps plates from turning on each other, is
-    `stuck` in all of its plates, and its name is no joint's.
+    It runs in a slot of the plates that are `sliding`. A dowel, which keeps plates from turning on each
+    other, is `stuck` in all of its plates, and has the name of no joint.
     """
 
     name: str
@@ -200,7 +200,7 @@ class KitPin(NamedTuple):
 
 
 class Band(NamedTuple):
-    """A rubber band for a spring or damper: what it stands for, and the two joints that it is hung on."""
+    """A rubber band for a spring or damper: the name of that, and the two joints that it is hung on."""
 
     name: str
     joints: tuple[str, str]
@@ -209,7 +209,7 @@ class Band(NamedTuple):
 class Kit(NamedTuple):
     """All parts of a linkage; plate 0 is the ground.
 
-    Plates of one group lie in one layer; those of a pair in `paired` are made to touch, or lie in each other.
+    Plates of one group lie in one layer; two plates in `paired` are meant to touch, or lie in each other.
     """
 
     plates: tuple[Plate, ...]
@@ -220,7 +220,7 @@ class Kit(NamedTuple):
 
 
 def kit(cycle: Cycle, sizes: Sizes) -> Kit:
-    """Return the parts of a scene; NotFlat for what no flat parts are, BadInput for sizes that do not fit."""
+    """Return the parts of a scene; NotFlat where it has no flat parts, BadInput for sizes that do not fit."""
     if cycle.scene.linkage.drive.actuator.along is not None:
         raise NotFlat(
             "a cylinder drives it, which no flat parts are; let a crank or a slider drive it instead"
@@ -239,7 +239,7 @@ def refuse_thin(plates: Iterable[Plate], sizes: Sizes) -> None:
             *((slot.begin, slot.end, slot.radius, f"the slot for {slot.joint}") for slot in plate.slots),
         ]
         for one, other in combinations(cuts, 2):
-            # Slots of the ground may cross: their tongues are longer than the others are wide.
+            # Slots of the ground may cross: a tongue is longer than the other slot is wide.
             between = math.inf if one[0] != one[1] and other[0] != other[1] else _between(one[:3], other[:3])
             if between < sizes.between:
                 left = f"leave {between:.2g} mm between them" if between > 0 else "run into each other"
@@ -250,14 +250,14 @@ def refuse_thin(plates: Iterable[Plate], sizes: Sizes) -> None:
 
 
 def _between(one: tuple[complex, complex, float], other: tuple[complex, complex, float]) -> float:
-    """Return how far two cuts with round ends are apart, from edge to edge."""
+    """Return the distance of two cuts with round ends, from edge to edge; below 0 where they overlap."""
     ends = (np.array([cut[:2]]) for cut in (one, other))
     return float(hulls_apart(*ends)[0]) - one[2] - other[2]
 
 
 @dataclass
 class _PlateDraft:
-    """A plate that is being put together: where joints lie in its frame, and what it needs besides."""
+    """A plate that is being put together: the places of joints in its frame, and what else it needs."""
 
     name: str
     role: Role
@@ -265,12 +265,12 @@ class _PlateDraft:
     places: dict[str, complex]
     bodies: tuple[str, ...] = ()
     shown: set[str] = field(default_factory=set)
-    """The joints up to which it reaches whether or not something is there."""
+    """The joints that its outline includes even where it has no hole."""
     reach: list[complex] = field(default_factory=list)
-    """Other points up to which it reaches."""
+    """Other points that its outline includes."""
     slots: list[Slot] = field(default_factory=list)
     guided: set[str] = field(default_factory=set)
-    """The joints whose pins themselves, and no tongues, run in its slots."""
+    """The joints whose own pins, not tongues, run in its slots."""
     radius: float = 0.0
     teeth: Toothing | None = None
 
@@ -312,7 +312,7 @@ class _KitBuilder:
         return Kit(plates, pins, bands, groups, frozenset(self.one_layer))
 
     def _links(self) -> None:
-        """Put down a plate for each rigid body but the ground; a bar that rides on another one is of that."""
+        """Add a plate for each rigid body but the ground; an unnamed bar on another plate joins that."""
         bodies = [body for body in self.linkage.bodies if len(body.joints) > 1]
         bare: list[_PlateDraft] = []
         for frame in self.linkage.rigid_bodies[1:]:
@@ -328,7 +328,7 @@ class _KitBuilder:
                 host.shown |= draft.shown
 
     def _link(self, frame: dict[str, complex], named: Sequence[Body]) -> _PlateDraft:
-        """Return the plate of a rigid body: its first joint at the origin, x towards its second."""
+        """Return the plate of a rigid body: its first joint is its origin, x points to its second."""
         first, *others = dict.fromkeys([*(name for body in named for name in body.joints), *frame])
         apart = (name for name in others if abs(frame[name] - frame[first]) * self.sizes.scale > self.small)
         second = next(apart, None)
@@ -345,7 +345,7 @@ class _KitBuilder:
         return _PlateDraft(name, "link", Frame(first, (first, second)), places, bodies, shown)
 
     def _rides(self, bare: _PlateDraft, host: _PlateDraft) -> bool:
-        """Whether a bar that no body names keeps its place on another plate at every moment."""
+        """Whether a bar that no body names keeps its place on another plate at every phase."""
         if not bare.places.keys() & host.places.keys():
             return False
         paths = (self.cycle.seen(name, host.frame) for name in bare.places)
@@ -366,7 +366,7 @@ class _KitBuilder:
             for slide in joint.slides:
                 guide = self.drafts[self._guide(slide.line)]
                 if slide.point in guide.places:
-                    continue  # it is held there, and slides no way at all
+                    continue  # it is held there, and does not slide
                 if joint.travels:
                     half, name = 0.75 * self.sizes.tongue, blocks.get(joint.name, f"slider {joint.name}")
                     tongue = self._tongue(joint.name, slide.line, (-half, half), name)
@@ -377,7 +377,7 @@ class _KitBuilder:
                     guide.guided.add(slide.point)
 
     def _yoke(self, bar: Slide, pin: Slide, name: str) -> None:
-        """Put down a bar with a slot across its line, on a tongue beyond the pins that lie in its way.
+        """Add a bar with a slot across its line, on a tongue long enough to pass the pins in its way.
 
         `bar` is how it slides along its line, `pin` how a pin slides along its slot.
         """
@@ -395,11 +395,11 @@ class _KitBuilder:
             self._dowel(frame, complex(end), (number, len(self.drafts) - 1))
 
     def _guide(self, line: Line) -> int:
-        """Return the number of the plate that a line lies on."""
+        """Return the number of the plate on which a line lies."""
         return self._holder((*line.on, line.through)) if line.on else 0
 
     def _travel(self, point: str, line: Line) -> tuple[complex, complex, float, float]:
-        """Return a point of a line in its guide's frame, its direction, and the range of a joint along it."""
+        """Return a line's point and direction in its guide's frame, and a joint's range along it (mm)."""
         draft, direction = self.drafts[self._guide(line)], cmath.rect(1.0, line.angle)
         if line.on:
             axis = draft.places[line.on[1]] - draft.places[line.on[0]]
@@ -409,7 +409,7 @@ class _KitBuilder:
         return base, direction, *_range(along)
 
     def _slot(self, point: str, line: Line, ends: tuple[float, float], radius: float) -> None:
-        """Cut a slot for what reaches from `ends[0]` to `ends[1]` of a joint that slides along a line."""
+        """Cut a slot for a part that slides along a line, from `ends[0]` to `ends[1]` of its joint (mm)."""
         base, direction, least, most = self._travel(point, line)
         slot = Slot(base + direction * (least + ends[0]), base + direction * (most + ends[1]), radius, point)
         draft = self.drafts[self._guide(line)]
@@ -418,7 +418,7 @@ class _KitBuilder:
         draft.radius = max(draft.radius, radius + self.sizes.wall)
 
     def _tongue(self, point: str, line: Line, ends: tuple[float, float], name: str) -> _PlateDraft:
-        """Put down what slides along a line with a joint, and cut its slot into what guides it."""
+        """Add a tongue that slides along a line with a joint, and cut its slot into the guide."""
         radius = self.sizes.tongue / 2
         self._slot(point, line, ends, radius + self.sizes.clearance / 2)
         frame = Frame(point, line.on, cmath.rect(1.0, line.angle))
@@ -428,7 +428,7 @@ class _KitBuilder:
         return tongue
 
     def _free_ends(self, point: str, line: Line, long: float) -> tuple[float, float]:
-        """Return where a tongue begins and ends, from a joint on, so as to slide past its guide's joints."""
+        """Return the ends of a tongue along a line, from its joint (mm): it passes no joint of the guide."""
         base, direction, least, most = self._travel(point, line)
         near = (self.sizes.tongue + self.sizes.hole + self.sizes.bar) / 2
         places = self.drafts[self._guide(line)].places.values()
@@ -444,7 +444,7 @@ class _KitBuilder:
         return begin, begin + long
 
     def _wheel(self, wheel: GearWheel) -> int:
-        """Make a plate a wheel if that holds all that is on it, else put the wheel beside it, on a dowel."""
+        """Make a plate a wheel if the wheel covers its joints, else add a wheel beside it, on a dowel."""
         sizes = self.sizes
         play = max(sizes.clearance, 0.1) / 4
         if wheel.arm is None:
@@ -474,7 +474,7 @@ class _KitBuilder:
         return len(self.drafts) - 1
 
     def _still(self, toothing: Toothing) -> int:
-        """Put down a wheel that is fixed to the ground, or a ring on posts."""
+        """Add a wheel that is fixed to the ground, or a ring on posts; return its number."""
         wheel, sizes, number = toothing.wheel, self.sizes, len(self.drafts)
         if wheel.ring:
             edge = wheel.root + sizes.bar
@@ -492,7 +492,7 @@ class _KitBuilder:
         return number
 
     def _pair(self, one: int, other: int) -> None:
-        """Have two plates lie in one layer, where they are made to touch."""
+        """Put two plates into one layer, where they are meant to touch."""
         self.one_layer.append((min(one, other), max(one, other)))
 
     def _dowel(self, frame: Frame, at: complex, plates: tuple[int, int]) -> None:
@@ -500,7 +500,7 @@ class _KitBuilder:
         self.dowels.append(KitPin(name, frame, at, plates, stuck=True))
 
     def _used(self, number: int) -> list[str]:
-        """Return the joints of a plate at which something is: another plate, a band, a pencil."""
+        """Return the joints of a plate that are in use: by another plate, a band or a pencil."""
         others = [draft for draft in self.drafts if draft is not self.drafts[number]]
         wanted = self.hung | set(self.cycle.scene.trace)
         return [
@@ -510,7 +510,7 @@ class _KitBuilder:
         ]
 
     def _pins(self) -> Iterator[KitPin]:
-        """Yield a pin for each joint at which plates meet; joints that are always one place share it."""
+        """Yield a pin for each joint at which plates meet; joints that always coincide share one."""
         paths: dict[str, list[str]] = {}
         for name in (joint.name for joint in self.linkage.joints):
             path = self.cycle.seen(name, GROUND)
@@ -538,7 +538,7 @@ class _KitBuilder:
                 *(slot[:3] for slot in draft.slots),
             ]
             room = min((_between((place, place, sizes.hole / 2), cut) for cut in cuts), default=math.inf)
-            # A pencil's hole is left out where there is no room for it; an eye is not.
+            # A pencil's hole is left out where there is no room for it; a band's eye is not.
             if (name in self.hung and room > -sizes.hole) or (name in traced and room >= sizes.between):
                 holes.append(Hole(place, sizes.hole, name))
         if draft.teeth is not None and not draft.teeth.wheel.ring:
@@ -565,7 +565,7 @@ class _KitBuilder:
         )
 
     def _seen(self, pin: KitPin, frame: Frame) -> complex:
-        """Return where a pin lies in a frame that it keeps its place in."""
+        """Return the place of a pin in a frame in which it does not move."""
         if pin.frame == frame:
             return pin.at
         at = self.cycle.paths(pin.frame, [pin.at])[0, 0]
@@ -574,13 +574,13 @@ class _KitBuilder:
 
 
 def _range(along: Real) -> tuple[float, float]:
-    """Return how far samples of a closed motion come, and what the bend between two of them may add."""
+    """Return the range of a closed motion's samples, widened by what the bend between two may add."""
     bend = float(np.abs(np.diff(along, 2, append=along[:2])).max()) / 4
     return float(along.min()) - bend, float(along.max()) + bend
 
 
 def _joined(count: int, pairs: Iterable[tuple[int, int]]) -> tuple[tuple[int, ...], ...]:
-    """Return the sets of numbers that pairs join, in the order of their first."""
+    """Return the sets of numbers that pairs join, in the order of their first members."""
     home = list(range(count))
     for a, b in pairs:
         one, other = sorted((home[a], home[b]))

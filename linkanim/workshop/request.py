@@ -1,4 +1,4 @@
-"""`linkanim.make`: what is asked for, its sizes and its scale; then the parts, as a value or as files."""
+"""`linkanim.make`: a request with its sizes and its scale; then the parts, as a value or as files."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ from linkanim.workshop.shapes import box, polygon, upright
 from linkanim.workshop.sweep import GROUND, Cycle
 
 _SHEETS: dict[str, Size] = {"laser": (600.0, 400.0), "print": (math.inf, math.inf), "cardboard": PAGES["A4"]}
-"""The usual sheet for each way of making; of a printer's bed we know nothing."""
+"""The usual sheet for each way of making, in mm; the bed of a printer is unknown."""
 _USUAL = {"cardboard": (1.5, 0.0), "laser": (3.0, 0.2), "print": (4.0, 0.4)}
 """The usual thickness and clearance for each way of making, in mm."""
 _GAP = 0.5
 _HOLED, _WIDEST_HOLE = 0.4, 6.0
 """A usual hole's share of its bar's width, and the widest usual hole, in mm."""
 _SMALLEST, _LARGEST = 1e-3, 1e5
-"""Between which all lengths that are asked for lie, in mm."""
+"""The range of all lengths that are asked for, in mm."""
 _STEPS = 12
 
 
@@ -52,7 +52,7 @@ def make(
 
     `way` is "cardboard" (a PDF to print), "laser" (SVG and DXF) or "print" (STL). Lengths are in mm: the
     width of a `bar`, a `hole`'s diameter, the material's `thickness`; by how much a hole is wider than its
-    pin (`clearance`), how far from each other parts of a layer pass (`gap`), what a cut takes away (`kerf`);
+    pin (`clearance`), the least distance of parts that pass in a layer (`gap`), the width of a cut (`kerf`);
     the width and height of a `sheet`, or a page, "A4" or "Letter". Parts are in true size, or scaled so that
     each `fit`s a page. With a `bridge`, fixed pins may hang from a plate above. If the linkage cannot be made
     flat, `refused` says why; with an `output` that is BadInput. BadInput also for sizes that make no sense,
@@ -72,7 +72,7 @@ def make(
     except NotFlat as why:
         made = replace(made, refused=f"{scene.name} cannot be made of flat parts: {why}")
     if output is not None:
-        # Here, since what is only asked for its layers needs no pictures.
+        # Imported here, since a request for layers alone needs no pictures.
         from linkanim.workshop.files import write
 
         write(made, output)
@@ -80,7 +80,7 @@ def make(
 
 
 class _Asked(NamedTuple):
-    """The lengths that were asked for, in mm; None where the usual ones will do."""
+    """The lengths that were asked for, in mm; None for the usual one."""
 
     way: Way
     bar: float | None
@@ -153,12 +153,12 @@ def _rounded(length: float) -> float:
 
 
 def _fitting(scene: Scene, asked: _Asked, page: Size) -> float:
-    """Return the largest scale, in two digits, at which each part fits a page; in mm a unit of length."""
+    """Return the largest scale at which each part fits a page, in mm per unit of length."""
     wide, high = page
     room, true = (high - 2 * MARGIN - FOOT, wide - 2 * MARGIN), true_scale(scene)
 
     def growth(ratio: float) -> float:
-        """Return how many times as large the largest part could be."""
+        """Return the factor by which the tightest part could grow and still fit."""
         plates = kit(Cycle(scene, ratio * true), asked.sizes(scene, ratio * true)).plates
         sizes = (_size(plate) for plate in plates)
         return min(most / size for both in sizes for size, most in zip(both, room, strict=True))
@@ -166,7 +166,7 @@ def _fitting(scene: Scene, asked: _Asked, page: Size) -> float:
     cycle = Cycle(scene, true)
     places = np.concatenate([cycle.seen(joint.name, GROUND) for joint in scene.linkage.joints])
     ratio = room[0] / max(float(np.ptp(places.real)), float(np.ptp(places.imag)))
-    # A part's size is one share that is scaled and one that is not: each step comes nearer.
+    # A part's size has a term that scales and one that does not, so that each step comes nearer.
     for _ in range(_STEPS):
         more = growth(ratio)
         ratio *= more

@@ -1,7 +1,7 @@
 """Outlines in millimetres: corners as x + yi, each with the bulge of the edge that leaves it, as in DXF.
 
-A bulge is tan(sweep/4): 0 of a straight edge, 1 of half a circle to the left. All outlines run counter-
-clockwise. An arc is an arc up to the file that is cut; only where a polygon is asked for is it divided.
+A bulge is tan(sweep/4): 0 for a straight edge, 1 for half a circle to the left. All outlines run counter-
+clockwise. Arcs stay arcs up to the file that is cut; only `polygon` divides them.
 """
 
 from __future__ import annotations
@@ -63,12 +63,12 @@ def _chain(points: Sequence[complex]) -> list[complex]:
 
 
 def _is_straight(a: complex, b: complex, c: complex) -> bool:
-    """Whether b is not left of the line from a to c, but for rounding."""
+    """Whether b is not right of the line from a to c, apart from rounding: no left turn at b."""
     return ((b - a).conjugate() * (c - b)).imag <= _SAME * abs(b - a) * abs(c - b)
 
 
 def polygon(outline: Outline, chord: float = _CHORD) -> list[complex]:
-    """Return an outline's corners with its arcs divided, their sides within `chord` of them."""
+    """Return an outline's corners with its arcs divided into sides within `chord` (mm) of them."""
     corners: list[complex] = []
     for (start, bulge), (end, _) in zip(outline, outline[1:] + outline[:1], strict=True):
         corners.append(start)
@@ -94,7 +94,7 @@ def arc(start: complex, end: complex, bulge: float) -> tuple[complex, float, flo
 
 
 def moved(outline: Outline, at: complex, turn: complex) -> Outline:
-    """Return an outline turned by a direction about the origin, which then lies at `at`."""
+    """Return an outline turned about the origin by the direction `turn`, then moved by `at`."""
     return tuple((at + turn * corner, bulge) for corner, bulge in outline)
 
 

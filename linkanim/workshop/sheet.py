@@ -1,4 +1,4 @@
-"""The page that tells how to put it together: parts, layers, steps, what to predict and what to measure."""
+"""The page of instructions: parts, layers, steps of assembly, what to predict and what to measure."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from linkanim.workshop.made import MadeLinkage, MadePin
 _FIGURE, _PLAN, _SIDE, _EXPLODED, _STEP = (820, 440), (820, 500), (820, 260), (820, 560), (440, 300)
 _QUESTIONS = 4
 _BY_HAND = ("heading", "turning", "dead centre", "input range", "fastest")
-"""The kinds of questions that a model which is turned by hand answers."""
+"""The kinds of questions that a model answers when it is turned by hand."""
 _KEY = "Key"
 _WAYS = {
     "cardboard": "Print parts.pdf at 100 %, hold a ruler against the one at the foot, glue the pages on "
@@ -43,13 +43,13 @@ _WAYS = {
 
 @frozen
 class Sheet:
-    """How to put together what is made, as a page to be printed."""
+    """The instructions for assembling a made linkage, as a page to be printed."""
 
     made: MadeLinkage
 
     @cached_property
     def phase(self) -> float:
-        """The phase at which it is put together: that with the joints farthest apart."""
+        """The phase of assembly: the one at which the joints are farthest apart."""
         return figure(self.made.scene).clearest
 
     def document(self) -> str:
@@ -156,7 +156,7 @@ class Sheet:
         yield html.paragraph(" ".join(self._remarks()))
 
     def _laid_down(self, plates: Sequence[int]) -> str:
-        """Return how the ground is laid down, with its pins and the tongues in its slots."""
+        """Return the sentence on laying down the ground, with its pins and the tongues in its slots."""
         made = self.made
         words = [f"Lay down {made.label(0)}"]
         if standing := [pin for pin in made.pins if pin.side == "below"]:
@@ -168,7 +168,7 @@ class Sheet:
         return "; ".join(words) + "."
 
     def _laid_on(self, number: int) -> str:
-        """Return how a plate is laid on those below."""
+        """Return the sentence on laying a plate on those below."""
         made, layer = self.made, self.made.layer[number]
         pins = [pin for pin in made.pins if number in pin.plates]
         there = [pin for pin in pins if pin.low < layer]
@@ -186,7 +186,7 @@ class Sheet:
         return words + "."
 
     def _remarks(self) -> Iterator[str]:
-        """Yield what else there is to know when it is put together."""
+        """Yield the other sentences that are needed for assembly."""
         made, drive = self.made, self.made.scene.linkage.drive
         moved = "Turn it by" if drive.coordinate.is_angle else "Push it at"
         yield f"{moved} {subscripted(drive.joint)}; hold it against the first pose."
@@ -198,7 +198,7 @@ class Sheet:
             yield "At its change points it can go on in two ways: there a finger leads it."
 
     def _questions(self) -> list[QuizQuestion]:
-        """Return questions that the model answers; none where nothing of it moves clearly."""
+        """Return questions that the model answers; none where no question can be made."""
         questions: list[QuizQuestion] = []
         for n in range(_QUESTIONS):
             before = [one.question_id for one in questions]
@@ -239,7 +239,7 @@ class Sheet:
             yield html.table("Measures of the model", ("what", "value"), measures)
 
     def _measures(self) -> Iterator[tuple[str, str]]:
-        """Yield what can be measured on the model, and its value there."""
+        """Yield the measures that can be taken on the model, with their values."""
         made, info = self.made, self.made.scene.info
         if info.stroke:
             yield "stroke of the slider", _mm(info.stroke * made.sizes.scale)

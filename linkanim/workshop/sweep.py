@@ -1,9 +1,9 @@
-"""How near moving pieces come to each other over the whole true period, and not only at samples.
+"""How near moving pieces come to each other over the whole true period, not only at samples.
 
 A piece is made of convex cells, each a hull of corners with a rim of one radius, and moves with a frame: a
-joint that it keeps, and a direction. Between two samples a corner strays from where the nearer one has it by
-no more than its speeds, a bound of its acceleration, and what the distance between the samples has more than
-its speeds account for. Where that does not settle whether two pieces stay apart, the step is halved.
+joint as its origin, and a direction. Between two samples a corner's distance from its place at the nearer one
+is bounded by its speeds at both, a bound of its acceleration, and the part of its displacement that these
+speeds do not explain. Where that bound does not settle whether two pieces stay apart, the step is halved.
 """
 
 from __future__ import annotations
@@ -23,11 +23,11 @@ Points = NDArray[np.complex128]
 Numbers = NDArray[np.int64]
 
 _SAMPLES = 720
-"""A drive period; more where something turns quicker than the drive."""
+"""Samples of a drive period; more where a crank turns quicker than the drive."""
 _MOST_SAMPLES = 11_520
 _HALVINGS = 9
 _CAUTION = 2.0
-"""How much more an acceleration may be within a step than at its ends."""
+"""The factor by which an acceleration within a step may exceed those at its ends."""
 
 
 GROUND = Frame()
@@ -42,9 +42,9 @@ class MovingPiece(NamedTuple):
 
 
 class Nearness(NamedTuple):
-    """Whether two pieces stay as far apart as asked; how near they come at least; the phase of that.
+    """Whether two pieces stay as far apart as asked; their least distance, in mm; its phase, in rad.
 
-    The distance is a bound that they do not come below where they stay apart, else one that they reach.
+    Where they stay apart the distance is a lower bound; else they come as near as that, or may do so.
     """
 
     apart: bool
@@ -53,7 +53,7 @@ class Nearness(NamedTuple):
 
 
 class _Places(NamedTuple):
-    """Where joints are, in mm, and their first two derivatives by the phase."""
+    """The places of joints, in mm, and their first two derivatives by the phase."""
 
     position: Mapping[str, Points]
     velocity: Mapping[str, Points]
@@ -61,7 +61,7 @@ class _Places(NamedTuple):
 
 
 class _Placed(NamedTuple):
-    """Where a frame is: its origin and its direction, each with two derivatives."""
+    """The place of a frame: its origin and its direction, each with two derivatives."""
 
     origin: tuple[Points, Points, Points]
     direction: tuple[Points, Points, Points]
@@ -71,7 +71,7 @@ class Cycle:
     """A scene's true period in mm, sampled closely enough for its quickest part, and closer where asked."""
 
     def __init__(self, scene: Scene, scale: float) -> None:
-        """Solve it; `scale` is millimetres a unit of length of the scene."""
+        """Solve the scene; `scale` is mm per unit of length."""
         self.scene, self.scale = scene, scale
         self.count = _SAMPLES * max(round(scene.period / (2 * np.pi)), 1)
         quickest = _quickest(self._at(self.phases), scene)
@@ -94,22 +94,22 @@ class Cycle:
         return _Places(read(motion.position), read(motion.velocity), read(motion.acceleration))
 
     def paths(self, frame: Frame, points: Sequence[complex]) -> Points:
-        """Return where points of a frame are at the samples, (samples, points), in the ground's."""
+        """Return the places of points of a frame at the samples, (samples, points), in the ground's frame."""
         placed = _placed(frame, self._start, self.count)
         places: Points = placed.origin[0][:, None] + placed.direction[0][:, None] * np.asarray(points)
         return places
 
     def seen(self, joint: str, frame: Frame) -> Points:
-        """Return where a joint is at the samples in a frame's own coordinates."""
+        """Return the places of a joint at the samples, (samples,), in a frame's own coordinates."""
         placed = _placed(frame, self._start, self.count)
         return (self._start.position[joint] - placed.origin[0]) * placed.direction[0].conj()
 
     def nearness(
         self, pieces: Sequence[MovingPiece], pairs: Sequence[tuple[int, int, float]]
     ) -> list[Nearness]:
-        """Return how near two pieces come, for each (piece, piece, distance that is asked for)."""
+        """Return how near two pieces come, for each (piece, piece, wanted distance), in the order given."""
         finest, period = 2**_HALVINGS, self.scene.period
-        # A step is known by where it begins, counted in the finest steps.
+        # A step is identified by its beginning, counted in the finest steps.
         whole, unit = np.arange(self.count) * finest, period / (self.count * finest)
         steps = self._steps(pieces, whole, finest, self._start)
         known = {k: Nearness(True, far, 0.0) for k, far in steps.far(pairs)}
@@ -140,7 +140,7 @@ class Cycle:
     def _steps(
         self, pieces: Sequence[MovingPiece], begins: Numbers, width: int, places: _Places | None = None
     ) -> _Steps:
-        """Return the pieces at both ends of steps; `places` are those of the ends where they are known."""
+        """Return the pieces at both ends of steps; `places` are those at the ends, if known already."""
         round_ = self.count * 2**_HALVINGS
         unit = self.scene.period / round_
         rims = np.unique(np.concatenate((begins, begins + width)) % round_)
@@ -152,10 +152,10 @@ class Cycle:
 
 
 class _Steps(NamedTuple):
-    """Steps between phases, by where they begin; the pieces at the phases that are their ends, `rims`.
+    """Steps between phases, by their beginnings, and the pieces at their ends, the phases `rims`.
 
-    Each step goes from the phase `first` to `last` of those; in it a piece strays no farther from where the
-    nearer one has it than `strays` say.
+    A step goes from the phase number `first` to number `last` of these. In it, a piece stays within `strays`
+    (mm) of its place at the nearer end.
     """
 
     pieces: Sequence[MovingPiece]
@@ -167,7 +167,7 @@ class _Steps(NamedTuple):
     last: Numbers
 
     def far(self, pairs: Sequence[tuple[int, int, float]]) -> Iterator[tuple[int, float]]:
-        """Yield which pairs are so far apart that the boxes in which they move are, and how far."""
+        """Yield the pairs (number, distance) whose moving boxes alone are as far apart as asked."""
         lows, highs = [], []
         for piece, stray in zip(self.pieces, self.strays, strict=True):
             places = np.concatenate([_corners(piece, self.placed, cell).ravel() for cell in piece.cells])
@@ -180,7 +180,7 @@ class _Steps(NamedTuple):
                 yield k, gap
 
     def between(self, i: int, j: int, own: Numbers) -> tuple[float, int, Real]:
-        """Return how near two pieces come at the ends of some steps, at which, and a bound for each step."""
+        """Return two pieces' least distance at ends of some steps, which end, and a bound for each step."""
         one, other, rows = self.pieces[i], self.pieces[j], np.searchsorted(self.begins, own)
         ends, back = np.arange(len(self.rims)), np.concatenate((self.first[rows], self.last[rows]))
         if len(own) < len(self.begins):
@@ -192,7 +192,7 @@ class _Steps(NamedTuple):
 
 
 def _quickest(places: _Places, scene: Scene) -> float:
-    """Return how many times as fast as the drive's phase the quickest bar turns."""
+    """Return the turning rate of the quickest crank, relative to the drive's phase."""
     rates = [1.0]
     for crank in scene.linkage.cranks:
         bar = places.position[crank.name] - places.position[crank.pivot]
@@ -212,7 +212,7 @@ def _placed(frame: Frame, places: _Places, count: int) -> _Placed:
     bar, moves, speeds = (quantity[end] - quantity[begin] for quantity in places)
     size = np.abs(bar)
     direction = bar / size
-    # The bar keeps its length: its direction's derivatives are those of the bar across it, and inwards.
+    # The bar keeps its length, so its direction's derivatives follow from the components across it.
     rate = (moves * direction.conj()).imag / size
     second = (speeds * direction.conj()).imag / size
     direction = direction * frame.turn
@@ -220,7 +220,7 @@ def _placed(frame: Frame, places: _Places, count: int) -> _Placed:
 
 
 def _stray(piece: MovingPiece, placed: _Placed, first: Numbers, last: Numbers, step: float) -> Real:
-    """Return how far a piece's points may be, within each step, from where the nearer end has them."""
+    """Return the most that a piece's points are off their places at the nearer end, for each step (mm)."""
     far = max(abs(corner) for cell in piece.cells for corner in cell)
     total = np.zeros(len(first))
     for (place, speed, acceleration), share in ((placed.origin, 1.0), (placed.direction, far)):
@@ -234,7 +234,7 @@ def _stray(piece: MovingPiece, placed: _Placed, first: Numbers, last: Numbers, s
 def _corners(
     piece: MovingPiece, placed: Mapping[Frame, _Placed], cell: Sequence[complex], rows: Numbers | None = None
 ) -> Points:
-    """Return where a cell's corners are, (phases, corners), at some of the phases or at all."""
+    """Return the places of a cell's corners, (phases, corners), at the phases `rows` or at all."""
     origin, direction = placed[piece.frame].origin[0], placed[piece.frame].direction[0]
     if rows is not None:
         origin, direction = origin[rows], direction[rows]
@@ -243,7 +243,7 @@ def _corners(
 
 
 def _apart(one: MovingPiece, other: MovingPiece, placed: Mapping[Frame, _Placed], rows: Numbers) -> Real:
-    """Return how far apart two pieces are; not above 0 where they overlap."""
+    """Return the distance of two pieces at each phase; 0 or less where they overlap."""
     ones, others = ([_corners(piece, placed, cell, rows) for cell in piece.cells] for piece in (one, other))
     least = np.full(len(rows), np.inf)
     for a in ones:
