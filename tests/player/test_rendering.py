@@ -6,9 +6,11 @@ import os
 import subprocess
 import sys
 from pathlib import Path
+from runpy import run_module
 
 import pytest
 
+from linkanim import cli
 from linkanim.cli.commands import record as tapes
 from linkanim.errors import WorkFailed
 from linkanim.player import beside
@@ -161,3 +163,18 @@ def test_a_signal_ends_all_that_is_left_to_do(monkeypatch: pytest.MonkeyPatch) -
     monkeypatch.setattr(tapes, "main", main)
     assert tapes.record_all(["a", "b", "", "c", "d", ""]) == 143
     assert recorded == [["record", "a", "--no-clobber", "-o", "b"]]
+
+
+def test_the_process_to_which_it_is_left_records(monkeypatch: pytest.MonkeyPatch) -> None:
+    recorded: list[list[str]] = []
+
+    def main(words: list[str]) -> int:
+        recorded.append(words)
+        return 1
+
+    monkeypatch.setattr(cli, "main", main)
+    monkeypatch.setattr(sys, "argv", ["record", "one.tape.json", "one.gif", ""])
+    monkeypatch.delitem(sys.modules, tapes.__name__)
+    with pytest.raises(SystemExit, match="1"):
+        run_module(tapes.__name__, run_name="__main__")
+    assert recorded == [["record", "one.tape.json", "--no-clobber", "-o", "one.gif"]]

@@ -272,6 +272,16 @@ def test_a_page_s_chart_holds_beside_a_limit(name: str, token: str) -> None:
                 assert found == pytest.approx(exact, rel=1e-5, abs=1e-5 * greatest), (phase, back)
 
 
+@pytest.mark.parametrize("token", ["P.velocity", "rocker.angle", "rocker.coefficient"])
+def test_a_chart_tells_its_value_to_a_thousandth_of_its_height_or_so(token: str) -> None:
+    data = held(document(Shared(load("crank-rocker"), chart=token)))
+    for chart in data["sides"][0]["charts"]:
+        low, high = chart["y"]
+        steps = (high - low) * 10 ** chart["digits"]
+        assert steps >= 500
+        assert steps < 5000 or chart["digits"] == 0
+
+
 GEARED = """
 title = "slow"
 [drive]
@@ -363,6 +373,8 @@ def test_a_site_has_an_index_and_takes_nothing_that_is_not_its_own(tmp_path: Pat
     index = Reader((site / INDEX).read_text(encoding="utf-8"))
     assert [attrs["href"] for tag, attrs in index.seen if tag == "a"] == [f"{name}.html" for name in some]
     assert index.text["h2"] == "Four-barsSliders"
+    pictures = [attrs["viewbox"] for tag, attrs in index.seen if tag == "svg"]
+    assert pictures == ["0 0 240 150"] * len(some)
     (site / "scotch-yoke.html").write_text("mine", encoding="utf-8")
     with pytest.raises(BadInput, match="was changed after linkanim wrote it"):
         write_site(site, some, Shared(load("press")))
