@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -67,6 +68,31 @@ def test_each_answer_is_a_scene_that_runs_along_the_curve(
         assert row["room"] > row["size"]
         assert row["transmission_angle"] == min(scene.info.transmission_angle or ())
         assert scene.source == "linkanim path for oval.csv"
+
+
+# two answers have four cognates: of those asked for with them none is there, one, all
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("kept", "said"), [(0, "4 of 4 cognates do not"), (1, "3 of 4 cognates do not"), (4, "")]
+)
+def test_cognates_that_do_not_keep_to_what_is_asked_for_are_counted(
+    kept: int,
+    said: str,
+    here: Path,
+    capsys: pytest.CaptureFixture[str],
+    found_once: None,
+    answers: list[Any],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    assert main(["path", "oval.csv", "--count", "2"]) == 0
+    capsys.readouterr()
+    found = [*answers, *[replace(answers[0], cognate=True)] * kept]
+    monkeypatch.setattr("linkanim.cli.commands.path.path", lambda *_, **__: found)
+    assert main(["path", "oval.csv", "--cognates"]) == 0
+    printed = capsys.readouterr()
+    assert len(printed.out.splitlines()) == 3 + kept
+    assert printed.err.startswith(said)
+    assert bool(printed.err) == bool(said)
 
 
 @pytest.mark.slow
