@@ -272,6 +272,19 @@ def test_a_page_s_chart_holds_beside_a_limit(name: str, token: str) -> None:
                 assert found == pytest.approx(exact, rel=1e-5, abs=1e-5 * greatest), (phase, back)
 
 
+@pytest.mark.parametrize("name", ["crank-rocker", "kite"])
+def test_no_words_take_room_from_the_linkage(name: str) -> None:
+    scene = load(name)
+    text = document(Shared(scene))
+    scale, x, y = held(text)["sides"][0]["view"]
+    wide, high = next(re.finditer(r'viewBox="0 0 (\d+) (\d+)"', text)).groups()
+    places = np.concatenate([np.atleast_2d(one) for one in scene.cycle(90).position.values()])
+    across, down = x + scale * places[:, 0], y - scale * places[:, 1]
+    assert across.min() + across.max() == pytest.approx(float(wide), abs=2.0)
+    assert down.min() + down.max() == pytest.approx(float(high), abs=2.0)
+    assert max(np.ptp(across) / float(wide), np.ptp(down) / float(high)) > 0.94
+
+
 @pytest.mark.parametrize("token", ["P.velocity", "rocker.angle", "rocker.coefficient"])
 def test_a_chart_tells_its_value_to_a_thousandth_of_its_height_or_so(token: str) -> None:
     data = held(document(Shared(load("crank-rocker"), chart=token)))
