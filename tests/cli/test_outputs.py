@@ -66,6 +66,9 @@ READ: dict[str, tuple[tuple[str, ...], Callable[[Path], None] | None]] = {
     "a scene file, asked about": (("quiz", "my.html", "-n", "1", "-o", "my.html"), scene_with_another_ending),
     "a scene file, recorded": (("record", "./my.gif", "-o", "my.gif"), scene_with_another_ending),
     "a photograph": (("draw", "my.toml", "-o", "photo.png"), None),
+    "a photograph, charted": (("chart", "my.toml", "--quantity", "rocker.angle", "-o", "photo.png"), None),
+    "a photograph, recorded": (("record", "my.toml", "-o", "photo.png"), None),
+    "a photograph, made": (("make", "my.toml", "--preview", "photo.png"), None),
 }
 
 

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from linkanim.cli.options import inputs_of
+from linkanim.cli.picture_options import refuse_photograph
 from linkanim.errors import BadInput
 from linkanim.export import json_text
 from linkanim.manifest import checked_output
@@ -42,7 +43,10 @@ def run(options: Namespace) -> None:
         play(options.scene, layers=list(_words(options)))
         return
     picture = options.preview and checked_output(options.preview, "", OF_A_FIGURE, inputs_of(options))
-    made = make(load(options.scene), **{name: getattr(options, name) for name in _HANDED_ON})
+    scene = load(options.scene)
+    if picture:
+        refuse_photograph(scene, picture.path)
+    made = make(scene, **{name: getattr(options, name) for name in _HANDED_ON})
     if made.refused is None:
         if options.output is not None:
             write(made, options.output)
