@@ -40,7 +40,7 @@ def run(options: Namespace, progress: Progress | None = None) -> None:
 
 
 def _run_paths(options: Namespace, progress: Progress | None) -> None:
-    """Measure what is found for paths, and print it; BadInput where there is no scipy to search beside it."""
+    """Measure the answers to paths, and print them; BadInput without scipy, whose search is compared."""
     require_extra(needed=("scipy",))
     from linkanim.bench import paths
     from linkanim.bench.result import this_machine

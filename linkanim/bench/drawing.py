@@ -1,4 +1,4 @@
-"""Speed against error as a picture: a column for each linkage, easy cycle above, hard cases below."""
+"""Draw speed against error: a column for each linkage, its easy cycle above, its hard cases below."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ from linkanim.manifest import replacing, single
 
 SIZE = (1600, 960)
 LEAST, MOST = 1e-17, 10.0
-"""Where an error of nothing is drawn, and one of more than a link, beyond all sense."""
+"""The places on the axis of an error of zero, and of any larger than a link, which is meaningless."""
 TABLE = "Table"
-"""Under this name the picture's file holds the table that it shows."""
+"""The name under which the picture's file holds the table that it shows."""
 OWN = ("batch", "single")
 COLOURS = (
     *("#d55e00", "#0072b2", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#7f7f7f"),
@@ -30,7 +30,7 @@ ORDERS = ("position", "velocity", "acceleration")
 def draw(result: Result, path: Path) -> Path:
     """Write speed against error of all mechanisms as a PNG; return where it is.
 
-    BadInput where the path cannot be, or is taken by a file that is not such a picture of ours; WorkFailed
+    BadInput where the path is not possible, or names a file that is not such a picture of ours; WorkFailed
     where the disk refuses.
     """
     target = checked_target(path, (".png",))
@@ -65,7 +65,7 @@ def _png(result: Result) -> bytes:
 
 
 def _plot(panel: Any, row: Measured, score: Score, style: int) -> None:
-    """Draw the errors of a method, hollow where some of its poses are on the wrong closure or no number."""
+    """Draw the errors of a method, hollow where some of its poses are on the wrong closure or are NaN."""
     lost = score.wrong + score.nan > 0
     colour = COLOURS[style % len(COLOURS)]
     for order, error in enumerate(score.errors):
@@ -90,7 +90,7 @@ def _dress(panel: Any, title: str) -> None:
 
 
 def _key(figure: Any, rows: list[Measured], styles: dict[str, int]) -> None:
-    """Say below which colour is whose, and which mark is what."""
+    """Draw the key below: the method of each colour, and the meaning of each mark."""
     from matplotlib.lines import Line2D
 
     def mark(label: str, color: str = "#444444", **how: Any) -> Line2D:

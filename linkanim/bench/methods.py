@@ -45,17 +45,18 @@ from linkanim.synthesis import linkages as synthesised
 
 # The usual ways to solve a chain of dyads, as they are usually written, and this project's own.
 #
-# Closed forms and tables take whole arrays; what goes on from the previous pose goes pose by pose in plain
-# floats, as a frame loop does. None of the usual ones is improved here: what they lose near limits and
-# change points is what is measured. Rates follow from the differentiated equations of each dyad, solved at
-# the pose found (Norton, Design of Machinery, chapters on velocity and acceleration analysis).
+# Closed forms and tables take whole arrays; methods that start from the previous pose go pose by pose in
+# plain floats, as an animation's loop does. None of the usual methods is improved here, since their errors
+# near limits and change points are what is measured. Rates follow from the differentiated equations of each
+# dyad, solved at the pose found (Norton, Design of Machinery, chapters on velocity and acceleration
+# analysis).
 
 INTERVALS = 360
-"""Of a table, to one turn."""
+"""The number of a table's intervals in one turn."""
 NOWHERE = complex(math.nan, math.nan)
 QUANTITIES = ("position", "velocity", "acceleration")
 Close = Callable[[Dyad, Places, Any], Any]
-"""How a method closes a dyad: from the places before it, and the side at each pose."""
+"""A function that closes a dyad: its joint's place, by earlier joints' places and the side at each pose."""
 
 
 def half_angle_dyad(dyad: Dyad, at: Places, side: Any) -> Any:
@@ -80,7 +81,7 @@ def half_angle_dyad(dyad: Dyad, at: Places, side: Any) -> Any:
 
 
 def closed(close: Close) -> Callable[[Question], Places]:
-    """Return the method that closes dyad by dyad so, all poses at once."""
+    """Return the method that closes one dyad after the other by `close`, for all poses at once."""
 
     def places(question: Question) -> Places:
         sides = question.sides
@@ -108,7 +109,7 @@ def _rates(
     turning: Callable[[float], Any],
     loads: Callable[[Dyad], tuple[Any, Any]],
 ) -> dict[str, Any]:
-    """Return a derivative of all joints: of a crank's arm its factor by ratio, of dyads what they bear."""
+    """Return a derivative of all joints, by each crank's factor `turning(ratio)` and each dyad's `loads`."""
     found: dict[str, Any] = dict.fromkeys(chain.pins, 0j)
     for step in chain.steps:
         if isinstance(step, TurnStep):
@@ -123,7 +124,7 @@ def _rates(
 def _rate(dyad: Dyad, at: Places, ends: Places, loads: tuple[Any, Any]) -> Any:
     """Return the rate x of a dyad's joint: (B - P)·(x - p) = load for each bar, or x along its line.
 
-    Of a single pose whose bars are in line NaN.
+    A single pose whose bars are in line gives NaN.
     """
     here = at[dyad.name]
     try:
@@ -148,7 +149,7 @@ def _dot(one: Any, other: Any) -> Any:
 
 
 def newton(iterations: int) -> Callable[[Question], Places]:
-    """Return Newton's method on each dyad's equations: `iterations` of it, from the previous pose on."""
+    """Return Newton's method on each dyad's equations: `iterations` steps from the previous pose."""
 
     def poses(question: Question) -> Iterator[dict[str, complex]]:
         at = dict(question.start)
@@ -171,7 +172,7 @@ def _gathered(poses: Iterator[dict[str, complex]]) -> Places:
 
 
 def _improved(dyad: Dyad, at: Places, here: complex, iterations: int) -> complex:
-    """Return a dyad's joint after `iterations` iterations; a singular Jacobian gives NaN."""
+    """Return a dyad's joint after `iterations` steps; a singular Jacobian gives NaN."""
     try:
         if isinstance(dyad, RRR):
             p, q = (at[end] for end in dyad.ends)
@@ -235,7 +236,7 @@ class Samples(NamedTuple):
     slopes: Places
 
     def place(self, phases: Floats) -> tuple[Any, Floats]:
-        """Return the interval in which each phase lies, and which share of it lies before the phase."""
+        """Return the interval in which each phase lies, and the share of it before the phase."""
         steps = np.mod(phases - self.first, self.period) / self.step
         last = len(next(iter(self.values.values()))) - 2
         interval = np.minimum(steps.astype(np.intp), last)
@@ -243,7 +244,7 @@ class Samples(NamedTuple):
 
 
 def table_of(question: Question) -> Samples:
-    """Return the table of a question: this project's own poses, half a step off whole degrees."""
+    """Return the table of a question: this project's own poses, half an interval off whole degrees."""
     step, count = TURN / INTERVALS, INTERVALS * question.periods
     phases = (np.arange(count + 1, dtype=np.float64) - 0.5) * step
     values, slopes, _ = batch(replace(question, phases=phases, by_angle=False))
@@ -269,7 +270,7 @@ def cubic(table: Samples, question: Question) -> Orders:
 
 
 def batch(question: Question) -> Orders:
-    """Solve all inputs in one call, by angle where that is what is given, else by phase."""
+    """Solve all inputs in one call, by angle where the question gives angles, else by phase."""
     solve = question.scene.solve
     by_angle = question.by_angle
     motion = solve(angle=question.angles, speed=1.0) if by_angle else solve(phase=question.phases, speed=1.0)
@@ -279,7 +280,7 @@ def batch(question: Question) -> Orders:
 
 
 def single(question: Question) -> Orders:
-    """Solve one pose per call in plain floats; rates where they are asked for by phase, as it gives them."""
+    """Solve one pose per call in plain floats; rates by phase only, as this call gives no others."""
     poses = [question.scene.pose(phase, 2) for phase in question.phases.tolist()]
     scale = question.scene.linkage.drive.speed
     return tuple(
@@ -294,7 +295,7 @@ def single(question: Question) -> Orders:
 def each_its_own(question: Question) -> Orders:
     """Close every pose as a four-bar of its own lengths, as an atlas of curves is made: positions alone.
 
-    Those of the question are one linkage's; what an answer costs and how exact it is does not depend on that.
+    All poses of the question have the same lengths, but neither time nor error depends on that.
     """
     chain = question.chain
     (crank, dyad, point), (o2, o4) = chain.steps, chain.pins.values()
@@ -319,7 +320,7 @@ class Model(NamedTuple):
     rows: dict[str, int]
 
     def run_at(self, speed: float, gain: float) -> None:
-        """Have the input turn at this speed and acceleration, for the rates."""
+        """Set the input's speed and acceleration, for the rates."""
         for crank, ratio in self.cranks:
             self.linkage.set_input_velocity(crank, ratio * speed, ratio * gain)
 
@@ -367,8 +368,8 @@ def _part(step: Any, made: dict[str, Any], question: Question, rate: float, guid
 def pylinkage_fast(substeps: int) -> Callable[[Question], Orders]:
     """Return step_fast from pose to pose, in `substeps` equal steps from one input to the next.
 
-    Inputs at unequal distances are one step apart. The first pose is given; the next ones lie nearest to
-    their predecessor, as its solver decides.
+    Inputs at unequal distances are one step apart. The first pose is given; of each further pose the closure
+    nearest to the previous one is taken, as the package's solver does.
     """
 
     def solve(question: Question) -> Orders:
@@ -385,7 +386,7 @@ def pylinkage_fast(substeps: int) -> Callable[[Question], Orders]:
 
 
 def pylinkage_step(question: Question) -> Orders:
-    """Do the same with step(); what it refuses as unbuildable is NaN."""
+    """Solve pose by pose with pylinkage's step(); a pose that it refuses as unbuildable is NaN."""
     from pylinkage.exceptions import UnbuildableError
 
     def take(linkage: Any, way: float) -> Any:
@@ -399,7 +400,7 @@ def pylinkage_step(question: Question) -> Orders:
 
 
 def _walked(question: Question, take: Callable[[Any, float], Any]) -> Orders:
-    """Return the poses from input to input, of each order all places as `take` gives them."""
+    """Return the poses from input to input, which `take` gives: all places, by order."""
     model, found = pylinkage_model(question, 1.0), []
     ways = np.diff(question.angles, prepend=question.angles[0]).tolist()
     for way, speed, gain in zip(ways, *(rate.tolist() for rate in question.rates), strict=True):
@@ -410,7 +411,7 @@ def _walked(question: Question, take: Callable[[Any, float], Any]) -> Orders:
 
 
 def fsolve(question: Question) -> Orders:
-    """Solve each dyad's equations from its previous place; NaN where it says it did not converge."""
+    """Solve each dyad's equations from its previous place; NaN where fsolve reports no convergence."""
     before, rows = dict(question.start), range(question.angles.size)
 
     def close(dyad: Dyad, at: Places) -> Any:
@@ -445,7 +446,7 @@ def _found(dyad: Dyad, at: Places, row: int, before: dict[str, complex]) -> comp
 
 FEW, MANY = 10_000, 1_000_000
 ONE_BY_ONE = 720
-"""Poses to a timing of methods that take one at a time."""
+"""The number of poses in a timing of methods that take one pose at a time."""
 _DYADS = "each dyad's equations"
 
 
@@ -459,9 +460,9 @@ class Timed:
 
 @frozen
 class Entry:
-    """A row: the method, its accuracy's `solve`, and the work for positions and with derivatives.
+    """A row: the method, the `solve` that is scored, and the work for positions and with derivatives.
 
-    `key` names it for ratios. Rows that share a `solve` are solved once.
+    `key` is its name in ratios of times. Rows that share a `solve` are scored once.
     """
 
     mechanism: str
@@ -519,7 +520,7 @@ def of_many_linkages() -> Entry:
 
 
 def _solved(derivatives: int) -> Callable[[Question], object]:
-    """Return the solver with what it gives read, which is worked out only then."""
+    """Return the solver with its results read, as they are computed only then."""
     read = QUANTITIES[derivatives]
     return lambda question: getattr(
         question.scene.solve(angle=question.angles, derivatives=derivatives), read
@@ -536,7 +537,7 @@ def _posed(derivatives: int) -> Callable[[Question], object]:
 
 
 def _usual(few: Question, one: Question) -> Iterator[Entry]:
-    """Yield closed forms, what goes on from pose to pose, and tables."""
+    """Yield closed forms, methods that go from pose to pose, and tables."""
     norton = "Norton, Design of Machinery"
     yield _rated("half-angle", "half-angle formula", norton, closed(half_angle_dyad), few)
     yield _rated("circles", "circle intersection", "Bourke 1997", closed(circle_dyad), few)
@@ -555,13 +556,13 @@ def _usual(few: Question, one: Question) -> Iterator[Entry]:
 
 
 def _rated(key: str, name: str, source: str, places: Callable[[Question], Places], turn: Question) -> Entry:
-    """Return the row of a method that gives positions, its rates being those of `rated`."""
+    """Return the row of a method that gives positions, with rates by `rated`."""
     solve = rated(places)
     return Entry("", key, name, source, solve, _timed(places, turn), _timed(solve, turn))
 
 
 def _reading(read: Callable[[Samples, Question], Orders], table: Samples | None = None) -> Solve:
-    """Return what reads a table, the question's own where none is given."""
+    """Return the method that reads a table: a given one, or else the question's own."""
     return lambda question: read(table or table_of(question), question)
 
 

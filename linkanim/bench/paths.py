@@ -1,7 +1,7 @@
-"""What `linkanim path` finds: random coupler curves, published problems, and shapes that no four-bar traces.
+"""Measure `linkanim path` on random coupler curves, published problems, and shapes that no four-bar traces.
 
-Beside the shapes stands what a global search finds in the time that it is given: scipy's differential
-evolution over the same parameters, each point counted to one of 240 places of the curve, in their order.
+For the shapes it is compared with a global search in a given time: scipy's differential evolution over the
+same parameters, in which each point is assigned to one of 240 places of the curve, in their order.
 Published figures are sums of squared distances: the eighteen points are those of Kunjur and Krishnamurty
 (1997), with the crank's steps of 20°.
 """
@@ -33,11 +33,11 @@ LINE = tuple(complex(20, 20 + 5 * step) for step in range(6))
 _SEED = 7
 _SAMPLES = 240
 _BOUNDS = [(-4, 4)] * 2 + [(0.01, 4), (0.01, 8), (-8, 8), (-8, 8)] + [(-4, 4)] * 2 + [(0.01, 8), (-1, 1)]
-"""Of the search, in curve sizes: the four-bar's parameters, and the closure's sign."""
+"""The bounds of the search, in curve sizes: the four-bar's parameters, and the closure's sign."""
 
 
 class PathRow(NamedTuple):
-    """A problem, what is measured, the figure here, the one beside it, and the processor time here."""
+    """A problem, the measure, our figure, the one that it is compared with, and our processor time."""
 
     problem: str
     measure: str
@@ -47,7 +47,7 @@ class PathRow(NamedTuple):
 
 
 def run(seconds: float, curves: int, progress: Progress | None = None) -> list[PathRow]:
-    """Measure all problems, the global search for so many seconds of processor time for each shape."""
+    """Measure all problems, with `seconds` of processor time for the global search of each shape."""
     path(LINE, count=1)  # the atlas is made
     jobs: list[Callable[[], PathRow]] = [
         lambda: _random(curves),
@@ -69,7 +69,7 @@ def _timed(points: Any, **options: Any) -> tuple[Any, float]:
 
 
 def _random(count: int) -> PathRow:
-    """Find random coupler curves of crank-rockers and drag-links again, 64 points each."""
+    """Measure how well random coupler curves of crank-rockers and drag-links are found, 64 points each."""
     random = np.random.default_rng(_SEED)
     rows = FOUR_BAR.random_rows(random, 40 * count)
     rows = rows[(FOUR_BAR.slack(rows, math.radians(1)) > 0).all(axis=1)][:count]
@@ -97,7 +97,7 @@ def _shape(name: str, seconds: float) -> PathRow:
 
 
 def global_search(points: Complex, seconds: float) -> float:
-    """Return the least root mean square, in curve sizes, that differential evolution finds in that time."""
+    """Return the least root mean square, in curve sizes, of differential evolution for so many seconds."""
     from scipy.optimize import differential_evolution
 
     curve, end = drawn(points, closed=True), time.process_time() + seconds
@@ -135,7 +135,7 @@ def _off(rows: Real, sought: Complex) -> Real:
 def _in_order(squares: Real) -> Real:
     """Return the least sums of squared distances (B, places, points) with the places in the points' order.
 
-    They go once round, one way or the other, from the place that is nearest to the first point.
+    The places go once round the curve, in either sense, from the one that is nearest to the first point.
     """
     sums = np.full(len(squares), np.inf)
     for way in (squares, squares[:, ::-1]):
@@ -150,7 +150,7 @@ def _in_order(squares: Real) -> Real:
 
 
 def _outline(*corners: complex, count: int) -> Complex:
-    """Return points equally far along a polygon."""
+    """Return evenly spaced points along a polygon."""
     return drawn(corners, closed=True).at(np.arange(count) / count)
 
 

@@ -1,9 +1,9 @@
-"""Pose the questions that every method is asked: linkages, their easy cycle and their hard cases.
+"""Make the questions that every method has to answer: linkages, their easy cycle and their hard cases.
 
 Its parts, in reading order:
 
-- What every method is asked: the poses of a linkage along a sequence of inputs, as plain steps.
-- The linkages that are compared, the easy cycle and the hard cases of each, before anything is solved.
+- A question to every method: the poses of a linkage along a sequence of inputs, as plain steps.
+- The linkages that are compared, and the easy cycle and the hard cases of each, as yet unsolved.
 """
 
 from __future__ import annotations
@@ -23,19 +23,19 @@ from linkanim.scenes import load
 from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
 
-# What every method is asked: the poses of a linkage along a sequence of inputs, as plain steps.
+# A question to every method: the poses of a linkage along a sequence of inputs, as plain steps.
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
 Places = Mapping[str, Any]
-"""Of each joint where it lies: complex numbers, one or an array; NaN where a method has no answer."""
+"""The place of each joint: a complex number or an array of them; NaN where a method has no answer."""
 Orders = tuple[Places, ...]
 """Positions, then velocities and accelerations where a method gives them."""
 TURN = 2 * math.pi
 
 
 class TurnStep(NamedTuple):
-    """A crank pin: its angle is `ratio` times the input's, and `offset`."""
+    """A crank pin: its angle is `ratio` times the input's, plus `offset`."""
 
     name: str
     pivot: str
@@ -45,7 +45,7 @@ class TurnStep(NamedTuple):
 
 
 class SlideStep(NamedTuple):
-    """A bar to a slider on a line through `base`; of two places the one further along it for side +1."""
+    """A bar to a slider on a line through `base`; side +1 is the place further along the line."""
 
     name: str
     end: str
@@ -56,7 +56,7 @@ class SlideStep(NamedTuple):
 
 
 class FixedStep(NamedTuple):
-    """A point of a body: `at` along the way of this length from first to second joint, and to its left."""
+    """A point of a body: `at` is along the line from first to second joint, and to its left."""
 
     name: str
     on: tuple[str, str]
@@ -67,7 +67,7 @@ class FixedStep(NamedTuple):
 Step = TurnStep | RRR | SlideStep | FixedStep
 Dyad = RRR | SlideStep
 Closing = Callable[[Dyad, Places], Any]
-"""Gives where a dyad's joint lies, from the places before it."""
+"""A function for the place of a dyad's joint, by the places of earlier ones."""
 
 
 class DyadChain(NamedTuple):
@@ -110,12 +110,12 @@ def chain_of(linkage: Linkage) -> DyadChain:
 class Question:
     """A scene, its chain, and a sequence of inputs.
 
-    `angles` are the input's; `phases` the drive's, for methods that take one: a turning input's are its
-    angles. `rates` are the angle's first and second derivative in what rates are asked for, which is the
-    phase, where `by_angle` the angle. `sides` is the closure of each dyad that a caller names at each pose:
-    one who names a constant closure gets it; where the input swings the way back is asked for on the other
-    one. `start` is the first pose, for methods that go on from the previous one. `shown` are the joints
-    that count, `longest` is the longest link, `periods` the turns after which the motion is back.
+    `angles` are the input's. `phases` are the drive's, for methods that take them; for a turning input they
+    equal the angles. Rates are by the phase, or if `by_angle` by the angle; `rates` are the angle's first and
+    second derivative by it. `sides` is the prescribed closure of each dyad at each pose: constant, but the
+    other one on the way back of a swinging input. `start` is the first pose, for methods that start from the
+    previous one. `shown` are the joints that count, `longest` is the longest link, and `periods` the number
+    of turns after which the motion repeats.
     """
 
     scene: Scene
@@ -143,7 +143,7 @@ def placed(
 ) -> dict[str, Any]:
     """Return where the joints lie at an input's angle, dyads' as `close` gives them.
 
-    `exp` is that of the numbers: arrays of complex ones, single ones, or those of many digits.
+    `exp` is the exponential function for these numbers: complex arrays, single ones, or with many digits.
     """
     at: dict[str, Any] = dict(chain.pins)
     for step in chain.steps:
@@ -155,15 +155,15 @@ def placed(
 
 
 def point_on(step: FixedStep, at: Places) -> Any:
-    """Return a point of a body by those of its first and second joint, or a derivative of it by theirs."""
+    """Return the place of a body's point by those of the two joints, or a derivative by theirs."""
     first, second = (at[name] for name in step.on)
     return first + (second - first) * (step.at / step.length)
 
 
 def circle_dyad(dyad: Dyad, at: Places, side: Any, root: Callable[[Any], Any] = np.sqrt) -> Any:
-    """Go along the line of centres, then √(r² - x²) to the side; a circle and a line likewise.
+    """Go along the line of centres, then √(r² - x²) to the side; for a circle and a line likewise.
 
-    Paul Bourke, Circles and spheres (1997). `root` is that of the numbers.
+    Paul Bourke, Circles and spheres (1997). `root` is the square root for these numbers.
     """
     if isinstance(dyad, RRR):
         p, q = (at[end] for end in dyad.ends)
@@ -181,21 +181,21 @@ def joined(vectors: Floats) -> Complexes:
     return numbers
 
 
-# The linkages that are compared, the easy cycle and the hard cases of each, before anything is solved.
+# The linkages that are compared, and the easy cycle and the hard cases of each, as yet unsolved.
 
 Lengths = tuple[float, float, float, float]
 Swing = Callable[[Any], tuple[Any, Any]]
-"""Gives, from mpmath, the ends of an input that swings."""
+"""A function that computes, with mpmath, the ends of an input that swings."""
 
 
 @frozen
 class Case:
     """A scene and its inputs: crank angles, or phases where `by_phase`.
 
-    `flips` says at which phases a dyad on the smooth path goes over to its other closure: in half turns of
-    the phase, within the first `periods` turns; the closure that the scene names is the one just after 0.
-    `swing` gives the ends of an input that swings. `decimal`: the lengths are meant as they are written,
-    which the floats nearest to them are not.
+    `flips` are the phases at which a dyad on the smooth path changes its closure: in half turns of the phase,
+    within the first `periods` turns; just after 0 it has the closure that the scene names. `swing` computes
+    the ends of an input that swings. If `decimal`, the exact lengths are the written decimals, not the floats
+    nearest to them.
     """
 
     name: str
@@ -215,7 +215,7 @@ class Case:
 
 @frozen
 class CaseSet:
-    """A kind of linkage: its easy cycle, and what is hard about it."""
+    """A kind of linkage: its easy cycle, and its hard cases."""
 
     name: str
     easy: Case
@@ -223,19 +223,19 @@ class CaseSet:
 
 
 def degrees(first: int, last: int) -> Floats:
-    """Return every whole degree from first to last, in radians; the last one left out."""
+    """Return every whole degree from first to last, without the last, in radians."""
     return np.radians(np.arange(first, last, dtype=np.float64))
 
 
 def beside(inputs: Floats, *places: float) -> Floats:
-    """Add inputs beside some places, 1e-2 to 1e-12 from them, to either side."""
+    """Return inputs with further ones on both sides of some places, at distances from 1e-2 to 1e-12."""
     steps = np.logspace(-2, -12, 11)
     added = [place + steps * side for place in places for side in (-1, 1)]
     return np.unique(np.concatenate([inputs, *added]))
 
 
 def turned(turns: float) -> Floats:
-    """Return every whole degree of one turn, in radians, that begins after `turns` turns."""
+    """Return every whole degree, in radians, of the turn that begins after `turns` turns."""
     return turns * TURN + degrees(0, 360)
 
 
@@ -271,7 +271,7 @@ def _scene(document: Mapping[str, Any]) -> Scene:
 
 
 def built_in(name: str) -> Scene:
-    """Return a scene of the catalogue, its input at angle 0 as it begins, at 1 rad/s."""
+    """Return a scene of the catalogue with its input starting at angle 0, at 1 rad/s."""
     scene = load(name)
     drive = replace(scene.linkage.drive, start=0.0, speed=1.0)
     return replace(scene, linkage=replace(scene.linkage, drive=drive))
@@ -283,7 +283,7 @@ def stretched(lengths: Lengths) -> Swing:
 
 
 def between(lengths: Lengths) -> Swing:
-    """Return the swing of a double-rocker above its ground line: folded at one end, stretched after."""
+    """Return the swing of a double-rocker above its ground line: folded at first, stretched at last."""
     return lambda mp: (_in_line(mp, lengths, -1), _in_line(mp, lengths, 1))
 
 
@@ -294,7 +294,7 @@ def _in_line(mp: Any, lengths: Lengths, sign: int) -> Any:
 
 
 def upright(crank: float, rod: float) -> Swing:
-    """Return the swing of a slider-crank with a rod shorter than its crank: upright at both ends."""
+    """Return the swing of a slider-crank whose rod is shorter than its crank: at both ends it is upright."""
     return lambda mp: (-mp.asin(mp.mpf(rod) / crank), mp.asin(mp.mpf(rod) / crank))
 
 
@@ -313,7 +313,7 @@ CHANGES: Lengths = (5.0, 2.0, 4.0, 3.0)
 
 
 def _limited(scene: Scene, limit: float, swing: Swing) -> tuple[Case, Case]:
-    """Return a swinging input towards a limit, and through both."""
+    """Return two cases of a swinging input: towards a limit, and through both limits."""
     return (
         Case("1e-12 rad before a toggle", scene, towards(limit), AT_LIMITS, swing),
         Case("through two limits", scene, ONE_TURN, AT_LIMITS, swing, by_phase=True),
@@ -321,7 +321,7 @@ def _limited(scene: Scene, limit: float, swing: Swing) -> tuple[Case, Case]:
 
 
 def _after(scene: Scene, *powers: int) -> tuple[Case, ...]:
-    """Return one turn after ten to so many turns."""
+    """Return cases of one turn each, after ten to these powers of turns."""
     return tuple(Case(f"after 1e{power} turns", scene, turned(10.0**power)) for power in powers)
 
 
@@ -362,7 +362,7 @@ SLIDER_CRANK = CaseSet(
 )
 
 AFTER: Lengths = (6.0, 1.0, 5.0, 4.0)
-"""A second loop that closes wherever the first one takes it."""
+"""The lengths of a second loop that closes at every pose of the first one."""
 
 SIX_BAR = CaseSet(
     "six-bar",

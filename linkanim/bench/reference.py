@@ -1,9 +1,9 @@
-"""Answer with many digits by the plainest closed forms, and score others by these answers.
+"""Answer with many digits by the simplest closed forms, and score others by these answers.
 
 Its parts, in reading order:
 
-- Answers of many digits by the plainest closed forms: where circles and lines cross.
-- What a method's answers are worth beside the exact ones.
+- Answers with many digits by the simplest closed forms: the intersections of circles and lines.
+- The scores of a method's answers by the exact ones.
 """
 
 from __future__ import annotations
@@ -37,35 +37,35 @@ from linkanim.bench.questions import (
 from linkanim.frozen import frozen
 from linkanim.mechanics.linkage import RRR
 
-# Answers of many digits by the plainest closed forms: where circles and lines cross.
+# Answers with many digits by the simplest closed forms: the intersections of circles and lines.
 #
-# Nothing is shared with the solver. The square root of a difference may lose half of the digits and still
-# have more than a float holds; rates are central differences of a step so small, at so many digits, that
-# they are exact to far more than a float has.
+# No code is shared with the solver. The square root of a difference may lose half of the digits and still
+# have more than a float holds. Rates are central differences, with so small a step and so many digits that
+# they too have far more correct digits than a float.
 
 DIGITS = 140
 STEP = mpf(10) ** -22
 NUDGE = mpf(10) ** -40
-"""Added to every input: at a limit itself the two circles touch, and the side has no sign."""
+"""A small step that is added to every input: exactly at a limit the circles touch, and there is no side."""
 Pose = dict[str, Any]
 
 
 @frozen
 class Exact:
-    """Complex numbers to twice a float's digits: the nearest floats, and what they leave."""
+    """Complex numbers with twice a float's digits: the nearest floats, and the remainders."""
 
     high: Complexes
     low: Complexes
 
     def distance(self, found: Any) -> Floats:
-        """Return how far floats are from these numbers, without rounding the numbers first."""
+        """Return the distances of floats from these numbers, which are not rounded first."""
         apart: Floats = np.abs((found - self.high) - self.low)
         return apart
 
 
 @frozen
 class Answer:
-    """A case put as a question, with exact positions and rates, and where each dyad's other closure is."""
+    """A case as a question, with exact positions and rates, and the places of each dyad's other closure."""
 
     question: Question
     orders: tuple[Mapping[str, Exact], ...]
@@ -73,7 +73,7 @@ class Answer:
 
 
 def answer(case: Case) -> Answer:
-    """Return a case with its poses in many digits."""
+    """Return a case with its poses computed with many digits."""
     with workdps(DIGITS):
         path = CasePath(case)
         inputs = [mpf(given) + NUDGE for given in case.inputs.tolist()]
@@ -110,14 +110,14 @@ def _question(case: Case, path: CasePath, inputs: list[Any], places: Mapping[str
 
 
 def _rates(path: CasePath, inputs: list[Any]) -> tuple[Floats, Floats]:
-    """Return the first and the second derivative of the input's angle in what is given."""
+    """Return the first and the second derivative of the input's angle by the given angle or phase."""
     ways = [[path.angle(given + k * STEP) - path.angle(given) for k in (-1, 1)] for given in inputs]
     first = [(after - before) / (2 * STEP) for before, after in ways]
     return _floats(first), _floats([(after + before) / STEP**2 for before, after in ways])
 
 
 def _order(order: int, name: str, poses: list[list[Pose]]) -> Iterator[Any]:
-    """Yield a joint's positions, or their first or second derivative in what is given."""
+    """Yield a joint's positions, or their first or second derivative by the given angle or phase."""
     for before, here, after in zip(*poses, strict=True):
         early, now, late = (pose[name] for pose in (before, here, after))
         yield (now, (late - early) / (2 * STEP), (late - 2 * now + early) / STEP**2)[order]
@@ -125,13 +125,13 @@ def _order(order: int, name: str, poses: list[list[Pose]]) -> Iterator[Any]:
 
 @frozen
 class CasePath:
-    """The poses of a case along its smooth path, in the digits that mpmath has at present."""
+    """The poses of a case along its smooth path, with mpmath's present number of digits."""
 
     case: Case
 
     @cached_property
     def chain(self) -> DyadChain:
-        """The chain, its lengths floats."""
+        """The chain, with lengths as floats."""
         return chain_of(self.case.scene.linkage)
 
     @cached_property
@@ -140,7 +140,7 @@ class CasePath:
 
     @cached_property
     def _exact(self) -> tuple[dict[str, Any], tuple[Step, ...]]:
-        """The pins and the steps, their numbers as the case means them."""
+        """The pins and the steps, with exact numbers: the floats, or the decimals of a `decimal` case."""
         places = {name: self._place(pin) for name, pin in self.chain.pins.items()}
         return places, tuple(self._meant(step) for step in self.chain.steps)
 
@@ -158,21 +158,21 @@ class CasePath:
         return step._replace(length=self._number(step.length), base=mpc(step.base), along=along / abs(along))
 
     def angle(self, given: Any) -> Any:
-        """Return the input's angle: what is given, or of a phase of a swing, mid - amp·cos φ."""
+        """Return the input's angle: the given number, or for a swing's phase mid - amp·cos φ."""
         if self._ends is None or self.case.by_angle:
             return given
         low, high = self._ends
         return (low + high) / 2 - (high - low) / 2 * mp.cos(given)
 
     def phase(self, given: Any) -> Any:
-        """Return the phase, of an angle of a swing on the way up."""
+        """Return the phase: the given number, or for a swing's angle that on the way up."""
         if self._ends is None or not self.case.by_angle:
             return given
         low, high = self._ends
         return mp.acos((low + high - 2 * given) / (high - low))
 
     def side(self, dyad: Dyad, phase: Any) -> int:
-        """Return the closure on the smooth path."""
+        """Return a dyad's closure (+1 or -1) at a phase of the smooth path."""
         turn = 2 * self.case.periods
         at = phase / mp.pi
         passed = sum(
@@ -181,7 +181,7 @@ class CasePath:
         return -dyad.side if passed % 2 else dyad.side
 
     def pose(self, given: Any) -> Pose:
-        """Return where every joint lies."""
+        """Return the places of all joints at a given angle or phase."""
         phase, (pins, steps) = self.phase(given), self._exact
         chain = DyadChain(pins, steps)
         return placed(
@@ -189,7 +189,7 @@ class CasePath:
         )
 
     def others(self, at: Pose) -> Pose:
-        """Return the other closure of each dyad, whose ends lie where they are."""
+        """Return the other closure of each dyad, with its ends in their places."""
         found = {}
         for step in self._exact[1]:
             if isinstance(step, RRR | SlideStep):
@@ -206,7 +206,7 @@ class CasePath:
 
 
 def closed(dyad: Dyad, at: Places, side: int) -> Any:
-    """Return where a dyad's joint lies, in many digits; what misses by rounding touches."""
+    """Return the place of a dyad's joint with many digits; a gap by rounding counts as touching."""
     return circle_dyad(dyad, at, side, lambda square: mp.sqrt(max(square, mpf(0))))
 
 
@@ -230,7 +230,7 @@ def _exact(values: list[Any]) -> Exact:
     )
 
 
-# What a method's answers are worth beside the exact ones.
+# The scores of a method's answers by the exact ones.
 
 Solve = Callable[[Question], Orders]
 
@@ -240,12 +240,12 @@ APART = 1e-8
 
 @frozen
 class Score:
-    """How many poses; the worst errors among those on the right closure; the others, counted.
+    """The number of poses, the worst errors among those on the right closure, and the counts of the others.
 
-    Errors are those of position, velocity and acceleration, of the joint that is farthest off: positions in
-    longest links, rates in longest links or the pose's largest rate, whichever is more. NaN where no pose is
-    right or the method gives none. A pose is `wrong` where a dyad's joint lies at most half as far from its
-    other closure, `nan` where a position is not a number.
+    Errors are of position, velocity and acceleration, at the joint with the largest: positions in longest
+    links, rates in longest links or in the pose's largest rate, whichever is more. NaN where no pose is right
+    or the method gives none. A pose is `wrong` where a dyad's joint is at most half as far from its other
+    closure as from the right one, and `nan` where a position is not a number.
     """
 
     poses: int
@@ -262,7 +262,7 @@ class Score:
 
 
 def score(solve: Solve, answer: Answer) -> Score:
-    """Return what one method's answer is worth."""
+    """Return the score of a method's answer."""
     with np.errstate(all="ignore"):
         found = solve(answer.question)
         longest = answer.question.longest
@@ -288,7 +288,7 @@ def together(scores: Sequence[Score]) -> Score:
 
 
 def _worst(errors: Floats, right: Any) -> float:
-    """Return the largest error of the right poses; a rate that is no number there is unboundedly wrong."""
+    """Return the largest error of the right poses; a rate that is NaN there counts as infinitely wrong."""
     kept = errors[right]
     if not kept.size or np.isnan(errors).all():
         return float("nan")
@@ -304,7 +304,7 @@ def _largest(exact: Mapping[str, Exact]) -> Floats:
 
 
 def _elsewhere(found: Places, answer: Answer) -> Any:
-    """Return which poses lie on another closure than the right one."""
+    """Return which poses are on another closure than the right one, as a mask."""
     here, apart = answer.orders[0], APART * answer.question.longest
     return np.any(
         [

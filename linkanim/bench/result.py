@@ -3,7 +3,7 @@
 Its parts, in reading order:
 
 - Times of many pieces of work, taken in turn, so that a busy machine slows all of them alike.
-- What a run of the benchmark found: rows of speed and error.
+- The result of a run of the benchmark: rows of speed and error.
 - A result as a table for the terminal or the manual, and as JSON.
 """
 
@@ -30,8 +30,8 @@ from linkanim.frozen import NamedTuple, frozen
 
 # Times of many pieces of work, taken in turn, so that a busy machine slows all of them alike.
 #
-# What counts is the processor's time: all of the work is done in one thread, and what other processes
-# take from it is not its own.
+# Processor time is measured: all work is done in one thread, and time taken by other processes does not
+# count.
 
 Key = TypeVar("Key")
 
@@ -52,9 +52,9 @@ def nanoseconds(
 ) -> dict[Key, float]:
     """Return the median time of each piece of work in ns per pose.
 
-    Each is run before, to see how often it must be repeated; then, `rounds` times, all of them in
-    turn: fewer where `budget` seconds are over by the `wall`'s clock, but three. `progress` is told
-    (rounds done, rounds in all).
+    Each piece is run once to find how often it must be repeated. Then all are timed in turn, in `rounds`
+    rounds, or fewer, but at least three, if `budget` seconds have passed on the clock `wall`. `progress` is
+    called with (rounds done, rounds in all).
     """
     repeats = {key: _repeats(timed, clock) for key, timed in work.items()}
     taken: dict[Key, list[float]] = {key: [] for key in work}
@@ -75,10 +75,10 @@ def _repeats(timed: Timed, clock: Callable[[], float]) -> int:
 
 
 def _seconds(timed: Timed, repeats: int, clock: Callable[[], float]) -> float:
-    """Return the time of the repeats; the first is run once more before, and not timed.
+    """Return the time of the repeats (s), after one run that is not timed.
 
-    Memory that lay idle between rounds may have gone back to the machine below a virtual one, and
-    what it takes to get it again is not the work's own.
+    Memory that was idle between rounds may have been given back to a virtual machine's host, and the time to
+    get it again does not belong to the work.
     """
     timed.work()
     start = clock()
@@ -87,20 +87,20 @@ def _seconds(timed: Timed, repeats: int, clock: Callable[[], float]) -> float:
     return clock() - start
 
 
-# What a run of the benchmark found: rows of speed and error.
+# The result of a run of the benchmark: rows of speed and error.
 
 Progress = Callable[[int, int], None]
 Row = tuple[str, str, int]
 """A timed piece of work: mechanism, row, and the number of derivatives."""
 
 BUDGET = 150.0
-"""Seconds for the timings on a slow or busy machine."""
+"""The time limit (s) of the timings, for a slow or busy machine."""
 
 
 class Machine(NamedTuple):
-    """Where figures were measured: the processor, how many cores of it there are, the versions that count.
+    """The machine of a measurement: the processor, its number of cores, and the versions that matter.
 
-    `features` are the vector units beyond the least that this numpy runs on and uses, by its names.
+    `features` are the vector instruction sets that numpy uses beyond its baseline, by numpy's names.
     """
 
     cpu: str
@@ -111,7 +111,7 @@ class Machine(NamedTuple):
 
     @property
     def line(self) -> str:
-        """The same in one line."""
+        """The machine in one line of text."""
         units = ", ".join(self.features) or "no further vector units"
         versions = f"Python {self.python}, numpy {self.numpy} with {units}"
         return f"{self.cpu}, {self.cores} cores, {versions}, one thread"
@@ -134,7 +134,7 @@ class Measured:
 
 @frozen
 class Result:
-    """Everything one run found."""
+    """The result of one run: the machine, and all rows."""
 
     machine: Machine
     rows: tuple[Measured, ...]
@@ -147,7 +147,7 @@ def run(
     mechanisms: Sequence[CaseSet] = MECHANISMS,
     rows: Callable[[CaseSet], Sequence[Entry]] = entries,
 ) -> Result:
-    """Measure all methods on all mechanisms; some minutes."""
+    """Measure all methods on all mechanisms, which takes some minutes."""
     entered = [(mechanism, tuple(rows(mechanism))) for mechanism in mechanisms]
     times = nanoseconds(
         _work([row for _, methods in entered for row in methods]), budget=BUDGET, progress=progress
@@ -162,7 +162,7 @@ def run(
 
 
 def _work(methods: Sequence[Entry]) -> dict[Row, Timed]:
-    """Return all that is timed."""
+    """Return all pieces of work to be timed."""
     work = {(entry.mechanism, entry.key, 0): entry.position for entry in methods}
     rates = {(entry.mechanism, entry.key, 2): entry.derivatives for entry in methods if entry.derivatives}
     return {**work, **rates}
@@ -184,7 +184,7 @@ def _row(entry: Entry, times: Mapping[Row, float], scores: Mapping[str, Score]) 
 
 
 def this_machine() -> Machine:
-    """Return what this process runs on."""
+    """Return the machine that this process runs on."""
     return Machine(_cpu(), os.cpu_count() or 1, platform.python_version(), np.__version__, _features())
 
 
@@ -194,7 +194,7 @@ def _features() -> tuple[str, ...]:
 
 
 def _cpu() -> str:
-    """Return the processor's name, as Linux tells it, else as Python does."""
+    """Return the processor's name according to Linux, or else to Python."""
     try:
         lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
     except OSError:
@@ -228,7 +228,7 @@ def as_text(result: Result) -> str:
 
 
 def as_markdown(result: Result) -> str:
-    """Return the table, its mechanisms one after the other, and where it was measured, for the manual."""
+    """Return the manual's table, one mechanism after the other, with the machine of the measurement."""
     blank = [""] * (len(TITLES) - 1)
     rows = [line for name, lines in _by_mechanism(result) for line in ([f"**{name}**", *blank], *lines)]
     told = f"{_note(result)} Measured on {result.day} on {result.machine.line}.\n"
@@ -263,7 +263,7 @@ def _time(nanos: float) -> str:
 
 
 def _errors(score: Score) -> str:
-    """Return the errors of position and, where there are any, of rates; beyond 1 they mean nothing."""
+    """Return the errors of position and, if there are any, of rates; those above 1 are meaningless."""
     if math.isnan(score.error):
         return "none right"
     return ", ".join(
@@ -272,6 +272,6 @@ def _errors(score: Score) -> str:
 
 
 def as_json(result: Result) -> str:
-    """Return one object: machine, rows with every case; null where there is no number."""
+    """Return one JSON object: the machine, and the rows with every case; null for a missing number."""
     found = {"machine": result.machine._asdict(), "rows": [asdict(row) for row in result.rows]}
     return json_text(found, indent=2)
