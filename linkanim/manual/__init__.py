@@ -2,7 +2,7 @@
 
 `README.md` lists the pages in their order. They are written in the part of Markdown that `_html` reads:
 headings, paragraphs, lists of one level, tables, code, pictures, links, bold, italics and code in a line. A
-section is what stands under one heading. A search ranks sections; the page's script ranks them alike.
+section is the text under one heading. A search ranks sections; the page's script ranks them in the same way.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from linkanim.frozen import NamedTuple
 FOLDER = Path(__file__).parent
 CONTENTS = "README"
 _IN_HEADING, _IN_TITLE, _MOST_IN_TEXT = 10, 5, 5
-"""What a word counts in a section's heading, in its chapter's title, and in its text at the most."""
+"""The points for a word in a section's heading, in its chapter's title, and, at most, in its text."""
 _LINK = re.compile(r"(!?)\[((?:[^\[\]]|\[[^\[\]]*\])*)\]\(([^)\s]+)\)")
 _CODE = re.compile(r"(`+)(.+?)\1")
 _ROW = re.compile(r"(?<!\\)\|")
@@ -28,7 +28,7 @@ _RULE = re.compile(r"\|(\s*:?-+:?\s*\|)+")
 
 
 class ManualSection(NamedTuple):
-    """What stands under one heading: its chapter's file name and title, its level, heading and Markdown."""
+    """The text under one heading: its chapter's file name and title, its level, heading and Markdown."""
 
     chapter: str
     title: str
@@ -43,13 +43,13 @@ class ManualSection(NamedTuple):
 
 
 def slug(heading: str) -> str:
-    """Return a heading as the address of its section, as websites that show Markdown make it."""
+    """Return the anchor of a heading, as websites that show Markdown make it."""
     return re.sub(r"[^\w\- ]", "", _words(heading).lower()).replace(" ", "-")
 
 
 @cache
 def parts() -> tuple[tuple[str, tuple[str, ...]], ...]:
-    """Return the manual's parts in order: what each is called, and the names of its chapters' files."""
+    """Return the manual's parts in order: the title of each, and the names of its chapters' files."""
     pages = re.split(r"^## ", (FOLDER / f"{CONTENTS}.md").read_text(encoding="utf-8"), flags=re.MULTILINE)
     named = ((part.partition("\n")[0], re.findall(r"\]\(([\w-]+)\.md\)", part)) for part in pages[1:])
     return tuple((name, tuple(chapters)) for name, chapters in named)
@@ -77,7 +77,7 @@ def _sections(chapter: str) -> Iterator[ManualSection]:
 
 
 def search(words: Sequence[str]) -> list[ManualSection]:
-    """Return the sections in which all words occur, in any case, the one that says most of them first."""
+    """Return the sections that contain all words, upper or lower case, the most relevant first."""
     sought = [word for text in words for word in text.lower().split()]
     ranked = [(_rank(one, sought), one) for one in sections()]
     return [one for rank, one in sorted(ranked, key=lambda found: -found[0]) if rank]
@@ -94,7 +94,7 @@ def _rank(section: ManualSection, words: Sequence[str]) -> int:
 
 @cache
 def _text(section: ManualSection) -> str:
-    """Return a section's words without its heading, as a browser has them."""
+    """Return a section's text without its heading, as a browser gives it to the page's script."""
     return unescape(re.sub(r"<[^>]*>", "", _html(section))).lower()
 
 
@@ -154,7 +154,7 @@ def _blocks(body: str) -> Iterator[tuple[str, list[str]]]:
 
 
 def _kind(line: str) -> str:
-    """Return what a line outside code belongs to; empty for a blank one."""
+    """Return the kind of block that a line outside code belongs to; empty for a blank line."""
     if not line.strip():
         return ""
     if line.startswith("    "):
@@ -194,7 +194,7 @@ def _items(lines: list[str]) -> list[str]:
 
 
 def _inline(text: str, chapter: str) -> str:
-    """Return a line's markup as HTML; code is set apart first, for nothing in it is markup."""
+    """Return a line's markup as HTML; code is taken out first, as nothing in it is markup."""
     kept: list[str] = []
 
     def keep(html: str) -> str:
@@ -213,7 +213,7 @@ def _inline(text: str, chapter: str) -> str:
 
 
 def _linked(found: re.Match[str], chapter: str) -> str:
-    """Return a picture, within the page, or a link to another section; elsewhere the words alone."""
+    """Return a picture embedded in the page, or a link to another section; for other links the words."""
     picture, words, target = found.groups()
     if picture:
         data = b64encode((FOLDER / target).read_bytes()).decode()

@@ -430,7 +430,7 @@ def _shown(label: Label) -> Mover:
 
 
 def _placed(label: Label, names: Names) -> Mover:
-    """Return where a label stands, as `Spots` has it."""
+    """Return a label's place: the parts of its `Spots`, as plain numbers and arrays."""
     assert label.spot is not None
     at, head, begin, end, share, aside, further, off = label.spot
     ways = {"begin": _pair(begin), "end": _pair(end), "off": _pair(off), "size": list(label.size)}

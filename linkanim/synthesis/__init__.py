@@ -1,4 +1,4 @@
-"""Linkages for what they are to do: a path, poses, a function, a time ratio.
+"""Linkages for a given purpose: a path, poses, a function, a time ratio.
 
 From the ground up; a module imports from those before it only:
 
@@ -7,7 +7,7 @@ From the ground up; a module imports from those before it only:
     curves         a curve to be followed: points, or a stroke by hand
     curve_files    a curve's file: numbers, or an SVG's first path
     atlas          coupler curves to start from
-    fitting        what is asked for; least squares over many candidates
+    fitting        the task of a path; least squares over many candidates
     answers        answers checked by the solver; cognates; files
     search         from a curve to linkages that follow it, the best first
     front          deviation, size and transmission angle judged together
@@ -17,5 +17,5 @@ From the ground up; a module imports from those before it only:
     generation     `linkanim.function`: a function of the input
     follower       paths and poses beside the window, while they are drawn
     quick_returns  `linkanim.quick_return`: a time ratio
-    constructions  how each was made, drawn step by step
+    constructions  how each linkage was made, drawn step by step
 """
