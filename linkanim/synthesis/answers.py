@@ -218,8 +218,8 @@ def checked_by_phase(task: PathTask, row: Real, closures: Real, angles: Real) ->
     """Return an answer whose crank swings to its limits along the curve; None where the solver rejects it.
 
     It is rejected where it does not swing, passes the points out of order, or breaks a limit. `closures` and
-    `angles` (n,) are those at the points. A task with a least transmission angle, or with timing, has no
-    such answer.
+    `angles` (n,) are those at the points. At a limit no requested transmission angle is kept; a task with
+    timing has no such answer.
     """
     task, closure = task.swinging(), float(closures[0])
     if task.timing is not None or not keeps(task, row):

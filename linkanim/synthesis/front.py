@@ -136,7 +136,7 @@ def cards(front: Sequence[Fit], shown: Fit, count: int) -> tuple[Fit, ...]:
 
 
 def names_of(cards: Sequence[Figures]) -> tuple[str, ...]:
-    """Return for each answer the words for what it is best in; "" where it is the best in nothing."""
+    """Return each answer's name: "balanced" for the knee, what it is best in, or else ""."""
     names = ["" for _ in cards]
     if cards:
         names[knee(cards)] = "balanced"

@@ -850,7 +850,7 @@ def _generated(
 
 
 def _merits(task: FunctionTask, rows: Real, closure: Real, ranges: tuple[float, float]) -> Real:
-    """Return the costs: the largest error, raised for poor transmission angles and slim links."""
+    """Return the costs: the largest error's logarithm, more for poor transmission, inf for slim links."""
     x = np.linspace(task.function.first, task.function.last, _SEEN)
     error, cosine = _generated(task, rows, closure, ranges, x)
     with np.errstate(all="ignore"):

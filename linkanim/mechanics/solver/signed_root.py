@@ -212,7 +212,7 @@ def _unless(touching: bool, most: Fraction) -> float:
     return 0.0 if touching else nearest(most)
 
 
-# Signed roots: how a dyad closes without losing digits, or its way, where its bars fall into one line.
+# Signed roots: how a dyad closes where its bars fall into one line, with all its digits and a smooth motion.
 #
 # **Why.** Bars a and b hang on two pins P and Q, L apart. They meet in the corner B of a triangle; with
 # D = Q - P and p = L² + a² - b², from the cosine rule and Heron's formula,
