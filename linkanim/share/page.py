@@ -65,7 +65,7 @@ def input_words(scene: Scene) -> str:
 
 
 def parts_of(scene: Scene) -> int:
-    """Return the number of equal parts of a true period's tables: two for a swing, one there and one back.
+    """Return the number of equal parts of a true period's tables: one, or two for each swing there and back.
 
     At the ends of a swing rates may change their sign at once, or grow without bound.
     """
