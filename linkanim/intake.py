@@ -433,7 +433,7 @@ def _cells(line: str, between: str) -> list[str]:
 
 
 def _is_heading(cells: list[str]) -> bool:
-    """Whether no cell is a number, and the first one does not begin with one, as 87 deg does."""
+    """Return whether no cell is a number, and the first one does not begin with one, as 87 deg does."""
     return not (
         re.match(_NUMBER, _plain(cells[0])) or any(re.fullmatch(_NUMBER, _plain(cell)) for cell in cells)
     )

@@ -314,7 +314,7 @@ class _Setting:
         return self.how.infix(e.operation, self.of(left, first), self._grouped(right, *kinds))
 
     def _dotted(self, left: Formula, right: Formula) -> bool:
-        """Whether a product needs its dot: before a number, and after a function, so as not to join it."""
+        """Return whether a product needs its dot: before a number, and after a function."""
         while right.operation == "·":
             right = right.parts[0]
         while left.operation == "·":

@@ -92,7 +92,7 @@ def slide_between(linkage: Linkage, one: Link, other: Link) -> Slide | None:
 
 
 def touch(linkage: Linkage, one: Link, other: Link) -> bool:
-    """Whether the centre of two links is known by how they touch: in a joint, on a guide, as gears."""
+    """Return whether the centre of two links is known by how they touch: in a joint, on a guide, as gears."""
     joined = joint_between(linkage, one, other) or slide_between(linkage, one, other)
     return joined is not None or _geared(linkage, one, other)
 
@@ -126,7 +126,7 @@ def _next(
 
 
 def _geared(linkage: Linkage, one: Link, other: Link) -> bool:
-    """Whether two links turn about fixed pins and are geared to each other: their pitch circles touch."""
+    """Return whether two links turn about fixed pins and their gears mesh: the pitch circles touch."""
     bars = (_joints(linkage, one), _joints(linkage, other))
     for crank in linkage.cranks:
         if crank.gear and linkage.joint(crank.pivot).fixed:
@@ -148,7 +148,7 @@ def _joints(linkage: Linkage, link: Link) -> frozenset[str]:
 
 
 def _guides(linkage: Linkage, link: Link, slide: Slide) -> bool:
-    """Whether a link is what something slides on."""
+    """Return whether a link is what something slides on."""
     if link is None or slide.start is None:
         return link is None and slide.start is None
     if link.slider is not None:

@@ -62,7 +62,7 @@ _EVERY = 4
 
 
 def named_at_ends(curves: Curves) -> bool:
-    """Whether a chart's curves are so many that a legend alone does not tell them apart."""
+    """Return whether a chart's curves are so many that a legend alone does not tell them apart."""
     return len(curves.curves) > _MOST
 
 

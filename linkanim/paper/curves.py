@@ -166,7 +166,7 @@ def _within_a_turn(curve: Curve) -> Curve:
 
 
 def _there_and_back(scene: Scene, over: Over | None) -> bool:
-    """Whether the curves run over an angle that swings."""
+    """Return whether the curves run over an angle that swings."""
     return over == "angle" and not scene.info.full_turn
 
 

@@ -111,7 +111,7 @@ class Values:
         return float(quantity.shown(self._motion(instant.phase, pace)))
 
     def changes(self, quantity: Quantity) -> bool:
-        """Whether a quantity has more than one value over the cycle, rounding errors aside."""
+        """Return whether a quantity has more than one value over the cycle, rounding errors aside."""
         return quantity.changes(self._cycle)
 
 

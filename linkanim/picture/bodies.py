@@ -189,7 +189,7 @@ def _local(body: Body, figure: Figure, view: View) -> list[complex]:
 
 
 def _is_wide(body: Body, figure: Figure, points: list[complex]) -> bool:
-    """Whether a body may hide others, so that it lies behind them: a plate, or a wheel."""
+    """Return whether a body may hide others, so that it lies behind them: a plate, or a wheel."""
     outline = figure.scene.style(body.name).outline
     return outline in ("plate", "bucket", *WHEELS) or (outline is None and len(hull(points)) > 2)
 

@@ -349,7 +349,7 @@ class ChartPanel:
 
     @cached_property
     def title(self) -> Caption:
-        """Return the vertical axis' title: words, symbol and unit, as far as the reading leaves room."""
+        """The vertical axis' title: words, symbol and unit, as far as the reading leaves room."""
         pen, area = self.pen, self.plot.area
         room = area.width - self._widest_reading - _GAP * pen.text
         full = self.quantity.title(self.figure.scene.length_unit)

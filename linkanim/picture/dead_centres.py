@@ -98,7 +98,7 @@ class DeadCentres:
                 yield from (begin + share * (end - begin) for share in (0.2, 0.4, 0.6, 0.8))
 
     def _fits(self, out: complex) -> bool:
-        """Whether the words have room on one side of the guide."""
+        """Return whether the words have room on one side of the guide."""
         stage, high = self.setting.layout.stage, (self._reach + 2.8 * self.setting.layout.small_size) * out
         return all(stage.holds((end + high).real, (end + high).imag) for end in self.ends)
 

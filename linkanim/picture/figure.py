@@ -136,7 +136,7 @@ class Figure:
         return found
 
     def _kept(self, body: Body, name: str) -> bool:
-        """Whether a joint keeps its place in a body's frame over the cycle."""
+        """Return whether a joint keeps its place in a body's frame over the cycle."""
         begin, end, there = (self.cycle.position[joint] @ DOWN for joint in (*body.joints[:2], name))
         place = (there - begin) / (end - begin)
         return bool(np.all(np.abs(place - place[0]) <= _STILL * max(abs(place[0]), 1.0)))

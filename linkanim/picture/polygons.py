@@ -63,7 +63,7 @@ class Arrow(NamedTuple):
         return self.side.sort == "absolute"
 
     def is_on(self, other: Arrow) -> bool:
-        """Whether the two coincide, as a vector and its only part do."""
+        """Return whether the two coincide, as a vector and its only part do."""
         return abs(self.foot - other.foot) + abs(self.reach - other.reach) < 1e-3
 
 
@@ -266,7 +266,7 @@ class Polygon:
 
     @property
     def _words(self) -> Iterator[Rect]:
-        """Yield where the title stands, and the bar of the scale with its meaning."""
+        """The rectangles of the title, and of the bar of the scale with its meaning."""
         title, small, rect = self._title, self.pen.small, self.rect
         yield title.around(self.pen.type)
         wide = max((1 - _TITLE) * rect.width, self._usual)

@@ -109,7 +109,7 @@ class Grid(NamedTuple):
         return min(max(round(share * count - len(self.seen) / 2), 0), max(count - 1, 0))
 
     def whole(self, place: int) -> bool:
-        """Whether a mechanism's place is visible from top to bottom."""
+        """Return whether a mechanism's place is visible from top to bottom."""
         return place in self.cells and self.cells[place].bottom <= self.room.bottom + 1
 
 

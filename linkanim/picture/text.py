@@ -523,7 +523,7 @@ class Lettering:
         surface.blit(sprite, (x // _FINE, y // _FINE))
 
     def _meets(self, size: tuple[int, int], middle: complex) -> bool:
-        """Whether the words about a place lie on a surface of that size at least in part, to a pixel."""
+        """Return whether words about a place lie at least partly on a surface of that size, to a pixel."""
         (wide, high), (x, y) = self.size, (middle.real, middle.imag)
         return -1 - wide / 2 < x < size[0] + 1 + wide / 2 and -1 - high / 2 < y < size[1] + 1 + high / 2
 

@@ -357,7 +357,7 @@ class MatchGame:
 
     @property
     def judged(self) -> MatchGame:
-        """Return the game with the worth of the joints as they are now."""
+        """The game with the worth of the joints as they are now."""
         return replace(self, worth=worth(self.joints, self.of_level.curve))
 
     def carried(self, state: State, action: Action) -> State:

@@ -114,7 +114,7 @@ def _anew(state: State, make: Callable[[], Building]) -> State:
 
 
 def _is_undone_to(state: State, sheet: BuildSheet) -> bool:
-    """Whether the linkage of a sheet is shown, or undo goes back to it."""
+    """Return whether the linkage of a sheet is shown, or undo goes back to it."""
     made = sheet.building.made.scene
     return made is not None and any(one is made for one in (state.scene, *state.editing.past))
 

@@ -379,17 +379,17 @@ def _lasting(state: State, items: tuple[Dimension, ...], over: Hover | None = No
 
 
 def _stands_still(state: State) -> bool:
-    """Whether a sheet is open with nothing that moves, so that there are no dimensions of a scene."""
+    """Return whether a sheet is open with nothing that moves, so that there are no dimensions of a scene."""
     return bool(state.building and state.building.building.made.scene is None)
 
 
 def _is_rowed(state: State) -> bool:
-    """Whether typed text is for the rows of the sheet's chosen thing, and not for the list of dimensions."""
+    """Return whether typed text is for the chosen thing's rows on the sheet, not for the dimensions."""
     return bool(state.building and state.building.rowed)
 
 
 def _has_row(state: State, items: tuple[Dimension, ...]) -> bool:
-    """Whether the thing chosen on a sheet, if any, is that of the list's chosen row."""
+    """Return whether the thing chosen on a sheet, if any, is that of the list's chosen row."""
     sheet = state.building
     if sheet is None or not sheet.rowed:
         return True
@@ -398,7 +398,7 @@ def _has_row(state: State, items: tuple[Dimension, ...]) -> bool:
 
 
 def _stands(state: State) -> bool:
-    """Whether the motion is paused, and not merely dragged by a hand."""
+    """Return whether the motion is paused, and not merely dragged by a hand."""
     return state.clock.paused and not (state.grasp and state.grasp.ran)
 
 

@@ -54,7 +54,7 @@ def _passed(scene: Scene, before: float, after: float) -> Iterator[Cue]:
 
 
 def _lies_between(before: float, after: float, place: float, period: float) -> bool:
-    """Whether a place, whole periods aside, lies between two phases."""
+    """Return whether a place, whole periods aside, lies between two phases."""
     return math.floor((before - place) / period) != math.floor((after - place) / period)
 
 
@@ -146,7 +146,7 @@ class Speaker:
 
 
 def _is_likely() -> bool:
-    """Whether a device may exist: where none does, Linux's library would complain on stderr."""
+    """Return whether a device may exist: where none does, Linux's library would complain on stderr."""
     if not sys.platform.startswith("linux") or os.environ.get("SDL_AUDIODRIVER"):
         return True
     served = Path(os.environ.get("XDG_RUNTIME_DIR", "/nonexistent"))

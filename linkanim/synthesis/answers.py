@@ -404,9 +404,7 @@ def _least_transmission(answer: _Answer, task: PathTask, places: Real) -> float:
 
 
 def _stray(answer: _Answer, task: PathTask, places: Real) -> float:
-    """Return the largest distance of the coupler point from the points' polyline, all round or between the
-    ends of an open curve.
-    """
+    """Return the coupler point's largest distance from the polyline; from an open one, between its ends."""
     last = (
         places[0] + math.copysign(answer.round, places[-1] - places[0]) if task.curve.closed else places[-1]
     )

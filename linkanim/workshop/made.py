@@ -269,7 +269,7 @@ def _shares(cycle: Cycle, sizes: Sizes) -> Iterator[float]:
 
 
 def _is_stackable(cycle: Cycle, sizes: Sizes) -> bool:
-    """Whether there are layers for parts of other sizes."""
+    """Return whether there are layers for parts of other sizes."""
     try:
         parts = kit(cycle, sizes)
     except BadInput:

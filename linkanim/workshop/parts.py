@@ -275,7 +275,7 @@ class _PlateDraft:
     teeth: Toothing | None = None
 
     def has(self, joint: str) -> bool:
-        """Whether a joint's pin runs through it, in a hole or a slot."""
+        """Return whether a joint's pin runs through it, in a hole or a slot."""
         return joint in self.places or joint in self.guided
 
 
@@ -345,7 +345,7 @@ class _KitBuilder:
         return _PlateDraft(name, "link", Frame(first, (first, second)), places, bodies, shown)
 
     def _rides(self, bare: _PlateDraft, host: _PlateDraft) -> bool:
-        """Whether a bar that no body names keeps its place on another plate at every phase."""
+        """Return whether a bar that no body names keeps its place on another plate at every phase."""
         if not bare.places.keys() & host.places.keys():
             return False
         paths = (self.cycle.seen(name, host.frame) for name in bare.places)

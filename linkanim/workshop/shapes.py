@@ -63,7 +63,7 @@ def _chain(points: Sequence[complex]) -> list[complex]:
 
 
 def _is_straight(a: complex, b: complex, c: complex) -> bool:
-    """Whether b is not right of the line from a to c, apart from rounding: no left turn at b."""
+    """Return whether b is not right of the line from a to c, apart from rounding: no left turn at b."""
     return ((b - a).conjugate() * (c - b)).imag <= _SAME * abs(b - a) * abs(c - b)
 
 

@@ -276,7 +276,7 @@ def _corners_to_edges(corners: Points, hull: Points) -> Real:
 
 
 def _meet(a: Points, b: Points) -> NDArray[np.bool_]:
-    """Whether edges cross, or one hull holds a corner of the other."""
+    """Return whether edges cross, or one hull holds a corner of the other."""
     inside = _holds(a, b[:, 0]) | _holds(b, a[:, 0])
     if min(a.shape[1], b.shape[1]) < 2:
         return inside

@@ -81,7 +81,7 @@ class Factor(NamedTuple):
 
     @property
     def kind(self) -> Kind:
-        """Tell what the factor does."""
+        """What the factor does over the turn: it never vanishes, touches zero, or crosses it."""
         if self.least == 0:
             return Kind.CHANGE_POINT
         return Kind.PLAIN if self.least > 0 else Kind.LIMIT
