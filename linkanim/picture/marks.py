@@ -32,23 +32,24 @@ def measure(setting: DrawSetting, begin: complex, end: complex, shown: Dimension
     """Yield the light on a length from `begin` to `end` (pixels), its dimension line, and its value."""
     if not 1.0 <= abs(end - begin) < np.inf:
         return
-    gauge, theme, layout, size = setting.gauge, setting.theme, setting.layout, setting.layout.small_size
-    away = 1j * unit(end - begin)
-    away *= (2.0 * gauge.bar + 14 * layout.unit) * (-1 if away.imag > 0 else 1)
-    wide, high = setting.type.width(shown.words, size, strong=True) + 0.7 * size, 1.35 * size
-    middle = _inside(layout.stage, (begin + end) / 2 + _clear(away, gauge, wide, high), wide, high)
-    back = Layer(theme.panel, [middle + box(wide, high, 0.3 * size)], 0.9)
-    at = (middle.real, middle.imag - 0.52 * size)
-    words = Caption(shown.words, at, size, theme.ink, "centre", strong=shown.chosen)
+    gauge, theme = setting.gauge, setting.theme
+    away, back, words = _label(setting, begin, end, shown.words, strong=shown.chosen)
     line = Layer(theme.ink, dimension_line(begin, end, away, gauge))
     along = [*_lit(begin, end, gauge)] if shown.chosen else []
     thin = [] if shown.is_bar else [Layer(theme.ink, segments(begin, end, gauge.line))]
-    lines = [*along, *thin, line, back]
-    yield Group("measure", lines, [words], over=True)
+    yield Group("measure", [*along, *thin, line, back], [words], over=True)
 
 
 def beside(setting: DrawSetting, begin: complex, end: complex, words: str) -> Group:
     """Return words without a dimension line, beside what lies from `begin` to `end`, in pixels."""
+    _, back, caption = _label(setting, begin, end, words)
+    return Group("beside", [back], [caption], over=True)
+
+
+def _label(
+    setting: DrawSetting, begin: complex, end: complex, words: str, *, strong: bool = False
+) -> tuple[complex, Layer, Caption]:
+    """Return the way from a bar to the line above it, or to its side, and words there on their ground."""
     gauge, layout, size = setting.gauge, setting.layout, setting.layout.small_size
     away = 1j * unit(end - begin)
     away *= (2.0 * gauge.bar + 14 * layout.unit) * (-1 if away.imag > 0 else 1)
@@ -56,7 +57,7 @@ def beside(setting: DrawSetting, begin: complex, end: complex, words: str) -> Gr
     middle = _inside(layout.stage, (begin + end) / 2 + _clear(away, gauge, wide, high), wide, high)
     back = Layer(setting.theme.panel, [middle + box(wide, high, 0.3 * size)], 0.9)
     at = (middle.real, middle.imag - 0.52 * size)
-    return Group("beside", [back], [Caption(words, at, size, setting.theme.ink, "centre")], over=True)
+    return away, back, Caption(words, at, size, setting.theme.ink, "centre", strong=strong)
 
 
 def _clear(away: complex, gauge: Gauge, wide: float, high: float) -> complex:

@@ -1,0 +1,44 @@
+"""Marks that only the window shows: the value of a bar, clear of it and on the stage."""
+
+from __future__ import annotations
+
+import pytest
+from pictures import place_of
+
+from linkanim.picture.look import Look
+from linkanim.picture.marks import beside, measure
+from linkanim.picture.overlay import DimensionLine
+from linkanim.picture.picture import Picture
+from linkanim.scenes import load
+
+MIDDLE = 320 + 180j
+# A bar from its middle to its end: level, upright, steep, and each the other way round.
+BARS = [way * sign for way in (60 + 0j, 60j, 40 + 50j, -20 + 70j) for sign in (1, -1)]
+
+
+@pytest.mark.parametrize("dimensioned", [True, False], ids=["with a line", "alone"])
+@pytest.mark.parametrize("half", BARS)
+def test_a_value_stands_above_its_bar_and_clear_of_it(half: complex, dimensioned: bool) -> None:
+    setting = Picture(load("crank-rocker"), (640, 360), Look()).drawing.setting
+    begin, end = MIDDLE - half, MIDDLE + half
+    shown = DimensionLine(("A", "B"), 0, 1, "120.5 mm", chosen=False)
+    (group,) = (
+        measure(setting, begin, end, shown) if dimensioned else [beside(setting, begin, end, "120.5 mm")]
+    )
+    (caption,) = group.captions
+    assert caption.text == "120.5 mm"
+    place = place_of(caption, setting.type)
+    corners = [complex(x, y) for x in (place.x, place.right) for y in (place.y, place.bottom)]
+    aside = [((corner - MIDDLE) / half).imag * abs(half) for corner in corners]
+    assert min(map(abs, aside)) > setting.gauge.bar
+    assert min(aside) * max(aside) > 0
+    assert place.middle.imag < MIDDLE.imag + 1e-9
+
+
+@pytest.mark.parametrize("at", [2 + 2j, 638 + 2j, 2 + 358j, 638 + 358j])
+def test_a_value_stays_on_the_stage(at: complex) -> None:
+    setting = Picture(load("crank-rocker"), (640, 360), Look(hud=False)).drawing.setting
+    for half in BARS:
+        place = place_of(beside(setting, at - half, at + half, "120.5 mm").captions[0], setting.type)
+        assert setting.layout.stage.holds(place.x, place.y)
+        assert setting.layout.stage.holds(place.right, place.bottom)
