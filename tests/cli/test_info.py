@@ -13,6 +13,7 @@ import pytest
 import linkanim
 from linkanim.cli import main
 from linkanim.scenes import chapter_of, chapters
+from linkanim.scenes.editing import other_return
 from linkanim.scenes.toml import save
 
 KEYS = {
@@ -92,6 +93,17 @@ def test_what_a_period_asks_of_the_input_is_told_where_there_is_force(
     assert f"work per period     {demand_of_press.work:.6g} J" in capsys.readouterr().out.splitlines()
     assert main(["info", "crank-rocker", "--json"]) == 0
     assert "work_per_period" not in json.loads(capsys.readouterr().out)
+
+
+def test_only_of_an_input_that_swings_it_is_told_how_it_returns(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    same = save(replace(other_return(linkanim.load("double-rocker")), name="same"), tmp_path)
+    told = []
+    for scene in ("crank-rocker", "double-rocker", str(same)):
+        assert main(["info", scene, "--json"]) == 0
+        told.append(json.loads(capsys.readouterr().out).get("returns"))
+    assert told == [None, "other", "same"]
 
 
 def test_the_words_are_a_label_and_a_value_a_line(capsys: pytest.CaptureFixture[str]) -> None:

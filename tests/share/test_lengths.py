@@ -196,6 +196,16 @@ def test_the_other_closure_and_the_way_back(page: Page, tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
+# of two ranges the page takes the one above the ground line, wherever that leads
+@pytest.mark.parametrize("angle", [0.0, 30.0, -110.0])
+def test_a_page_s_ground_line_is_the_scene_s(angle: float) -> None:
+    stated = load("double-rocker").document
+    turned = {**stated, "four-bar": {**stated["four-bar"], "ground_angle": f"{angle} deg"}}
+    found = model(scene_from(turned, name="turned", where="turned"))
+    assert found
+    assert degrees(found["level"]) == pytest.approx(angle, abs=1e-9)
+
+
 def test_only_what_the_solver_knows_has_sliders() -> None:
     known = {name for name in names() if model(load(name))}
     assert {"crank-rocker", "slider-crank", "jansen", "stephenson-3"} <= known

@@ -88,6 +88,13 @@ def test_more_nodes_lie_where_a_joint_turns_sharply() -> None:
     assert gaps.max() >= 4 * gaps.min()
 
 
+def test_a_track_has_no_more_nodes_than_its_curve_asks_for() -> None:
+    scene = load("crank-rocker")
+    found = {name: len(track.nodes) for name, track in tracks(scene, view_of(scene)).items()}
+    assert (found["O2"], found["A"]) == (1, 16)
+    assert max(found.values()) < 40
+
+
 # Where all signs change at once, at the ends of a way that is gone back, no stretch leads across.
 @pytest.mark.parametrize("name", ["double-rocker", "triple-rocker", "excavator"])
 def test_rates_of_a_way_that_is_gone_back_hold_up_to_its_ends(name: str) -> None:
