@@ -1,1 +1,1 @@
-"""A command a file: what it does once its options are read."""
+"""One module for each command: its `run` does the work once the options are read."""

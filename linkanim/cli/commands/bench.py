@@ -1,4 +1,4 @@
-"""`linkanim bench`: speed against error, and what drawing and recording cost."""
+"""`linkanim bench`: speed against error, or the results of `linkanim path`."""
 
 from __future__ import annotations
 

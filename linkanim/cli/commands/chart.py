@@ -19,13 +19,13 @@ from linkanim.scenes.scene import Scene
 from linkanim.units import rpm, stepped
 
 _LIST = "list"
-"""Asked for as a quantity it lists them."""
+"""The word that, in the place of a quantity, asks for the list of them."""
 
 
 def run(options: Namespace) -> None:
     """Write the chart that was asked for; print its path, and how far a table beside it differs.
 
-    Asked for the list it prints what there is.
+    For the word `list` print all quantities instead.
     """
     if options.quantity.strip() == _LIST:
         print(_listed(in_unit(load(options.scene), options.unit)))
@@ -48,7 +48,7 @@ def run(options: Namespace) -> None:
 
 
 def _listed(scene: Scene) -> str:
-    """Return all quantities of a scene, one a line: how each is asked for, and what it is."""
+    """Return all quantities of a scene, one a line: the token of each, and its title."""
     wide = max(map(len, scene.quantities))
     titles = {
         token: without_subscripts(one.title(scene.length_unit)) for token, one in scene.quantities.items()
@@ -72,7 +72,7 @@ def _measured(curves: Curves, options: Namespace) -> MeasuredCurve | None:
 
 
 def _difference(curves: Curves, measured: MeasuredCurve) -> str:
-    """Return the table of both, and the largest difference in a line."""
+    """Return the table of both values, and the largest difference in a line."""
     unit, row = measured.curve.quantity.shown_unit(curves.scene.length_unit), measured.worst
     step, place = (0.01, "deg") if measured.over != "time" else (1e-4, "s")
     return (

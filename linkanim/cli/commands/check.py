@@ -19,7 +19,7 @@ from linkanim.units import degrees
 
 
 class Checked(NamedTuple):
-    """A file, its problems, and its scene where it has none."""
+    """A file, its problems, and its scene if there are no problems."""
 
     file: str
     problems: list[Problem]
@@ -27,7 +27,7 @@ class Checked(NamedTuple):
 
 
 def run(options: Namespace) -> None:
-    """Print what is wrong in each file, or what it is; `BadInput` where anything is wrong."""
+    """Print the problems of each file, or its title and class; `BadInput` where there is any problem."""
     if options.schema:
         print(json_text(SCHEMA, indent=2))
         return
@@ -81,7 +81,7 @@ def _object(one: Checked) -> dict[str, object]:
 
 
 def _notes(scene: Scene) -> list[str]:
-    """Return what a scene states without effect."""
+    """Return notes on what a scene states without effect."""
     return [*_unreached(scene), *_unshown(scene)]
 
 
@@ -92,7 +92,7 @@ def _unreached(scene: Scene) -> Iterator[str]:
 
 
 def _unshown(scene: Scene) -> Iterator[str]:
-    """Yield why the photograph is left out, where it is."""
+    """Yield why the photograph is not shown, if it is not."""
     if photo := scene.document.get("photo"):
         from linkanim.picture.photograph import lack
 

@@ -1,6 +1,6 @@
 """`linkanim completion`: a script that lets a shell complete commands, options, choices and scenes.
 
-Everything in it is read from the parser, so that a new command or option is completed without a word here.
+Everything in it is read from the parser, so that a new command or option needs no change here.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ def _option_strings(parser: ArgumentParser) -> list[str]:
 
 
 def _first_words(parser: ArgumentParser) -> list[str]:
-    """Return what may stand where a command's scene, or another word with choices, is to be named."""
+    """Return the choices of a command's words that are no options, with scenes and chapters among them."""
     found: list[str] = []
     for action in parser._actions:
         if not action.option_strings:

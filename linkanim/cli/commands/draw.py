@@ -18,7 +18,7 @@ from linkanim.scenes.scene import Scene
 
 
 def run(options: Namespace) -> None:
-    """Write the figure that was asked for, and print its path; of a pose of our choice where the input is."""
+    """Write the figure that was asked for, and print its path; for a pose of our choice, also the input."""
     scene, canvas, target = scene_canvas_target(options, OF_A_FIGURE, ".svg")
     look, told = look_of(scene, options), alternative(options)
     look = replace(look, type_scale=canvas.type_scale, background=look.background and canvas.ground)
@@ -45,7 +45,7 @@ def run(options: Namespace) -> None:
 
 
 def _write(shown: Written, target: Output, canvas: Canvas, *, latex: bool) -> None:
-    """Write a picture, and print the path of each file that came of it."""
+    """Write a picture, and print the path of each file that is written."""
     write(shown, target, latex=latex, wide=canvas.wide)
     print(target.path)
     if latex:
@@ -55,7 +55,7 @@ def _write(shown: Written, target: Output, canvas: Canvas, *, latex: bool) -> No
 
 
 def _refuse_many(scene: Scene, poses: int, size: tuple[int, int]) -> None:
-    """Refuse more poses than a picture of so many pixels holds; one of lines alone has none."""
+    """Refuse more poses than a picture of `size` pixels holds; a vector file has a size of (0, 0)."""
     joints, larger = len(scene.linkage.joints), max(prod(size) / MOST_DRAWN_PIXELS, 1.0)
     most = int(MOST_DRAWN / larger) // joints
     if poses > most:

@@ -16,7 +16,7 @@ _NUMBERED = re.compile(r"\d\d-")
 
 
 def run(options: Namespace) -> None:
-    """List the examples, or copy those that are named; a file that is there already is never replaced."""
+    """List the examples, or copy those that are named; an existing file is never replaced."""
     if not options.names:
         if options.output is not None:
             raise BadInput("name what to copy, such as `linkanim examples 06`, or `linkanim examples all`")
@@ -53,7 +53,7 @@ def _names() -> list[str]:
 
 
 def _about(name: str) -> str:
-    """Return what an example is, from its first lines."""
+    """Return what an example shows, from its first lines."""
     if not _NUMBERED.match(name):
         return "data for an example or for the manual"
     found = re.search(rf"\b{name[:2]}  ([^\n\"\\]+)", _head(name))

@@ -25,17 +25,17 @@ from linkanim.scenes.editing import in_unit
 from linkanim.scenes.scene import Scene
 
 _CONSTRUCTION = (960, 640)
-"""The size of the figure of a construction."""
+"""The size of the figure of a construction, in pixels."""
 _MOST_LETTERS = 26
-"""Versions are called A to Z."""
+"""The most versions: they are called A to Z."""
 FORMS = {".html": HTML, ".htm": HTML, ".tex": TEX, ".md": MARKDOWN}
 
 
 def run(options: Namespace) -> None:
     """Write the worked solution that was asked for, and print its path; without one print it as Markdown.
 
-    `BadInput` for an output that cannot be, before anything is worked out; `OutOfRange` for an angle that the
-    input does not come to.
+    `BadInput`, before anything is worked out, for an output that cannot be written; `OutOfRange` for an angle
+    that the input does not reach.
     """
     target = (
         None if options.output is None else checked_target(options.output, tuple(FORMS), inputs_of(options))
@@ -71,9 +71,10 @@ def _construction(found: Solution) -> str:
 
 
 def _requests(scene: Scene, options: Namespace) -> Iterator[PoseRequest]:
-    """Yield the pose that is asked for, or of an exercise so many versions, of other lengths with a seed.
+    """Yield the pose that is asked for, or the versions of an exercise; with a seed they have other lengths.
 
-    Without a pose it is the one that a figure of the scene shows. What an exercise gives is round.
+    Where no pose is asked for it is the one that a figure of the scene shows. The numbers that an exercise
+    gives are round.
     """
     request = _rounded(_pose(scene, options)) if options.exercise else _pose(scene, options)
     count = 1 if options.versions is None else options.versions
@@ -102,10 +103,10 @@ def _pose(scene: Scene, options: Namespace) -> PoseRequest:
     speed = scene.linkage.drive.speed if options.speed is None else options.speed
     angle, phase = options.angle, options.phase
     if angle is not None:
-        phase_at(scene, angle)  # which says why where it is not reached
+        phase_at(scene, angle)  # raises OutOfRange where the input does not reach it
     elif phase is None:
         phase = default_phase(scene)
-        # what turns has no other pose at that angle within its first turn; what swings comes to it twice
+        # an input that turns has one pose at that angle within its first turn; one that swings has two
         angle = scene.pose(phase, 0).coordinate % tau if scene.info.full_turn else None
     if angle is not None:
         return PoseRequest(scene, "angle", float(angle), speed, options.acceleration)

@@ -49,7 +49,7 @@ def run(options: Namespace) -> None:
 def _names_a_file(text: str) -> bool:
     try:
         return Path(text).suffix.lower() in _SUFFIXES or Path(text).is_file()
-    except OSError:  # what is too long for a file's name is none
+    except OSError:  # a text that is too long for a file's name is none
         return False
 
 
@@ -67,7 +67,7 @@ def _length(text: str) -> float:
 
 
 def _scale(name: str, text: str | None, read: Callable[[str], float]) -> dict[str, float]:
-    """Return the range that is given of a scale, and its start if it has one."""
+    """Return the keywords for the range of a scale, and for its start if the text has one."""
     if text is None:
         return {}
     first, sign, last = text.partition(":")

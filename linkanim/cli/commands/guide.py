@@ -23,11 +23,11 @@ from linkanim.units import significant
 _UNIT = "mm"
 _TITLES = ("defects", f"off {_UNIT}", "transmission", f"longest link {_UNIT}", "sizes", "crank", "class")
 _HANDED_ON = ("kind", "count", "pivots", "box", "largest", "least_angle", "prefer")
-"""Options that are called alike here and there."""
+"""Options that have the same name here and as keywords of the function."""
 
 
 def run(options: Namespace) -> None:
-    """Find the linkages, write their files, and print the table or JSON; what is worth a remark on stderr."""
+    """Find the linkages, write their files, and print the table or JSON; print remarks on stderr."""
     poses = _poses(options.poses)
     target = target_of(options.output, f"{options.poses.stem}.toml")
     handed: dict[str, Any] = {name: getattr(options, name) for name in _HANDED_ON}
@@ -57,7 +57,7 @@ def _cells(one: GuidedLinkage) -> tuple[str, ...]:
 
 
 def _way(one: GuidedLinkage) -> str:
-    """Return between which angles the crank swings, if it does not turn fully."""
+    """Return "turns", or the angles between which the crank swings."""
     if one.scene.info.full_turn:
         return "turns"
     first, last = (significant(math.degrees(angle), 4) for angle in one.scene.info.input_range)
@@ -82,7 +82,7 @@ def _object(one: GuidedLinkage) -> dict[str, object]:
 
 
 def _tell_longer(found: Sequence[GuidedLinkage], every: Sequence[GuidedLinkage]) -> None:
-    """Say on stderr that of the few linkages of five poses some are longer than is allowed."""
+    """Say on stderr how many of the few linkages for five poses are left out for links that are too long."""
     if len(every) > len(found):
         more, longest = len(every) - len(found), max(one.size / one.task.poses.size for one in every)
         linkages = "linkage has" if more == 1 else "linkages have"
@@ -94,7 +94,7 @@ def _tell_longer(found: Sequence[GuidedLinkage], every: Sequence[GuidedLinkage])
 
 
 def _remark(found: Sequence[GuidedLinkage]) -> None:
-    """Say on stderr where no answer runs through the poses."""
+    """Say on stderr, where every answer has a defect, what the defects mean."""
     if all(one.defects for one in found):
         print(
             "every answer has a defect: circuit, it would have to be taken apart between poses; branch, it "

@@ -14,7 +14,7 @@ _OF_ITS_MOTION = (
     *("change_points", "true_period", "period_seconds", "transmission_angle"),
 )
 _CALLED = {"class": "class_name", "links": "link_names"}
-"""What JSON has under another name."""
+"""The names in the code of keys that have another name in JSON."""
 
 
 def run(options: Namespace) -> None:
@@ -35,12 +35,11 @@ def as_words(scene: Scene) -> str:
 def as_object(scene: Scene) -> dict[str, object]:
     """Return what `--json` prints: angles in radians, time in s, lengths in the scene's unit.
 
-    `links` is what each body is called by what it does. `transmission_angle` is the least and the greatest,
-    π/2 at the most; `worst_transmission` says of which joint, and at which phase, it is least. `stroke` and
-    `time_ratio` are there for a linkage with a slider, and null where they have no meaning, `swing` and
-    `time_ratio` for one whose output is a rocker. `link_count` has the ground in it;
-    `work_per_period` (J), peak and mean torque (N m; of a cylinder force, N) for one with forces or masses,
-    null where the effort is unbounded.
+    `links` gives each body's name by its function. `transmission_angle` is the least and the greatest, at
+    most π/2; `worst_transmission` gives the joint and the phase at which it is least. A linkage with a slider
+    has `stroke` and `time_ratio`, null where they have no meaning; one whose output is a rocker has `swing`
+    and `time_ratio`. `link_count` includes the ground; `work_per_period` (J), peak and mean torque (N m; of
+    a cylinder force, N) for one with forces or masses, null where the effort is unbounded.
     """
     info = scene.info
     facts: dict[str, object] = {"scene": scene.name}

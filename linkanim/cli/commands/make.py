@@ -20,16 +20,16 @@ from linkanim.workshop.files import SHEET, write
 from linkanim.workshop.request import make
 
 _HANDED_ON = ("way", "bar", "hole", "thickness", "clearance", "gap", "kerf", "sheet", "fit", "bridge")
-"""Options that are called alike here and there."""
+"""Options that have the same name here and as keywords of the function."""
 _IN_THE_WINDOW = Path()
-"""What `--preview` is without a picture's name."""
+"""The value of `--preview` without a picture's name."""
 
 
 def run(options: Namespace) -> None:
     """Write the parts, draw their layers, print all numbers, or show the layers in the window.
 
-    BadInput for sizes that make no sense, and for a linkage that cannot be made flat: with `--json` alone the
-    object says so.
+    BadInput for sizes that make no sense, and for a linkage that cannot be made flat; with `--json` alone the
+    printed object says so instead.
     """
     if options.output is None and options.preview is None and not options.json:
         raise BadInput("name a folder for the parts (-o FOLDER), take --preview to see them, or --json")

@@ -17,7 +17,7 @@ from linkanim.units import shown
 
 SUFFIXES = (".html", ".htm")
 _WIDEST = 100
-"""Letters of a line: longer ones are hard to read."""
+"""The most letters of a line: longer lines are hard to read."""
 _FURTHER = 8
 
 
@@ -52,7 +52,7 @@ def _has_screen() -> bool:
 
 
 def _about(words: list[str]) -> str:
-    """Return the chapter of that name, or else the section that says most of it, and others."""
+    """Return the chapter of that name, or else the section that has most on it, and a list of others."""
     width = min(shutil.get_terminal_size().columns, _WIDEST)
     name = " ".join(words).casefold()
     titles = {one.chapter: one.title for one in manual.sections()}

@@ -24,15 +24,15 @@ from linkanim.units import significant
 
 _UNIT = "mm"
 _POOR = 5.0
-"""Percent of the curve's size, beyond which an answer hardly follows it."""
+"""The deviation, in percent of the curve's size, above which a remark says that the best answer is poor."""
 _SAME_ANGLE = 1e-6
 _HANDED_ON = ("kind", "count", "box", "largest", "least_angle", "prefer", "cognates")
-"""Options that are called alike here and there."""
+"""Options that have the same name here and as keywords of the function."""
 _TITLES = (f"rms {_UNIT}", "%", f"largest {_UNIT}", "%", "transmission", "longest link", "class")
 
 
 def run(options: Namespace) -> None:
-    """Find the linkages, write their files, and print the table or JSON; what is worth a remark on stderr."""
+    """Find the linkages, write their files, and print the table or JSON; print remarks on stderr."""
     curve = read_curve(options.curve)
     target = target_of(options.output, f"{options.curve.stem}.toml")
     front = None if options.front is None else checked_target(options.front, (".csv",), [options.curve])
@@ -76,7 +76,7 @@ def _cells(fit: Fit) -> tuple[str, ...]:
 
 
 def _object(fit: Fit) -> dict[str, object]:
-    """Return what `--json` prints of an answer; see DESIGN's contract for its keys."""
+    """Return what `--json` prints of an answer."""
     found: dict[str, object] = {
         "rms": fit.rms,
         "largest": fit.largest,
@@ -101,7 +101,7 @@ _SHARES = ("rms_percent", "largest_percent", "size", "room")
 
 
 def _table(front: Sequence[Fit]) -> str:
-    """Return a front as a table: figures as `--json` has them, the angle in degrees, then parameters."""
+    """Return a front as CSV: figures as `--json` has them, the angle in degrees, then parameters."""
     rows = [_object(fit) for fit in front]
     shares = {name: [row[name] for row in rows] for name in _SHARES}
     angles = [math.degrees(fit.transmission_angle) for fit in front]
@@ -112,7 +112,7 @@ def _table(front: Sequence[Fit]) -> str:
 
 
 def _remark(fits: Sequence[Fit], *, cognates: bool) -> None:
-    """Say on stderr where nothing follows it well, what rounding costs, and which cognates are left out."""
+    """Say on stderr if no answer follows well, what rounding costs, and how many cognates are left out."""
     best = fits[0]
     if _percent(best.rms, best) > _POOR:
         found = significant(_percent(best.rms, best), 3)

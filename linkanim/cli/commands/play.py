@@ -40,7 +40,7 @@ def _count(options: Namespace) -> None:
 
 
 def _refuse_foreign(path: Path) -> None:
-    """Raise BadInput for a file that is there and holds no scores that we read: it is not ours to replace."""
+    """Raise BadInput for an existing file without scores that we can read: it is not ours to replace."""
     from linkanim.play.scores import load
 
     try:

@@ -11,7 +11,7 @@ from linkanim.units import significant
 
 _TITLES = ("place", "ratio", "output", "transmission", "lengths", "class")
 _HANDED_ON = ("ratio", "stroke", "swing", "kind", "place", "count")
-"""Options that are called alike here and there."""
+"""Options that have the same name here and as keywords of the function."""
 
 
 def run(options: Namespace) -> None:

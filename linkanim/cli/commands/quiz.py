@@ -1,4 +1,4 @@
-"""`linkanim quiz`: questions about a scene or a chapter, made from what is solved, with their key."""
+"""`linkanim quiz`: questions about a scene or a chapter, made from solved values, with their key."""
 
 from __future__ import annotations
 
@@ -41,14 +41,14 @@ OUTPUTS: Mapping[str, tuple[tuple[str, ...], Printer]] = {
     "moodle": ((".xml",), _moodle),
     "qti": ((".zip",), _qti),
 }
-"""What a round is written as, by its option: the endings of its file, and what makes the file's bytes."""
+"""The files of a round, by option: the endings of a file's name, and the function that makes its bytes."""
 
 
 def run(options: Namespace) -> None:
     """Print the round, or write it as the files that are asked for and print their paths.
 
-    `BadInput` for an output that cannot be, and for no questions or too many of so large scenes, before any
-    is made.
+    `BadInput`, before any question is made, for an output that cannot be written, and for no questions or
+    more than the scenes' joints allow.
     """
     targets: list[tuple[Path, Printer]] = []
     for name, (suffixes, printer) in OUTPUTS.items():
@@ -74,7 +74,7 @@ def run(options: Namespace) -> None:
 
 
 def _by_chapter(asked: Sequence[QuizQuestion], title: str) -> Rounds:
-    """Return questions by the chapter of their scene; those of a scene of one's own by its title."""
+    """Return questions by the chapter of their scene; for a scene outside the catalogue, by its title."""
     found: dict[str, list[QuizQuestion]] = {}
     for question in asked:
         chapter = chapter_of(question.scene.name)
@@ -83,7 +83,7 @@ def _by_chapter(asked: Sequence[QuizQuestion], title: str) -> Rounds:
 
 
 def _refuse_many(scenes: Sequence[Scene], count: int) -> None:
-    """Refuse more questions than can be made, and drawn, of scenes of so many joints."""
+    """Refuse more questions than can be made, and drawn, for scenes with their number of joints."""
     joints = sum(len(scene.linkage.joints) for scene in scenes) / len(scenes)
     if count * joints**2 > MOST_ASKED:
         most = max(int(MOST_ASKED / joints**2), 1)
@@ -94,7 +94,7 @@ def _refuse_many(scenes: Sequence[Scene], count: int) -> None:
 
 
 def _scenes(name: str) -> tuple[tuple[Scene, ...], str]:
-    """Return the scenes of a chapter, named as `linkanim scenes` does or with dashes, all, or one scene."""
+    """Return the scenes of a chapter (with spaces or dashes in its name), all, or one scene; and a title."""
     if name == ALL:
         return tuple(map(load, names())), "All mechanisms"
     by_name = {chapter.replace(" ", "-"): names for chapter, names in chapters().items()}

@@ -24,11 +24,11 @@ from linkanim.scenes import load
 from linkanim.scenes.scene import Scene
 
 _OF_A_SCENE = ("speed", "periods", "seconds", "reverse", "noted", "construction")
-"""Options that a tape has its own answer to, beside those of the look."""
+"""Options for which a tape has its own values, beside those of the look."""
 
 
 def run(options: Namespace) -> None:
-    """Record what was asked; print the file's path on stdout, and what it holds on stderr."""
+    """Record what was asked; print the file's path on stdout, and a summary on stderr."""
     preset = PRESETS.get(options.preset, DEFAULT)
     is_tape = options.scene.lower().endswith(".json")
     usual = f"{_stem(options.scene)}{preset.suffix}"
@@ -76,7 +76,7 @@ def _of_scene(options: Namespace, target: Path) -> Callable[..., Recording]:
 
 
 def _construction(scene: Scene, options: Namespace) -> dict[str, object]:
-    """Return what of a construction is recorded; `BadInput` for options of a motion."""
+    """Return the arguments of `record` for a construction; `BadInput` for options of a motion."""
     from linkanim.picture.constructed import clear_phase, usual_kind
 
     for name in ("periods", "seconds", "reverse"):
@@ -89,31 +89,31 @@ def _construction(scene: Scene, options: Namespace) -> dict[str, object]:
 
 
 def _of_tape(options: Namespace) -> Callable[..., Recording]:
-    """Return what records a tape; `BadInput` for an option that the tape has its own answer to."""
+    """Return the function that records a tape; `BadInput` for an option that the tape itself settles."""
     usual = parse(["record", options.scene])
     for name in (*_OF_A_SCENE, *TOGGLES):
         found = getattr(options, name, None)
         if found != getattr(usual, name, None):
             word = _word(name, found)
             raise BadInput(f"{word} is for a scene; a tape keeps its own (--size, --fps and --for are free)")
-    # With it come the player, building and the games, which a scene without a tape does not need.
+    # It imports the player, building and the games, which a scene without a tape does not need.
     from linkanim.recorder.tape_frames import record_tape
 
     return partial(record_tape, options.scene, photo=options.photo)
 
 
 def _word(name: str, found: object) -> str:
-    """Return the option that is behind a value."""
+    """Return the option that gives a field this value."""
     options = TOGGLES[name].options if name in TOGGLES else ()
     option = next((option.name for option in options if option.step in (None, found)), name)
     return f"--no-{option}" if found is False and option == name else f"--{option}"
 
 
 def record_all(words: list[str]) -> int:
-    """Record TAPE TARGET SIZE TAPE TARGET SIZE ... in turn, what a window that closes leaves to be done.
+    """Record TAPE TARGET SIZE TAPE TARGET SIZE ... in turn, the recordings that a closing window leaves.
 
-    An empty size is that of the tape. A tape that cannot be recorded does not keep the others from it; a
-    signal does. Returns the last code.
+    An empty size is that of the tape. A tape that cannot be recorded does not stop the others; a signal does.
+    Returns the last exit code.
     """
     code = DONE
     for tape, target, size in zip(words[::3], words[1::3], words[2::3], strict=True):

@@ -1,4 +1,4 @@
-"""`linkanim report`: a folder with a page that shows a scene whole, its pictures and its tables."""
+"""`linkanim report`: a folder with a page on a scene, its pictures and its tables."""
 
 from __future__ import annotations
 
@@ -24,9 +24,9 @@ _OURS = r"report\.html|figure\.svg|loops\.svg|chart-\d{3,}-[\w.-]+\.svg|quantiti
 def run(options: Namespace) -> None:
     """Write the report, and print the path of its page.
 
-    What else the folder holds stays, and of an older report there only what we wrote is replaced.
-    `BadInput` where the folder is a file, or one of our names in it is taken; `OutOfRange` for an angle that
-    the input does not come to.
+    Other files in the folder stay; of an older report only what we wrote is replaced. `BadInput` where the
+    folder is a file, or one of our names in it is taken; `OutOfRange` for an angle that the input does not
+    reach.
     """
     target: Path = options.output
     files = FileSet(target, "report", _OURS)
@@ -45,7 +45,7 @@ def run(options: Namespace) -> None:
 
 
 def _paces(scene: Scene, options: Namespace) -> tuple[Pace, ...]:
-    """Return the speeds, with the input's acceleration; BadInput where that is not the phase's."""
+    """Return the speeds, with the input's acceleration; BadInput for one of an input that swings."""
     second = options.acceleration
     if second and not scene.info.full_turn:
         raise BadInput(f"--acceleration goes with an input that turns fully; that of {scene.name} swings")

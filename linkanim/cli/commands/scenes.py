@@ -12,9 +12,9 @@ from linkanim.units import shown
 
 
 def run(options: Namespace) -> None:
-    """Print each built-in scene's name and title under its chapter, or those that a word is told of.
+    """Print each built-in scene's name and title under its chapter, or only those that have a word.
 
-    Reads the titles only; scenes are solved where a word is looked for, since their classes are then needed.
+    Only titles are read; for a word the scenes are solved, as their classes are then needed.
     """
     found, width = _found(options.word), max(map(len, names()))
     for chapter, members in chapters().items():
@@ -23,7 +23,7 @@ def run(options: Namespace) -> None:
 
 
 def _found(word: str | None) -> Mapping[str, str]:
-    """Return the titles by name of the scenes that a word is told of; all without one."""
+    """Return titles by name of scenes whose name, title, chapter or class has the word; all without one."""
     every = titles()
     if word is None:
         return every

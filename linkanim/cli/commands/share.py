@@ -22,8 +22,8 @@ SUFFIXES = (".html", ".htm")
 def run(options: Namespace) -> None:
     """Write the page or pages that were asked for, and print the path to open.
 
-    `BadInput` before anything is written for an output that cannot be, a quantity that the scene has not,
-    and a scene beside `--all`.
+    `BadInput`, before anything is written, for an output that cannot be written, a quantity that the scene
+    does not have, and a scene, an output or a chart beside `--all`.
     """
     print(_site(options) if options.all else _page(options))
 
@@ -51,6 +51,6 @@ def _site(options: Namespace) -> Path:
 
 def _shared(options: Namespace, scene: str) -> Shared:
     shown = in_unit(load(scene), options.unit)
-    # whoever opens a page of a whole site asks for nothing: it names its joints and links
+    # pages of a site show the names of joints and links, as their readers cannot ask for these
     names = max(options.names, 1) if options.all else options.names
     return Shared(shown, options.speed, options.theme, options.chart, names)

@@ -1,7 +1,7 @@
 """`linkanim solve`: the motion at an angle or a phase, or over a sweep of them.
 
-All that is known at each solved angle is one tree, which JSON, CSV and the tables read. For people it is
-printed as aligned columns, with angles in degrees and seven digits.
+The results at all solved angles are one tree, which JSON, CSV and the tables read. For people it is printed
+as aligned columns, with angles in degrees and seven digits.
 """
 
 from __future__ import annotations
@@ -44,27 +44,27 @@ from linkanim.scenes import load
 from linkanim.scenes.scene import Scene
 from linkanim.units import significant
 
-# Everything that is known at each solved angle, as one tree that JSON, CSV and the tables read.
+# The results at all solved angles, as one tree that JSON, CSV and the tables read.
 #
 # The tree is that of `solve --json`; its leaves are arrays (N,), a value for each angle. The rows of a sweep
-# are solved a block at a time: a long one takes no more memory than a short one.
+# are solved a block at a time: a long sweep takes no more memory than a short one.
 
 Leaf = NDArray[np.float64]
 Tree = dict[str, Any]
 BLOCK = 4096
 _WHOLE = 2**53
-"""Below this every whole number is a float."""
+"""Every whole number up to this is exactly a float."""
 
 
 def input_key(scene: Scene) -> str:
-    """Return under which key the tree has the input: its angle, or the travel of a slider that drives."""
+    """Return the key of the input in the tree: its angle, or the travel of a slider that drives."""
     return scene.linkage.drive.coordinate.name
 
 
 def tree(scene: Scene, motion: Motion) -> Tree:
     """Return every quantity of N poses under its path, in the scene's unit, radians and seconds."""
     for known in (motion, motion.per_input):
-        _ = known.every  # one program for all that is read below, where each kind would take its own
+        _ = known.every  # computes all kinds together, which else would each take a computation of their own
     found: Tree = {"joints": {}, "bodies": {}, "springs": {}, "dampers": {}}
     for quantity in recorded(scene.linkage):
         _put(found, quantity.path, _leaf(quantity.read(motion), motion))
@@ -72,7 +72,7 @@ def tree(scene: Scene, motion: Motion) -> Tree:
 
 
 def _put(found: Any, path: Path, leaf: Leaf) -> None:
-    """Put a leaf where a path leads, through tables and lists that are made on the way."""
+    """Put a leaf at the end of a path, through tables and lists that are made where they are missing."""
     key, *rest = path
     if isinstance(key, int):
         found.append(leaf)
@@ -83,14 +83,14 @@ def _put(found: Any, path: Path, leaf: Leaf) -> None:
 
 
 def _leaf(found: Any, motion: Motion) -> Leaf:
-    """Return what was found at every instant, NaN for what is not known (None)."""
+    """Return a value at every instant (N,), NaN for one that is not known (None)."""
     return np.broadcast_to(np.asarray(np.nan if found is None else found, np.float64), np.shape(motion.phase))
 
 
 def leaves(node: Any, name: str = "") -> Iterator[tuple[str, Any]]:
-    """Yield ("joints.B.position.x", leaf), ...: the keys on the way joined by dots.
+    """Yield ("joints.B.position.x", leaf), ...: the keys of the path joined by dots.
 
-    A pair is told apart by x and y, coefficients by 1 (the first derivative) and 2.
+    The parts of a pair are called x and y, coefficients 1 (the first derivative) and 2.
     """
     if isinstance(node, list):
         ends = "12" if name.endswith("coefficients") else "xy"
@@ -103,13 +103,13 @@ def leaves(node: Any, name: str = "") -> Iterator[tuple[str, Any]]:
 
 
 def rows(node: Tree) -> Iterator[Tree]:
-    """Yield the tree of each row, its leaves plain floats; what is no array is every row's."""
+    """Yield the tree of each row, its leaves plain floats; a leaf that is no array is in every row."""
     columns = mapped(lambda leaf: iter(leaf.tolist()) if isinstance(leaf, np.ndarray) else repeat(leaf), node)
     yield from (mapped(next, columns) for _ in node["phase"])
 
 
 class RowBlock(NamedTuple):
-    """Neighbouring rows: the inputs in degrees, and what is known at each; leaves are arrays (N,)."""
+    """Neighbouring rows: the inputs in degrees, and the tree of results; leaves are arrays (N,)."""
 
     degrees: Leaf
     found: Tree
@@ -126,7 +126,7 @@ class Steps:
 
     @staticmethod
     def of(first: Decimal, step: Decimal, rows: int) -> Steps:
-        """Return a sweep's decimals in whole numbers of their last digit."""
+        """Return a sweep of decimals, in whole numbers of their smallest common unit."""
         scale = math.lcm(Fraction(first).denominator, Fraction(step).denominator)
         return Steps(int(Fraction(first) * scale), int(Fraction(step) * scale), scale, rows)
 
@@ -151,7 +151,7 @@ def blocks(
 ) -> Iterator[RowBlock]:
     """Yield a sweep's rows; `by` is "angle" or "phase", which runs at `speed` from time 0 in the first row.
 
-    Bodies' angles run on from block to block, which share a row for it.
+    Bodies' angles are continuous from block to block, for which neighbouring blocks share a row.
     """
     start, last = steps.radians(0, 1)[0], None
     for row in range(0, steps.rows, BLOCK):
@@ -166,7 +166,7 @@ def blocks(
 
 
 def _continued(found: Tree, last: Tree | None) -> Tree:
-    """Return rows whose angles and directions go on from the row before, which is their first."""
+    """Return rows with angles and directions continuous with the row before, which is their first row."""
     if last is None:
         return found
     for part, name, key in _continued_keys(found):
@@ -177,7 +177,7 @@ def _continued(found: Tree, last: Tree | None) -> Tree:
 
 
 def _continued_keys(found: Tree) -> Iterator[tuple[str, str, str]]:
-    """Yield where angles stand that run on: of bodies, and the directions of springs and dampers."""
+    """Yield the places of continuous angles: those of bodies, and the directions of springs and dampers."""
     for part, key in (("bodies", "angle"), ("springs", "direction"), ("dampers", "direction")):
         yield from ((part, name, key) for name, known in found[part].items() if key in known)
 
@@ -190,7 +190,7 @@ def _without(found: Tree, rows: int) -> Tree:
 
 
 def of_pose(scene: Scene, found: Iterator[Tree]) -> str:
-    """Return one pose: where it is, then a table each for joints, bodies, sliders, springs and dampers."""
+    """Return one pose as text: the input, then tables of joints, bodies, sliders, springs and dampers."""
     pose = next(found)
     where = (
         f"{scene.name}: {scene.title}\n"
@@ -234,7 +234,7 @@ def _tables(scene: Scene, pose: Tree) -> Iterator[list[list[str]]]:
 
 
 def _whole(linkage: Linkage, unit: str, pose: Tree) -> Iterator[list[str]]:
-    """Yield what is known of the linkage as a whole: words with the unit, and the value."""
+    """Yield the quantities of the whole linkage: words with the unit, and the value."""
     for quantity in recorded(linkage):
         if quantity.path == tuple(quantity.token.split(".")):
             value: Any = pose
@@ -310,7 +310,7 @@ def _degrees(value: float) -> str:
 # `linkanim solve`: the motion at an angle or a phase, or over a sweep of them.
 
 _NUMBER = "\0"
-"""Stands for a number in the text that the rows share: no name holds it."""
+"""Stands for a number in the text that the rows share: no name contains it."""
 
 
 @frozen
@@ -373,7 +373,7 @@ def _inputs(options: Namespace) -> Inputs:
 
 
 def _refuse_many(scene: Scene, rows: int, *, shown: bool) -> None:
-    """Refuse a sweep of more numbers than are written, or shown to be read."""
+    """Refuse a sweep of more numbers than can be written, or printed as a table."""
     numbers = rows * sum(1 for _ in leaves(tree(scene, scene.cycle(1))))
     most, way_out = (
         (MOST_NUMBERS_READ, "write them with --csv or --json, or take a longer step")
@@ -388,7 +388,7 @@ def _refuse_many(scene: Scene, rows: int, *, shown: bool) -> None:
 
 
 def _blocks(scene: Scene, inputs: Inputs, speed: float, acceleration: float) -> Iterator[RowBlock]:
-    """Yield what was asked for, row by row in blocks; `OutOfRange` where one angle cannot be reached."""
+    """Yield the rows in blocks; `OutOfRange` for a single angle that cannot be reached."""
 
     def solve(values: Leaf) -> Motion:
         return scene.solve(**{inputs.by: values}, speed=speed, acceleration=acceleration)  # type: ignore[arg-type]
@@ -405,7 +405,7 @@ def _blocks(scene: Scene, inputs: Inputs, speed: float, acceleration: float) -> 
 
 
 def phase_at(scene: Scene, angle: float) -> float:
-    """Return the phase at an angle (rad) of the input; OutOfRange where it does not come there."""
+    """Return the phase (rad) at an angle (rad) of the input; OutOfRange where it does not reach that."""
     phase = float(scene.solve(angle=angle, derivatives=0).phase)
     if math.isnan(phase):
         raise _out_of_range(scene, angle)
@@ -442,7 +442,7 @@ def _objects(block: Tree) -> Iterator[str]:
 
 
 def _write_csv(target: FilePath | None, by: str, found: Iterator[RowBlock]) -> None:
-    """Write the input in degrees and then every quantity; what is not known is an empty cell."""
+    """Write the input in degrees and then every quantity; an unknown value is an empty cell."""
     with ExitStack() as stack:
         file: TextIO = sys.stdout
         if target is not None:
