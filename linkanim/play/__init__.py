@@ -25,11 +25,11 @@ a
 
 From the ground up; a module imports from those before it only:
 
-    games      a game's words, the table of games, and what they share
+    games      a game's words, the table of games, and what games share
     question   a question about a linkage at a pose
     kinds      the one table of kinds of questions
     quiz       rounds of questions, printed with their key
-    platforms  rounds of questions as learning platforms take them
+    platforms  rounds of questions in the formats of learning platforms
     menus      the title, the games, the rounds to choose from
     predict    a question, then the motion shows the answer
     follow     a ram is kept between two lines

@@ -1,4 +1,4 @@
-"""Read a game from its words, and give games what they share: words, chapters, levels, choosing a row.
+"""Read a game from its words; and what games share: words, chapters, levels, choosing a row.
 
 A game's words are its kind and its parameters, as `predict chapter=four-bars level=2 seed=7`. A game's
 module is imported when it is first played.
@@ -90,7 +90,7 @@ GAMES = {
     kind: f"linkanim.play.{_MODULES.get(kind, kind)}"
     for kind in ("title", "lobby", "menu", "predict", "follow", "match")
 }
-"""Where each kind lives, imported when it is first played: a module with `read(words)`."""
+"""The module of each kind, imported when it is first played; it has `read(words)`."""
 
 LEVELS = (1, 2, 3)
 """The levels of rounds of questions."""

@@ -1,8 +1,7 @@
 """List the kinds of questions: each made from what is solved, its wrong answers from known misconceptions.
 
-`KINDS` is the one table: what makes a question of each kind, and the levels that ask it. Above it stand the
-kinds: what speeds up and by what, how a linkage was made, what moves which way and how fast, how far things
-go.
+`KINDS` is the one table: the function that makes a question of each kind, and the levels that ask it. Above
+it stand these functions: on acceleration, on how a linkage was made, on directions and speeds, on ranges.
 """
 
 from __future__ import annotations
@@ -683,7 +682,7 @@ def _rate_of(body: Body) -> str:
 def _turning_back(puzzle: Puzzle, body: Body) -> dict[float, float]:
     """Return the crank angles at which a body turns back, in degrees, each with its phase.
 
-    None where the input does not turn fully, or does so more than once before all is back.
+    It is empty where the input does not turn fully, or turns more than once in a true period.
     """
     scene, samples = puzzle.scene, len(puzzle.cycle.phase)
     if not scene.info.full_turn or scene.period > tau * 1.001:
@@ -853,7 +852,7 @@ def _listed(bar: FourBar) -> str:
 
 
 def grashof_sum(puzzle: Puzzle) -> QuizQuestion | None:
-    """Ask which link stands in the wrong one of Grashof's sums; wrong answers stand in their own."""
+    """Ask which link is in the wrong one of Grashof's sums; the wrong answers are links in the right one."""
     bar = four_bar_of(puzzle.scene.mechanism)
     if bar is None:
         return None

@@ -32,7 +32,7 @@ from linkanim.player.state import State, with_effect, with_toast
 from linkanim.scenes import chapters, load, names
 from linkanim.units import shown
 
-# What there is to play: rounds by chapter and level, with the best scores.
+# The choice of a round by chapter and level, with the best scores.
 
 _ABOUT = {
     1: "which way, how fast, how far",
@@ -117,7 +117,7 @@ def _scored(text: str) -> tuple[str, int]:
     return name, int(score)
 
 
-# What there is to play: the games, of which one is chosen.
+# The choice of a game.
 
 OFFERS = (
     Door("menu", "Predict", "say what a linkage does before it moves"),

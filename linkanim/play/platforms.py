@@ -1,4 +1,4 @@
-"""Rounds of questions as learning platforms take them: Moodle XML, and packages of QTI 1.2.
+"""Rounds of questions in the formats of learning platforms: Moodle XML, and packages of QTI 1.2.
 
 Every question is a choice of one answer, and brings its figure with it. The feedback of a wrong answer is the
 misconception that it comes from; that of the question is the reason. Formats: "Moodle XML format" in Moodle's
@@ -72,7 +72,7 @@ class _Posed(NamedTuple):
         return self.question.answers
 
     def text(self, source: Callable[[_Picture], str]) -> str:
-        """Return where the input is, the figure and the question, as HTML."""
+        """Return the question, the figure and where the input is, as HTML."""
         words = escape(pose_words(self.question))
         return f"<p>{escape(self.question.text)}</p><p>{_image(self.figure, source)}</p><p>{words}</p>"
 

@@ -29,7 +29,7 @@ COUNT = 10
 POINTS, BONUS, STREAK, SECOND = 100, 50, 10, 40
 """The points of a right answer, the most for its speed, for each right one before, for a repeated one."""
 QUICK = 20 * FRAMES_PER_SECOND
-"""Within this time an answer earns a part of the bonus."""
+"""The frames within which an answer earns a part of the bonus."""
 TRIES = 3
 """The most questions of a missed kind that come again, until one of them is answered right."""
 _SCENES = 4

@@ -122,7 +122,7 @@ class Puzzle:
 
     @cached_property
     def figure(self) -> Figure:
-        """What is drawn of the scene."""
+        """The scene's figure."""
         return figure(self.scene)
 
     @property

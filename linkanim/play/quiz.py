@@ -111,7 +111,7 @@ def _made(kind: str, scene: Scene, phase: float) -> QuizQuestion | None:
 # A round of questions as a sheet to be printed, with its key on a page of its own.
 
 _CURVE = (160, 34)
-"""The size of a curve on a sheet."""
+"""The size of a curve on a sheet, in pixels."""
 _SHARPER = 3
 """A curve as a PNG has this many pixels for each of that size."""
 _INK, _AXIS = (27, 31, 35), (140, 149, 159)
