@@ -15,7 +15,7 @@ _HOME = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))  # noqa: PTH
 
 
 def shut_out_current_folder() -> None:
-    """Take the current folder off the search for modules; it comes last where linkanim itself lies in it."""
+    """Take the current folder off the search for modules and programs; it comes last if linkanim is in it."""
     sys.path[:] = _places()
     # Windows looks for a program in the current folder first
     os.environ.setdefault("NoDefaultCurrentDirectoryInExePath", "1")

@@ -85,7 +85,7 @@ class Intake:
             raise self.refusal(f"{where}: is not UTF-8 text (line {line}); save it as UTF-8") from None
 
     def json(self, path: Path, where: str, otherwise: str) -> Any:
-        """Return what a file of JSON holds; any other, or one with a NaN, is refused because `otherwise`."""
+        """Return the content of a JSON file; any other, or one with a NaN, is refused with `otherwise`."""
         return self.parsed(self.read(path, where), where, otherwise)
 
     def parsed(self, text: str, where: str, otherwise: str) -> Any:
@@ -101,7 +101,7 @@ class Intake:
     def marked(self, document: object, where: str, mark: str, version: int, otherwise: str) -> dict[str, Any]:
         """Return a document of ours, which has its version under the key `mark`.
 
-        OtherVersion for another version; a document without the key is refused because `otherwise`.
+        OtherVersion for another version; a document without the key is refused with the reason `otherwise`.
         """
         if not isinstance(document, dict) or mark not in document:
             raise self.refusal(f"{where}: {otherwise}")
