@@ -195,7 +195,6 @@ def test_the_other_closure_and_the_way_back(page: Page, tmp_path: Path) -> None:
     assert isclose(page.value("Number(document.querySelector('#sliders input').value)"), found["values"][0])
 
 
-@pytest.mark.slow
 # of two ranges the page takes the one above the ground line, wherever that leads
 @pytest.mark.parametrize("angle", [0.0, 30.0, -110.0])
 def test_a_page_s_ground_line_is_the_scene_s(angle: float) -> None:
@@ -206,6 +205,7 @@ def test_a_page_s_ground_line_is_the_scene_s(angle: float) -> None:
     assert degrees(found["level"]) == pytest.approx(angle, abs=1e-9)
 
 
+@pytest.mark.slow
 def test_only_what_the_solver_knows_has_sliders() -> None:
     known = {name for name in names() if model(load(name))}
     assert {"crank-rocker", "slider-crank", "jansen", "stephenson-3"} <= known
