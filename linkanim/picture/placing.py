@@ -470,13 +470,11 @@ def _covering(label: LabelPlaces, clutter: Clutter, forbidden: _Bools) -> _Float
     for solids in _some(places, clutter, near & minor):
         cost += _BESIDE * touching(places, size, solids).sum(axis=2)
     for solids in _some(places, clutter, near & ~minor):
-        # a label too large for its room has no place at all
-        open_ = np.ix_(~forbidden.all(axis=1), ~forbidden.all(axis=0))
-        if open_[0].size:
-            left = Solids(
-                solids.corners[open_[0][:, 0]] if len(solids.corners) > 1 else solids.corners, solids.half
-            )
-            forbidden[open_] |= touching(places[open_], size, left, forbidden[open_]).any(axis=2)
+        poses, around = ~forbidden.all(axis=1), ~forbidden.all(axis=0)
+        if poses.any():  # a label too large for its room has no place at all
+            there = solids._replace(corners=solids.corners[poses]) if len(solids.corners) > 1 else solids
+            left = np.ix_(poses, around)
+            forbidden[left] |= touching(places[left], size, there, forbidden[left]).any(axis=2)
     return cost
 
 
