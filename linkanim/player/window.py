@@ -441,9 +441,12 @@ class Window:
 
     def _led_joint(self) -> Pointed | None:
         """Return the joint in the hand, whose card of words is shown."""
-        grasp, places = self.state.grasp, self.state.displayed.pose(self.state.phase, 0).position
-        led = grasp and self._good and grasp.joint in places
-        return Pointed(places[grasp.joint], PointedThing("joint", grasp.joint)) if grasp and led else None
+        grasp = self.state.grasp
+        if grasp is None or self._good is None:
+            return None
+        places = self.state.displayed.pose(self.state.phase, 0).position
+        led = grasp.joint in places
+        return Pointed(places[grasp.joint], PointedThing("joint", grasp.joint)) if led else None
 
     @property
     def _has_stepped(self) -> bool:
