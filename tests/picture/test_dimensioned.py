@@ -154,7 +154,9 @@ def wrong(picture: Picture, pose: Pose) -> Iterator[str]:
                     yield f"{stated} ends elsewhere"
         else:
             middle = complex(box.x + box.width / 2, box.y + box.height / 2)
-            if not 0.4 < ((middle - begin) * along.conjugate()).real / length < 0.6:
+            off = abs(((middle - begin) * along.conjugate()).real / length - 0.5)
+            # over the ground, which no bar fills, much may pass: its middle third is near enough
+            if off >= (0.1 if one.own else 0.2):
                 yield f"{stated} is not by the middle of its bar"
 
 

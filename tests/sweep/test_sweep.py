@@ -126,6 +126,48 @@ FOUND = {
             "S2": {"from": "S1", "length": 10, "line": {"through": "O2", "offset": -130}},
         },
     },
+    # What limits a swing keeps away from its limits where the loop before it folds over at a change point.
+    "a slider behind a rhombus that folds over": {
+        "drive": {"start": "180 deg"},
+        "four-bar": {
+            "ground": 30,
+            "crank": 30,
+            "coupler": 30,
+            "rocker": 30,
+            "assembly": "open",
+            "coupler_point": [-130, 105],
+            "driver": "rocker",
+        },
+        "joints": {
+            "S1": {
+                "from": "P",
+                "length": 85,
+                "line": {"through": "O4", "angle": "-30 deg"},
+                "side": "backward",
+            }
+        },
+    },
+    "a second loop behind one that folds over": {
+        "drive": {"start": "0 deg"},
+        "six-bar": {
+            "lengths": [1.9, 3.1, 5.9, 4.7, 5.1, 3.3, 5.2, 1.0],
+            "link_angle": "180 deg",
+            "assembly": "open",
+            "assembly2": "crossed",
+        },
+    },
+    "a slot behind a loop that folds over": {
+        "drive": {"start": "0 deg"},
+        "four-bar": {"ground": 1, "crank": 2, "coupler": 6, "rocker": 7, "ground_angle": "90 deg"},
+        "ground": {"G1": {"length": 4, "angle": "180 deg"}},
+        "joints": {"E1": {"slot": {"pivot": "G1", "through": "B", "offset": 9}, "length": 7}},
+    },
+    "a dyad behind a rod as long as its crank": {
+        "drive": {"start": "200 deg"},
+        "slider-crank": {"crank": 130, "rod": 130, "line_angle": "45 deg", "assembly": "backward"},
+        "ground": {"G1": [-95, 15]},
+        "joints": {"D1": {"from": ["B", "G1"], "length": [105, 105], "side": "right"}},
+    },
 }
 
 

@@ -867,13 +867,18 @@ def _smooth_paths(swing: Swing) -> Iterator[Swing]:
 
 
 def _runs_through(assembly: Assembly, found: Separations) -> bool:
-    """Tell whether every dyad closes all the way, and those that limit the input do so at each visit."""
+    """Tell whether every dyad closes all the way, and those that limit the input do so at each visit.
+
+    One that keeps away from its limits, as `found` has it, limits nothing on this path.
+    """
     path = assembly.path
     visits = np.arange(path.periods, dtype=np.float64) * (2 * math.pi)
+    limiting = ((name, places) for name, places in zip(path.ends, (visits, visits + math.pi), strict=False))
     return found.closes and all(
-        bool((np.abs(found.margins(places)[found.names.index(name)]) <= USED_UP).all())
-        for name, places in zip(path.ends, (visits, visits + math.pi), strict=False)
-        if name in found.names
+        name in found.names
+        and bool((np.abs(found.margins(places)[found.names.index(name)]) <= USED_UP).all())
+        for name, places in limiting
+        if name and name not in assembly.loops
     )
 
 
