@@ -84,8 +84,10 @@ def touched(picture: Picture, pose: Pose) -> Iterator[str]:
         name: _points([loop for layer in groups[name] for loop in layer.loops])
         for name in ("ground", "input")
     }
+    # a fixed pin's letter shows at all times: the smallest window may have no free place for it
+    forced = {id(label) for label, _ in boxes if label.always and picture.size == SIZES[1]}
     for (one, first), (other, second) in combinations(boxes, 2):
-        if first.meets(second):
+        if first.meets(second) and not forced & {id(one), id(other)}:
             yield f"{one.text} on {other.text}"
     pins = {name: picture.drawing.places(pose)[name] for name in picture.figure.pins}
     drawn = [body for body in picture.figure.bodies if body.name and f"body-{body.name}" in groups]
@@ -101,7 +103,7 @@ def touched(picture: Picture, pose: Pose) -> Iterator[str]:
                 yield f"{label.text} on {what}"
         for name, pin in pins.items():
             near = complex(min(max(pin.real, box.x), box.right), min(max(pin.imag, box.y), box.bottom))
-            if abs(near - pin) < picture.fit.arrangement.gauge.pin:
+            if abs(near - pin) < picture.fit.arrangement.gauge.pin and id(label) not in forced:
                 yield f"{label.text} on pin {name}"
         own = _own_joints(picture, label)
         for body, points in bodies.items():
