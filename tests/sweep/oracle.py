@@ -32,7 +32,7 @@ from typed_linkages import Document
 from linkanim import child
 from linkanim.player import beside
 
-ALWAYS = ("checked", "solved", "swept")
+ALWAYS = ("checked", "solved", "held", "swept")
 SHARES = {
     "charted": 6,
     "classified": 4,

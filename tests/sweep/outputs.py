@@ -17,6 +17,7 @@ from unicodedata import category
 from xml.etree import ElementTree
 from zipfile import ZipFile
 
+import numpy as np
 import pygame
 import tomli_w
 from typed_linkages import Document
@@ -57,6 +58,8 @@ WAYS: tuple[tuple[str, ...], ...] = (
 )
 CONSTRUCTIONS = ("", "centres", "dead-centres", "synthesis", "centres:1", "dead-centres:2", "99")
 FORMS = ("html", "tex", "md")
+_PHASES, _HELD = 48, 1e-9
+"""Phases of a drive period at which bars are looked at, and by what share of the size they may be off."""
 BOUND = re.compile(r"(is|are) the (most|least)|at the most|(figure|report) holds")
 """What says that something is more than is made, before work begins."""
 NOT_OF_ALL = re.compile(
@@ -152,6 +155,19 @@ def checked(case: Case) -> None:
 def solved(case: Case) -> None:
     phase = f"{case.rng.uniform(-9, 9)} rad"
     json.loads(case.command("solve", str(case.path), "--phase", phase, "--json") or "")
+
+
+def held(case: Case) -> None:
+    """Look whether every bar keeps its length over the true period: from the joints' places alone."""
+    scene = load(str(case.path))
+    places = scene.cycle(_PHASES * scene.mechanism.periods, derivatives=0).position
+    size = max(float(np.abs(place).max()) for place in places.values())
+    for joint in scene.linkage.joints:
+        for start, length in joint.bars:
+            away = np.hypot(*(places[joint.name] - places[start]).T)
+            miss = float(np.abs(away - abs(length)).max())
+            if not miss <= _HELD * size:
+                raise Failure(f"bar {start}-{joint.name} is off by {miss / size:.1e} of the size")
 
 
 def classified(case: Case) -> None:
@@ -527,6 +543,7 @@ OUTPUTS: Mapping[str, Output] = {
     for output in (
         checked,
         solved,
+        held,
         swept,
         printed_rows,
         classified,
