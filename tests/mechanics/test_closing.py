@@ -80,6 +80,16 @@ def test_linkages_that_just_miss_closing_are_limited_and_those_that_just_close_t
         close(number)
 
 
+def test_next_to_one_of_two_dips_that_are_as_low_rates_are_those_beside_it() -> None:
+    # Both lie in a stretch that one fit would do for; within 1e-8 rad of the other its root was 0.
+    close(19_905)
+
+
+def test_a_swing_past_too_many_change_points_is_refused_and_not_cut_a_little() -> None:
+    with pytest.raises(AssemblyError, match="102 change points"):
+        mechanism(near_miss(random.Random(17_230)).linkage)
+
+
 @pytest.mark.long
 @pytest.mark.parametrize("first", range(0, 20_000, 500))
 def test_twenty_thousand_near_misses(first: int) -> None:

@@ -209,8 +209,21 @@ def _fitted_root(exact: ExactWalk, name: str, root: ChainRoot) -> ChainRoot:
         return replace(
             root,
             zeros=tuple(replace(zero, near=_near(name, zero, *samplers(zero))) for zero in zeros),
-            dips=tuple(replace(dip, near=_near(name, dip, *samplers(dip))) for dip in dips),
+            dips=tuple(replace(dip, near=_near_dip(name, dip, dips, *samplers(dip))) for dip in dips),
         )
+
+
+def _near_dip(
+    name: str, dip: Dip, dips: Sequence[Dip], sampled: Callable[[Decimal], Sample], width: float
+) -> Near | None:
+    """Fit next to a dip, at the most half-way to the next one: where both are as low, R is 0 at the other."""
+    apart = [
+        abs(math.remainder(float(one.place - dip.place), 2 * math.pi * dip.turns))
+        for one in dips
+        if one is not dip
+    ]
+    half_way = math.tan(min(apart) / (4 * dip.turns)) if apart else math.inf
+    return _near(name, dip, sampled, min(width, half_way))
 
 
 def _settled(exact: ExactWalk, name: str, dips: Sequence[Dip]) -> list[Dip]:
@@ -770,6 +783,10 @@ CUTS = 8
 """The most times a path is cut back: a dyad may show its limit only once the one before keeps its range."""
 
 
+class TooManyChangePoints(AssemblyError):
+    """A dyad passes more change points than are worked out."""
+
+
 def stopped(assembly: Assembly, linkage: Linkage, found: Separations) -> Assembly:
     """Return the assembly on the path that its dyads leave to its input.
 
@@ -805,6 +822,8 @@ def _cut_back(assembly: Assembly, linkage: Linkage, found: Separations) -> Assem
             if path is not swing:
                 limited, on_limited = _limited(assembly, path)
             limited, on_limited = through_change_points(limited, on_limited)
+        except TooManyChangePoints:  # a little less of the swing might pass fewer, and not say so
+            raise
         except AssemblyError as error:  # beyond one limit another dyad may rest at its own
             refusal = error
             continue
@@ -966,7 +985,7 @@ def _through(assembly: Assembly, name: str, found: Separations) -> Assembly:
     if not (root.zeros or dips):
         return assembly
     if (passed := len(root.zeros) + len(dips)) > MOST_CHANGE_POINTS:
-        raise AssemblyError(
+        raise TooManyChangePoints(
             f"joint {name}: it passes {passed:,} change points, or comes near them, until every joint is "
             f"back, and {MOST_CHANGE_POINTS} are the most here; give its gears smaller ratios"
         )
