@@ -160,6 +160,7 @@ def page(tmp_path_factory: pytest.TempPathFactory) -> Any:
 
 
 @pytest.mark.slow
+@pytest.mark.thinned(3)
 @pytest.mark.parametrize("sets", [QUICKLY, pytest.param(EACH, marks=pytest.mark.long)])
 @pytest.mark.parametrize("name", SCENES)
 def test_sliders_solve_as_solving_does(name: str, sets: int, page: Page, tmp_path: Path) -> None:
