@@ -216,14 +216,14 @@ def _fitted_root(exact: ExactWalk, name: str, root: ChainRoot) -> ChainRoot:
 def _near_dip(
     name: str, dip: Dip, dips: Sequence[Dip], sampled: Callable[[Decimal], Sample], width: float
 ) -> Near | None:
-    """Fit next to a dip, at the most half-way to the next one: where both are as low, R is 0 at the other."""
-    apart = [
-        abs(math.remainder(float(one.place - dip.place), 2 * math.pi * dip.turns))
-        for one in dips
-        if one is not dip
-    ]
-    half_way = math.tan(min(apart) / (4 * dip.turns)) if apart else math.inf
-    return _near(name, dip, sampled, min(width, half_way))
+    """Fit next to a dip, at the most half-way to the next one: where both are as low, R is 0 at the other.
+
+    One so near that no fit would be left counts as the same.
+    """
+    period = 2 * math.pi * dip.turns
+    apart = (abs(math.remainder(float(one.place - dip.place), period)) for one in dips if one is not dip)
+    half_ways = (math.tan(distance / (4 * dip.turns)) for distance in apart)
+    return _near(name, dip, sampled, min([width, *(one for one in half_ways if one >= NARROWEST)]))
 
 
 def _settled(exact: ExactWalk, name: str, dips: Sequence[Dip]) -> list[Dip]:
