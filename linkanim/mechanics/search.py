@@ -27,7 +27,7 @@ FINEST = 2.0**-70
 _ROUNDS = 5
 _AHEAD = 64
 """Places that are worked out in a call where there are fewer brackets than that."""
-_DEEPEST = 4
+_DEEPEST = 6
 """The most halvings that are prepared in one call."""
 
 
@@ -81,8 +81,15 @@ def ends_of(
     finest, each = share * np.maximum(np.abs(inside), np.abs(outside)), np.arange(len(inside))
     deep = min(max(int(math.log2(ahead / max(len(inside), 1) + 1)), 1), _DEEPEST)
     while True:
-        middles, at = _middles(inside, outside, deep), np.zeros(len(inside), np.intp)
-        held = holds(middles)
+        middles, halves = _halvings(inside, outside, deep)
+        held, at = holds(middles), np.zeros(len(inside), np.intp)
+        size = np.maximum(np.abs(inside), np.abs(outside))
+        least = np.maximum(finest, 4 * np.spacing(size)) * 2.0 ** (deep + 1)
+        if (np.abs(outside - inside) > least).any():  # no halving of these is the last
+            for level in range(deep):
+                at = 2 * at + ~held[(1 << level) - 1 + at, each]
+            inside, outside = halves[0][at, each], halves[1][at, each]
+            continue
         for level in range(deep):
             place = (1 << level) - 1 + at
             middle, good = middles[place, each], held[place, each]
@@ -92,16 +99,22 @@ def ends_of(
             at = 2 * at + ~good
 
 
-def _middles(inside: Array, outside: Array, deep: int) -> Array:
-    """Return the middles of `deep` halvings, one row for each outcome of the halvings before."""
-    rows: list[Array] = []
-    halves = [(inside, outside)]
-    for _ in range(deep):
-        middles = [(one + other) / 2 for one, other in halves]
-        pairs = zip(halves, middles, strict=True)
-        halves = [half for (one, other), middle in pairs for half in ((middle, other), (one, middle))]
-        rows += middles
-    return np.stack(rows)
+def _halvings(inside: Array, outside: Array, deep: int) -> tuple[Array, tuple[Array, Array]]:
+    """Return the middles of `deep` halvings, one row for each outcome of the halvings before, and all halves.
+
+    A half where the condition holds in the middle comes before the one where it does not.
+    """
+    middles, halves = np.empty(((1 << deep) - 1, len(inside))), (inside[np.newaxis], outside[np.newaxis])
+    for level in range(deep):
+        here = middles[(1 << level) - 1 : (2 << level) - 1]
+        np.divide(np.add(*halves, out=here), 2, out=here)
+        halves = _in_turn(here, halves[0]), _in_turn(halves[1], here)
+    return middles, halves
+
+
+def _in_turn(first: Array, second: Array) -> Array:
+    """Return rows of both, in turn."""
+    return np.stack((first, second), axis=1).reshape(2 * len(first), first.shape[1])
 
 
 def sign_changes(function: Callable[[Array], Array], places: Array, share: float = FINEST) -> Array:

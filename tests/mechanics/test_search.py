@@ -21,6 +21,21 @@ def test_a_bracket_may_run_downwards() -> None:
     assert ends_of(lambda x: x >= 0.3, np.array([1.0]), np.array([0.0])).tolist() == [0.3]
 
 
+def test_without_brackets_there_are_no_ends() -> None:
+    none = np.empty(0)
+    assert ends_of(lambda x: x > 0.0, none, none).shape == (0,)
+
+
+def test_brackets_that_end_sooner_than_others_stay_at_their_ends() -> None:
+    # one that is two neighbouring floats, one that is narrow, one that ends at zero, and a wide one
+    limits = np.array([1.0, 1.0 + 2.0**-40, 0.0, math.pi])
+    inside = np.array([1.0, 1.0, -1.0, -1e6])
+    outside = np.array([math.nextafter(1.0, 2.0), 1.0 + 2.0**-20, 1.0, 1e6])
+    found = ends_of(lambda x: x <= limits, inside, outside)
+    assert found[[0, 1, 3]].tolist() == limits[[0, 1, 3]].tolist()
+    assert -1e-15 < found[2] <= 0.0
+
+
 def test_no_bracket_is_halved_down_to_the_smallest_floats() -> None:
     asked = []
 

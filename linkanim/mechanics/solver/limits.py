@@ -401,6 +401,8 @@ FINEST = 2.0**-40
 AHEAD = 512
 """Places at a time where extremes are bracketed: each call works the whole linkage out."""
 HALVINGS = 32
+FEW = 16
+"""The most cells that are halved twice at a time: a call costs more than their samples."""
 MOST_UNCLEAR = 500_000
 """The most cells, of all dyads, in which extremes could be missed. Where halving makes more, and more than
 there were samples at first, the margin is rounding alone on a whole stretch, and halving would not end."""
@@ -422,11 +424,12 @@ class Sampled(NamedTuple):
         """Return the samples at these indices."""
         return self._replace(phases=self.phases[index], rows=self.rows[..., index])
 
-    def followed(self, other: Sampled) -> Sampled:
+    def followed(self, *others: Sampled) -> Sampled:
         """Return these samples followed by the others."""
+        every = (self, *others)
         return self._replace(
-            phases=np.concatenate([self.phases, other.phases]),
-            rows=np.concatenate([self.rows, other.rows], axis=-1),
+            phases=np.concatenate([one.phases for one in every]),
+            rows=np.concatenate([one.rows for one in every], axis=-1),
         )
 
     @property
@@ -511,14 +514,18 @@ def separations(assembly: Assembly) -> Separations:
     zero that they are rounding.
     """
     phases = _phases(assembly)
-    scales = _scales(assembly, phases)
+    # Rates are worked out only where some dyad comes near its limits: one that ends the path's way does.
+    limiting = any(name and name not in assembly.loops for name in assembly.path.ends)
+    found = walk_at(assembly, Graph().input("x"), Slope(float(limiting))).closings
+    scales = _scales(assembly.linkage, phases, found)
     if not scales:
         nothing = np.zeros((4, 0, len(phases)))
         return Separations(
             {}, Sampled(phases, nothing, 0.0), lambda _: (), {}, lambda places: nothing[0, :, : len(places)]
         )
     scale, barely = np.array([*scales.values()]).T
-    found = walk_at(assembly, Graph().input("x"), Slope(1.0)).closings
+    if not limiting:
+        found = walk_at(assembly, Graph().input("x"), Slope(1.0)).closings
     closings = {name: found[name] for name in scales}
     blur = _blur(assembly.linkage)
     sampled = _sampler_separation(closings.values(), scale, blur)
@@ -591,19 +598,20 @@ def _phases(assembly: Assembly) -> Array:
     return np.sort(np.concatenate([assembly.sampled, marks]))
 
 
-def _scales(assembly: Assembly, phases: Array) -> Mapping[str, tuple[float, float]]:
+def _scales(
+    linkage: Linkage, phases: Array, closings: Mapping[str, Closing]
+) -> Mapping[str, tuple[float, float]]:
     """Return the scale of the margin for each dyad near its limits, and the share at which it barely closes.
 
     The scale is the greatest margin, or that of its bars. A dyad keeps away from its limits, and is left out,
     where its margin always exceeds that share, and the most that it changes between three samples.
     """
-    closings = walk_at(assembly, Graph().input("x"), Slope(0.0)).closings
     found = closings.values()
     rows = _compiled([[one.u * one.w for one in found], [one.size for one in found]])(phases)
-    (margins, sizes), blur = rows, _blur(assembly.linkage)
+    (margins, sizes), blur = rows, _blur(linkage)
     rows[:, _behind(margins < -blur * sizes)] = math.nan
     most, size = np.fmax.reduce(np.abs(rows), axis=2)
-    nothing = (most <= blur * size) | (most <= (TOUCHING * assembly.linkage.longest) ** 2)
+    nothing = (most <= blur * size) | (most <= (TOUCHING * linkage.longest) ** 2)
     for name in (name for name, flat in zip(closings, nothing, strict=True) if flat):
         raise AssemblyError(f"joint {name}: {AT_ITS_LIMIT}")
     scale = np.minimum(most, size)
@@ -630,7 +638,8 @@ def _halved(names: Sequence[str], sampled: Callable[[Array], Sampled], samples: 
     left, right, found = samples.at(slice(None, -1)), samples.at(slice(1, None)), samples
     fastest = _fastest_change(samples)[:, None] / 4
     most = max(len(samples.phases), MOST_UNCLEAR // len(names))
-    for _ in range(HALVINGS):
+    halvings = 0
+    while halvings < HALVINGS:
         # At first a margin may change faster between neighbours than at both; the nearer these are, the less
         # so.
         with np.errstate(all="ignore"):
@@ -641,10 +650,19 @@ def _halved(names: Sequence[str], sampled: Callable[[Array], Sampled], samples: 
         if len(index) > most:
             raise AssemblyError(f"joint {names[unclear.sum(axis=1).argmax()]}: {AT_ITS_LIMIT}")
         left, right = left.at(index), right.at(index)
-        middle = sampled((left.phases + right.phases) / 2)
-        found = found.followed(middle)
-        left, right, fastest = left.followed(middle), middle.followed(right), fastest / 2
+        times = 2 if len(index) <= FEW else 1
+        between = _between(left, right, 1 << times, sampled)
+        found = found.followed(*between)
+        left, right = left.followed(*between), between[0].followed(*between[1:], right)
+        fastest, halvings = fastest / (1 << times), halvings + times
     return found.ordered
+
+
+def _between(left: Sampled, right: Sampled, parts: int, sampled: Callable[[Array], Sampled]) -> list[Sampled]:
+    """Return the samples that divide all cells into that many parts, those of each division together."""
+    places = [(left.phases * (parts - k) + right.phases * k) / parts for k in range(1, parts)]
+    found, count = sampled(np.concatenate(places)), len(left.phases)
+    return [found.at(slice(k * count, (k + 1) * count)) for k in range(parts - 1)]
 
 
 def _speed(samples: Sampled) -> Array:
@@ -908,13 +926,14 @@ def _open_interval(assembly: Assembly, found: Separations) -> tuple[Limit, Limit
     if not is_open.any():  # cut back for one dyad, nothing is left to another
         raise AssemblyError(NO_RANGE)
     first, last = _run_around(is_open, home, phases)
+    places = ((first, first - 1), (last, last + 1))
+    brackets = {outside: inside for inside, outside in places if 0 <= outside < len(phases)}
+    limits = _limits(found, phases[list(brackets.values())], phases[list(brackets)], shut[:, list(brackets)])
     refiner = cache(partial(refining, ExactWalk(assembly)))  # one dyad mostly limits both ends
-    below, above = (
-        _limit(found, (phases[inside], phases[outside]), shut[:, outside], refiner)
-        if 0 <= outside < len(phases)
-        else (Sum(float(phases[inside])), None)
-        for inside, outside in ((first, first - 1), (last, last + 1))
-    )
+    known: dict[int, Limit] = {
+        outside: (refiner(name)(place), name) for outside, (place, name) in zip(brackets, limits, strict=True)
+    }
+    below, above = (known.get(outside, (Sum(float(phases[inside])), None)) for inside, outside in places)
     return below, above
 
 
@@ -928,21 +947,23 @@ def _run_around(is_open: NDArray[np.bool_], home: int, phases: Array) -> tuple[i
     return max(runs, key=lambda run: float(phases[run[1]] - phases[run[0]]))
 
 
-def _limit(
-    found: Separations,
-    bracket: tuple[float, float],
-    shut: NDArray[np.bool_],
-    refiner: Callable[[str], Callable[[Sum], Sum]],
-) -> tuple[Sum, str]:
-    """Return the limit between an open phase and the shut one beside it, by bisection, then in all digits."""
-    row = _first_shut(shut, found.margins(np.array(bracket[1:]))[:, 0])
-    start = found.beside(bracket[1], found.names[row], 1 if bracket[0] > bracket[1] else -1)
-    if start is None:
-        inside, outside = (np.array([phase]) for phase in bracket)
-        limit = ends_of(lambda phases: found.margins(phases[:, 0])[row, :, None] >= 0, inside, outside)
-        start = Sum(float(limit[0]))
-    name = found.names[row]
-    return refiner(name)(start), name
+def _limits(
+    found: Separations, inside: Array, outside: Array, shut: NDArray[np.bool_]
+) -> list[tuple[Sum, str]]:
+    """Return the limit between each open phase and the shut one beside it, by bisection, and whose it is."""
+    margins = found.margins(outside)
+    rows = np.array([_first_shut(*both) for both in zip(shut.T, margins.T, strict=True)], np.intp)
+    names, sides = [found.names[row] for row in rows], np.where(inside > outside, 1, -1)
+    own = np.arange(len(rows))
+
+    def closes(phases: Array) -> Bools:
+        values = found.margins(phases.ravel()).reshape(-1, *phases.shape)
+        return np.asarray(values[rows, :, own].T >= 0)
+
+    ends = ends_of(closes, inside, outside) if len(rows) else inside
+    missed = (found.beside(*end) for end in zip(outside.tolist(), names, sides.tolist(), strict=True))
+    starts = (Sum(float(end)) if start is None else start for start, end in zip(missed, ends, strict=True))
+    return list(zip(starts, names, strict=True))
 
 
 def _first_shut(shut: NDArray[np.bool_], margins: Array) -> int:
