@@ -154,3 +154,19 @@ def test_a_drag_and_loading_tell_one_range(name: str, part: int, length: float) 
     dragged = stopped(linkage)
     assert dragged
     assert dragged.assembly.path.input_range == mechanism(linkage).assembly.path.input_range
+
+
+def test_a_range_that_begins_just_before_a_start_that_is_shut_is_the_one_nearest_to_it() -> None:
+    joints = {
+        "A": {"crank": "O2", "length": 13},
+        "C": {"crank": "G", "length": 10, "gear": {"with": "A", "ratio": "-2/3", "offset": "-30 deg"}},
+        "D": {"from": ["A", "C"], "length": [25, 10], "side": "left"},
+        "E": {"from": ["H", "C"], "length": [5, 14], "side": "right"},
+    }
+    ground = {"O2": [0, 0], "G": [-22, 0], "H": [5, 0]}
+    drive = {"speed": "20 rpm", "start": "0 deg"}
+    scene = scene_from({"drive": drive, "ground": ground, "joints": joints}, name="my", where="my.toml")
+    low, high = scene.info.input_range
+    # the gears come back after three turns, so the same range lies six turns on each side of it, too
+    assert -math.pi / 2 < low < high < 0.0
+    check_ends(scene.mechanism)

@@ -794,6 +794,8 @@ USED_UP = 1e-10
 """A margin below this share of its greatest value is at its limit."""
 NO_WAY = 1e-5
 """A swing narrower than this is a single place, but for rounding."""
+ALIKE = 1e-9
+"""Ranges that differ by less, in phase, are equally wide, but for rounding."""
 NO_RANGE = "the input has no range on which every dyad can be closed"
 STOPPED_SHORT = 1 / 64
 """Share of its range by which a swing stops short of a limit that it cannot pass."""
@@ -938,13 +940,18 @@ def _open_interval(assembly: Assembly, found: Separations) -> tuple[Limit, Limit
 
 
 def _run_around(is_open: NDArray[np.bool_], home: int, phases: Array) -> tuple[int, int]:
-    """Return the first and last place of the open run at `home`, or of the widest run."""
+    """Return the first and last place of the open run at `home`, or of the widest, the nearest of several.
+
+    Around a full turn each run comes again every turn: that at the edge of the phases may be cut off there.
+    """
     edges = np.flatnonzero(np.diff(np.concatenate([[0], is_open.astype(np.int8), [0]])))
-    runs = list(zip(edges[::2].tolist(), (edges[1::2] - 1).tolist(), strict=True))
-    for first, last in runs:
-        if first <= home <= last:
-            return first, last
-    return max(runs, key=lambda run: float(phases[run[1]] - phases[run[0]]))
+    first, last = edges[::2], edges[1::2] - 1
+    around = (first <= home) & (home <= last)
+    width = phases[last] - phases[first]
+    widest = around if around.any() else width >= width.max() - ALIKE
+    distance = np.where(widest, np.abs((phases[first] + phases[last]) / 2 - phases[home]), math.inf)
+    chosen = int(distance.argmin())
+    return int(first[chosen]), int(last[chosen])
 
 
 def _limits(
