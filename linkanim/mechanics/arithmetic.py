@@ -29,6 +29,8 @@ DIGITS = 50
 
 
 Number = Fraction | Decimal | float
+_REAL = (int, float)
+"""The types of real numbers, written once: a union would be made anew at every test."""
 
 
 def _arithmetic(
@@ -37,7 +39,7 @@ def _arithmetic(
     """Return an operation on floats and the numbers they stand for, and the same with operands swapped."""
 
     def apply(a: Any, b: Any) -> Any:
-        if not (isinstance(a, int | float) and isinstance(b, int | float)):
+        if not (isinstance(a, _REAL) and isinstance(b, _REAL)):
             return NotImplemented
         return Constant(operate(float(a), float(b)), lambda: operate(Fraction(a), Fraction(b)))
 
@@ -77,7 +79,12 @@ class Constant(float):
 
     def __eq__(self, other: object) -> bool:
         equal = float.__eq__(self, other)
-        return self.number == Fraction(other) if equal is True and isinstance(other, int | float) else equal
+        if equal is not True or not isinstance(other, _REAL):
+            return equal
+        known, others = self._known, other._known if isinstance(other, Constant) else other
+        if known is others or (type(known) is float and type(others) is float):
+            return True  # as equal floats that stand for themselves are
+        return self.number == Fraction(other)
 
     def __ne__(self, other: object) -> bool:
         return not self == other
