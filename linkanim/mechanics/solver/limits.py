@@ -395,6 +395,8 @@ ROUNDING = 2.0**-48
 """Share of the longest bar by which rounded lengths may be off: within it bars just fall into line."""
 UNEVEN = 0.1
 """How far the change of a rate may be off the one that its slopes make, where it has no sharper bend."""
+STANDSTILL = 2.0**-40
+"""The share of the rates around it below which a rate is nothing but rounding."""
 FLAT = 2.0**-52
 """Share of a margin's scale by which it changes between samples that need no others between them."""
 FINEST = 2.0**-40
@@ -697,13 +699,15 @@ def _unclear(left: Sampled, right: Sampled, fastest: Array) -> Bools:
     """Tell between which neighbours a margin near nothing could have two extremes (D, N).
 
     Where neither has a rate, at a limit of the dyad before, floats cannot tell, and closer samples would not.
+    A rate that vanishes, as at the dyad's own limit, may be of either sign by rounding.
     """
     step = right.phases - left.phases
     (r, b, _, d), (s, c, _, e) = left.rows, right.rows
     size = np.max(np.abs([r, s, step * b, step * c]), axis=0)
     even = np.abs((s - r) - step / 2 * (b + c)) <= UNEVEN * size
     none = (r * s > 0) & (r * (r + step * b) > 0) & (s * (s - step * c) > 0)
-    one = (r * s <= 0) & (b * c > 0)
+    still = np.minimum(np.abs(r), np.abs(s)) <= STANDSTILL * size
+    one = ((r * s <= 0) | still) & (b * c > 0)
     flat = size * step * np.maximum(np.abs(d), np.abs(e)) <= FLAT
     blind = ~np.isfinite(r) & ~np.isfinite(s)
     return np.asarray(_near_separation(left, right, fastest) & ~(even & (none | one)) & ~flat & ~blind)
