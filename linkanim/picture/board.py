@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import field
-from math import floor
+from math import ceil, floor
 
+import numpy as np
 import pygame
 
 from linkanim.frozen import NamedTuple, frozen
@@ -54,11 +55,26 @@ class Board:
         return self._sheets[key].copy()
 
     def _empty(self, size: tuple[int, int]) -> pygame.Surface:
+        """Return a framed sheet: only its corners are curves, so all else repeats a small one's middle."""
+        corner = 10 * self.layout.unit
+        least = 2 * ceil(corner) + 1
+        small = self._framed((min(size[0], least), min(size[1], least)), corner)
+        if small.get_size() == size:
+            return small
+        sheet, pixels = pygame.Surface(size, pygame.SRCALPHA, 32), pygame.surfarray.array2d(small)
+        for axis, (pixel_count, wanted) in enumerate(zip(small.get_size(), size, strict=True)):
+            times = np.ones(pixel_count, np.intp)
+            times[pixel_count // 2] += wanted - pixel_count
+            pixels = np.repeat(pixels, times, axis=axis)
+        pygame.surfarray.blit_array(sheet, pixels)
+        return sheet
+
+    def _framed(self, size: tuple[int, int], corner: float) -> pygame.Surface:
         sheet = pygame.Surface(size, pygame.SRCALPHA, 32)
-        middle = complex(sheet.get_width() / 2, sheet.get_height() / 2)
-        line, corner = max(1.5 * self.layout.unit, 1.0), 10 * self.layout.unit
-        outer = middle + box(sheet.get_width(), sheet.get_height(), corner)
-        inner = middle + box(sheet.get_width() - 2 * line, sheet.get_height() - 2 * line, corner - line)
+        (wide, high), line = size, max(1.5 * self.layout.unit, 1.0)
+        middle = complex(wide / 2, high / 2)
+        outer = middle + box(wide, high, corner)
+        inner = middle + box(wide - 2 * line, high - 2 * line, corner - line)
         paint(sheet, [Layer(self.theme.rule, [outer]), Layer(self.theme.panel, [inner])])
         return sheet
 

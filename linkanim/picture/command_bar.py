@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
+from dataclasses import replace
 from itertools import accumulate
 
 import pygame
@@ -28,6 +29,8 @@ _READING = 7.5
 _SLIDER = 3.0
 _WITHIN = 0.35
 """From a slider's end to the end of its knob's range."""
+_MOST_FACES = 200
+"""The number of cached buttons above which they are drawn anew when the layout changes."""
 _GREY = 0.68
 """The share of the panel's colour in a button that cannot be used."""
 _POINTED = 0.5
@@ -159,7 +162,7 @@ class BarPrinter:
         self._type = Type()
         self._board: Board | None = None
         self._kept: tuple[object, list[tuple[Rect, pygame.Surface]]] | None = None
-        self._faces: dict[object, pygame.Surface] = {}
+        self._faces: dict[_Sized, pygame.Surface] = {}
         self._tooltips: dict[object, pygame.Surface] = {}
 
     def draw(self, surface: pygame.Surface, layout: Layout, theme: Theme, bar: CommandBar | None) -> None:
@@ -167,8 +170,10 @@ class BarPrinter:
         if bar is None or not bar.buttons:
             return
         if self._board is None or (self._board.layout, self._board.theme) != (layout, theme):
-            self._board, self._kept = Board(layout, self._type, theme), None
-            self._faces.clear()
+            before = self._board or Board(layout, self._type, theme)
+            if before.theme != theme or len(self._faces) > _MOST_FACES:
+                self._faces.clear()
+            self._board, self._kept = replace(before, layout=layout, theme=theme), None
             self._tooltips.clear()
         cells = bar_cells(layout, bar.buttons)
         if self._kept is None or self._kept[0] != bar[:2]:
@@ -186,15 +191,15 @@ class BarPrinter:
         self, board: Board, frame: Rect, cells: Sequence[Rect | None], bar: CommandBar
     ) -> pygame.Surface:
         sheet = board.sheet(frame.width, frame.height)
-        seen = [
-            (cell, _Face(button.icon, button.on, bool(button.lack), button.share, n == bar.pointed))
-            for n, (cell, button) in enumerate(zip(cells, bar.buttons, strict=True))
-            if cell and frame.meets(cell)
-        ]
-        fresh = [(cell, face) for cell, face in seen if face not in self._faces]
+        seen: list[tuple[Rect, _Sized]] = []
+        for n, (cell, button) in enumerate(zip(cells, bar.buttons, strict=True)):
+            if cell and frame.meets(cell):
+                face = _Face(button.icon, button.on, bool(button.lack), button.share, n == bar.pointed)
+                seen.append((cell, ((round(cell.width), round(cell.height)), face)))
+        fresh = dict.fromkeys(sized for _, sized in seen if sized not in self._faces)
         self._faces |= _faces(board.theme, fresh)
-        for cell, face in seen:
-            sheet.blit(self._faces[face], (round(cell.x - frame.x), round(cell.y - frame.y)))
+        for cell, sized in seen:
+            sheet.blit(self._faces[sized], (round(cell.x - frame.x), round(cell.y - frame.y)))
         return sheet
 
     def _tell(self, surface: pygame.Surface, board: Board, cell: Rect, button: Button) -> None:
@@ -232,22 +237,25 @@ class _Face(NamedTuple):
     pointed: bool
 
 
-def _faces(theme: Theme, wanted: Sequence[tuple[Rect, _Face]]) -> dict[object, pygame.Surface]:
+_Sized = tuple[tuple[int, int], _Face]
+"""How large a button is, in pixels, and how it looks."""
+
+
+def _faces(theme: Theme, wanted: Collection[_Sized]) -> dict[_Sized, pygame.Surface]:
     """Return buttons as pictures; all are painted together, which takes a fifth of the time."""
-    sizes = [(round(cell.width), round(cell.height)) for cell, _ in wanted]
-    if not sizes:
+    if not wanted:
         return {}
+    sizes = [size for size, _ in wanted]
     strip = pygame.Surface(
         (sum(wide for wide, _ in sizes), max(high for _, high in sizes)), pygame.SRCALPHA, 32
     )
-    lefts = list(accumulate((wide for wide, _ in sizes), initial=0))
-    parts = zip(lefts, sizes, wanted, strict=False)
+    lefts = [*accumulate((wide for wide, _ in sizes), initial=0)][:-1]
+    placed = [*zip(lefts, wanted, strict=True)]
     paint(
         strip,
-        [one.placed(complex(left, 0)) for left, size, (_, face) in parts for one in _face(theme, size, face)],
+        [one.placed(complex(left, 0)) for left, (size, face) in placed for one in _face(theme, size, face)],
     )
-    places = zip(lefts, sizes, wanted, strict=False)
-    return {face: strip.subsurface((left, 0, *size)).copy() for left, size, (_, face) in places}
+    return {sized: strip.subsurface((left, 0, *sized[0])).copy() for left, sized in placed}
 
 
 def _face(theme: Theme, size: tuple[int, int], face: _Face) -> Iterator[Layer]:
