@@ -90,17 +90,24 @@ def _row(
     return cells
 
 
-def button_at(layout: Layout, buttons: Sequence[Button], x: float, y: float) -> int | None:
-    """Return the number of the button under a pixel; -1 on the bar between buttons, None off the bar."""
+def button_at(
+    layout: Layout, buttons: Sequence[Button], x: float, y: float, *, charted: bool = True
+) -> int | None:
+    """Return the number of the button under a pixel; -1 on the bar between buttons, None off the bar.
+
+    Where it is not `charted`, there are no buttons of a chart yet.
+    """
     cells = bar_cells(layout, buttons)
-    if not any(frame.holds(x, y) for frame in _frames(layout, buttons, cells)):
+    frames = _frames(layout, buttons, cells)
+    if not any(frame.holds(x, y) for frame, on_chart in frames if charted or not on_chart):
         return None
     return next((n for n, cell in enumerate(cells) if cell and cell.holds(x, y)), -1)
 
 
 def bar_place(layout: Layout, bar: CommandBar | None) -> Rect | None:
     """Return the rectangle of the bar at the foot; None where there is none."""
-    return next(iter(_frames(layout, bar.buttons, bar_cells(layout, bar.buttons))), None) if bar else None
+    frames = _frames(layout, bar.buttons, bar_cells(layout, bar.buttons)) if bar else ()
+    return next((frame for frame, _ in frames), None)
 
 
 def share_at(layout: Layout, buttons: Sequence[Button], number: int, x: float) -> float:
@@ -140,14 +147,16 @@ def _wide(buttons: Sequence[Button], kept: list[int]) -> float:
     return sum(_before(buttons, kept, place) + _width(buttons[n]) for place, n in enumerate(kept))
 
 
-def _frames(layout: Layout, buttons: Sequence[Button], cells: Sequence[Rect | None]) -> Iterator[Rect]:
-    """Yield the sheets about the buttons at the foot, and about those on the chart."""
+def _frames(
+    layout: Layout, buttons: Sequence[Button], cells: Sequence[Rect | None]
+) -> Iterator[tuple[Rect, bool]]:
+    """Yield the sheets about the buttons at the foot, and about those on the chart; and whether on that."""
     by = _FRAME * layout.button
     for on_chart in (False, True):
         seen = [cell for cell in (cells[n] for n in _numbers(buttons, on_chart=on_chart)) if cell]
         if seen:
             left, top = seen[0].x - by, seen[0].y - by
-            yield Rect(left, top, seen[-1].right + by - left, seen[0].height + 2 * by)
+            yield Rect(left, top, seen[-1].right + by - left, seen[0].height + 2 * by), on_chart
 
 
 def _rail(cell: Rect) -> tuple[float, float]:
@@ -161,12 +170,23 @@ class BarPrinter:
     def __init__(self) -> None:
         self._type = Type()
         self._board: Board | None = None
-        self._kept: tuple[object, list[tuple[Rect, pygame.Surface]]] | None = None
+        self._kept: tuple[object, list[tuple[Rect, pygame.Surface, bool]]] | None = None
         self._faces: dict[_Sized, pygame.Surface] = {}
         self._tooltips: dict[object, pygame.Surface] = {}
 
-    def draw(self, surface: pygame.Surface, layout: Layout, theme: Theme, bar: CommandBar | None) -> None:
-        """Draw the bar over the picture, and above it the name of the command under the mouse."""
+    def draw(
+        self,
+        surface: pygame.Surface,
+        layout: Layout,
+        theme: Theme,
+        bar: CommandBar | None,
+        *,
+        charted: bool = True,
+    ) -> None:
+        """Draw the bar over the picture, and above it the name of the command under the mouse.
+
+        Where it is not `charted`, the chart is not in its place yet, and its buttons are left out.
+        """
         if bar is None or not bar.buttons:
             return
         if self._board is None or (self._board.layout, self._board.theme) != (layout, theme):
@@ -178,9 +198,11 @@ class BarPrinter:
         cells = bar_cells(layout, bar.buttons)
         if self._kept is None or self._kept[0] != bar[:2]:
             frames = _frames(layout, bar.buttons, cells)
-            sheets = [(frame, self._drawn(self._board, frame, cells, bar)) for frame in frames]
+            sheets = [(frame, self._drawn(self._board, frame, cells, bar), on) for frame, on in frames]
             self._kept = bar[:2], [*_over_caption(layout, theme), *sheets]
-        for frame, sheet in self._kept[1]:
+        for frame, sheet, on_chart in self._kept[1]:
+            if on_chart and not charted:
+                continue
             sheet.set_alpha(round(255 * bar.eighths / 8))
             surface.blit(sheet, (round(frame.x), round(frame.y)))
         cell = cells[bar.pointed] if bar.pointed is not None and bar.pointed >= 0 else None
@@ -217,14 +239,14 @@ class BarPrinter:
         surface.blit(drawn, (round(x), round(max(y, 2))))
 
 
-def _over_caption(layout: Layout, theme: Theme) -> Iterator[tuple[Rect, pygame.Surface]]:
-    """Yield a sheet that hides a caption where the bar comes and goes."""
+def _over_caption(layout: Layout, theme: Theme) -> Iterator[tuple[Rect, pygame.Surface, bool]]:
+    """Yield a sheet that hides a caption where the bar comes and goes; it is not on a chart."""
     caption = layout.caption
     if caption and layout.bar and layout.bar.meets(caption):
         place = Rect(caption.x, layout.bar.y, caption.width, layout.bar.height)
         cover = pygame.Surface((round(place.width), round(place.height)))
         cover.fill(theme.background)
-        yield place, cover
+        yield place, cover, False
 
 
 class _Face(NamedTuple):

@@ -32,6 +32,8 @@ _NARROW = 30
 """A window narrower than so many heights of its text has a list at its foot, not at its left."""
 _SHARE_LISTED = 0.42
 """A list's share of the height at the foot."""
+_MARGIN, _OFF = 20.0, 0.6
+"""The margin around charts and polygons, in units, and the gap between them and the stage, in margins."""
 _HEAD_OF_MARKS = 1.5
 """The height of the marks of recording and pause, in heights of their text: a chart begins below them."""
 _TALLEST = 0.42
@@ -125,6 +127,16 @@ class Layout:
                 bottom = min(bottom, int(beside.y))
         return Rect(0, 0, right, bottom)
 
+    @cached_property
+    def before_charts(self) -> Rect:
+        """The same where polygons have no place yet: up to the charts."""
+        (right, bottom), chart = self.size, self.chart
+        if chart and chart.x >= self.stage.right:
+            right = int(chart.x - _OFF * _MARGIN * self.unit)
+        elif chart:
+            bottom = int(chart.y)
+        return Rect(0, 0, right, bottom)
+
     @property
     def text_size(self) -> int:
         """The height of text that must read from the back row."""
@@ -172,16 +184,16 @@ def layout(
     parts = _charted(empty, chart=chart, beside=beside, listed=listed, row=row, bar=bar)
     if not polygons:
         return parts
-    stage, edge, share = parts.stage, 20 * parts.unit, _SHARES_OF_POLYGONS[polygons - 1]
+    stage, edge, share = parts.stage, _MARGIN * parts.unit, _SHARES_OF_POLYGONS[polygons - 1]
     if stage.width >= stage.height:
         wide = share * stage.width
         # in a window that has a bar, charts begin below the mark of pause
         top = edge + (_HEAD_OF_MARKS * parts.text_size if bar else 0.0)
         place = Rect(stage.right - wide, top, wide - edge, stage.height - top - edge)
-        return replace(parts, polygons=place, stage=stage._replace(width=stage.width - wide - 0.6 * edge))
+        return replace(parts, polygons=place, stage=stage._replace(width=stage.width - wide - _OFF * edge))
     high = share * stage.height
     place = Rect(stage.x + edge, stage.bottom - high, stage.width - 2 * edge, high - edge)
-    return replace(parts, polygons=place, stage=stage._replace(height=stage.height - high - 0.6 * edge))
+    return replace(parts, polygons=place, stage=stage._replace(height=stage.height - high - _OFF * edge))
 
 
 def with_table(parts: Layout, rows: int, wide: float, head: float = 0.0) -> Layout:
@@ -223,7 +235,7 @@ def with_caption(parts: Layout, lines: int) -> Layout:
 
 def _charted(empty: Layout, *, chart: int, beside: bool, listed: int, row: bool, bar: bool) -> Layout:
     """Return a layout with chart, list, row and bar placed, but without polygons."""
-    unit, whole, edge = empty.unit, empty.stage, 20 * empty.unit
+    unit, whole, edge = empty.unit, empty.stage, _MARGIN * empty.unit
     empty = replace(empty, lists=_lists(empty))
     room = _beside(empty.lists, whole) if listed else whole
     empty = replace(empty, room=room if listed else None)
@@ -249,10 +261,10 @@ def _charted(empty: Layout, *, chart: int, beside: bool, listed: int, row: bool,
         high = min(room.height - head - below, tallest)
         top = max(min((room.height - high) / 2, room.height - below - high), head)
         chart_place = Rect(room.right - wide, top, wide - edge, high)
-        return replace(empty, stage=room._replace(width=room.width - wide - 0.6 * edge), chart=chart_place)
+        return replace(empty, stage=room._replace(width=room.width - wide - _OFF * edge), chart=chart_place)
     tall = _SHARES_BELOW[min(chart, len(_SHARES_BELOW)) - 1] * room.height
     chart_place = Rect(room.x + edge, room.bottom - edge - tall, room.width - 2 * edge, tall)
-    return replace(empty, stage=room._replace(height=chart_place.y - 0.6 * edge), chart=chart_place)
+    return replace(empty, stage=room._replace(height=chart_place.y - _OFF * edge), chart=chart_place)
 
 
 # The tools beside a list of dimensions, and on a sheet.

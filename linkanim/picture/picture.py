@@ -55,18 +55,30 @@ class Earlier(NamedTuple):
     groups: dict[str, tuple[Group, ...]]
 
 
+class Arrival(NamedTuple):
+    """How charts come in while the view moves: from the right and lower `edge` of the scene that was before.
+
+    A share of their way is `left`. Polygons that were there come in, too; new ones are not seen yet: `waits`.
+    """
+
+    edge: tuple[float, float]
+    left: float
+    waits: bool
+
+
 class Deferral(NamedTuple):
     """What a picture leaves to a later frame: nothing, unless a hand is dragging.
 
     While the hand `holds` something, names keep their places. Otherwise `names` says when new places are
     found: at once; "as before" for none, so that names stay as in the picture before; or "in steps", when
     `place_names` has found them all. The still part of the picture `earlier` is drawn again where it has the
-    same place.
+    same place. `arrival` says how charts and polygons come in while the view makes room for them.
     """
 
     holds: bool = False
     names: Literal["at once", "as before", "in steps"] = "at once"
     earlier: Earlier | None = None
+    arrival: Arrival | None = None
 
 
 AT_ONCE = Deferral()
@@ -101,7 +113,7 @@ class Picture:
         moment: float | None = None,
         also: tuple[complex, ...] = (),
     ) -> None:
-        held, earlier = later.holds, later.earlier
+        held, earlier, self._arrival = later.holds, later.earlier, later.arrival
         self._made_for, self._kept = (scene, size, look, docked, held, sheet), kept
         self.sheet, self.held = sheet, held
         self.scene, self.size, self.look = in_unit(scene, look.unit), size, look
@@ -125,12 +137,14 @@ class Picture:
             request = request._replace(table=before.fit.request.table) if same else request
         self.late = earlier is not None
         """Whether its still part is that of an earlier picture."""
+        self.waits: bool = self._arrival is not None and self._arrival.waits and look.polygons_shown > 0
+        """Whether polygons that are new wait for the view and the names, until there is room for them."""
         self._arrange(request, before, held=held)
         anew = before is not None and not self._named_as(before, held=held)
         self.hurried: bool = later.names == "as before" and look.named and anew
         """Whether its names have the places of another picture."""
-        self.waits: bool = self.hurried and before is not None and not before.has_polygons
-        """Whether polygons that are new wait for the names, until there is room for them."""
+        new = look.polygons_shown > 0 and before is not None and not before.has_polygons
+        self.waits = self.waits or (self.hurried and new)
         tabled = look.names > 1 and before and before.fit.request.table[0]
         if self.hurried and tabled and before and before._goal is self._goal:
             self._arrange(request._replace(table=self._table_size()), before, held=held)
@@ -183,6 +197,30 @@ class Picture:
         yield
         yield from arranging(subject, self.fit.request)
         self.fit.subject.expected[:] = [subject]
+
+    @property
+    def arrived(self) -> bool:
+        """Whether charts stand in their places."""
+        return self._aside == (0.0, 0.0)
+
+    @cached_property
+    def _aside(self) -> tuple[float, float]:
+        """How far charts are from their places: to the right where they stand beside the scene, else down.
+
+        They keep step with the view, so that they cut nothing off that is seen before and after.
+        """
+        if self._arrival is None:
+            return 0.0, 0.0
+        (right, bottom), left, _ = self._arrival
+        return max(right - self._reach.right, 0.0) * left, max(bottom - self._reach.bottom, 0.0) * left
+
+    @property
+    def _reach(self) -> Rect:
+        """The rectangle to which the scene is cut once charts stand in their places.
+
+        While polygons wait, nothing stands in their place, and the scene is not cut there.
+        """
+        return self.layout.before_charts if self.waits else self.layout.reach
 
     @property
     def has_polygons(self) -> bool:
@@ -377,21 +415,15 @@ class Picture:
         return self.look.overrun or self.fitted != self.fit.view_of(self.figure)
 
     @property
-    def edge(self) -> Rect | None:
-        """The rectangle to which the scene is cut; None for the whole picture.
-
-        While polygons wait, nothing stands in their place, and the scene is not cut there.
-        """
-        reach, polygons = self.layout.reach, self.layout.polygons
-        if self.waits and polygons:
-            right, bottom = max(reach.right, polygons.right), max(reach.bottom, polygons.bottom)
-            reach = reach._replace(width=right - reach.x, height=bottom - reach.y)
-        return None if (reach.right, reach.bottom) == self.size else reach
+    def edge(self) -> tuple[float, float]:
+        """The right and the lower edge to which the scene is cut: charts and polygons are beyond."""
+        (wide, high), (right, down) = self.size, self._aside
+        return min(self._reach.right + right, wide), min(self._reach.bottom + down, high)
 
     def _within(self, groups: Iterable[Group]) -> Iterator[Group]:
         """Yield the scene's groups cut off at `edge`; a line of words that would cross it is left out."""
-        edge = self.edge
-        if edge is None:
+        edge = Rect(0, 0, *self.edge)
+        if edge.right == self.size[0] and edge.bottom == self.size[1]:
             yield from groups
             return
         for group in groups:
@@ -439,8 +471,13 @@ class Picture:
             yield grouped("chart", self._chart.still(), still=True)
         if self._legend and not self._overrun:
             yield self._legend.group(speed)
-        if self.layout.caption:
+        if self.layout.caption and not self._crosses(self.layout.caption):
             yield Group("caption", (), tuple(self._caption(self.layout.caption)), still=True)
+
+    def _crosses(self, caption: Rect) -> bool:
+        """Return whether charts or polygons cross the caption on their way."""
+        parts = self._arriving
+        return not self.arrived and any(one.meets(caption) for one in (parts.chart, parts.polygons) if one)
 
     def _caption(self, place: Rect) -> Iterator[Caption]:
         """Yield the sentence on what to watch for, below the scene."""
@@ -618,17 +655,32 @@ class Picture:
         if not tokens:
             return None
         pen = pen_for(self.layout, self.type, self.theme)
-        return chart_strips(self.figure, tokens, self.layout, pen, self.look.over)
+        return chart_strips(self.figure, tokens, self._arriving, pen, self.look.over)
 
     @cached_property
     def _polygons(self) -> tuple[Polygon, ...]:
-        if not self.layout.polygons:
+        place = self._arriving.polygons
+        if not place:
             return ()
         from linkanim.picture.polygons import polygons_of
 
         pen = pen_for(self.layout, self.type, self.theme)
         only = self.look.large_polygon
-        return polygons_of(self.figure, self.layout.polygons, pen, self._moment, only=only)
+        return polygons_of(self.figure, place, pen, self._moment, only=only)
+
+    @property
+    def _arriving(self) -> Layout:
+        """The layout with charts and polygons where they are now, on their way to their places."""
+        if self.arrived:
+            return self.layout
+        (right, down), places = self._aside, (self.layout.chart, self.layout.polygons)
+        chart, polygons = (
+            place._replace(x=place.x + right)
+            if place and place.x >= self.layout.stage.right
+            else place and place._replace(y=place.y + down)
+            for place in places
+        )
+        return replace(self.layout, chart=chart, polygons=polygons)
 
     def polygon_at(self, px: float, py: float) -> int | None:
         """Return the polygon under a pixel: 1 of velocities, 2 of accelerations; None elsewhere."""

@@ -20,7 +20,7 @@ from pygame.event import Event
 from linkanim.frozen import frozen
 from linkanim.picture.layout import Docked, Layout
 from linkanim.picture.look import Look
-from linkanim.picture.picture import Deferral, Earlier, Picture
+from linkanim.picture.picture import Arrival, Deferral, Earlier, Picture
 from linkanim.picture.view import Box, View, eased
 from linkanim.player.clock import FRAMES_PER_SECOND
 from linkanim.player.state import FADE_FRAMES, Sketch, State
@@ -39,10 +39,16 @@ DrawnAhead = Callable[[Picture, State], Iterator[None]]
 
 @frozen
 class Approach:
-    """The view that is being left for another one, and the frame at which the change began."""
+    """The view that is being left for another one, and the frame at which the change began.
+
+    `edge` is that of the picture being left: charts come in from there. Polygons that this picture did not
+    have wait (`waits`) until the view is there.
+    """
 
     left: View
     since: int
+    edge: tuple[float, float] = (0.0, 0.0)
+    waits: bool = False
 
     def over(self, frame: int) -> bool:
         """Return whether the new view is reached."""
@@ -53,12 +59,20 @@ class Approach:
 
         `fitted` is the view that the look zooms and pans, in a window of that size in pixels.
         """
-        view = between(self.left, goal, (frame - self.since + 1) / (APPROACH_FRAMES + 1))
+        view = between(self.left, goal, self._share(frame))
         width, height = size
         zoom = view.scale / fitted.scale
         right = view.x - width / 2 - (fitted.x - width / 2) * zoom
         down = view.y - height / 2 - (fitted.y - height / 2) * zoom
         return replace(look, zoom=zoom, pan=(right / height, down / height))
+
+    def arrival(self, frame: int) -> Arrival:
+        """Return how charts come in at a frame: with the view."""
+        return Arrival(self.edge, 1.0 - eased(self._share(frame)), self.waits)
+
+    def _share(self, frame: int) -> float:
+        """Return the share of the way that is over, in time."""
+        return (frame - self.since + 1) / (APPROACH_FRAMES + 1)
 
 
 def between(one: View, other: View, share: float) -> View:
@@ -145,7 +159,8 @@ class Framing:
         if before and before.sheet != made.sheet:
             self._approach = None
         elif before and (_has_moved(before, made) or (sketch and stays and before.fitted != made.fitted)):
-            self._approach = Approach((self._passing or before).view, state.frame)
+            left = self._passing or before
+            self._approach = Approach(left.view, state.frame, left.edge, not left.has_polygons)
         elif before and not _is_framed_alike(before, made):
             self._approach = None
         self._fitting = made
@@ -204,6 +219,8 @@ class Framing:
             return goal
         look = self._approach.look(self._look(state), goal.fitted, goal.view, size, self._frame)
         kept = goal.fitted if state.sketch else None
+        names: Literal["as before", "at once"] = "as before" if goal.hurried else "at once"
+        arrival = self._approach.arrival(self._frame)
         self._passing = Picture(
             state.shown,
             size,
@@ -212,7 +229,7 @@ class Framing:
             docked=self._docked(state),
             kept=kept,
             sheet=goal.sheet,
-            later=Deferral(names="as before" if goal.hurried else "at once", earlier=earlier),
+            later=Deferral(names=names, earlier=earlier, arrival=arrival),
         )
         return self._passing
 

@@ -376,7 +376,8 @@ class Screen:
             self._printer.print(surface, picture, state.phase, state.clock.speed, over)
             self._row.draw(surface, picture.layout, over.row)
             self._tools.draw(surface, picture.layout, picture.theme, over.tool_bar)
-        self._bar.draw(surface, self._bar_layout(over), theme_of(state.look.theme), over.bar)
+        place, charted = self._bar_layout(over), self._framing.last.arrived
+        self._bar.draw(surface, place, theme_of(state.look.theme), over.bar, charted=charted)
 
     def _bar_layout(self, over: Overlay) -> Layout:
         """Return the layout in which the bar of commands stands; the shelf fills the window."""
@@ -556,7 +557,8 @@ class Screen:
     def button_at(self, x: float, y: float) -> int | None:
         """Return the number of the command of the bar under a pixel, -1 between them; None off the bar."""
         bar = self.over.bar
-        return button_at(self._bar_layout(self.over), bar.buttons, x, y) if bar else None
+        charted = self._framing.last.arrived
+        return button_at(self._bar_layout(self.over), bar.buttons, x, y, charted=charted) if bar else None
 
     def share_at(self, number: int, x: float) -> float:
         """Return the share of a slider on the bar, 0 to 1, at a pixel's x."""

@@ -2,15 +2,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from dataclasses import replace
+
 import numpy as np
 import pygame
 import pytest
 from playing import Player
 
+from linkanim.picture.items import Group
 from linkanim.picture.look import Look
+from linkanim.picture.picture import Picture
 from linkanim.picture.view import Box, Rect, View, moved
-from linkanim.player.framing import APPROACH_FRAMES, Approach, between
+from linkanim.player.action import Action
+from linkanim.player.actions import carried
+from linkanim.player.commands import bar
+from linkanim.player.framing import APPROACH_FRAMES, Approach, Framing, between
+from linkanim.player.state import begin
 from linkanim.player.stroke_view import view_for
+from linkanim.scenes import load
 
 A, B = View(2.0, 100.0, 300.0), View(1.0, 260.0, 200.0)
 
@@ -92,6 +102,108 @@ def test_what_changes_nothing_of_the_view_lets_it_go_on_its_way(player: Player) 
     there = _pin(player)
     player.press(pygame.K_v, text="v")
     assert 0 < abs(_pin(player) - there) < 0.2 * abs(_settled(player) - there)
+
+
+def gliding(name: str, size: tuple[int, int], *actions: Action, captioned: bool = True) -> Iterator[Picture]:
+    """Yield the pictures of a glide, frame by frame, that the last action begins; then the one that fits."""
+    framing, state = Framing(captioned=captioned), begin(load(name))
+    for action in actions:
+        framing.fitting(state, size)
+        state = carried(state, action)
+    for frame in range(APPROACH_FRAMES + 1):
+        yield framing.at(replace(state, frame=state.frame + frame), size)
+
+
+def parts(picture: Picture, *, scene: bool) -> list[Group]:
+    """Return what is drawn of the scene, or of charts and polygons."""
+    beside = ("chart", "reading", "velocity-polygon", "acceleration-polygon")
+    found = [*picture.groups(picture.scene.pose(1.0))]
+    return [group for group in found if (group.within is not None if scene else group.name in beside)]
+
+
+def extent(groups: list[Group]) -> tuple[complex, complex]:
+    """Return the upper left and the lower right corner of shapes."""
+    places = np.concatenate([loop for group in groups for layer in group.layers for loop in layer.loops])
+    return complex(places.real.min(), places.imag.min()), complex(places.real.max(), places.imag.max())
+
+
+CHART = Action("chart", 1)
+
+
+@pytest.mark.parametrize("size", [(1280, 720), (640, 360), (360, 640)], ids=str)
+@pytest.mark.parametrize("name", ["crank-rocker", "press", "jansen", "excavator", "hart"])
+def test_a_chart_comes_in_with_the_view_and_cuts_nothing_off(name: str, size: tuple[int, int]) -> None:
+    *way, last = gliding(name, size, CHART)
+    assert len(way) == APPROACH_FRAMES
+    assert not any(picture.arrived for picture in way)
+    assert last.arrived
+    for picture in (*way, last):
+        right, bottom = picture.edge
+        if scene := parts(picture, scene=True):
+            _, end = extent(scene)
+            assert end.real <= right + 1e-6
+            assert end.imag <= bottom + 1e-6
+        begin_, _ = extent(parts(picture, scene=False))
+        assert begin_.real >= right or begin_.imag >= bottom
+    assert last.layout.chart
+    assert last.edge[0] <= last.layout.chart.x or last.edge[1] <= last.layout.chart.y
+
+
+def test_a_chart_more_comes_in_from_where_the_charts_began() -> None:
+    framing, size, state = Framing(captioned=True), (1280, 720), carried(begin(load("slider-crank")), CHART)
+    before = framing.fitting(state, size).layout.chart
+    two = replace(state, look=replace(state.look, chart=",".join(state.scene.telling[:2])))
+    tops = [framing.at(replace(two, frame=state.frame + n), size).edge[1] for n in range(APPROACH_FRAMES + 1)]
+    assert before
+    assert before.y - 10 < tops[0] <= before.y
+    assert tops == sorted(tops, reverse=True)
+    assert framing.last.layout.chart
+    assert tops[-1] == int(framing.last.layout.chart.y) < 0.8 * before.y
+
+
+@pytest.mark.parametrize("size", [(640, 360), (360, 640)], ids=str)
+@pytest.mark.parametrize("captioned", [True, False])
+@pytest.mark.parametrize("before", [(), (CHART,)], ids=["alone", "with a chart"])
+def test_polygons_wait_until_the_view_has_room_for_them(
+    before: tuple[Action, ...], captioned: bool, size: tuple[int, int]
+) -> None:
+    *way, last = gliding("crank-rocker", size, *before, Action("polygons"), captioned=captioned)
+    assert len(way) == APPROACH_FRAMES
+    for picture in way:
+        assert not picture.has_polygons
+        if scene := parts(picture, scene=True):
+            _, end = extent(scene)
+            assert end.real <= picture.edge[0] + 1e-6
+            assert end.imag <= picture.edge[1] + 1e-6
+    assert captioned or last.has_polygons
+
+
+def test_a_chart_that_comes_stands_neither_under_its_buttons_nor_on_the_caption(player: Player) -> None:
+    pygame.display.set_mode((1280, 720))
+    player.press(pygame.K_n, text="n")
+    player.settle()
+    player.mouse(pygame.MOUSEMOTION, (500, 300), rel=(1, 0), buttons=(0, 0, 0))
+    player.press(pygame.K_c, text="c")
+    shown = player.window.screen
+    crossed, room = False, Rect(0, 0, 0, 0)
+    for _ in range(APPROACH_FRAMES):
+        picture, buttons = shown._framing.last, bar(player.state)
+        assert buttons
+        chart, caption = picture.layout.chart, picture.layout.caption
+        assert chart
+        assert caption
+        room = chart
+        assert shown.button_at(room.middle.real, room.y) is None
+        told = any(group.name == "caption" for group in picture.groups(picture.scene.pose(1.0)))
+        come = parts(picture, scene=False)
+        words = [line.around(picture.type) for group in come for line in group.captions]
+        crosses = any(caption.meets(one) for one in words)
+        assert not (told and crosses)
+        crossed = crossed or crosses
+        player.tick()
+    assert crossed
+    assert shown._framing.last.arrived
+    assert shown.button_at(room.middle.real, room.y) is not None
 
 
 def test_every_point_moves_straight_and_arrives() -> None:

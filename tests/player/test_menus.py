@@ -215,6 +215,7 @@ def opened(player: Player) -> str:
 
 def test_a_right_click_on_a_joint_a_link_and_the_chart_lists_what_these_have(player: Player) -> None:
     player.window.state = carried(player.state, Action("plot", "rocker.angle"))
+    player.tick()
     player.settle()
     a, b = place(player, "A"), place(player, "O2")
     chart = player.window.screen._framing.last.layout.chart

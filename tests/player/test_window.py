@@ -598,6 +598,7 @@ def test_a_scene_without_the_joint_under_the_mouse_takes_the_place_of_one_that_h
 
 def test_the_charts_cursor_is_dragged(player: Player) -> None:
     player.press(*plain("c"))
+    player.settle()
     place = next(
         (x, y) for y in range(179, 0, -5) for x in (160,) if player.window.screen.charted(x, y) is not None
     )
