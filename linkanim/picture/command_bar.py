@@ -30,7 +30,7 @@ _SLIDER = 3.0
 _WITHIN = 0.35
 """From a slider's end to the end of its knob's range."""
 _MOST_FACES = 200
-"""The number of cached buttons above which they are drawn anew when the layout changes."""
+"""The number of cached buttons above which they are drawn anew: a knob that is dragged has many places."""
 _GREY = 0.68
 """The share of the panel's colour in a button that cannot be used."""
 _POINTED = 0.5
@@ -191,7 +191,7 @@ class BarPrinter:
             return
         if self._board is None or (self._board.layout, self._board.theme) != (layout, theme):
             before = self._board or Board(layout, self._type, theme)
-            if before.theme != theme or len(self._faces) > _MOST_FACES:
+            if before.theme != theme:
                 self._faces.clear()
             self._board, self._kept = replace(before, layout=layout, theme=theme), None
             self._tooltips.clear()
@@ -218,6 +218,8 @@ class BarPrinter:
             if cell and frame.meets(cell):
                 face = _Face(button.icon, button.on, bool(button.lack), button.share, n == bar.pointed)
                 seen.append((cell, ((round(cell.width), round(cell.height)), face)))
+        if len(self._faces) > _MOST_FACES:
+            self._faces.clear()
         fresh = dict.fromkeys(sized for _, sized in seen if sized not in self._faces)
         self._faces |= _faces(board.theme, fresh)
         for cell, sized in seen:

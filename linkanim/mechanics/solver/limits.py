@@ -962,6 +962,8 @@ def _limits(
     found: Separations, inside: Array, outside: Array, shut: NDArray[np.bool_]
 ) -> list[tuple[Sum, str]]:
     """Return the limit between each open phase and the shut one beside it, by bisection, and whose it is."""
+    if not len(inside):  # the way up is open, and only that back is not
+        return []
     margins = found.margins(outside)
     rows = np.array([_first_shut(*both) for both in zip(shut.T, margins.T, strict=True)], np.intp)
     names, sides = [found.names[row] for row in rows], np.where(inside > outside, 1, -1)
@@ -971,7 +973,7 @@ def _limits(
         values = found.margins(phases.ravel()).reshape(-1, *phases.shape)
         return np.asarray(values[rows, :, own].T >= 0)
 
-    ends = ends_of(closes, inside, outside) if len(rows) else inside
+    ends = ends_of(closes, inside, outside)
     missed = (found.beside(*end) for end in zip(outside.tolist(), names, sides.tolist(), strict=True))
     starts = (Sum(float(end)) if start is None else start for start, end in zip(missed, ends, strict=True))
     return list(zip(starts, names, strict=True))
