@@ -411,8 +411,8 @@ class Picture:
 
     @property
     def _overrun(self) -> bool:
-        """Whether something may lie where the words stand."""
-        return self.look.overrun or self.fitted != self.fit.view_of(self.figure)
+        """Whether something may lie where the words stand: names, too, that have another picture's places."""
+        return self.look.overrun or self.hurried or self.fitted != self.fit.view_of(self.figure)
 
     @property
     def edge(self) -> tuple[float, float]:

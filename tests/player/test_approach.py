@@ -206,6 +206,16 @@ def test_a_chart_that_comes_stands_neither_under_its_buttons_nor_on_the_caption(
     assert shown.button_at(room.middle.real, room.y) is not None
 
 
+def test_numbers_keep_their_backing_until_the_names_that_may_lie_under_them_are_placed() -> None:
+    *_, last = gliding("excavator", (640, 360), Action("names"), CHART)
+    assert last.arrived
+    assert last.hurried
+    groups = {group.name: group for group in last.groups(last.scene.pose(0.0))}
+    names = [line.around(last.type) for line in groups["names"].captions]
+    assert any(name.meets(words) for name in names for words in last.layout.words)
+    assert [name for name in groups if name in ("names", "backing", "words")] == ["names", "backing", "words"]
+
+
 def test_every_point_moves_straight_and_arrives() -> None:
     assert (between(A, B, 0.0), between(A, B, 1.0)) == (A, B)
     half = between(A, B, 0.5)
