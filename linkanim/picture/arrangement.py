@@ -440,12 +440,7 @@ class _WaysToArrange:
 
     def _drawn_in(self, rects: Sequence[Rect], views: Views, size: int) -> NDArray[np.bool_]:
         """Return whether anything is drawn in rectangles, in each view (..., rectangles)."""
-        left, top, right, bottom = np.array([(one.x, one.y, one.right, one.bottom) for one in rects]).T
-        scale, x, y = (one[..., None] for one in views)
-        gap = 0.5 * size
-        _, bar, foot = (reach + gap for reach in self.gauge.around)
-        sides = (left - x) / scale, (y - bottom) / scale, (right - x) / scale, (y - top) / scale
-        return self.sweep.touches(sides, bar / scale, foot / scale)
+        return drawn_in(rects, self.sweep, views, self.gauge, 0.5 * size)
 
     def _extent(self, scale: float) -> tuple[float, float, float, float]:
         """Return left, top, right and bottom of what is drawn, in pixels from the scene's origin."""
@@ -468,6 +463,17 @@ class _WaysToArrange:
                 if length > 0:
                     scale = min(scale, max(room - around, 1.0) / length)
         return scale
+
+
+def drawn_in(
+    rects: Sequence[Rect], sweep: Sweep, views: Views, thick: Gauge, gap: float = 0.0
+) -> NDArray[np.bool_]:
+    """Return whether anything is drawn within `gap` of rectangles, in each view (..., rectangles)."""
+    left, top, right, bottom = np.array([(one.x, one.y, one.right, one.bottom) for one in rects]).T
+    scale, x, y = (one[..., None] for one in views)
+    _, bar, foot = (reach + gap for reach in thick.around)
+    sides = (left - x) / scale, (y - bottom) / scale, (right - x) / scale, (y - top) / scale
+    return sweep.touches(sides, bar / scale, foot / scale)
 
 
 def _ways_through(shares: Sequence[float], group: Sequence[WordBlock]) -> list[tuple[float, int, int]]:
@@ -582,6 +588,21 @@ class SceneFit:
             for box in boxes
             for x, y in (view.to_pixel(box.left, box.high), view.to_pixel(box.right, box.low))
         )
+
+    def clear(self, places: tuple[Rect, ...]) -> tuple[bool, ...]:
+        """Return for each of some places whether nothing is drawn there, all through the cycle."""
+        if places not in self._clear:
+            view, thick = self.arrangement.view, self.arrangement.gauge
+            views = np.array(view.scale), np.array(view.x), np.array(view.y)
+            drawn = drawn_in(places, self.subject.sweep, views, thick).tolist()
+            self._clear.clear()
+            self._clear[places] = tuple(not one for one in drawn)
+        return self._clear[places]
+
+    @cached_property
+    def _clear(self) -> dict[tuple[Rect, ...], tuple[bool, ...]]:
+        """The answer for the last places: they are asked for at every frame."""
+        return {}
 
     def view_of(self, shown: Figure) -> View:
         """Return the view of the subject's figure; a figure on its way to it has the same scale and place."""

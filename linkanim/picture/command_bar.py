@@ -106,8 +106,13 @@ def button_at(
 
 def bar_place(layout: Layout, bar: CommandBar | None) -> Rect | None:
     """Return the rectangle of the bar at the foot; None where there is none."""
+    return next(iter(bar_places(layout, bar)), None)
+
+
+def bar_places(layout: Layout, bar: CommandBar | None) -> list[Rect]:
+    """Return the rectangles of the bar: at the foot, and on a chart."""
     frames = _frames(layout, bar.buttons, bar_cells(layout, bar.buttons)) if bar else ()
-    return next((frame for frame, _ in frames), None)
+    return [frame for frame, _ in frames]
 
 
 def share_at(layout: Layout, buttons: Sequence[Button], number: int, x: float) -> float:

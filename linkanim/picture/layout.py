@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 from functools import cached_property
+from itertools import product
 from math import ceil
 
 from linkanim.frozen import NamedTuple, frozen
@@ -265,6 +267,22 @@ def _charted(empty: Layout, *, chart: int, beside: bool, listed: int, row: bool,
     tall = _SHARES_BELOW[min(chart, len(_SHARES_BELOW)) - 1] * room.height
     chart_place = Rect(room.x + edge, room.bottom - edge - tall, room.width - 2 * edge, tall)
     return replace(empty, stage=room._replace(height=chart_place.y - _OFF * edge), chart=chart_place)
+
+
+_HEIGHT_OF_CHIP = 1.7
+"""The height of a chip, in heights of its text."""
+
+
+def chip_places(parts: Layout, wide: float) -> Iterator[Rect]:
+    """Yield where a chip so many pixels wide may stand: below the marks, in corners, between these."""
+    edge, size = round(_EDGE * parts.unit), parts.text_size
+    room, high = parts.stage.inset(edge), round(_HEIGHT_OF_CHIP * size)
+    # charts and polygons have their words at their head
+    docked = any(one is not None and one.x >= parts.stage.right for one in (parts.chart, parts.polygons))
+    right = room.right if docked else parts.marks.right
+    yield Rect(right - wide, parts.marks.y + _HEAD_OF_MARKS * size, wide, high)
+    for across, low in product((1, 0, 0.5), (1, 0)):
+        yield Rect(room.x + across * (room.width - wide), room.y + low * (room.height - high), wide, high)
 
 
 # The tools beside a list of dimensions, and on a sheet.

@@ -15,9 +15,9 @@ import pygame
 
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.picture.board import STEP, Board, Rows, around
-from linkanim.picture.command_bar import bar_place
+from linkanim.picture.command_bar import bar_place, bar_places
 from linkanim.picture.game_panel import answer_rows, game_panel
-from linkanim.picture.layout import Layout
+from linkanim.picture.layout import Layout, chip_places
 from linkanim.picture.overlay import Fading, Help, Overlay, Panel, Quantities
 from linkanim.picture.raster import Colour, Layer, Loop, paint
 from linkanim.picture.shapes import box, disc, stroke
@@ -30,6 +30,13 @@ from linkanim.steps import at_once
 _GAP = "   ·   "
 _LITTLE = 0.12
 """A sentence that takes a greater share of the stage's height is shown only where nothing is drawn."""
+
+
+Clear = Callable[[tuple[Rect, ...]], tuple[bool, ...]]
+"""Tells for each place whether nothing is drawn there."""
+
+_BESIDE = 0.3
+"""The least gap between a chip and other words, in heights of its text."""
 
 
 def chip(board: Board, text: str) -> pygame.Surface:
@@ -522,8 +529,11 @@ class Panels:
         self.board = board
         self._kept: dict[Any, tuple[Any, Any]] = {}
 
-    def draw(self, surface: pygame.Surface, overlay: Overlay) -> None:
-        """Draw what an overlay holds: the help over a game or beside the edit list, a toast at the foot."""
+    def draw(self, surface: pygame.Surface, overlay: Overlay, clear: Clear | None = None) -> None:
+        """Draw what an overlay holds: the help over a game or beside the edit list, a toast at the foot.
+
+        `clear` tells in which places nothing is drawn; without it this is not known.
+        """
         self._marks(surface, overlay)
         self._list(surface, game_panel, overlay.game)
         if overlay.help:
@@ -533,7 +543,7 @@ class Panels:
         if overlay.help:
             drawn, place = self._helped(overlay.help, left)
             surface.blit(drawn, (place.x, place.y))
-        self._passing(surface, overlay)
+        self._passing(surface, overlay, clear)
         if overlay.toast:
             surface.blit(*self._toasted(overlay, overlay.toast))
 
@@ -649,19 +659,12 @@ class Panels:
         foot = self.board.layout.size[1] - margin - drawn.get_height()
         return round(place.x), max(foot, margin) if place.y > margin else margin
 
-    def _passing(self, surface: pygame.Surface, overlay: Overlay) -> None:
-        """Draw the chip below the marks, and the hint bar at the bottom, where the HUD is not."""
-        room, place = self.board.layout.stage, self.board.layout.marks
+    def _passing(self, surface: pygame.Surface, overlay: Overlay, clear: Clear | None) -> None:
+        """Draw the chip, and the hint bar at the bottom, where the HUD is not."""
+        room = self.board.layout.stage
         if overlay.chip:
             drawn = self._keep(chip, overlay.chip.text)
-            marks = 1.5 * self.board.layout.text_size
-            docked = (self.board.layout.chart, self.board.layout.polygons)
-            # charts and polygons have their words at their head
-            is_beside = any(one is not None and one.x >= room.right for one in docked)
-            right = room.inset(self.board.margin).right if is_beside else place.right
-            beside = right - drawn.get_width(), place.y + marks
-            free = off_words(self.board.layout, drawn, [beside, *edges(self.board, drawn)])
-            put(surface, drawn, free or beside, overlay.chip)
+            put(surface, drawn, self._chip_place(overlay, drawn, clear), overlay.chip)
         if overlay.watch:
             drawn, at = self._keep(sentence, overlay.watch.text)
             if at:
@@ -674,6 +677,32 @@ class Panels:
                 left = at.x if leads else at.right - words.get_width()
                 free = self._above_bar(overlay, words, (left, at.bottom - words.get_height()))
                 put(surface, words, free, overlay.hint)
+
+    def _chip_place(
+        self, overlay: Overlay, drawn: pygame.Surface, clear: Clear | None
+    ) -> tuple[float, float]:
+        """Return where a chip stands: below the marks, or where nothing is drawn; else only off words."""
+        layout, places = self.board.layout, tuple(chip_places(self.board.layout, drawn.get_width()))
+        if clear and not overlay.is_drawn_on:
+            busy, gap = [*layout.words, *self._busy(overlay)], _BESIDE * layout.text_size
+            for place, free in zip(places, clear(places), strict=False):
+                if free and not any(place.inset(-gap).meets(one) for one in busy):
+                    return place.x, place.y
+        usual = places[0].x, places[0].y
+        return off_words(layout, drawn, [usual, *edges(self.board, drawn)]) or usual
+
+    def _busy(self, overlay: Overlay) -> Iterator[Rect]:
+        """Yield where other words and buttons are, besides the rows of words about the scene."""
+        layout = self.board.layout
+        yield from bar_places(layout, overlay.bar)
+        if layout.legend:
+            yield layout.legend
+        yield layout.marks._replace(height=layout.text_size)
+        if overlay.watch and layout.passing:
+            yield layout.passing
+        if overlay.toast:
+            sheet, at = self._toasted(overlay, overlay.toast)
+            yield Rect(*at, *sheet.get_size())
 
     def _above_bar(
         self, overlay: Overlay, drawn: pygame.Surface, at: tuple[float, float]

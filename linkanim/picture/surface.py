@@ -87,7 +87,8 @@ class SurfacePrinter:
             self._words(canvas, picture.type, run, whole=picture.held)
         self._labels.let_go()
         if overlay != NOTHING_OVER:
-            self._panels_of(picture).draw(canvas, overlay)
+            clear = None if picture.held or picture.late else picture.fit.clear
+            self._panels_of(picture).draw(canvas, overlay, clear)
         if canvas is not surface:
             surface.blit(canvas, (0, 0))
 

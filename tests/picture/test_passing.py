@@ -12,9 +12,19 @@ import pytest
 from pictures import inked, pixels
 
 from linkanim.picture.board import Board
-from linkanim.picture.layout import layout
+from linkanim.picture.command_bar import bar_place
+from linkanim.picture.layout import Docked, chip_places, layout
 from linkanim.picture.look import Look
-from linkanim.picture.overlay import DimensionLine, EditRow, Fading, Overlay, Panel
+from linkanim.picture.overlay import (
+    NOTHING_OVER,
+    Button,
+    CommandBar,
+    DimensionLine,
+    EditRow,
+    Fading,
+    Overlay,
+    Panel,
+)
 from linkanim.picture.panels import edit_list
 from linkanim.picture.picture import Picture
 from linkanim.picture.raster import offscreen
@@ -94,6 +104,66 @@ def test_a_chip_lies_on_no_words_of_a_chart_or_a_polygon(size: tuple[int, int], 
     beside = shown.layout.polygons or shown.layout.chart
     assert beside
     assert not _between(*sheets).meets(beside)
+
+
+def chip_of(shown: Picture, words: str, overlay: Overlay = NOTHING_OVER) -> Rect:
+    """Return where a chip with these words lies on a picture."""
+    sheets = [offscreen(shown.size), offscreen(shown.size)]
+    for sheet, chip in zip(sheets, (None, Fading(words)), strict=True):
+        over = replace(overlay, chip=chip)
+        SurfacePrinter().paint(sheet, shown, shown.scene.pose(1.0), over)
+    return _between(*sheets)
+
+
+def is_bare(shown: Picture, place: Rect) -> bool:
+    """Return whether nothing is drawn in a place of a picture, all through a cycle."""
+    columns, rows = slice(int(place.x), int(place.right)), slice(int(place.y), int(place.bottom))
+    for n in range(40):
+        surface = offscreen(shown.size)
+        SurfacePrinter().paint(surface, shown, shown.scene.pose(shown.scene.period * n / 40))
+        if (pixels(surface)[rows, columns] != LIGHT.background).any():
+            return False
+    return True
+
+
+@pytest.mark.parametrize(
+    ("name", "size", "look", "words"),
+    [
+        ("crank-rocker", (320, 180), Look(), "25 rpm"),
+        ("crank-rocker", (320, 180), Look(chart="rocker.angle"), "Rocker: angle"),
+        ("crank-rocker", (320, 180), Look(polygons=True), "polygons"),
+        ("crank-rocker", (640, 360), Look(), "25 rpm"),
+        ("jansen", (640, 360), Look(chart="d.angle"), "Link d: angle"),
+        ("engine", (1280, 720), Look(chart="slider.travel_velocity"), "Slider: velocity"),
+        ("engine", (360, 640), Look(), "25 rpm"),
+    ],
+)
+def test_a_chip_lies_where_nothing_is_drawn(name: str, size: tuple[int, int], look: Look, words: str) -> None:
+    shown = Picture(load(name), size, look, docked=Docked(bar=True))
+    place = chip_of(shown, words)
+    usual, *_ = chip_places(shown.layout, place.width)
+    assert not is_bare(shown, usual)
+    assert is_bare(shown, place)
+
+
+def test_a_chip_stays_below_the_marks_where_nothing_is_drawn_there_or_nowhere_else() -> None:
+    for name, free in (("engine", True), ("press", False)):
+        shown = Picture(load(name), (320, 180), Look())
+        place = chip_of(shown, "25 rpm")
+        usual, *_ = chip_places(shown.layout, place.width)
+        assert abs(usual.middle - place.middle) < 2, name
+        assert is_bare(shown, place.inset(1)) == free, name
+
+
+def test_a_chip_is_not_under_the_bar_nor_where_a_draft_may_be() -> None:
+    shown = Picture(load("crank-rocker"), (320, 180), Look(), docked=Docked(bar=True))
+    bar = CommandBar(tuple(Button("play", "play", "Space") for _ in range(9)))
+    frame = bar_place(shown.layout, bar)
+    assert frame
+    assert chip_of(shown, "25 rpm").meets(frame)
+    assert not chip_of(shown, "25 rpm", Overlay(bar=bar)).meets(frame)
+    place = chip_of(shown, "25 rpm", Overlay(construction=1))
+    assert abs(next(iter(chip_places(shown.layout, place.width))).middle - place.middle) < 2
 
 
 def test_the_picture_recedes_behind_the_help(painter: Picture) -> None:
