@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import cached_property
+from itertools import product
 
 import numpy as np
 
@@ -26,10 +27,16 @@ _NOTHING = 1e-9
 """Share of a polygon's greatest extent below which a vector has no direction."""
 _LABELLED = 0.3
 """The shortest vector that has its symbol beside it, in heights of the text."""
-_ASIDE = (0.0, 0.3, 1.1, 2.0, 3.0, 4.2)
-"""How far from its vector a symbol may stand, in heights of the text."""
-_SHARES = (0.5, 0.35, 0.65)
-"""Where along its vector a symbol may stand."""
+_NEAR, _SHARES, _SIDES = (0.0, 0.3), (0.5, 0.35, 0.65), (1, -1)
+_STANDS = (
+    *product(_NEAR, _SHARES, _SIDES),
+    *product((1.1,), _SHARES, _SIDES),
+    *product((1.5, 2.0), (0.5,), _SIDES),
+)
+"""Where a symbol may stand, the best place first.
+
+That is how far from its vector, in heights of the text, where along the vector, and on which side.
+"""
 _LED = 1.0
 """A symbol this far off or farther, in heights of the text, has a thin line to its vector."""
 _BEYOND = 5.0
@@ -251,8 +258,8 @@ class Polygon:
                 continue
             at, colour = complex(label.places[0, which]), self._colour(arrow.side.sort)
             captions.append(self._written(arrow.side.symbol, at, colour))
-            share = _SHARES[which % (2 * len(_SHARES)) // 2]
-            if _ASIDE[which // (2 * len(_SHARES))] >= _LED:
+            further, share, _ = _STANDS[which]
+            if further >= _LED:
                 foot = arrow.foot + share * arrow.reach
                 towards = unit(foot - at)
                 half = 0.5 * (abs(towards.real) * label.size[0] + abs(towards.imag) * label.size[1])
@@ -346,11 +353,9 @@ def _beside(arrow: Arrow, wide: float, high: float, middle: complex) -> LabelPla
     away = 0.5 * (abs(across.real) * wide + abs(across.imag) * high) + 0.175 * high
     places = [
         arrow.foot + share * arrow.reach + side * (away + further * high) * across
-        for further in _ASIDE
-        for share in _SHARES
-        for side in (1, -1)
+        for further, share, side in _STANDS
     ]
-    return LabelPlaces((wide, high), np.array([places]), np.arange(float(len(places))))
+    return LabelPlaces((wide, high), np.array([places]), np.linspace(0.0, 1.0, len(places)))
 
 
 def _about(pole: complex, wide: float, high: float) -> LabelPlaces:

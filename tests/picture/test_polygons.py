@@ -163,6 +163,25 @@ def test_in_a_figure_of_one_pose_they_fill_their_place(name: str) -> None:
         assert 0.95 < filled < 1.1
 
 
+@pytest.mark.parametrize(
+    ("name", "phase", "order", "most"),
+    [("crank-rocker", 0.5, 2, 1.7), ("crank-rocker", 5.0, 2, 1.7), ("hart", 0.5, 1, 1.7)],
+)
+def test_the_line_to_a_symbol_is_no_longer_than_it_has_to_be(
+    name: str, phase: float, order: int, most: float
+) -> None:
+    assert WINDOW.polygons is not None
+    shown, pen = figure(load(name)), pen_for(WINDOW, Type(), LIGHT)
+    pose = shown.scene.pose(phase)
+    panel = replace(polygons_of(shown, WINDOW.polygons, pen, phase)[order - 1], shown=pose)
+    pole, scale = panel.pole(pose.input_speed), panel.scale(pose.input_speed)
+    leaders = panel._symbols(panel._arrows(pose, pole, scale), pole).leaders
+    ends = [layer.loops[0] for layer in leaders]
+    long = [float(np.abs(loop[:, None] - loop).max()) / pen.small for loop in ends]
+    assert long
+    assert max(long) < most
+
+
 @pytest.mark.parametrize(("name", "phase"), [("jansen", 0.0), ("six-bar", 0.34), ("excavator", 1.5)])
 def test_what_is_listed_in_a_figure_lies_on_no_vector(name: str, phase: float) -> None:
     assert WINDOW.polygons is not None
