@@ -30,6 +30,7 @@ from linkanim.player.state import (
     loss_of_turning,
     nothing_begun,
     proved,
+    still_typed,
     with_toast,
     with_undo,
 )
@@ -102,7 +103,8 @@ def exchanged(state: State, scene: Scene) -> State:
     proved(scene, clock.at(state.frame))
     look = replace(state.look, chart=_kept_chart(state, scene))
     turned = state.turned if _verdict(scene.info) == _verdict(state.scene.info) else state.frame
-    return replace(state, scene=scene, clock=clock, look=look, turned=turned)
+    editing = still_typed(state.editing, state.scene, scene)
+    return replace(state, scene=scene, clock=clock, look=look, turned=turned, editing=editing)
 
 
 def followed(state: State, scene: Scene) -> State:
@@ -543,7 +545,9 @@ def _step_of(unit: str) -> Decimal:
 
 def _remade(state: State, editing: Editing, scene: Scene) -> State:
     """Return the state with another editing and another scene, to which the picture glides."""
-    return replace(state if scene is state.scene else followed(state, scene), editing=editing)
+    if scene is state.scene:
+        return replace(state, editing=editing)
+    return replace(followed(state, scene), editing=still_typed(editing, state.scene, scene))
 
 
 def _drafts(state: State) -> tuple[tuple[Key, str], ...]:

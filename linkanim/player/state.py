@@ -155,6 +155,17 @@ def chosen(editing: Editing, scene: Scene) -> Dimension | None:
     return items[editing.chosen % len(items)] if items else None
 
 
+def still_typed(editing: Editing, before: Scene, after: Scene) -> Editing:
+    """Return the editing once a scene has become another: without typed values that this has no row for."""
+    if not editing.begun:
+        return editing
+    rows, row = {item.key for item in dimensions(after)}, chosen(editing, after)
+    drafts = tuple(pair for pair in editing.drafts if pair[0] in rows)
+    was = chosen(editing, before)
+    stays = row is not None and was is not None and row.key == was.key
+    return replace(editing, drafts=drafts, typed=editing.typed if stays else "")
+
+
 def nothing_begun(editing: Editing) -> Editing:
     """Return the editing without the value being typed; where there is none, without all drafts."""
     return cleared(editing) if editing.typed else cleared(editing, drafts=())

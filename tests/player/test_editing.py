@@ -9,6 +9,7 @@ import pytest
 
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
+from linkanim.player.edits import renewed
 from linkanim.player.shown import overlay
 from linkanim.player.state import EVERY, FLASH_FRAMES, FRAMES, State, begin, chosen, closes
 from linkanim.scenes import load
@@ -223,6 +224,33 @@ def test_passing_on_without_a_value_only_chooses(crank: State) -> None:
 
 def test_a_closed_list_keeps_no_drafts(crank: State) -> None:
     assert not after(crank, Action("type", "9"), Action("pass_on", 1), "edit", "edit").editing.begun
+
+
+LENGTHS = {"ground": 100, "crank": 40, "coupler": 110, "rocker": 80, "coupler_point": [50, 30]}
+AS_JOINTS = {
+    "ground": {"O2": [0, 0], "O4": [100, 0]},
+    "joints": {
+        "A": {"crank": "O2", "length": 40},
+        "B": {"from": ["A", "O4"], "length": [110, 80], "side": "left"},
+    },
+}
+# A value begun and left is kept where the file still has its row.
+RENEWED = {
+    "the same rows": ({"four-bar": {**LENGTHS, "crank": 45}}, 1),
+    "other rows": (AS_JOINTS, 0),
+}
+
+
+@pytest.mark.parametrize(("document", "drafts"), RENEWED.values(), ids=RENEWED)
+def test_values_begun_of_a_row_that_a_changed_file_has_no_longer_are_let_go_of(
+    document: dict[str, Any], drafts: int
+) -> None:
+    state = begin(scene_from({"four-bar": LENGTHS}, name="mine", where="mine.toml"))
+    point = [item.label for item in dimensions(state.scene)].index("Coupler point, along")
+    state = after(state, "edit", Action("choose", point), Action("type", "8"), Action("pass_on", -point))
+    state = renewed(state, scene_from(document, name="mine", where="mine.toml"))
+    assert len(state.editing.drafts) == drafts
+    assert not any(effect.name == "report" for effect in after(state, "take").effects)
 
 
 def test_the_list_says_what_the_lengths_make_of_the_linkage(crank: State) -> None:
