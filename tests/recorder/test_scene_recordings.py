@@ -322,9 +322,9 @@ def test_a_gallery_recording_that_is_too_large_gets_fewer_frames(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(gallery, "SIZE", SIZE)
-    (largest,) = make_gallery(tmp_path, ["press"]).recordings
+    (largest,) = make_gallery(tmp_path, ["crank-rocker"]).recordings
     monkeypatch.setattr(gallery, "LARGEST", largest.file_bytes - 1)
-    (smaller,) = make_gallery(tmp_path, ["press"]).recordings
+    (smaller,) = make_gallery(tmp_path, ["crank-rocker"]).recordings
     assert (largest.frames, smaller.frames) == (60, 50)
     assert smaller.file_bytes < largest.file_bytes
 
