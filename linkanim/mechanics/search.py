@@ -85,7 +85,7 @@ def ends_of(
         held, at = holds(middles), np.zeros(len(inside), np.intp)
         size = np.maximum(np.abs(inside), np.abs(outside))
         least = np.maximum(finest, 4 * np.spacing(size)) * 2.0 ** (deep + 1)
-        if (np.abs(outside - inside) > least).any():  # no halving of these is the last
+        if (np.abs(outside - inside) > least).any():  # so that the search does not end with one of these
             for level in range(deep):
                 at = 2 * at + ~held[(1 << level) - 1 + at, each]
             inside, outside = halves[0][at, each], halves[1][at, each]

@@ -62,14 +62,15 @@ class Board:
         if small.get_size() == size:
             return small
         sheet, pixels = pygame.Surface(size, pygame.SRCALPHA, 32), pygame.surfarray.array2d(small)
-        for axis, (pixel_count, wanted) in enumerate(zip(small.get_size(), size, strict=True)):
-            times = np.ones(pixel_count, np.intp)
-            times[pixel_count // 2] += wanted - pixel_count
+        for axis, (count, wanted) in enumerate(zip(small.get_size(), size, strict=True)):
+            times = np.ones(count, np.intp)
+            times[count // 2] += wanted - count
             pixels = np.repeat(pixels, times, axis=axis)
         pygame.surfarray.blit_array(sheet, pixels)
         return sheet
 
     def _framed(self, size: tuple[int, int], corner: float) -> pygame.Surface:
+        """Return a framed sheet, filled as a whole."""
         sheet = pygame.Surface(size, pygame.SRCALPHA, 32)
         (wide, high), line = size, max(1.5 * self.layout.unit, 1.0)
         middle = complex(wide / 2, high / 2)

@@ -87,6 +87,7 @@ class SurfacePrinter:
             self._words(canvas, picture.type, run, whole=picture.held)
         self._labels.let_go()
         if overlay != NOTHING_OVER:
+            # What is swept is not worked out while a hand changes it.
             clear = None if picture.held or picture.late else picture.fit.clear
             self._panels_of(picture).draw(canvas, overlay, clear)
         if canvas is not surface:

@@ -12,6 +12,7 @@ from statistics import median
 from typing import NamedTuple
 
 import pygame
+from reaction import bounded, press
 from window import dummy, measured, spare
 
 from linkanim.bench.result import this_machine
@@ -52,21 +53,13 @@ def drag(scene: str) -> list[Dragged]:
         at = (0, 0)
         for frame in range(GRASPED + 1 + LED):
             if key := OPENING.get(frame):
-                for kind in (pygame.KEYDOWN, pygame.KEYUP):
-                    pygame.event.post(
-                        pygame.event.Event(kind, key=pygame.key.key_code(key), unicode=key, mod=0)
-                    )
+                press(key)
             if frame == GRASPED:
                 at = _row(window.screen)
-                pygame.event.post(
-                    pygame.event.Event(pygame.MOUSEMOTION, pos=at, rel=(0, 0), buttons=(0, 0, 0))
-                )
+                _move(at, held=False)
                 pygame.event.post(pygame.event.Event(pygame.MOUSEBUTTONDOWN, pos=at, button=1))
             if (led := frame - GRASPED) > 0:
-                to = at[0] + PIXELS * min(led, LED - led), at[1]
-                pygame.event.post(
-                    pygame.event.Event(pygame.MOUSEMOTION, pos=to, rel=(1, 0), buttons=(1, 0, 0))
-                )
+                _move((at[0] + PIXELS * min(led, LED - led), at[1]), held=True)
             start = time.process_time()
             window.tick()
             if led > 0:
@@ -74,6 +67,11 @@ def drag(scene: str) -> list[Dragged]:
                 found.append(Dragged(took, window.state.editing.refusal is not None))
         window.close()
     return found
+
+
+def _move(to: tuple[int, int], *, held: bool) -> None:
+    """Post the event of a mouse that moves to a pixel."""
+    pygame.event.post(pygame.event.Event(pygame.MOUSEMOTION, pos=to, rel=(1, 0), buttons=(int(held), 0, 0)))
 
 
 def _row(screen: Screen) -> tuple[int, int]:
@@ -94,12 +92,9 @@ def settled(scene: str, rounds: int = ROUNDS) -> list[Dragged]:
 
 def as_text(scene: str, found: list[Dragged]) -> str:
     """Return one line: the median and the worst beside their bounds."""
-    (middle, worst), times = BOUNDS_MS, [one.milliseconds for one in found]
-    refused = sum(one.refused for one in found)
-    return (
-        f"{scene}: {len(found)} frames, {refused} of them refused: {median(times):.1f} ms in the median "
-        f"(≤ {middle:g} ms), worst {max(times):.1f} ms (≤ {worst:g} ms)"
-    )
+    times, refused = [one.milliseconds for one in found], sum(one.refused for one in found)
+    what = f"{scene}: {len(found)} frames, in {refused} of them the length is refused:"
+    return f"{what} {bounded(times, BOUNDS_MS)}"
 
 
 if __name__ == "__main__":

@@ -167,6 +167,6 @@ def test_a_range_that_begins_just_before_a_start_that_is_shut_is_the_one_nearest
     drive = {"speed": "20 rpm", "start": "0 deg"}
     scene = scene_from({"drive": drive, "ground": ground, "joints": joints}, name="my", where="my.toml")
     low, high = scene.info.input_range
-    # the gears come back after three turns, so the same range lies six turns on each side of it, too
+    # the gears come back after three turns, so the same range comes again every three turns
     assert -math.pi / 2 < low < high < 0.0
     check_ends(scene.mechanism)

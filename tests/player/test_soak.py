@@ -191,7 +191,7 @@ def test_windows_opened_one_after_the_other_take_no_more_memory(here: Path) -> N
 @pytest.mark.withstands("frames run", 1_000_000)
 @needs_proc
 def test_a_million_frames_take_no_more_memory(record_property: Callable[[str, object], None]) -> None:
-    # what is kept of scenes and pictures is full after a first run of that length
+    # what is kept of scenes and pictures fills slowly, most of it in a first run of that length
     for state in states(1_000_000, 0.01):
         finite(state)
     before = resident_mb()

@@ -944,9 +944,9 @@ def _open_interval(assembly: Assembly, found: Separations) -> tuple[Limit, Limit
 
 
 def _run_around(is_open: NDArray[np.bool_], home: int, phases: Array) -> tuple[int, int]:
-    """Return the first and last place of the open run at `home`, or of the widest, the nearest of several.
+    """Return the first and last place of the open run at `home`, else of the widest (the nearest of equals).
 
-    Around a full turn each run comes again every turn: that at the edge of the phases may be cut off there.
+    Where the input turns, each run comes again, and at the edge of the phases a part of it only.
     """
     edges = np.flatnonzero(np.diff(np.concatenate([[0], is_open.astype(np.int8), [0]])))
     first, last = edges[::2], edges[1::2] - 1
