@@ -134,9 +134,13 @@ def put_on(state: State, place: int) -> State:
 
 
 def _kept_edits(state: State) -> tuple[Edited, ...]:
-    """Return the edited scenes of all places; the present one's without its typed values."""
+    """Return the edited scenes of all places; the present one's bare, and without its typed values."""
     own = replace(state.editing, open=False, typed="", drafts=(), refusal=None, warned=False)
-    return (*state.kept, *([Edited(state.place, state.scene, own)] if own.changed else []))
+    if not own.changed:
+        return state.kept
+    past, future = (tuple(scene.bare for scene in scenes) for scenes in (own.past, own.future))
+    own = replace(own, past=past, future=future, original=own.original and own.original.bare)
+    return (*state.kept, Edited(state.place, state.scene.bare, own))
 
 
 def _kept_chart(state: State, scene: Scene) -> str | None:

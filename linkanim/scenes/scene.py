@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import field
+from dataclasses import field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -113,6 +113,11 @@ class Scene:
 
     original_title: tuple[str, str] | None = field(default=None, repr=False, compare=False)
     """The title, and the class that it says, of a scene that was changed into another class."""
+
+    @property
+    def bare(self) -> Scene:
+        """The scene without what has been worked out for it, which takes a hundred times its memory."""
+        return replace(self, linkage=replace(self.linkage))
 
     @cached_property
     def mechanism(self) -> Mechanism:

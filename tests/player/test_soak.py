@@ -11,6 +11,7 @@ import gc
 import json
 import math
 import random
+import weakref
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from fractions import Fraction
@@ -26,7 +27,10 @@ from linkanim.player import beside, screen
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
 from linkanim.player.state import State, begin
-from linkanim.scenes import load, names
+from linkanim.scenes import names
+
+# each time anew, as in a window: `linkanim.scenes.load` of the tests keeps what was worked out for its scenes
+from linkanim.scenes.files import load
 
 SEED = 20261121
 SOME = names()[::9]
@@ -104,6 +108,15 @@ def states(frames: int, busy: float, scenes: Sequence[str] = names(), *, seed: i
             yield state
 
 
+def going_on(frames: int, busy: float) -> State:
+    """Return the state of one window after so many frames, in which the scenes change as it is asked."""
+    chance, state = random.Random(SEED), begin(load("press"))
+    for _ in range(frames):
+        state = advance(state, [random_action(chance)] if chance.random() < busy else [])
+        finite(state)
+    return state
+
+
 def pressed(player: Player, chance: random.Random) -> bool:
     """Press a key or use the mouse; return whether the window is still open."""
     at = (chance.randrange(SIZE[0]), chance.randrange(SIZE[1]))
@@ -164,6 +177,24 @@ def test_states_stay_finite_whatever_is_asked(record_property: Callable[[str, ob
     record_property("memory growth, MB", resident_mb() - before)
 
 
+def test_what_was_worked_out_for_an_edited_scene_goes_when_another_is_put_on() -> None:
+    state = begin(load("crank-rocker"))
+    for action in (Action("edit"), Action("nudge", 3), Action("nudge", 3), Action("undo")):
+        state = advance(state, [action])
+    editing = state.editing
+    solved = [weakref.ref(scene.mechanism) for scene in (state.scene, *editing.past, *editing.future)]
+    assert len(solved) == 3
+    lengths = state.scene.linkage
+    state = advance(state, [Action("mechanism", 1)])
+    del editing
+    mechanism.cache_clear()
+    gc.collect()
+    assert [one() for one in solved] == [None] * 3
+    state = advance(state, [Action("mechanism", -1)])
+    assert state.scene.linkage == lengths
+    assert advance(state, [Action("redo")]).scene.linkage != lengths
+
+
 @pytest.mark.withstands("frames run", 35)
 @pytest.mark.slow
 def test_a_window_withstands_keys_and_mouse(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -200,6 +231,19 @@ def test_a_million_frames_take_no_more_memory(record_property: Callable[[str, ob
     grown = resident_mb() - before
     record_property("memory growth, MB", grown)
     assert grown < 5
+
+
+@pytest.mark.long
+@pytest.mark.withstands("frames run", 1_000_000)
+@needs_proc
+def test_a_window_that_goes_on_takes_no_more_memory(record_property: Callable[[str, object], None]) -> None:
+    used = []
+    for frames in (500_000, 1_000_000):
+        state = going_on(frames, 0.01)
+        used.append(resident_mb())
+    assert state.edited
+    record_property("memory growth, MB", used[1] - used[0])
+    assert used[1] - used[0] < 5
 
 
 @pytest.mark.long
