@@ -110,7 +110,7 @@ class Fit(CouplerLinkage):
     exact: Fit | None = field(default=None, repr=False)
     """The answer before its lengths were rounded."""
     cognate: bool = False
-    """Whether the answer is a Roberts cognate of an earlier one."""
+    """Whether the answer is a Roberts cognate of an earlier one of its list."""
 
     @property
     def kind(self) -> LinkageKind:
@@ -127,6 +127,19 @@ class Fit(CouplerLinkage):
     def apart(self, other: Fit) -> float:
         """Return how far two answers' joints are apart, in curve sizes, whatever their parameters are."""
         return float(np.abs(self.joints - other.joints).max() / self.task.curve.size)
+
+    def apart_from_cognates(self, other: Fit) -> float:
+        """Return how far the joints at the first point are from the nearer Roberts cognate of another answer.
+
+        It is in curve sizes; infinite where there are no cognates, which only a four-bar has.
+        """
+        if self.kind is not FOUR_BAR:
+            return math.inf
+        own, theirs = (Linkage4(*fit.joints[[0, 2, 4, 1, 6]].tolist()) for fit in (self, other))
+        share = (theirs.P - theirs.A) / (theirs.B - theirs.A)
+        found = cognate_joints((theirs.O2, theirs.O4), share, (theirs.A, theirs.B, theirs.P))
+        off = [np.abs(np.array(own) - Linkage4(*joints, theirs.P)).max() for joints in found]
+        return float(min(off) / self.task.curve.size)
 
     @property
     def error(self) -> float:
@@ -393,12 +406,15 @@ def _in_order(task: PathTask, places: Real, most: float) -> bool:
 
 
 def _least_transmission(answer: _Answer, task: PathTask, places: Real) -> float:
-    """Return the least transmission angle: over the turn, or along the curve if the input swings."""
-    whole = answer.by == "phase" and task.curve.closed
-    if whole or answer.scene.info.full_turn:
+    """Return the least transmission angle: over the whole motion, or along an open curve."""
+    if task.curve.closed:
         known = answer.scene.info.transmission
         return known.least if known else math.pi / 2
-    along = np.linspace(places.min(), places.max(), _POSES)
+    # it is least at an end of the curve, or where it is extreme; in a swing at its limits and half-way
+    low, high, quarter = places.min(), places.max(), math.pi / 2
+    first, step = (task.kind.extreme(answer.row), math.pi) if answer.by == "angle" else (0.0, quarter)
+    between = np.arange(math.ceil((low - first) / step), math.floor((high - first) / step) + 1)
+    along = np.array([low, *(first + between * step), high])
     motion = answer.scene.solve(**{answer.by: along}, derivatives=0)
     return float(np.min(transmission_angle(motion, "B")))
 
@@ -465,7 +481,7 @@ def cognates_of(fit: Fit) -> Iterator[Fit]:
         closures = np.where((np.conj(other - crank) * (rocker - crank)).imag >= 0, 1.0, -1.0)
         task = fit.task if fit.task.curve.closed else fit.task.swinging()
         cognate = checked(task, row, first.closure, angles) or checked_by_phase(task, row, closures, angles)
-        yield from [replace(cognate, cognate=True)] if cognate else []
+        yield from [cognate] if cognate else []
 
 
 def _timed(fit: Fit, angles: Real) -> Real | None:

@@ -218,8 +218,9 @@ def with_cognates(front: Sequence[Fit], pulse: Callable[[], None] = lambda: None
     for fit in front:
         pulse()
         own, likely = fit.figures, filter(None, turning_cognates(answer_of(fit)))
-        if any(one.size < own.size or one.angle > own.angle for one in likely):
-            more += [replace(one, cognate=False) for one in cognates_of(fit)]
+        # along an open curve a cognate's angle may be better than over its whole turn
+        if any(one.size < own.size or one.angle > own.angle or not fit.task.curve.closed for one in likely):
+            more += cognates_of(fit)
     return front_of([*front, *more])
 
 

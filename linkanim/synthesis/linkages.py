@@ -81,6 +81,10 @@ class LinkageKind(ABC):
         """Return the tables of the fixed pins except O2, of the joint B, and of B's other body."""
 
     @abstractmethod
+    def extreme(self, row: Real) -> float:
+        """Return a crank angle at which the transmission angle is extreme, as it is half a turn further."""
+
+    @abstractmethod
     def random_rows(self, random: np.random.Generator, count: int) -> Real:
         """Return linkages of all proportions with O2 at the origin, some of which turn fully."""
 
@@ -212,6 +216,10 @@ class FourBarKind(LinkageKind):
         outer = (a + b) ** 2 - (ground + crank) ** 2 - share
         return np.stack([inner, outer], axis=-1)
 
+    def extreme(self, row: Real) -> float:
+        """Return the direction of the ground line."""
+        return float(np.arctan2(row[7] - row[1], row[6] - row[0]))
+
     def random_rows(self, random: np.random.Generator, count: int) -> Real:
         """Return crank-rockers and drag-links: the crank or the ground the shortest of four lengths."""
         lengths = random.uniform(0.05, 1.0, (count, 4))
@@ -263,6 +271,10 @@ class SliderCrankKind(LinkageKind):
         """Return a margin for the rod's steepest angle to either side, positive where it is allowed."""
         reach, offset = rows[:, 3] * np.cos(least_angle) - rows[:, 2], rows[:, 7]
         return np.stack([reach - offset, reach + offset], axis=-1)
+
+    def extreme(self, row: Real) -> float:
+        """Return the direction across the line."""
+        return float(row[6]) + math.pi / 2
 
     def random_rows(self, random: np.random.Generator, count: int) -> Real:
         """Return slider-cranks with rods of up to five cranks, along the x axis."""

@@ -16,7 +16,14 @@ from linkanim.synthesis.curves import DrawnCurve, drawn
 from linkanim.synthesis.fitting import EXACTLY, PathTask
 from linkanim.synthesis.front import PREFERENCES, Preference, differing, preferred, searched_front
 from linkanim.synthesis.linkages import KINDS, LinkageKind, Real, Requirements, refuse_count
-from linkanim.synthesis.search import SAME, Progress, best_fits, rounded_to, with_round_lengths
+from linkanim.synthesis.search import (
+    SAME,
+    Progress,
+    best_fits,
+    rounded_to,
+    with_cognates_marked,
+    with_round_lengths,
+)
 from linkanim.units import shown
 
 LARGEST = 8.0
@@ -65,7 +72,7 @@ def path(
     if rounding is not None:
         fits = with_round_lengths(fits, rounding)
         fits = fits if prefer == "exact" else tuple(preferred(fits, prefer))
-    return _with_cognates(fits, rounding) if cognates else fits
+    return with_cognates_marked(_with_cognates(fits, rounding) if cognates else fits)
 
 
 def _with_cognates(fits: Sequence[Fit], rounding: float | None) -> tuple[Fit, ...]:

@@ -243,6 +243,15 @@ def _same(one: Fit, other: Fit) -> bool:
     return one.apart(other) <= SAME
 
 
+def with_cognates_marked(fits: Sequence[Fit]) -> tuple[Fit, ...]:
+    """Return answers, each marked as a cognate where it is one of an earlier answer, before any rounding."""
+    exact = [fit.exact or fit for fit in fits]
+    return tuple(
+        replace(fit, cognate=any(exact[n].apart_from_cognates(one) <= SAME for one in exact[:n]))
+        for n, fit in enumerate(fits)
+    )
+
+
 # Answers in round lengths: one length after the other is rounded and fixed, and the rest is fitted again.
 
 
@@ -266,7 +275,7 @@ def rounded_to(fit: Fit, step: float) -> Fit | None:
         held = [_holding(now.task, name, value) for value in _near(now.parameters[name], step)]
         tries = [one for task in held if (one := refitted(task, now))]
         now = min(tries, key=lambda one: one.error, default=None)
-    return now and replace(now, task=fit.task, exact=fit, cognate=fit.cognate)
+    return now and replace(now, task=fit.task, exact=fit)
 
 
 def _near(value: float, step: float) -> tuple[float, float]:

@@ -15,12 +15,18 @@ import pytest
 from random_curves import curves, linkages
 
 import linkanim
-from linkanim.mechanics.measures import transmission_angle
-from linkanim.synthesis.answers import Fit, PathAnswer, checked, cognates_of, turning_cognates
+from linkanim.synthesis.answers import (
+    Fit,
+    PathAnswer,
+    checked,
+    checked_by_phase,
+    cognates_of,
+    turning_cognates,
+)
 from linkanim.synthesis.atlas import Candidates, atlas, matched
 from linkanim.synthesis.curves import DrawnCurve
 from linkanim.synthesis.fitting import _solutions, refined
-from linkanim.synthesis.linkages import FOUR_BAR, Complex, Real
+from linkanim.synthesis.linkages import FOUR_BAR, KINDS, Complex, Real
 from linkanim.synthesis.path import task_of
 from linkanim.synthesis.search import best_of, ranked
 
@@ -31,6 +37,12 @@ KUNJUR = [
     (0.6, 1.0),
 ]  # fmt: skip
 """The eighteen points of Kunjur and Krishnamurty (1997): the crank turns by 20° from each to the next."""
+NINE = [
+    (8.709218, 56.412603), (16.636378, 81.518085), (9.800075, 89.841049), (-7.455324, 83.133307),
+    (-19.650068, 66.833128), (-25.501988, 44.546536), (-23.342694, 30.507243), (-11.936231, 25.007218),
+    (-1.496144, 36.381880),
+]  # fmt: skip
+"""Nine points of one coupler curve, which three four-bars trace."""
 LINE = [(20, 20 + 5 * step) for step in range(6)]
 SQUARE = [(x, 0) for x in range(10)] + [(10, y) for y in range(10)]
 SQUARE += [(10 - x, 10) for x in range(10)] + [(0, 10 - y) for y in range(10)]
@@ -75,13 +87,13 @@ def verify(fit: Fit, points: Complex, *, closed: bool = True) -> None:
     # where the curve all but turns on the spot two points may be nearest to one place of it
     assert (steps >= 0).all()
     assert fit.scene.trace == ("P",)
+    whole = fit.scene.info.transmission
+    assert whole is not None
+    assert fit.transmission_angle >= whole.least - 1e-12
     if closed:
         assert steps.sum() < 2 * math.pi
         assert fit.scene.info.full_turn
-    if fit.scene.info.full_turn:
-        least = fit.scene.info.transmission
-        assert least is not None
-        assert fit.transmission_angle == pytest.approx(least.least, abs=1e-12)
+        assert fit.transmission_angle == pytest.approx(whole.least, abs=1e-12)
 
 
 def squares(fit: Fit) -> float:
@@ -263,6 +275,10 @@ def test_an_answer_that_is_a_cognate_of_another_is_listed_once() -> None:
     assert min(one.apart(other) for one, other in combinations(listed, 2)) > 1e-3
 
 
+def test_of_two_answers_that_trace_one_curve_the_later_is_the_cognate_of_the_earlier() -> None:
+    assert [one.cognate for one in linkanim.path(NINE, count=5)] == [False, True]
+
+
 def order(fit: Fit, points: Complex) -> Real:
     """Return where in its period the coupler point is nearest to each point, the way that the drive runs."""
     speed = fit.scene.linkage.drive.speed
@@ -273,8 +289,8 @@ def order(fit: Fit, points: Complex) -> Real:
 
 
 def answer(row: Real, angles: Real, *, closed: bool = True, **options: Any) -> Fit:
-    """Return a four-bar as an answer to points of its own coupler curve."""
-    points = FOUR_BAR.points(row[None], np.ones(1), angles[None])[0]
+    """Return a linkage as an answer to points of its own coupler curve."""
+    points = KINDS[options.get("kind", "four-bar")].points(row[None], np.ones(1), angles[None])[0]
     task = task_of(points, closed, **options)
     found = checked(task if closed else task.swinging(), row, 1.0, angles)
     assert found is not None
@@ -343,15 +359,64 @@ def test_cognates_keep_to_what_is_asked_for_and_run_the_way_that_was_drawn(
     assert found == count
 
 
-def test_an_open_curve_of_an_input_that_swings_tells_the_transmission_angle_along_it() -> None:
-    # a triple-rocker: ground 100, crank 60, coupler 50, rocker 70
-    row = np.array([0, 0, 60, 50, 20, 30, 100, 0, 70.0])
-    best = answer(row, np.linspace(-1.2, 0.9, 40), closed=False)
-    motion = best.scene.solve(angle=np.linspace(-1.2, 0.9, 3000), derivatives=0)
-    least = np.min(transmission_angle(motion, "B"))
-    assert best.transmission_angle == pytest.approx(least, abs=1e-4)
-    assert best.scene.info.transmission is not None
-    assert best.scene.info.transmission.least < 1e-6 < least
+# Kind, row, the crank's angles from and to, and those at which the angle is least: by the law of cosines for
+# a four-bar, by the rod's steepness for a slider-crank.
+ALONG: dict[str, tuple[str, tuple[float, ...], tuple[float, float], float]] = {
+    # the whole turn's least angle, with the crank along the ground at 0, is not on the way
+    "four-bar that turns, least at an end": ("four-bar", (0, 0, 30, 90, 45, 30, 100, 0, 80), (1.0, 2.2), 1.0),
+    "four-bar that turns, least on the way": (
+        "four-bar",
+        (0, 0, 30, 90, 45, 30, 100, 0, 80),
+        (-0.4, 2.2),
+        0.0,
+    ),
+    "triple-rocker, least on the way": ("four-bar", (0, 0, 60, 50, 20, 30, 100, 0, 70), (-1.2, 0.9), 0.0),
+    "slider-crank that turns, least at an end": (
+        "slider-crank",
+        (0, 0, 30, 90, 45, 30, 0, 10),
+        (-0.5, 1.0),
+        -0.5,
+    ),
+    "slider-crank, least on the way": (
+        "slider-crank",
+        (5, 5, 30, 90, 45, 30, 0, 10),
+        (-2.5, 1.0),
+        -math.pi / 2,
+    ),
+}
+
+
+@pytest.mark.parametrize(("kind", "row", "way", "worst"), ALONG.values(), ids=ALONG)
+def test_the_transmission_angle_of_an_open_curve_is_the_least_along_it(
+    kind: str, row: tuple[float, ...], way: tuple[float, float], worst: float
+) -> None:
+    best = answer(np.array(row, dtype=float), np.linspace(*way, 40), closed=False, kind=kind)
+    if kind == "four-bar":
+        _, _, crank, coupler, _, _, ground, _, rocker = row
+        across = ground**2 + crank**2 - 2 * ground * crank * math.cos(worst)
+        cosine = (coupler**2 + rocker**2 - across) / (2 * coupler * rocker)
+    else:
+        cosine = (row[7] - row[2] * math.sin(worst)) / row[3]
+    assert best.transmission_angle == pytest.approx(math.acos(abs(cosine)), abs=1e-14)
+    whole = best.scene.info.transmission
+    assert whole is not None
+    assert whole.least <= best.transmission_angle + 1e-14
+
+
+def test_an_open_curve_through_a_limit_of_the_input_has_no_transmission_angle_there() -> None:
+    # a triple-rocker: ground 100, crank 60, coupler 50, rocker 70; at the limit A is 120 from O4
+    row, limit = np.array([0, 0, 60, 50, 20, 30, 100, 0, 70.0]), math.acos(-8 / 120)
+    angles = limit - np.abs(np.linspace(-0.3, 0.4, 40))
+    closures = np.where(np.arange(40) < 17, 1.0, -1.0)
+    points = np.array(
+        [
+            FOUR_BAR.points(row[None], np.array([side]), np.array([[angle]]))[0, 0]
+            for side, angle in zip(closures, angles, strict=True)
+        ]
+    )
+    found = checked_by_phase(task_of(points, closed=False), row, closures, angles)
+    assert found is not None
+    assert found.transmission_angle < 1e-7
 
 
 def test_a_candidate_whose_equations_have_no_solution_holds_up_no_other() -> None:
