@@ -258,7 +258,7 @@ def _slack_slopes(problem: PathTask, rows: Real, slack: Real) -> Real:
 
 def _solved(normal: Real, right: Real, equations: Real, targets: Real) -> Real:
     """Return the least-squares step (B, p) that keeps equations (B, m, p); a row of zeros is no equation."""
-    used = np.abs(equations).max(axis=(0, 2)) > 0
+    used = (np.abs(equations) > 0).any(axis=(0, 2))
     equations, targets = equations[:, used], targets[:, used]
     count, extra = normal.shape[1], equations.shape[1]
     if not extra:

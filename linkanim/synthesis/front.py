@@ -241,7 +241,7 @@ def _starts(task: PathTask, pool: Candidates) -> _Limited:
 
     Those that keep the least transmission angle come first.
     """
-    size = task.kind.link_lengths(pool.rows).max(axis=1) / task.curve.size
+    size = task.kind.link_lengths(pool.rows).max(axis=1)
     which: list[Indices] = []
     limits: list[tuple[float, float]] = []
     for angle in _ANGLES:

@@ -187,7 +187,8 @@ def spread(task: PathTask, candidates: Candidates, before: Indices, after: Indic
     if task.curve.closed:
         places = np.append(places, places[0] + 1.0)
         angles = np.concatenate([angles, angles[:, :1] + 2 * math.pi * candidates.sense[:, None]], axis=1)
-    return np.stack([np.interp(task.normal.places[after], places, row) for row in angles])
+    there = [np.interp(task.normal.places[after], places, row) for row in angles]
+    return np.array(there).reshape(len(angles), len(after))
 
 
 def verified(task: PathTask, normal: Candidates, chosen: Indices) -> Iterator[Fit]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from itertools import combinations, pairwise, permutations, product
 
 import numpy as np
@@ -13,7 +14,16 @@ from linkanim.errors import BadInput
 from linkanim.synthesis.answers import Figures, Fit
 from linkanim.synthesis.curves import stroke_of
 from linkanim.synthesis.follower import COUNT
-from linkanim.synthesis.front import cards, front_of, knee, names_of, preferred, searched_front, way_along
+from linkanim.synthesis.front import (
+    Preference,
+    cards,
+    front_of,
+    knee,
+    names_of,
+    preferred,
+    searched_front,
+    way_along,
+)
 from linkanim.synthesis.linkages import Complex
 from linkanim.synthesis.path import path, task_of
 from linkanim.synthesis.search import ALIKE, best_fits
@@ -76,6 +86,21 @@ def test_a_chosen_answer_never_doubles_the_size_for_less_than_a_third_of_the_dev
             assert one.size <= 2.5 or not near
             halves = [each for each in front if each.size <= one.size / 2]
             assert not any(max(each.deviation, 0.003) < 1.5 * one.deviation for each in halves)
+
+
+# Six points of a curve, in millimetres, in metres, and as large as a crane.
+@pytest.mark.parametrize("scale", [2.0**-10, 2.0**10], ids=["tiny", "huge"])
+@pytest.mark.parametrize("prefer", ["compact", "angle"])
+def test_a_curve_of_another_size_has_the_same_front(prefer: Preference, scale: float) -> None:
+    points = np.array([(-62, -41), (-42, -67), (19, -10), (95, 49), (31, 58), (-41, 11)], dtype=float)
+    usual, other = (path(size * points, prefer=prefer, count=2) for size in (1.0, scale))
+    for one, same in zip(usual, other, strict=True):
+        assert [*same.figures] == pytest.approx([*one.figures], rel=1e-6, abs=1e-9)
+
+
+def test_limits_that_no_curve_of_the_atlas_keeps_leave_the_answers_as_they_are() -> None:
+    task = task_of(stroke_of(SHAPES["D"]).points)
+    assert searched_front(replace(task, requirements=replace(task.requirements, least_angle=1.57))) == ()
 
 
 @pytest.mark.slow
