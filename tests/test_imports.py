@@ -7,6 +7,7 @@ import os
 import re
 import subprocess
 import sys
+from collections import Counter
 from collections.abc import Iterator
 from functools import cache
 from graphlib import TopologicalSorter
@@ -209,6 +210,27 @@ def test_a_class_has_one_name_and_a_name_one_class() -> None:
             homes.setdefault(name, []).append(str(path.relative_to(PACKAGE)))
     assert len(homes) > 100
     assert {name: paths for name, paths in homes.items() if len(paths) > 1} == {}
+
+
+def test_a_module_gives_a_name_to_one_thing_only() -> None:
+    twice = []
+    for path in SOURCES:
+        if room_of(path) != "examples":
+            body = ast.parse(path.read_text(encoding="utf-8")).body
+            assigned = [
+                node.targets if isinstance(node, ast.Assign) else [node.target]
+                for node in body
+                if isinstance(node, ast.Assign | ast.AnnAssign)
+            ]
+            names = [
+                part.id
+                for targets in assigned
+                for target in targets
+                for part in ast.walk(target)
+                if isinstance(part, ast.Name)
+            ]
+            twice += [(path, name) for name, count in Counter(names).items() if count > 1]
+    assert twice == []
 
 
 HEAVY = ("numpy", "pygame", "PIL", "imageio", "imageio_ffmpeg", "tqdm")

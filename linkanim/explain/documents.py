@@ -330,13 +330,15 @@ def _key(found: Solution, form: DocumentForm) -> Iterator[str]:
 def _short(value: Formula, solved: Mapping[Symbol, float]) -> Formula:
     """Return a value in as many digits as a key needs.
 
-    A result has the digits of the solver's value, and fewer where it does not round to these.
+    A result has the digits of the solver's value. Where its line does not round to these it has one more, in
+    which both are one number, or else fewer.
     """
     true = solved.get(value.symbol, value.value) if value.symbol and value.value else value.value
-    places = min(decimals(true, _KEY_DIGITS), len(value.shown.partition(".")[2]))
-    while places and abs(float(rounded(true, places)) - value.value) > _HALF * 10**-places:
-        places -= 1
-    return replace(value, shown=rounded(true, places))
+    there = len(value.shown.partition(".")[2])
+    usual = min(decimals(true, _KEY_DIGITS), there)
+    tried = (usual, min(usual + 1, there), *range(usual - 1, -1, -1))
+    right = (n for n in tried if abs(float(rounded(true, n)) - value.value) <= _HALF * 10**-n)
+    return replace(value, shown=rounded(true, next(right, 0)))
 
 
 def _html_page(title: str, body: str) -> str:
@@ -361,7 +363,7 @@ def _html_listed(found: list[tuple[str, str]]) -> str:
 
 
 _ROW, _TAG = re.compile(r"<mtr>(.*?)</mtr>", re.S), re.compile(r"<[^>]*>|&[^;]*;")
-_HALF = 62
+_HALF_LINE = 62
 """The most letters of a formula on half a page's width."""
 
 
@@ -370,9 +372,9 @@ def _html_steps(steps: list[str]) -> str:
     cells = []
     for step in steps:
         # a step with nothing but words is wide
-        longest = max((len(_TAG.sub("", row)) for row in _ROW.findall(step)), default=_HALF + 1)
+        longest = max((len(_TAG.sub("", row)) for row in _ROW.findall(step)), default=_HALF_LINE + 1)
         drawn = step.startswith("<figure")
-        kind = "drawn" if drawn else "wide" if longest > _HALF else "short"
+        kind = "drawn" if drawn else "wide" if longest > _HALF_LINE else "short"
         rows = f" style='grid-row: span {max(len(steps) - 1, 1)}'" if drawn else ""
         cells.append(f"<div class='step {kind}'{rows}>\n{step}\n</div>")
     return "<div class='steps'>\n" + "\n".join(cells) + "\n</div>"

@@ -154,7 +154,8 @@ def sqrt(e: Formula) -> Formula:
 
 
 def square(e: Formula) -> Formula:
-    """Return the square; of 0 and ±1 the number alone."""
+    """Return the square, which has no sign in it; of 0 and ±1 the number alone."""
+    e = e.parts[0] if e.operation == "neg" else e
     return number(str(int(e.constant) ** 2)) if e.constant in (0.0, 1.0, -1.0) else Formula("square", (e,))
 
 

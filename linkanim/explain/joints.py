@@ -150,10 +150,9 @@ def body_point(
 ) -> Components:
     """Return the vector from a body's first joint to a point of the body."""
     ahead = along(work.angle_of(*on))
-    about = f"along {marked(on[0])}–{marked(on[1])}", f"to the left of {marked(on[0])}–{marked(on[1])}"
-    p, q = (
-        work.stated(name, value, LENGTH, words) for name, value, words in zip(names, at, about, strict=True)
-    )
+    first, second = map(marked, on)
+    p = work.sided(names[0], at[0], f"along {first}–{second}", f"from {first}, away from {second}")
+    q = work.sided(names[1], at[1], *(f"to the {side} of {first}–{second}" for side in ("left", "right")))
     return ahead.times(p) + ahead.left().times(q)
 
 
@@ -365,7 +364,7 @@ def place_slot(joint: RPR, work: Work) -> None:
     """Add the pin's distance along the slot, the slotted bar's angle and where its end is."""
     name, pivot, pin = joint.name, joint.pivot, joint.through
     arm = work.points[pin] - work.points[pivot]
-    offset = work.stated(Symbol("e", name), joint.offset, LENGTH, "the slot's offset to the left")
+    offset = _slot_offset(joint, work)
     work.say(
         f"The slotted bar turns about {marked(pivot)} and its slot passes through {marked(pin)}, "
         "s ahead of it:"
@@ -376,6 +375,11 @@ def place_slot(joint: RPR, work: Work) -> None:
     turned = atan2(slide * arm.y - offset * arm.x, slide * arm.x + offset * arm.y)
     work.angles[pivot, name] = work.let(work.angle_symbol(pivot, name), turned, ANGLE)
     work.let_point(name, work.points[pivot] + work.bar(pivot, name, joint.length))
+
+
+def _slot_offset(joint: RPR, work: Work) -> Formula:
+    sides = (f"the slot's offset to the {side}" for side in ("left", "right"))
+    return work.sided(Symbol("e", joint.name), joint.offset, *sides)
 
 
 def _pin_ahead(joint: RPR, work: Work) -> bool:
@@ -400,7 +404,7 @@ def move_slot(joint: RPR, rates: Rates, order: Order) -> None:
 def loop_of_slot(joint: RPR, work: Work) -> tuple[Route, Route]:
     """Return both routes to the pin in the slot."""
     pivot, name, angle = joint.pivot, joint.name, work.angle_of(joint.pivot, joint.name)
-    offset = work.stated(Symbol("e", name), joint.offset, LENGTH)
+    offset = _slot_offset(joint, work)
     slot = GuideLine(pivot, along(angle), offset, work.frame((pivot, name)), angle)
     return Route(joint.through, ()), Route(pivot, slide_sides(work, slot, name))
 

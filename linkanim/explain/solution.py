@@ -153,7 +153,7 @@ def _stroke(path: Stroke, rates: Rates, phase: tuple[Formula, Formula], symbol: 
     index = "" if letter == "ℓ" else symbol.sub
     ends = (path.first * path.unscale, path.last * path.unscale)
     middle = work.stated(Symbol(letter, "m"), sum(ends) / 2, LENGTH, "middle of the stroke")
-    reach = work.known(Symbol("a"), (ends[1] - ends[0]) / 2, LENGTH, "half of the stroke")
+    reach = work.sided(Symbol("a"), (ends[1] - ends[0]) / 2, *["half of the stroke"] * 2)
     slid = work.let(Symbol(letter, index), middle - reach * cos(phase[0]), LENGTH)
     formulas = _cosine_rates(reach, *phase)
     once = work.let(Symbol(letter, index, "˙"), formulas[0], Powers(1, 1))

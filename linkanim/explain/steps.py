@@ -205,16 +205,10 @@ class SymbolNames:
 
 def names_of(figure: Figure) -> SymbolNames:
     """Return the symbols of a figure's linkage."""
-    found = [length for length in symbols(figure).dimensions if not length.angle]
+    known = symbols(figure)
+    found = [length for length in known.dimensions if not length.angle]
     bars = {frozenset(m.frame): m for m in reversed(found) if (m.begin, m.end) == (0, 1)}
-    legs = {
-        point.name: tuple(
-            _index(m.symbol)
-            for m in found
-            if m.own == {*point.on, point.name} and m.frame == point.on and (m.begin, m.end) != (0, 1)
-        )
-        for point in symbols(figure).points
-    }
+    legs = {point.name: tuple(map(_index, known.legs(figure, point))) for point in known.points}
     return SymbolNames(
         figure.linkage, {ends: _index(m.symbol) for ends, m in bars.items() if len(ends) == 2}, legs
     )
@@ -340,6 +334,14 @@ class Work:
         plain = float(text) == 0 or (measure.angle and float(text) % 90 == 0)
         return number(text, measure.angle) if plain else self.known(symbol, value, measure, words)
 
+    def sided(self, symbol: Symbol, value: float, one: str, other: str) -> Formula:
+        """Return a length that has a sign: its size as stated, as in a figure; its words say to which side.
+
+        The side is `one`, or the `other` where the length is negative.
+        """
+        size = self.stated(symbol, abs(value), LENGTH, other if value < 0 else one)
+        return -size if value < 0 else size
+
     def known(self, symbol: Symbol, value: float, measure: Powers, words: str = "") -> Formula:
         """Return a number that is given as a symbol's value, also where it is 0."""
         return self.quoted(symbol, self.written(value, measure), self.scale.unit_of(measure), words)
@@ -401,7 +403,8 @@ class Work:
                 words = "its guide from the line of its body"
                 own = self.stated(Symbol("β", joint), line.angle, ANGLE, words)
                 angle = self.let(Symbol("φ", joint), angle + own, ANGLE)
-        offset = self.stated(Symbol("e", joint), line.offset, LENGTH, "its guide's offset to the left")
+        sides = (f"its guide's offset to the {side}" for side in ("left", "right"))
+        offset = self.sided(Symbol("e", joint), line.offset, *sides)
         frame = self.frame(line.on) if line.on else 0
         return GuideLine(line.through, along(angle), offset, frame, angle)
 

@@ -133,6 +133,11 @@ class Symbols(NamedTuple):
     points: tuple[Rigid, ...]
     input: str
 
+    def legs(self, figure: Figure, point: Rigid) -> tuple[str, ...]:
+        """Return the symbol of each of a point's lengths, that of another one where both are one length."""
+        spans = {_span(figure, one): one.symbol for one in self.dimensions if not one.angle}
+        return tuple(spans[_span(figure, leg)] for leg in _legs(figure, point))
+
 
 def symbols(figure: Figure) -> Symbols:
     """Number a figure's lengths: links that the scene calls by numbers keep them; else in their order.

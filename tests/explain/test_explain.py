@@ -24,6 +24,9 @@ from linkanim.explain.steps import Given, System, ValueLine
 from linkanim.explain.variant import variant
 from linkanim.mechanics.forces import effort_token
 from linkanim.mechanics.linkage import RRR
+from linkanim.picture.dimensions import symbols
+from linkanim.picture.figure import figure
+from linkanim.picture.text import subscripted
 from linkanim.scenes import load, names
 from linkanim.scenes.editing import dimensions, in_unit
 from linkanim.scenes.reading import scene_from
@@ -513,13 +516,60 @@ def test_a_result_is_listed_in_the_digits_that_are_right(name: str) -> None:
             re.findall(r"^- \$(.*) = (-?[\d.]+)", text.partition("## All results")[2], re.MULTILINE)
         )
         short = 0
+        items = (item for chapter in found.chapters for item in chapter.items)
+        lines = {item.value.symbol: item.value.value for item in items if isinstance(item, ValueLine)}
         for symbol, true in found.solved.items():
             shown = printed.pop(typeset(Formula("leaf", symbol=symbol, shown="0"), LATEX))
-            places = len(shown.partition(".")[2])
-            assert abs(float(shown) - true) <= 0.5001 * 10**-places, (symbol, true)
+            half = 0.5001 * 10 ** -len(shown.partition(".")[2])
+            assert abs(float(shown) - true) <= half, (symbol, true)
+            assert abs(float(shown) - lines.get(symbol, true)) <= half, (symbol, lines[symbol])
             short += float(shown) != 0 and float(shown) != pytest.approx(true, rel=1e-4)
         assert not printed
         assert fewer in text or not short
+
+
+# Points behind a body's first joint and to the right of its line, guides and a slot to the right; of the drag
+# link's point a length is the coupler's own.
+RIGHT = {
+    "title": "To the right",
+    "length_unit": "mm",
+    "drive": {"joint": "A", "speed": "20 rpm"},
+    "ground": {"O2": [0, 0], "O4": [200, 0]},
+    "joints": {
+        "A": {"crank": "O2", "length": 40},
+        "B": {"from": "A", "length": 120, "side": "forward", "line": {"through": "O2", "offset": -20}},
+        "C": {"slot": {"pivot": "O4", "through": "A", "offset": -15}, "length": 90},
+        "P": {"on": ["A", "B"], "at": [-35, -70]},
+        "Q": {"on": ["O4", "C"], "at": [-25, 0]},
+    },
+    "bodies": {
+        "crank": {"joints": ["O2", "A"]},
+        "rod": {"joints": ["A", "B", "P"]},
+        "arm": {"joints": ["O4", "C", "Q"], "com": [10, -5]},
+    },
+}
+
+
+@pytest.mark.parametrize("name", ["to the right", "drag-link", "crank-rocker", "slider-crank"])
+def test_a_length_is_that_of_the_figure_and_its_side_is_told(name: str) -> None:
+    scene = scene_from(RIGHT, name="s", where="s") if name == "to the right" else load(name)
+    found = solution(_request(scene, 70.0))
+    assert _failing(found) == []
+    assert _disagreeing(found) == []
+    lengths = {
+        item.value.symbol: item
+        for item in found.chapters[0].items
+        if isinstance(item, Given) and item.value.symbol and item.value.symbol.letter in "repq"
+    }
+    assert all(item.value.value > 0 for item in lengths.values())
+    assert any("right" in item.words for item in lengths.values()) == (name != "slider-crank")
+    drawn = {one.symbol: one.value for one in symbols(figure(scene)).dimensions if one.symbol[0] == "r"}
+    given = {
+        subscripted(f"r{symbol.sub}"): item.value.value
+        for symbol, item in lengths.items()
+        if symbol.letter == "r"
+    }
+    assert given == pytest.approx(drawn)
 
 
 def test_an_input_that_swings_has_an_acceleration_by_its_angle_alone(
