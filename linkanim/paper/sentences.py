@@ -30,6 +30,8 @@ _EVEN = 2e-4
 """A share of the period: ways that differ less take the same time, as a flat extreme is no more exact."""
 _NEARLY_EVEN = 1.1
 """The time ratio below which a third decimal is shown."""
+_PLACES = (".angle", ".travel")
+"""The quantities that have a time ratio: where a link or a slider is on its way to and fro."""
 _NOTHING = 1e-9
 _ROUNDING = 1e-7
 """A share of a curve's greatest size, below which a value is zero: its place is found no more exactly."""
@@ -164,6 +166,8 @@ def _ends(curves: Curves, curve: Curve, ends: tuple[Peak, Peak]) -> str:
 def _to_and_fro(curves: Curves, curve: Curve, name: str, ends: tuple[Peak, Peak], up: float) -> str:
     """Return the sentence on a curve that rises and falls once in a period; `up` is the share of the rise."""
     between = f"{name} rises from {_ends(curves, curve, ends)} and falls again"
+    if not curve.quantity.token.endswith(_PLACES):
+        return f"{between}."
     if abs(up - 0.5) < _EVEN:
         return f"{between}; both ways take the same time."
     slow, share = ("way up", up) if up > 0.5 else ("way down", 1 - up)

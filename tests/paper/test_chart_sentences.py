@@ -53,6 +53,21 @@ def test_the_time_ratio_of_the_output_is_that_of_the_scene(name: str) -> None:
         assert scene.info.time_ratio == pytest.approx(1.0, abs=1e-9)
 
 
+# A coefficient, a spring's force and length, where a point is, a transmission angle: none of them has a way.
+@pytest.mark.parametrize("name", ["press", "crank-rocker", "slider-crank"])
+def test_only_a_link_or_a_slider_that_goes_to_and_fro_has_a_time_ratio(name: str) -> None:
+    told = {}
+    for token, quantity in load(name).quantities.items():
+        if quantity.order == 0 and len(quantity.columns) == 1:
+            told[token] = said(name, token)
+    with_ratio = {token for token, text in told.items() if "time ratio" in text or "same time" in text}
+    assert {token.rpartition(".")[2] for token in with_ratio} <= {"angle", "travel"}
+    assert with_ratio
+    risen = [text for token, text in told.items() if token not in with_ratio and "falls again" in text]
+    assert risen
+    assert all(text.endswith("and falls again.") for text in risen)
+
+
 def test_a_speed_backwards_has_a_true_minus_sign() -> None:
     paces = (Pace(1.0, "1 rad/s"), Pace(-2.0, "-2 rad/s"))
     curves = curves_of(load("crank-rocker"), ("rocker.angular_velocity",), paces)
