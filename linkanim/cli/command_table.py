@@ -261,7 +261,7 @@ COMMANDS: Mapping[str, tuple[str, ...]] = {
         'linkanim function "y = log10(x)" --from 1 --to 10',
         'linkanim function "y = x^2" --from 0 --to 1 --input "90 deg" --output "60 deg" --chart error.svg',
         'linkanim function table.csv --kind slider-crank --output "80 mm" --points 3',
-        'linkanim function "1/x" --from 1 --to 2 --input "30 deg:90 deg" --output "90 deg:0 deg" --chebyshev',
+        'linkanim function "1/x" --from 1 --to 2 --input "30 deg:120 deg" --output "105 deg:165 deg"',
     ),
     "quick-return": (
         "find linkages with a given stroke or swing and time ratio, the best transmission angle first",

@@ -689,9 +689,11 @@ def answers(task: FunctionTask, count: int = COUNT) -> tuple[Generated, ...]:
         if len(linkages) == count:
             break
     if not linkages:
+        given = task.input_start is not None or task.output_start is not None
         raise BadInput(
             f"no {task.generator.name} was found that follows {task.function.words} over the whole range on "
-            "one branch; take other ranges, another number of precision points, or a shorter piece of it"
+            f"one branch; {'leave out where a scale begins, ' if given else ''}take other ranges, another "
+            "number of precision points, or a shorter piece of it"
         )
     return tuple(sorted(linkages, key=lambda one: one.error))
 
@@ -747,8 +749,10 @@ def _ranges(task: FunctionTask) -> Iterator[tuple[float, float]]:
         if task.output_range is not None:
             yield wide, math.copysign(1.0, task.output_range) if sliding else task.output_range
             continue
-        # a slider that runs backwards is a turned one that runs forwards
-        yield from ((wide, high) for high in ((1.0,) if sliding else (*_FREE, *(-high for high in _FREE))))
+        highs = (1.0,) if sliding else _FREE
+        # turned half round, a slider that runs backwards runs forwards, unless the crank's start is given
+        both = not sliding or task.input_start is not None
+        yield from ((wide, high) for high in (*highs, *(-high for high in highs if both)))
 
 
 def _through(task: FunctionTask, ranges: tuple[float, float], points: int) -> list[_Design]:
@@ -783,15 +787,15 @@ def _rows_of_three(task: FunctionTask, inputs: Real, outputs: Real) -> Real:
         for choice, start, scale in zip(free, given, task.scales, strict=True)
     ]
     first, last = (part.ravel() for part in np.meshgrid(*starts, indexing="ij"))
-    lengths = task.generator.through(first[:, None] + inputs, last[:, None] + outputs)
-    with np.errstate(all="ignore"):
-        # a negative link points the other way
-        first = np.where(lengths[:, 0] < 0, first + math.pi, first)
-        if not sliding:
-            last = np.where(lengths[:, 2] < 0, last + math.pi, last)
-            lengths = np.abs(lengths)
-        lengths[:, 0] = np.abs(lengths[:, 0])
-    return np.column_stack([lengths, first, last])
+    rows = np.column_stack(
+        [task.generator.through(first[:, None] + inputs, last[:, None] + outputs), first, last]
+    )
+    # a negative link points the other way, which one whose start is given cannot
+    for length, start, wanted in ((0, 3, task.input_start), (2, 4, task.output_start))[: 2 - sliding]:
+        negative = rows[:, length] < 0
+        rows[negative, start] = np.nan if wanted is not None else rows[negative, start] + math.pi
+        rows[negative, length] *= -1
+    return rows
 
 
 def _rows_of_more(task: FunctionTask, inputs: Real, outputs: Real) -> Real:
@@ -829,14 +833,15 @@ def _at_start(
             solved[n] = row[0] if len(row) else np.nan
         return solved
 
+    sliding = column == 4 and isinstance(task.generator, SliderGenerator)
+
     def off(solved: Real) -> Real:
-        if column == 4 and isinstance(task.generator, SliderGenerator):
-            return np.asarray(solved[:, 4] - start)
-        # half a turn off is the same link pointing the other way
-        return np.sin(solved[:, column] - start)
+        return solved[:, column] - start if sliding else np.sin(solved[:, column] - start)
 
     phases = np.linspace(0.0, math.tau, 4 * _CURVE + 1)
-    return rows(_zeros(lambda at: off(rows(at)), phases, off(rows(phases)), 1))
+    found = rows(_zeros(lambda at: off(rows(at)), phases, off(rows(phases)), 1))
+    # the sine is 0 half a turn off, too, where the link points the other way
+    return found if sliding else found[np.cos(found[:, column] - start) > 0]
 
 
 def _generated(
@@ -857,7 +862,8 @@ def _merits(task: FunctionTask, rows: Real, closure: Real, ranges: tuple[float, 
         worst = np.abs(error).max(axis=1) / abs(task.function.span)
         sine = np.sqrt(1 - np.abs(cosine).max(axis=1) ** 2)
         merits = np.log(worst + _FINEST) + _POOR * np.maximum(np.log(math.sin(_LEAST) / sine), 0.0)
-        lengths = task.generator.lengths(rows)
+        # a slider's stroke, of length 1, counts as a link; of a four-bar that is the ground
+        lengths = np.column_stack([np.ones(len(rows)), task.generator.lengths(rows)])
         merits[lengths.max(axis=1) > _SLIMMEST * lengths.min(axis=1)] = np.inf
     return np.where(np.isfinite(merits), merits, np.inf)
 
@@ -1015,7 +1021,7 @@ def checked(task: FunctionTask, design: _Design) -> Generated | None:
     generator, function, length = task.generator, task.function, task.length
     row = design.row.copy()
     row[:3] = np.round(row[:3] * length, _DIGITS) / length
-    start, wide = float(row[3]) % math.tau, design.input_range
+    start, wide = _in_turn(float(row[3]) % math.tau, task.input_start), design.input_range
     document = {
         "title": f"{generator.name.capitalize()} for {function.words}",
         "source": task.source,
@@ -1045,7 +1051,7 @@ def checked(task: FunctionTask, design: _Design) -> Generated | None:
         worst = errors(extremes)
         if generator.turning:
             seen = float(scene.solve(angle=start, derivatives=0).angle[generator.output])
-            first += math.tau * round((seen - first) / math.tau)
+            first = _in_turn(first, seen if task.output_start is None else task.output_start)
         points = _zeros(errors, x, sampled, 5) if task.level else function.chebyshev(design.points)
         stated = {"function": _stated(task, points, (start, wide, first, high))}
         scene = scene_from({**document, **stated}, name=task.name, where=task.name)
@@ -1067,6 +1073,11 @@ def checked(task: FunctionTask, design: _Design) -> Generated | None:
         chebyshev=design.chebyshev if task.level else float(np.abs(worst).max()),
         task=task,
     )
+
+
+def _in_turn(angle: float, other: float | None) -> float:
+    """Return an angle in the turn in which it is nearest to another one, if there is one."""
+    return angle if other is None else angle + math.tau * round((other - angle) / math.tau)
 
 
 def _stated(task: FunctionTask, points: Real, scales: tuple[float, float, float, float]) -> dict[str, object]:

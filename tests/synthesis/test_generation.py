@@ -197,23 +197,14 @@ def test_without_levelling_a_linkage_is_exact_at_chebyshev_s_points(kind: str, p
 
 
 def test_starts_that_are_given_are_kept_and_freudenstein_s_equation_holds() -> None:
-    (found,) = linkanim.function(
-        "y = 1/x",
-        1,
-        2,
-        input_start=0.5,
-        input_range=1.0,
-        output_start=2.0,
-        output_range=-1.2,
-        level=False,
-        count=1,
-    )
+    scales = {"input_start": 30, "input_range": 90, "output_start": 105, "output_range": 60}
+    radians = {name: angle * DEGREE for name, angle in scales.items()}
+    (found,) = linkanim.function("y = 1/x", 1, 2, level=False, count=1, **radians)
     verify(found)
-    assert math.sin(found.input_start - 0.5) == pytest.approx(0)
-    assert math.sin(found.output_start - 2.0) == pytest.approx(0)
+    assert [getattr(found, name) for name in radians] == pytest.approx([*radians.values()])
     x = found.task.function.chebyshev(3)
-    theta = found.input_start + 1.0 * (x - 1)
-    psi = found.output_start - 1.2 * (1 / x - 1) / -0.5
+    theta = found.input_start + found.input_range * (x - 1)
+    psi = found.output_start + found.output_range * (1 / x - 1) / -0.5
     ground, crank, coupler, rocker = (
         found.parameters[name] for name in ("ground", "crank", "coupler", "rocker")
     )
@@ -221,11 +212,36 @@ def test_starts_that_are_given_are_kept_and_freudenstein_s_equation_holds() -> N
     assert ground / crank * np.cos(psi) - ground / rocker * np.cos(theta) + k3 == pytest.approx(
         np.cos(theta - psi)
     )
-    (one,) = linkanim.function(
-        "y = 1/x", 1, 2, input_start=0.5, input_range=1.0, output_range=-1.2, points=4, count=1
-    )
-    verify(one)
-    assert math.sin(one.input_start - 0.5) == pytest.approx(0, abs=1e-9)
+
+
+# Kind, points, which scale's start is given, and starts for which there are linkages: none of them is half a
+# turn off, where its link would point the other way. A slider runs backwards instead.
+STARTS: tuple[tuple[str, int, str, tuple[float, ...]], ...] = (
+    ("four-bar", 3, "input", (0.5, -0.6, 2.2, 8.0)),
+    ("four-bar", 4, "input", (0.5, 5.0, 8.0)),
+    ("four-bar", 3, "output", (-1.0, 1.0, 2.5, 4.0)),
+    ("four-bar", 4, "output", (-1.0, 2.5, 4.0)),
+    ("slider-crank", 3, "input", (0.5, -0.6, 2.2, 3.6)),
+    ("slider-crank", 4, "input", (-0.6, 3.6)),
+    ("slider-crank", 3, "output", (-80.0, 20.0, 150.0)),
+)
+
+
+@pytest.mark.parametrize(("kind", "points", "scale", "starts"), STARTS)
+def test_a_start_that_is_given_is_kept(kind: str, points: int, scale: str, starts: tuple[float, ...]) -> None:
+    name = f"{scale}_start"
+    for start in starts:
+        for one in linkanim.function("y = 1/x", 1, 2, kind=kind, points=points, count=2, **{name: start}):
+            verify(one)
+            assert getattr(one, name) == pytest.approx(start, abs=1e-7)
+
+
+def test_starts_with_which_a_link_would_point_the_other_way_are_refused() -> None:
+    with pytest.raises(BadInput, match="leave out where a scale begins"):
+        linkanim.function(
+            "y = 1/x", 1, 2, input_start=30 * DEGREE, input_range=60 * DEGREE, output_start=90 * DEGREE,
+            output_range=-90 * DEGREE, level=False,
+        )  # fmt: skip
 
 
 def test_nothing_near_by_has_a_smaller_largest_error() -> None:
