@@ -4,12 +4,9 @@ In its two dead centres a crank a and its coupler b lie in line: the output's pi
 from the crank's pivot, and between the two directions lies the angle α of the time ratio, which is
 Q = (180° + α)/(180° - α). So the pivot sees the chord H between the dead centres at the angle α: it lies
 on a circle through both (Alt, 1925; VDI 2130). By the law of cosines H² = 4b² sin²(α/2) + 4a² cos²(α/2),
-which leaves one free parameter t:
-
-    b sin(α/2) = (H/2) sin t,    a cos(α/2) = (H/2) cos t,
-
-and the pivot is (b² - a²) sin α / H off the chord's line. Without a quick return α is 0, a is half the chord,
-and the longer b is, the better the linkage transmits: there b is taken as four cranks.
+which leaves one free parameter, the angle k·x of which b/a = tan(k·x)/k with k = tan(α/2), and the pivot is
+(b² - a²) sin α / H off the chord's line. Without a quick return α and k are 0: then x itself is b/a, and a is
+half the chord.
 """
 
 from __future__ import annotations
@@ -36,10 +33,6 @@ _TABLES: Mapping[str, str] = {"slider-crank": "slider-crank", "crank-rocker": "f
 KINDS = tuple(_TABLES)
 LONGEST = 100.0
 """The longest link of a crank-rocker for which only angles are given."""
-_EVEN = 1e-6
-"""The angle α (rad) below which there is no quick return."""
-_ROD = 4.0
-"""The rod's length, in cranks, of a slider-crank without a quick return."""
 _LONGEST_ROD = 12.0
 """The longest rod of a family, in cranks, as its angle may still grow while the crank goes to zero."""
 _TRIED = 2001
@@ -80,9 +73,9 @@ class QuickReturn:
 
 @frozen
 class DeadCentreFamily:
-    """Linkages with one stroke or swing and one time ratio, by the angle t (rad) or a rod's length in cranks.
+    """Linkages with one stroke or swing and one time ratio, by the parameter x.
 
-    Members have t from `low` to `high`. `side` is +1 where the crank's pivot lies on the same side of the
+    Members have x from `low` to `high`. `side` is +1 where the crank's pivot lies on the same side of the
     chord as the rocker's, else -1. The chord has length 1.
     """
 
@@ -93,21 +86,25 @@ class DeadCentreFamily:
     low: float
     high: float
 
-    def lengths(self, t: Real) -> tuple[Real, Real, Real]:
-        """Return crank, coupler, and the distance of the crank's pivot from the chord's line."""
-        if self.angle < _EVEN:
-            return np.full_like(t, 0.5), 0.5 * t, np.zeros_like(t)
-        crank = np.cos(t) / (2 * math.cos(self.angle / 2))
-        coupler = np.sin(t) / (2 * math.sin(self.angle / 2))
-        return crank, coupler, (coupler**2 - crank**2) * math.sin(self.angle)
+    @property
+    def slope(self) -> float:
+        """k, the tangent of half the angle of the time ratio."""
+        return math.tan(self.angle / 2)
 
-    def rocker(self, t: Real) -> tuple[Real, Real, Real, Real]:
+    def lengths(self, x: Real) -> tuple[Real, Real, Real]:
+        """Return crank, coupler, and the distance of the crank's pivot from the chord's line."""
+        longer = np.tan(self.slope * x) / self.slope if self.slope else x
+        crank = 0.5 / np.hypot(longer * math.sin(self.angle / 2), math.cos(self.angle / 2))
+        coupler = longer * crank
+        return crank, coupler, (coupler - crank) * (coupler + crank) * math.sin(self.angle)
+
+    def rocker(self, x: Real) -> tuple[Real, Real, Real, Real]:
         """Return crank, coupler, rocker and ground; NaN if the dead centres are in different circuits.
 
         The ground is negative where the coupler's end lies to the right of the line from A to O4.
         """
-        crank, coupler, off = self.lengths(t)
-        rocker = np.full_like(t, 1 / (2 * math.sin(self.swing / 2)))
+        crank, coupler, off = self.lengths(x)
+        rocker = np.full_like(x, 1 / (2 * math.sin(self.swing / 2)))
         # the nearer dead centre at 0, the farther at 1, the rocker's pivot below their middle
         other = 0.5 - 1j * rocker * math.cos(self.swing / 2)
         with np.errstate(all="ignore"):
@@ -121,15 +118,15 @@ class DeadCentreFamily:
             ground = np.abs(other - pivot)
         return crank, coupler, rocker, np.where(sides[0] * sides[1] > 0, np.sign(sides[0]) * ground, np.nan)
 
-    def transmission(self, t: Real) -> Real:
+    def transmission(self, x: Real) -> Real:
         """Return the least transmission angle (rad) over a turn; NaN for a crank that does not turn fully."""
         with np.errstate(all="ignore"):
             if self.kind == "slider-crank":
-                crank, coupler, off = self.lengths(t)
+                crank, coupler, off = self.lengths(x)
                 # if the pivot's foot is between the dead centres, the nearer one is in the other circuit
                 cosine = np.where(4 * crank * coupler > 1, (crank + np.abs(off)) / coupler, np.nan)
             else:
-                crank, coupler, rocker, ground = self.rocker(t)
+                crank, coupler, rocker, ground = self.rocker(x)
                 ends = (
                     (coupler**2 + rocker**2 - (np.abs(ground) + sign * crank) ** 2) / (2 * coupler * rocker)
                     for sign in (-1, 1)
@@ -137,21 +134,17 @@ class DeadCentreFamily:
                 cosine = np.maximum(*map(np.abs, ends))
             return np.where(cosine < 1, np.arctan2(np.sqrt((1 - cosine) * (1 + cosine)), cosine), np.nan)
 
-    def at(self, crank: float, coupler: float) -> float:
-        """Return the t of a crank and a coupler, in any unit."""
-        if self.angle < _EVEN:
-            return coupler / crank
-        return math.atan2(coupler * math.sin(self.angle / 2), crank * math.cos(self.angle / 2))
+    def at(self, longer: float) -> float:
+        """Return the x of a coupler that is so many cranks long."""
+        return math.atan(longer * self.slope) / self.slope if self.slope else longer
 
-    def place_of(self, t: float) -> float:
+    def place_of(self, x: float) -> float:
         """Return how far along the family a member is, from 0 to 1."""
-        return min(max((t - self.low) / (self.high - self.low), 0.0), 1.0)
+        return min(max((x - self.low) / (self.high - self.low), 0.0), 1.0)
 
     @cached_property
     def best(self) -> float:
-        """The t of the greatest least transmission angle, by the golden section between samples."""
-        if self.angle < _EVEN:
-            return min(max(_ROD, self.low), self.high)
+        """The x of the greatest least transmission angle, by the golden section between samples."""
         places = np.linspace(self.low, self.high, _TRIED)
         values = np.nan_to_num(self.transmission(places))
         top = int(values.argmax())
@@ -168,13 +161,11 @@ def families(kind: str, ratio: float, swing: float = 0.0) -> tuple[DeadCentreFam
     """Return the families of linkages with a time ratio, and for crank-rockers a swing (rad); maybe none."""
     angle = math.pi * (ratio - 1) / (ratio + 1)
     parts = []
-    for side in (1.0,) if kind == "slider-crank" or angle < _EVEN else (1.0, -1.0):
-        whole = DeadCentreFamily(kind, angle, swing, side, 0.0, math.pi / 2)
-        if angle < _EVEN:
-            whole = replace(whole, low=1.0, high=_LONGEST_ROD + 1)
+    for side in (1.0,) if kind == "slider-crank" or not angle else (1.0, -1.0):
+        whole = DeadCentreFamily(kind, angle, swing, side, 0.0, 0.0)
+        whole = replace(whole, high=whole.at(_LONGEST_ROD))
         places = np.linspace(whole.low, whole.high, _TRIED + 1)[1:]
-        crank, coupler, _ = whole.lengths(places)
-        allowed = (np.nan_to_num(whole.transmission(places)) >= _STEEPEST) & (coupler <= _LONGEST_ROD * crank)
+        allowed = np.nan_to_num(whole.transmission(places)) >= _STEEPEST
         sound = np.flatnonzero(allowed)
         parts += [
             replace(whole, low=float(places[run[0]]), high=float(places[run[-1]]))
@@ -237,7 +228,7 @@ def quick_return(
         else [family.low + place * (family.high - family.low)]
     )
     stated = {"length_unit": unit, "source": source}
-    return tuple(_made(family, float(t), stroke, stated, name) for t in places[:count])
+    return tuple(_made(family, float(x), stroke, stated, name) for x in places[:count])
 
 
 class FamilyMember(NamedTuple):
@@ -274,14 +265,14 @@ def member_of(scene: Scene) -> FamilyMember | None:
         return None
     candidates = []
     for family in families(kind, purpose.ratio, swing):
-        t = min(max(family.at(crank, coupler), family.low), family.high)
-        its = 0.0 if kind == "slider-crank" else abs(float(family.rocker(np.array([t]))[3][0])) * chord
-        candidates.append((abs(its - ground), family, t))
+        x = min(max(family.at(coupler / crank), family.low), family.high)
+        its = 0.0 if kind == "slider-crank" else abs(float(family.rocker(np.array([x]))[3][0])) * chord
+        candidates.append((abs(its - ground), family, x))
     if not candidates:
         return None
-    _, family, t = min(candidates, key=lambda one: one[0])
-    least, most = family.transmission(np.array([t, family.best])).tolist()
-    return FamilyMember(family, chord, family.place_of(t), least, most)
+    _, family, x = min(candidates, key=lambda one: one[0])
+    least, most = family.transmission(np.array([x, family.best])).tolist()
+    return FamilyMember(family, chord, family.place_of(x), least, most)
 
 
 def moved_along(scene: Scene, place: float) -> Scene:
@@ -299,10 +290,10 @@ def moved_along(scene: Scene, place: float) -> Scene:
 
 
 def _sized(
-    family: DeadCentreFamily, t: float, chord: float | None
+    family: DeadCentreFamily, x: float, chord: float | None
 ) -> tuple[float, dict[str, float], dict[str, Any]]:
     """Return a member's chord, parameters and tables; without a chord, its longest link is `LONGEST`."""
-    sliding, at = family.kind == "slider-crank", np.array([t])
+    sliding, at = family.kind == "slider-crank", np.array([x])
     values = [float(part[0]) for part in (family.lengths(at) if sliding else family.rocker(at))]
     scale = chord or LONGEST / max(map(abs, values))
     lengths = [round(scale * value, _DIGITS - math.floor(math.log10(scale))) for value in values]
@@ -310,10 +301,10 @@ def _sized(
 
 
 def _made(
-    family: DeadCentreFamily, t: float, stroke: float | None, stated: Mapping[str, str], name: str
+    family: DeadCentreFamily, x: float, stroke: float | None, stated: Mapping[str, str], name: str
 ) -> QuickReturn:
     """Return a member of a family as a scene, its time ratio as the solver has it."""
-    scale, parameters, tables = _sized(family, t, stroke)
+    scale, parameters, tables = _sized(family, x, stroke)
     ratio = (math.pi + family.angle) / (math.pi - family.angle)
     document = {
         "title": f"{family.kind.capitalize()} with a time ratio of {ratio:g}",
@@ -329,11 +320,11 @@ def _made(
         scene=scene,
         kind=family.kind,
         parameters=parameters,
-        place=family.place_of(t),
+        place=family.place_of(x),
         ratio=info.time_ratio or 1.0,
         output=output or 0.0,
-        transmission_angle=float(family.transmission(np.array([t]))[0]),
-        best=t == family.best,
+        transmission_angle=float(family.transmission(np.array([x]))[0]),
+        best=x == family.best,
     )
 
 

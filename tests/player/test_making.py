@@ -366,7 +366,8 @@ def test_a_slider_beside_alts_construction_goes_along_the_family(returning: Stat
     slider, purpose = overlay(returning).slider, returning.scene.purpose
     assert slider is not None
     assert isinstance(purpose, TimeRatioPurpose)
-    assert 0 < slider.at < slider.steps
+    # without a quick return the longest coupler transmits best
+    assert 0 < slider.at <= slider.steps
     for step in (slider.steps // 3, slider.steps, 0):
         returning = after(returning, Action("slide", step))
         shown, info = overlay(returning), returning.scene.info

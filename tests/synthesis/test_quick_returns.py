@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -25,14 +26,18 @@ def verify(found: QuickReturn, ratio: float, output: float) -> None:
     assert 0 <= found.place <= 1
 
 
-@pytest.mark.parametrize("ratio", [1.0, 1.05, 1.4, 2.0, 2.5])
+# No quick return, next to none, where a rod of twelve cranks is the best, and others.
+RATIOS = (1.0, 1 + 1e-12, 1.0000007, 1.00001, 1.0002, 1.00025, 1.01, 1.05, 1.4, 2.0, 2.5)
+
+
+@pytest.mark.parametrize("ratio", RATIOS)
 def test_slider_cranks_have_stroke_and_ratio(ratio: float) -> None:
     found = linkanim.quick_return(stroke=80, ratio=ratio)
     for one in found:
         verify(one, ratio, 80)
     assert found[0].best
-    if ratio > 1:
-        assert found[0].transmission_angle >= max(one.transmission_angle for one in found)
+    assert found[0].transmission_angle >= max(one.transmission_angle for one in found)
+    if ratio > 1.0000001:
         # the way forward is the slow one
         back, forward = found[0].scene.info.dead_centres or (0, 0)
         assert (forward - back) % math.tau > math.pi
@@ -40,12 +45,32 @@ def test_slider_cranks_have_stroke_and_ratio(ratio: float) -> None:
 
 @pytest.mark.parametrize(
     ("swing", "ratio"),
-    [(30, 1.0), (60, 1.25), (60, 1.4), (45, 1.25), (90, 1.1), (120, 1.5), (25, 1.6), (120, 3)],
+    [
+        (30, 1.0),
+        (60, 1 + 1e-12),
+        (60, 1.00001),
+        (60, 1.0002),
+        (60, 1.25),
+        (60, 1.4),
+        (45, 1.25),
+        (90, 1.1),
+        (120, 1.5),
+        (25, 1.6),
+        (120, 3),
+    ],
 )
 def test_crank_rockers_have_swing_and_ratio(swing: float, ratio: float) -> None:
     for one in linkanim.quick_return(swing=swing * DEGREE, ratio=ratio, count=3):
         verify(one, ratio, swing * DEGREE)
         assert "crank-rocker" in one.class_name
+
+
+@pytest.mark.parametrize("options", [{"stroke": 80}, {"swing": 1.0}], ids=["slider-crank", "crank-rocker"])
+def test_a_family_goes_over_into_the_one_without_a_quick_return(options: dict[str, Any]) -> None:
+    found = [linkanim.quick_return(ratio=ratio, **options) for ratio in RATIOS[:5]]
+    for one, other in pairwise(found):
+        for member, next_one in zip(one, other, strict=True):
+            assert member.transmission_angle == pytest.approx(next_one.transmission_angle, abs=0.2 * DEGREE)
 
 
 def test_the_best_is_the_best_of_all_crank_rockers_of_that_swing_and_ratio() -> None:
