@@ -40,11 +40,14 @@ from linkanim.mechanics.search import highest, in_blocks
 _ROUNDING = 1e-13
 """A mean below this share of the mean size of its values is rounding."""
 _ENDING = 1e-6
-"""Within this phase of where the input turns back, the quotient of power and pace may have no digits."""
-_IDLE = 1e-12
-"""Power below this share of its terms is rounding."""
-_ASIDE = 1e-3, (4.0, -6.0, 4.0, -1.0)
-"""Where effort is 0/0: the steps of phase beside the place at which it is read instead, and their weights."""
+"""Within this share of a phase of where the input turns back, power and pace may both have no digits."""
+_IDLE = 10.0
+"""Power of no more than this many times its rounding errors is none."""
+_BESIDE = 2.0**-6, (0.8, -0.4, 4 / 35, -1 / 70)
+"""Where effort is 0/0: steps of phase to both sides of the place, at which it is read instead; their weights.
+
+The steps are for a crank that turns as fast as the input, and shorter where gears turn one faster.
+"""
 _TOPS = 8
 """How many of the highest samples are followed to a peak of their own."""
 
@@ -84,49 +87,52 @@ def input_effort(motion: Any) -> Any:
     forward. Unbounded at a limit of the input that takes power; NaN where the input stands still and does not
     start to move either.
     """
-    pace, power = _pace(motion, _MOVING), _power(motion, _MOVING)
-    found = settled(over(power.total, pace), over(power.rounding, abs(pace)))
-    if not motion.acceleration:
+    power = _power(motion, _MOVING)
+    found = _quotient(motion, power, _MOVING)
+    if not motion.acceleration or not np.any(near := stands(motion, _ENDING)):
         return found
-    second = _pace(motion, _STARTING)
-    ends = np.abs(pace * motion.input_speed) <= _ENDING * np.abs(second)
-    if not np.any(ends):
-        return found
-    stops = stands(motion)
-    found = np.where(stops, np.inf, found)
-    rests = stops & _rests(motion)
-    begun = _power(motion, _STARTING)
-    starting = settled(over(begun.total, second), over(begun.rounding, abs(second)))
-    found = np.where(rests, starting, found)
-    ends = np.asarray(ends & ~rests)
-    return (_aside(motion, found, ends) if np.any(ends) else found)[()]
+    stops, still = stands(motion), power.weight <= power.rounding
+    starting = _quotient(motion, _power(motion, _STARTING), _STARTING)
+    found = np.where(stops, np.where(still, starting, np.inf), found)
+    near = np.asarray(near & ~(stops & still))
+    return (_beside(motion, found, near) if np.any(near) else found)[()]
 
 
-def _aside(motion: Any, effort: Array, ends: NDArray[np.bool_]) -> Array:
-    """Return efforts, those next to an end of the input that takes no power extrapolated from beside it."""
+def _quotient(motion: Any, power: _Power, rates: _Rates) -> Any:
+    """Return power over pace, 0 where that is rounding, infinite or NaN where the pace is 0."""
+    pace = _pace(motion, rates)
+    return settled(over(power.total, pace), over(power.rounding, abs(pace)))
+
+
+def _beside(motion: Any, effort: Array, near: NDArray[np.bool_]) -> Array:
+    """Return efforts, those that are 0/0 at a near end of the input interpolated from both sides.
+
+    There what has a force or a mass moves on and takes no power. Where it rests with the input, both have
+    their digits up to the end.
+    """
     phase, speed, second = (
-        np.broadcast_to(value, effort.shape)[ends]
+        np.broadcast_to(value, effort.shape)[near]
         for value in (motion.phase, motion.input_speed, motion.input_acceleration)
     )
-    end = math.pi * np.rint(phase / math.pi)
-    solve = motion.mechanism.solve
-    there = _power(solve(phase=end, speed=speed, acceleration=second), _MOVING)
-    step, weights = _ASIDE
-    inwards = np.where(phase < end, -step, step)
-    read = [
-        weight * input_effort(solve(phase=phase + n * inwards, speed=speed, acceleration=second))
-        for n, weight in enumerate(weights, start=1)
-    ]
-    found = settled(sum(read), _IDLE * sum(map(np.abs, read)))
-    idle = np.abs(there.total) <= _IDLE * there.weight
-    effort[ends] = np.where(idle, found, effort[ends])
+
+    def solved(phases: Array) -> tuple[Any, _Power]:
+        found = motion.mechanism.solve(phase=phases, speed=speed, acceleration=second)
+        return found, _power(found, _MOVING)
+
+    _, there = solved(math.pi * np.rint(phase / math.pi))
+    idle = (there.weight > there.rounding) & (np.abs(there.total) <= _IDLE * there.rounding)
+    if idle.any():
+        step, weights = _BESIDE[0] / motion.mechanism.assembly.quickest, _BESIDE[1]
+        places = ((phase + side * n * step, w) for n, w in enumerate(weights, start=1) for side in (-1, 1))
+        read = sum(weight * _quotient(*solved(place), _MOVING) for place, weight in places)
+        effort[near] = np.where(idle, read, effort[near])
     return effort
 
 
 class _Power(NamedTuple):
     """The power of all forces and inertia, in W, its weight, and its rounding errors.
 
-    The weight is the sum of the terms' sizes, each as if everything moved at the input's speed as well.
+    The weight is the sum of the terms' sizes, each as if all moved along its force.
     """
 
     total: Any
@@ -149,8 +155,7 @@ def _strut_power(
 ) -> Iterator[tuple[Any, Any, Any]]:
     """Yield what each spring and damper takes, its weight, and its rounding errors."""
     linkage, points = motion.mechanism.linkage, getattr(motion, rates.points)
-    metre, usual = linkage.metre, linkage.extent * abs(motion.input_speed)
-    blur = rates.rounding(motion, "{}")
+    metre, blur = linkage.metre, rates.rounding(motion, "{}")
     for strut in struts:
         # a strut that keeps its length takes no power
         if strut.forceful and holding(linkage.rigid_bodies, strut.between) is None:
@@ -159,7 +164,7 @@ def _strut_power(
             rate = growth(between(motion.position, strut.between), moving)
             speeds = sum(size(components(points[end])) for end in strut.between)
             noise = abs(force) * (ROUNDING * speeds + blur) + force_rounding(motion, strut) * abs(rate)
-            yield force * metre * rate, abs(force) * metre * (size(moving) + usual), noise * metre
+            yield force * metre * rate, abs(force) * metre * size(moving), noise * metre
 
 
 def _body_power(motion: Any, rates: _Rates) -> Iterator[tuple[Any, Any, Any]]:
@@ -168,7 +173,6 @@ def _body_power(motion: Any, rates: _Rates) -> Iterator[tuple[Any, Any, Any]]:
     metre = linkage.metre
     jolt, jerk = rounding_of(motion, "{}/s²", 2) * metre, rounding_of(motion, "rad/s²", 2)
     blur, twist = rates.rounding(motion, "{}") * metre, rates.rounding(motion, "rad")
-    usual = abs(motion.input_speed)
     for body in linkage.bodies:
         prefix, centre = ("com_", body.name) if body.slider is None else ("", body.slider)
         if body.mass is not None:
@@ -176,14 +180,12 @@ def _body_power(motion: Any, rates: _Rates) -> Iterator[tuple[Any, Any, Any]]:
             a, b = components(getattr(motion, f"{prefix}acceleration")[centre])
             pull, moved = size((a, b)) * metre + abs(linkage.gravity), body.mass * metre * size((u, v))
             power = body.mass * metre * ((a * u + b * v) * metre + linkage.gravity * v)
-            weight = (moved + body.mass * metre * linkage.extent * usual) * pull
-            yield power, weight, moved * (ROUNDING * pull + jolt) + body.mass * blur * pull
+            yield power, moved * pull, moved * (ROUNDING * pull + jolt) + body.mass * blur * pull
         if body.inertia is not None:
             turning = body.inertia * getattr(motion, rates.turning)[body.name]
             gained = motion.angular_acceleration[body.name]
-            weight = (abs(turning) + body.inertia * usual) * abs(gained)
             noise = abs(turning) * jerk + (ROUNDING * abs(turning) + body.inertia * twist) * abs(gained)
-            yield turning * gained, weight, noise
+            yield turning * gained, abs(turning * gained), noise
 
 
 def _pace(motion: Any, rates: _Rates) -> Any:
@@ -195,13 +197,6 @@ def _pace(motion: Any, rates: _Rates) -> Any:
         return rate if linkage.drive.coordinate.is_angle else rate * linkage.metre
     moving = between(getattr(motion, rates.points), ends)
     return growth(between(motion.position, ends), moving) * linkage.metre
-
-
-def _rests(motion: Any) -> NDArray[np.bool_]:
-    """Return at which instants no joint moves."""
-    rounding = rounding_of(motion, "{}/s", 1)
-    still = [size(components(velocity)) <= rounding for velocity in motion.velocity.values()]
-    return np.asarray(np.all(still, axis=0))
 
 
 class Demand(NamedTuple):

@@ -88,13 +88,16 @@ def unbounded(rate: Any, phase: Any) -> Any:
     return np.where(np.isnan(rate) & ~np.isnan(phase), np.inf, rate)[()]
 
 
-def stands(motion: Any) -> Any:
-    """Tell where the input stands still: at rest, or at an end where it turns back.
+def stands(motion: Any, within: float = STATED) -> Any:
+    """Tell where the input stands still: at rest, or `within` so much of an end where it turns back.
 
-    An end is told to the last digits of a phase: q' is no larger there than these times q".
+    That is a share of π, or of a greater phase; by itself the last digits of a phase. With q the input's
+    coordinate, φ the phase and a prime for a rate in time, φ lies beside an end by q' φ'²/(q" φ' - q' φ"),
+    whatever φ" is.
     """
-    phase, rate, second = motion.phase, motion.coordinate_rate, motion.coordinate_second
-    return np.abs(rate * motion.input_speed) <= STATED * np.hypot(phase, math.pi) * np.abs(second)
+    speed, rate, second = motion.input_speed, motion.coordinate_rate, motion.coordinate_second
+    bend = second * speed - rate * motion.input_acceleration
+    return np.abs(rate * speed * speed) <= within * np.hypot(motion.phase, math.pi) * np.abs(bend)
 
 
 @lru_cache(maxsize=256)

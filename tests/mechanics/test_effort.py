@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
+import mpmath
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -390,3 +391,108 @@ def test_a_spring_that_runs_through_no_length_does_no_work(offset: str) -> None:
     asked, rate = damped.info.demand, 0.08 * damped.linkage.drive.speed
     assert asked is not None
     assert asked.work == pytest.approx(20 * rate**2 / 2 * damped.info.period_seconds, rel=1e-12)
+
+
+STARTS = {
+    "a slow piston": (ENGINE, 0.01 * math.pi / 30, 2.0),
+    "a piston that hardly moves": (ENGINE, 1e-9, 2.0),
+    "backwards": (ENGINE, -1e-6, 2.0),
+    "an input that swings": (ENGINE.replace("rod = 120", "rod = 30"), 1e-6, -2.0),
+    "a slider that drives": (STRETCHED.format(gravity="", mass=1.0, way=(120, 200)), 1e-5, 3.0),
+}
+
+
+@pytest.mark.parametrize(("text", "speed", "acceleration"), STARTS.values(), ids=STARTS)
+def test_an_input_that_is_slow_and_speeds_up_asks_for_what_starts_it(
+    text: str, speed: float, acceleration: float
+) -> None:
+    scene = scene_of(text)
+    phases = np.array([0.3, 0.7, 2.0, 3.0])
+    found, started = (
+        np.asarray(input_effort(scene.solve(phase=phases, speed=rate, acceleration=acceleration)))
+        for rate in (speed, 0.0)
+    )
+    assert np.isfinite(started).all()
+    assert found == pytest.approx(started, rel=1e-5)
+    for phase, value in zip(phases.tolist(), found.tolist(), strict=True):
+        assert input_effort(scene.pose(phase, speed=speed, acceleration=acceleration)) == value
+    if scene.mechanism.linkage.drive.coordinate.is_angle:
+        angles = scene.solve(phase=phases).coordinate
+        by_angle = [
+            np.asarray(input_effort(scene.solve(angle=angles, speed=rate, acceleration=acceleration)))
+            for rate in (speed, 0.0)
+        ]
+        assert by_angle[0] == pytest.approx(by_angle[1], rel=1e-5)
+
+
+SWUNG = (
+    SPRUNG
+    + """
+[springs.quick]
+between = ["D", "G"]
+stiffness = "70 N/m"
+free_length = 90
+[ground]
+Q = [300, 0]
+G = [0, 150]
+[joints.D]
+crank = "Q"
+length = 17
+gear = {{ with = "A", ratio = {ratio}, offset = "10 deg" }}
+"""
+)
+
+
+@pytest.mark.parametrize("ratio", [1, 20, 96])
+def test_beside_a_limit_that_takes_no_power_the_torque_is_that_of_the_closed_formula(ratio: int) -> None:
+    scene = scene_of(SWUNG.format(ratio=ratio))
+
+    def torque(angle: mpmath.mpf) -> mpmath.mpf:
+        struts = (
+            (4.0, 0.03, mpmath.mpf("0.17"), 1, 0, mpmath.mpf("0.09"), 0),
+            (0.07, 0.09, mpmath.mpf("0.017"), ratio, mpmath.pi / 18, mpmath.mpf("-0.3"), mpmath.mpf("0.15")),
+        )
+        total = mpmath.mpf(0)
+        for stiffness, free, arm, turns, offset, x, y in struts:
+            at = turns * angle + offset
+            u, v = arm * mpmath.cos(at) - x, arm * mpmath.sin(at) - y
+            length = mpmath.sqrt(u * u + v * v)
+            rate = turns * arm * (mpmath.cos(at) * v - mpmath.sin(at) * u) / length
+            total += 1000 * mpmath.mpf(stiffness) * (length - mpmath.mpf(str(free))) * rate
+        return total
+
+    low, high = scene.mechanism.input_range
+    with mpmath.workdps(50):
+        ground, crank, both = mpmath.mpf(90), mpmath.mpf(170), mpmath.mpf(210)
+        limit = mpmath.acos((ground**2 + crank**2 - both**2) / (2 * ground * crank))
+        assert (low, high) == pytest.approx((-float(limit), float(limit)), rel=1e-15)
+        for off in (0.0, 1e-15, 1e-12, 1e-9, 3e-7, 9.9e-7, 1.1e-6, 1e-4, 0.1):
+            for end in (0.0, math.pi):
+                for phase in (end - off, end + off):
+                    true = torque(-limit * mpmath.cos(mpmath.mpf(phase)))
+                    assert input_effort(scene.pose(phase)) == pytest.approx(float(true), rel=1e-13), phase
+
+
+# The two bars come straight: the mass runs on through the limit and takes no power there.
+@pytest.mark.parametrize("way", [(110, 230), (230, 110)], ids=["to the limit", "from the limit"])
+def test_beside_a_limit_through_which_a_mass_runs_on_the_force_is_that_of_the_closed_formula(
+    way: tuple[int, int],
+) -> None:
+    scene = scene_of(STRETCHED.format(gravity="", mass=1.0, way=way))
+    reach, end = mpmath.mpf(way[1] - way[0]) / 2, math.pi if way[1] == 230 else 0.0
+    speed = mpmath.mpf(scene.linkage.drive.speed)
+
+    def travel(seconds: mpmath.mpf) -> mpmath.mpf:
+        return 170 - reach * mpmath.cos(speed * seconds)
+
+    def turned(seconds: mpmath.mpf) -> mpmath.mpf:
+        at, half = travel(seconds), speed * seconds / 2
+        root = mpmath.cos(half) if way[1] == 230 else mpmath.sin(half)
+        return 2 * mpmath.asin(root * mpmath.sqrt(120 * (at - 10) / (480 * at)))
+
+    with mpmath.workdps(80):
+        for off in (1e-9, 5e-7, 9.9e-7, 1.1e-6, 1e-3, 0.1):
+            seconds = mpmath.mpf(end + off) / speed
+            power = mpmath.mpf("0.06") ** 2 * mpmath.diff(turned, seconds) * mpmath.diff(turned, seconds, 2)
+            true = power * 1000 / mpmath.diff(travel, seconds)
+            assert input_effort(scene.pose(end + off)) == pytest.approx(float(true), rel=1e-14), off
