@@ -297,4 +297,9 @@ def test_the_list_of_quantities_says_what_is_not_bounded_and_what_there_is_none_
         token: value_words(scene, scene.quantities[token], scene.pose(math.pi))
         for token in ("coupler.coefficient", "A.tangential_acceleration", "A.velocity")
     }
-    assert list(words.values()) == ["h₃ = ∞ rad/rad", "aᵗ_{A} = – mm/s²", "v_{A} = 0 mm/s"]
+    assert list(words.values()) == ["h₃ = ∞ rad/rad", "aᵗ_{A} = 264.8 mm/s²", "v_{A} = 0 mm/s"]
+    pins = {"O": [0, 0], "Q": [50, 0]}
+    joints = {"A": {"crank": "O", "length": 3}, "E": {"from": ["O", "Q"], "length": [40, 40], "side": "left"}}
+    prop = {"ground": pins, "joints": joints, "bodies": {"prop": {"joints": ["O", "E"]}}, "length_unit": "mm"}
+    held = scene_from(prop, name="held", where="held")  # it stands still, and so turns about no place
+    assert value_words(held, held.quantities["prop.pole.x"], held.pose(1.0)) == "x_{P1prop} = – mm"

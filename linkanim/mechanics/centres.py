@@ -17,10 +17,10 @@ import numpy as np
 from linkanim.frozen import NamedTuple
 from linkanim.mechanics.angles import unit
 from linkanim.mechanics.linkage import Body, Crank, Linkage, Slide, holding
-from linkanim.mechanics.measures import as_complex, between, components, cross, over, stands
+from linkanim.mechanics.measures import ROUNDING, as_complex, between, components, cross, over, size, steady
 
 _STRAIGHT = 1e-12
-"""Below this share of the input's rate a difference of angular velocities is rounding."""
+"""A turn that moves the linkage's extent by less than this share of a link's way is rounding."""
 
 Link = Body | None
 """A body, or None for the ground."""
@@ -66,8 +66,7 @@ def centre(motion: Any, one: Link, other: Link) -> Centre | None:
     x, y = pole(motion, body, against)
     if math.isfinite(x) and math.isfinite(y):
         return Centre(complex(x, y))
-    rated = motion.per_input if stands(motion) else motion
-    velocity = complex(*_velocity_between(rated, body, against)[1:])
+    velocity = complex(*_steadily(motion, body, against)[1:])
     speed = abs(velocity)
     return Centre(None, 1j * velocity / speed) if math.isfinite(speed) and speed > 0 else None
 
@@ -176,38 +175,65 @@ def pole(motion: Any, body: Body, other: Link = None) -> tuple[Any, Any]:
     """Return a body's instant centre to another link: x and y, of a pose or of a motion.
 
     Both links move alike there: P = A + i·(v_A - v)/(ω - ω′) with A a joint of the body, and v and ω′ those
-    of the other link's plane at A. Infinite where both turn alike. A fixed pin is the centre of a body that
-    turns about it. At rest, rates by the input are used.
+    of the other link's plane at A. Infinite where both turn alike, NaN where they do not move. A fixed pin is
+    the centre of a body that turns about it.
     """
     linkage, still = motion.mechanism.linkage, 0.0 * motion.phase
     pin = linkage.pivot(body.joints) if other is None and body.slider is None else None
     if pin is not None:
         x, y = linkage.pin(pin).position
         return x + still, y + still
-    found = _moving_pole(motion, body, other)
-    if np.any(stops := stands(motion)):
-        by_input = _moving_pole(motion.per_input, body, other)
-        known = stops & np.isfinite(by_input[0]) & np.isfinite(by_input[1])
-        return np.where(known, by_input[0], found[0])[()], np.where(known, by_input[1], found[1])[()]
-    return found
-
-
-def _moving_pole(motion: Any, body: Body, other: Link) -> tuple[Any, Any]:
     x, y = components(motion.position[_point(body)])
-    rate, vx, vy = _velocity_between(motion, body, other)
-    turns = abs(rate) > _STRAIGHT * abs(motion.coordinate_rate)
+    rate, vx, vy = _steadily(motion, body, other)
+    turning, moving = abs(rate) * linkage.extent, size((vx, vy))
     found = x - over(vy, rate), y + over(vx, rate)
-    return np.where(turns, found[0], math.inf)[()], np.where(turns, found[1], math.inf)[()]
+    away = np.where(moving > 0, math.inf, math.nan) + still
+    turns = turning > _STRAIGHT * moving
+    return np.where(turns, found[0], away)[()], np.where(turns, found[1], away)[()]
 
 
-def _velocity_between(motion: Any, body: Body, other: Link) -> tuple[Any, Any, Any]:
-    """Return how fast a body turns against another link, and its first joint's velocity against that link."""
-    rate, (x, y) = _rate(motion, body), components(motion.position[_point(body)])
-    vx, vy = components(motion.velocity[_point(body)])
+def _steadily(motion: Any, body: Body, other: Link) -> tuple[Any, Any, Any]:
+    """Return how two links move against each other, as `_velocity_between`, up to a factor; also at rest.
+
+    Where all that moves them rests they are about to move as they are accelerated.
+    """
+    linkage = motion.mechanism.linkage
+    joints = [name for link in (body, other) if link is not None for name in _moved_with(linkage, link)]
+    extent = linkage.extent
+
+    def read(motion: Any) -> tuple[Any, ...]:
+        rate, vx, vy = _velocity_between(motion, body, other)
+        return size((vx, vy)) + abs(rate) * extent, rate, vx, vy
+
+    moves, *found = steady(motion, joints, read)
+    rests = ~moves
+    if np.any(rests):
+        begun = _velocity_between(motion.mechanism.solve(phase=motion.phase, speed=1.0), body, other, _BEGUN)
+        still = size(begun[1:]) + abs(begun[0]) * extent <= ROUNDING * extent
+        found = [
+            np.where(rests, np.where(still, 0.0, new), old)[()] for new, old in zip(begun, found, strict=True)
+        ]
+    return found[0], found[1], found[2]
+
+
+_MOVING = "velocity", "angular_velocity"
+_BEGUN = "acceleration", "angular_acceleration"
+
+
+def _velocity_between(
+    motion: Any, body: Body, other: Link, rates: tuple[str, str] = _MOVING
+) -> tuple[Any, Any, Any]:
+    """Return how fast a body turns against another link, and its first joint's velocity against that link.
+
+    Where both rest, the rates may be accelerations.
+    """
+    points = getattr(motion, rates[0])
+    rate, (x, y) = _rate(motion, body, rates), components(motion.position[_point(body)])
+    vx, vy = components(points[_point(body)])
     if other is None:
         return rate, vx, vy
-    theirs, (px, py) = _rate(motion, other), components(motion.position[_point(other)])
-    wx, wy = components(motion.velocity[_point(other)])
+    theirs, (px, py) = _rate(motion, other, rates), components(motion.position[_point(other)])
+    wx, wy = components(points[_point(other)])
     return rate - theirs, vx - wx + theirs * (y - py), vy - wy - theirs * (x - px)
 
 
@@ -215,14 +241,22 @@ def _point(body: Body) -> str:
     return body.slider or body.joints[0]
 
 
-def _rate(motion: Any, body: Body) -> Any:
-    """Return a body's angular velocity; a block turns with its guide."""
+def _moved_with(linkage: Linkage, body: Body) -> tuple[str, ...]:
+    """Return joints that tell how a body moves: two of its own, of a block those of its guide."""
     if body.slider is None:
-        return motion.angular_velocity[body.name]
+        return body.joints[:2]
+    return body.slider, *(_slide_of(linkage, body.slider).axis or ())
+
+
+def _rate(motion: Any, body: Body, rates: tuple[str, str]) -> Any:
+    """Return a body's angular velocity, or acceleration; a block turns with its guide."""
+    points, turning = rates
+    if body.slider is None:
+        return getattr(motion, turning)[body.name]
     guide = _slide_of(motion.mechanism.linkage, body.slider)
     if guide.axis is None:
-        return 0.0 * motion.coordinate_rate
-    arm, moving = between(motion.position, guide.axis), between(motion.velocity, guide.axis)
+        return 0.0 * motion.phase
+    arm, moving = between(motion.position, guide.axis), between(getattr(motion, points), guide.axis)
     return over(cross(arm, moving), arm[0] * arm[0] + arm[1] * arm[1])
 
 

@@ -968,6 +968,31 @@ class Linkage(Stated):
         pins = [pin.name for pin in self.pins if n and pin.name in self.rigid_bodies[n]]
         return pins[0] if len(pins) == 1 else None
 
+    @cached_property
+    def _through(self) -> dict[str, frozenset[str]]:
+        """Map each joint that moves to the joints through which all of its motion runs, itself among them."""
+        found: dict[str, frozenset[str]] = {}
+        for joint in self.joints:
+            if not joint.fixed:
+                before = [found[name] for name in joint.needs if name in found]
+                # a gear turns with the input, whatever its pivot does
+                geared = isinstance(joint, Crank) and joint.gear is not None
+                shared = frozenset.intersection(*before) if before and not geared else frozenset()
+                found[joint.name] = shared | {joint.name}
+        return found
+
+    def movers(self, names: Iterable[str]) -> tuple[str, ...]:
+        """Return the joints by which alone these joints are moved, the nearest first.
+
+        Each is on a fixed circle or line, so that everything behind it follows from how far it has gone along
+        that. A driven crank, which is the input itself, is none of them.
+        """
+        through = [self._through[name] for name in names if name in self._through]
+        shared = frozenset.intersection(*through) if through else frozenset()
+        own = self.driven.joint
+        led = shared & self.radii.keys() - ({own.name} if isinstance(own, Crank) else set())
+        return tuple(joint.name for joint in reversed(self.joints) if joint.name in led)
+
     @property
     def cranks(self) -> Iterator[Crank]:
         """The cranks in the order of the joints, the input among them."""

@@ -9,8 +9,8 @@ Its parts, in reading order:
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
-from functools import lru_cache
+from collections.abc import Callable, Iterable, Mapping
+from functools import lru_cache, partial
 from typing import Any
 
 import numpy as np
@@ -42,8 +42,11 @@ from linkanim.mechanics.linkage import Body, Crank, Damper, Linkage, Spring, hol
 # **By geometry.** A point that keeps its distance from a fixed pin runs on a circle, one that slides on a
 # fixed line runs straight (`Linkage.radii`); a body with a fixed pin turns about it (`Linkage.pivot`); a
 # strut between two joints of one rigid body keeps its length. That holds at rest, too, where velocities say
-# nothing. At rest, how other paths bend and where other poles are follows from the rates by the input, which
-# do not depend on its speed.
+# nothing.
+#
+# **At rest.** How another path bends, and where another pole is, is a quotient of rates, and no matter of
+# time: 0/0 at a dead centre of the link that moves it, and a quotient of rounding errors beside it. There the
+# rates by that link's own way are taken, which go on, or those by the input's (`steady`).
 
 ROUNDING = 1e-13
 """Share of the linkage's extent, moved at the input's speed, below which a number is rounding."""
@@ -119,11 +122,13 @@ def _size(unit: str, extent: float) -> float:
 # h and f for first kinematic coefficients.
 
 _STRAIGHT = 1e-12
-"""Below this share a cross product of velocity and acceleration, or of the input's rate, is rounding."""
+"""Below this share a cross product of velocity and acceleration is rounding."""
 _FLAT = 1e-2
 """Share of an acceleration's usual rounding errors that is left where all its terms are small."""
-_SHARP = 1e-3
-"""Above this share such a product keeps its digits."""
+_SLOW = 1 / 16
+"""Rates have fewer digits of what moves by less, in extents of the linkage for each radian of the input."""
+_ASIDE = 1e-3
+"""How far beside a place, in phase, is looked at a path of which no rates say how it bends there."""
 
 
 def components(vector: Any) -> tuple[Any, Any]:
@@ -203,6 +208,42 @@ def curvature_radius(velocity: Any, acceleration: Any, least: Any) -> Any:
 
 def _dot(vector: Vector, other: Vector) -> Any:
     return vector[0] * other[0] + vector[1] * other[1]
+
+
+def steady(motion: Any, joints: Iterable[str], read: Callable[[Any], tuple[Any, ...]]) -> tuple[Any, ...]:
+    """Return whether things move at all, and what `read` finds from rates that are neither tiny nor huge.
+
+    `read` returns how fast things move, and numbers that do not depend on that. It is asked for the rates in
+    time; where these are nearly 0, or unbounded, for those by each of `Linkage.movers`, by the input, and by
+    the phase.
+    """
+    linkage = motion.mechanism.linkage
+    ways: list[Callable[[], Any]] = [partial(motion.per, mover) for mover in linkage.movers(joints)]
+    if linkage.drive.coordinate.is_angle:
+        ways.append(lambda: motion.per_input)
+    ways.append(lambda: motion.mechanism.solve(phase=motion.phase, speed=1.0))
+    share, found = _moved(motion, read)
+    for way in ways:
+        poor = share < _SLOW
+        if not np.any(poor):
+            break
+        better, others = _moved(way(), read)
+        taken = poor & (better > share)
+        share = np.where(taken, better, share)[()]
+        found = tuple(np.where(taken, new, old)[()] for new, old in zip(others, found, strict=True))
+    return share > ROUNDING, *found
+
+
+def _moved(motion: Any, read: Callable[[Any], tuple[Any, ...]]) -> tuple[Any, tuple[Any, ...]]:
+    """Return how fast things move, in extents for each radian of the input, and what else is read.
+
+    Of more than one extent the first is the reciprocal: it is near 0 where rates have few digits.
+    """
+    with np.errstate(invalid="ignore", over="ignore"):
+        size, *found = read(motion)
+        share = over(size, motion.mechanism.linkage.extent * abs(motion.input_speed))
+        share = np.minimum(share, over(1.0, share))
+    return np.where(np.isnan(share), 0.0, share)[()], tuple(found)
 
 
 def transmission_angle(motion: Any, dyad: str) -> Any:
@@ -441,41 +482,35 @@ def _rates(motion: Any, prefix: str, part: str) -> tuple[Vector, Vector]:
 
 
 def _radius_of_curvature(motion: Any, prefix: str, part: str) -> Any:
-    """Return a path's radius of curvature: known by geometry, or from rates in time or by the input.
+    """Return a path's radius of curvature: known by geometry, or from the rates by what moves the point.
 
-    Both kinds of rates describe the same path. Rates in time lose their digits where the input stops, rates
-    by the input at a limit of it. The kind that keeps more is taken: the angle between velocity and
-    acceleration tells which.
+    At a cusp it is 0.
     """
     radius = _radius(motion, prefix, part)
     if radius is not None:
         return radius + 0.0 * motion.phase
-    rates = _rates(motion, prefix, part)
-    found, share = _curved(motion, rates), _share(*rates)
-    steady = motion.mechanism.full_turn and not np.any(motion.input_acceleration)
-    if (steady and np.all(motion.input_speed)) or not np.any(share < _SHARP):
+    joints = (part,) if not prefix else motion.mechanism.linkage.body(part).joints[:2]
+
+    def read(motion: Any) -> tuple[Any, Any]:
+        rates = _rates(motion, prefix, part)
+        return size(rates[0]), curvature_radius(*rates, _FLAT * rounding_of(motion, "{}/s²", 2))
+
+    moves, found = steady(motion, joints, read)
+    turns = ~moves & ~np.isnan(motion.phase)
+    if not np.any(turns):
         return found
-    others = _rates(motion.per_input, prefix, part)
-    better = (share < _SHARP) & ((_share(*others) > share) | np.isnan(found))
-    return np.where(better, _curved(motion.per_input, others), found)[()]
-
-
-def _curved(motion: Any, rates: tuple[Vector, Vector]) -> Any:
-    return curvature_radius(*rates, _FLAT * rounding_of(motion, "{}/s²", 2))
-
-
-def _share(velocity: Vector, acceleration: Vector) -> Any:
-    """Return the sine of the angle between velocity and acceleration; 0 where one is zero or unbounded."""
-    with np.errstate(invalid="ignore", over="ignore"):
-        share = over(abs(cross(velocity, acceleration)), size(velocity) * size(acceleration))
-    return np.where(np.isnan(share), 0.0, share)
+    solve = motion.mechanism.solve
+    near, far = (read(solve(phase=motion.phase + n * _ASIDE, speed=1.0))[1] for n in (1, 2))
+    with np.errstate(invalid="ignore"):
+        cusped = np.where(far > 1.5 * near, 0.0, near)
+        return np.where(turns, np.where(np.isinf(near), near, cusped), found)[()]
 
 
 def _along(motion: Any, prefix: str, part: str) -> Any:
-    """Return the tangential acceleration, NaN of a point that rests."""
+    """Return the tangential acceleration; of a point that rests, that with which it is about to move."""
     velocity, acceleration = _rates(motion, prefix, part)
     rests = np.equal(said(motion, size(velocity), "{}/s", 1), 0.0)
-    return np.where(rests, np.nan, tangential(velocity, acceleration))[()]
+    return np.where(rests, size(acceleration), tangential(velocity, acceleration))[()]
 
 
 def _across(motion: Any, prefix: str, part: str) -> Any:

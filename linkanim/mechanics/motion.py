@@ -204,13 +204,15 @@ ORDER: Mapping[str, int] = {**DERIVATIVE_OF, **dict(zip(COORDINATE, range(3), st
 class Variant(NamedTuple):
     """One way of asking: by phase or by angle; whether the input accelerates; whether its rate varies.
 
-    `per_input`: at phases, with rates by the input's angle, or travel, instead of those in time.
+    `per_input`: at phases, with rates by the input's angle, or travel, instead of those in time. `mover`:
+    with rates by the way of that joint.
     """
 
     by_phase: bool
     accelerates: bool
     varying_rate: bool = False
     per_input: bool = False
+    mover: str = ""
 
 
 class Strut(NamedTuple):
@@ -330,6 +332,13 @@ class Derived(ABC, Generic[Vector, Number]):
     @abstractmethod
     def per_input(self) -> Derived[Vector, Number]:
         """The same instants, with rates by the input's angle, or travel, instead of those in time."""
+
+    @abstractmethod
+    def per(self, mover: str) -> Motion:
+        """Return the same instants, with the rates of all behind a joint by that joint's own way.
+
+        The joint is one of `Linkage.movers`. Where it rests, these rates go on while those in time vanish.
+        """
 
     @cached_property
     def spring(self) -> Mapping[str, Strut]:
@@ -461,6 +470,20 @@ class Motion(Derived[Array, Array]):
         instants = self.instants._replace(variant=variant, rates=(1.0, 0.0), back=None)
         return Motion(self.mechanism, 1.0, 0.0, instants)
 
+    def per(self, mover: str) -> Motion:
+        """Return the same instants, with the rates of all behind a joint by that joint's own way."""
+        if mover not in self._per:
+            variant = Variant(self.instants.variant.by_phase, False, mover=mover)
+            instants = self.instants._replace(variant=variant, rates=(1.0, 0.0), back=None)
+            found = self._per[mover] = Motion(self.mechanism, 1.0, 0.0, instants)
+            places = {kind: getattr(self, kind) for kind in ("position", "com_position")}
+            vars(found).update(places, phase=self.phase)
+        return self._per[mover]
+
+    @cached_property
+    def _per(self) -> dict[str, Motion]:
+        return {}
+
     def paced(self, factor: float) -> Motion:
         """Return the same motion run `factor` times as fast; backwards where that is negative.
 
@@ -498,7 +521,7 @@ class _Paced(Motion):
     def __init__(self, motion: Motion, factor: float) -> None:
         speed, acceleration = motion.input_speed * factor, motion.input_acceleration * factor**2
         super().__init__(motion.mechanism, speed, acceleration, motion.instants)
-        vars(self).update(motion=motion, factor=factor, per_input=motion.per_input)
+        vars(self).update(motion=motion, factor=factor, per_input=motion.per_input, _per=motion._per)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _Paced, (self.motion, self.factor)
@@ -559,6 +582,14 @@ class Pose(Derived[Pair, float]):
         """The same instant, with rates by the input's angle, or travel, instead of those in time."""
         rated = self.angular_acceleration or self.travel_acceleration
         return self.mechanism.pose_per_input(self.phase) if rated else self
+
+    def per(self, mover: str) -> Motion:
+        """Return the same instant, with the rates of all behind a joint by that joint's own way."""
+        return self._batch.per(mover)
+
+    @cached_property
+    def _batch(self) -> Motion:
+        return self.mechanism.solve(phase=self.phase, speed=1.0)
 
     def _continuous(self, ends: tuple[str, str]) -> float:
         return float(direction(between(self.position, ends)))
@@ -702,12 +733,13 @@ class Mechanism:
             graph = Graph()
             uniform = not variant.varying_rate
             second = graph.input("a", uniform=uniform) if variant.accelerates else 0.0
-            pace = Slope(graph.input("w", uniform=uniform), second)
+            # what stands before a mover does not move
+            pace = Slope(0.0) if variant.mover else Slope(graph.input("w", uniform=uniform), second)
             names, state = self._state(graph, pace, variant)
             unscale = self.assembly.unscale
             places = zip(COORDINATE, state.coordinate(unscale), strict=True)
             driven = {kind: {"": (value,)} for kind, value in places}
-            rows = dict(_quantities(walked(self.assembly, state), unscale))
+            rows = dict(_quantities(walked(self.assembly, state, variant.mover), unscale))
             graph.forget()
             found = self._traces[variant] = names, driven | rows
         return found

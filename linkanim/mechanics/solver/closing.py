@@ -86,6 +86,7 @@ from linkanim.mechanics.solver.signed_root import (
     SignedRoot,
     four_bar_root,
     plain_root,
+    rated_root,
     slider_root,
     slot_root,
 )
@@ -516,11 +517,12 @@ class Piece:
 class Walk:
     """What has been found so far; joints add themselves to it in their order.
 
-    `pieces` stand in the order of the linkage's rigid bodies.
+    `pieces` stand in the order of the linkage's rigid bodies. Where a joint is the `mover`, everything before
+    it stands still, and rates are those by its own way.
     """
 
-    def __init__(self, assembly: Assembly, state: InputState) -> None:
-        self.assembly, self.state = assembly, state
+    def __init__(self, assembly: Assembly, state: InputState, mover: str = "") -> None:
+        self.assembly, self.state, self.mover = assembly, state, mover
         self.points: dict[str, MovingPoint] = {}
         self.pieces = [Piece()]
         self.travels: dict[str, Moving] = {}
@@ -598,9 +600,26 @@ class Walk:
             raise AssemblyError(f"joint {name}: {self._why_shut(name, closing)}")
         self.closings[name] = closing
         root = self.assembly.chain.get(name)
+        if root is not None and self.mover:
+            return rated_root(root.root(closing, self.state).q, closing.separation, closing.half_difference)
         if root is not None:
             return root.root(closing, self.state)
         return plain_root(closing.u, closing.w, closing.separation, closing.half_difference)
+
+    def lead(self, name: str) -> None:
+        """Move a joint on a fixed circle by 1 rad a second, one on a fixed line by the linkage's extent."""
+        linkage, place = self.linkage, self.points[name].position
+        if math.isinf(linkage.radii[name]):
+            fixed = (slide for joint in linkage.joints for slide in joint.slides if not slide.start)
+            along = Vec(*direction(next(slide.angle for slide in fixed if slide.point == name)))
+            self.points[name] = MovingPoint(place, along.scaled(linkage.extent))
+            self.travels[name] = Moving(self.travels[name].value, linkage.extent)
+            return
+        frames = enumerate(linkage.rigid_bodies)
+        n, pin = next((n, pin) for n, one in frames if name in one and (pin := linkage.pivot(one)))
+        pivot, turning = self.points[pin], Slope(1.0)
+        self.pieces[n] = Piece(turning, self.pieces[n].arms)
+        self.points[name] = pivot + carried(place - pivot.position, turning)
 
     def _why_shut(self, name: str, closing: Closing) -> str:
         """Say why a dyad whose factors do not change has no two closures."""
@@ -985,9 +1004,9 @@ CLOSERS: Mapping[type[Joint], Closer] = {
 """Every kind that a linkage can be made of."""
 
 
-def walked(assembly: Assembly, state: InputState) -> Walk:
-    """Return a walk over the whole linkage at the state's instant."""
-    walk = Walk(assembly, state)
+def walked(assembly: Assembly, state: InputState, mover: str = "") -> Walk:
+    """Return a walk over the whole linkage at the state's instant; rates by the `mover`, if there is one."""
+    walk = Walk(assembly, state, mover)
     for _ in walking(walk):
         pass
     return walk
@@ -997,6 +1016,8 @@ def walking(walk: Walk) -> Iterator[Joint]:
     """Walk over the linkage, and yield each joint that is done."""
     for joint in walk.linkage.joints:
         CLOSERS[type(joint)].close(joint, walk)
+        if joint.name == walk.mover:
+            walk.lead(joint.name)
         yield joint
 
 

@@ -302,7 +302,11 @@ def plain_root(u: Value, w: Value, separation: Moving, half_difference: Value) -
 
     `half_difference` is (U - W)/2, or 1/2 where there is no U: q' = ρ times that.
     """
-    q = sqrt(w * u)
+    return rated_root(sqrt(w * u), separation, half_difference)
+
+
+def rated_root(q: Value, separation: Moving, half_difference: Value) -> SignedRoot:
+    """Return a root of known sign, with its rates as of one that does not vanish here."""
     ratio = separation.rate / q
     return SignedRoot(q, Slope(ratio, (separation.second - ratio * ratio * half_difference) / q))
 
