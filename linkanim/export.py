@@ -44,9 +44,14 @@ def csv_head(names: Iterable[str]) -> str:
 
 
 def csv_rows(columns: Sequence[ArrayLike]) -> str:
-    """Return a table's rows; what is not finite is an empty cell."""
-    text = "".join(f"{line}\n" for line in lines(columns))
-    return text if all(np.isfinite(column).all() for column in columns) else text.replace(NULL, "")
+    """Return a table's rows: what is unbounded is `inf`, what has no value an empty cell."""
+    rows, block = lines(columns), np.array([np.asarray(column, np.float64) for column in columns])
+    for n in np.flatnonzero(~np.isfinite(block).all(axis=0)).tolist():
+        cells = zip(rows[n].split(","), block[:, n].tolist(), strict=True)
+        rows[n] = ",".join(
+            cell if cell != NULL else "" if math.isnan(number) else f"{number}" for cell, number in cells
+        )
+    return "".join(f"{line}\n" for line in rows)
 
 
 def columns(rows: Sequence[Sequence[str]]) -> str:

@@ -42,10 +42,10 @@ def test_all_numbers_of_a_table_read_back_bit_for_bit(values: list[float]) -> No
         assert (bits(float(one)), bits(float(other))) == (bits(value), bits(-value))
 
 
-def test_what_is_not_finite_is_null_and_an_empty_cell() -> None:
+def test_what_is_not_finite_is_null_in_json_and_inf_or_nothing_in_csv() -> None:
     columns = [np.array([1.0, math.nan, math.inf]), np.array([-math.inf, 2.5, math.nan])]
     assert lines(columns) == ["1.0,null", "null,2.5", "null,null"]
-    assert csv_rows(columns) == "1.0,\n,2.5\n,\n"
+    assert csv_rows(columns) == "1.0,-inf\n,2.5\ninf,\n"
     assert csv_rows([np.array([1.0]), np.array([2.0])]) == "1.0,2.0\n"
 
 

@@ -138,6 +138,35 @@ def test_at_a_limit_what_is_unbounded_is_null_and_positions_are_not(solved: Call
     assert pose["bodies"]["coupler"]["coefficients"] == [None, None]
 
 
+UNTOLD = """
+length_unit = "mm"
+ground = { O = [0, 0], Q = [50, 0] }
+joints.A = { crank = "O", length = 50 }
+joints.E = { from = ["O", "Q"], length = [40, 40], side = "left" }
+bodies.crank = { joints = ["O", "A"] }
+bodies.prop = { joints = ["O", "E"] }
+springs.s = { between = ["A", "Q"] }
+"""
+"""A link that stands still, and a spring whose ends meet and of which no force is known."""
+
+
+def test_what_has_no_value_is_left_out_and_what_is_unbounded_is_null(
+    solved: Callable[..., Any], solve: Solve, tmp_path: Path
+) -> None:
+    file = str(tmp_path / "untold.toml")
+    Path(file).write_text(UNTOLD, encoding="utf-8")
+    first, second = solved(file, "--sweep", "0:30:30")
+    assert "pole" not in first["bodies"]["prop"]
+    assert first["bodies"]["crank"]["pole"] == [0.0, 0.0]
+    assert first["mechanical_advantage"] is None
+    assert {*first["springs"]["s"]} == {"length", "rate"}
+    assert {*second["springs"]["s"]} == {"length", "rate", "direction", "direction_rate"}
+    row, *_ = csv.DictReader(solve(file, "--sweep", "0:30:30", "--csv", "-").splitlines())
+    assert row["bodies.prop.pole.x"] == row["springs.s.direction"] == row["springs.s.force"] == ""
+    assert row["mechanical_advantage"] == "inf"
+    assert "unbounded" in solve(file, "--angle", "0 deg")
+
+
 def test_an_angle_out_of_reach_is_refused_with_the_range(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["solve", "double-rocker", "--angle", "180 deg"]) == 2
     printed = capsys.readouterr()

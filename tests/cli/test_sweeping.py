@@ -97,6 +97,6 @@ def test_rows_have_the_time_since_the_first(capsys: pytest.CaptureFixture[str]) 
     assert [list(pose)[:4] for pose in found] == [["scene", "angle", "phase", "time"]] * 4
     assert [pose["time"] for pose in found] == pytest.approx([-math.radians(30 * k) / 2 for k in range(4)])
     main(["solve", "press", "--sweep", "0:30:30", "--speed", "0 rad/s", "--json"])
-    assert [pose["time"] for pose in json.loads(capsys.readouterr().out)] == [None, None]
+    assert ["time" in pose for pose in json.loads(capsys.readouterr().out)] == [False, False]
     main(["solve", "press", "--angle", "30 deg", "--json"])
     assert "time" not in json.loads(capsys.readouterr().out)

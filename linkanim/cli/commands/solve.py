@@ -13,7 +13,8 @@ from collections.abc import Callable, Container, Iterable, Iterator, Mapping
 from contextlib import ExitStack
 from decimal import Decimal
 from fractions import Fraction
-from itertools import repeat
+from functools import lru_cache, partial
+from itertools import compress, repeat
 from pathlib import Path as FilePath
 from typing import Any, TextIO
 
@@ -422,7 +423,7 @@ def _out_of_range(scene: Scene, angle: float) -> OutOfRange:
 
 def _print_json(trees: Iterator[Tree], sweep: bool) -> None:
     """Print one object, or a list of them with a line for each."""
-    objects = (text for block in trees for text in _objects(block))
+    objects = (text for block in trees for text in json_rows(block))
     if not sweep:
         print(next(objects))
         return
@@ -433,16 +434,35 @@ def _print_json(trees: Iterator[Tree], sweep: bool) -> None:
     print("]")
 
 
-def _objects(block: Tree) -> Iterator[str]:
-    """Yield each row's tree as JSON: the text that all rows share, and their own numbers in it."""
-    marked = json_text(mapped(lambda leaf: _NUMBER if isinstance(leaf, np.ndarray) else leaf, block))
-    form = marked.replace("%", "%%").replace(json_text(_NUMBER), "%s")
+def json_rows(block: Tree) -> Iterator[str]:
+    """Yield each row's tree as JSON: a text that many rows share, and their own numbers in it.
+
+    What has no value in a row is left out of it; in a row that cannot be reached every number is null.
+    """
     columns = [leaf for _, leaf in leaves(block) if isinstance(leaf, np.ndarray)]
-    return (form % tuple(line.split(",")) for line in lines(columns))
+    known = ~np.isnan(np.stack(columns, axis=1)) | np.isnan(block["phase"])[:, None]
+    form = lru_cache(maxsize=64)(partial(_form, block))
+    for line, told in zip(lines(columns), known, strict=True):
+        yield form(told.tobytes()) % tuple(compress(line.split(","), told.tolist()))
+
+
+def _form(block: Tree, told: bytes) -> str:
+    """Return the JSON of rows with %s for each number; `told` says for each leaf whether the rows have it."""
+    has = iter(told)
+
+    def marked(node: Any) -> Any:
+        if isinstance(node, list):
+            parts = [marked(part) for part in node]
+            return parts if any(part is not None for part in parts) else None
+        if isinstance(node, Mapping):
+            return {key: part for key, one in node.items() if (part := marked(one)) is not None}
+        return node if not isinstance(node, np.ndarray) else _NUMBER if next(has) else None
+
+    return json_text(marked(block)).replace("%", "%%").replace(json_text(_NUMBER), "%s")
 
 
 def _write_csv(target: FilePath | None, by: str, found: Iterator[RowBlock]) -> None:
-    """Write the input in degrees and then every quantity; an unknown value is an empty cell."""
+    """Write the input in degrees and then every quantity; what has no value is an empty cell."""
     with ExitStack() as stack:
         file: TextIO = sys.stdout
         if target is not None:
