@@ -216,8 +216,11 @@ def centre_points(poses: Poses, circles: Complex) -> Complex:
     return np.asarray(np.where(far, np.nan, centres))
 
 
-def polished(poses: Poses, bars: Bars) -> Bars:
-    """Return bars without rounding errors: moved by the least that makes their lengths equal in all poses."""
+def polished(poses: Poses, bars: Bars, *, held: bool = False) -> Bars:
+    """Return bars without rounding errors: moved by the least that makes their lengths equal in all poses.
+
+    With `held` the centre points stay where they are, which three poses at the most leave free.
+    """
     circle, centre = bars
     for _ in range(2):
         places = poses.places(circle)
@@ -225,6 +228,7 @@ def polished(poses: Poses, bars: Bars) -> Bars:
         off = ((places - places[:, :1]) * np.conj(places + places[:, :1] - 2 * centre[:, None])).real[:, 1:]
         by_circle = 2 * (np.conj(arm) * poses.turns - np.conj(arm[:, :1]))[:, 1:]
         by_centre = -2 * np.conj(arm - arm[:, :1])[:, 1:]
+        by_centre *= not held
         slopes = np.stack([by_circle.real, -by_circle.imag, by_centre.real, -by_centre.imag], axis=-1)
         scale = np.abs(slopes).max(axis=(1, 2), initial=0.0)[:, None, None]
         step = np.einsum("kpj,kj->kp", np.linalg.pinv(slopes / np.where(scale, scale, 1.0)), -off)
@@ -708,7 +712,7 @@ def ball_point(poses: Poses) -> Slides:
         slide = Slides(poses.origins[:1], np.array([direction]))
         return slide if _strays(poses, slide) <= STRAIGHT else Slides(slide.point[:0], slide.direction[:0])
     candidates = [point for point in _ball_points(poses) if np.isfinite(point)]
-    tries = [_straightened(poses, point) for point in candidates]
+    tries = [straightened(poses, point) for point in candidates]
     best = min(tries, key=lambda slide: _strays(poses, slide), default=None)
     if best is None or not _strays(poses, best) <= STRAIGHT:
         return Slides(np.empty(0, np.complex128), np.empty(0, np.complex128))
@@ -771,7 +775,7 @@ def _ball_points(poses: Poses) -> Iterator[complex]:
         yield complex(poses.origins[0]) + within
 
 
-def _straightened(poses: Poses, point: complex) -> Slides:
+def straightened(poses: Poses, point: complex) -> Slides:
     """Return a point moved to where its places lie best in line, with the direction of this line."""
     direction = complex(slides_through(poses, np.array([point])).direction[0])
     for _ in range(3):

@@ -40,6 +40,7 @@ from linkanim.synthesis.burmester import (
     polished,
     slide_points,
     slides_through,
+    straightened,
 )
 from linkanim.synthesis.linkages import (
     KINDS,
@@ -252,11 +253,13 @@ class _EndChoice(NamedTuple):
     """The free choices at one end of the coupler: rows of parameters to try, and what makes its bar or slide.
 
     `steps` are the first steps of the parameters in the search for a better row; empty where none is free.
+    Where it is `held` the bars end at a pivot that stays to the last digit.
     """
 
     rows: Real
     make: Callable[[Real], Any]
     steps: tuple[float, ...]
+    held: bool = False
 
     @property
     def free(self) -> bool:
@@ -365,7 +368,7 @@ def _held(task: GuideTask, pivot: complex) -> _EndChoice:
     poses = task.poses
     where = f"the pivot at {pivot.real:g}, {pivot.imag:g}"
     if poses.count == 2:
-        return _on_midline(poses, pivot)
+        return _on_midline(poses, pivot)._replace(held=True)
     if poses.count == 3 or not poses.poles:
         bar = Bars(circle_points(poses, np.array([pivot])), np.array([pivot]))
         if not np.isfinite(bar.circle[0]):
@@ -373,7 +376,7 @@ def _held(task: GuideTask, pivot: complex) -> _EndChoice:
                 f"{where}: as the body sees it, it lies in one line in all poses, or in one point, so no "
                 "joint of the body stays at one distance from it; move the pivot"
             )
-        return _all_of(bar)
+        return _all_of(bar)._replace(held=poses.count == 3)
     if poses.count == 4:
         nearest = CentreCurve(poses).nearest(pivot)
         if abs(nearest - pivot) > _ON_CURVE * poses.size:
@@ -719,10 +722,14 @@ def _followed(task: GuideTask, seed: _Seed, weight: float) -> _Seed:
 
 
 def _made(task: GuideTask, seed: _Seed) -> _Pairs:
-    """Return a linkage whose bars have equal lengths in all poses, to the last digits."""
-    first, second = (choice.make(row) for choice, row in zip(seed.ends, seed.rows, strict=True))
-    exact = polished(task.poses, second) if isinstance(second, Bars) else second
-    return _paired(polished(task.poses, first), exact)
+    """Return a linkage whose bars have one length in all poses, and its slider one line, to all digits."""
+    crank, end = (choice.make(row) for choice, row in zip(seed.ends, seed.rows, strict=True))
+    first, second = seed.ends
+    if isinstance(end, Bars):
+        end = polished(task.poses, end, held=second.held)
+    else:
+        end = straightened(task.poses, complex(end.point[0]))
+    return _paired(polished(task.poses, crank, held=first.held), end)
 
 
 def followed(
@@ -805,7 +812,8 @@ def _nearest_bar(
     if choices is not None:
         pivot = choices.nearest(pivot)
     bar = Bars(circle_points(poses, np.array([pivot])), np.array([pivot]))
-    return polished(poses, bar) if np.isfinite(bar.circle[0]) else None
+    held = choices is None and poses.count == 3
+    return polished(poses, bar, held=held) if np.isfinite(bar.circle[0]) else None
 
 
 def _nearest_slide(poses: Poses, joint: complex) -> Slides | None:

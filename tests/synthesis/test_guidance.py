@@ -71,6 +71,24 @@ def test_a_known_four_bar_is_among_the_answers(count: int) -> None:
     of_known(count, 1, 900)
 
 
+# Of three poses in a hundredth of a millimetre, and of two in a tenth of a micrometre.
+@pytest.mark.parametrize(("count", "apart"), [(2, 1e-2), (2, 1e-4), (2, 1e-6), (3, 1e-2), (3, 1e-4)])
+@pytest.mark.parametrize("kind", ["four-bar", "slider-crank"])
+def test_given_pivots_are_kept_to_the_last_digit_however_near_the_poses_are(
+    kind: str, count: int, apart: float
+) -> None:
+    poses = np.array([10.0, 20.0, 0.3]) + apart * np.random.default_rng(3).normal(size=(count, 3)) * [
+        50,
+        50,
+        1,
+    ]
+    for pivots in ([(30.1, -40.3)], [(30.1, -40.3), (80.7, -20.9)])[: 2 if kind == "four-bar" else 1]:
+        for one in linkanim.guide(poses, kind=kind, pivots=pivots, count=3, largest=1e7):
+            pins = [tuple(pin.position) for pin in one.scene.linkage.pins]
+            assert set(pivots) <= set(pins)
+            assert one.error < 1e-12
+
+
 # Of the first the curve of centre points all but crosses itself near a pivot.
 @pytest.mark.parametrize("number", [150, 4])
 def test_pivots_of_four_poses_are_kept_where_their_curve_is_hardly_one(number: int) -> None:
