@@ -27,6 +27,7 @@ from linkanim.scenes import chapters, files, load, names, titles
 from linkanim.scenes.schema import reference
 from linkanim.synthesis import generation, guidance
 from linkanim.synthesis import path as request
+from linkanim.units import significant
 
 MANUAL = Path(linkanim.__file__).parent / "manual"
 CHANGED = "out of date; LINKANIM_GOLDENS=write pytest tests/test_manual_reference.py writes it anew"
@@ -205,6 +206,37 @@ def _member(thing: type, name: str) -> str:
     return f"### scene.{name}\n\n{_said(member)}"
 
 
+_SIZE = 1280, 720
+_PLAYED: Mapping[str, tuple[str, str, str]] = {
+    "plays in": (
+        "any slide program, browser or mail",
+        "slide programs, browsers",
+        "LaTeX `animate`, video editors",
+    ),
+    "loops by itself": ("yes", "set it in the slide program", "as the player is told"),
+    "frame rates that are exact": (
+        "50, 33⅓, 25, 20 and others with whole hundredths of a second",
+        "any",
+        "–",
+    ),
+}
+
+
+def formats(folder: Path) -> str:
+    """Return what each format of a recording is good for, with the size of one that is made here."""
+    sizes = []
+    for suffix in ("gif", "mp4", "png"):
+        linkanim.record(linkanim.load("press"), folder / f"press.{suffix}", size=_SIZE)
+        sizes.append(sum(file.stat().st_size for file in folder.glob(f"press*.{suffix}")) / 1e6)
+    wide, high = _SIZE
+    measured = (
+        f"size of one period of the press at {wide}×{high}",
+        *(f"{significant(size, 2)} MB" for size in sizes),
+    )
+    rows = [(title, *cells) for title, cells in _PLAYED.items()]
+    return _table(("", "GIF", "MP4", "numbered PNG"), iter([*rows[:2], measured, *rows[2:]]))
+
+
 BLOCKS: Mapping[str, tuple[str, Callable[[Path], str]]] = {
     "commands": ("commands.md", lambda _: commands()),
     "scene-file": ("scene-files.md", lambda _: reference()),
@@ -212,11 +244,14 @@ BLOCKS: Mapping[str, tuple[str, Callable[[Path], str]]] = {
     "scenes": ("scenes.md", lambda _: scenes()),
     "quantities": ("quantities.md", quantities),
     "api": ("api.md", lambda _: api()),
+    "formats": ("loops.md", formats),
 }
 """What is generated: the page that it stands in, and what makes it."""
 
 
-@pytest.mark.parametrize("block", BLOCKS)
+@pytest.mark.parametrize(
+    "block", [pytest.param(one, marks=[pytest.mark.slow] * (one == "formats")) for one in BLOCKS]
+)
 def test_a_page_of_the_reference_is_what_the_program_s_tables_say(block: str, tmp_path: Path) -> None:
     name, made = BLOCKS[block]
     path, now = MANUAL / name, f"<!-- {block} -->\n{made(tmp_path)}\n<!-- /{block} -->"
