@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import field, replace
 from functools import cached_property
 from html import unescape
-from itertools import chain, groupby
+from itertools import chain, count, groupby
 
 import numpy as np
 
@@ -102,10 +102,13 @@ class Report:
     measured: Mapping[str, MeasuredTable] = field(default_factory=dict)
     label: str = "measured"
     published: tuple[PublishedTable, ...] = ()
+    progress: Callable[[int, int], None] | None = None
+    """Is told of each part that is begun: how many there are by then, and 0 for how many in all."""
 
     def files(self) -> Iterator[tuple[str, str]]:
         """Yield the report's files, the page first: (name, text)."""
-        yield "report.html", html.page(self.scene.title, self._head(), self._chapters())
+        chapters = ((title, self._watched(parts)) for title, parts in self._chapters())
+        yield "report.html", html.page(self.scene.title, self._head(), chapters)
         yield "figure.svg", self._figure.document()
         if self._worked.loops:
             yield "loops.svg", vectors_svg(self._worked)
@@ -116,6 +119,19 @@ class Report:
         for number, pace in enumerate(self.paces, start=1):
             names, columns = table(self.scene, pace)
             yield f"quantities-{number}.csv", csv_head(names) + csv_rows([*columns])
+
+    @cached_property
+    def _parts(self) -> Iterator[int]:
+        return count(1)
+
+    def _begin(self) -> None:
+        if self.progress:
+            self.progress(next(self._parts), 0)
+
+    def _watched(self, parts: Iterable[Part]) -> Iterator[Part]:
+        for part in parts:
+            self._begin()
+            yield part
 
     @cached_property
     def _values(self) -> Values:
@@ -165,6 +181,7 @@ class Report:
         return [self._drawn((token,), self.scene.quantities[token].words) for token in tokens]
 
     def _drawn(self, tokens: tuple[str, ...], caption: str, *, broad: bool = False) -> DrawnChart:
+        self._begin()
         order, paces = self.scene.quantities[tokens[0]].order, paces_of(self.scene, tokens[0], self.paces)
         curves, size = within_a_turn(curves_of(self.scene, tokens, paces)), _BROAD_CHART if broad else _CHART
         drawn = Page(curves, size, brief=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from html import escape
 from itertools import groupby
@@ -25,10 +25,16 @@ _EARLY = 0.09
 """The share of its period at which the index shows a scene: off its limits, where links lie in line."""
 
 
-def write_site(folder: Path, names: Iterable[str], shared: Shared, unit: str | None = None) -> None:
+def write_site(
+    folder: Path,
+    names: Iterable[str],
+    shared: Shared,
+    unit: str | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> None:
     """Write a page for each scene as NAME.html into a folder, and the index; `shared` says how.
 
-    Lengths are shown in `unit`, each scene's own where it is None.
+    Lengths are shown in `unit`, each scene's own where it is None. `progress` is told (pages done, in all).
 
     All appear together or none does; they replace only files that we wrote. `BadInput` before any work where
     `folder` cannot be a folder or a name is taken by another file.
@@ -40,6 +46,8 @@ def write_site(folder: Path, names: Iterable[str], shared: Shared, unit: str | N
         for name, page in zip(chosen, pages, strict=True):
             scenes.append(in_unit(load(name), unit))
             (new / page).write_text(document(replace(shared, scene=scenes[-1])), encoding="utf-8")
+            if progress:
+                progress(len(scenes), len(chosen))
         (new / INDEX).write_text(_index(scenes, shared), encoding="utf-8")
 
 

@@ -14,6 +14,7 @@ from __future__ import annotations
 import math
 import re
 from abc import ABC, abstractmethod
+from bisect import insort
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import field, replace
 from functools import cached_property
@@ -366,11 +367,12 @@ def _passed(answer: _Answer, task: PathTask, places: Real) -> Real:
 
 def _ascending(places: Real, most: float) -> Real:
     """Return places sorted; those beyond the end of a closed curve continue at its beginning."""
-    ascending = np.sort(places)
+    ascending = sorted(places.tolist())
     while ascending[-1] - ascending[0] > most:
-        ascending[0], ascending[-1] = ascending[-1] - most, ascending[0] + most
-        ascending.sort()
-    return ascending
+        first, last = ascending.pop(0), ascending.pop()
+        insort(ascending, last - most)
+        insort(ascending, first + most)
+    return np.array(ascending)
 
 
 def _nearest(answer: _Answer, points: Complex, places: Real) -> Real:

@@ -134,7 +134,7 @@ class Follower:
             shown = _shown(front, shown)
             row = cards(front, shown, COUNT)
             yield row, row.index(shown), ()
-        exact = best_fits(task, 2 * COUNT, lambda *_: pulse(), widely=False)
+        exact = best_fits(task, 2 * COUNT, pulse, widely=False)
         front = with_cognates(front_of([*front, *exact]), pulse)
         shown = _shown(front, shown)
         row = cards(front, shown, COUNT)

@@ -24,7 +24,7 @@ from linkanim.synthesis.answers import Figures, Fit, answer_of, cognates_of, tur
 from linkanim.synthesis.atlas import CURVES, Candidates
 from linkanim.synthesis.fitting import PathTask, merit, refined
 from linkanim.synthesis.linkages import FOUR_BAR, Indices, Real
-from linkanim.synthesis.search import ALIKE, MATCHED, spread, started, verified
+from linkanim.synthesis.search import ALIKE, MATCHED, Pulse, spread, started, unwatched, verified
 
 # The front: which answers are on it, which one would be chosen, and a few that look different.
 
@@ -190,9 +190,7 @@ class _Limited(NamedTuple):
         return replace(task, requirements=limits).problem(chosen)
 
 
-def searched_front(
-    task: PathTask, known: Iterable[Fit] = (), pulse: Callable[[], None] = lambda: None
-) -> tuple[Fit, ...]:
+def searched_front(task: PathTask, known: Iterable[Fit] = (), pulse: Pulse = unwatched) -> tuple[Fit, ...]:
     """Return the front of the answers found within many limits, and of known ones.
 
     The most exact comes first. `pulse` is called meanwhile.
@@ -207,10 +205,10 @@ def searched_front(
         now, costs = _fitted(task, now, before, chosen, steps)
         now = now.take(_best_of_each(now, costs, most))
     pulse()
-    return with_cognates(front_of([*known, *verified(task, now.candidates, chosen)]), pulse)
+    return with_cognates(front_of([*known, *verified(task, now.candidates, chosen, pulse)]), pulse)
 
 
-def with_cognates(front: Sequence[Fit], pulse: Callable[[], None] = lambda: None) -> tuple[Fit, ...]:
+def with_cognates(front: Sequence[Fit], pulse: Pulse = unwatched) -> tuple[Fit, ...]:
     """Return the front of given answers and their cognates, which are as exact but of another size."""
     if not front or front[0].kind is not FOUR_BAR:
         return tuple(front)
@@ -265,9 +263,7 @@ def _best_of_each(now: _Limited, costs: Real, count: int) -> Indices:
     return order[np.arange(len(order)) - first < count]
 
 
-def way_along(
-    task: PathTask, front: Sequence[Fit], pulse: Callable[[], None] = lambda: None
-) -> tuple[Fit, ...]:
+def way_along(task: PathTask, front: Sequence[Fit], pulse: Pulse = unwatched) -> tuple[Fit, ...]:
     """Return answers from the exact end of a front to the compact end, each similar to its neighbours.
 
     Between two neighbours on the front, the best of their sizes, answers are fitted starting from both.

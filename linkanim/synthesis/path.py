@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import itertools
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -18,9 +19,10 @@ from linkanim.synthesis.front import PREFERENCES, Preference, differing, preferr
 from linkanim.synthesis.linkages import KINDS, LinkageKind, Real, Requirements, refuse_count
 from linkanim.synthesis.search import (
     SAME,
-    Progress,
+    Pulse,
     best_fits,
     rounded_to,
+    unwatched,
     with_cognates_marked,
     with_round_lengths,
 )
@@ -41,7 +43,7 @@ def path(
     prefer: Preference = "exact",
     cognates: bool = False,
     rounding: float | None = None,
-    progress: Progress | None = None,
+    progress: Callable[[int, int], None] | None = None,
     **options: object,
 ) -> tuple[Fit, ...]:
     """Return different linkages whose coupler point follows points (n, 2), the best first.
@@ -65,29 +67,32 @@ def path(
     task = task_of(points, closed, **options)  # type: ignore[arg-type]
     if rounding is not None and not (math.isfinite(rounding) and rounding > 0):
         raise BadInput(f"rounding to {rounding!r}: give a length above zero, such as 0.1")
-    fits = best_fits(task, count, progress)
+    steps = itertools.count(1)
+    pulse = (lambda: progress(next(steps), 0)) if progress else unwatched
+    fits = best_fits(task, count, pulse)
     if prefer != "exact":
-        front = preferred(searched_front(task, fits), prefer)
+        front = preferred(searched_front(task, fits, pulse), prefer)
         fits = tuple(differing(front, count))
     if rounding is not None:
-        fits = with_round_lengths(fits, rounding)
+        fits = with_round_lengths(fits, rounding, pulse)
         fits = fits if prefer == "exact" else tuple(preferred(fits, prefer))
-    return with_cognates_marked(_with_cognates(fits, rounding) if cognates else fits)
+    return with_cognates_marked(_with_cognates(fits, rounding, pulse) if cognates else fits)
 
 
-def _with_cognates(fits: Sequence[Fit], rounding: float | None) -> tuple[Fit, ...]:
+def _with_cognates(fits: Sequence[Fit], rounding: float | None, pulse: Pulse) -> tuple[Fit, ...]:
     """Return each answer, followed by its cognates; no linkage is listed twice."""
     listed: list[Fit] = []
     for fit in fits:
         if all(fit.apart(one) > SAME for one in listed):
-            listed += [fit, *_cognates(fit, rounding)]
+            listed += [fit, *_cognates(fit, rounding, pulse)]
     return tuple(listed)
 
 
-def _cognates(fit: Fit, rounding: float | None) -> Iterator[Fit]:
+def _cognates(fit: Fit, rounding: float | None, pulse: Pulse) -> Iterator[Fit]:
     """Yield an answer's cognates, in round lengths where its own are."""
     for other in cognates_of(fit.exact or fit):
-        cognate = other if rounding is None else rounded_to(other, rounding)
+        pulse()
+        cognate = other if rounding is None else rounded_to(other, rounding, pulse)
         yield from [cognate] if cognate else []
 
 

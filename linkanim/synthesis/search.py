@@ -25,7 +25,12 @@ from linkanim.synthesis.linkages import Complex, Indices, Real
 
 # From a drawn curve to the linkages that follow it: atlas, refinement, check.
 
-Progress = Callable[[int, int], None]
+Pulse = Callable[[], None]
+"""Is called before each step of a search that may take a while."""
+
+
+def unwatched() -> None:
+    """Do nothing at a step."""
 
 
 class _Stage(NamedTuple):
@@ -66,15 +71,15 @@ _CLOSED = 1e-24
 
 
 def best_fits(
-    task: PathTask, count: int, progress: Progress | None = None, *, widely: bool = True
+    task: PathTask, count: int, pulse: Pulse = unwatched, *, widely: bool = True
 ) -> tuple[Fit, ...]:
     """Return the `count` best different answers, the best first; BadInput where there is none.
 
     With `widely`, more candidates are tried where the first do not follow the curve, which takes longer.
     """
-    fits = _searched(task, count, progress, widely=widely)
+    fits = _searched(task, count, pulse, widely=widely)
     if not task.curve.closed and (not fits or fits[0].error > _GOOD * task.curve.size):
-        fits = best_of([*fits, *_searched(task.swinging(), count, progress, widely=widely)], count)
+        fits = best_of([*fits, *_searched(task.swinging(), count, pulse, widely=widely)], count)
     if not fits:
         raise BadInput(_none_fits(task))
     return fits
@@ -110,21 +115,19 @@ def started(task: PathTask, chosen: Indices, count: int, among: int = CURVES) ->
     return matched_in_time(known, points.points, timing, count, free_start=task.free_start)
 
 
-def _searched(task: PathTask, count: int, progress: Progress | None, *, widely: bool) -> tuple[Fit, ...]:
+def _searched(task: PathTask, count: int, pulse: Pulse, *, widely: bool) -> tuple[Fit, ...]:
     few = len(task.curve.points) <= FEW
-    fits = _through(task, _FEW_STAGES if few else _STAGES, count, progress)
+    fits = _through(task, _FEW_STAGES if few else _STAGES, count, pulse)
     off = fits[0].error / task.curve.size if fits else _FOLLOWED
     if not widely or few or off < _FOLLOWED:
         return fits
     further = _WIDER_STAGES if off <= _FOREIGN else _FOREIGN_STAGES
-    return best_of([*fits, *_through(task, further, count, progress)], count)
+    return best_of([*fits, *_through(task, further, count, pulse)], count)
 
 
-def _through(
-    task: PathTask, stages: tuple[_Stage, ...], count: int, progress: Progress | None
-) -> tuple[Fit, ...]:
-    candidates, chosen = _refined_through(task, stages, progress)
-    return best_of(_enough(verified(task, candidates, chosen), count), count)
+def _through(task: PathTask, stages: tuple[_Stage, ...], count: int, pulse: Pulse) -> tuple[Fit, ...]:
+    candidates, chosen = _refined_through(task, stages, pulse)
+    return best_of(_enough(verified(task, candidates, chosen, pulse), count), count)
 
 
 def _enough(fits: Iterator[Fit], count: int) -> Iterator[Fit]:
@@ -137,16 +140,13 @@ def _enough(fits: Iterator[Fit], count: int) -> Iterator[Fit]:
             return
 
 
-def _refined_through(
-    task: PathTask, stages: tuple[_Stage, ...], progress: Progress | None
-) -> tuple[Candidates, Indices]:
+def _refined_through(task: PathTask, stages: tuple[_Stage, ...], pulse: Pulse) -> tuple[Candidates, Indices]:
     """Return the best candidates of the last stage, the best first, at size 1, and that stage's points."""
     chosen = task.thinned(MATCHED)
     now = started(task, chosen, stages[0].candidates)
     cost = np.zeros(len(now.rows))
     for number, stage in enumerate(stages):
-        if progress:
-            progress(number, len(stages))
+        pulse()
         now = now.take(_by_merit(cost)[: stage.candidates])
         before, chosen = chosen, task.thinned(stage.points)
         now = now._replace(angles=spread(task, now, before, chosen))
@@ -154,8 +154,6 @@ def _refined_through(
         now, cost = refined(problem, now, stage.steps, guarded=stage is stages[-1])
         if number:
             cost = merit(problem, now)
-    if progress:
-        progress(len(stages), len(stages))
     return now.take(_by_merit(cost)[: int(np.isfinite(cost).sum())]), chosen
 
 
@@ -191,7 +189,7 @@ def spread(task: PathTask, candidates: Candidates, before: Indices, after: Indic
     return np.array(there).reshape(len(angles), len(after))
 
 
-def verified(task: PathTask, normal: Candidates, chosen: Indices) -> Iterator[Fit]:
+def verified(task: PathTask, normal: Candidates, chosen: Indices, pulse: Pulse = unwatched) -> Iterator[Fit]:
     """Yield the answers among candidates of size 1 at chosen points, each linkage once."""
     everywhere = spread(task, normal, chosen, np.arange(len(task.normal.points)))
     scaled = task.scaled(normal._replace(angles=everywhere))
@@ -201,6 +199,7 @@ def verified(task: PathTask, normal: Candidates, chosen: Indices) -> Iterator[Fi
     for (row, closure, angles, _), places in zip(zip(*scaled, strict=True), joints, strict=True):
         if any(np.abs(places - other).max() <= SAME * task.curve.size for other in known):
             continue
+        pulse()
         if fit := checked(task, rounded(task, row), float(closure), angles):
             known.append(places)
             yield fit
@@ -256,23 +255,24 @@ def with_cognates_marked(fits: Sequence[Fit]) -> tuple[Fit, ...]:
 # Answers in round lengths: one length after the other is rounded and fixed, and the rest is fitted again.
 
 
-def with_round_lengths(fits: tuple[Fit, ...], step: float) -> tuple[Fit, ...]:
+def with_round_lengths(fits: tuple[Fit, ...], step: float, pulse: Pulse = unwatched) -> tuple[Fit, ...]:
     """Return answers whose lengths and pivots are multiples of a step, the best first.
 
     Each has its form before rounding in `exact`. BadInput where no answer that follows the curve is left.
     """
-    round_ones = [fit for fit in (rounded_to(fit, step) for fit in fits) if fit is not None]
+    round_ones = [fit for fit in (rounded_to(fit, step, pulse) for fit in fits) if fit is not None]
     if not round_ones:
         raise BadInput(f"rounded to {step:g} no linkage is left that follows the curve; take a finer step")
     return best_of(round_ones, len(round_ones))
 
 
-def rounded_to(fit: Fit, step: float) -> Fit | None:
+def rounded_to(fit: Fit, step: float, pulse: Pulse = unwatched) -> Fit | None:
     """Return an answer in round lengths; None where no linkage of such lengths is an answer."""
     now: Fit | None = fit
     for name in fit.task.kind.parameters:
         if name == "line_angle" or now is None:
             continue
+        pulse()
         held = [_holding(now.task, name, value) for value in _near(now.parameters[name], step)]
         tries = [one for task in held if (one := refitted(task, now))]
         now = min(tries, key=lambda one: one.error, default=None)

@@ -18,7 +18,7 @@ from linkanim.mechanics.motion import Pose
 from linkanim.picture.figure import figure
 from linkanim.picture.layered import Frame, Layered, LayeredPin, LayeredPlate
 from linkanim.scenes.scene import Scene
-from linkanim.workshop.layers import Stack, Unstackable, stacked
+from linkanim.workshop.layers import Budget, Stack, Unstackable, can_be_stacked, stacked
 from linkanim.workshop.media import Size, Way
 from linkanim.workshop.parts import Band, Hole, Kit, Plate, Sizes, kit, refuse_thin
 from linkanim.workshop.shapes import box, polygon
@@ -30,6 +30,8 @@ _TRUE = 1e-12
 """How far a scale may be off 1 and still be true size."""
 SLENDER = 14.0
 """A usual bar's length over its width."""
+_MOST_TOLD = 6
+"""The most clashes that a refusal lists."""
 _THINNER = (0.7, 0.5, 0.25)
 """Shares of the width of bars and holes that are tried where the full width has no layers."""
 
@@ -215,7 +217,7 @@ def true_scale(scene: Scene) -> float:
     return 1000 * units.metre(scene.length_unit)
 
 
-def laid(made: MadeLinkage, *, bridge: bool) -> MadeLinkage:
+def laid(made: MadeLinkage, work: Budget, *, bridge: bool) -> MadeLinkage:
     """Return `made` with its plates and pins in layers, or with the reason why there are none.
 
     With a `bridge` fixed pins may hang from a plate above all others. NotFlat and BadInput as `kit`; BadInput
@@ -223,9 +225,9 @@ def laid(made: MadeLinkage, *, bridge: bool) -> MadeLinkage:
     """
     sizes, cycle = made.sizes, Cycle(made.scene, made.sizes.scale)
     parts = kit(cycle, sizes)
-    stack = stacked(cycle, parts, hole=sizes.hole, gap=sizes.gap, bridge=bridge)
+    stack = stacked(cycle, parts, work, hole=sizes.hole, gap=sizes.gap, bridge=bridge)
     if isinstance(stack, Unstackable):
-        return replace(made, refused=_why_not(stack, cycle, sizes))
+        return replace(made, refused=_why_not(stack, cycle, sizes, work))
     pins = tuple(_pin(parts, stack, number, sizes) for number in range(len(parts.pins)))
     whole = replace(
         made, plates=parts.plates, layer=stack.layers, pins=pins, bands=parts.bands, fewest=stack.least
@@ -236,17 +238,25 @@ def laid(made: MadeLinkage, *, bridge: bool) -> MadeLinkage:
     return whole
 
 
-def _why_not(why: Unstackable, cycle: Cycle, sizes: Sizes) -> str:
+def _why_not(why: Unstackable, cycle: Cycle, sizes: Sizes, work: Budget) -> str:
     """Return in a sentence which parts would meet, where, and the ways out."""
+    if not why.clashes:
+        return (
+            f"{cycle.scene.name} cannot be made flat: in none of the many orders that were tried do all its "
+            f"parts pass each other; make the bars narrower (--bar, now {sizes.bar:g})"
+        )
     met = [
-        f"{one} would meet {other} (phase {math.degrees(phase):.1f} deg)" for one, other, phase in why.clashes
+        f"{one} would meet {other} (phase {math.degrees(phase):.1f} deg)"
+        for one, other, phase in why.clashes[:_MOST_TOLD]
     ]
+    more = len(why.clashes) - len(met)
+    met += [f"{more} more would meet"] if more else []
     clashes = f"{', '.join(met[:-1])} and {met[-1]}" if met[1:] else met[0]
     order = "whichever of the two lies higher" if len(met) == 1 else "in whatever order they lie"
     thinner = (
         replace(sizes, bar=sizes.bar * share, hole=sizes.hole * share) for share in _shares(cycle, sizes)
     )
-    narrow = next((some.bar for some in thinner if _is_stackable(cycle, some)), None)
+    narrow = next((some.bar for some in thinner if _is_stackable(cycle, some, work)), None)
     if narrow is not None:
         ways_out = f"narrower bars can, such as --bar {narrow:.3g}"
     elif why.bridged:
@@ -268,13 +278,13 @@ def _shares(cycle: Cycle, sizes: Sizes) -> Iterator[float]:
         yield share
 
 
-def _is_stackable(cycle: Cycle, sizes: Sizes) -> bool:
-    """Return whether there are layers for parts of other sizes."""
+def _is_stackable(cycle: Cycle, sizes: Sizes, work: Budget) -> bool:
+    """Return whether layers are found for parts of other sizes."""
     try:
         parts = kit(cycle, sizes)
     except BadInput:
         return False
-    return isinstance(stacked(cycle, parts, hole=sizes.hole, gap=sizes.gap, bridge=False), Stack)
+    return can_be_stacked(cycle, parts, work, hole=sizes.hole, gap=sizes.gap)
 
 
 def _pin(parts: Kit, stack: Stack, number: int, sizes: Sizes) -> MadePin:

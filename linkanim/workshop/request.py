@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+from collections.abc import Callable
 from dataclasses import replace
 from itertools import combinations
 
@@ -14,6 +15,7 @@ from linkanim.frozen import NamedTuple
 from linkanim.scenes.scene import Scene
 from linkanim.units import shown
 from linkanim.workshop.gears import NotFlat
+from linkanim.workshop.layers import MOST_WORK, Budget
 from linkanim.workshop.made import SLENDER, MadeLinkage, laid, true_scale
 from linkanim.workshop.media import PAGES, WAYS, Size, Way
 from linkanim.workshop.nesting import FOOT, MARGIN
@@ -47,6 +49,7 @@ def make(
     sheet: str | Size | None = None,
     fit: str | None = None,
     bridge: bool = False,
+    progress: Callable[[int, int], None] | None = None,
 ) -> MadeLinkage:
     """Return a scene as flat parts with holes, pins and layers; with an `output`, write them into a folder.
 
@@ -68,7 +71,9 @@ def make(
     made = MadeLinkage(scene, asked.way, Sizes(true_scale(scene)), kerf, size)
     try:
         scale = _fitting(scene, asked, PAGES[fit]) if fit else true_scale(scene)
-        made = laid(replace(made, sizes=asked.sizes(scene, scale)), bridge=bridge)
+        made = laid(
+            replace(made, sizes=asked.sizes(scene, scale)), Budget(MOST_WORK, progress), bridge=bridge
+        )
     except NotFlat as why:
         made = replace(made, refused=f"{scene.name} cannot be made of flat parts: {why}")
     if output is not None:

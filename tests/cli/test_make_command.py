@@ -45,7 +45,7 @@ def test_a_way_of_making_writes_its_files(way: str, tmp_path: Path, capsys: Capt
 def test_a_search_for_fewer_layers_that_was_given_up_is_told(
     tmp_path: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(layers, "_MOST_WORK", 0)
+    monkeypatch.setattr(layers, "_MOST_FEWER", 50)
     for scene, told in (("crank-rocker", ""), ("six-bar", "there may be a way with fewer layers")):
         assert main(["make", scene, "-o", str(tmp_path / scene), "--way", "laser"]) == 0
         assert capsys.readouterr().err.partition(";")[0].strip() == told

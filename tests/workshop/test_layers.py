@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import cmath
+import math
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import combinations, product
 from typing import Any
@@ -14,30 +16,33 @@ from hypothesis import strategies as st
 from solids import Solids
 
 from linkanim.scenes import load, names
+from linkanim.scenes.reading import scene_from
+from linkanim.scenes.scene import Scene
 from linkanim.workshop import layers
-from linkanim.workshop.layers import Choice, Unstackable, stacked
+from linkanim.workshop.layers import Budget, Choice, Unstackable, node_set, stacked
 from linkanim.workshop.made import MadeLinkage, MadePin
 from linkanim.workshop.parts import Kit, kit
 from linkanim.workshop.request import make
 from linkanim.workshop.sweep import Cycle
 
-NODES = 5
+NODES = 6
+"""The ground, which is node 0 and lies below all others, and five more."""
 SETS = st.sets(st.integers(0, NODES - 1), min_size=1, max_size=3)
 
 
 def choice(one: set[int], other: set[int]) -> Choice:
-    up = tuple((a, b) for a in sorted(one) for b in sorted(other))
-    return up, tuple((b, a) for a, b in up)
+    return node_set(one), node_set(other)
 
 
-def holds(levels: tuple[int, ...], choices: list[Choice]) -> bool:
-    return all(any(all(levels[a] < levels[b] for a, b in one) for one in some) for some in choices)
+def holds(levels: Sequence[int], choices: list[Choice]) -> bool:
+    level = dict(enumerate(levels))
+    return all(apart(level, {*one.nodes}, {*other.nodes}) for one, other in choices)
 
 
 def tried(choices: list[Choice]) -> int | None:
     """Return the least number of layers of all orders that keep the choices."""
-    every = (levels for levels in product(range(NODES), repeat=NODES) if holds(levels, choices))
-    return min((max(levels) + 1 for levels in every), default=None)
+    every = ((0, *levels) for levels in product(range(1, NODES), repeat=NODES - 1))
+    return min((max(levels) + 1 for levels in every if holds(levels, choices)), default=None)
 
 
 @settings(max_examples=40)
@@ -46,26 +51,108 @@ def test_random_clashes_are_ordered_in_as_few_layers_as_can_be(
     clashes: list[tuple[set[int], set[int]]],
 ) -> None:
     choices = [choice(*clash) for clash in clashes]
-    found = layers._ordered(NODES, choices)
+    found = layers._ordered(NODES, choices, Budget(10_000))
     least = tried(choices)
     assert (found is None) == (least is None)
     if found is not None:
-        assert holds(found.layers, choices)
-        assert found.least
-        assert max(found.layers) + 1 == least
+        assert holds(found, choices)
+        fewest, sure = layers._fewest(found, choices, bridged=False)
+        assert holds(fewest, choices)
+        assert sure
+        assert max(fewest) + 1 == least
 
 
 def test_a_search_that_takes_too_long_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
     # each apart from the next in a ring: three layers, though no three of them are apart from each other
-    choices = [choice({n}, {(n + 1) % NODES}) for n in range(NODES)]
-    sure = layers._ordered(NODES, choices)
-    assert sure is not None
-    assert (max(sure.layers), sure.least) == (2, True)
-    monkeypatch.setattr(layers, "_MOST_WORK", 0)
-    found = layers._ordered(NODES, choices)
-    assert found is not None
-    assert holds(found.layers, choices)
-    assert not found.least
+    choices = [choice({n + 1}, {n % 5 + 2 if n < 4 else 1}) for n in range(5)]
+    first = layers._ordered(NODES, choices, Budget(1_000))
+    assert first is not None
+    levels, sure = layers._fewest(first, choices, bridged=False)
+    assert (max(levels), sure) == (3, True)
+    monkeypatch.setattr(layers, "_MOST_FEWER", 0)
+    found, sure = layers._fewest([0, 1, 2, 3, 4, 5], choices, bridged=False)
+    assert holds(found, choices)
+    assert not sure
+
+
+def rockers(count: int) -> Scene:
+    """Return a crank with this many rockers all round it, their couplers on one pin."""
+    places = {f"G{n}": cmath.rect(100.0, n * math.tau / count) for n in range(count)}
+    return scene_from(
+        {
+            "length_unit": "mm",
+            "ground": {"O2": [0, 0], **{name: [at.real, at.imag] for name, at in places.items()}},
+            "joints": {
+                "A": {"crank": "O2", "length": 20},
+                **{f"B{n}": {"from": ["A", f"G{n}"], "length": [90, 60]} for n in range(count)},
+            },
+        },
+        name="rockers",
+        where="rockers",
+    )
+
+
+def sliders(count: int) -> Scene:
+    """Return a crank with this many sliders in all directions, their rods on one pin."""
+    guides = ({"through": "O2", "angle": f"{5.7 * n!r} deg"} for n in range(count))
+    slid = {f"S{n}": {"from": "A", "length": 100 + n, "line": line} for n, line in enumerate(guides)}
+    joints = {"A": {"crank": "O2", "length": 30}, **slid}
+    document = {"length_unit": "mm", "ground": {"O2": [0, 0]}, "joints": joints}
+    return scene_from(document, name="sliders", where="sliders")
+
+
+# So many choices of what lies above what that they are no longer a depth for a recursion; of rockers each has
+# its pivot in the way of the next one's bars, and thinner bars or a bridge help.
+@pytest.mark.parametrize(
+    ("scene", "layered", "said"),
+    [
+        pytest.param(sliders(23), 24, "", id="23 sliders"),
+        pytest.param(rockers(9), 10, "", id="9 rockers"),
+        pytest.param(rockers(10), 0, "narrower bars can, such as --bar 1.4", id="10 rockers"),
+        pytest.param(rockers(12), 0, "a bridge over it can carry G0 from above", id="12 rockers"),
+        pytest.param(
+            rockers(45),
+            0,
+            "in none of the many orders that were tried",
+            id="45 rockers",
+            marks=pytest.mark.slow,
+        ),
+        pytest.param(
+            sliders(31),
+            0,
+            "whichever of the two lies higher; narrower bars can",
+            id="31 sliders",
+            marks=pytest.mark.slow,
+        ),
+    ],
+)
+def test_many_parts_on_one_pin_are_laid_or_refused(scene: Scene, layered: int, said: str) -> None:
+    seen: list[tuple[int, int]] = []
+    made = make(scene, fit="A4", progress=lambda done, most: seen.append((done, most)))
+    assert made.layers == layered
+    assert bool(made.refused) == bool(said)
+    if made.refused:
+        assert made.refused.startswith(f"{scene.name} cannot be made flat: ")
+        assert said in made.refused
+        assert len(made.refused) < 1_000
+    assert seen
+    assert all(done <= most == layers.MOST_WORK for done, most in seen)
+    assert seen == sorted(seen)
+
+
+def test_a_search_that_is_given_up_is_a_sentence(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("linkanim.workshop.request.MOST_WORK", 5)
+    made = make(load("press"))
+    assert made.refused is not None
+    assert made.refused.startswith("press cannot be made flat: in none of the many orders that were tried ")
+
+
+def test_a_bridge_lies_above_all_that_moves() -> None:
+    for name in ("quick-return-press", "kite", "elliptic-trammel"):
+        made = make(load(name), bridge=True)
+        assert [plate.name for plate in made.plates][-1] == "bridge"
+        assert max(made.layer[:-1]) == made.layer[-1] - 1
+        assert sorted({*made.layer}) == [*range(max(made.layer) + 1)]
 
 
 class Tried:
@@ -130,7 +217,9 @@ def test_no_order_of_up_to_six_bodies_has_fewer_layers(name: str) -> None:
     made = make(load(name))
     cycle = Cycle(made.scene, made.sizes.scale)
     parts = kit(cycle, made.sizes)
-    found = stacked(cycle, parts, hole=made.sizes.hole, gap=made.sizes.gap, bridge=False)
+    found = stacked(
+        cycle, parts, Budget(layers.MOST_WORK), hole=made.sizes.hole, gap=made.sizes.gap, bridge=False
+    )
     every = Tried(made, parts)
     if len(every.moving) > 6:
         assert not isinstance(found, Unstackable)
@@ -143,7 +232,9 @@ def test_the_clashes_to_blame_are_all_needed() -> None:
     assert made.refused is not None
     cycle = Cycle(made.scene, made.sizes.scale)
     parts = kit(cycle, made.sizes)
-    found = stacked(cycle, parts, hole=made.sizes.hole, gap=made.sizes.gap, bridge=True)
+    found = stacked(
+        cycle, parts, Budget(layers.MOST_WORK), hole=made.sizes.hole, gap=made.sizes.gap, bridge=True
+    )
     assert isinstance(found, Unstackable)
     assert len(found.clashes) == 4
     assert found.bridged == ()

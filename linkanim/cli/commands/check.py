@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from linkanim import intake
+from linkanim.cli.progress import along
 from linkanim.errors import BadInput
 from linkanim.export import json_text
 from linkanim.frozen import NamedTuple
@@ -33,7 +34,7 @@ def run(options: Namespace) -> None:
         return
     if not options.files:
         raise BadInput("name the scene files to check, such as `linkanim check my-linkage.toml`")
-    found = [_checked(Path(file)) for file in options.files]
+    found = [_checked(Path(file)) for file in along(options.files, " files", len(options.files))]
     print(json_text([_object(one) for one in found], indent=2) if options.json else _words(found))
     wrong = [one for one in found if one.problems]
     if wrong:

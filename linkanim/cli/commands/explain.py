@@ -11,6 +11,7 @@ from linkanim.atomic_files import checked_target, write_text
 from linkanim.bounds import MOST_VERSIONS
 from linkanim.cli.commands.solve import phase_at
 from linkanim.cli.options import inputs_of
+from linkanim.cli.progress import along
 from linkanim.errors import BadInput
 from linkanim.explain.documents import HTML, MARKDOWN, TEX, document, exercise
 from linkanim.explain.solution import PoseRequest, Solution, solution
@@ -42,7 +43,8 @@ def run(options: Namespace) -> None:
     )
     if not options.exercise and (options.level or options.versions):
         raise BadInput("--level and --versions are of an exercise; add --exercise")
-    versions = [solution(request) for request in _requests(load(options.scene), options)]
+    requests = along(_requests(load(options.scene), options), " versions", options.versions or 1)
+    versions = [solution(request) for request in requests]
     form = MARKDOWN if target is None else FORMS[target.suffix.lower()]
     form = replace(form, figure=_figure, construction=_construction) if form is HTML else form
     text = (

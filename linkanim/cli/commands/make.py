@@ -9,6 +9,7 @@ from pathlib import Path
 
 from linkanim.cli.options import inputs_of
 from linkanim.cli.picture_options import refuse_photograph
+from linkanim.cli.progress import bar
 from linkanim.errors import BadInput
 from linkanim.export import json_text
 from linkanim.manifest import checked_output
@@ -46,7 +47,8 @@ def run(options: Namespace) -> None:
     scene = load(options.scene)
     if picture:
         refuse_photograph(scene, picture.path)
-    made = make(scene, **{name: getattr(options, name) for name in _HANDED_ON})
+    with bar(unit=" tried") as progress:
+        made = make(scene, **{name: getattr(options, name) for name in _HANDED_ON}, progress=progress)
     if made.refused is None:
         if options.output is not None:
             write(made, options.output)

@@ -6,6 +6,7 @@ import math
 import sys
 from argparse import Namespace
 from collections.abc import Sequence
+from itertools import count
 
 from numpy.typing import ArrayLike
 
@@ -48,7 +49,10 @@ def run(options: Namespace) -> None:
             progress=progress,
         )
     if front is not None:
-        write_text(front, _table(searched_front(fits[0].task, fits)))
+        steps = count(1)
+        with bar(unit=" steps") as progress:
+            found = searched_front(fits[0].task, fits, lambda: progress(next(steps), 0))
+        write_text(front, _table(found))
     on_front = front_of(fits)
     deliver(fits, target, options, _TITLES, _cells, lambda fit: _object(fit) | {"front": fit in on_front})
     _remark(fits, cognates=options.cognates)

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from linkanim.bounds import MOST_CHARTED
 from linkanim.cli.commands.chart import paces
+from linkanim.cli.progress import bar
 from linkanim.errors import BadInput
 from linkanim.manifest import FileSet, replacing
 from linkanim.paper.curves import MeasuredTable, Pace, read_tables
@@ -38,9 +39,10 @@ def run(options: Namespace) -> None:
             _refuse_many(scene, len(speeds))
         beside = _measured(options), options.label or _name(options)
         printed = published(options.scene) if path_of(options.scene) is None else ()
-        report = Report(scene, instants, speeds, options.digits, options.all, *beside, printed)
-        for name, text in report.files():
-            (folder / name).write_text(text, encoding="utf-8")
+        with bar(unit=" parts") as progress:
+            report = Report(scene, instants, speeds, options.digits, options.all, *beside, printed, progress)
+            for name, text in report.files():
+                (folder / name).write_text(text, encoding="utf-8")
     print(target / "report.html")
 
 

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import sys
 from argparse import Namespace
 from pathlib import Path
 
-from tqdm import tqdm
-
 from linkanim.cli.options import inputs_of
+from linkanim.cli.progress import bar
 from linkanim.errors import BadInput
 from linkanim.manifest import checked_output
 from linkanim.scenes import load, names
@@ -44,8 +42,8 @@ def _site(options: Namespace) -> Path:
         if given:
             raise BadInput(f"--all writes every scene into its folder; leave out {word}, which is for one")
     every = names()
-    with tqdm(every, unit=" scenes", leave=False, disable=None, file=sys.stderr) as shown:
-        write_site(options.all, shown, _shared(options, every[0]), options.unit)
+    with bar(unit=" scenes") as progress:
+        write_site(options.all, every, _shared(options, every[0]), options.unit, progress)
     return Path(options.all / INDEX)
 
 

@@ -342,6 +342,10 @@ def run(options: Namespace) -> None:
     if inputs.steps is not None:
         _refuse_many(scene, inputs.steps.rows, shown=not (options.csv or options.json))
     found = _blocks(scene, inputs, speed, options.acceleration)
+    if inputs.steps is not None and inputs.steps.rows > BLOCK and not _is_printing(options, target):
+        from linkanim.cli.progress import along
+
+        found = along(found, " blocks", -(-inputs.steps.rows // BLOCK))
     if options.csv:
         _write_csv(target, inputs.by, found)
         return
@@ -354,6 +358,11 @@ def run(options: Namespace) -> None:
     else:
         words = of_sweep if inputs.steps else of_pose
         print(words(scene, (row for block in trees for row in rows(block))))
+
+
+def _is_printing(options: Namespace, target: FilePath | None) -> bool:
+    """Return whether rows are seen on a terminal as they come."""
+    return target is None and bool(options.csv or options.json) and sys.stdout.isatty()
 
 
 def _inputs(options: Namespace) -> Inputs:
