@@ -15,7 +15,7 @@ import sys
 import time
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
-from errno import EEXIST
+from errno import EEXIST, EINVAL
 from itertools import chain
 from pathlib import Path
 
@@ -24,10 +24,10 @@ from linkanim.errors import BadInput, WorkFailed
 # Files that appear under their name when they are whole, or not at all.
 #
 # A file is written in a scratch folder beside its target, `.linkanim-TOKEN.part`, and takes the target's name
-# when its bytes are on the disk. A lock held on the file `lock` in that folder says that its run is alive;
-# what a killed run left behind is removed by the next run that writes beside it. Everything that is written
-# goes through here: `BadInput` for a target that is not ours to replace, `WorkFailed` where disk or folder
-# refuse.
+# when its bytes are on the disk. The folder is the run's that holds the lock on the file `lock` in it; where
+# nobody holds it, the next run that writes beside it removes the folder. Removing is finished before a signal
+# is obeyed; the lock goes last, once all else is gone. Everything that is written goes through here:
+# `BadInput` for a target that is not ours to replace, `WorkFailed` where disk or folder refuse.
 #
 # A file that several runs change is changed under a `Claim`: read, changed and written with no other run in
 # between.
@@ -45,8 +45,9 @@ _IN_USE = (5, 32)
 """Windows' numbers for a file that may not be touched and for one that is open elsewhere."""
 _PART = r"\.linkanim-[0-9a-f]{16}\.part"
 _LOCK = "lock"
-_FORSAKEN = 7 * 24 * 3600
-"""Seconds after which a scratch folder of another machine, whose locks may not show here, is abandoned."""
+_BEGUN, _FORSAKEN = 60, 7 * 24 * 3600
+"""Seconds after which a scratch folder without a lock, or with an empty one, is no run's that begins just
+now; and after which one of another machine, whose locks may not show here, is abandoned."""
 _PATIENCE, _PAUSE = 2.0, 0.003
 """How long to wait for a file that another run changes, and how long between two tries, in seconds."""
 
@@ -219,8 +220,8 @@ class Claim:
         path = target.with_name(f".{target.name}.lock")
         with saying_why(target):
             target.parent.mkdir(parents=True, exist_ok=True)
-            # opened for reading, which is all that another user's file may allow
-            lock = os.open(path, os.O_RDONLY | os.O_CREAT, 0o666)
+            # for reading, which is all that another user's file may allow
+            lock = _opened(path, os.O_RDONLY | os.O_CREAT)
         try:
             hold(lock)
             # whoever had the claim before may have taken the file away since it was opened
@@ -285,18 +286,26 @@ def scratch(folder: Path, target: Path) -> Iterator[Path]:
     """Give a new folder in `folder` for work on the target; it is removed at the end with its content."""
     clear_stale(folder)
     part = folder / f".linkanim-{os.urandom(8).hex()}.part"
+    ended: BaseException | None = None
     with saying_why(target):
         try:
             part.mkdir(mode=0o700)
             with _alive(part / _LOCK):
                 yield part
         finally:
-            _remove(part)
+            while True:  # written here: a signal before a call that removes it would leave it
+                try:
+                    _remove(part)
+                    break
+                except BaseException as error:  # a signal; it is obeyed when all is removed
+                    ended = error
+            if ended:
+                raise ended
 
 
 @contextmanager
 def _alive(path: Path) -> Iterator[None]:
-    """Hold a new file locked during the block; its content identifies this machine."""
+    """Hold a new file locked during the block; its content is this machine's name."""
     lock = os.open(path, os.O_RDWR | os.O_CREAT | os.O_EXCL, 0o600)
     try:
         with suppress(OSError):  # a file system that knows no locks
@@ -320,52 +329,68 @@ def hold(lock: int, *, wait: bool = False) -> None:
 
 
 def _machine() -> bytes:
-    """Return what identifies this machine since its start; containers on one machine have it in common."""
-    try:
-        return Path("/proc/sys/kernel/random/boot_id").read_bytes().strip()
-    except OSError:
-        import platform
+    import platform
 
-        return platform.node().encode()
+    return platform.node().encode() or b"unnamed"
+
+
+def _opened(path: Path, flags: int) -> int:
+    """Open a regular file: never through a link, and never waiting, as a pipe has one wait; else OSError."""
+    with suppress(FileNotFoundError):
+        if not stat.S_ISREG(path.lstat().st_mode):
+            raise OSError(EINVAL, f"{path.name} is no file of linkanim's")
+    flags |= getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0)
+    return os.open(path, flags, 0o666)
 
 
 def clear_stale(folder: Path) -> None:
-    """Remove what ended runs left in a folder; what cannot be removed stays."""
-    with suppress(OSError):
-        for path in list(folder.iterdir()):
-            if re.fullmatch(_PART, path.name) and path.is_dir() and not path.is_symlink() and _is_stale(path):
-                _remove(path)
+    """Remove the scratch folders in a folder that are nobody's; what cannot be removed stays."""
+    for part in list(folder.glob(".linkanim-*.part")):
+        with suppress(OSError):
+            if re.fullmatch(_PART, part.name) and not part.is_symlink() and _is_stale(part):
+                _remove(part)
 
 
 def _is_stale(part: Path) -> bool:
-    """Return whether the run whose scratch folder this is has ended.
+    """Return whether the run whose scratch folder this is has ended: nobody holds its lock.
 
-    The lock tells it of a run on this machine. Another machine's locks may not show here: only the age tells.
+    Where another machine's locks may not show, its name in the lock or its age has to tell. OSError where
+    the lock is no file of ours.
     """
     try:
-        lock = os.open(part / _LOCK, os.O_RDWR)
-    except FileNotFoundError:  # begun just now, or killed at once
-        return time.time() - part.stat().st_mtime > _FORSAKEN
+        lock = _opened(part / _LOCK, os.O_RDWR)
+    except FileNotFoundError:
+        return _is_older(part.stat(), _FORSAKEN if any(part.iterdir()) else _BEGUN)
     try:
-        left_behind = time.time() - os.fstat(lock).st_mtime > _FORSAKEN
         hold(lock)
-        return left_behind or os.read(lock, 100) == _machine()
+        if machine := os.read(lock, 1000):
+            # Linux numbers only disks of this machine: all locks on them show here
+            shows = machine == _machine() or (sys.platform == "linux" and os.major(part.stat().st_dev) > 0)
+            return shows or _is_older(os.fstat(lock), _FORSAKEN)
+        return _is_older(os.fstat(lock), _BEGUN)
     except BlockingIOError:
         return False
     except OSError:  # a file system that knows no locks
-        return left_behind
+        return _is_older(os.fstat(lock), _FORSAKEN)
     finally:
         os.close(lock)
 
 
+def _is_older(found: os.stat_result, seconds: float) -> bool:
+    return time.time() - found.st_mtime > seconds
+
+
 def _remove(path: Path) -> None:
-    """Remove a file or a folder, the lock in it last: without it nobody could tell whose the rest is."""
+    """Remove a file or a folder; a lock goes last, once all else is gone: it tells whose the rest is."""
     with suppress(OSError):
         if path.is_symlink() or not path.is_dir():
             path.unlink()
             return
-        for inside in sorted(path.iterdir(), key=lambda inside: inside.name == _LOCK):
+        lock = path / _LOCK
+        for inside in {*path.iterdir()} - {lock}:
             _remove(inside)
+        if {*path.iterdir()} <= {lock}:
+            lock.unlink(missing_ok=True)
         path.rmdir()
 
 

@@ -12,6 +12,8 @@ from numpy.typing import ArrayLike
 
 NULL = "null"
 """What JSON has in the place of a number that is not finite."""
+_AT_ONCE = 2_000
+"""Numbers that become text at once: orjson ends the program where memory ends while it makes a large text."""
 _RUN = ("=", "+", "-", "@", "\t", "\r")
 """The first characters of a text that a spreadsheet takes for a formula."""
 
@@ -24,9 +26,12 @@ def lines(columns: Sequence[ArrayLike]) -> list[str]:
     import orjson
 
     block = np.stack([np.asarray(column, np.float64) for column in columns], axis=1)
-    if not block.size:
-        return []
-    return orjson.dumps(block, option=orjson.OPT_SERIALIZE_NUMPY).decode()[2:-2].split("],[")
+    rows = max(_AT_ONCE // max(block.shape[1], 1), 1)
+    texts = (
+        orjson.dumps(block[first : first + rows], option=orjson.OPT_SERIALIZE_NUMPY).decode()
+        for first in range(0, len(block) if block.size else 0, rows)
+    )
+    return [line for text in texts for line in text[2:-2].split("],[")]
 
 
 def csv_head(names: Iterable[str]) -> str:

@@ -27,7 +27,7 @@ from linkanim.atomic_files import (
     take_place,
 )
 from linkanim.atomic_files import replacing as replacing_any
-from linkanim.errors import BadInput
+from linkanim.errors import BadInput, WorkFailed
 from linkanim.frozen import frozen
 from linkanim.intake import Intake
 
@@ -73,6 +73,16 @@ class FileSet:
             raise BadInput(f"{path}: {reason}") from None
         return {name: sums for name, sums in found.items() if re.fullmatch(self.pattern, name)}
 
+    def note(self, name: str) -> None:
+        """Know a file from now on as one that we wrote, unless the list cannot be written."""
+        with (
+            suppress(BadInput, WorkFailed),
+            scratch(self.folder, self.list_path) as room,
+            _alone(self.folder),
+        ):
+            sums = {**self.sums(), name: frozenset([_sum(self.folder / name)])}
+            take_place(_write_list(room / "list", sums), self.list_path)
+
     def refuse_foreign(
         self, names: Iterable[str], way_out: str = "move it away, or choose another name"
     ) -> None:
@@ -89,12 +99,14 @@ class FileSet:
 class Output:
     """A file to be written: under a name that its user gave, or else under one that we choose.
 
-    Under a name that was given any file is replaced; under one that we chose, only a file that we wrote. A
-    refusal ends in `way_out` where -o cannot give that name.
+    Under a name that was given any file is replaced; under one that we chose, only a file that we wrote: one
+    that has such a name, or was `noted` under a name that was given. A refusal ends in `way_out` where -o
+    cannot give that name.
     """
 
     path: Path
     named: bool = True
+    noted: bool = False
     way_out: str = ""
 
     @contextmanager
@@ -103,9 +115,13 @@ class Output:
         if self.named:
             with replacing_any(self.path) as part:
                 yield part
+            if self.noted:
+                self._files.note(self.path.name)
             return
         with replacing(self._files, [self.path.name], others_go=False, told=self.path) as folder:
-            yield folder / self.path.name
+            part = folder.with_name("part")
+            yield part
+            part.rename(folder / self.path.name)  # whole, it has its name
 
     def refuse_foreign(self) -> None:
         """Refuse, as `BadInput`, a name that we chose and that a file has which we did not write."""
@@ -134,12 +150,14 @@ def checked_output(
 ) -> Output:
     """Return what is to be written: the name that was given, or else the usual one if it is free or ours.
 
-    With `ours` a name that was given has to be free or ours, too. `BadInput` as
-    `atomic_files.checked_target`, and for a name that has to be free or ours where it is a foreign file's.
+    With `ours` a name that was given has to be free or ours, too. A file that is given the usual name is
+    known as ours afterwards, whatever its ending. `BadInput` as `atomic_files.checked_target`, and for a name
+    that has to be free or ours where it is a foreign file's.
     """
     way_out = "move it away, or give another name" if ours and named is not None else ""
     is_given = named is not None and not ours
-    found = Output(checked_target(named or usual, suffixes, inputs), is_given, way_out)
+    path = checked_target(named or usual, suffixes, inputs)
+    found = Output(path, is_given, path.stem == Path(usual).stem, way_out)
     found.refuse_foreign()
     return found
 

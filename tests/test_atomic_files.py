@@ -3,16 +3,22 @@
 from __future__ import annotations
 
 import os
+import platform
+import signal
+import socket
 import stat
 import subprocess
 import sys
 import time
 from collections.abc import Callable
+from contextlib import chdir, closing
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from linkanim import atomic_files, manifest
+from linkanim.cli.exits import guarded
 from linkanim.errors import BadInput, WorkFailed
 
 BEFORE = b"what was there before"
@@ -256,21 +262,164 @@ def test_the_lock_and_no_number_tells_whose_run_is_alive(tmp_path: Path) -> None
     assert {path.name for path in tmp_path.iterdir()} == {"living.csv", foreign.name}
 
 
-# Another machine's locks may not be seen here: what it works on is left alone for a week.
-@pytest.mark.parametrize(("days", "stays"), [(0, True), (6, True), (8, False)])
-@pytest.mark.parametrize("written", [b"another machine", b"", None])
-def test_another_machine_s_run_is_told_by_its_age(
-    tmp_path: Path, days: int, stays: bool, written: bytes | None
-) -> None:
-    part = tmp_path / ".linkanim-0123456789abcdef.part"
+# Nobody holds the lock of any of these. A folder without one, or with an empty one, may be a run's that
+# begins just now. On a disk of this machine a lock that can be taken is nobody's, after a restart, too;
+# elsewhere another machine's locks may not show, and what it works on is left alone for a week.
+HERE, ELSEWHERE, DAY = 8, 0, 24 * 3600
+LEFT = {
+    "an empty folder of just now": (HERE, None, 0, True),
+    "an empty folder": (HERE, None, 61, False),
+    "an empty lock of just now": (HERE, b"", 0, True),
+    "an empty lock": (HERE, b"", 61, False),
+    "an empty lock elsewhere": (ELSEWHERE, b"", 61, False),
+    "a lock from before a restart": (HERE, b"0f6c02d5-63ad-4e5a-8f0f-1f0bb6f0a9a4", 0, False),
+    "our own lock elsewhere": (ELSEWHERE, platform.node().encode(), 0, False),
+    "another machine's lock": (ELSEWHERE, b"another machine", 0, True),
+    "another machine's lock of six days ago": (ELSEWHERE, b"another machine", 6 * DAY, True),
+    "another machine's lock of eight days ago": (ELSEWHERE, b"another machine", 8 * DAY, False),
+}
+
+
+def left_behind(folder: Path, lock: bytes | None, ago: float) -> Path:
+    """Make a scratch folder as a killed run leaves it."""
+    part = folder / ".linkanim-0123456789abcdef.part"
     part.mkdir()
-    if written is not None:
-        (part / "lock").write_bytes(written)
-    then = time.time() - days * 24 * 3600
+    if lock is not None:
+        (part / "lock").write_bytes(lock)
+    if lock:
+        (part / "new").mkdir()
+        (part / "new" / "0001.png").touch()
     for path in (*part.iterdir(), part):
-        os.utime(path, (then, then))
-    atomic_files.clear_stale(tmp_path)
+        os.utime(path, (time.time() - ago,) * 2)
+    return part
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="Linux numbers the disks")
+@pytest.mark.parametrize(("disk", "lock", "ago", "stays"), LEFT.values(), ids=LEFT)
+def test_what_a_killed_run_leaves_goes_with_the_next(
+    tmp_path: Path,
+    disk: int,
+    lock: bytes | None,
+    ago: float,
+    stays: bool,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(os, "major", lambda device: disk)
+    part = left_behind(tmp_path, lock, ago)
+    replaced(tmp_path / "next.csv")
     assert part.exists() == stays
+
+
+@pytest.mark.parametrize(("days", "stays"), [(0, True), (6, True), (8, False)])
+@pytest.mark.parametrize("locked", [True, False], ids=["by no lock", "without a lock"])
+def test_where_no_lock_can_be_taken_the_age_tells(
+    tmp_path: Path, days: int, stays: bool, locked: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refused(lock: int, *, wait: bool = False) -> None:
+        raise OSError(37, "No locks available")
+
+    monkeypatch.setattr(atomic_files, "hold", refused)
+    part = left_behind(tmp_path, b"another machine", days * DAY)
+    if not locked:
+        (part / "lock").unlink()
+        os.utime(part, (time.time() - days * DAY,) * 2)
+    replaced(tmp_path / "next.csv")
+    assert part.exists() == stays
+
+
+# An unpacked archive can carry any of these: each would have a run wait, or lock what is not ours.
+WAITING = """
+import sys
+from pathlib import Path
+from linkanim import atomic_files
+from linkanim.cli.exits import guarded
+from linkanim.errors import WorkFailed
+with atomic_files.replacing(Path("out.csv")) as part:
+    part.write_bytes(b"new")
+atomic_files.add(b"new", Path("added.csv"))
+try:
+    with atomic_files.alone(Path("scores.json")):
+        print("has it")
+except WorkFailed as error:
+    print(error)
+"""
+
+
+@pytest.mark.skipif(os.name != "posix", reason="has no named pipes")
+@pytest.mark.parametrize("kind", ["pipe", "link to a pipe", "link to a file", "folder", "socket"])
+def test_a_lock_that_is_no_file_is_not_opened(tmp_path: Path, kind: str) -> None:
+    part, other = left_behind(tmp_path, None, 8 * DAY), tmp_path / "other"
+    for lock in (part / "lock", tmp_path / ".scores.json.lock"):
+        match kind:
+            case "pipe":
+                os.mkfifo(lock)
+            case "folder":
+                lock.mkdir()
+            case "socket":
+                with closing(socket.socket(socket.AF_UNIX)) as one, chdir(lock.parent):
+                    one.bind(lock.name)
+            case _:
+                if not other.exists():
+                    os.mkfifo(other) if kind == "link to a pipe" else other.write_bytes(BEFORE)
+                lock.symlink_to(other)
+    command = [sys.executable, "-c", WAITING]
+    done = subprocess.run(command, cwd=tmp_path, check=True, capture_output=True, text=True, timeout=30)
+    assert done.stdout == "scores.json: cannot be written: .scores.json.lock is no file of linkanim's\n"
+    assert os.path.lexists(part / "lock")
+    assert kind != "link to a file" or other.read_bytes() == BEFORE
+
+
+def counting(name: str, at: int, does: Callable[[], None], monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """Have a method of paths do something before its call of that number; return the count of its calls."""
+    method, calls = getattr(Path, name), [0]
+
+    def counted(path: Path, *words: Any, **more: Any) -> Any:
+        calls[0] += 1
+        if calls[0] == at:
+            does()
+        return method(path, *words, **more)
+
+    monkeypatch.setattr(Path, name, counted)
+    return calls
+
+
+@pytest.mark.withstands("faults survived", 15)
+@pytest.mark.parametrize("write", [replaced, set_replaced, added])
+@pytest.mark.parametrize("name", ["is_symlink", "is_dir", "iterdir", "unlink", "rmdir"])
+def test_a_signal_is_obeyed_when_removing_is_finished(
+    target: Path, write: Callable[[Path], None], name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for at in range(1, 100):
+        target.with_name("out-2.csv").unlink(missing_ok=True)
+        with monkeypatch.context() as counted:
+            calls = counting(name, at, lambda: signal.raise_signal(signal.SIGTERM), counted)
+            code = guarded(lambda: write(target))
+        assert not list(target.parent.glob(".linkanim-*.part")), at
+        if calls[0] < at:
+            assert code == 0
+            return
+        assert code == 143
+    raise AssertionError(f"{name} was called a hundred times")
+
+
+@pytest.mark.parametrize("name", ["new", "lock"])
+def test_what_cannot_be_removed_stays_with_its_lock_and_goes_with_the_next_run(
+    target: Path, name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    unlink = Path.unlink
+
+    def refused(path: Path, missing_ok: bool = False) -> None:
+        if path.name == name:
+            raise OSError(5, "Input/output error")
+        unlink(path, missing_ok)
+
+    with monkeypatch.context() as failing:
+        failing.setattr(Path, "unlink", refused)
+        added(target)
+        (part,) = target.parent.glob(".linkanim-*.part")
+        assert (part / "lock").exists()
+    replaced(target)
+    assert not part.exists()
 
 
 def test_a_folder_is_made_where_only_it_is_missing(target: Path) -> None:

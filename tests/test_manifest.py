@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from linkanim.errors import BadInput, WorkFailed
-from linkanim.manifest import FileSet, replacing
+from linkanim.manifest import FileSet, Output, replacing
 
 LIST = ".linkanim-set.json"
 
@@ -143,6 +143,20 @@ def test_a_list_has_no_say_about_other_names(files: FileSet, tmp_path: Path) -> 
         path.write_text("a")
     written(files, {"page.html": "b"})
     assert (tmp_path / "thesis.txt").read_text() == (files.folder / "thesis.txt").read_text() == "a"
+
+
+# Who looks for the file by its name, also in the folder of a run that works, finds none that is half done.
+@pytest.mark.parametrize("output", [Output(Path("a.mp4")), Output(Path("a.mp4"), named=False)], ids=repr)
+def test_what_is_being_written_has_no_file_of_its_name(
+    output: Output, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    with output.replacing() as part:
+        part.write_text("half")
+        assert "a.mp4" not in {path.name for path in tmp_path.rglob("*")}
+        part.write_text("whole")
+    assert (tmp_path / "a.mp4").read_text() == "whole"
+    assert not list(tmp_path.glob("*.part"))
 
 
 # What moves a file, in the order of the moves; each of them fails once.

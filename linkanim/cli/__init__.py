@@ -15,6 +15,7 @@ From the ground up; a module imports from those before it only:
 from __future__ import annotations
 
 import gc
+import os
 from collections.abc import Sequence
 
 from linkanim.cli.exits import guarded
@@ -34,6 +35,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def _run(argv: Sequence[str] | None) -> None:
     gc.set_threshold(SPARED)
+    os.umask(os.umask(0o077) & 0o077)  # what we begin we have to be able to finish, and to replace
     # Imported here so that Ctrl-C during start-up is answered like any other.
     from linkanim.cli import command_table as commands
 

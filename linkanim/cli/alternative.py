@@ -5,10 +5,9 @@ from __future__ import annotations
 import re
 from argparse import Namespace
 from collections.abc import Callable
-from pathlib import Path
 
-from linkanim.atomic_files import checked_target, write_text
 from linkanim.cli.options import inputs_of
+from linkanim.manifest import checked_output
 
 
 def plain(words: str) -> str:
@@ -23,10 +22,12 @@ def alternative(options: Namespace) -> Callable[[str], None]:
     """
     if options.alt is None:
         return lambda _: None
-    target: Path = checked_target(options.alt, (".txt",), inputs_of(options))
+    ours = getattr(options, "no_clobber", False)
+    target = checked_output(options.alt, "", (".txt",), inputs_of(options), ours=ours)
 
     def written(words: str) -> None:
-        write_text(target, f"{plain(words)}\n")
-        print(target)
+        with target.replacing() as part:
+            part.write_text(f"{plain(words)}\n", encoding="utf-8")
+        print(target.path)
 
     return written

@@ -10,7 +10,7 @@ from typing import Protocol, TypeVar
 from linkanim.atomic_files import checked_target
 from linkanim.export import columns, json_text
 from linkanim.scenes.scene import Scene
-from linkanim.synthesis.answers import file_set, write
+from linkanim.synthesis.answers import file_set, names_of, write
 
 
 class Designed(Protocol):
@@ -24,10 +24,14 @@ class Designed(Protocol):
 Answer = TypeVar("Answer", bound=Designed)
 
 
-def target_of(output: Path | None, name: str) -> Path:
-    """Return where the first answer goes: what `-o` names, else `name`; BadInput if not ours to write."""
+def target_of(output: Path | None, name: str, count: int) -> Path:
+    """Return where the first answer goes: what `-o` names, else `name`.
+
+    BadInput where a name that one of `count` answers will have is not ours to write.
+    """
     target = checked_target(output or Path(name), (".toml",))
-    file_set(target).refuse_foreign([target.name])
+    there = {path.name for path in target.parent.iterdir()}
+    file_set(target).refuse_foreign(name for name in names_of(target, count) if name in there)
     return target
 
 

@@ -10,6 +10,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from types import FrameType
+from typing import TextIO, cast
 
 from linkanim.errors import LinkanimError, shortened
 
@@ -22,7 +23,8 @@ HUNG_UP = 129
 _ENDING = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name))
 _BAD_NAMES = (errno.ENAMETOOLONG,)
 """The system's errors for names that cannot be: whoever chose such a name can mend it."""
-_NO_MEMORY = ("failed to map segment", "cannot allocate memory")
+_NO_MEMORY = ("failed to map segment", "cannot allocate memory", "out of memory", "can't start new thread")
+"""What the system and libraries say where memory ends."""
 _LONGEST = 4000
 """Characters of a message that are shown."""
 _ONE_AND_THE_SAME = 3.0
@@ -35,15 +37,19 @@ class Ended(BaseException):
 
 def guarded(work: Callable[[], None]) -> int:
     """Do the work, flush what it printed, and return the exit code; never raises, never a traceback."""
+    before = sys.stderr
     try:
         with _signals_raise():
             _open_closed()
             _print_anything()
+            sys.stderr = cast(TextIO, _Remarks(sys.stderr))
             work()
             _flush()
         return DONE
     except BaseException as error:
         return _code_of(error)
+    finally:
+        sys.stderr = before
 
 
 def _code_of(error: BaseException) -> int:
@@ -52,7 +58,7 @@ def _code_of(error: BaseException) -> int:
         case SystemExit():
             return _flushed(error.code)
         case BrokenPipeError():  # the reader, such as `head`, has all it wanted
-            _forget_stdout()
+            _forget(sys.stdout)
             return DONE
         case KeyboardInterrupt():
             return _say("interrupted", INTERRUPTED)
@@ -64,18 +70,21 @@ def _code_of(error: BaseException) -> int:
             reason = error.__cause__
             is_name = isinstance(reason, OSError) and reason.errno in _BAD_NAMES
             return _say(str(error), BAD if is_name else error.exit_code)
-        case MemoryError() | ImportError() if _lacks_memory(error):
+        case Exception() if _lacks_memory(error):
             return _say("there is not enough memory for this", FAILED)
         case OSError():
-            _forget_stdout()
+            _forget(sys.stdout)
             return _say(_reason(error), BAD if error.errno in _BAD_NAMES else FAILED)
         case _:
             return _say(f"unexpected {type(error).__name__} in {_place(error)}: {error}", FAILED)
 
 
-def _lacks_memory(error: BaseException) -> bool:
-    """Return whether memory ran out, also while a library was loaded, which the system says in its words."""
-    return isinstance(error, MemoryError) or any(words in str(error).lower() for words in _NO_MEMORY)
+def _lacks_memory(error: BaseException | None) -> bool:
+    """Return whether memory ended; a library that lost this error on the way is told by a SystemError."""
+    return any(
+        isinstance(one, MemoryError | SystemError) or any(words in str(one).lower() for words in _NO_MEMORY)
+        for one in (error, *_behind(error))
+    )
 
 
 def _say(message: str, code: int) -> int:
@@ -124,10 +133,28 @@ def _flush() -> None:
         sys.stdout.flush()
 
 
-def _forget_stdout() -> None:
+def _forget(stream: TextIO) -> None:
     """Let the interpreter's last flush go nowhere, or it would report the failure a second time."""
     with suppress(OSError, ValueError, AttributeError):
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
+
+
+class _Remarks:
+    """stderr, as on a full disk: what it does not take is lost, and the work goes on."""
+
+    def __init__(self, stream: TextIO) -> None:
+        self._stream = stream
+
+    def __getattr__(self, name: str) -> object:
+        return getattr(self._stream, name)
+
+    def write(self, text: str) -> int:
+        try:
+            self._stream.write(text)
+            self._stream.flush()
+        except OSError:
+            _forget(self._stream)
+        return len(text)
 
 
 def _open_closed() -> None:
@@ -178,8 +205,8 @@ def _signals_raise() -> Iterator[None]:
         if what.exc_value in ends:
             raised[0] = -_ONE_AND_THE_SAME
             _soon(numbers[ends.index(what.exc_value)])
-        elif not any(one in ends for one in _behind(what.exc_value)):  # what it broke is no news
-            told(what)
+        elif not any(one in ends for one in _behind(what.exc_value)) and not _lacks_memory(what.exc_value):
+            told(what)  # what a signal or the end of memory broke is no news
 
     before = {number: signal.getsignal(number) for number in _ENDING}
     ours = {number: old for number, old in before.items() if old not in (signal.SIG_IGN, None)}

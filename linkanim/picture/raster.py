@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
 from io import BytesIO
 from itertools import accumulate, pairwise
 from typing import overload
@@ -461,7 +462,8 @@ def keep_memory() -> None:
     glibc returns free memory at the heap's end to the system where it is more than twice the largest block
     that was ever freed; getting it back page by page took a quarter to a half of a frame's time.
     """
-    np.empty(_KEPT_BYTES, np.uint8)
+    with suppress(MemoryError):
+        np.empty(_KEPT_BYTES, np.uint8)
 
 
 def is_clear(surface: pygame.Surface) -> bool:

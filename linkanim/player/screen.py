@@ -202,10 +202,14 @@ class Connection:
         # the library calls these until the process ends, so they must exist as long
         self._handlers = _IO_ERROR(self._broken), _EXIT(self._broken)
 
-    def check(self) -> None:
-        """Raise NoDisplay where the server is gone; if another connection is open now, watch that one."""
+    def check(self, recorded: str = "") -> None:
+        """Raise NoDisplay where the server is gone; if another connection is open now, watch that one.
+
+        `recorded` is the folder in which what is being recorded is kept.
+        """
         if self.lost:
-            raise NoDisplay("the display server is gone; what was being recorded is kept in recordings/")
+            kept = f"; what was being recorded is kept in {recorded}" if recorded else ""
+            raise NoDisplay(f"the display server is gone{kept}")
         if pygame.display.get_driver() != "x11":
             return
         now = _pointer(pygame.display.get_wm_info()["display"])

@@ -164,6 +164,12 @@ class Window:
                 if process:
                     process.close()
 
+    @property
+    def recorded(self) -> str:
+        """The folder in which the running recording will be kept; empty where none runs."""
+        recording = self.state.recording
+        return f"{Path(recording.target).parent if recording.target else files.FOLDER}/" if recording else ""
+
     def _advance(self, events: list[Event]) -> None:
         """Go one frame on; the meaning of each key is looked up once earlier keys are carried out."""
         self.state, done = aged(self._tape.rewound(self.state) if self._tape else self.state), []
@@ -760,7 +766,7 @@ def run(
             for count in frames(time.monotonic, time.sleep):
                 if not window.tick(count):
                     break
-                connection.check()
+                connection.check(window.recorded)
         finally:
             window.close()
             gc.unfreeze()

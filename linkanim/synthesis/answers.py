@@ -619,12 +619,17 @@ def file_set(target: Path) -> FileSet:
     return FileSet(target.parent, target.name, rf"{re.escape(target.stem)}(-\d+)?\.toml")
 
 
+def names_of(target: Path, count: int) -> list[str]:
+    """Return the names of so many answers' files."""
+    return [target.name, *(f"{target.stem}-{number}.toml" for number in range(2, count + 1))]
+
+
 def write(scenes: Sequence[Scene], target: Path) -> list[Path]:
     """Write the answers, all or none, and return their paths; an older run's further files are removed.
 
     BadInput where a name is taken by a file that is not ours, or by one that was changed since.
     """
-    names = [target.name, *(f"{target.stem}-{number}.toml" for number in range(2, len(scenes) + 1))]
+    names = names_of(target, len(scenes))
     with replacing(file_set(target), names) as folder:
         for scene, name in zip(scenes, names, strict=True):
             (folder / name).write_text(text(scene), encoding="utf-8")

@@ -11,6 +11,7 @@ import weakref
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
+import pygame
 import pytest
 
 from linkanim.cli import main
@@ -24,6 +25,13 @@ def raising(error: BaseException) -> Callable[[], None]:
         raise error
 
     return work
+
+
+def lost(error: Exception) -> Exception:
+    """Return the error of a library that has caught another."""
+    found = ValueError("no more")
+    found.__context__ = error
+    return found
 
 
 @pytest.mark.parametrize(
@@ -43,6 +51,15 @@ def raising(error: BaseException) -> Callable[[], None]:
             1,
             "linkanim: there is not enough memory for this",
         ),
+        # as libraries tell it, or lose it on the way
+        (pygame.error("Out of memory"), 1, "linkanim: there is not enough memory for this"),
+        (RuntimeError("can't start new thread"), 1, "linkanim: there is not enough memory for this"),
+        (
+            SystemError("<built-in method close> returned NULL without setting an exception"),
+            1,
+            "linkanim: there is not enough memory for this",
+        ),
+        (lost(MemoryError()), 1, "linkanim: there is not enough memory for this"),
         # several lines in a message are one on stderr
         (BadInput("one\n  two"), 2, "linkanim: one two"),
         # nothing in one is an order to the terminal
@@ -318,6 +335,40 @@ def test_a_full_disk_behind_stdout_is_one_line(words: list[str]) -> None:
         )
     assert done.returncode == 1
     assert done.stderr == "linkanim: No space left on device\n"
+
+
+# What is said on stderr is beside the work, which is done whether or not it can be said.
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
+@pytest.mark.parametrize(
+    ("words", "code"),
+    [
+        (["record", "kite", "--size", "64x36", "--seconds", "0.1", "-o", "out.gif"], 0),
+        (["record", "kite", "--size", "64x36", "--seconds", "0.1", "-o", "out.gif", "--progress"], 0),
+        (["draw", "kite", "--phase", "1 rad", "-o", "out.svg"], 0),
+        (["info", "nowhere"], 2),
+        (["info"], 2),
+    ],
+    ids=lambda words: " ".join(words) if isinstance(words, list) else "",
+)
+@pytest.mark.slow
+def test_a_full_disk_behind_stderr_is_no_failure(words: list[str], code: int, tmp_path: Path) -> None:
+    with Path("/dev/full").open("w") as full:
+        done = subprocess.run(
+            [*LINKANIM, *words], check=False, stdout=subprocess.PIPE, stderr=full, cwd=tmp_path
+        )
+    assert done.returncode == code
+    assert done.stdout.decode() == (f"{words[words.index('-o') + 1]}\n" if code == 0 else "")
+
+
+@pytest.mark.skipif(os.name != "posix", reason="needs a POSIX shell")
+@pytest.mark.slow
+def test_a_reader_of_stderr_that_leaves_stops_no_work(tmp_path: Path) -> None:
+    words = [*LINKANIM, "record", "kite", "--size", "64x36", "--seconds", "0.1", "-o", "out.gif"]
+    read, write = os.pipe()
+    os.close(read)
+    done = subprocess.run(words, check=False, stdout=subprocess.PIPE, stderr=write, cwd=tmp_path)
+    os.close(write)
+    assert (done.returncode, done.stdout) == (0, b"out.gif\n")
 
 
 @pytest.mark.skipif(os.name != "posix", reason="needs a POSIX shell")

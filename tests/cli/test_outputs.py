@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+import importlib
 import os
 import re
+import stat
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
+import linkanim
 from linkanim.atomic_files import refuse_input
 from linkanim.cli import main
 from linkanim.errors import BadInput
 
+EXAMPLES = Path(linkanim.__file__).parent / "examples"
+CURVE, POSES = (str(EXAMPLES / name) for name in ("curve.csv", "poses.csv"))
 KITE = """
 [four-bar]
 ground = 100
@@ -125,6 +130,99 @@ def test_under_a_usual_name_only_what_we_wrote_is_replaced(
     assert (folder / name).read_text() == "ours, changed"
     assert main([*words, "-o", name]) == 0
     assert contents(folder)[name] == ours[name]
+
+
+# -o gives the name that the command takes by itself: the file is linkanim's all the same.
+@pytest.mark.parametrize("name", USUAL)
+def test_a_file_that_was_given_the_usual_name_is_ours(
+    name: str, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = USUAL[name]
+    (folder / name).write_text("named, and so replaced")
+    assert main([*words, "-o", name]) == 0
+    made = contents(folder)[name]
+    assert main(words) == 0
+    assert capsys.readouterr().out == f"{name}\n" * 2
+    assert contents(folder)[name] == made
+    (folder / name).write_text("ours, changed")
+    assert main(words) == 2
+    assert (folder / name).read_text() == "ours, changed"
+
+
+def test_a_usual_name_in_another_folder_or_with_another_ending_is_noted_there(folder: Path) -> None:
+    (folder / "into").mkdir()
+    words = ["draw", "kite", "--phase", "1 rad", "--size", "64x36"]
+    assert main([*words, "-o", "into/kite.pdf"]) == 0
+    assert main([*words, "-o", "other.svg"]) == 0
+    assert {path.name for path in folder.rglob(".*")} == {".linkanim-outputs.json"}
+    assert [path.parent.name for path in folder.rglob(".*")] == ["into"]
+
+
+def test_a_list_that_is_none_of_ours_hinders_no_name_that_was_given(folder: Path) -> None:
+    (folder / ".linkanim-outputs.json").write_text("mine")
+    assert main(["draw", "kite", "--phase", "1 rad", "--size", "64x36", "-o", "kite.svg"]) == 0
+    assert (folder / ".linkanim-outputs.json").read_text() == "mine"
+
+
+# Each command that writes several answers, and how it searches.
+SEARCHES = {
+    "path": (("path", CURVE, "--count", "3", "-o", "p.toml"), "path"),
+    "path, with cognates": (("path", CURVE, "--count", "1", "--cognates", "-o", "p.toml"), "path"),
+    "guide": (("guide", POSES, "--count", "3", "-o", "p.toml"), "guide"),
+    "function": (("function", "1/x", "--from", "1", "--to", "2", "--count", "3", "-o", "p.toml"), "function"),
+    "quick-return": (
+        ("quick-return", "--stroke", "80", "--ratio", "1.4", "--count", "3", "-o", "p.toml"),
+        "quick_return",
+    ),
+}
+
+
+@pytest.mark.parametrize("words", SEARCHES)
+@pytest.mark.parametrize("taken", ["p.toml", "p-2.toml", "p-3.toml"])
+def test_a_further_answer_s_name_that_is_a_foreign_file_s_is_refused_before_the_search(
+    words: str, taken: str, folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (folder / taken).write_text("mine")
+    (folder / "p-4.toml").write_text("mine, and in nobody's way")
+    command, search = SEARCHES[words]
+    module = importlib.import_module(f"linkanim.cli.commands.{search}")
+    monkeypatch.setattr(module, search, pytest.fail)
+    before = contents(folder)
+    assert main(command) == 2
+    assert f"{taken} may not be linkanim's own" in capsys.readouterr().err
+    assert contents(folder) == before
+
+
+def test_no_clobber_is_for_side_files_too(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    words = ["record", "kite", "--size", "64x36", "--seconds", "0.1", "--no-clobber", "-o", "film.gif"]
+    (folder / "film.txt").write_text("mine")
+    before = contents(folder)
+    assert main([*words, "--alt", "film.txt"]) == 2
+    assert "film.txt may not be linkanim's own" in capsys.readouterr().err
+    assert contents(folder) == before
+    for _ in range(2):
+        assert main([*words, "--alt", "words.txt"]) == 0
+    assert (folder / "words.txt").read_text(encoding="utf-8").startswith("Kite")
+    assert main([*words[:-3], "-o", "film.gif", "--alt", "film.txt"]) == 0  # asked for by name
+    assert (folder / "film.txt").read_text() == (folder / "words.txt").read_text()
+
+
+@pytest.mark.skipif(os.name == "nt", reason="has no modes of this kind")
+@pytest.mark.parametrize(
+    "words", [USUAL["kite.svg"], ("report", "kite", "-o", "into")], ids=["draw", "report"]
+)
+def test_a_umask_that_takes_our_own_rights_hinders_nothing(
+    words: tuple[str, ...], folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    before = os.umask(0o277)
+    try:
+        for _ in range(2):
+            assert main(words) == 0, capsys.readouterr().err
+    finally:
+        os.umask(before)
+    made = [path for path in folder.rglob("*") if path.is_file() and path.parent.name == "into"]
+    made += [folder / name for name in ("kite.svg",) if (folder / name).exists()]
+    assert {stat.S_IMODE(path.stat().st_mode) for path in made} == {0o600}
 
 
 def test_files_of_usual_names_share_one_list(folder: Path) -> None:

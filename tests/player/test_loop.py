@@ -135,6 +135,43 @@ def test_whatever_ends_the_window_a_recording_that_runs_is_finished(
     assert "kite-1.gif" in {Path(word).name for word in command}
 
 
+DIALOG = [(pygame.K_g, pygame.KMOD_LSHIFT | pygame.KMOD_LCTRL, "")]
+PLACE = [(ord(letter), 0, letter) for letter in "films/kite"]
+
+
+# What is said of a recording is said where there is one, with the folder that it goes to.
+@pytest.mark.parametrize(
+    ("typed", "folder"),
+    [
+        pytest.param([], "", id="nothing is recorded"),
+        pytest.param([(pygame.K_g, 0, "g")], "recordings", id="G"),
+        pytest.param([*DIALOG, *PLACE, (pygame.K_RETURN, 0, "")], "films", id="by the dialog"),
+    ],
+)
+def test_a_display_server_that_goes_is_told_with_what_is_kept(
+    typed: list[tuple[int, int, str]], folder: str, here: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(beside, "_start", fake_start([]))
+    real, made = Window.tick, Connection()
+
+    def tick(window: Window, count: int) -> bool:
+        made.lost = True
+        assert real(window, count)
+        for key, mod, text in typed:
+            pygame.event.post(pygame.event.Event(pygame.KEYDOWN, key=key, mod=mod, unicode=text))
+            assert real(window, 1)
+        return True
+
+    monkeypatch.setattr(Window, "tick", tick)
+    monkeypatch.setattr(screen, "Connection", lambda: made)
+    monkeypatch.setattr(made, "close", pygame.display.quit)
+    with pytest.raises(NoDisplay) as gone:
+        run("kite", size=(320, 180))
+    kept = f"; what was being recorded is kept in {folder}/" if folder else ""
+    assert str(gone.value) == f"the display server is gone{kept}"
+    assert [path.parent.name for path in here.rglob("*.tape.json")] == ([folder] if folder else [])
+
+
 def test_without_a_display_it_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv("SDL_VIDEODRIVER")
     monkeypatch.setattr(pygame.display, "get_driver", lambda: "offscreen")

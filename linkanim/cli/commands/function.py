@@ -24,7 +24,7 @@ _TITLES = ("largest error", "of y's range", "input", "output", "transmission", "
 
 def run(options: Namespace) -> None:
     """Find the linkages, write their files, and print the table or JSON; draw the error where asked to."""
-    target = target_of(options.output_file, "function.toml")
+    target = target_of(options.output_file, "function.toml", options.count)
     chart = None if options.chart is None else checked_target(options.chart, _CHARTS, [options.given])
     given = _table(Path(options.given)) if _names_a_file(options.given) else options.given
     sliding = options.kind == "slider-crank"

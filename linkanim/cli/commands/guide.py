@@ -29,7 +29,7 @@ _HANDED_ON = ("kind", "count", "pivots", "box", "largest", "least_angle", "prefe
 def run(options: Namespace) -> None:
     """Find the linkages, write their files, and print the table or JSON; print remarks on stderr."""
     poses = _poses(options.poses)
-    target = target_of(options.output, f"{options.poses.stem}.toml")
+    target = target_of(options.output, f"{options.poses.stem}.toml", options.count)
     handed: dict[str, Any] = {name: getattr(options, name) for name in _HANDED_ON}
     found = guide(poses, **handed, name=target.stem, source=f"linkanim guide for {named(options.poses.name)}")
     deliver(found, target, options, _TITLES, _cells, _object)

@@ -35,7 +35,9 @@ _TITLES = (f"rms {_UNIT}", "%", f"largest {_UNIT}", "%", "transmission", "longes
 def run(options: Namespace) -> None:
     """Find the linkages, write their files, and print the table or JSON; print remarks on stderr."""
     curve = read_curve(options.curve)
-    target = target_of(options.output, f"{options.curve.stem}.toml")
+    target = target_of(
+        options.output, f"{options.curve.stem}.toml", options.count * (3 if options.cognates else 1)
+    )
     front = None if options.front is None else checked_target(options.front, (".csv",), [options.curve])
     with bar(unit=" steps") as progress:
         fits = path(

@@ -16,7 +16,7 @@ _HANDED_ON = ("ratio", "stroke", "swing", "kind", "place", "count")
 
 def run(options: Namespace) -> None:
     """Find the linkages, write their files, and print the table or JSON."""
-    target = target_of(options.output, "quick-return.toml")
+    target = target_of(options.output, "quick-return.toml", options.count)
     found = quick_return(
         **{name: getattr(options, name) for name in _HANDED_ON},
         name=target.stem,
