@@ -487,6 +487,12 @@ class Info:
         return None if start is None or self.full_turn or self.mechanism.comes_to(start) else start
 
     @property
+    def kept(self) -> tuple[float, ...]:
+        """The ends of an input that swings at which it comes back on the same closures."""
+        ends = zip(self.input_range, self.mechanism.keeps, strict=True)
+        return tuple(end for end, kept in ends if kept)
+
+    @property
     def toggles(self) -> tuple[float, ...]:
         """The input's places at its limits, without an end at which it merely turns back."""
         path, touched = self.mechanism.assembly.path, tuple(self.mechanism.assembly.change_points)
@@ -622,8 +628,21 @@ class Info:
     @property
     def input_words(self) -> str:
         """How far the input goes, in words."""
-        moves = self.mechanism.linkage.drive.actuator.moves
-        return "turns fully" if self.full_turn else f"{moves} {_places(self, self.input_range, '…')}"
+        if self.full_turn:
+            return "turns fully"
+        drive = self.mechanism.linkage.drive
+        angles = drive.coordinate.is_angle
+        reach = self.ranges("{}…{}", degrees) if angles else _places(self, self.input_range, "…")
+        return f"{drive.actuator.moves} {reach}"
+
+    def ranges(self, form: str, end: Callable[[float], str]) -> str:
+        """Return the input's range in words, and those that it has when it starts elsewhere.
+
+        `form` stands for a range, with `{}` for each of its two ends, and `end` puts an end in words.
+        """
+        ranges = (self.input_range, *self.mechanism.other_ranges)
+        own, *others = (form.format(*map(end, ends)) for ends in ranges)
+        return f"{own}, and {' or '.join(others)} where its start lies there" if others else own
 
     @cached_property
     def lines(self) -> tuple[tuple[str, str], ...]:
@@ -705,9 +724,11 @@ def reversals(mechanism: Mechanism, name: str, rate: str, phases: Array) -> Arra
         return np.asarray(getattr(mechanism.solve(phase=near, speed=1.0, derivatives=1), rate)[name])
 
     found = sign_changes(turning, phases)
-    if not mechanism.full_turn and (mechanism.retraced or not any(mechanism.stops)):
-        ends = math.pi * np.rint(found / math.pi)
-        found = np.where(np.abs(found - ends) < _BESIDE, ends, found)
+    if not mechanism.full_turn:
+        stops, ends = mechanism.stops or ("", ""), np.rint(found / math.pi)
+        all_turns = [kept or not stop for kept, stop in zip(mechanism.keeps, stops, strict=True)]
+        near = np.abs(found - math.pi * ends) < _BESIDE
+        found = np.where(near & np.where(ends % 2, *all_turns[::-1]), math.pi * ends, found)
     near, *far = (np.abs(turning(found + way)) for way in (_BESIDE, _AWAY, -_AWAY))
     flat = near <= _FLAT * np.maximum(*far)
     return np.array(
@@ -752,8 +773,7 @@ def _facts(info: Info) -> Iterator[tuple[str, str | None]]:
     yield "input", info.input_words
     start = info.unreached_start
     yield "start", None if start is None else f"{degrees(start)} is not reached"
-    kept = "on the same closure; velocities change sign at the limits"
-    yield "returns", kept if info.mechanism.retraced else None
+    yield "returns", _returns(info)
     yield "turns fully", ", ".join(f"link {name}" if name.isdecimal() else name for name in turning)
     yield "toggles at", _places(info, info.toggles)
     yield "change points", _places(info, info.change_points)
@@ -787,6 +807,19 @@ def _worst(info: Info, found: Transmission) -> str:
         where = "0°" if info.full_turn and told == "360" else f"{typeset(told)}°"
     symbol = input_symbol(linkage).translate({ord("{"): None, ord("}"): None})
     return f"μ ≥ {least}, {symbol} = {where}"
+
+
+def _returns(info: Info) -> str | None:
+    """Return where and why an input that swings comes back on the same closures, in words."""
+    if not info.kept:
+        return None
+    if info.mechanism.linkage.drive.retraced:
+        return "on the same closure; velocities change sign at the limits"
+    at, it = ("", "the limits") if info.mechanism.retraced else (f" at {_places(info, info.kept)}", "it")
+    return (
+        f"on the same closure{at}, as beyond {it} not every dyad closes on the whole swing; "
+        "velocities change sign there"
+    )
 
 
 def _places(info: Info, places: tuple[float, ...], between: str = ", ") -> str:

@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import FrozenInstanceError
+from dataclasses import FrozenInstanceError, replace
 from functools import cached_property, lru_cache, partial
 from types import MappingProxyType
 from typing import Any, Generic, TypeVar
@@ -20,6 +20,7 @@ from typing import Any, Generic, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from linkanim.errors import AssemblyError
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.arithmetic import Graph, Slope, Value
 from linkanim.mechanics.linkage import Body, Damper, Linkage, Spring
@@ -39,10 +40,10 @@ from linkanim.mechanics.measures import (
 from linkanim.mechanics.program import Array, Batch, batch, scalar
 from linkanim.mechanics.search import around
 from linkanim.mechanics.solver import limits
-from linkanim.mechanics.solver.assembly import assemble
+from linkanim.mechanics.solver.assembly import assemble, starts
 from linkanim.mechanics.solver.closing import Assembly, Walk, walked
-from linkanim.mechanics.solver.input import InputState, LimitDistances, retraced
-from linkanim.mechanics.solver.limits import Separations, separations
+from linkanim.mechanics.solver.input import SAME_PLACE, InputState, LimitDistances, retraced
+from linkanim.mechanics.solver.limits import Separations, open_places, separations
 from linkanim.mechanics.solver.loop import Gearing
 
 # Where solved quantities lie in rows, and how they are read from there.
@@ -627,7 +628,7 @@ class Mechanism:
     @property
     def periods(self) -> int:
         """The number of drive periods after which every joint is back."""
-        return 1 if self.retraced else self.assembly.path.periods
+        return self.assembly.path.periods
 
     @property
     def phases(self) -> Array:
@@ -650,8 +651,8 @@ class Mechanism:
 
     @property
     def retraced(self) -> bool:
-        """Whether the input swings and comes back through the same poses as it went."""
-        return self.linkage.drive.retraced and not self.full_turn
+        """Whether the input comes back from both its ends through the same poses as it went."""
+        return self.assembly.path.way == (0.0, math.pi)
 
     @property
     def full_turn(self) -> bool:
@@ -663,6 +664,11 @@ class Mechanism:
         """How far the driven angle, or the travel of a slider that drives, goes; the lower end first."""
         return self.assembly.path.input_range
 
+    @cached_property
+    def other_ranges(self) -> tuple[tuple[float, float], ...]:
+        """The ranges of an input that does not turn fully when it starts elsewhere, on the named closures."""
+        return () if self.full_turn else tuple(_other_ranges(self.linkage, self.input_range))
+
     @property
     def stops(self) -> tuple[str, ...]:
         """The dyads that stop the input at its lower and its upper end, "" where it merely turns back.
@@ -670,6 +676,11 @@ class Mechanism:
         Of an input that turns fully there are none.
         """
         return self.assembly.path.ends
+
+    @property
+    def keeps(self) -> tuple[bool, bool]:
+        """Whether the input comes back on the same closures, at its lower and at its upper end."""
+        return self.assembly.path.keeps
 
     def comes_to(self, place: float) -> bool:
         """Tell whether the input comes to an angle, or to a travel of a slider that drives."""
@@ -723,7 +734,8 @@ class Mechanism:
         derivatives, accelerates, per_input = key
         trace = self.trace(Variant(True, accelerates, per_input=per_input))
         program = _scalar(*trace, derivatives)
-        found = self._poses[key] = _there_and_back(program, per_input) if self.retraced else program
+        way = self.assembly.path.way
+        found = self._poses[key] = _there_and_back(program, per_input, way) if way else program
         return found
 
     def trace(self, variant: Variant) -> Traced:
@@ -773,8 +785,8 @@ class Mechanism:
         """Return the motion at crank angles, or at phases; scalar or any shape."""
         given = np.asarray(angle if phase is None else phase, dtype=np.float64)
         by_phase, sign = None, 1.0
-        if phase is not None and self.retraced:
-            by_phase, (given, sign) = given, retraced(given)
+        if phase is not None and self.assembly.path.way:
+            by_phase, (given, sign) = given, retraced(given, self.assembly.path.way)
         (w, a), shape = _rates(speed, acceleration, given.shape)
         varying, back, rates = isinstance(w, np.ndarray), None, (w, a)
         if by_phase is not None:
@@ -817,11 +829,13 @@ def _scalar(names: tuple[str, ...], rows: Rows, derivatives: int) -> Callable[..
     return scalar((*names, "w", "a", "mechanism"), outputs, display)
 
 
-def _there_and_back(program: Callable[..., dict[str, Any]], per_input: bool) -> Callable[..., dict[str, Any]]:
+def _there_and_back(
+    program: Callable[..., dict[str, Any]], per_input: bool, way: tuple[float, float]
+) -> Callable[..., dict[str, Any]]:
     """Return the program of one instant of an input that comes back by the way it came."""
 
     def solved(phase: float, w: float, a: float, mechanism: Mechanism) -> dict[str, Any]:
-        at, sign = (float(part) for part in retraced(phase))
+        at, sign = (float(part) for part in retraced(phase, way))
         found = program(at, *((w, a) if per_input else (sign * w, sign * a)), mechanism)
         return found | {"phase": phase, "input_speed": w, "input_acceleration": a}
 
@@ -908,6 +922,35 @@ def stopped(linkage: Linkage) -> Mechanism | None:
     assembly, found = _assembled(linkage)
     assembly = limits.stopped(assembly, linkage, found) if found else assembly
     return None if assembly.path.full_turn else Mechanism(linkage, assembly)
+
+
+def _other_ranges(linkage: Linkage, own: tuple[float, float]) -> Iterator[tuple[float, float]]:
+    """Yield the ranges that other starts give the input, each once, whole turns aside."""
+    known = [own]
+    for start in starts(linkage):
+        try:
+            assembly, found = _assembled(_starting(linkage, start))
+            places = open_places(assembly, found) if found else [start]
+        except AssemblyError:
+            continue
+        for place in places:
+            try:
+                there = stopped(_starting(linkage, place))
+            except AssemblyError:
+                continue
+            if there and not any(_are_alike(there.input_range, other) for other in known):
+                known.append(there.input_range)
+                yield there.input_range
+
+
+def _starting(linkage: Linkage, place: float) -> Linkage:
+    """Return the linkage with a start that is stated."""
+    return replace(linkage, drive=replace(linkage.drive, start=place, at_zero=True))
+
+
+def _are_alike(one: tuple[float, float], other: tuple[float, float]) -> bool:
+    """Tell whether two ranges are one, whole turns aside."""
+    return all(abs(math.remainder(a - b, math.tau)) <= SAME_PLACE for a, b in zip(one, other, strict=True))
 
 
 @lru_cache(maxsize=8)

@@ -55,12 +55,15 @@ def instants_at(scene: Scene, angles: tuple[float, ...]) -> tuple[Instant, ...]:
         scene.linkage.drive.check_angle(scene.name, "leave --angles out")
     for angle in angles:
         if not mechanism.comes_to(angle):
-            low, high = (f"{degrees(limit):.6g} deg" for limit in mechanism.input_range)
             raise OutOfRange(
-                f"{scene.name}: --angles {degrees(angle):.6g} deg cannot be reached; "
-                f"the {scene.info.input_name} angle goes from {low} to {high}"
+                f"{scene.name}: --angles {_in_degrees(angle)} cannot be reached; "
+                f"the {scene.info.input_name} angle goes {scene.info.ranges('from {} to {}', _in_degrees)}"
             )
     return tuple(Instant(mechanism.phase_of(angle, 0.0), "") for angle in angles)
+
+
+def _in_degrees(angle: float) -> str:
+    return f"{degrees(angle):.6g} deg"
 
 
 def usual_instants(scene: Scene) -> tuple[Instant, ...]:

@@ -96,8 +96,9 @@ def _input_rows(scene: Scene) -> Iterator[Row]:
         across = "…".join(driven_words(scene, end) for end in info.input_range)
         yield Row(0, name, lambda pose: driven_words(scene, pose.coordinate))
         yield Row(5, "input range", lambda _: across)
-        if scene.mechanism.retraced:
-            yield Row(5, "returns", lambda _: "same closure")
+        if info.kept:
+            where = "" if scene.mechanism.retraced else f" at {driven_words(scene, info.kept[0])}"
+            yield Row(5, "returns", lambda _: f"same closure{where}")
         yield Row(1, "input rate", lambda pose: speed_words(scene, pose.input_speed))
         yield Row(3, " ".join(filter(None, (drive.actuator.noun, drive.coordinate.velocity))), _live(scene))
     if info.true_period != 1:

@@ -799,15 +799,15 @@ def _why_swinging(puzzle: Puzzle) -> str:
 def closure(puzzle: Puzzle) -> QuizQuestion | None:
     """Ask on which closure an input that swings comes back; the slip is to take the one by which it came."""
     info, mechanism = puzzle.scene.info, puzzle.scene.mechanism
-    ends = [end for end in zip(info.input_range, mechanism.stops, strict=False) if end[1]]
+    ends = [end for end in zip(info.input_range, mechanism.stops, mechanism.keeps, strict=False) if end[1]]
     if not ends:
         return None
-    place, dyad = puzzle.random.choice(ends)
+    place, dyad, kept = puzzle.random.choice(ends)
     jump, slip = "No velocity jumps there", "the closure that it came by"
     why = (
         f"The {info.input_name} stands there for an instant, the links do not: they run on to the other side."
     )
-    if mechanism.retraced:  # only the scene's statement makes it so, which cannot be seen
+    if kept:  # the scene's statement makes it so, or a dyad down the chain, which cannot be seen
         jump, slip = "All velocities change their sign there at once", "the closure beyond the limit"
         why = "With all velocities reversed each link goes back the way it came."
     text = (
@@ -815,7 +815,7 @@ def closure(puzzle: Puzzle) -> QuizQuestion | None:
         f"turns back. {jump}. On which closure do the links come back?"
     )
     answers, look = ("on the same closure", "on the other closure"), Look(names=1, ghost=True)
-    return puzzle.question("input", text, *either(answers, mechanism.retraced, slip), why, shows=look)
+    return puzzle.question("input", text, *either(answers, kept, slip), why, shows=look)
 
 
 def grashof(puzzle: Puzzle) -> QuizQuestion | None:

@@ -190,8 +190,8 @@ def go(state: State, _: None) -> State:
     place = radians(value) if scene.linkage.drive.coordinate.is_angle else value
     if not isfinite(place) or not mechanism.comes_to(place):
         unit = scene.linkage.drive.coordinate.shown_unit(f" {scene.length_unit}")
-        ends = "…".join(driven_words(scene, end) for end in scene.info.input_range)
-        return with_toast(state, f"the {scene.info.input_name} does not reach {text}{unit}; it goes {ends}")
+        reach = scene.info.ranges("{}…{}", lambda end: driven_words(scene, end))
+        return with_toast(state, f"the {scene.info.input_name} does not reach {text}{unit}; it goes {reach}")
     phase = mechanism.phase_of(place, state.phase)
     return replace(state, clock=state.clock.go(state.frame, phase, paused=True))
 
@@ -495,7 +495,7 @@ def _closure(before: State, after: State) -> str | None:
 
 def _returns(_: State, after: State) -> str:
     """Say on which closure the input comes back."""
-    return f"back on the {'same' if after.scene.linkage.drive.retraced else 'other'} closure"
+    return f"back on the {'same' if after.scene.mechanism.retraced else 'other'} closure"
 
 
 def _chart(before: State, after: State) -> str | None:

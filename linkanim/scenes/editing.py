@@ -379,10 +379,15 @@ def other_closure(scene: Scene) -> Scene:
 def other_return(scene: Scene) -> Scene:
     """Return the scene whose input comes back from its limits on the other, or on the same, closure.
 
-    AssemblyError where the input turns fully.
+    AssemblyError where the input turns fully, or can come back on the same closure only.
     """
     if scene.info.full_turn:
         raise AssemblyError(f"{scene.name}: its input turns fully, and never comes back")
+    if scene.mechanism.retraced and not scene.linkage.drive.retraced:
+        raise AssemblyError(
+            f"{scene.name}: it comes back on the same closure, as not every dyad closes on the whole swing "
+            "beyond its limits"
+        )
     returns = "other" if scene.linkage.drive.retraced else "same"
     document = replaced(scene.document, ("drive", "returns"), returns)
     return with_document(scene, document)

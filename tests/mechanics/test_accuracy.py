@@ -13,7 +13,19 @@ import pytest
 from build import four_bar, six_bar, slider_crank, slotted
 from mpmath import mp, mpf
 from numpy.typing import NDArray
-from reference import DIGITS, HIGHEST_FIRST, NUDGE, FourBar, Points, Pose, derivatives, on_line, sign_of, unit
+from reference import (
+    DIGITS,
+    HIGHEST_FIRST,
+    NUDGE,
+    ExactFourBar,
+    FourBar,
+    Points,
+    Pose,
+    derivatives,
+    on_line,
+    sign_of,
+    unit,
+)
 
 from linkanim.bench.reference import crossing
 from linkanim.mechanics.linkage import Crank, Drive, Gear, Linkage, Pin
@@ -271,23 +283,25 @@ def test_a_dyad_down_the_chain_limits_the_input_and_is_driven_through(
     g, r, a, b = map(mpf, first)
     r5, r6, r7, r8 = map(mpf, second)
 
-    def chain(angle: Any) -> tuple[Any, Any, Any]:
+    def chain(angle: Any, side: int = 1) -> tuple[Any, Any, Any]:
         pin_a = r * unit(angle)
-        pin_b = crossing(pin_a, mp.mpc(g), a, b, 1)
+        pin_b = crossing(pin_a, mp.mpc(g), a, b, side)
         return pin_a, pin_b, g + (pin_b - g) / b * r6
 
     def margin(angle: Any) -> Any:
         return abs(chain(angle)[2] - g - r5) - (r7 + r8)
 
+    own = ExactFourBar(first, start=start).limits
     limits = [
-        mp.findroot(margin, (mpf(end.high), mpf(end.high) + mpf(10) ** -10))
-        if dyad == "D"
-        else mpf(end.high) + end.low
-        for end, dyad in zip((path.low, path.high), path.ends, strict=True)
+        mp.findroot(margin, (mpf(end.high), mpf(end.high) + mpf(10) ** -10)) if dyad == "D" else exact
+        for end, exact, dyad in zip((path.low, path.high), own or (0, 0), path.ends, strict=True)
     ]
 
     def pose(phase: Any) -> Points:
-        pins = chain(sum(limits) / 2 - (limits[1] - limits[0]) / 2 * mp.cos(phase))
+        kept = path.ends[0] == "B"  # which the second loop does not pass: it comes back by the way it went
+        phase = 4 * mp.pi - phase if kept and phase > 2 * mp.pi else phase
+        side = sign_of(mp.sin(phase / 2)) if kept else 1
+        pins = chain(sum(limits) / 2 - (limits[1] - limits[0]) / 2 * mp.cos(phase), side)
         sign = 1
         if path.ends[0] == "D":
             sign *= sign_of(mp.sin(phase / 2))

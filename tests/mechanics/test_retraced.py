@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from mpmath import mp
 
 import linkanim
 from linkanim.errors import SceneError
@@ -57,6 +58,17 @@ def test_at_its_limits_and_before_them_it_is_what_it_is_without() -> None:
             other.acceleration,
         )
     assert scene.pose(2 * math.pi).position == scene.pose(0.0).position
+
+
+@pytest.mark.parametrize("turns", [3, 10**6, -(10**9)])
+def test_after_many_turns_its_poses_are_those_of_its_phases(turns: int) -> None:
+    scene = retraced("double-rocker")
+    for phase in (2 * math.pi * turns + 1.0, 2 * math.pi * turns - 2.0):
+        with mp.workdps(40):
+            left = mp.mpf(phase) - 2 * mp.pi * turns
+        there, near = scene.pose(phase), scene.pose(abs(float(left)))
+        for joint, place in near.position.items():
+            assert there.position[joint] == pytest.approx(place, rel=1e-14)
 
 
 @pytest.mark.parametrize("phase", [0.4, math.pi, 4.0, -1.0, 100.0])

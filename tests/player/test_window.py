@@ -223,7 +223,8 @@ def test_an_angle_out_of_reach_is_told_with_the_range(player: Player) -> None:
     player.type("200")
     player.press(*bare(pygame.K_RETURN))
     assert player.state.toast is not None
-    assert player.state.toast.text == "the input rocker does not reach 200°; it goes 13.8°…108.4°"
+    reach = "13.8°…108.4°, and −108.4°…−13.8° where its start lies there"
+    assert player.state.toast.text == f"the input rocker does not reach 200°; it goes {reach}"
 
 
 def test_the_windows_title_is_the_scenes(player: Player) -> None:

@@ -48,7 +48,8 @@ def as_object(scene: Scene) -> dict[str, object]:
     facts |= {"mobility": info.counts.mobility, "link_count": info.counts.links}
     facts["joint_count"] = info.counts.joints
     if not info.full_turn:
-        facts["returns"] = "same" if info.mechanism.retraced else "other"
+        facts["other_ranges"] = info.mechanism.other_ranges
+        facts |= {"returns": "same" if info.mechanism.retraced else "other", "same_closure_at": info.kept}
     if info.transmission:
         facts["worst_transmission"] = {"joint": info.transmission.dyad, "phase": info.transmission.phase}
     if any(body.slider for body in scene.linkage.bodies):

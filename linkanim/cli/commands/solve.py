@@ -423,11 +423,17 @@ def phase_at(scene: Scene, angle: float) -> float:
 
 
 def _out_of_range(scene: Scene, angle: float) -> OutOfRange:
-    low, high = (f"{significant(math.degrees(limit), 6)} deg" for limit in scene.info.input_range)
+    reach = scene.info.ranges("from {} to {}", _in_degrees)
+    through = all(scene.mechanism.stops) and not any(scene.mechanism.keeps)
+    way_on = " (--phase runs through both limits)" if through else ""
     return OutOfRange(
-        f"{scene.name}: --angle {significant(math.degrees(angle), 6)} deg cannot be reached; "
-        f"the {scene.info.input_name} angle goes from {low} to {high} (--phase runs through both limits)"
+        f"{scene.name}: --angle {_in_degrees(angle)} cannot be reached; "
+        f"the {scene.info.input_name} angle goes {reach}{way_on}"
     )
+
+
+def _in_degrees(angle: float) -> str:
+    return f"{significant(math.degrees(angle), 6)} deg"
 
 
 def _print_json(trees: Iterator[Tree], sweep: bool) -> None:

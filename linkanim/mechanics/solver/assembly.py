@@ -81,7 +81,7 @@ def _paths(
     """Yield the paths the input may take, the best one first."""
     stroke = STROKES.get(type(linkage.drive.actuator))
     if stroke is not None:
-        yield stroke(linkage, unscale, arcs)
+        yield replace(stroke(linkage, unscale, arcs), keeps=(linkage.drive.retraced,) * 2)
         return
     if arcs is None:
         yield Turn(linkage.drive.start, turns_to_return(linkage, loops))
@@ -89,7 +89,21 @@ def _paths(
     start = linkage.drive.stated_start
     for arc in sorted(arcs, key=lambda arc: _rank(arc, linkage, loops)):
         around = arc if start is None else arc.shifted(arc.turns_to(start))
-        yield replace(around, rounds=_rounds(linkage, loops, arc))
+        rounds = _rounds(linkage, loops, arc)
+        yield replace(around, rounds=rounds, keeps=(linkage.drive.retraced,) * 2)
+
+
+def starts(linkage: Linkage) -> list[float]:
+    """Return starts: one in each range that the loops on the input's own pin leave it, or for each triangle.
+
+    Of an input that these loops let turn fully it is its own start. A slider that drives has no start.
+    """
+    if linkage.drive.actuator.noun:
+        return []
+    assembly = assemble(linkage)
+    arcs = open_arcs(assembly.linkage, assembly.loops)
+    between = [linkage.drive.start] if arcs is None else [float(arc.middle) for arc in arcs]
+    return assembly.path.starts or between
 
 
 def _rounds(linkage: Linkage, loops: Mapping[str, Loop], arc: Swing) -> int:

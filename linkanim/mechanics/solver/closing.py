@@ -496,8 +496,14 @@ class Assembly:
 
     @property
     def sampled(self) -> Array:
-        """Those phases, once along its path, half a step off the start, where a swing's rates vanish."""
-        return around(self.path.periods, self.samples)
+        """Those phases, once along its path, half a step off the start, where a swing's rates vanish.
+
+        Of a path that retraces a way, those on that way, with one beyond it at each end.
+        """
+        if self.path.way is None:
+            return around(self.path.periods, self.samples)
+        first, last = self.path.way
+        return first + around(2, self.samples)[: math.ceil((last - first) / math.tau * self.samples) + 2]
 
 
 AT_ITS_LIMIT = (

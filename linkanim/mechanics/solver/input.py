@@ -252,6 +252,9 @@ def _rated(root: Value, sign: float, pace: Slope) -> Moving:
 SAME_PLACE = 1e-9
 """Places that differ by less are one: angles by this in radians, travels by this share of the whole."""
 
+AT_END = 1e-6
+"""In phase: at a dyad's own limit, where the input turns back, its separation is extreme without touching."""
+
 Limit = tuple[Sum, str | None]
 """The phase of a limit, and the dyad that sets it; None where the path itself ends."""
 
@@ -283,6 +286,26 @@ class InputPath(ABC):
     @abstractmethod
     def input_range(self) -> tuple[float, float]:
         """How far the input goes, the lower end first."""
+
+    @property
+    def keeps(self) -> tuple[bool, bool]:
+        """Whether all comes back as it went, on the same closures, at the lower and at the upper end."""
+        return False, False
+
+    @property
+    def way(self) -> tuple[float, float] | None:
+        """The first and the last phase of a way that all others retrace, from one kept end to the next."""
+        return None
+
+    def passes(self, phases: Array) -> NDArray[np.bool_]:
+        """Tell which phases are the input's own: not those that retrace others."""
+        first, last = self.way or (-math.inf, math.inf)
+        return (phases >= first - AT_END) & (phases <= last + AT_END)
+
+    @property
+    def starts(self) -> list[float]:
+        """Starts that lead to its ranges, where these follow from the input alone."""
+        return []
 
     @property
     def dead_ends(self) -> tuple[float, ...]:
@@ -385,7 +408,19 @@ class InputPath(ABC):
 class ThereAndBack(InputPath):
     """A path on which the input turns back at both ends, where its phase is 0 and π."""
 
+    keeps: tuple[bool, bool] = field(default=(False, False), kw_only=True)
+
     full_turn: ClassVar[bool] = False
+
+    @property
+    def way(self) -> tuple[float, float] | None:
+        """The first and the last phase of a way that all others retrace, from one kept end to the next."""
+        low, high = self.keeps
+        return (0.0 if low else -math.pi, math.pi if high else 2 * math.pi) if low or high else None
+
+    def doubled(self) -> Self:
+        """Return the path of a linkage that is back after twice as many periods; as it is with a way."""
+        return self if self.way else super().doubled()
 
     def home(self, start: float) -> float:
         """Return the phase of the start on the way to the far end, at most that of an end."""
@@ -403,19 +438,23 @@ def nearer_way(forth: float, near: float) -> float:
     return min(ways, key=lambda phase: abs(phase - near))
 
 
-def retraced(phases: Any) -> tuple[Any, Any]:
-    """Return the phases of the same poses on the way up, for an input that retraces its way, and +1 or -1.
+def retraced(phases: Any, way: tuple[float, float]) -> tuple[Any, Any]:
+    """Return the phases of the same poses on an `InputPath.way`, and +1 or -1.
 
-    The sign is that of its rates: +1 on the way up and at both ends, -1 on the way back. A phase within its
+    The sign is that of its rates: +1 on that way and at both its ends, -1 on the way back. A phase within its
     last digits of a multiple of π is an end (`stated`).
     """
-    within = np.fmod(phases, 2 * math.pi)
-    within = np.where(np.abs(within) > math.pi, within - np.copysign(2 * math.pi, within), within)
-    near, at = STATED * np.hypot(phases, math.pi), np.abs(within)
-    back = np.where((within < -near) & (within > near - math.pi), -1.0, 1.0)
+    first, last = way
+    half = last - first
+    within, whole = np.fmod(phases, 2 * half), FULL_TURN.times(half / math.pi)
+    within = within - np.rint((phases - within) / whole.high) * whole.low
+    within = np.where(within > last, within - 2 * half, within)
+    within = np.where(within < first - half, within + 2 * half, within)
+    near, at = STATED * np.hypot(phases, math.pi), np.where(within < first, 2 * first - within, within)
+    back = np.where((within < first - near) & (within > first - half + near), -1.0, 1.0)
     # after many turns a phase's last digits are coarser than those of the end
-    ended = np.where(at <= near, 0.0, np.where(at >= math.pi - near, math.pi, at))
-    return np.where(np.abs(phases) > 2 * math.pi, ended, at), back
+    end = math.pi * np.rint(at / math.pi)
+    return np.where((np.abs(phases) >= 2 * math.pi) & (np.abs(at - end) <= near), end, at), back
 
 
 @frozen
@@ -536,6 +575,8 @@ class Swing(ThereAndBack):
     @property
     def periods(self) -> int:
         """One there-and-back; two where a different dyad changes its closure at each end."""
+        if any(self.keeps):
+            return 1 if all(self.keeps) else 2
         return self.rounds if self.ends[0] == self.ends[1] else 2 * self.rounds
 
     @property

@@ -46,7 +46,7 @@ from linkanim.mechanics.solver.closing import (
     walked,
     walking,
 )
-from linkanim.mechanics.solver.input import InputPath, Limit, Swing, swing_by_angle
+from linkanim.mechanics.solver.input import AT_END, InputPath, Limit, Swing, swing_by_angle
 from linkanim.mechanics.solver.loop import ONE_PLACE
 
 # Where the root of a dyad on moving points vanishes, or nearly, and what is smooth there, in fifty digits.
@@ -408,8 +408,6 @@ FEW = 16
 MOST_UNCLEAR = 500_000
 """The most cells, of all dyads, in which extremes could be missed. Where halving makes more, and more than
 there were samples at first, the margin is rounding alone on a whole stretch, and halving would not end."""
-AT_END = 1e-6
-"""In phase: at a dyad's own limit, where the input turns back, its separation is extreme without touching."""
 
 
 class Sampled(NamedTuple):
@@ -461,6 +459,7 @@ class Separations:
     scales: Mapping[str, float]
     """The scale of each dyad's margin."""
     samples: Sampled
+    path: InputPath
     settled: Callable[[str], tuple[Extreme, ...]]
     """Returns the extremes of a dyad at which floats cannot tell its margin from nothing.
 
@@ -483,8 +482,9 @@ class Separations:
 
     @cached_property
     def shut(self) -> Bools:
-        """Whether each dyad fails to close at each phase (D, N)."""
-        return _shut(self.samples, [self.settled(name) for name in self.names])
+        """Whether each dyad fails to close at each phase (D, N); at none that the path does not pass."""
+        shut = _shut(self.samples, [self.settled(name) for name in self.names])
+        return np.asarray(shut & self.path.passes(self.phases))
 
     @property
     def closes(self) -> bool:
@@ -523,7 +523,12 @@ def separations(assembly: Assembly) -> Separations:
     if not scales:
         nothing = np.zeros((4, 0, len(phases)))
         return Separations(
-            {}, Sampled(phases, nothing, 0.0), lambda _: (), {}, lambda places: nothing[0, :, : len(places)]
+            {},
+            Sampled(phases, nothing, 0.0),
+            assembly.path,
+            lambda _: (),
+            {},
+            lambda places: nothing[0, :, : len(places)],
         )
     scale, barely = np.array([*scales.values()]).T
     if not limiting:
@@ -547,6 +552,7 @@ def separations(assembly: Assembly) -> Separations:
     return Separations(
         dict(zip(scales, scale.tolist(), strict=True)),
         samples,
+        assembly.path,
         cache(lambda name: tuple(_settled_separation(exact, name, unsettled[name]))),
         {name: tuple(places[margins > blur].tolist()) for name, (places, margins) in low.items()},
         lambda phases: np.asarray(sampled(phases).rows[2]),
@@ -596,7 +602,8 @@ def _phases(assembly: Assembly) -> Array:
 
     The start is among them, and so are both ends of a path there and back.
     """
-    marks = 0.0, math.pi, assembly.path.home(assembly.linkage.drive.start)
+    path = assembly.path
+    marks = 0.0, math.pi, path.home(assembly.linkage.drive.start), *(path.way or ())
     return np.sort(np.concatenate([assembly.sampled, marks]))
 
 
@@ -753,8 +760,9 @@ def _low(
 ) -> tuple[Array, Array]:
     """Return the extremes (phases, margins) with a margin `between` two, but not at the dyad's own limit."""
     phases, margins = extremes
-    inside = [not _at_own_end(assembly.path, name, phase) for phase in phases.tolist()]
-    low = (margins >= between[0]) & (margins <= between[1]) & np.array(inside, bool)
+    away = [not _at_own_end(assembly.path, name, phase) for phase in phases.tolist()]
+    inside = np.array(away, bool) & assembly.path.passes(phases)
+    low = (margins >= between[0]) & (margins <= between[1]) & inside
     return phases[low], margins[low]
 
 
@@ -801,8 +809,8 @@ NO_WAY = 1e-5
 ALIKE = 1e-9
 """Ranges that differ by less, in phase, are equally wide, but for rounding."""
 NO_RANGE = "the input has no range on which every dyad can be closed"
-STOPPED_SHORT = 1 / 64
-"""Share of its range by which a swing stops short of a limit that it cannot pass."""
+KEPT = ((False, False), (True, False), (False, True), (True, True))
+"""At which ends a swing may keep its closures, and come back the way it went, the best first."""
 CUTS = 8
 """The most times a path is cut back: a dyad may show its limit only once the one before keeps its range."""
 
@@ -838,15 +846,19 @@ def restricted(assembly: Assembly, linkage: Linkage, found: Separations) -> Asse
 
 
 def _cut_back(assembly: Assembly, linkage: Linkage, found: Separations) -> Assembly:
-    """Return the assembly on the widest swing that every dyad lets the input run through, there and back."""
+    """Return the assembly on the swing around the start that every dyad allows.
+
+    At a limit it runs through onto the other closure where all dyads close on the whole swing beyond it, too,
+    and have their limits at the same places. Else the input turns back there, and keeps its closures.
+    """
     swing, limited, on_limited = _cut(assembly, linkage, found)
     refusal = AssemblyError(NO_RANGE)
-    for path in _smooth_paths(swing):
+    for keeps in KEPT[-1:] if all(swing.keeps) else KEPT:
         try:
-            if path is not swing:
-                limited, on_limited = _limited(assembly, path)
+            if keeps != swing.keeps:
+                limited, on_limited = _limited(assembly, replace(swing, keeps=keeps))
             limited, on_limited = through_change_points(limited, on_limited)
-        except TooManyChangePoints:  # a little less of the swing might pass fewer, and not say so
+        except TooManyChangePoints:  # with less of the way there might be fewer, and not say so
             raise
         except AssemblyError as error:  # beyond one limit another dyad may rest at its own
             refusal = error
@@ -865,7 +877,8 @@ def _cut(assembly: Assembly, linkage: Linkage, found: Separations) -> tuple[Swin
         raise AssemblyError(f"joint {name}: {linkage.joint(name).why_apart(*most, linkage.unit)}")
     on_swing, limited = found, assembly
     for _ in range(CUTS):
-        swing = Swing(*limited.path.cut(*_open_interval(limited, on_swing)))
+        cut = limited.path.cut(*_open_interval(limited, on_swing))
+        swing = Swing(*cut, keeps=(linkage.drive.retraced,) * 2)
         if swing.amplitude < NO_WAY:
             raise AssemblyError(f"joint {swing.ends[0]}: {ONE_PLACE}")
         limited, on_swing = _limited(assembly, swing)
@@ -892,35 +905,18 @@ def _most(assembly: Assembly, name: str, phases: Array) -> tuple[float, float]:
     return u * assembly.unscale**2, w * assembly.unscale**2
 
 
-def _smooth_paths(swing: Swing) -> Iterator[Swing]:
-    """Yield the swing, then the same stopped short of one limit or both.
-
-    Where one dyad stands on another, its range changes when that other one passes its limit: the input then
-    has to turn back before the limit, on the closure that was named.
-    """
-    yield swing
-    short = (swing.high - swing.low).times(STOPPED_SHORT)
-    for low, high in ((True, False), (False, True), (True, True)):
-        yield Swing(
-            swing.low + short if low else swing.low,
-            swing.high - short if high else swing.high,
-            ("" if low else swing.ends[0], "" if high else swing.ends[1]),
-            swing.repeats,
-        )
-
-
 def _runs_through(assembly: Assembly, found: Separations) -> bool:
     """Tell whether every dyad closes all the way, and those that limit the input do so at each visit.
 
     One that keeps away from its limits, as `found` has it, limits nothing on this path.
     """
     path = assembly.path
-    visits = np.arange(path.periods, dtype=np.float64) * (2 * math.pi)
-    limiting = ((name, places) for name, places in zip(path.ends, (visits, visits + math.pi), strict=False))
+    visits = np.arange(-1, 2 * path.periods + 1, dtype=np.float64)
+    visits = visits[path.passes(visits * math.pi)]
+    places = (visits[visits % 2 == upper] * math.pi for upper in (0, 1))
     return found.closes and all(
-        name in found.names
-        and bool((np.abs(found.margins(places)[found.names.index(name)]) <= USED_UP).all())
-        for name, places in limiting
+        name in found.names and bool((np.abs(found.margins(there)[found.names.index(name)]) <= USED_UP).all())
+        for name, there in zip(path.ends, places, strict=False)
         if name and name not in assembly.loops
     )
 
@@ -943,13 +939,28 @@ def _open_interval(assembly: Assembly, found: Separations) -> tuple[Limit, Limit
     return below, above
 
 
+def open_places(assembly: Assembly, found: Separations) -> list[float]:
+    """Return for each range of the input on which every dyad closes a place of it within."""
+    phases, shut, _ = assembly.path.beside(assembly.linkage.drive.start, found.phases, found.shut)
+    first, last = _runs(np.asarray(~shut.any(axis=0)))
+    middles = (phases[first] + phases[last]) / 2
+    once = (middles >= 0) & (middles < 2 * math.pi * assembly.path.periods)
+    places: list[float] = assembly.path.coordinates(middles[once]).tolist()
+    return places
+
+
+def _runs(is_open: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Return the first and the last place of each open run."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], is_open.astype(np.int8), [0]])))
+    return edges[::2], edges[1::2] - 1
+
+
 def _run_around(is_open: NDArray[np.bool_], home: int, phases: Array) -> tuple[int, int]:
     """Return the first and last place of the open run at `home`, else of the widest (the nearest of equals).
 
     Where the input turns, each run comes again, and at the edge of the phases a part of it only.
     """
-    edges = np.flatnonzero(np.diff(np.concatenate([[0], is_open.astype(np.int8), [0]])))
-    first, last = edges[::2], edges[1::2] - 1
+    first, last = _runs(is_open)
     around = (first <= home) & (home <= last)
     width = phases[last] - phases[first]
     widest = around if around.any() else width >= width.max() - ALIKE
@@ -1004,7 +1015,7 @@ def through_change_points(assembly: Assembly, found: Separations) -> tuple[Assem
         if name not in found.names:
             continue
         through = _through(assembly, name, found)
-        if found.touches(name):
+        if found.touches(name) and name != found.names[-1]:
             found = separations(through)
         assembly = through
     return assembly, found

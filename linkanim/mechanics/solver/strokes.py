@@ -77,7 +77,7 @@ class Stroke(ThereAndBack):
     @property
     def periods(self) -> int:
         """One there-and-back, or more where the chain passes change points."""
-        return self.rounds
+        return 1 if self.way else self.rounds
 
     def lengths(self, phases: Array) -> Array:
         """Return the length at phases."""
@@ -149,6 +149,12 @@ class CylinderStroke(Stroke):
     def input_range(self) -> tuple[float, float]:
         """How far the crank goes."""
         return self.swing.input_range
+
+    @property
+    def starts(self) -> list[float]:
+        """The middle of the crank's swing, and that of its swing in the other triangle."""
+        middle = float(self.swing.middle)
+        return [middle, 2 * float(self.base) - middle]
 
     def angle_of(self, length: float) -> float:
         """Return the crank's angle at a length of the cylinder."""
