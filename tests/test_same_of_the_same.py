@@ -23,11 +23,11 @@ from random_scenes import named
 
 from linkanim.cli import main
 from linkanim.cli.commands import solve
-from linkanim.cli.commands.solve import Tree, leaves, tree
+from linkanim.cli.commands.solve import Tree, json_rows, leaves, tree
 from linkanim.cli.commands.solve import rows as rows_of_tree
 from linkanim.errors import LinkanimError
 from linkanim.explain.solution import PoseRequest, solution
-from linkanim.export import csv_head, csv_rows, json_text
+from linkanim.export import csv_head, csv_rows
 from linkanim.mechanics.angles import STATED
 from linkanim.mechanics.forces import effort_token
 from linkanim.mechanics.linkage import Body
@@ -49,7 +49,6 @@ from linkanim.player.shown import value_words
 from linkanim.scenes import load, names
 from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
-from linkanim.share.page import parts_of
 from linkanim.share.page import rows as share_rows
 from linkanim.units import significant, stepped
 
@@ -244,21 +243,21 @@ def apart(scene: Scene, phase: float, rng: Random, charts: int) -> Iterator[str]
 
 
 def _in_json_and_csv(scene: Scene, pose: Pose, found: Tree) -> Iterator[str]:
-    printed = json.loads(json_text(next(rows_of_tree(found))))
+    printed = json.loads(next(json_rows(found)))
     columns, values = zip(*leaves(found), strict=True)
     cells = next(csv.DictReader((csv_head(columns) + csv_rows(values)).splitlines()))
     in_cells = dict(zip(columns, cells.values(), strict=True))
     by_path = dict(leaves(printed))
-    for name, value in by_path.items():
-        cell = in_cells[name]
-        if (value is None) != (cell == "") or (value is not None and float(cell) != value):
+    for name, cell in in_cells.items():
+        value, number = by_path.get(name, ""), "" if cell == "" else float(cell)
+        if number != (math.inf if value is None else value):
             yield f"{name}: {value} in JSON, {cell!r} in CSV"
     for quantity in recorded(scene.linkage):
         said, value = quantity.read(pose), printed
         for key in quantity.path:
-            value = value[key]
-        none = said is None or not math.isfinite(said)
-        if none != (value is None) or (value is not None and value != float(said)):
+            value = value[key] if isinstance(key, int) and value != "" else value.get(key, "")
+        meant = "" if said is None or math.isnan(said) else None if math.isinf(said) else float(said)
+        if value != meant:
             yield f"{quantity.token}: a pose says {said!r}, JSON {value!r}"
 
 
@@ -352,7 +351,7 @@ def _largest(scene: Scene, token: str) -> float:
 @cache
 def _shared(scene: Scene) -> Any:
     rows = json.loads(json.dumps(list(share_rows(scene, scene.linkage.drive.speed))))
-    known = {"period": scene.period, "parts": parts_of(scene), "retraced": scene.mechanism.retraced}
+    known = {"period": scene.period, "retraced": scene.mechanism.retraced}
     return {**known, "sides": [{"rows": rows}]}
 
 

@@ -3,6 +3,7 @@
 From the ground up; a module imports from those before it only:
 
     movers   the parts of a picture that move, how, and in which colours
+    tables   numbers over a period, read between entries
     lengths  a linkage as data for the page's own solver
     page     the page itself
     site     every scene as a page, and an index of them

@@ -129,12 +129,15 @@ GRID = 1 << 16
 """The equal parts of the true period, at whose ends nodes may lie."""
 NEAR = 3e-4
 """How far off a curve may be between its nodes, in pixels of the picture: 0.0012 at 3840 × 2160."""
+_TOLD, _SLIGHT = 4e-5, 1e-2
+"""The share of an acceleration by which it may be off: two fifths of the last of four digits. One of less
+than the second share of the greatest may be off by as much as one of that size."""
 _FIRST = 16
 """The fewest parts into which a curve is divided at first, for each turn of the drive."""
 _PROBES = (0.25, 0.5, 0.75)
 """Where between two nodes the error is checked, in shares of the stretch."""
 _STEPS = 1 << 30
-"""Steps of positions, from 0 to the farthest of all."""
+"""Steps of a point's places, from its first one to the farthest."""
 LARGEST_SINGLE = float(np.finfo(np.float32).max)
 """The largest number of 32 bits: larger rates, beside a place where they are unbounded, are cut to it."""
 _NOWHERE = complex(-1e4, -1e4)
@@ -189,15 +192,17 @@ def _looked_at(open_: Mapping[str, Whole], step: int) -> Whole:
 
 
 def _halved(open_: Mapping[str, Whole], solved: _Solved, step: int) -> Iterator[tuple[str, Whole]]:
-    """Yield the beginnings of both halves of each stretch whose error is above `NEAR`."""
+    """Yield the beginnings of both halves of each stretch that is off in place or acceleration."""
     width = solved.scene.period * step / GRID
     for name, begins in open_.items():
         ends = (begins + step) % GRID
         course = quintic(solved.at(name, begins), solved.at(name, ends), width)
         shares = np.array(_PROBES)[:, None]
-        true = solved.at(name, begins + (shares * step).astype(np.int64))[0]
-        off = np.abs(evaluated(course, shares) - true).max(axis=0)
-        far = begins[off > NEAR]
+        place, _, bend = solved.at(name, begins + (shares * step).astype(np.int64))
+        off = np.abs(evaluated(course, shares) - place) > NEAR
+        size = np.maximum(np.abs(bend), _SLIGHT * np.abs(bend).max())
+        off |= np.abs(evaluated(_second(course), shares) / width**2 - bend) > _TOLD * size
+        far = begins[off.any(axis=0)]
         if far.size:
             yield name, np.sort(np.concatenate((far, far + step // 2)))
 
@@ -251,6 +256,12 @@ def quintic(begin: Loop, end: Loop, width: float) -> Loop:
     )
 
 
+def _second(coefficients: Loop) -> Loop:
+    """Return the coefficients of polynomials' second derivatives by the share of their stretch."""
+    powers = np.arange(2, len(coefficients))
+    return (powers * (powers - 1))[:, None] * coefficients[2:]
+
+
 def evaluated(coefficients: Loop, share: Any) -> Any:
     """Return a polynomial's values at shares of its stretch, 0 to 1 (Horner)."""
     value = coefficients[-1]
@@ -260,20 +271,22 @@ def evaluated(coefficients: Loop, share: Any) -> Any:
 
 
 def packed_tracks(found: Mapping[str, Track]) -> dict[str, Any]:
-    """Return tracks as a page holds them: whole steps of a `grain` in 32 bits, rates as 32-bit floats."""
-    farthest = max((float(np.abs(_parts(track.places)).max()) for track in found.values()), default=1.0)
-    grain = farthest / _STEPS
-    return {
-        "grain": grain,
-        "points": {
-            name: [
-                packed(track.nodes, "<u2"),
-                packed(np.rint(_parts(track.places) / grain), "<i4"),
-                packed(np.clip(_parts(track.rates.T), -LARGEST_SINGLE, LARGEST_SINGLE), "<f4"),
-            ]
-            for name, track in found.items()
-        },
-    }
+    """Return tracks as a page holds them: nodes, places, rates, and what places are steps of.
+
+    Places are whole steps of a grain, in 32 bits, from the point's first one, so that those of a small path
+    are as fine as its accelerations need.
+    """
+    return {name: [*_packed(track)] for name, track in found.items()}
+
+
+def _packed(track: Track) -> Iterator[Any]:
+    first = track.places[0]
+    ways = _parts(track.places - first)
+    grain = (float(np.abs(ways).max()) or 1.0) / _STEPS
+    yield packed(track.nodes, "<u2")
+    yield packed(np.rint(ways / grain), "<i4")
+    yield packed(np.clip(_parts(track.rates.T), -LARGEST_SINGLE, LARGEST_SINGLE), "<f4")
+    yield [first.real, first.imag, grain]
 
 
 def _parts(values: Loop) -> NDArray[np.float64]:

@@ -36,10 +36,11 @@
   // A point's nodes, and between two of them the polynomial of fifth degree that has place, velocity
   // and acceleration (by radian of phase) at both ends.
   class Track {
-    constructor([nodes, places, rates], grain) {
+    constructor([nodes, places, rates, [x, y, grain]]) {
       this.nodes = unpacked(nodes, "u2");
       this.places = unpacked(places, "i4");
       this.rates = unpacked(rates, "f4");
+      this.first = [x, y];
       this.grain = grain;
     }
 
@@ -70,7 +71,7 @@
 
     component(i, j, axis, h, u) {
       const { places, rates, grain } = this;
-      const p = places[2 * i + axis] * grain, way = places[2 * j + axis] * grain - p;
+      const begin = places[2 * i + axis], p = this.first[axis] + begin * grain, way = (places[2 * j + axis] - begin) * grain;
       const v = rates[4 * i + axis] * h, w = rates[4 * j + axis] * h;
       const a = rates[4 * i + 2 + axis] * h * h / 2, b = rates[4 * j + 2 + axis] * h * h / 2;
       const c3 = 10 * way - 6 * v - 4 * w - 3 * a + b;
@@ -84,31 +85,34 @@
     }
   }
 
-  // A table of values at equal steps over each part of a period, from its one end to the other, read between
-  // its entries: by the cubic through the four nearest, beside one that there is none of by a line.
-  function reading(table, [part, along]) {
-    const count = table.length / page.parts - 1, place = clamp(along, 0, 1) * count;
-    const near = Math.min(Math.floor(place), count - 1), begin = part * (count + 1);
+  // A table of values over a period in parts, each with its own equal steps from `ends` to `ends`, read between its
+  // entries: by the cubic through the four nearest, beside one that there is none of by a line.
+  function reading(table, { ends, steps }, share) {
+    let part = 0, begin = 0;
+    while (part < steps.length - 1 && share >= ends[part + 1]) begin += steps[part++] + 1;
+    const count = steps[part], place = clamp((share - ends[part]) / (ends[part + 1] - ends[part]), 0, 1) * count;
+    const near = Math.min(Math.floor(place), count - 1), u = place - near;
     const first = clamp(near - 1, 0, count - 3), t = place - first;
     const [a, b, c, d] = table.subarray(begin + first, begin + first + 4);
     const cubic = (t - 1) * (t - 2) * (d * t - a * (t - 3)) / 6 + t * (t - 3) * (b * (t - 2) - c * (t - 1)) / 2;
-    const u = place - near;
-    return Number.isNaN(cubic) ? table[begin + near] * (1 - u) + table[begin + near + 1] * u : cubic;
+    const [one, other] = table.subarray(begin + near, begin + near + 2);
+    return Number.isFinite(cubic) ? cubic : u === 0 ? one : u === 1 ? other : one * (1 - u) + other * u;
   }
 
-  // Returns in which part of a period a phase is, and how far along; where it runs backwards in one of that.
-  // The end of a way that is gone back belongs to the way there.
-  function placeOf(phase, backwards = false) {
-    const there = mod(phase, page.period), long = page.period / page.parts;
-    const part = page.retraced && there === Math.PI ? 0 : Math.min(Math.floor(there / long), page.parts - 1);
-    const along = there / long - part;
-    return backwards ? [page.parts - 1 - part, 1 - along] : [part, along];
+  // Returns how far along a period a phase is, 0 to 1. The end of a way that is gone back belongs to the way there.
+  function shareOf(phase) {
+    const there = mod(phase, page.period);
+    return (page.retraced && there === Math.PI ? there * (1 - 1e-12) : there) / page.period;
   }
 
-  // What a table's values are times that grow without bound towards the ends of a swing.
-  function weight([low, high], phase) {
-    const side = (value) => Math.abs(value) < 1e-14 ? 0 : Math.abs(value);
-    return side(Math.sin(phase / 2)) ** low * side(Math.cos(phase / 2)) ** high;
+  // What a table's values are times that grow without bound towards its poles.
+  function weight(poles, phase) {
+    let product = 1;
+    for (let n = 0; n < poles.length; n += 2) {
+      const far = Math.abs(Math.sin((phase / page.period - poles[n]) * Math.PI));
+      product *= (far < 1e-14 ? 0 : far) ** poles[n + 1];
+    }
+    return product;
   }
   const grown = (value, { poles }, phase) => poles ? value / weight(poles, phase) : value;
 
@@ -308,9 +312,9 @@
 
   // Returns how the input's coordinate, as it is read, changes by phase as it runs now: its table's slope.
   function inputRate() {
-    const table = sides[state.side].rows[0].tables[0], step = page.period / 480;
+    const row = sides[state.side].rows[0], step = page.period / 480;
     const middle = clamp(mod(state.phase, page.period), step, page.period - step);
-    const [before, after] = [middle - step, middle + step].map((phase) => reading(table, placeOf(phase)));
+    const [before, after] = [middle - step, middle + step].map((phase) => reading(row.tables[0], row, shareOf(phase)));
     return (after - before) / (2 * step) * Math.sign(speed());
   }
 
@@ -319,12 +323,13 @@
   const sides = page.sides.map((data, number) => {
     // a map: an object has properties that nobody gave it, such as "constructor"
     const tracks = new Map();
-    for (const name in data.tracks.points) tracks.set(name, new Track(data.tracks.points[name], data.tracks.grain));
+    for (const name in data.tracks) tracks.set(name, new Track(data.tracks[name]));
     const group = byId(`side${number}`);
     const groups = [...group.querySelectorAll("[data-m]")];
-    const rows = data.rows.map((row) => ({ ...row, tables: (row.values || []).map((some) => unpacked(some, row.kind)) }));
+    const laid = ({ ends, poles, ...rest }) => ({ ...rest, ends: ends && unpacked(ends, "f8"), poles: poles && unpacked(poles, "f8") });
+    const rows = data.rows.map((row) => ({ ...laid(row), tables: (row.values || []).map((some) => unpacked(some, row.kind)) }));
     const charts = data.charts.map((chart) => ({
-      ...chart, curves: chart.curves.map((curve) => ({ ...curve, table: unpacked(curve.values, curve.kind) })),
+      ...chart, curves: chart.curves.map((curve) => ({ ...laid(curve), table: unpacked(curve.values, curve.kind) })),
     }));
     const moves = data.movers.map((mover, n) => KINDS[mover.kind](groups[n], mover, tracks));
     return { data, tracks, group, groups, rows, charts, moves };
@@ -358,7 +363,7 @@
 
   function valueOf(row) {
     const back = state.way < 0, table = row.tables[back && !row.back ? 1 : 0];
-    const held = (back && row.back || 1) * reading(table, placeOf(state.phase));
+    const held = (back && row.back || 1) * reading(table, row, shareOf(state.phase));
     const value = grown(held, row, state.phase);
     if (!row.turn) return value;
     const rounded = Number(mod(value, row.turn).toFixed(row.digits));
@@ -413,15 +418,19 @@
     const level = (value) => top + high * (1 - clamp((value - low) / (up - low), 0, 1));
     const [origin, scale, span] = data.course;
     for (const curve of data.curves) {
-      const { table, colour } = curve, count = table.length / page.parts - 1;
-      let d = "", pen = false;
-      table.forEach((held, n) => {
-        const part = Math.floor(n / (count + 1)), share = (part + (n - part * (count + 1)) / count) / page.parts;
-        const value = grown(held, curve, origin + scale * share * span);
-        if (Number.isFinite(value)) d += `${pen ? "L" : "M"}${xy([left + width * share, level(value)])}`;
-        pen = Number.isFinite(value);
-      });
-      stroked(chart, colour, data.width, { d });
+      const { table, ends } = curve;
+      let d = "";
+      for (let part = 1; part < ends.length; part++) {
+        const from = ends[part - 1], long = ends[part] - from, count = Math.ceil(long * width) + 1;
+        for (let n = 0, pen = false; n <= count; n++) {
+          // the end of a part, as a reading there is the beginning of the next
+          const share = from + long * Math.min(n / count, 1 - 1e-9);
+          const value = grown(reading(table, curve, share), curve, origin + scale * share * span), seen = Number.isFinite(value);
+          if (seen) d += `${pen ? "L" : "M"}${xy([left + width * share, level(value)])}`;
+          pen = seen;
+        }
+      }
+      stroked(chart, curve.colour, data.width, { d });
     }
     const rule = stroked(chart, data.ink, 1.6);
     const dots = data.curves.map(({ colour }) => part(chart, "circle", { r: 5, fill: colour, stroke: "var(--back)", "stroke-width": 2 }));
@@ -429,17 +438,18 @@
     cursor = { rule, dots, label, level };
   }
 
-  // Returns where the cursor stands in a chart's tables: those of a swing begin with the period.
-  function chartPlace({ course: [origin, scale, span] }) {
-    return page.parts > 1 ? placeOf(state.phase, scale < 0) : [0, mod((state.phase - origin) / scale, span) / span];
+  // Returns how far along a chart the cursor stands, 0 to 1; one over time begins with the period, or ends with it.
+  function chartShare({ course: [origin, scale, span] }) {
+    const along = mod((state.phase - origin) / scale, span) / span;
+    if (!page.retraced) return along;
+    return scale > 0 ? shareOf(state.phase) : 1 - shareOf(state.phase);
   }
 
   function drawCursor(data) {
-    const [left, top, width, high] = data.area, place = chartPlace(data);
-    const x = left + width * (place[0] + place[1]) / page.parts;
+    const [left, top, width, high] = data.area, share = chartShare(data), x = left + width * share;
     put(cursor.rule, "d", `M${x.toFixed(2)} ${top}V${top + high}`);
     say(cursor.label, data.curves.map((curve, n) => {
-      const { table, label } = curve, value = grown(reading(table, place), curve, state.phase), dot = cursor.dots[n];
+      const { table, label } = curve, value = grown(reading(table, curve, share), curve, state.phase), dot = cursor.dots[n];
       dot.setAttribute("cx", x);
       dot.setAttribute("cy", Number.isFinite(value) ? cursor.level(value) : -100);
       return `${label} ${words(value, data.digits, data.unit)}`.trim();
@@ -463,6 +473,11 @@
   const clear = (x) => Math.abs(x) < 1e-5 ? 0 : x;
   const world = ([x, y], [scale, left, top]) => [clear(x - left) / scale, clear(top - y) / scale];
   const couple = (a) => `(${short(a[0])}, ${short(a[1])})`;
+  // rates have four digits of the larger one
+  const rates = (a) => {
+    const large = Math.max(...a.map(Math.abs)), step = large > 0 ? 10 ** (Math.floor(Math.log10(large)) - 3) : 1;
+    return couple(a.map((one) => Math.round(one / step) * step));
+  };
 
   function inUnits({ p, v, a }, view) {
     const rate = speed() / view[0];
@@ -512,7 +527,7 @@
     head.replaceChildren(row("th", ["point", `position (${of})`, `velocity (${of}/s)`, `acceleration (${of}/s²)`]));
     body.replaceChildren(...[...tracksNow().keys()].map((name) => {
       const { place, velocity, acceleration } = inUnits(pose(name), side.data.view);
-      return row("td", [name, couple(place), couple(velocity), couple(acceleration)]);
+      return row("td", [name, couple(place), rates(velocity), rates(acceleration)]);
     }));
   }
 

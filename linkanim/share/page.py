@@ -8,13 +8,12 @@ from __future__ import annotations
 import base64
 import hashlib
 import json
-import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import cache
 from html import escape
-from itertools import count, pairwise
-from math import floor, log10, radians
+from itertools import count
+from math import floor, log10
 from pathlib import Path
 from string import Template
 from typing import Any
@@ -25,7 +24,7 @@ from numpy.typing import NDArray
 from linkanim.errors import BadInput
 from linkanim.frozen import frozen
 from linkanim.mechanics.linkage import Crank
-from linkanim.mechanics.quantities import Quantity
+from linkanim.mechanics.motion import Motion
 from linkanim.paper.svg import FACES
 from linkanim.picture.bodies import colours_of
 from linkanim.picture.chart import ChartPanel, Pen
@@ -33,14 +32,15 @@ from linkanim.picture.figure import Figure, figure
 from linkanim.picture.hud import measured
 from linkanim.picture.look import ACCELERATION, VELOCITY, Look, ThemeName
 from linkanim.picture.picture import Picture
-from linkanim.picture.quantities import quantity, speed_words
+from linkanim.picture.quantities import quantity, speed_words, unbounded_places
 from linkanim.picture.text import Type
 from linkanim.picture.theme import Theme
 from linkanim.picture.view import Rect
 from linkanim.scenes.editing import closure_name, ghost_of
 from linkanim.scenes.scene import Scene
 from linkanim.share.lengths import model
-from linkanim.share.movers import LARGEST_SINGLE, Mobile, Pairs, packed, packed_tracks, tracks
+from linkanim.share.movers import Mobile, Pairs, packed, packed_tracks, tracks
+from linkanim.share.tables import Tabulated, kind_of, table
 
 # The numbers of a page over one true period, in both directions: rows of values, and the chart.
 
@@ -48,15 +48,8 @@ CHART = (960, 300)
 _TEXT = (26, 22)
 """The heights of a chart's text and of its small text."""
 _LINE = 2.0
-_MOMENTS, _A_TURN, _MOST = 240, 40, 2880
-"""The steps of a table for a turn of the drive, for one of the quickest crank, and the most in all.
-
-Between its entries the page interpolates by cubics.
-"""
-_INSIDE = 1e-9
-"""How far inside a part of the period the ends of its table lie, in phase."""
-_NEAR, _NEARER = 1e-3, 1e-4
-"""The distances from an end, in phase, at which it is measured how steeply a quantity grows towards it."""
+_STEP = 1 / 32
+"""By how much of the last digit that is shown a table may be off."""
 
 
 def input_words(scene: Scene) -> str:
@@ -64,96 +57,44 @@ def input_words(scene: Scene) -> str:
     return f"{scene.info.input_name} {scene.linkage.drive.coordinate.name}"
 
 
-def parts_of(scene: Scene) -> int:
-    """Return the number of equal parts of a true period's tables: one, or two for each swing there and back.
-
-    At the ends of a swing rates may change their sign at once, or grow without bound.
-    """
-    return 1 if scene.info.full_turn else 2 * round(scene.period / radians(360))
-
-
 def rows(scene: Scene, speed: float) -> Iterator[dict[str, Any]]:
     """Yield the rows of a pose's values: where the input is, its speed, struts, what drives it.
 
-    `values` are at equal steps over each part of the period, its end included, forward and backward. Where
-    the two differ at most by a sign, only the first are given, and `back` is the sign; else it is 0. `text`
-    does not change.
+    `values` are tables over a period, forward and backward. Where the two differ at most by a sign, only the
+    first are given, and `back` is the sign; else it is 0. `text` does not change.
     """
-    drive, phases = scene.linkage.drive.coordinate, _phases(scene, 0.0, scene.period)
-    motion = scene.solve(phase=phases, speed=speed)
-    both = (motion, motion.paced(-1.0))
-    where = np.asarray(drive.shown(motion.coordinate), float)
+    drive = scene.linkage.drive.coordinate
+
+    def where(motion: Motion) -> Any:
+        return drive.shown(motion.coordinate)
+
     turn = 360 if scene.info.full_turn else 0
     unit = drive.shown_unit(scene.length_unit)
-    yield _row(input_words(scene), unit, 0.1, [where]) | {"turn": turn}
+    yield _row(scene, input_words(scene), unit, 0.1, (where, (speed,))) | {"turn": turn}
     title = "input speed" if scene.info.full_turn else "input rate"
     yield {"label": title, "text": [speed_words(scene, way * speed) for way in (1, -1)]}
     for _, label, of, step in measured(scene):
-        poles = _poles(scene, of)
-        found = [np.asarray(of.shown(one), float) * _weight(phases, poles) for one in both]
-        yield _row(label, of.shown_unit(scene.length_unit), step, found) | _growing(poles)
+        yield _row(scene, label, of.shown_unit(scene.length_unit), step, (of.shown, (speed, -speed)))
 
 
-def _phases(scene: Scene, begin: float, end: float) -> NDArray[np.float64]:
-    """Return phases at equal steps from `begin` to `end`, part by part, each with its ends."""
-    parts = parts_of(scene)
-    count = scene.mechanism.count(_MOMENTS * round(scene.period / radians(360)), a_turn=_A_TURN)
-    count = max(min(count, _MOST) // parts, 3)
-    ends = np.linspace(begin, end, parts + 1)
-    if parts == 1:
-        return np.linspace(begin, end, count + 1)
-    inside = math.copysign(_INSIDE, end - begin)
-    return np.concatenate(
-        [np.linspace(a + inside, b - inside, count + 1) for a, b in pairwise(ends.tolist())]
-    )
+_Asked = tuple[Callable[[Motion], Any], tuple[float, ...]]
+"""What gives a number of a motion, and the speeds for which it is wanted."""
 
 
-_Poles = tuple[int, int]
-"""The powers of 1/sin and 1/cos of half the phase with which a quantity grows at the ends of a swing."""
+def _row(scene: Scene, label: str, unit: str, step: float, asked: _Asked) -> dict[str, Any]:
+    shown, speeds = asked
 
+    def read(phases: NDArray[np.float64]) -> NDArray[np.float64]:
+        motion = scene.solve(phase=phases, speed=speeds[0])
+        return np.array([shown(motion.paced(speed / speeds[0])) for speed in speeds], float)
 
-def _poles(scene: Scene, of: Quantity) -> _Poles:
-    """Return how a quantity grows towards the input's ends, 0 where it does not."""
-    if scene.info.full_turn:
-        return 0, 0
-    return _order(scene, of, 0.0), _order(scene, of, math.pi)
-
-
-def _order(scene: Scene, of: Quantity, end: float) -> int:
-    places = end + np.array([0.0, _NEAR, _NEARER])
-    here, near, nearer = (
-        np.max(np.abs(row)) for row in np.atleast_2d(of.shown(scene.solve(phase=places)).T).T
-    )
-    if not np.isinf(here):
-        return 0
-    growth = math.log(nearer / near, _NEAR / _NEARER) if 0 < near < nearer < math.inf else 1.0
-    return max(round(growth), 1)
-
-
-def _weight(phases: NDArray[np.float64], poles: _Poles) -> NDArray[np.float64]:
-    """Return the factors (n,) on a table's values that keep these from growing."""
-    low, high = poles
-    weight: NDArray[np.float64] = np.abs(np.sin(phases / 2)) ** low * np.abs(np.cos(phases / 2)) ** high
-    return weight
-
-
-def _growing(poles: _Poles) -> dict[str, Any]:
-    return {"poles": poles} if any(poles) else {}
-
-
-def _row(label: str, unit: str, step: float, values: list[NDArray[np.float64]]) -> dict[str, Any]:
-    forth, back = values[0], values[-1]
+    found = table(scene, (0.0, scene.period), read, (), _STEP * 10.0 ** -_digits(step))
+    forth, back = found.values[0], found.values[-1]
     sign = next((sign for sign in (1, -1) if np.array_equal(back, sign * forth)), 0)
-    some = values if sign == 0 else values[:1]
-    kind = _kind(some)
-    packs = {"values": [packed(one, kind) for one in some], **_said(kind)}
+    some = found.values if sign == 0 else found.values[:1]
+    kind = kind_of(some)
+    packs = {"values": [packed(one, kind) for one in some], **_said(kind), **found.said}
     return {"label": label, "unit": unit, "digits": _digits(step), **packs, "back": sign}
-
-
-def _kind(values: list[NDArray[np.float64]]) -> str:
-    """Return the type of numbers that holds values: floats of 32 bits, or of 64 where one is too large."""
-    largest = max(float(np.abs(one[np.isfinite(one)]).max(initial=0.0)) for one in values)
-    return "<f4" if largest < LARGEST_SINGLE else "<f8"
 
 
 def _said(kind: str) -> dict[str, str]:
@@ -179,39 +120,43 @@ def charts(figure: Figure, themes: tuple[Theme, Theme], shown: tuple[str, float]
     return [_chart(one.at(way * speed), other.at(way * speed), pairs) for way in (1, -1)]
 
 
-def _columns(panel: ChartPanel) -> list[NDArray[np.float64]]:
-    """Return the tables of a chart's curves: as drawn, or for an input that swings solved anew."""
-    course, (x, values), scene = panel.course, panel.curves, panel.figure.scene
-    if scene.info.full_turn:
-        even = np.linspace(0.0, course.span, min(len(panel.figure.cycle.phase), _MOST) + 1)
-        return [np.interp(even, x, np.where(np.isfinite(column), column, np.nan)) for column in values.T]
+def _table(panel: ChartPanel, least: float) -> Tabulated:
+    """Return the table of a chart's curves, from its left end to its right."""
+    scene, series, course = panel.figure.scene, panel.series, panel.course
+    unbounded = (unbounded_places(series.phases, column) for column in series.values.T)
+
+    def read(phases: NDArray[np.float64]) -> NDArray[np.float64]:
+        found = np.asarray(panel.quantity.shown(scene.solve(phase=phases, speed=panel.speed)), float)
+        columns: NDArray[np.float64] = found.T if found.ndim == 2 else found[None]
+        if series.unit != "°":
+            return columns
+        x, drawn = panel.curves  # an angle is in the turn in which it is drawn
+        near = np.array([np.interp(course.x_of(phases), x, column) for column in drawn.T])
+        turned: NDArray[np.float64] = columns + 360.0 * np.nan_to_num(np.rint((near - columns) / 360.0))
+        return turned
+
     begin, end = course.phase_of([0.0, course.span]).tolist()
-    phases = _phases(scene, begin, end)
-    found = np.asarray(panel.quantity.shown(scene.solve(phase=phases, speed=panel.speed)), float)
-    columns = found.T if found.ndim == 2 else found[None]
-    if panel.series.unit == "°":  # in the turn in which they are drawn
-        columns = columns + 360.0 * np.rint((values[0] - columns[:, 0]) / 360.0)[:, None]
-    return [*(columns * _weight(phases, _poles(scene, panel.quantity)))]
+    return table(scene, (begin, end), read, [place for some in unbounded for place in some.tolist()], least)
 
 
 def _chart(light: ChartPanel, dark: ChartPanel, pairs: Pairs) -> dict[str, Any]:
-    course, of, scene = light.course, light.quantity, light.figure.scene
-    poles, columns = _poles(scene, of), _columns(light)
-    kind = _kind(columns)
+    course, scene = light.course, light.figure.scene
+    span = light.plot.y.high - light.plot.y.low
+    found = _table(light, _STEP * 10.0 ** -_digits(span / 500))
+    kind = kind_of(found.values)
     curves = [
         {
             "label": light.series.labels[n],
             "colour": pairs.variable(light.colour(n), dark.colour(n)),
             "values": packed(column, kind),
             **_said(kind),
-            **_growing(poles),
+            **found.said,
         }
-        for n, column in enumerate(columns)
+        for n, column in enumerate(found.values)
     ]
-    span = light.plot.y.high - light.plot.y.low
     return {
         "frame": pairs.elements(light.frame(), dark.frame()),
-        "title": light.quantity.title(light.figure.scene.length_unit),
+        "title": light.quantity.title(scene.length_unit),
         "area": list(light.plot.area),
         "y": [light.plot.y.low, light.plot.y.high],
         "course": [course.origin, course.scale, course.span],
@@ -309,7 +254,6 @@ def _whole(shared: Shared, size: tuple[int, int], closures: Sequence[tuple[Pictu
     found = {
         "period": scene.period,
         "retraced": scene.mechanism.retraced,
-        "parts": parts_of(scene),
         "speed": shared.speed or scene.linkage.drive.speed,
         "unit": scene.length_unit,
         "input": input_words(scene),

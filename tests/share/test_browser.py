@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from html import escape
-from math import atan2, cos, degrees, pi, radians, sin
+from math import atan2, cos, degrees, floor, log10, pi, radians, sin
 from pathlib import Path
 
 import pytest
@@ -172,6 +172,35 @@ def test_numbers_are_those_of_the_solver(page: Page, tmp_path: Path) -> None:
     x, y = (f"{value:.4g}".replace("-", "−") for value in motion.position["B"])
     assert f"B({x}, {y})" in shown(page, "numbers")
     assert f"{motion.travel_velocity['5']:.1f} mm/s" in shown(page, "chart")
+
+
+# Quick changes of acceleration lie between the nodes of a track.
+@pytest.mark.parametrize("name", ["press", "klann", "crank-rocker", "double-rocker"])
+def test_rates_are_those_of_the_solver_in_all_four_digits(name: str, page: Page, tmp_path: Path) -> None:
+    scene = load(name)
+    page.go(put(tmp_path, Shared(scene)))
+    page.value("document.getElementById('numbers').open = true")
+    lines = "[...document.querySelectorAll('#numbers tbody tr')]"
+    cells = f"{lines}.map(row => [...row.children].map(one => one.textContent))"
+    for at in (1.4386, *(0.37 + 0.9 * n for n in range(6))):
+        go_to(page, at)
+        pose = scene.pose(at)
+        for joint, _, *told in (row for row in page.value(cells) if row[0] in pose.velocity):
+            for said, true in zip(told, (pose.velocity[joint], pose.acceleration[joint]), strict=True):
+                found = [float(one) for one in said.strip("()").replace("−", "-").split(", ")]
+                size = max(map(abs, true))
+                last = 10.0 ** (floor(log10(size)) - 3) if size > 1e-9 else 1e-9
+                assert found == pytest.approx(true, abs=0.9 * last), (joint, at)
+
+
+def test_the_cursor_of_a_chart_reads_a_value_beside_a_pole(page: Page, tmp_path: Path) -> None:
+    scene, token = load("slider-crank"), "mechanical_advantage"
+    page.go(put(tmp_path, Shared(scene, chart=token)))
+    for at in (2.3612, 2.35, 1.0):
+        go_to(page, at)
+        told = page.value("document.querySelector('#chart text:last-of-type').textContent")
+        exact = float(scene.quantities[token].read(scene.pose(phase(page))))
+        assert float(told) == pytest.approx(exact, rel=1e-4, abs=0.006)
 
 
 def test_the_pointer_reads_the_joint_under_it(page: Page, tmp_path: Path) -> None:

@@ -163,14 +163,44 @@ free_length = 9e11
 
 def test_a_page_s_numbers_and_chart_are_what_is_solved() -> None:
     scene = load("crank-rocker")
-    side = held(document(Shared(scene, speed=2.0, chart="B.velocity")))["sides"][0]
-    curves = [chart["curves"][0]["values"] for chart in side["charts"]]
-    packed = side["rows"][0]["values"][0], *curves
-    found = [np.frombuffer(base64.b64decode(some), "<f4") for some in packed]
-    motions = [scene.solve(phase=np.linspace(0, scene.period, len(some)), speed=2.0) for some in found]
-    assert found[0] == pytest.approx(np.degrees(motions[0].coordinate), abs=1e-3)
-    for values in found[1:]:
-        assert values == pytest.approx(np.hypot(*motions[1].velocity["B"].T), rel=1e-2)
+    data = held(document(Shared(scene, speed=2.0, chart="B.velocity")))
+    for phase in np.linspace(0.01, scene.period, 200, endpoint=False).tolist():
+        pose = scene.pose(phase, speed=2.0)
+        assert read_tables.row(data, "crank angle", phase) == pytest.approx(math.degrees(phase), abs=1e-3)
+        for back in (False, True):
+            (found,) = read_tables.charted_over_angle(data, phase, back=back)
+            last = 10.0 ** -data["sides"][0]["charts"][int(back)]["digits"]
+            assert found == pytest.approx(math.hypot(*pose.velocity["B"]), rel=1e-5, abs=last / 2)
+
+
+# Between the steps of a table lie places at which a quantity is unbounded, and a size comes down to a corner.
+@pytest.mark.parametrize(
+    ("name", "token"),
+    [
+        ("slider-crank", "mechanical_advantage"),
+        ("six-bar", "P.curvature_radius"),
+        ("six-bar", "coupler.pole.x"),
+        ("slider-crank", "B.velocity"),
+        ("geared-five-bar-3-2", "left.pole.y"),
+        ("umbrella", "T.tangential_acceleration"),
+        ("crank-shaper", "rod.pole.y"),
+        ("watt-1", "E.curvature_radius"),
+    ],
+)
+def test_a_page_s_chart_holds_beside_poles_and_corners(name: str, token: str) -> None:
+    scene = load(name)
+    data, quantity = held(document(Shared(scene, chart=token))), scene.quantities[token]
+    phases = np.linspace(0.0, scene.period, 1501) + 0.0007
+    exact = np.asarray(quantity.shown(scene.solve(phase=phases)), float)
+    last = 10.0 ** -data["sides"][0]["charts"][0]["digits"]
+    for phase, true in zip(phases.tolist(), exact.tolist(), strict=True):
+        (found,) = read_tables.charted_over_angle(data, phase)
+        assert found == pytest.approx(true, rel=1e-4, abs=last / 2), phase
+
+
+def test_what_is_unbounded_throughout_is_so_on_a_page_s_chart() -> None:
+    data = held(document(Shared(load("slider-crank"), chart="B.curvature_radius")))
+    assert read_tables.charted_over_angle(data, 1.0) == [math.inf]
 
 
 SIMPLE = """

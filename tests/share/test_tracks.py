@@ -27,9 +27,10 @@ def unpacked(text: str, kind: str) -> Any:
 
 def read(held: Any, phases: Any, period: float) -> Any:
     """Return place, velocity and acceleration (3, n, 2) by phase: a quintic's Hermite basis between nodes."""
-    (nodes, places, rates), grain = held["track"], held["grain"]
+    nodes, places, rates, (x, y, grain) = held
     node = np.append(unpacked(nodes, "<u2"), GRID + unpacked(nodes, "<u2")[0])
-    known = np.hstack((grain * unpacked(places, "<i4").reshape(-1, 2), unpacked(rates, "<f4").reshape(-1, 4)))
+    place = (x, y) + grain * unpacked(places, "<i4").reshape(-1, 2)
+    known = np.hstack((place, unpacked(rates, "<f4").reshape(-1, 4)))
     known = np.vstack((known, known[0]))
     here = phases / period % 1.0 * GRID
     n = np.searchsorted(node, here, side="right") - 1
@@ -72,13 +73,15 @@ def test_no_point_is_a_hundredth_of_a_pixel_off_on_the_largest_screen(name: str)
         phases = np.sort(np.random.default_rng(1).uniform(0, one.period, MOMENTS))
         motion = one.solve(phase=phases, speed=1.0)
         for joint in motion.position:
-            held = {"track": packed["points"][joint], "grain": packed["grain"]}
+            held = packed[joint]
             place, velocity, acceleration = read(held, phases, one.period)
             there = motion.position[joint] @ DOWN * view.scale + complex(view.x, view.y)
             assert np.abs(place @ (1, 1j) - there).max() < FINEST, joint
             for found, true in ((velocity, motion.velocity), (acceleration, motion.acceleration)):
                 wanted = true[joint] @ DOWN * view.scale
-                assert np.abs(found @ (1, 1j) - wanted).max() <= 0.01 * np.abs(wanted).max() + 1e-3, joint
+                # in four digits, as it is shown
+                size = np.maximum(np.abs(wanted), 1e-2 * np.abs(wanted).max())
+                assert (np.abs(found @ (1, 1j) - wanted) <= 1e-4 * size + 1e-3).all(), joint
 
 
 def test_more_nodes_lie_where_a_joint_turns_sharply() -> None:
@@ -92,7 +95,7 @@ def test_a_track_has_no_more_nodes_than_its_curve_asks_for() -> None:
     scene = load("crank-rocker")
     found = {name: len(track.nodes) for name, track in tracks(scene, view_of(scene)).items()}
     assert (found["O2"], found["A"]) == (1, 16)
-    assert max(found.values()) < 40
+    assert max(found.values()) < 60
 
 
 # Where all signs change at once, at the ends of a way that is gone back, no stretch leads across.
@@ -106,8 +109,8 @@ def test_rates_of_a_way_that_is_gone_back_hold_up_to_its_ends(name: str) -> None
     motion = scene.solve(phase=phases, speed=1.0)
     for joint in motion.position:
         if not scene.linkage.joint(joint).fixed:
-            held = {"track": packed["points"][joint], "grain": packed["grain"]}
-            assert unpacked(held["track"][0], "<u2")[-1] == GRID // 2
+            held = packed[joint]
+            assert unpacked(held[0], "<u2")[-1] == GRID // 2
             for found, true in zip(
                 read(held, phases, scene.period)[1:], (motion.velocity, motion.acceleration), strict=True
             ):
