@@ -48,3 +48,11 @@ MOST_DIGITS = 1_000
 """Digits of a number as it is written."""
 MOST_ROWS_READ = 20_000
 """Rows of a table that is laid over a chart."""
+LARGEST_NUMBER = 1e30
+"""The largest number that is computed with, and the inverse of the least: their powers are floats, too."""
+NUMBERS = f"a number from {1 / LARGEST_NUMBER:g} to {LARGEST_NUMBER:g}, or 0"
+
+
+def can_be_computed(*values: float) -> bool:
+    """Return whether values are numbers within these bounds."""
+    return all(value == 0.0 or 1 / LARGEST_NUMBER <= abs(value) <= LARGEST_NUMBER for value in values)

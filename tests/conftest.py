@@ -26,6 +26,9 @@ os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
 # its greeting would follow the closing line, when the processes that run the tests end
 os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
 
+# A warning is an error in processes that tests start, too, but for those that Python does not show by itself.
+os.environ["PYTHONWARNINGS"] = "error,ignore::ResourceWarning"
+
 # What is kept of games goes to no user's own folder, by processes that tests start neither.
 os.environ["XDG_DATA_HOME"] = os.environ["LOCALAPPDATA"] = tempfile.mkdtemp(prefix="linkanim-tests-")
 atexit.register(shutil.rmtree, os.environ["XDG_DATA_HOME"], ignore_errors=True)

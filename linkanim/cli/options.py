@@ -13,10 +13,10 @@ from argparse import Action, BooleanOptionalAction, Namespace, _ActionsContainer
 from collections.abc import Callable, Mapping, Sequence
 from decimal import Decimal, InvalidOperation
 from pathlib import Path
-from typing import Any, NoReturn, cast, get_args
+from typing import Any, NoReturn, TypeVar, cast, get_args
 
 from linkanim import units
-from linkanim.bounds import LARGEST_SIDE, MOST_LISTED, MOST_POSES
+from linkanim.bounds import LARGEST_SIDE, MOST_LISTED, MOST_POSES, NUMBERS, can_be_computed
 from linkanim.errors import BadInput
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.intake import meant
@@ -88,6 +88,24 @@ def positive(text: str) -> float:
     if value <= 0:
         raise BadInput(f"{shown(text)} is not a number greater than zero")
     return value
+
+
+T = TypeVar("T")
+
+
+def bounded(read: Callable[[str], T]) -> Callable[[str], T]:
+    """Return a reader that refuses numbers, or lists of them, that are too large or small to compute with."""
+
+    def read_within_bounds(text: str) -> T:
+        found = read(text)
+        several = (
+            found.values() if isinstance(found, Mapping) else found if isinstance(found, tuple) else [found]
+        )
+        if not all(can_be_computed(one) for one in several if isinstance(one, float)):
+            raise BadInput(f"{shown(text)} is beyond what can be computed; give {NUMBERS}")
+        return found
+
+    return read_within_bounds
 
 
 def count(text: str) -> int:
@@ -366,7 +384,8 @@ def _value(
 ) -> Argument:
     """Return an argument with a value: its names, what help calls the value, how it is read, its default."""
     *names, metavar = words.split()
-    return _takes(*names, metavar=metavar, type=read, help=text, default=usual, **how)
+    kind = read if read in (str, Path) else bounded(read)
+    return _takes(*names, metavar=metavar, type=kind, help=text, default=usual, **how)
 
 
 def _flag(name: str, text: str) -> Argument:

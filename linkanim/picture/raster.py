@@ -155,7 +155,11 @@ def _by_column(rows: _Rows) -> _Pieces:
     """Cut pieces within one row at pixel columns; those beyond a layer's last column add up there."""
     # upright pieces lean by a step, so that all are cut in one way
     right = np.maximum(rows.right, rows.left + 1)
-    steep = (rows.height / (right - rows.left)).astype(np.float32)
+    width = right - rows.left
+    if not width.all():  # at the end of the widest picture, where floats of 32 bits are two steps apart
+        right += 2 * (width == 0)
+        width = right - rows.left
+    steep = (rows.height / width).astype(np.float32)
     first = rows.left.astype(np.int32) >> _BITS
     last = -(-right.astype(np.int32) >> _BITS)
     piece, column = _expanded((last - first).astype(np.int64), first.astype(np.int64))

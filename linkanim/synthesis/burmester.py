@@ -336,6 +336,8 @@ class CentreCurve:
             )
         angles = np.linspace(0.0, math.pi, 48, endpoint=False)
         forms = [self._shifted(pole) for pole in poles]
+        if not all(np.abs(form).max() for form in forms):
+            raise BadInput("every point is a centre point of these four poses; leave one of them out")
         least = [float(_strength(form, angles).min() / np.abs(form).max()) for form in forms]
         best = int(np.argmax(least))
         return poles[best], forms[best]

@@ -20,6 +20,7 @@ from typing import Any
 import numpy as np
 
 from linkanim import units
+from linkanim.bounds import NUMBERS, can_be_computed
 from linkanim.errors import AssemblyError, BadInput, SceneError
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.intake import meant
@@ -93,6 +94,8 @@ class GivenFunction:
             raise BadInput(
                 f"x from {self.first:g} to {self.last:g}: give two numbers, the first below the second"
             )
+        if not can_be_computed(self.first, self.last, self.last - self.first):
+            raise BadInput(f"x from {self.first:g} to {self.last:g}: give each {NUMBERS}")
         x = np.linspace(self.first, self.last, _LOOKED_AT)
         with np.errstate(all="ignore"):
             y = np.asarray(self.values(x), dtype=np.float64)
@@ -204,7 +207,8 @@ def table(rows: Sequence[tuple[float, float]], words: str = "y of a table") -> G
         raise BadInput(
             f"{words}: x goes from {x[back[0]]:g} to {x[back[0] + 1]:g}; it must grow from row to row"
         )
-    bends = _bends(x, y)
+    with np.errstate(all="ignore"):  # what overflows is refused as a value
+        bends = _bends(x, y)
     return GivenFunction(words, float(x[0]), float(x[-1]), lambda at: _spline(x, y, bends, at))
 
 
@@ -667,12 +671,12 @@ def task_of(
         ("input", input_range, _WIDEST),
         ("output", output_range, math.inf if sliding else _WIDEST),
     ):
-        if value is not None and not (math.isfinite(value) and _NARROWEST <= abs(value) <= most_of_it):
+        if value is not None and not (can_be_computed(value) and _NARROWEST <= abs(value) <= most_of_it):
             words = f"{math.degrees(value):g} deg" if math.isfinite(most_of_it) else f"{value:g}"
             raise BadInput(f"the {what} goes over {words}; give an angle of 1 to 340 deg, or a length")
     for start in (input_start, output_start):
-        if start is not None and not math.isfinite(start):
-            raise BadInput(f"a scale begins at {start!r}; give a finite number")
+        if start is not None and not can_be_computed(start):
+            raise BadInput(f"a scale begins at {start!r}; give {NUMBERS}")
     return FunctionTask(
         target, GENERATORS[kind], points or most, input_range, input_start, output_range, output_start,
         level, points is None, unit, name, source,

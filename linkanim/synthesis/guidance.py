@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkanim import units
+from linkanim.bounds import NUMBERS, can_be_computed
 from linkanim.errors import AssemblyError, BadInput, SceneError
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.measures import as_complex
@@ -244,8 +245,8 @@ def _pivot(pivot: Sequence[float]) -> complex:
         values = tuple(float(value) for value in pivot)
     except (TypeError, ValueError):
         values = ()
-    if len(values) != 2 or not all(map(math.isfinite, values)):
-        raise BadInput(f"pivot {shown(str(list(pivot)))}: give x and y, two numbers")
+    if len(values) != 2 or not can_be_computed(*values):
+        raise BadInput(f"pivot {shown(str(list(pivot)))}: give x and y, each {NUMBERS}")
     return complex(*values)
 
 

@@ -17,6 +17,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from linkanim.bounds import NUMBERS, can_be_computed
 from linkanim.errors import BadInput
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.units import shown
@@ -376,7 +377,7 @@ class Requirements:
         given: Mapping[str, float] | None = None,
     ) -> Self:
         """Return the requested limits, the longest link in `sizes`; BadInput where one makes no sense."""
-        if not (math.isfinite(largest) and largest > 0):
+        if not (can_be_computed(largest) and largest > 0):
             raise BadInput(f"largest={largest!r}: give the longest link in {sizes}, a number such as 3")
         if not 0 <= least_angle < math.pi / 2:
             angle = math.degrees(least_angle)
@@ -447,8 +448,8 @@ def holds(box: Sequence[float], pivot: complex) -> bool:
 def box_of(box: Sequence[float]) -> Box:
     """Return a requested box as numbers; BadInput where it is not four numbers, or has no area."""
     values = tuple(float(value) for value in box)
-    if len(values) != 4 or not all(map(math.isfinite, values)):
-        raise BadInput(f"box={shown(str(list(box)))}: give x, y, width and height, four numbers")
+    if len(values) != 4 or not can_be_computed(*values):
+        raise BadInput(f"box={shown(str(list(box)))}: give x, y, width and height, each {NUMBERS}")
     x, y, width, height = values
     if width <= 0 or height <= 0:
         raise BadInput(f"the box is {width:g} wide and {height:g} high: nothing fits in it")

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkanim import units
+from linkanim.bounds import NUMBERS, can_be_computed
 from linkanim.errors import BadInput
 from linkanim.intake import meant
 from linkanim.synthesis.answers import Fit, cognates_of
@@ -31,6 +32,11 @@ from linkanim.units import shown
 LARGEST = 8.0
 """The longest link by default, in curve sizes."""
 COUNT = 5
+_MOST_TURNS = 10_000
+_MOST_TURNED = _MOST_TURNS * math.tau
+"""The largest angle of a timing: there an angle still has twelve digits."""
+_STILL = 1e-9
+"""The difference of crank angles (rad) by which a timing has to move the crank."""
 
 Pair = Sequence[float]
 
@@ -65,7 +71,7 @@ def path(
     if prefer not in PREFERENCES:
         raise BadInput(f"prefer={shown(prefer)}: take {', '.join(PREFERENCES[:-1])} or {PREFERENCES[-1]}")
     task = task_of(points, closed, **options)  # type: ignore[arg-type]
-    if rounding is not None and not (math.isfinite(rounding) and rounding > 0):
+    if rounding is not None and not (can_be_computed(rounding) and rounding > 0):
         raise BadInput(f"rounding to {rounding!r}: give a length above zero, such as 0.1")
     steps = itertools.count(1)
     pulse = (lambda: progress(next(steps), 0)) if progress else unwatched
@@ -160,8 +166,8 @@ def _given(
             raise BadInput(f"{shown(name)} is no length of a {kind.name}; take {known}")
         given[name] = float(value)
     for name, value in given.items():
-        if not math.isfinite(value) or (name in kind.links and value <= 0):
-            raise BadInput(f"{name}={value!r}: give a finite number, for a link's length above zero")
+        if not can_be_computed(value) or (name in kind.links and value <= 0):
+            raise BadInput(f"{name}={value!r}: give {NUMBERS}, for a link's length above zero")
     return given
 
 
@@ -191,9 +197,13 @@ def _timing(timing: float | ArrayLike | None, free: bool | None, count: int) -> 
     if angles.ndim == 0:
         if not np.isfinite(angles) or angles == 0:
             raise BadInput("the step of the timing is zero or not finite; give an angle such as 20 deg")
-        return angles * np.arange(count), free is not False
+        angles, free = angles * np.arange(count), free is not False
     if angles.shape != (count,) or not np.isfinite(angles).all():
         raise BadInput(f"timing has {angles.size} angles for {count} points; give each point a finite one")
+    if np.abs(angles).max() > _MOST_TURNED:
+        raise BadInput(f"the timing goes beyond {_MOST_TURNS:,} turns of the crank; leave whole turns out")
+    if np.abs(np.exp(1j * (angles - angles[0])) - 1).max() < _STILL:
+        raise BadInput("by this timing the crank is at one angle at all points; give angles that differ")
     return angles, bool(free)
 
 

@@ -20,6 +20,7 @@ from typing import Any
 import numpy as np
 
 from linkanim import units
+from linkanim.bounds import can_be_computed
 from linkanim.errors import BadInput
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.scenes.reading import scene_from
@@ -202,7 +203,7 @@ def quick_return(
     refuse_count(count)
     if not (math.isfinite(ratio) and 1 <= ratio < 10):
         raise BadInput(f"a time ratio of {ratio:g}: give the slow way's time over the quick way's, 1 to 10")
-    if stroke is not None and not (math.isfinite(stroke) and stroke > 0):
+    if stroke is not None and not (can_be_computed(stroke) and stroke > 0):
         raise BadInput(f"a stroke of {stroke:g}: give a length above zero")
     if kind == "slider-crank" and stroke is None:
         other = "" if named else ", or the swing of a crank-rocker, such as 60 deg"

@@ -50,6 +50,15 @@ def test_a_rectangle_covers_its_share_of_each_pixel(
     assert cover[pixel[1], pixel[0]] == pytest.approx(share, abs=1 / 255)
 
 
+# in steps its right end is where floats of 32 bits have no neighbour one step on
+def test_the_widest_picture_ends_as_any_other() -> None:
+    sloping = [_rect(16_000, 1, 20_000, 3), np.array([16_370 + 4j, 16_384 + 4j, 16_500 + 8j, 16_380 + 9j])]
+    wide = coverage(filled([Layer(WHITE, sloping)], (16_384, 10)))
+    narrow = coverage(filled([Layer(WHITE, [loop - 16_000 for loop in sloping])], (384, 10)))
+    assert (wide[:, :16_000] == 0).all()
+    assert (wide[:, 16_000:] == narrow).all()
+
+
 @pytest.mark.parametrize("turn_deg", [0.0, 17.0, 45.0, 90.0, 133.0])
 def test_area_and_centre_of_a_shape_are_kept_at_any_angle(turn_deg: float) -> None:
     place = complex(31.3, 33.7)

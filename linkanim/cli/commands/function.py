@@ -10,6 +10,7 @@ from pathlib import Path
 from linkanim import units
 from linkanim.atomic_files import checked_target
 from linkanim.cli.answers import deliver, target_of
+from linkanim.cli.options import bounded
 from linkanim.errors import BadInput
 from linkanim.intake import Intake, named, read_numbers
 from linkanim.manifest import Output
@@ -72,7 +73,7 @@ def _scale(name: str, text: str | None, read: Callable[[str], float]) -> dict[st
         return {}
     first, sign, last = text.partition(":")
     try:
-        values = [read(part.strip()) for part in ((first, last) if sign else (first,))]
+        values = [bounded(read)(part.strip()) for part in ((first, last) if sign else (first,))]
     except BadInput as error:
         raise BadInput(f"--{name}: {error}") from None
     if not sign:
