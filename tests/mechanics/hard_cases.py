@@ -31,6 +31,10 @@ DIGITS = 110
 """At a limit the circles touch: poses 1e-25 from there lose most of them."""
 EPS = 2.0**-52
 NUDGE = mpf(10) ** -25
+"""The phase that stands for 0, a limit, at which the circles touch.
+
+No other one is moved: where two pins nearly meet, a bar turns 1e13 times as fast as the input.
+"""
 PHASES = (0.0, 1e-9, 1e-5, math.pi, math.pi - 1e-7, math.pi / 2, 1.2, 4.0, 5.5)
 SHARES = (0.3, 0.01, 1e-4, 1e-6, 1e-8)
 """Distances from a limit, as shares of the swing."""
@@ -85,7 +89,14 @@ def near_a_toggle(rng: Random) -> Bars:
     rocker = abs(rng.choice((g + r - a, abs(g - r) + a, g + r + a)) + gap)
     if rocker < 1:
         return near_a_toggle(rng)
-    return _bars(rng, (g, "0"), r, a, rocker)
+    return placed(rng, (g, "0"), r, a, rocker)
+
+
+def nearly_a_kite(rng: Random) -> Bars:
+    """Return bars whose pins come within 1e-12 to 1e-6 of each other in the middle of the swing."""
+    g, a = rng.uniform(1, 10), rng.uniform(1, 10)
+    r, b = (size + rng.choice((-1, 1)) * 10 ** rng.uniform(-12, -6) for size in (g, a))
+    return placed(rng, (g, "0"), r, a, b)
 
 
 def driven_at_its_crank_on_tilted_ground(rng: Random) -> Bars:
@@ -102,13 +113,14 @@ def on_pins_given_by_coordinates(rng: Random) -> Bars:
     """Return bars whose ground is no length, but two points."""
     _, r, a, b = _lengths(rng)
     at = [[round(rng.uniform(-9, 9), 2) for _ in "xy"] for _ in range(2)]
-    return _bars(rng, None, r, a, b, at=at) if math.dist(*at) > 0.5 else on_pins_given_by_coordinates(rng)
+    return placed(rng, None, r, a, b, at=at) if math.dist(*at) > 0.5 else on_pins_given_by_coordinates(rng)
 
 
 Make = Callable[[Random], Bars]
 Some = TypeVar("Some", Bars, Guided)
 KINDS: tuple[Make, ...] = (
     near_a_toggle,
+    nearly_a_kite,
     driven_at_its_crank_on_tilted_ground,
     driven_at_its_rocker_on_tilted_ground,
     on_pins_given_by_coordinates,
@@ -211,10 +223,11 @@ Closing = tuple[dict[str, Any], float, Callable[[Any, Any], Any]]
 def _bars_on(rng: Random, tilt: str) -> Closing:
     """Return bars from C and S to J as they are written, the longer one, and where J lies.
 
-    Left out are bars so alike that C may come within a tenth of them to S: its place is rounded.
+    Left out are bars so alike that C may come within an eighth of them to S: folded over each other they
+    magnify by so much what C is rounded by, two last digits.
     """
     bars, side = [round(rng.uniform(2, 12), 3) for _ in range(2)], rng.choice((1, -1))
-    if abs(bars[0] - bars[1]) < 0.1 * max(bars):
+    if abs(bars[0] - bars[1]) < max(bars) / 8:
         return _bars_on(rng, tilt)
     joint = {"from": ["C", "S"], "length": bars, "side": SIDES[side]}
     return joint, max(bars), lambda point, pin: meet(point, pin, (bars[0], bars[1]), side)
@@ -289,14 +302,14 @@ def _document(rng: Random, pins: list[Any], crank: float, joint: dict[str, Any])
 def _on_tilted_ground(rng: Random, *, rocker: bool) -> Bars:
     g, r, a, b = _lengths(rng)
     tilt = f"{rng.uniform(-180, 180):.{rng.choice((0, 1, 2, 5, 12))}f}"
-    return _bars(rng, (g, tilt), r, a, b, rocker=rocker)
+    return placed(rng, (g, tilt), r, a, b, rocker=rocker)
 
 
 def _lengths(rng: Random) -> tuple[float, ...]:
     return tuple(round(rng.uniform(1, 10), 3) for _ in range(4))
 
 
-def _bars(
+def placed(
     rng: Random,
     ground: tuple[float, str] | None,
     *lengths: float,
@@ -416,7 +429,7 @@ def clear(solved: Mechanism) -> bool:
         for dyad in "BJ"
         if dyad != name
     ]
-    return "" not in path.ends and min(away, default=90.0) > 3.0
+    return path.way is None and min(away, default=90.0) > 3.0
 
 
 def swinging(make: Callable[[Random], Some], seed: int = 7) -> Iterator[tuple[Some, Mechanism]]:
@@ -438,7 +451,7 @@ def by_phase(bars: Bars, solved: Mechanism) -> Error:
     exact = _Exact(bars, solved.assembly.path)
     motion = solved.solve(phase=np.array(PHASES), speed=1.0)
     cycle = solved.solve(phase=np.linspace(0, 2 * math.pi, 801), speed=1.0)
-    found = [exact.by_phase(mpf(phase) + NUDGE) for phase in PHASES]
+    found = [exact.by_phase(mpf(phase) or NUDGE) for phase in PHASES]
     errors = [float(max(exact.sizes)), 0.0, 0.0]
     for order, kind in HIGHEST_FIRST:
         worst = 0.0
