@@ -237,6 +237,16 @@ def split(text: str) -> tuple[float, str]:
     return float(match[1]), text[match.end() :].strip()
 
 
+def is_quantity(text: str) -> bool:
+    """Tell whether a text is a number with a unit that is known."""
+    match, units = (
+        _NUMBER.match(text),
+        (ANGLE, SPEED, ANGULAR_ACCELERATION, _LENGTH, STIFFNESS, DAMPING, MASS, INERTIA),
+    )
+    known = {_folded(name) for one in units for name in one.factors}
+    return match is not None and _folded(text[match.end() :]) in known
+
+
 def shown(value: object) -> str:
     """Return a value as a message shows it: on one line, text in quotes, cut at 60 characters."""
     if isinstance(value, str):

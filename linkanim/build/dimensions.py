@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from dataclasses import replace
 from math import atan2, degrees, hypot, nan
 from typing import Any
@@ -15,7 +16,7 @@ from linkanim.frozen import NamedTuple
 from linkanim.scenes import file_form
 from linkanim.scenes.editing import Dimension, dimension_of, written
 from linkanim.scenes.form import LENGTH, LENGTHS, NAME, OFFSET, Context, Field, Form, Key, Table
-from linkanim.units import shown
+from linkanim.units import is_quantity, shown
 
 _FORMS: Mapping[str, Form] = {
     "bars": Form((file_form.CRANK.field("length"),)),
@@ -134,13 +135,15 @@ def _chosen_row(building: Building) -> PropertyRow | None:
 def take(building: Building) -> Building:
     """Return the building with the typed text in the chosen row; or the same one, and why it is refused.
 
-    A number without a unit is in the draft's unit, in degrees, or in the unit of the old value. The next
-    number is then the one to be typed.
+    A number without a unit is in the draft's unit, in degrees, or in the unit of the old value. With a unit
+    that the chosen row does not take it is for the next row that takes it: of a crank, "10 rad/s" is its
+    speed. The next number is then the one to be typed.
     """
     draft, fields = building.draft, list(_fields(building.draft, building.chosen))
     if not fields or not building.typed.strip():
         return refused(building, "Choose what has a length or an angle, then type it")
-    key, one = fields[building.row % len(fields)]
+    building = replace(building, row=_row_for(building, fields))
+    key, one = fields[building.row]
     assert one.plain
     try:
         if one is _NAME:
@@ -158,6 +161,19 @@ def take(building: Building) -> Building:
             else after
         )
     return replace(after, row=(building.row + 1) % len(fields))
+
+
+def _row_for(building: Building, fields: list[tuple[Key, Field]]) -> int:
+    """Return the place of the row that the typed text is for: the chosen one, but for a unit of others."""
+    if is_quantity(building.typed):
+        for place in (at % len(fields) for at in range(building.row, building.row + len(fields))):
+            key, one = fields[place]
+            if one.plain and one.plain.measure:
+                value = written(building.typed, _dimension(building.draft, key, one))
+                with suppress(BadInput):
+                    _refuse(building.draft, key, one, value)
+                    return place
+    return building.row % len(fields)
 
 
 def _taken(building: Building, key: Key, one: Field) -> Building:
@@ -180,6 +196,8 @@ def _named(building: Building, key: Key, name: str) -> Building:
     taken = draft.places if kind == JOINT else draft.of(kind)
     holder = Table(old, {"name": name}, (), Context(draft.unit))
     NAME.read(holder, "name")
+    if is_quantity(name):
+        raise holder.error("name", f"is a value, which {shown(old)} does not have; choose what has one")
     if name in taken and name != old:
         raise holder.error("name", f"is that of another one; {shown(old)} needs one of its own")
     chosen = (kind, name) if building.chosen == (kind, old) else building.chosen

@@ -362,7 +362,7 @@ class Mouse:
         self._cognate: int | None = None
         self._seen, self._moved_in = False, 0
         self._down_in = 0
-        self._is_long = self._draws = False
+        self._is_long = self._draws = self._turns = False
 
     def actions(self, event: Event, screen: Screen) -> tuple[Action, ...]:
         """Return the actions of a mouse event."""
@@ -722,16 +722,22 @@ class Mouse:
             if row is not None:
                 self._drag = None
                 return (row,)
-            self._drag = screen.sheet_at(*self._at) if tool is None else None
+            begun = screen.sheet_at(*self._at) if tool is None else None
             if tool is not None:
+                self._drag = None
                 return (Action(TOOLS[tool].action, TOOLS[tool].value),)
+            self._turns = begun == "crank"
+            self._drag = "paper" if begun == "paper" else "hand"
             return (self._handed("hand_down", screen),) if self._drag == "hand" else ()
         if self._drag not in ("hand", "paper") or gesture.kind not in ("move", "up"):
             return None
         drag, stays = self._drag, self._far <= _STILL * screen.size[1]
         if gesture.kind == "move":
+            if self._turns and not stays:  # no click, which would choose the crank
+                self._drag = "crank"
+                return (Action("back"), *self._moved(screen))
             if drag == "hand":
-                return (self._handed("hand_to", screen),)
+                return () if self._turns else (self._handed("hand_to", screen),)
             return () if stays else (Action("pan", gesture.by),)
         self._drag = None
         if drag == "hand":

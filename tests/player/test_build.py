@@ -888,6 +888,55 @@ def test_letters_are_typed_in_a_row_of_words_that_was_asked_for_and_tools_before
     assert builder.sheet.tool == "bar"
 
 
+@pytest.mark.parametrize("runs", [False, True], ids=["stands", "runs"])
+def test_a_click_on_the_crank_chooses_it_as_any_other_bar_and_what_is_typed_is_its_own(
+    builder: Builder, runs: bool
+) -> None:
+    builder.four_bar()
+    builder.tick(200)
+    builder.click(60, 80)
+    builder.drag(row_of(builder, "name"))
+    if runs:
+        builder.press(pygame.K_SPACE)
+    builder.click(22, 0)
+    assert builder.sheet.building.chosen == ("bars", "O2–A")
+    assert builder.state.clock.paused is not runs
+    builder.type("10 rad/s")
+    builder.press(pygame.K_RETURN)
+    assert builder.state.scene.linkage.drive.speed == 10.0
+    builder.type("25")
+    for _ in range(2):
+        builder.press(pygame.K_RETURN)
+    assert [joint.name for joint in builder.state.scene.linkage.joints] == ["O2", "O4", "A", "B"]
+
+
+def test_a_hand_that_turns_the_crank_chooses_nothing(builder: Builder) -> None:
+    builder.four_bar()
+    builder.tick(200)
+    builder.click(60, 80)
+    before = builder.sheet.building
+    builder.drag(*(builder.at(*place) for place in ((22, 0), (21, 2), (15, 16), (0, 22))))
+    assert builder.sheet.building.chosen == before.chosen
+    assert builder.sheet.building.draft.tables == before.draft.tables
+    assert (builder.sheet.grip, builder.state.clock.paused) == (None, True)
+    assert builder.state.phase == pytest.approx(math.pi / 2, abs=0.02)
+
+
+def test_a_value_with_its_unit_is_no_name(builder: Builder) -> None:
+    builder.four_bar()
+    builder.tick(200)
+    builder.click(60, 80)
+    builder.drag(row_of(builder, "name"))
+    builder.type("10 rad/s")
+    builder.press(pygame.K_RETURN)
+    sheet = builder.sheet.building
+    assert (sheet.is_refusal, sheet.chosen) == (True, ("joints", "B"))
+    assert "is a value" in sheet.sentence
+    builder.type("Q 10")
+    builder.press(pygame.K_RETURN)
+    assert "Q 10" in builder.sheet.building.draft.places
+
+
 def test_a_second_click_on_a_row_of_looks_takes_the_next(builder: Builder) -> None:
     builder.four_bar()
     builder.tick(200)
