@@ -44,6 +44,11 @@ def _back(gauge: Gauge, theme: Theme) -> list[Layer]:
     return [_line(gauge, theme.ink, [7 + 0j, -7 + 0j], [-1 - 6j, -7 + 0j, -1 + 6j])]
 
 
+def _turned(gauge: Gauge, theme: Theme, side: Literal[-1, 1]) -> list[Layer]:
+    """Return an arrow's head, as for the page before and the next."""
+    return [_line(gauge, theme.ink, [side * -3 - 7j, side * 4 + 0j, side * -3 + 7j])]
+
+
 def _home(gauge: Gauge, theme: Theme) -> list[Layer]:
     roof, walls = [-8 - 0.5j, -7.5j, 8 - 0.5j], [-5.5 - 1.5j, -5.5 + 7j, 5.5 + 7j, 5.5 - 1.5j]
     return [_line(gauge, theme.ink, roof, walls, [7j, 2.5j])]
@@ -229,6 +234,8 @@ COMMAND_ICONS: Mapping[str, Icon] = {
     "shelf": _shelf,
     "step back": partial(_step, side=-1),
     "step on": partial(_step, side=1),
+    "before": partial(_turned, side=-1),
+    "after": partial(_turned, side=1),
     "play": _play,
     "pause": _pause,
     "trace": ICONS["trace"],

@@ -1,4 +1,4 @@
-"""The constructions that a scene has, and their steps: its synthesis, its centres, its dead centres."""
+"""The constructions that a scene has, and their steps: its synthesis, its dead centres, its centres."""
 
 from __future__ import annotations
 
@@ -28,6 +28,12 @@ from linkanim.synthesis.constructions import (
 
 KINDS: tuple[ConstructionKind, ...] = get_args(ConstructionKind)
 
+NAMES: dict[ConstructionKind, str] = {
+    "synthesis": "construction: how it was found",
+    "dead-centres": "construction of its dead centres",
+    "centres": "construction of its instant centres",
+}
+"""What each construction is called among commands."""
 _TITLES: dict[ConstructionKind, str] = {
     "synthesis": "its construction",
     "centres": "the construction of its instant centres",
@@ -117,7 +123,8 @@ def all_steps(scene: Scene) -> int:
 
 
 def steps_before(scene: Scene, kind: ConstructionKind) -> int:
-    """Return how many steps the constructions before this one have."""
+    """Return how many steps the constructions before this one have; BadInput where there is none."""
+    _refuse_lacking(scene, kind)
     kinds = kinds_of(scene)
     return sum(len(steps_of(scene, one)) for one in kinds[: kinds.index(kind)])
 

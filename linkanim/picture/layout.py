@@ -238,20 +238,21 @@ def with_caption(parts: Layout, lines: int) -> Layout:
 def _charted(empty: Layout, *, chart: int, beside: bool, listed: int, row: bool, bar: bool) -> Layout:
     """Return a layout with chart, list, row and bar placed, but without polygons."""
     unit, whole, edge = empty.unit, empty.stage, _MARGIN * empty.unit
+    deep = min(_BAR * max(_BUTTON * unit, _LEAST_BUTTON), _SHARE_OF_BAR * whole.height)
+    if row or (bar and deep <= _LITTLE_FOR_BAR * whole.height):
+        # at the window's foot, below a list: the bar stands still while a list opens and closes
+        whole = whole._replace(height=whole.height - deep)
+        empty = replace(empty, bar=Rect(0, whole.bottom, whole.width, deep))
     empty = replace(empty, lists=_lists(empty))
     room = _beside(empty.lists, whole) if listed else whole
     empty = replace(empty, room=room if listed else None)
     room = _beside_tools(empty, room) if listed > 1 else room
-    deep = min(_BAR * max(_BUTTON * unit, _LEAST_BUTTON), _SHARE_OF_BAR * room.height)
-    foot = Rect(room.x, room.bottom - deep, room.width, deep)
     if row:
-        high, slider = _ROW_OF_ANSWERS * room.height, _SLIDER * empty.small_size
-        place = Rect(room.x, foot.y - high, room.width, high).inset(4 * unit)
+        high, slider = _ROW_OF_ANSWERS * (room.height + deep), _SLIDER * empty.small_size
+        place = Rect(room.x, room.bottom - high, room.width, high).inset(4 * unit)
         dial = Rect(room.x, place.y - slider, room.width, slider)
-        empty = replace(empty, row=place, dial=dial, bar=foot)
+        empty = replace(empty, row=place, dial=dial)
         room = room._replace(height=dial.y - room.y)
-    elif bar and deep <= _LITTLE_FOR_BAR * room.height:
-        empty, room = replace(empty, bar=foot), room._replace(height=foot.y - room.y)
     if not chart:
         return replace(empty, stage=room)
     if beside:
@@ -326,7 +327,8 @@ def _beside_tools(parts: Layout, room: Rect) -> Rect:
 
 def _lists(parts: Layout) -> Rect:
     """Return where a list stands: at the left over the whole height, in a narrow window at the foot."""
-    (width, height), text, margin = parts.size, parts.text_size, round(_EDGE * parts.unit)
+    width, height = parts.size[0], parts.above_bar
+    text, margin = parts.text_size, round(_EDGE * parts.unit)
     if width < _NARROW * text:
         high = _SHARE_LISTED * height
         return Rect(margin, height - high - margin, width - 2 * margin, high)

@@ -16,7 +16,7 @@ from linkanim.units import LENGTH_UNITS
 ThemeName = Literal["light", "dark"]
 Over = Literal["angle", "time", "phase"]
 """The horizontal axis of a chart."""
-ConstructionKind = Literal["synthesis", "centres", "dead-centres"]
+ConstructionKind = Literal["synthesis", "dead-centres", "centres"]
 """What is drawn in steps: how a linkage was found, its instant centres, its dead centres."""
 Default = TypeVar("Default")
 

@@ -11,13 +11,13 @@ import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from math import isfinite, radians
-from typing import Any, TypeVar, cast
+from typing import Any, TypeVar, cast, get_args
 
 from linkanim.errors import LinkanimError
 from linkanim.frozen import NamedTuple
 from linkanim.intake import control_in
 from linkanim.mechanics.quantities import input_symbol
-from linkanim.picture.look import TOGGLES, Look, answer, toggled
+from linkanim.picture.look import TOGGLES, ConstructionKind, Look, answer, toggled
 from linkanim.picture.quantities import axes_of, axis_of, chart_tokens, driven_words, quantity, speed_words
 from linkanim.player import building, dial, edits, making, pencil, posing, sketching, taking
 from linkanim.player.action import Action
@@ -237,6 +237,8 @@ def back(state: State, _: None) -> State:
         return replace(state, place_typed="", chip=None)
     if state.editing.open:
         return edit(state, None)
+    if state.constructed:
+        return replace(state, construction=None)
     if state.from_title and state.games:
         return with_effect(state, "begin", "title")
     return with_toast(state, "Q quits")
@@ -650,6 +652,7 @@ ACTIONS: Mapping[str, Rule] = {
     "unbuild": Rule(_nothing, building.undo, answer=_stuck("nothing to undo")),
     "rebuild": Rule(_nothing, building.redo, answer=_stuck("nothing to redo")),
     "construct": Rule(_whole, making.construct),  # steps further
+    "construction": Rule(_one_of(*get_args(ConstructionKind)), making.construction),
     "layers": Rule(_nothing, making.layers),
     "layered": Rule(_text, making.found),  # the layers as `linkanim make --json` prints them
     "lift": Rule(_whole, making.lift),  # steps

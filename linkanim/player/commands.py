@@ -60,7 +60,15 @@ _SCENE = (
     BarEntry("add", Action("list", "below"), 4, on_chart=True),
     BarEntry("close", Action("plot", ""), 1, on_chart=True),
 )
-_BUILD_ON = BarEntry("build", Action("build_on"), 4)
+_LISTED = (_BACK, *_SCENE)
+"""In a list the way back stands where the way home stands without: the other buttons stay where they are."""
+_CONSTRUCTED = {
+    "edit": BarEntry("before", Action("construct", -1), 3, leads=True),
+    "build": BarEntry("after", Action("construct", 1), 1),
+    "pencil": BarEntry("done", Action("back"), 2),
+}
+"""What stands in the place of other buttons while a construction is drawn."""
+_BUILD_ON = BarEntry("build", Action("build_on"), 12)
 """Beside the list of dimensions, the tools work on the linkage that is shown."""
 _SHEET = (
     _BACK,
@@ -92,10 +100,10 @@ _POSES = (
     *_LAST,
 )
 _HANDLES: Mapping[Mode, tuple[BarEntry, ...]] = {
-    "play": (_HOME._replace(rank=15), *_SCENE),
-    "paused": (_HOME._replace(rank=15), *_SCENE),
-    "edit": (_BACK, _HOME, *(_BUILD_ON if one.icon == "build" else one for one in _SCENE)),
-    "list": (_BACK, _HOME, *_SCENE),
+    "play": (_HOME._replace(rank=0), *_SCENE),
+    "paused": (_HOME._replace(rank=0), *_SCENE),
+    "edit": tuple(_BUILD_ON if one.icon == "build" else one for one in _LISTED),
+    "list": _LISTED,
     "shelf": (_BACK, _HOME, *_LAST),
     "pencil": _PENCIL,
     "poses": _POSES,
@@ -125,9 +133,16 @@ def bar(state: State, pointed: int | None = None) -> CommandBar | None:
 
 def pressed(state: State, number: int) -> tuple[Action, ...]:
     """Return the actions of a button; where its command cannot be done, a note that says why."""
-    handle = _HANDLES[state.mode][number]
+    handle = _entries(state)[number]
     reason = lack(state, handle.action)
     return (Action("note", reason),) if reason else (_meant(state, handle.action),)
+
+
+def _entries(state: State) -> tuple[BarEntry, ...]:
+    """Return the commands on the bar."""
+    if state.constructed and state.mode in ("play", "paused"):
+        return tuple(_CONSTRUCTED.get(one.icon, one) for one in _LISTED)
+    return _HANDLES[state.mode]
 
 
 _OF_THE_LIST: Mapping[Action, tuple[Action, ...]] = {
@@ -147,7 +162,7 @@ def tool_asks(state: State, action: Action) -> tuple[Action, ...]:
 
 def slid(state: State, number: int, share: float) -> tuple[Action, ...]:
     """Return the action that puts a slider's knob at a share, 0 to 1; where it is fixed, a note on why."""
-    reason = lack(state, _HANDLES[state.mode][number].action)
+    reason = lack(state, _entries(state)[number].action)
     if reason:
         return (Action("note", reason),)
     return (Action("level", round(SLOWEST + share * (FASTEST - SLOWEST))),)
@@ -155,11 +170,11 @@ def slid(state: State, number: int, share: float) -> tuple[Action, ...]:
 
 def slides(state: State, number: int) -> bool:
     """Tell whether a button is a slider; False for a number that this mode's bar does not have."""
-    return any(one.action == _SPEED for one in _HANDLES[state.mode][number : number + 1])
+    return any(one.action == _SPEED for one in _entries(state)[number : number + 1])
 
 
 def _buttons(state: State) -> tuple[Button, ...]:
-    return tuple(_button(state, handle) for handle in _HANDLES[state.mode])
+    return tuple(_button(state, handle) for handle in _entries(state))
 
 
 def _button(state: State, handle: BarEntry) -> Button:
@@ -217,7 +232,7 @@ def menu_of(state: State, what: str | None) -> Entries | None:
     if what in _CHOSEN:
         return Entries(what.capitalize(), tuple(usual[one] for one in _CHOSEN[what] if one in usual))
     kind, _, name = what.partition(" ")
-    rows = tuple(_of_thing(state.scene, kind, name)) if what in _things(state.scene) else ()
+    rows = tuple(_of_thing(state, kind, name)) if what in _things(state.scene) else ()
     return Entries(what[:1].upper() + what[1:], (*rows, usual[Action("names")])) if rows else None
 
 
@@ -231,7 +246,7 @@ def line_asks(mode: Mode, keys: str) -> Action | None:
 
 
 def _of_mode(state: State, usual: Mapping[Action, ListRow], group: str | None) -> Entries:
-    found = [row for action, row in usual.items() if action.name != "menu"]
+    found = [row for action, row in usual.items() if action.name != "menu"] + [*_constructions(state)]
     if state.game:
         own = {bind.action for bind in binds_of("game")}
         found = [row for row in found if row.action in own or row.action.name in BESIDE_GAMES]
@@ -239,7 +254,17 @@ def _of_mode(state: State, usual: Mapping[Action, ListRow], group: str | None) -
         return Entries("Commands", tuple(found))
     title, members = GROUPS[group]
     rows = (row for row in found if row.action in members)
-    return Entries(title, tuple(sorted(rows, key=lambda row: members.index(row.action))))
+    named = _constructions(state) if group == "construction" else ()
+    return Entries(title, (*sorted(rows, key=lambda row: members.index(row.action)), *named))
+
+
+def _constructions(state: State) -> Iterator[ListRow]:
+    """Yield the constructions that the scene has, each by its name."""
+    if state.mode in ("play", "paused", "edit"):
+        from linkanim.picture.constructed import NAMES, kinds_of
+
+        for number, kind in enumerate(kinds_of(state.scene)):
+            yield ListRow(NAMES[kind], "" if number else "F7", Action("construction", kind))
 
 
 _CHOSEN: Mapping[str, tuple[Action, ...]] = {
@@ -275,8 +300,9 @@ _CHARTED: Mapping[str, tuple[tuple[str, str], ...]] = {
 """What can be charted of a thing: the end of the quantity's token, and the words."""
 
 
-def _of_thing(scene: Scene, kind: str, name: str) -> Iterator[ListRow]:
+def _of_thing(state: State, kind: str, name: str) -> Iterator[ListRow]:
     """Yield the commands of a joint, a link, or a spring or damper."""
+    scene = state.scene
     for end, words in _CHARTED[kind]:
         if f"{name}.{end}" in scene.quantities:
             yield ListRow(words, "", Action("plot", f"{name}.{end}"))
@@ -291,6 +317,8 @@ def _of_thing(scene: Scene, kind: str, name: str) -> Iterator[ListRow]:
     if sized:
         words = "edit its place" if scene.linkage.joint(sized).bars == () else "edit its length"
         yield ListRow(words, "", Action("edit_at", sized))
+    if kind == "link":
+        yield from _constructions(state)
 
 
 def _shows(title: str) -> Callable[[State], bool]:
@@ -307,7 +335,9 @@ _ON: Mapping[Action, Callable[[State], bool]] = {
     Action("names"): lambda state: state.look.names > 0,
     Action("menu", "arrows"): lambda state: bool(state.look.vectors) or _shows(GROUPS["arrows"].title)(state),
     Action("list"): lambda state: state.look.chart is not None,
-    Action("menu", "construction"): lambda state: state.look.polygons_shown > 0 or state.look.centres > 0,
+    Action("menu", "construction"): lambda state: (
+        state.look.polygons_shown > 0 or state.look.centres > 0 or state.constructed > 0
+    ),
     Action("taking"): lambda state: state.recording is not None,
     Action("menu"): _shows("Commands"),
     **dict.fromkeys((Action("edit"), Action("numbers")), lambda state: state.editing.open),

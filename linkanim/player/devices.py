@@ -325,6 +325,8 @@ _KINDS: Mapping[int, Literal["wheel", "down", "up", "move"]] = {
     pygame.MOUSEMOTION: "move",
 }
 MOUSE_EVENTS = tuple(_KINDS)
+_DOUBLE = 24
+"""The most frames between the clicks of a double click on a button."""
 _STILL = 0.006
 """How far the hand may move in a click on paper, in heights of the window."""
 _PENCIL: Mapping[str, Drag] = {"pen_down": "pen", "take_point": "lead", "take_pivot": "lead", "dial": "dial"}
@@ -363,6 +365,8 @@ class Mouse:
         self._seen, self._moved_in = False, 0
         self._down_in = 0
         self._is_long = self._draws = self._turns = False
+        self._pressed: tuple[Action, ...] = ()
+        self._pressed_at, self._pressed_in = (0.0, 0.0), -_DOUBLE - 1
 
     def actions(self, event: Event, screen: Screen) -> tuple[Action, ...]:
         """Return the actions of a mouse event."""
@@ -459,6 +463,9 @@ class Mouse:
             drag, self._drag = self._drag, None if gesture.kind == "up" else self._drag
             moved = drag == "speed" and gesture.kind == "move"
             return self._slid(screen) if moved and slides(screen.state, self._slider) else ()
+        if gesture.kind == "down" and self._is_second(screen):
+            self._drag = "bar"
+            return self._pressed
         number = screen.button_at(*self._at) if self._drag is None else None
         if number is None or gesture.kind == "up":
             return None
@@ -468,7 +475,19 @@ class Mouse:
         if gesture.kind == "move":
             return ()
         self._drag, self._slider = "speed" if is_slider else "bar", number
-        return self._slid(screen) if is_slider else pressed(screen.state, number) if number >= 0 else ()
+        if is_slider or number < 0:
+            return self._slid(screen) if is_slider else ()
+        self._pressed, self._pressed_at = pressed(screen.state, number), self._at
+        self._pressed_in = screen.state.frame
+        return self._pressed
+
+    def _is_second(self, screen: Screen) -> bool:
+        """Return whether a button goes down for the second time at once, whatever lies there by now.
+
+        It then does once more what it did, as a second press of a key does: it undoes it.
+        """
+        at_once = screen.state.frame - self._pressed_in <= _DOUBLE
+        return at_once and math.dist(self._pressed_at, self._at) <= _STILL * screen.size[1]
 
     def _slid(self, screen: Screen) -> tuple[Action, ...]:
         return slid(screen.state, self._slider, screen.share_at(self._slider, self._at[0]))

@@ -10,6 +10,7 @@ from linkanim.errors import BadInput
 from linkanim.intake import Intake, Section
 from linkanim.mechanics.linkage import Linkage
 from linkanim.picture.layered import Frame, Layered, LayeredPin, LayeredPlate
+from linkanim.picture.look import ConstructionKind
 from linkanim.picture.raster import Loop
 from linkanim.picture.shapes import disc, hull
 from linkanim.player.edits import drop, exchanged, followed
@@ -76,7 +77,7 @@ def lift_to(state: State, step: int) -> State:
 
 
 def construct(state: State, further: int) -> State:
-    """Draw `further` steps more of the scene's synthesis, then of its centres and its dead centres.
+    """Draw `further` steps more of the scene's synthesis, then of its dead centres and its centres.
 
     After the last step none is drawn. BadInput for a scene that has no construction.
     """
@@ -84,6 +85,13 @@ def construct(state: State, further: int) -> State:
 
     at = (state.constructed + further) % (all_steps(state.scene) + 1)
     return replace(state, construction=(state.scene, at) if at else None)
+
+
+def construction(state: State, kind: ConstructionKind) -> State:
+    """Draw the first step of a construction; BadInput where the scene does not have it."""
+    from linkanim.picture.constructed import steps_before
+
+    return replace(state, construction=(state.scene, steps_before(state.scene, kind) + 1))
 
 
 def slide(state: State, step: int) -> State:

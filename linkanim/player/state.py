@@ -953,7 +953,7 @@ class State:
         """Whether something is open that Esc closes."""
         if self.game and not (self.help or self.listing or self.taking):
             return self.game.covers
-        return self.help or self.mode not in ("play", "paused")
+        return self.help or self.mode not in ("play", "paused") or self.constructed > 0
 
     @property
     def listed(self) -> bool:

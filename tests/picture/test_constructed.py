@@ -31,8 +31,8 @@ from linkanim.synthesis.constructions import Mark, dead_centres
 
 # scene, what is constructed of it: dead centres only where the crank drives and the output swings or slides
 HAS = [
-    ("crank-rocker", ["centres", "dead-centres"]),
-    ("slider-crank", ["centres", "dead-centres"]),
+    ("crank-rocker", ["dead-centres", "centres"]),
+    ("slider-crank", ["dead-centres", "centres"]),
     ("drag-link", ["centres"]),
     ("rocker-driven", ["centres"]),
     ("inverted-slider-crank", ["centres"]),
@@ -160,13 +160,15 @@ def test_dead_centres_are_where_the_linkage_has_them(name: str) -> None:
 
 def test_steps_are_counted_through_all_constructions() -> None:
     scene = load("slider-crank")
-    count = len(steps_of(scene, "centres"))
-    assert steps_before(scene, "centres") == 0
-    assert steps_before(scene, "dead-centres") == count
+    count = len(steps_of(scene, "dead-centres"))
+    assert steps_before(scene, "dead-centres") == 0
+    assert steps_before(scene, "centres") == count
+    with pytest.raises(BadInput, match="has no construction of a synthesis"):
+        steps_before(scene, "synthesis")
     last = shown_at(scene, count, 0.4)
-    assert (last.kind, len(last.steps), last.total) == ("centres", count, count)
-    assert shown_at(scene, count + 2, 0.4).kind == "dead-centres"
-    assert len(shown_at(scene, all_steps(scene), 0.4).steps) == 6
+    assert (last.kind, len(last.steps), last.total) == ("dead-centres", count, count)
+    assert shown_at(scene, count + 2, 0.4).kind == "centres"
+    assert len(shown_at(scene, all_steps(scene), 0.4).steps) == len(steps_of(scene, "centres"))
 
 
 def test_the_picture_says_what_is_done_and_holds_the_centres() -> None:
@@ -180,7 +182,9 @@ def test_the_picture_says_what_is_done_and_holds_the_centres() -> None:
         assert 0 < y < 360
     said = [
         line.text
-        for group in picture.groups(scene.pose(phase, 2), Overlay(construction=3))
+        for group in picture.groups(
+            scene.pose(phase, 2), Overlay(construction=steps_before(scene, "centres") + 3)
+        )
         for line in group.captions
     ]
     assert any("it lies on the line through P₁₄ and P₃₄, too: there it is" in line for line in said)
@@ -192,7 +196,7 @@ def test_the_picture_says_what_is_done_and_holds_the_centres() -> None:
 def test_words_on_a_construction_leave_the_linkage_where_they_can(size: tuple[int, int]) -> None:
     scene = load("crank-rocker")
     picture, pose = Picture(scene, size, Look()), scene.pose(math.radians(42.0), 2)
-    groups = picture.groups(pose, Overlay(construction=1))
+    groups = picture.groups(pose, Overlay(construction=steps_before(scene, "centres") + 1))
     words = next(group for group in groups if group.name == "build-words")
     assert "".join(line.text for line in words.captions).count("P") == 4
     assert not picture._covers(words, pose)

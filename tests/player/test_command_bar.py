@@ -15,6 +15,7 @@ from playing import SIZE, Player
 from linkanim.picture.command_bar import bar_cells, bar_place, button_at, share_at
 from linkanim.picture.command_icons import COMMAND_ICONS
 from linkanim.picture.layout import layout
+from linkanim.picture.view import Rect
 from linkanim.play.games import game_of
 from linkanim.player import screen, taking
 from linkanim.player.action import Action, Mode
@@ -293,6 +294,59 @@ def test_the_buttons_of_a_chart_leave_its_reading_and_its_title(
     else:
         assert max(cell.right for cell in seen) < place.chart.right - 5 * place.text_size
         assert min(cell.x for cell in seen) > place.chart.x + 16 * place.text_size
+
+
+def bar_now(player: Player) -> dict[str, Rect]:
+    """Return where the buttons stand that are seen, by their icons."""
+    player.mouse(pygame.MOUSEMOTION, (5, 5), rel=(0, 0), buttons=(0, 0, 0))
+    over = player.window.screen.over
+    assert over.bar
+    cells = bar_cells(player.window.screen._bar_layout(over), over.bar.buttons)
+    pairs = zip(over.bar.buttons, cells, strict=True)
+    return {one.icon: cell for one, cell in pairs if cell and not one.on_chart}
+
+
+@pytest.mark.parametrize("size", [(1280, 720), (640, 360), (720, 1280), (1920, 1080)], ids=str)
+@pytest.mark.parametrize("opening", ["list", "edit"])
+def test_the_bar_stands_still_while_a_list_opens(player: Player, size: tuple[int, int], opening: str) -> None:
+    pygame.display.set_mode(size, pygame.RESIZABLE)
+    before = bar_now(player)
+    player.window.state = advance(player.state, [Action(opening)])
+    after_it = bar_now(player)
+    assert after_it.pop("back") == before.pop("home")
+    assert after_it == before
+    over = player.window.screen.over
+    layout = player.window.screen._bar_layout(over)
+    assert layout.lists.bottom < min(cell.y for cell in after_it.values())
+
+
+TWICE = [
+    *("shelf", "arrows", "chart", "construction", "edit", "build"),
+    *("pencil", "record", "more", "help", "pause"),
+]
+
+
+@pytest.mark.parametrize("size", [(900, 500), (1280, 720)], ids=str)
+@pytest.mark.parametrize("icon", TWICE)
+def test_a_double_click_on_a_button_leaves_all_as_it_was(
+    player: Player, icon: str, size: tuple[int, int]
+) -> None:
+    pygame.display.set_mode(size, pygame.RESIZABLE)
+    player.press(pygame.K_SPACE)  # runs
+    before, at = player.state, bar_now(player)[icon].middle
+    for _ in range(2):
+        player.mouse(pygame.MOUSEMOTION, (at.real, at.imag), rel=(0, 0), buttons=(0, 0, 0))
+        player.drag((at.real, at.imag))
+    now = player.state
+    assert now.mode == before.mode
+    assert (now.help, now.listing, now.browsing, now.taking, now.building) == (False, None, None, None, None)
+    assert (now.clock.level, now.clock.paused, now.look) == (
+        before.clock.level,
+        before.clock.paused,
+        before.look,
+    )
+    assert now.scene is before.scene
+    assert now.toast is None
 
 
 def test_from_the_list_of_dimensions_one_click_leads_to_the_tools_and_one_back(player: Player) -> None:

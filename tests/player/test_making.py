@@ -5,8 +5,9 @@ from __future__ import annotations
 import json
 import os
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import ClassVar
 
@@ -16,7 +17,8 @@ import pytest
 from playing import SHIFT, Player, fake_start
 
 from linkanim.export import json_text
-from linkanim.picture.constructed import all_steps
+from linkanim.picture.command_bar import bar_cells
+from linkanim.picture.constructed import all_steps, shown_at
 from linkanim.picture.layered import LayerView
 from linkanim.picture.look import Look
 from linkanim.picture.overlay import Overlay
@@ -322,6 +324,84 @@ def test_the_construction_is_drawn_step_by_step_and_goes_after_the_last(guided: 
         seen.append(overlay(state).construction)
     assert seen == [*range(1, count + 1), 0]
     assert overlay(after(guided, Action("construct", -1))).construction == count
+
+
+@pytest.fixture
+def large(here: object) -> Iterator[Player]:
+    del here
+    with screen.opened((900, 500)):
+        player = Player(begin(load("crank-rocker")))
+        yield player
+        player.window.close()
+
+
+def kind_of(player: Player) -> tuple[str, int]:
+    """Return the construction that is drawn, and how many of its steps."""
+    found = shown_at(player.state.scene, player.state.constructed, player.state.phase)
+    return found.kind, len(found.steps)
+
+
+def click(player: Player, icon: str) -> None:
+    """Click the button of the bar with an icon."""
+    player.mouse(pygame.MOUSEMOTION, (5, 5), rel=(0, 0), buttons=(0, 0, 0))
+    over = player.window.screen.over
+    assert over.bar
+    cells = bar_cells(player.window.screen._bar_layout(over), over.bar.buttons)
+    (at,) = (
+        cell.middle for cell, one in zip(cells, over.bar.buttons, strict=True) if one.icon == icon and cell
+    )
+    player.mouse(pygame.MOUSEMOTION, (at.real, at.imag), rel=(0, 0), buttons=(0, 0, 0))
+    player.drag((at.real, at.imag))
+
+
+# The first of a crank-rocker is that of its dead centres. However it was begun, there are three ways out.
+OUT: dict[str, Callable[[Player], object]] = {
+    "Esc": lambda player: player.press(pygame.K_ESCAPE),
+    "the arrow back": lambda player: click(player, "back"),
+    "done": lambda player: click(player, "done"),
+}
+
+
+@pytest.mark.parametrize("way", OUT)
+def test_a_construction_is_left_at_once(large: Player, way: str) -> None:
+    for _ in range(3):
+        large.press(pygame.K_F7)
+    assert kind_of(large) == ("dead-centres", 3)
+    OUT[way](large)
+    assert (large.state.constructed, large.state.toast, large.state.mode) == (0, None, "play")
+    large.press(pygame.K_ESCAPE)
+    assert large.state.toast
+    assert large.state.toast.text == "Q quits"
+
+
+def test_the_steps_of_a_construction_go_both_ways_by_keys_and_by_mouse(large: Player) -> None:
+    large.press(pygame.K_F7)
+    for further, back in (
+        (partial(large.press, pygame.K_F7), partial(large.press, pygame.K_F7, SHIFT)),
+        (partial(click, large, "after"), partial(click, large, "before")),
+    ):
+        further()
+        assert kind_of(large) == ("dead-centres", 2)
+        back()
+        assert kind_of(large) == ("dead-centres", 1)
+
+
+@pytest.mark.parametrize(("typed", "kind"), [("dead centre", "dead-centres"), ("instant constr", "centres")])
+def test_a_construction_is_found_by_its_name_among_all_commands(large: Player, typed: str, kind: str) -> None:
+    large.press(pygame.K_F10)
+    large.type(typed)
+    large.press(pygame.K_RETURN)
+    assert kind_of(large) == (kind, 1)
+    assert large.state.listing is None
+
+
+@pytest.mark.parametrize("what", ["link crank", "construction"])
+def test_a_menu_of_what_it_is_about_has_each_construction(large: Player, what: str) -> None:
+    state = after(large.state, Action("menu", what))
+    assert state.listing
+    assert state.listing.others
+    names = [row.words for row in state.listing.others.found if row.action.name == "construction"]
+    assert names == ["construction of its dead centres", "construction of its instant centres"]
 
 
 def test_the_construction_of_another_scene_is_not_drawn(guided: State) -> None:
