@@ -6,6 +6,7 @@ From the ground up; a module imports from those before it only:
     options          the arguments of each command, and what their texts mean
     picture_options  the options that commands which write pictures share
     alternative      what a picture shows, in a paragraph beside it
+    letters          which letters of what was written no font has
     progress         a bar that says how far long work is
     answers          answers of a synthesis, as files and as a table
     command_table    every command: what it does, what it takes, which file does its work

@@ -16,6 +16,7 @@ from typing import Literal
 from unicodedata import normalize
 
 from linkanim.frozen import NamedTuple, frozen
+from linkanim.letters import spelt_out
 
 # Formulas of a worked solution as trees, whose leaves hold the digits that are printed.
 #
@@ -233,9 +234,8 @@ _GREEK = {
     "α": "alpha", "β": "beta", "γ": "gamma", "δ": "delta", "θ": "theta", "ω": "omega", "φ": "varphi",
     "ψ": "psi", "ξ": "xi", "η": "eta", "μ": "mu", "σ": "sigma", "π": "pi", "ℓ": "ell", "→": "rightarrow",
 }  # fmt: skip
+_OUT_OF_LATEX = re.compile("[^\0-\u017f]|[ĦħĸĿŀŉŦŧſ]")
 _INDEX = re.compile(r"([^\W\d_]+|\W+|[^\W0-9])|([0-9]+)")
-_NOT_SET = re.compile("[^\0-\u017f]|[ĦħĸĿŀŉŦŧſ]")
-"""Characters that LaTeX's standard fonts lack."""
 
 
 @frozen
@@ -325,8 +325,13 @@ class _Setting:
 
 
 def plain_latex(text: str) -> str:
-    """Return words as LaTeX sets them; a character that its standard fonts lack is a question mark."""
-    return _NOT_SET.sub("?", normalize("NFC", text).translate(_TEXT))
+    """Return words as LaTeX sets them; what its standard fonts lack is spelt, or has a stand-in."""
+    return spelt_out(normalize("NFC", text), latex_has).translate(_TEXT)
+
+
+def latex_has(char: str) -> bool:
+    """Return whether LaTeX's standard fonts have a character of a text."""
+    return ord(char) in _TEXT or _OUT_OF_LATEX.match(char) is None
 
 
 _TEXT = str.maketrans(
@@ -370,7 +375,9 @@ def _letters(word: str) -> str:
         return f"\\{_GREEK[word]} "
     safe = re.sub(r"([#$%&_{}])", r"\\\1", re.sub(r"[\\~^]", "", normalize("NFC", word)))
     if not safe.isascii():
-        return f"\\text{{{_NOT_SET.sub(lambda found: f'U{ord(found[0]):X}', safe)}}}"
+        # by their numbers, as a stand-in would leave two names alike
+        numbered = _OUT_OF_LATEX.sub(lambda found: f"U{ord(found[0]):X}", safe)
+        return f"\\text{{{numbered}}}"
     return safe if len(safe) == 1 else f"\\mathrm{{{safe}}}"
 
 

@@ -9,13 +9,13 @@ from collections.abc import Callable, Iterable, Sequence
 from datetime import UTC, datetime
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
-from unicodedata import normalize
 
 from linkanim.errors import BadInput
+from linkanim.letters import spelt_out
 from linkanim.paper.svg import flat, hexadecimal
 from linkanim.picture.items import Caption, Group, Halo, Item
 from linkanim.picture.raster import Colour, Layer
-from linkanim.picture.text import REGULAR, SEMIBOLD, file_of, runs, typesetting
+from linkanim.picture.text import REGULAR, SEMIBOLD, Fonts, file_of, runs, typesetting
 
 if TYPE_CHECKING:
     from fpdf import FPDF
@@ -66,7 +66,7 @@ def pages(
 ) -> bytes:
     """Return pictures of one size, each a page of a PDF document, as `pdf` does one."""
     point = wide * _POINTS_A_MM / size[0] if wide else _POINTS
-    document = _document(size, title, words, point)
+    document, fonts = _document(size, title, words, point), Fonts()
     for items in pictures:
         document.add_page()
         if background is not None:
@@ -76,7 +76,7 @@ def pages(
             if isinstance(item, Layer):
                 _fill(document, item)
             else:
-                _write(document, item, point)
+                _write(document, item, point, fonts)
     return bytes(document.output())
 
 
@@ -120,14 +120,14 @@ def _fill(page: FPDF, layer: Layer) -> None:
         drawn.add_item(path, False)  # no copy, which would take most of the time
 
 
-def _write(page: FPDF, line: Caption, point: float) -> None:
+def _write(page: FPDF, line: Caption, point: float, fonts: Fonts) -> None:
     """Write a line of text, its subscripts smaller and lower, in its halo; a pixel is `point` points.
 
     The halo is a line along the letters and no text, so that copied words come once.
     """
     how, style = typesetting(line.size), "B" if line.strong else ""
     set_ = [
-        (_known(page, run.text, style), how.small if run.lowered else how.em, run.lowered * how.lower)
+        (spelt_out(run.text, fonts.face_has), how.small if run.lowered else how.em, run.lowered * how.lower)
         for run in runs(line.text)
     ]
     widths = [_width(page, text, style, em * point) for text, em, _ in set_]
@@ -186,14 +186,6 @@ def _step(path: PaintedPath, step: str, points: Sequence[tuple[float, float]]) -
             path.curve_to(*(part for at in points for part in at))
         case _:
             path.close()
-
-
-def _known(page: FPDF, text: str, style: str) -> str:
-    """Return the text in letters that the face has: others are replaced by similar ones, or left out."""
-    font: Any = page.fonts[_FACE + style]  # of a file, so that it has a table of its letters
-    cmap = font.cmap
-    alike = (char if ord(char) in cmap else normalize("NFKC", char) for char in text)
-    return "".join(char for part in alike for char in part if ord(char) in cmap)
 
 
 def _width(page: FPDF, text: str, style: str, size: float) -> float:

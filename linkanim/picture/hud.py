@@ -573,8 +573,7 @@ class _Setter:
 
     def __init__(self, scenes: Sequence[Scene], layout: Layout, keys: int, type_: Type) -> None:
         self._scene, self._layout, self._keys, self._type = scenes[0], layout, keys, type_
-        shown = type_.width(self._scene.title, round(_TITLE * layout.text_size))
-        self._title = self._scene.title if shown and self._scene.title.strip() else self._scene.name
+        self._title = self._scene.title if type_.shows(self._scene.title) else self._scene.name
         self._classes = [beyond_title(self._title, scene.info.class_name) for scene in scenes]
         self._notes = [words for scene in scenes for words in notes(scene)]
 

@@ -85,6 +85,12 @@ def grouped(name: str, items: Iterable[Item], *, still: bool = False) -> Group:
     return Group(name, shapes, [item for item in kept if isinstance(item, Caption)], still)
 
 
+def words_of(items: Iterable[Item | Group]) -> str:
+    """Return the words of items and groups, one line behind the other."""
+    lines = (item.captions if isinstance(item, Group) else [item] for item in items)
+    return " ".join(line.text for some in lines for line in some if isinstance(line, Caption))
+
+
 def flat(groups: Iterable[Group]) -> Iterator[Layer]:
     """Yield the shapes of all groups in their order."""
     return (layer for group in groups for layer in group.layers)

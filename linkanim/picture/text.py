@@ -1,6 +1,7 @@
 """Set lines of text: one face in two weights and a few sizes, subscripts set as such.
 
-Each character comes from the bundled face or from the system's; what no font has is spelt or left out.
+Each character comes from the bundled face or from the system's; what no font has is spelt, or a sign stands
+for it.
 Words that move are set once in a halo and placed to a quarter of a pixel, so that they glide.
 """
 
@@ -24,10 +25,11 @@ import pygame
 from numpy.typing import NDArray
 
 from linkanim.frozen import NamedTuple
+from linkanim.letters import spelt
 from linkanim.picture.raster import Colour, offscreen, pixel_view
 from linkanim.picture.shapes import directions
 
-# Which font has a character: the bundled face, or the system's; a character in no font is spelt or left out.
+# Which font has a character: the bundled face, or the system's; for one in no font see `linkanim.letters`.
 #
 # The face is Source Sans Pro (Paul D. Hunt, SIL Open Font License 1.1), which lies in `faces`: Latin,
 # Greek and Cyrillic, subscripts, digits of one width, and the same glyphs on every machine.
@@ -55,6 +57,14 @@ class Fonts:
         self._opened: dict[tuple[str, int], pygame.font.Font] = {}
         self._faces: dict[str, bytes] = {}
         self._spelt: dict[str, tuple[str, str]] = {}
+
+    def face_has(self, char: str) -> bool:
+        """Return whether the bundled face has a character that is seen."""
+        return _is_seen(char) and _has(self._font(REGULAR, 24), char)
+
+    def has(self, char: str) -> bool:
+        """Return whether the bundled face or a font of the system has a character."""
+        return self.face_has(char) or self._spelling(char)[0] != REGULAR
 
     def ascent(self, em: int) -> int:
         """Return how far the bundled face's line reaches above its baseline, in pixels."""
@@ -106,20 +116,11 @@ class Fonts:
         return self._spelt[char]
 
     def _found(self, char: str) -> tuple[str, str]:
-        if char.isspace():
-            return REGULAR, " "
-        if not char.isprintable() or unicodedata.combining(char):
-            return REGULAR, ""
-        if _has(self._font(REGULAR, 24), char):
-            return REGULAR, char
-        homes = (path for path in self._system() if _has(self._font(path, 24), char))
-        home = next(homes, None)
-        return (home, char) if home else (REGULAR, self._likeness(char))
-
-    def _likeness(self, char: str) -> str:
-        """Return those parts of a character that the bundled font has: Ǆ as DŽ, ﬁ as fi."""
-        parts = unicodedata.normalize("NFKC", char)
-        return "".join(part for part in parts if part.isprintable() and _has(self._font(REGULAR, 24), part))
+        if _is_seen(char) and not self.face_has(char):
+            homes = (path for path in self._system() if _has(self._font(path, 24), char))
+            if home := next(homes, None):
+                return home, char
+        return REGULAR, spelt(char, self.face_has)
 
     def _system(self) -> Iterator[str]:
         """Yield the files of the system's fonts, first those that were needed before."""
@@ -144,6 +145,11 @@ def _files() -> Iterator[str]:
         known = frozenset(pygame.font.get_fonts())
         found = [pygame.font.match_font(name) for name in _WIDE if name in known]
     yield from (path for path in found if path)
+
+
+def _is_seen(char: str) -> bool:
+    """Tell whether a character can have a glyph of its own: spaces, controls and lone marks have none."""
+    return char.isprintable() and not char.isspace() and not unicodedata.combining(char)
 
 
 def _has(font: pygame.font.Font, char: str) -> bool:
@@ -249,6 +255,10 @@ class Type:
         self._inked_bytes = 0
         self._drawn: set[Hashable] = set()
         self._once: set[Hashable] = set()
+
+    def shows(self, text: str) -> bool:
+        """Return whether any letter of a text is set, and not only a sign for it."""
+        return any(map(self._fonts.has, normalize("NFC", text)))
 
     def width(self, text: str, size: int, *, strong: bool = False) -> int:
         """Return how wide a line is in pixels; `strong` is the semibold weight."""

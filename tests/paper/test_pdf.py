@@ -26,7 +26,8 @@ SQUARE = np.array([10, 30, 30 + 20j, 10 + 20j], complex)
 def content(document: bytes) -> str:
     """Return what the page draws."""
     streams = re.findall(rb"stream\r?\n(.*?)\r?\nendstream", document, re.DOTALL)
-    found = [zlib.decompress(stream) for stream in streams if stream[:1] == b"x"]
+    # a stream that ends in a carriage return has lost it here
+    found = [zlib.decompressobj().decompress(stream) for stream in streams if stream[:1] == b"x"]
     return next(text.decode("latin-1") for text in found if re.search(rb" m\b|\bBT\b", text))
 
 
@@ -47,7 +48,7 @@ def test_a_path_stands_where_it_is_and_has_its_colour() -> None:
     assert len(set(corners)) == len(SQUARE)
 
 
-def test_words_keep_their_subscripts_and_what_the_face_has_not_is_spelt_or_left_out() -> None:
+def test_words_keep_their_subscripts_and_what_the_face_has_not_has_a_stand_in() -> None:
     line = Caption("v_{BA} = 3 中", (50, 50), 20, (0, 0, 0), "centre", True, Halo((255, 255, 255), 2.0))
     document = pdf((400, 200), None, [line], title="words")
     assert len(re.findall(r"\bTj\b|\bTJ\b", content(document))) == 3

@@ -1,4 +1,4 @@
-"""Text: every character is drawn, spelt or left out, and none is a box."""
+"""Text: every character is drawn, spelt, or has a stand-in, and none is a box."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ import pytest
 from fidelity import Pixels
 from pictures import pixels
 
+from linkanim.letters import lacking
 from linkanim.picture import text as fonts
 from linkanim.picture.arrangement import FitRequest, fitted
 from linkanim.picture.raster import offscreen
@@ -49,9 +50,10 @@ def alone(monkeypatch: pytest.MonkeyPatch) -> Type:
 @pytest.mark.parametrize(
     ("char", "spelt"),
     [
-        # other scripts without a font for them, an emoji, what is for private use, not a character at all
-        ("曲", ""),
-        ("😀", ""),
+        # other scripts without a font for them, an emoji: their place is seen
+        ("曲", "?"),
+        ("😀", "?"),
+        # what is for private use, not a character at all
         ("\ue000", ""),
         ("\uffff", ""),
         # nothing to be seen: of no width, controls, a mark without its letter
@@ -64,12 +66,12 @@ def alone(monkeypatch: pytest.MonkeyPatch) -> Type:
         ("\n", " "),
         ("\u3000", " "),
         # made of parts that the font has
-        ("ｱ", ""),
+        ("ｱ", "?"),
         ("Ａ", "A"),
         ("①", "1"),
     ],
 )
-def test_what_no_font_has_is_spelt_or_left_out(alone: Type, char: str, spelt: str) -> None:
+def test_what_no_font_has_is_spelt_or_has_a_stand_in(alone: Type, char: str, spelt: str) -> None:
     assert alone.width(char, SIZE) == alone.width(spelt, SIZE)
     assert not spelt or _bytes(alone, char) == _bytes(alone, spelt)
 
@@ -87,7 +89,7 @@ def test_a_letter_and_its_mark_are_drawn_as_one(alone: Type) -> None:
 def test_a_font_of_the_system_draws_what_the_bundled_one_lacks() -> None:
     """Where the system has one; it stands on the bundled font's line."""
     type_ = Type()
-    if type_.width("曲", SIZE) == 0:
+    if not type_._fonts.has("曲"):
         pytest.skip("no font of this system has it")
     box = _box(type_, "曲", SIZE)
     assert box.height > 0.5 * SIZE
@@ -112,7 +114,8 @@ def test_what_the_bundled_face_lacks_stands_on_its_line_in_a_font_of_the_system(
 
 def test_a_system_that_cannot_list_its_fonts_has_none(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(pygame.font, "get_fonts", lambda: [])
-    assert unshared().width("曲", SIZE) == 0
+    fonts_here = unshared()._fonts
+    assert lacking("曲四 Ａθ? 曲", fonts_here.has) == "曲四"
 
 
 @pytest.mark.parametrize(

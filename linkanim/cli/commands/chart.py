@@ -6,6 +6,7 @@ import sys
 from argparse import Namespace
 
 from linkanim.cli.alternative import alternative
+from linkanim.cli.letters import tell_of_picture
 from linkanim.cli.picture_options import scene_canvas_target
 from linkanim.errors import BadInput
 from linkanim.paper.chart import Page
@@ -39,6 +40,7 @@ def run(options: Namespace) -> None:
     )
     told = alternative(options)
     write(page, target, latex=bool(options.text), wide=canvas.wide)
+    tell_of_picture(page, target, latex=bool(options.text))
     if measured:
         print(_difference(curves, measured), file=sys.stderr)
     print(target.path)

@@ -9,6 +9,7 @@ from math import prod
 from linkanim.bounds import MOST_DRAWN, MOST_DRAWN_PIXELS
 from linkanim.cli.alternative import alternative, plain
 from linkanim.cli.commands.solve import phase_at
+from linkanim.cli.letters import tell_of_picture
 from linkanim.cli.picture_options import Canvas, look_of, scene_canvas_target
 from linkanim.errors import BadInput
 from linkanim.manifest import Output
@@ -52,6 +53,7 @@ def _write(shown: Written, target: Output, canvas: Canvas, *, latex: bool) -> No
         from linkanim.paper.latex import labels_of
 
         print(labels_of(target).path)
+    tell_of_picture(shown, target, latex=latex)
 
 
 def _refuse_many(scene: Scene, poses: int, size: tuple[int, int]) -> None:

@@ -10,12 +10,14 @@ from math import degrees, isnan, radians, tau
 from linkanim.atomic_files import checked_target, write_text
 from linkanim.bounds import MOST_VERSIONS
 from linkanim.cli.commands.solve import phase_at
+from linkanim.cli.letters import tell_of_scene
 from linkanim.cli.options import inputs_of
 from linkanim.cli.progress import along
 from linkanim.errors import BadInput
 from linkanim.explain.documents import HTML, MARKDOWN, TEX, document, exercise
 from linkanim.explain.solution import PoseRequest, Solution, solution
 from linkanim.explain.variant import variant
+from linkanim.letters import LATEX
 from linkanim.paper.construction import ConstructionPage
 from linkanim.paper.html import embedded
 from linkanim.paper.svg import svg
@@ -57,6 +59,8 @@ def run(options: Namespace) -> None:
         return
     write_text(target, text)
     print(target)
+    if target.suffix.lower() == ".tex":
+        tell_of_scene(versions[0].request.scene, LATEX)
 
 
 def _figure(found: Solution) -> str:

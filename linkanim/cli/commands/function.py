@@ -82,10 +82,13 @@ def _scale(name: str, text: str | None, read: Callable[[str], float]) -> dict[st
 
 
 def _draw(one: Generated, target: Path) -> None:
+    from linkanim.cli.letters import tell_of_picture
     from linkanim.paper.construction import ErrorChart
     from linkanim.paper.write import write as write_figure
 
-    write_figure(ErrorChart(one), Output(target))
+    chart = ErrorChart(one), Output(target)
+    write_figure(*chart)
+    tell_of_picture(*chart)
 
 
 def _span(one: Generated, start: float, over: float, *, turning: bool) -> str:

@@ -7,11 +7,13 @@ from argparse import Namespace
 from collections.abc import Iterator
 from pathlib import Path
 
+from linkanim.cli.letters import tell, tell_of_picture
 from linkanim.cli.options import inputs_of
 from linkanim.cli.picture_options import refuse_photograph
 from linkanim.cli.progress import bar
 from linkanim.errors import BadInput
 from linkanim.export import json_text
+from linkanim.letters import CUT_OUT
 from linkanim.manifest import checked_output
 from linkanim.paper.write import OF_A_FIGURE
 from linkanim.paper.write import write as write_picture
@@ -52,8 +54,13 @@ def run(options: Namespace) -> None:
     if made.refused is None:
         if options.output is not None:
             write(made, options.output)
+            if made.way == "cardboard":
+                labels = (made.label(number) for number in range(len(made.plates)))
+                tell(" ".join([scene.title, *labels]), CUT_OUT)
         if picture:
-            write_picture(preview(made), picture)
+            shown = preview(made)
+            write_picture(shown, picture)
+            tell_of_picture(shown, picture)
     if options.json:
         print(json_text(made.as_object(), indent=2))
     if options.output is None and picture is None:

@@ -12,10 +12,12 @@ from linkanim.cli import main
 from linkanim.cli.alternative import alternative
 from linkanim.cli.command_table import parse
 from linkanim.cli.exits import DONE, FAILED
+from linkanim.cli.letters import tell_of_scene
 from linkanim.cli.options import DEFAULT, PRESETS, inputs_of
 from linkanim.cli.picture_options import look_of, refuse_photograph
 from linkanim.cli.progress import bar
 from linkanim.errors import BadInput
+from linkanim.letters import PIXELS
 from linkanim.manifest import checked_output
 from linkanim.picture.look import TOGGLES
 from linkanim.picture.quantities import speed_words
@@ -69,7 +71,9 @@ def _of_scene(options: Namespace, target: Path) -> Callable[..., Recording]:
     scene = load(options.scene)
     refuse_photograph(scene, target)
     asked = {name: getattr(options, name) for name in _OF_A_SCENE}
-    asked |= {"periods": options.periods or 1, "look": look_of(scene, options)}
+    look = look_of(scene, options)
+    tell_of_scene(scene, PIXELS, title=look.hud, names=look.names > 0)
+    asked |= {"periods": options.periods or 1, "look": look}
     if options.construction:
         asked |= _construction(scene, options)
     return partial(record, scene, **asked)

@@ -1,0 +1,70 @@
+"""Letters that a font lacks: what is set for each of them, and the sentence that names them.
+
+A font is given by what it has, as a function of a character: those of pictures are in `picture.text`, LaTeX's
+in `explain.formula`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from unicodedata import combining, normalize
+
+from linkanim.frozen import NamedTuple
+
+Has = Callable[[str], bool]
+"""Whether a font has a character."""
+STAND_IN = "?"
+"""What is set for a letter that a font lacks, so that its place is seen."""
+_MOST_NAMED = 12
+
+
+def spelt(char: str, has: Has) -> str:
+    """Return what is set for a character: itself, or the parts of it that the font has: Ǆ as DŽ, ﬁ as fi.
+
+    A mark without its letter, and what is not seen, are left out; for any other there is the stand-in.
+    """
+    if has(char):
+        return char
+    if char.isspace():
+        return " "
+    if not char.isprintable() or combining(char):
+        return ""
+    return "".join(part for part in normalize("NFKC", char) if part.isprintable() and has(part)) or STAND_IN
+
+
+def spelt_out(text: str, has: Has) -> str:
+    """Return what is set for a text."""
+    return "".join(spelt(char, has) for char in text)
+
+
+def lacking(text: str, has: Has) -> str:
+    """Return the characters for which the stand-in is set, each once."""
+    known = dict.fromkeys(normalize("NFC", text))
+    return "".join(char for char in known if char != STAND_IN and spelt(char, has) == STAND_IN)
+
+
+class Setting(NamedTuple):
+    """What sets words: how a sentence on letters that it lacks begins, the way out, what letters it has."""
+
+    lacks: str
+    way_out: str
+    names: str = "Latin, Greek or Cyrillic"
+
+
+PIXELS = Setting("no font of this system has", "install one that has them, such as Noto Sans")
+PDF = Setting("the typeface of a PDF lacks", "write an SVG or a PNG")
+CUT_OUT = Setting(PDF.lacks, "take --way laser")
+LATEX = Setting("LaTeX's standard fonts lack", "write an HTML page", "Latin")
+LATEX_FIGURE = Setting(LATEX.lacks, "leave out --text latex and write an SVG", "Latin")
+
+
+def told(letters: str, by: Setting) -> str:
+    """Return the sentence that names letters that are lacking, and the way out; "" where there are none."""
+    if not letters:
+        return ""
+    named, more = ", ".join(letters[:_MOST_NAMED]), len(letters) - _MOST_NAMED
+    those = f"{named} and {more} more" if more > 0 else named
+    return (
+        f"{by.lacks} the letters {those}; {STAND_IN} stands for them: {by.way_out}, or write names in "
+        f"{by.names} letters"
+    )

@@ -1,0 +1,124 @@
+"""Letters that a font lacks are named in a sentence with the way out, and their place is seen."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from linkanim.cli import main
+from linkanim.explain.formula import latex_has
+from linkanim.letters import LATEX, PDF, lacking, spelt, told
+from linkanim.picture import text
+
+SCENE = """
+title = "四杆机构 with θ, Ж and é"
+length_unit = "mm"
+[ground]
+O = [0, 0]
+"乙" = [100, 0]
+[joints."甲"]
+crank = "O"
+length = 30
+[joints."丙"]
+from = ["甲", "乙"]
+length = [90, 80]
+[bodies]
+"曲柄" = { joints = ["O", "甲"] }
+"连杆" = { joints = ["甲", "丙"] }
+"摇杆" = { joints = ["乙", "丙"] }
+"""
+OF_JOINTS = "乙甲丙"
+SHOWN = ["--names", "--no-hud"]
+
+# A command, whether the system has no font for Chinese, the letters that are named, and the way out.
+LOST: dict[str, tuple[list[str], bool, str, str]] = {
+    "a figure as PDF": (["draw", "--names", "-o", "a.pdf"], False, OF_JOINTS, "write an SVG or a PNG"),
+    "without names": (["draw", "-o", "a.pdf"], False, "", ""),
+    "a figure as SVG": (["draw", "--names", "-o", "a.svg"], True, "", ""),
+    "a figure as PNG": (["draw", "--names", "-o", "a.png"], True, OF_JOINTS, "install one that has them"),
+    "for LaTeX": (
+        ["draw", "--names", "--text", "latex", "-o", "a.pdf"],
+        False,
+        OF_JOINTS,
+        "leave out --text",
+    ),
+    "a chart as PDF": (["chart", "--quantity", "丙.velocity", "-o", "a.pdf"], False, "丙", "write an SVG"),
+    "a recording": (
+        ["record", "-o", "a.gif", "--size", "320x180", "--seconds", "0.1"],
+        True,
+        "四杆机构",
+        "install",
+    ),
+    "parts to cut": (["make", "-o", "parts", "--fit", "A4"], False, "四杆机构连摇", "take --way laser"),
+    "parts on a laser": (["make", "-o", "parts", "--way", "laser"], True, "", ""),
+    "a picture of parts": (["make", "--preview", "a.pdf"], False, "甲", "write an SVG"),
+    "a solution": (["explain", "-o", "a.tex"], False, "四杆机构" + OF_JOINTS, "write an HTML page"),
+    "a page": (["explain", "-o", "a.html"], True, "", ""),
+}
+
+
+@pytest.mark.parametrize(("words", "bare", "letters", "way_out"), LOST.values(), ids=LOST)
+def test_letters_that_are_lacking_are_named_with_the_way_out(
+    words: list[str],
+    bare: bool,
+    letters: str,
+    way_out: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    if bare:
+        monkeypatch.setattr(text, "_WIDE", ())
+    Path("scene.toml").write_text(SCENE, encoding="utf-8")
+    assert main([words[0], "scene.toml", *words[1:]]) == 0
+    said = [line for line in capsys.readouterr().err.splitlines() if "the letters" in line]
+    assert len(said) == bool(letters)
+    for line in said:
+        named = re.split(r"the letters |;", line)[1]
+        assert set(letters) <= set(named)
+        assert not set("θéA") & set(named)
+        assert ("Ж" in named) == (words[0] == "explain")
+        assert f"; ? stands for them: {way_out}" in line
+
+
+# Each as it is set by a font with the ASCII characters alone.
+@pytest.mark.parametrize(
+    ("char", "is_set"),
+    [
+        ("a", "a"),
+        ("é", "?"),
+        ("ﬁ", "fi"),
+        ("Ａ", "A"),
+        ("\u3000", " "),
+        ("\u200b", ""),
+        ("\u0301", ""),
+        ("曲", "?"),
+    ],
+)
+def test_a_letter_is_set_spelt_or_stood_for(char: str, is_set: str) -> None:
+    assert spelt(char, str.isascii) == is_set
+    assert lacking(char, str.isascii) == (char if is_set == "?" else "")
+
+
+def test_a_long_list_of_letters_is_cut_and_an_empty_one_is_no_sentence() -> None:
+    assert told("", PDF) == ""
+    many = "".join(chr(0x4E00 + n) for n in range(40))
+    said = told(many, LATEX)
+    assert said.startswith("LaTeX's standard fonts lack the letters 一, 丁, ")
+    assert " and 28 more; ? stands for them: " in said
+    assert lacking("aéθ曲", latex_has) == "曲"
+
+
+def test_the_words_of_a_pdf_have_a_sign_for_each_letter_that_its_face_lacks(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    names = {}
+    for called, other in (("with", "甲"), ("without", "?"), ("none", "A")):
+        Path("scene.toml").write_text(SCENE.replace("甲", other), encoding="utf-8")
+        assert main(["draw", "scene.toml", "--names", "--angle", "60 deg", "-o", f"{called}.pdf"]) == 0
+        names[called] = Path(f"{called}.pdf").read_bytes()
+    assert names["with"] == names["without"] != names["none"]
