@@ -23,7 +23,7 @@ from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.arithmetic import Graph, Slope
 from linkanim.mechanics.forces import Demand, demand, usual_effort
 from linkanim.mechanics.linkage import RRR, Body, DrivenSlider, Joint, Linkage, Rigid, holding
-from linkanim.mechanics.measures import output_body, output_slider, pivots_of, said, transmission_angle
+from linkanim.mechanics.measures import near, output_body, output_slider, pivots_of, said, transmission_angle
 from linkanim.mechanics.motion import Mechanism, Motion
 from linkanim.mechanics.program import Array, batch
 from linkanim.mechanics.quantities import input_symbol, phrase
@@ -288,6 +288,7 @@ def _further_loops(mechanism: Mechanism) -> Iterator[FourBar]:
     linkage = mechanism.linkage
     cycle = mechanism.solve(phase=in_blocks(mechanism.phases)[0], speed=1.0, derivatives=0)
     pins = {pin.name: complex(*pin.position) for pin in linkage.pins}
+    places = near(cycle.position)
     for joint in linkage.joints:
         if not isinstance(joint, RRR) or joint.name in mechanism.assembly.loops:
             continue
@@ -295,8 +296,8 @@ def _further_loops(mechanism: Mechanism) -> Iterator[FourBar]:
             pivot, crank = _turns_about(linkage, moving)
             if fixed in pins and pivot is not None:
                 ground = abs(pins[fixed] - pins[pivot])
-                along = cycle.position[joint.name] - cycle.position[moving]
-                apart = along - (cycle.position[fixed] - cycle.position[pivot])
+                along = places[joint.name] - places[moving]
+                apart = along - (places[fixed] - places[pivot])
                 sign = 1 if np.abs(apart).max() <= 1e-6 * ground else -1
                 links = _links(ground, crank, a, b)
                 yield FourBar(joint.name, links, sign, _change_point_count(ground, crank, a, b))
@@ -358,7 +359,7 @@ def _windings(mechanism: Mechanism, bodies: list[Body]) -> list[bool]:
     first: Array = np.empty((len(bodies), 0, 2))
     last = first
     for part in in_blocks(mechanism.phases):
-        places = mechanism.solve(phase=part, speed=1.0, derivatives=0).position
+        places = near(mechanism.solve(phase=part, speed=1.0, derivatives=0).position)
         vectors = np.stack([places[body.joints[1]] - places[body.joints[0]] for body in bodies])
         gone += _crossings(np.concatenate([last, vectors], axis=1))
         first, last = first if first.size else vectors[:, :1], vectors[:, -1:]

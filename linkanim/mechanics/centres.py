@@ -228,13 +228,13 @@ def _velocity_between(
     Where both rest, the rates may be accelerations.
     """
     points = getattr(motion, rates[0])
-    rate, (x, y) = _rate(motion, body, rates), components(motion.position[_point(body)])
+    rate = _rate(motion, body, rates)
     vx, vy = components(points[_point(body)])
     if other is None:
         return rate, vx, vy
-    theirs, (px, py) = _rate(motion, other, rates), components(motion.position[_point(other)])
+    theirs, (x, y) = _rate(motion, other, rates), between(motion.position, (_point(other), _point(body)))
     wx, wy = components(points[_point(other)])
-    return rate - theirs, vx - wx + theirs * (y - py), vy - wy - theirs * (x - px)
+    return rate - theirs, vx - wx + theirs * y, vy - wy - theirs * x
 
 
 def _point(body: Body) -> str:

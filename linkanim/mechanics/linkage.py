@@ -458,6 +458,8 @@ class RPP(Guided):
 #
 # Points of a body other than its pins: coupler points, third pins of a plate, corners of a rigid triangle.
 
+_FAR = 64.0
+"""How many times as far from (0, 0) as a linkage is large its pins may lie for it to be solved from there."""
 _ONE_POINT = 1e-12
 
 
@@ -589,6 +591,11 @@ class Pin(Joint):
     def stated_lengths(self) -> tuple[float, ...]:
         """Its coordinates."""
         return self.position
+
+    def seen_from(self, x: float, y: float) -> Pin:
+        """Return the pin as it lies from a place; as a length from (0, 0) it is not written any more."""
+        polar = self.polar if self.polar and self.polar.base else None
+        return replace(self, position=(self.position[0] - x, self.position[1] - y), polar=polar)
 
     def placed(self, bodies: tuple[RigidBody, ...]) -> tuple[RigidBody, ...]:
         """Return the bodies with the pin on the ground."""
@@ -920,9 +927,32 @@ class Linkage(Stated):
         return stated or max(map(abs, self.drive.actuator.stated_lengths), default=0.0) or 1.0
 
     @cached_property
+    def origin(self) -> Point:
+        """A place among the pins from which all is solved, where they lie far from (0, 0); else that itself.
+
+        A coordinate is far where it exceeds `_FAR` times the linkage's size: then its distance from that of
+        another pin is exact.
+        """
+        moving = (joint for joint in self.joints if not joint.fixed)
+        size = math.fsum(abs(length) for joint in moving for length in joint.stated_lengths)
+        axes = [[pin.position[axis] for pin in self.pins] or [0.0] for axis in (0, 1)]
+        size += sum(max(along) - min(along) for along in axes)
+        x, y = (along[0] if min(map(abs, along)) > _FAR * size else 0.0 for along in axes)
+        return x, y
+
+    @cached_property
+    def near(self) -> Linkage:
+        """The linkage with its pins as seen from `origin`."""
+        if self.origin == (0.0, 0.0):
+            return self
+        x, y = self.origin
+        moved = (joint.seen_from(x, y) if isinstance(joint, Pin) else joint for joint in self.joints)
+        return replace(self, joints=tuple(moved))
+
+    @cached_property
     def extent(self) -> float:
-        """The sum of all lengths, which bounds every joint's distance from the origin; 1 without any."""
-        return math.fsum(map(abs, self.stated_lengths)) or 1.0
+        """The sum of all lengths, which bounds every joint's distance from `origin`; 1 without any."""
+        return math.fsum(map(abs, self.near.stated_lengths)) or 1.0
 
     @cached_property
     def by_name(self) -> dict[str, Joint]:

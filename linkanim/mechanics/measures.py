@@ -9,7 +9,7 @@ Its parts, in reading order:
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import lru_cache, partial
 from typing import Any
 
@@ -153,9 +153,38 @@ Vector = tuple[Any, Any]
 """The components of a plane vector, floats or arrays."""
 
 
+class Placed(Mapping[str, Any]):
+    """Positions by name, pairs or arrays (..., 2), of a linkage that is solved from a far `origin`.
+
+    `near` has them as seen from there, with the digits that they lose far from (0, 0).
+    """
+
+    def __init__(self, near: Mapping[str, Any], origin: tuple[float, float]) -> None:
+        self.near, self.origin = near, origin
+
+    def __getitem__(self, name: str) -> Any:
+        place, (x, y) = self.near[name], self.origin
+        if isinstance(place, tuple):
+            return place[0] + x, place[1] + y
+        found = place + np.array([x, y])
+        found.flags.writeable = False
+        return found
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.near)
+
+    def __len__(self) -> int:
+        return len(self.near)
+
+
+def near(positions: Mapping[str, Any]) -> Mapping[str, Any]:
+    """Return positions as their differences are to be formed: as seen from the linkage's origin."""
+    return positions.near if isinstance(positions, Placed) else positions
+
+
 def between(vectors: Mapping[str, Any], ends: tuple[str, str]) -> Vector:
     """Return how far one joint's vector is from another's: x and y."""
-    (x0, y0), (x1, y1) = (components(vectors[joint]) for joint in ends)
+    (x0, y0), (x1, y1) = (components(near(vectors)[joint]) for joint in ends)
     return x1 - x0, y1 - y0
 
 

@@ -29,10 +29,12 @@ from linkanim.mechanics.measures import (
     FAMILIES,
     NUMBERS,
     VECTORS,
+    Placed,
     between,
     cross,
     direction,
     growth,
+    near,
     over,
     size,
     unbounded,
@@ -196,6 +198,7 @@ def _shortest(turn: Array) -> Array:
 
 COORDINATE = ("coordinate", "coordinate_rate", "coordinate_second")
 """The input's angle, or travel, and its two rates, which are not the phase's where it does not turn fully."""
+_PLACES = {VECTORS[0], VECTORS[3]}
 NOTHING: Mapping[str, Any] = MappingProxyType({})
 LOWER = {kind: family[:n] for family in FAMILIES for n, kind in enumerate(family)}
 """For each quantity, those of its family with fewer derivatives."""
@@ -427,7 +430,9 @@ class Motion(Derived[Array, Array]):
     def _worked_out(self, kinds: tuple[str, ...]) -> dict[str, Any]:
         """Return these kinds of quantities by name."""
         places, results = self._run(kinds)
-        return {kind: columns(names, results, self.instants.shape) for kind, names in places.places.items()}
+        return self.mechanism.placed(
+            {kind: columns(names, results, self.instants.shape) for kind, names in places.places.items()}
+        )
 
     def _run(self, kinds: tuple[str, ...]) -> tuple[ResultLayout, Array]:
         instants, path = self.instants, self.mechanism.assembly.path
@@ -735,8 +740,16 @@ class Mechanism:
         trace = self.trace(Variant(True, accelerates, per_input=per_input))
         program = _scalar(*trace, derivatives)
         way = self.assembly.path.way
-        found = self._poses[key] = _there_and_back(program, per_input, way) if way else program
+        program = _there_and_back(program, per_input, way) if way else program
+        found = self._poses[key] = program if self.linkage.near is self.linkage else _placed(program)
         return found
+
+    def placed(self, found: dict[str, Any]) -> dict[str, Any]:
+        """Return quantities by kind, as solved, with positions where they are."""
+        if self.linkage.near is self.linkage:
+            return found
+        places = {kind: Placed(found[kind], self.linkage.origin) for kind in _PLACES & found.keys()}
+        return found | places
 
     def trace(self, variant: Variant) -> Traced:
         """Record the formulas of all quantities, lengths in the scene's unit."""
@@ -769,7 +782,7 @@ class Mechanism:
         derivatives, _, per_input = key
         motion = self.solve(phase=phase, speed=speed, acceleration=second, derivatives=derivatives)
         motion = motion.per_input if per_input else motion
-        found = {kind: _plain(values) for kind, values in motion.every.items()}
+        found = self.placed({kind: _plain(near(values)) for kind, values in motion.every.items()})
         inputs = ("phase", "input_speed", "input_acceleration", *COORDINATE)
         return found | {name: float(getattr(motion, name)) for name in inputs} | {"mechanism": self}
 
@@ -810,11 +823,20 @@ class Mechanism:
         names, rows = self.trace(variant)
         rates = ("w", "a") if variant.accelerates else ("w",)
         varying = {**dict.fromkeys(names, True), **dict.fromkeys(rates, variant.varying_rate)}
-        pins = {joint.name: joint.position for joint in self.linkage.pins}
+        pins = {joint.name: joint.position for joint in self.linkage.near.pins}
         places = layout({kind: rows[kind] for kind in kinds}, pins, VECTORS[:3])
         made = ((program, laid) for (like, _), (program, laid) in self._programs.items() if like == variant)
         known = (program for program, laid in made if laid.kinds == places.kinds)
         return next(known, None) or batch(varying, places.outputs), places
+
+
+def _placed(program: Callable[..., dict[str, Any]]) -> Callable[..., dict[str, Any]]:
+    """Return the program of one instant of a linkage that is solved from a far origin."""
+
+    def solved(phase: float, w: float, a: float, mechanism: Mechanism) -> dict[str, Any]:
+        return mechanism.placed(program(phase, w, a, mechanism))
+
+    return solved
 
 
 def _scalar(names: tuple[str, ...], rows: Rows, derivatives: int) -> Callable[..., dict[str, Any]]:

@@ -18,7 +18,7 @@ from typing import Any, Literal
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.angles import unit
 from linkanim.mechanics.linkage import Linkage, Rigid, Slide
-from linkanim.mechanics.measures import as_complex, over
+from linkanim.mechanics.measures import as_complex, near, over
 from linkanim.mechanics.quantities import indexed
 
 Order = Literal[1, 2]
@@ -161,7 +161,8 @@ class _Images:
         return arm / abs(arm)
 
     def _arm(self, start: str, end: str) -> Any:
-        return as_complex(self.motion.position[end]) - as_complex(self.motion.position[start])
+        places = near(self.motion.position)
+        return as_complex(places[end]) - as_complex(places[start])
 
     def _apart(self, start: str, end: str, order: Order) -> Any:
         return image(self.motion, end, order) - image(self.motion, start, order)

@@ -24,7 +24,8 @@ JUST_AFTER = 1e-6
 
 
 def assemble(linkage: Linkage) -> Assembly:
-    """Return the linkage put together as it asks; AssemblyError where it cannot be."""
+    """Return the linkage put together as it asks, seen from its origin; AssemblyError where it cannot be."""
+    linkage = linkage.near
     scale = _scale(linkage)
     scaled = linkage if scale == 1.0 else linkage.scaled(scale)
     loops = _find_loops(scaled, gearings(scaled))
