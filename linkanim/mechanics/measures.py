@@ -153,7 +153,7 @@ Vector = tuple[Any, Any]
 """The components of a plane vector, floats or arrays."""
 
 
-class Placed(Mapping[str, Any]):
+class FarPositions(Mapping[str, Any]):
     """Positions by name, pairs or arrays (..., 2), of a linkage that is solved from a far `origin`.
 
     `near` has them as seen from there, with the digits that they lose far from (0, 0).
@@ -179,7 +179,7 @@ class Placed(Mapping[str, Any]):
 
 def near(positions: Mapping[str, Any]) -> Mapping[str, Any]:
     """Return positions as their differences are to be formed: as seen from the linkage's origin."""
-    return positions.near if isinstance(positions, Placed) else positions
+    return positions.near if isinstance(positions, FarPositions) else positions
 
 
 def between(vectors: Mapping[str, Any], ends: tuple[str, str]) -> Vector:

@@ -29,7 +29,7 @@ from linkanim.mechanics.measures import (
     FAMILIES,
     NUMBERS,
     VECTORS,
-    Placed,
+    FarPositions,
     between,
     cross,
     direction,
@@ -748,7 +748,7 @@ class Mechanism:
         """Return quantities by kind, as solved, with positions where they are."""
         if self.linkage.near is self.linkage:
             return found
-        places = {kind: Placed(found[kind], self.linkage.origin) for kind in _PLACES & found.keys()}
+        places = {kind: FarPositions(found[kind], self.linkage.origin) for kind in _PLACES & found.keys()}
         return found | places
 
     def trace(self, variant: Variant) -> Traced:
