@@ -5,23 +5,30 @@ const lengthsOf = (model, { kinds, part, put, say, unit, add, by, xy, line, view
   const solver = solverOf(model), first = model.values.slice();
   const [scale, left, top] = view;
   const root = byId("own"), picture = byId("picture"), whole = picture.getAttribute("viewBox");
-  let range = null, moves = [], tracks = new Map(), flips = () => Object.create(null), on = false;
+  let range = null, course = null, base = Object.create(null), moves = [], tracks = new Map(), on = false;
 
   const pixel = ([x, y]) => [left + scale * x, top - scale * y];
   const turned = ([x, y]) => [scale * x, -scale * y];
 
+  // Returns the phase of the same pose on the way that a swing comes back along, and 1 or, on the way back, -1.
+  function unfolded(phase) {
+    if (!course || course.free) return [phase, 1];
+    const { first, last } = course, long = last - first, along = (((phase - first) % (2 * long)) + 2 * long) % (2 * long);
+    return along <= long ? [first + along, 1] : [first + 2 * long - along, -1];
+  }
+
   // Returns the input's angle at a phase, and its first two derivatives: there and back where it swings.
   function inputAt(phase) {
     if (!range) return [model.start + phase, 1, 0];
-    const middle = (range[0] + range[1]) / 2, reach = (range[1] - range[0]) / 2;
-    return [middle - reach * Math.cos(phase), reach * Math.sin(phase), reach * Math.cos(phase)];
+    const middle = (range.low + range.high) / 2, reach = (range.high - range.low) / 2, [there, way] = unfolded(phase);
+    return [middle - reach * Math.cos(there), way * reach * Math.sin(there), reach * Math.cos(there)];
   }
 
   // Returns all joints at a phase in pixels, null where rounding leaves them open.
   const kept = { phase: NaN, found: null };
   function posed(phase) {
     if (kept.phase === phase) return kept.found;
-    const [angle, rate, second] = inputAt(phase), joints = solver.solve(angle, flips(phase)), found = Object.create(null);
+    const [angle, rate, second] = inputAt(phase), joints = solver.solve(angle, course ? course.flips(unfolded(phase)[0]) : base), found = Object.create(null);
     for (const name in joints || {}) {
       const { p, v, a } = joints[name];
       found[name] = {
@@ -41,20 +48,6 @@ const lengthsOf = (model, { kinds, part, put, say, unit, add, by, xy, line, view
       return { p: pixel([0, 0]), v: [0, 0], a: [0, 0] };
     },
   });
-
-  // Returns which dyads are on their other closure at a phase: the first one on request, and the only one of a
-  // linkage where a limit turns it over; a chain goes back as it came.
-  function flipsOf() {
-    const dyads = model.joints.filter(({ kind }) => kind === "bars" || kind === "slider").map(({ name }) => name);
-    const stops = range ? range.map((angle) => solver.stopAt(angle)) : [];
-    const turning = dyads.length === 1 && stops.length && stops.every((name) => name === dyads[0]) ? dyads[0] : null;
-    return (phase) => {
-      const found = Object.create(null);
-      if (state.side) found[dyads[0]] = -1;
-      if (turning && Math.sin(phase) < 0) found[turning] = -(found[turning] || 1);
-      return found;
-    };
-  }
 
   function links(group) {
     const width = 0.016 * Number(whole.split(" ")[2]);
@@ -86,7 +79,7 @@ const lengthsOf = (model, { kinds, part, put, say, unit, add, by, xy, line, view
     const [x, y, wide, high] = whole.split(" ").map(Number), margin = 0.05 * wide;
     const box = [x, y, x + wide, y + high];
     for (let n = 0; n < FRAME; n += 4) for (const name of tracks.keys()) {
-      const { p } = tracks.get(name).at(TURN * n / FRAME);
+      const { p } = tracks.get(name).at(tracks.period * n / FRAME);
       box[0] = Math.min(box[0], p[0] - margin); box[1] = Math.min(box[1], p[1] - margin);
       box[2] = Math.max(box[2], p[0] + margin); box[3] = Math.max(box[3], p[1] + margin);
     }
@@ -97,7 +90,7 @@ const lengthsOf = (model, { kinds, part, put, say, unit, add, by, xy, line, view
   function told() {
     const found = solver.grashof(), relation = found && [">", "=", "<"][found.sign + 1];
     const sums = found ? `${found.name}: s + l = ${short(found.sums[0])} ${relation} p + q = ${short(found.sums[1])}. ` : "";
-    return `${sums}${range ? `The input swings between ${degrees(range[0])} and ${degrees(range[1])}.` : "The input turns fully."}`;
+    return `${sums}${range ? `The input swings between ${degrees(range.low)} and ${degrees(range.high)}.` : "The input turns fully."}`;
   }
 
   function inputWords(phase) {
@@ -106,15 +99,20 @@ const lengthsOf = (model, { kinds, part, put, say, unit, add, by, xy, line, view
   }
 
   function renew() {
-    const found = solver.range();
+    // the first dyad on its other closure, on request
+    base = Object.create(null);
+    const turned = model.joints.find(({ kind }) => kind === "bars" || kind === "slider");
+    if (state.side && turned) base[turned.name] = -1;
+    const found = solver.range(base);
     if (found === undefined) {
       byId("made").textContent = "With these lengths the linkage closes at no angle of the input.";
       return false;
     }
     range = found;
-    flips = flipsOf();
+    course = range && solver.course(range, base);
     kept.phase = NaN;
     tracks = new Map(model.joints.map(({ name }) => [name, track(name)]));
+    tracks.period = TURN * (course ? course.periods : model.turns);
     byId("made").textContent = told();
     root.replaceChildren();
     moves = links(root);

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import cos, pi, sin
+from math import ceil, cos, lcm, pi, sin
 from typing import Any
 
 from linkanim.mechanics.analysis import GRASHOF, TRIPLE_ROCKERS, four_bar_of
@@ -12,6 +12,8 @@ from linkanim.scenes.scene import Scene
 LINKS = ("ground", "input", "coupler", "output")
 _JUST_AFTER = 1e-3
 """The phase (rad) at which the side of a dyad is read off whose `side` refers to another joint."""
+_SLOW = 4.0
+"""A crank that turns no more than so many times as fast as the input is looked at in the usual steps."""
 _LEAST, _MOST = 0.2, 2.0
 """The range of a bar's slider, in shares of the bar's length."""
 _ASIDE = 0.5
@@ -31,12 +33,18 @@ def model(scene: Scene) -> dict[str, Any] | None:
     joints = [found.joint(joint) for joint in linkage.joints]
     if any(joint is None for joint in joints) or not found.shown:
         return None
+    gears = scene.mechanism.assembly.gears
     bar = four_bar_of(scene.mechanism)
     single = bar is not None and sum(joint.dyad for joint in linkage.joints) == 1
     return {
         "joints": joints,
         "values": found.values,
         "sliders": found.shown,
+        "drive": linkage.drive.joint,
+        "ground": next(pin.name for pin in linkage.pins),
+        "retraced": linkage.drive.retraced,
+        "turns": lcm(*(gearing.ratio.denominator for gearing in gears.values())),
+        "quickness": ceil(scene.mechanism.assembly.quickest / _SLOW),
         "start": linkage.drive.start,
         "stated": linkage.drive.stated_start,
         "level": _level(scene),

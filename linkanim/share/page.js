@@ -224,8 +224,8 @@
     },
 
     curve(group, { at, width, colours }, tracks) {
-      const count = Math.max(360, 360 * Math.round(page.period / TURN));
-      const points = Array.from({ length: count }, (_, n) => tracks.get(at).at(n / count * page.period).p);
+      const { period } = tracks, count = Math.max(360, 360 * Math.round(period / TURN));
+      const points = Array.from({ length: count }, (_, n) => tracks.get(at).at(n / count * period).p);
       stroked(group, colours[0], width, { d: line(points) + "Z" });
       return () => group.classList.toggle("off", !state.trace);
     },
@@ -237,7 +237,7 @@
       return () => {
         group.classList.toggle("off", !state.trace);
         if (!state.trace) return;
-        const tail = Math.min(phase, page.period) * Math.sign(speed());
+        const tail = Math.min(phase, tracks.period) * Math.sign(speed());
         paths.forEach((path, n) => put(path, "d", line(Array.from({ length: pieces + 1 }, (_, k) => {
           const age = 1 - (n + k / pieces) / shades.length;
           return tracks.get(at).at(state.phase - tail * age).p;
@@ -322,7 +322,7 @@
 
   const sides = page.sides.map((data, number) => {
     // a map: an object has properties that nobody gave it, such as "constructor"
-    const tracks = new Map();
+    const tracks = Object.assign(new Map(), { period: page.period });
     for (const name in data.tracks) tracks.set(name, new Track(data.tracks[name]));
     const group = byId(`side${number}`);
     const groups = [...group.querySelectorAll("[data-m]")];
@@ -340,6 +340,7 @@
   });
   // The tracks of what is shown: of the page's own linkage, or of other lengths.
   const tracksNow = () => own?.on ? own.tracks : now().tracks;
+  const periodNow = () => tracksNow().period;
 
   // --- drawing ------------------------------------------------------------------------------------
 
@@ -397,7 +398,8 @@
   let spoken = "";
   function drawInput(side) {
     const slider = byId("input"), text = rowWords(rowsNow(side)[0]);
-    slider.value = mod(state.phase, page.period);
+    put(slider, "max", periodNow());
+    slider.value = mod(state.phase, periodNow());
     slider.setAttribute("aria-valuetext", text);
     if (!state.playing && text !== spoken) byId("live").textContent = `${page.input} ${text}`;
     spoken = text;
@@ -542,7 +544,7 @@
     waiting = false;
     if (state.playing) {
       const seconds = before ? clamp((time - before) / 1000, 0, 0.1) : 0;
-      state.phase = mod(state.phase + speed() * state.pace * seconds, page.period);
+      state.phase = mod(state.phase + speed() * state.pace * seconds, periodNow());
       state.last = Math.sign(speed());
       wake();
     }
@@ -551,9 +553,9 @@
   }
 
   function moveTo(phase) {
-    const step = mod(phase - state.phase + page.period / 2, page.period) - page.period / 2;
+    const period = periodNow(), step = mod(phase - state.phase + period / 2, period) - period / 2;
     if (step) state.last = Math.sign(step);
-    state.phase = mod(phase, page.period);
+    state.phase = mod(phase, period);
     wake();
   }
   const pause = () => play(false);
@@ -684,7 +686,6 @@
   if (own) globalThis.lengths = own;
   const slider = byId("input");
   slider.min = 0;
-  slider.max = page.period;
   slider.setAttribute("aria-label", page.input);
   byId("grip").classList.remove("off");
   showSide(0);

@@ -48,8 +48,8 @@ CHART = (960, 300)
 _TEXT = (26, 22)
 """The heights of a chart's text and of its small text."""
 _LINE = 2.0
-_STEP = 1 / 32
-"""By how much of the last digit that is shown a table may be off."""
+_OF_A_ROW, _OF_A_CHART = 1 / 16, 2e-6
+"""By how much of the last digit shown a row's table may be off; a chart's by this share of its height."""
 
 
 def input_words(scene: Scene) -> str:
@@ -88,7 +88,7 @@ def _row(scene: Scene, label: str, unit: str, step: float, asked: _Asked) -> dic
         motion = scene.solve(phase=phases, speed=speeds[0])
         return np.array([shown(motion.paced(speed / speeds[0])) for speed in speeds], float)
 
-    found = table(scene, (0.0, scene.period), read, (), _STEP * 10.0 ** -_digits(step))
+    found = table(scene, (0.0, scene.period), read, (), _OF_A_ROW * 10.0 ** -_digits(step))
     forth, back = found.values[0], found.values[-1]
     sign = next((sign for sign in (1, -1) if np.array_equal(back, sign * forth)), 0)
     some = found.values if sign == 0 else found.values[:1]
@@ -142,7 +142,7 @@ def _table(panel: ChartPanel, least: float) -> Tabulated:
 def _chart(light: ChartPanel, dark: ChartPanel, pairs: Pairs) -> dict[str, Any]:
     course, scene = light.course, light.figure.scene
     span = light.plot.y.high - light.plot.y.low
-    found = _table(light, _STEP * 10.0 ** -_digits(span / 500))
+    found = _table(light, _OF_A_CHART * span)
     kind = kind_of(found.values)
     curves = [
         {
@@ -362,10 +362,10 @@ def _once(shapes: str, known: dict[str, str]) -> str:
 
 
 def _short(value: Any) -> Any:
-    """Return a document with its numbers to nine digits."""
+    """Return a document with its numbers to seven digits."""
     match value:
         case float():
-            return float(f"{value:.9g}")
+            return float(f"{value:.7g}")
         case dict():
             return {key: _short(one) for key, one in value.items()}
         case list() | tuple():

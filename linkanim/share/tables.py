@@ -23,10 +23,10 @@ Values = NDArray[np.float64]
 Read = Callable[[Values], Values]
 """Returns rows of values (k, n) at phases (n,)."""
 
-_MOMENTS, _A_TURN, _MOST = 96, 16, 2880
+_MOMENTS, _A_TURN, _MOST = 64, 12, 2880
 """The steps of a table for a turn of the drive, for one of the quickest crank, before parts are halved; and
 about the most in all."""
-_INSIDE = 1e-9
+_INSIDE = 1e-7
 """How far inside a part its first and last entry lie, in phase."""
 _NEAR, _NEARER, _AT = 1e-3, 1e-4, 1e-6
 """The distances from a place, in phase, at which it is measured how steeply values grow towards it."""
@@ -72,12 +72,19 @@ def table(
     reading between two entries is off by `near` at the most, or by a small share of the value.
     """
     turned = [math.pi * n for n in range(0 if scene.info.full_turn else round(scene.period / math.pi))]
-    places = sorted({*turned, *(place % scene.period for place in unbounded)})
+    places = _apart(sorted({*turned, *(place % scene.period for place in unbounded)}), scene.period)
     poles = tuple(_poles(read, places, scene.period))
     found = sorted(_parts(_Sought(scene, whole, read, poles, near), places))
     values = np.concatenate([values for *_, values in found], axis=1)
     ends = (*(low for low, *_ in found), 1.0)
     return Tabulated(values, ends, tuple(steps for _, _, steps, _ in found), poles)
+
+
+def _apart(places: Sequence[float], period: float) -> list[float]:
+    """Return places of a period, those of neighbours that differ by rounding alone once."""
+    near = _INSIDE
+    once = [one for one, other in pairwise([*places, math.inf]) if other - one > near]
+    return once[:-1] if len(once) > 1 and once[0] + period - once[-1] <= near else once
 
 
 def _poles(read: Read, places: Sequence[float], period: float) -> Iterator[Pole]:

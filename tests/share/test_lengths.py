@@ -74,7 +74,9 @@ def document(found: dict[str, Any], values: list[float], *, other: bool = False)
                 turned = False
             case "point":
                 joints[name] = {"on": list(one["on"]), "at": [values[n] for n in numbers]}
-    return {"ground": pins, "joints": joints, "drive": {"speed": "1 rad/s"}}
+    drive = {"speed": "1 rad/s", "joint": found["drive"], "returns": "same" if found["retraced"] else "other"}
+    drive |= {} if found["stated"] is None else {"start": f"{found['stated']!r} rad"}
+    return {"ground": pins, "joints": joints, "drive": drive}
 
 
 def changed(found: dict[str, Any], random: Random) -> list[float]:
@@ -97,9 +99,9 @@ def put_lengths(page: Page, found: dict[str, Any], values: list[float]) -> Any:
             inputs[n].value = values[number];
             inputs[n].dispatchEvent(new Event("input"));
           }});
-          const {{ solver }} = lengths;
-          return {{ set: solver.values, range: solver.range(), grashof: solver.grashof(),
-                    closes: solver.range() !== undefined,
+          const {{ solver }} = lengths, range = solver.range();
+          return {{ set: solver.values, range: range && [range.low, range.high], grashof: solver.grashof(),
+                    closes: range !== undefined,
                     told: document.getElementById("made").textContent }};
         }})()"""
     )
@@ -123,15 +125,94 @@ def faults(page: Page, found: dict[str, Any], values: list[float]) -> list[str]:
     if wrong:
         return wrong
     low, high = said["range"] or (0.0, 2 * pi)
-    chain = sum(joint.dyad for joint in scene.linkage.joints) > 1
-    if said["range"] and not chain:  # a chain that swings comes back on other closures, and may go less far
+    stops = scene.mechanism.stops
+    if said["range"] and all(stops):
         ends = zip(said["range"], scene.info.input_range, strict=True)
         wrong += [f"limit {one} for {own}" for one, own in ends if abs(remainder(one - own, 2 * pi)) > 1e-7]
+    if all(stops):
+        wrong += swung(page, scene)
     if said["grashof"]:
         wrong += [] if said["grashof"]["name"] == scene.info.class_name else [said["grashof"]["name"]]
         wrong += [] if said["told"].startswith(scene.info.class_name) else [said["told"]]
     angles = [low + share * (high - low) for share in (0.02, 0.3, 0.55, 0.81, 0.97)]
     return wrong + off(page, scene, angles, {})
+
+
+SWINGS: dict[str, dict[str, Any]] = {
+    "comes back on the same closure": {
+        "drive": {"returns": "same"},
+        "four-bar": {"ground": 110, "crank": 130, "coupler": 50, "rocker": 100},
+    },
+    "comes back on the other closure": {
+        "four-bar": {"ground": 110, "crank": 130, "coupler": 50, "rocker": 100},
+    },
+    "is back after two turns, of which a dyad lets it swing": {
+        "drive": {"joint": "A", "returns": "same"},
+        "ground": {"O": [0, 0], "G": [100, 0]},
+        "joints": {
+            "A": {"crank": "O", "length": 40},
+            "B": {"crank": "G", "length": 50, "gear": {"with": "A", "ratio": "1/2"}},
+            "C": {"from": ["A", "B"], "length": [60, 60], "side": "left"},
+        },
+    },
+    "is stopped at both ends by its second loop": {
+        "six-bar": {"lengths": [100, 30, 90, 80, 120, 60, 90, 80]},
+    },
+    "is stopped by its second loop inside the range of the first": {
+        "drive": {"start": "1 rad"},
+        "six-bar": {"lengths": [100, 80, 30, 90, 120, 60, 110, 50]},
+    },
+    "is stopped by its first loop, all the way": {
+        "drive": {"start": "1 rad"},
+        "six-bar": {"lengths": [100, 80, 30, 90, 120, 60, 160, 150]},
+    },
+    "is stopped by a slider with a short rod": {
+        "slider-crank": {"crank": 60, "rod": 40, "offset": 5},
+    },
+    "is stopped by a slot that misses its pivot": {
+        "drive": {"joint": "A"},
+        "ground": {"O": [0, 0], "Q": [50, 0]},
+        "joints": {
+            "A": {"crank": "O", "length": 30},
+            "P": {"slot": {"pivot": "Q", "through": "A", "offset": 40}, "length": 60},
+        },
+    },
+}
+
+
+@pytest.mark.parametrize("what", SWINGS)
+def test_a_page_s_own_linkage_swings_as_the_scene_does(what: str, page: Page, tmp_path: Path) -> None:
+    scene = scene_from(SWINGS[what], name="swing", where="swing")
+    page.go(put(tmp_path, Shared(scene)))
+    low, high = page.value("[lengths.range.low, lengths.range.high]")
+    assert (low, high) == pytest.approx(scene.info.input_range, abs=1e-7)
+    assert swung(page, scene) == []
+
+
+def swung(page: Page, scene: Scene) -> list[str]:
+    """Return the joints that a page's own linkage has elsewhere than the scene, at phases of a period."""
+    period = page.value("lengths.tracks.period")
+    wrong = [] if isclose(period, scene.period, rel_tol=1e-12) else [f"is back after {period}"]
+    phases = np.linspace(0.03, scene.period + 0.05, 41)
+    motion = scene.solve(phase=phases, speed=1.0)
+    size = max(length for joint in scene.linkage.joints for _, length in joint.bars)
+    found = page.value(
+        f"""(() => {{
+          const {{ view }} = JSON.parse(document.getElementById("data").textContent).sides[0];
+          return {json.dumps(phases.tolist())}.map((phase) => Object.fromEntries(
+            [...lengths.tracks.keys()].map((name) => {{
+              const {{ p, v }} = lengths.tracks.get(name).at(phase), [scale, left, top] = view;
+              return [name, [p[0] - left, top - p[1], v[0], -v[1]].map((one) => one / scale)];
+            }})));
+        }})()"""
+    )
+    for n, joints in enumerate(found):
+        for name, (x, y, *velocity) in joints.items():
+            for told, kind in (((x, y), "position"), (velocity, "velocity")):
+                true = np.broadcast_to(getattr(motion, kind)[name], (len(phases), 2))[n]
+                if np.abs(told - true).max() > 1e-5 * max(size, float(np.abs(true).max())):
+                    wrong.append(f"{name} {kind} at {phases[n]}: {told} for {true}")
+    return wrong
 
 
 def off(page: Page, scene: Scene, angles: list[float], flips: dict[str, int]) -> list[str]:
