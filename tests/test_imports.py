@@ -135,6 +135,12 @@ def test_a_file_imports_only_from_its_own_room_and_those_above() -> None:
     assert lower == []
 
 
+def test_only_the_solvers_own_room_imports_it() -> None:
+    outside = [path for path in SOURCES if room_of(path) != "mechanics"]
+    solver = re.compile(r"linkanim\.mechanics\.solver\b")
+    assert [(path, name) for path in outside for name in imported(path) if solver.match(name)] == []
+
+
 def test_no_modules_import_each_other_in_a_circle() -> None:
     modules = {".".join([*module_of(path), path.stem]).removesuffix(".__init__"): path for path in SOURCES}
     graph = {}

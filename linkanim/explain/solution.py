@@ -56,9 +56,9 @@ from linkanim.explain.synthesis import synthesis
 from linkanim.explain.whole_motion import whole_motion
 from linkanim.frozen import frozen
 from linkanim.mechanics.forces import effort_token
-from linkanim.mechanics.linkage import RRR, Body, Crank, Damper, Spring
+from linkanim.mechanics.linkage import RRR, Body, Crank, CrankTriangle, Cylinder, Damper, Spring, Travel
+from linkanim.mechanics.motion import Mechanism
 from linkanim.mechanics.quantities import input_symbol, link_labels
-from linkanim.mechanics.solver.strokes import CylinderStroke, Stroke
 from linkanim.picture.figure import figure
 from linkanim.scenes.scene import Scene
 from linkanim.units import rounded as told
@@ -127,10 +127,9 @@ def _swinging(request: PoseRequest, rates: Rates, symbol: Symbol) -> Formula:
     work = rates.work
     phase = work.known(Symbol("φ"), request.value, ANGLE, "phase")
     pace = work.known(Symbol("φ", mark="˙"), request.speed, _ONCE, "rate of the phase")
-    path = request.scene.mechanism.assembly.path
-    if isinstance(path, Stroke):
-        return _stroke(path, rates, (phase, pace), symbol)
-    low, high = path.input_range
+    if isinstance(request.scene.linkage.drive.actuator, Cylinder | Travel):
+        return _stroke(request.scene.mechanism, rates, (phase, pace), symbol)
+    low, high = request.scene.info.input_range
     middle = work.known(Symbol("θ", "m"), (low + high) / 2, ANGLE, "middle of the swing")
     amplitude = work.known(Symbol("A"), (high - low) / 2, ANGLE, "half of the swing")
     found = work.let(symbol, middle - amplitude * cos(phase), ANGLE)
@@ -146,47 +145,45 @@ def _cosine_rates(reach: Formula, phase: Formula, pace: Formula) -> tuple[Formul
     return reach * sin(phase) * pace, reach * cos(phase) * square(pace)
 
 
-def _stroke(path: Stroke, rates: Rates, phase: tuple[Formula, Formula], symbol: Symbol) -> Formula:
+def _stroke(mechanism: Mechanism, rates: Rates, phase: tuple[Formula, Formula], symbol: Symbol) -> Formula:
     """Add the travel of a slider or cylinder that drives, and for a cylinder the crank's angle."""
-    work = rates.work
-    letter = "ℓ" if isinstance(path, CylinderStroke) else symbol.letter
-    index = "" if letter == "ℓ" else symbol.sub
-    ends = (path.first * path.unscale, path.last * path.unscale)
+    work, triangle = rates.work, mechanism.triangle
+    letter, index = ("ℓ", "") if triangle else (symbol.letter, symbol.sub)
+    ends = mechanism.linkage.drive.actuator.stated_lengths
     middle = work.stated(Symbol(letter, "m"), sum(ends) / 2, LENGTH, "middle of the stroke")
     reach = work.sided(Symbol("a"), (ends[1] - ends[0]) / 2, *["half of the stroke"] * 2)
     slid = work.let(Symbol(letter, index), middle - reach * cos(phase[0]), LENGTH)
     formulas = _cosine_rates(reach, *phase)
     once = work.let(Symbol(letter, index, "˙"), formulas[0], Powers(1, 1))
     twice = work.let(Symbol(letter, index, "¨"), formulas[1], Powers(1, 2))
-    if isinstance(path, CylinderStroke):
-        return _cylinder(path, rates, (slid, once, twice), symbol)
+    if triangle:
+        return _cylinder(triangle, rates, (slid, once, twice), symbol)
     rates.start(once, twice)
     return slid
 
 
 def _cylinder(
-    path: CylinderStroke, rates: Rates, slid: tuple[Formula, Formula, Formula], symbol: Symbol
+    triangle: CrankTriangle, rates: Rates, slid: tuple[Formula, Formula, Formula], symbol: Symbol
 ) -> Formula:
     """Add the crank's angle and its rates from a cylinder's length."""
     work, between = rates.work, rates.work.linkage.drive.actuator.along
     assert between is not None
     length, once, twice = slid
     pivot = work.linkage.driven.pivot
-    sides = [side * path.unscale for side in path.sides]
     g, r = (
         work.known(Symbol(name), side, LENGTH, f"{marked(pivot)}–{marked(end)}")
-        for name, side, end in zip("gc", sides, between, strict=True)
+        for name, side, end in zip("gc", triangle.sides, between, strict=True)
     )
     base = work.known(
-        Symbol("θ", "b"), float(path.base), ANGLE, "the crank's angle with the cylinder's ends in line"
+        Symbol("θ", "b"), triangle.base, ANGLE, "the crank's angle with the cylinder's ends in line"
     )
     work.say("The cylinder is one side of a triangle with the crank's pivot:")
     corner = work.let(Symbol("ψ"), arccos((square(g) + square(r) - square(length)) / (TWO * g * r)), ANGLE)
-    found = work.let(symbol, base + corner if path.side > 0 else base - corner, ANGLE)
+    found = work.let(symbol, base + corner if triangle.side > 0 else base - corner, ANGLE)
     arm = g * r * sin(corner)
-    turning = rates.let_rate(work.driver, (length * once if path.side > 0 else -(length * once)) / arm, 1)
+    turning = rates.let_rate(work.driver, (length * once if triangle.side > 0 else -(length * once)) / arm, 1)
     bend = square(once) + length * twice - g * r * cos(corner) * square(turning)
-    rates.let_rate(work.driver, (bend if path.side > 0 else -bend) / arm, 2)
+    rates.let_rate(work.driver, (bend if triangle.side > 0 else -bend) / arm, 2)
     return found
 
 

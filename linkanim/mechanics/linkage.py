@@ -737,6 +737,18 @@ class Cylinder(Actuator):
         return f"the cylinder {'–'.join(self.between)} is {lengths}"
 
 
+class CrankTriangle(NamedTuple):
+    """The triangle that a cylinder makes with its crank: two sides from the crank's pivot.
+
+    These lead to the cylinder's two joints. The crank's angle is `base` (rad) plus `side`, +1 or -1, times
+    the angle between them.
+    """
+
+    sides: tuple[float, float]
+    base: float
+    side: int
+
+
 @frozen
 class Travel(Actuator):
     """How far the slider that drives the linkage travels along its line: from `first` to `last` and back."""

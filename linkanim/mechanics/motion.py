@@ -23,7 +23,7 @@ from numpy.typing import ArrayLike, NDArray
 from linkanim.errors import AssemblyError
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.arithmetic import Graph, Slope, Value
-from linkanim.mechanics.linkage import Body, Damper, Linkage, Spring
+from linkanim.mechanics.linkage import Body, CrankTriangle, Damper, Linkage, Spring
 from linkanim.mechanics.measures import (
     DERIVATIVE_OF,
     FAMILIES,
@@ -681,6 +681,11 @@ class Mechanism:
         Of an input that turns fully there are none.
         """
         return self.assembly.path.ends
+
+    @property
+    def triangle(self) -> CrankTriangle | None:
+        """The triangle by which a cylinder turns the crank; None where none does."""
+        return self.assembly.path.triangle
 
     @property
     def keeps(self) -> tuple[bool, bool]:

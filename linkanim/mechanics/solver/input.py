@@ -37,6 +37,7 @@ from linkanim.mechanics.angles import (
     two_sum,
 )
 from linkanim.mechanics.arithmetic import Graph, Moving, Slope, Value, beside, root, sqrt
+from linkanim.mechanics.linkage import CrankTriangle
 from linkanim.mechanics.precise import context, cosine, exactly, nearest_sum, sine
 from linkanim.mechanics.program import Array
 
@@ -301,6 +302,11 @@ class InputPath(ABC):
         """Tell which phases are the input's own: not those that retrace others."""
         first, last = self.way or (-math.inf, math.inf)
         return (phases >= first - AT_END) & (phases <= last + AT_END)
+
+    @property
+    def triangle(self) -> CrankTriangle | None:
+        """The triangle by which a cylinder turns the crank, in the scene's unit; None without one."""
+        return None
 
     @property
     def starts(self) -> list[float]:

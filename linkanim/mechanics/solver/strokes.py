@@ -37,7 +37,7 @@ from linkanim.mechanics.angles import (
     stated,
 )
 from linkanim.mechanics.arithmetic import Graph, Moving, Slope, Value, Vec, arctan2, sqrt
-from linkanim.mechanics.linkage import Actuator, Cylinder, Linkage, Travel
+from linkanim.mechanics.linkage import Actuator, CrankTriangle, Cylinder, Linkage, Travel
 from linkanim.mechanics.program import Array
 from linkanim.mechanics.solver.input import (
     SAME_PLACE,
@@ -149,6 +149,12 @@ class CylinderStroke(Stroke):
     def input_range(self) -> tuple[float, float]:
         """How far the crank goes."""
         return self.swing.input_range
+
+    @property
+    def triangle(self) -> CrankTriangle:
+        """The triangle of the cylinder and the crank's pivot, in the scene's unit."""
+        g, r = self.sides
+        return CrankTriangle((g * self.unscale, r * self.unscale), float(self.base), self.side)
 
     @property
     def starts(self) -> list[float]:
