@@ -683,6 +683,11 @@ class Mechanism:
         return self.assembly.path.ends
 
     @property
+    def way(self) -> tuple[float, float] | None:
+        """The first and the last phase of a way that all other phases retrace; None where there is none."""
+        return self.assembly.path.way
+
+    @property
     def triangle(self) -> CrankTriangle | None:
         """The triangle by which a cylinder turns the crank; None where none does."""
         return self.assembly.path.triangle

@@ -126,7 +126,7 @@ _LOOP = re.compile("M([^MZ]*)Z")
 # once.
 
 GRID = 1 << 16
-"""The equal parts of the true period, at whose ends nodes may lie."""
+"""The equal parts of the true period, at whose ends nodes may lie; they begin where a way does."""
 NEAR = 3e-4
 """How far off a curve may be between its nodes, in pixels of the picture: 0.0012 at 3840 × 2160."""
 _TOLD, _SLIGHT = 4e-5, 1e-2
@@ -146,6 +146,11 @@ _NOWHERE = complex(-1e4, -1e4)
 Whole = NDArray[np.int64]
 
 
+def begin_of(scene: Scene) -> float:
+    """Return the phase at which tracks begin."""
+    return scene.mechanism.way[0] if scene.mechanism.way else 0.0
+
+
 def centre(body: str) -> str:
     """Return the name of a body's centre of mass among the points."""
     return f"{body} (centre of mass)"
@@ -161,13 +166,13 @@ class Track:
 
 
 def tracks(scene: Scene, view: View) -> dict[str, Track]:
-    """Return the tracks of joints and centres of mass over a true period; over its half if it retraces."""
+    """Return the tracks of joints and centres of mass over a true period; over a way that it retraces."""
     joints = scene.linkage.joints
     centres = (centre(body.name) for body in scene.linkage.bodies if body.com is not None)
     names, fixed = (*(one.name for one in joints), *centres), {one.name for one in joints if one.fixed}
     first = min(max(_FIRST, 1 << math.ceil(math.log2(_FIRST * scene.period / math.tau))), GRID)
     step = GRID // first
-    end = GRID // 2 if scene.mechanism.retraced else GRID
+    end = GRID // 2 if scene.mechanism.way else GRID
     begins = {name: np.arange(0, end if name not in fixed else 1, step) for name in names}
     nodes = {name: [some] for name, some in begins.items()}
     open_ = {name: some for name, some in begins.items() if name not in fixed}
@@ -212,7 +217,7 @@ class _Solved:
 
     def __init__(self, scene: Scene, view: View, names: Sequence[str], grid: Whole) -> None:
         self.scene, self._grid = scene, grid
-        motion = scene.solve(phase=grid * (scene.period / GRID), speed=1.0)
+        motion = scene.solve(phase=begin_of(scene) + grid * (scene.period / GRID), speed=1.0)
         self._known = dict(zip(names, _pixels(motion, scene, view), strict=True))
 
     def at(self, name: str, places: Whole) -> Loop:

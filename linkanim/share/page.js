@@ -46,7 +46,7 @@
 
     // Returns {p, v, a} at a phase; on a way back that was the way there with velocities of the other sign.
     at(phase) {
-      const there = mod(phase, page.period), back = page.retraced && there > Math.PI;
+      const there = mod(phase - page.way * Math.PI, page.period), back = page.way !== null && there > page.period / 2;
       const { p, v, a } = this.found(back ? page.period - there : there);
       return { p, v: back ? by(v, -1) : v, a };
     }
@@ -59,7 +59,7 @@
         const middle = (low + high) >> 1;
         if (nodes[middle] <= here) low = middle; else high = middle;
       }
-      if (page.retraced && count > 1) low = Math.min(low, count - 2);
+      if (page.way !== null && count > 1) low = Math.min(low, count - 2);
       const next = (low + 1) % count;
       const span = low + 1 < count ? nodes[next] - nodes[low] : GRID - nodes[low] + nodes[0];
       const width = span * page.period / GRID;

@@ -13,7 +13,7 @@ from dataclasses import replace
 from functools import cache
 from html import escape
 from itertools import count
-from math import floor, log10
+from math import floor, log10, pi
 from pathlib import Path
 from string import Template
 from typing import Any
@@ -39,7 +39,7 @@ from linkanim.picture.view import Rect
 from linkanim.scenes.editing import closure_name, ghost_of
 from linkanim.scenes.scene import Scene
 from linkanim.share.lengths import model
-from linkanim.share.movers import Mobile, Pairs, packed, packed_tracks, tracks
+from linkanim.share.movers import Mobile, Pairs, begin_of, packed, packed_tracks, tracks
 from linkanim.share.tables import Tabulated, kind_of, table
 
 # The numbers of a page over one true period, in both directions: rows of values, and the chart.
@@ -254,6 +254,7 @@ def _whole(shared: Shared, size: tuple[int, int], closures: Sequence[tuple[Pictu
     found = {
         "period": scene.period,
         "retraced": scene.mechanism.retraced,
+        "way": None if scene.mechanism.way is None else round(begin_of(scene) / pi),
         "speed": shared.speed or scene.linkage.drive.speed,
         "unit": scene.length_unit,
         "input": input_words(scene),

@@ -12,6 +12,7 @@ from linkanim.picture.figure import DOWN, figure
 from linkanim.picture.view import View
 from linkanim.scenes import load, names
 from linkanim.scenes.editing import ghost_of, other_return
+from linkanim.scenes.reading import scene_from
 from linkanim.scenes.scene import Scene
 from linkanim.share.movers import GRID, packed_tracks, tracks
 
@@ -96,6 +97,36 @@ def test_a_track_has_no_more_nodes_than_its_curve_asks_for() -> None:
     found = {name: len(track.nodes) for name, track in tracks(scene, view_of(scene)).items()}
     assert (found["O2"], found["A"]) == (1, 16)
     assert max(found.values()) < 60
+
+
+# Stephenson III, driven at its first bar: at its upper end it comes back as it went, at its lower it goes on.
+KEPT = {
+    "drive": {"joint": "B"},
+    "ground": {"A": [7, 4], "D": [23, 10], "G": [45, 17]},
+    "joints": {
+        "B": {"crank": "A", "length": 12},
+        "C": {"from": ["B", "D"], "length": [22, 15], "side": "left"},
+        "E": {"on": ["B", "C"], "at": [20, 12]},
+        "F": {"from": ["E", "G"], "length": [25, 15], "side": "left"},
+    },
+}
+
+
+def test_tracks_of_a_way_from_one_kept_end_to_itself_hold_up_to_both() -> None:
+    scene = scene_from(KEPT, name="kept", where="kept.toml")
+    first, last = scene.mechanism.way or (0.0, 0.0)
+    assert (first, last) == (-np.pi, np.pi)
+    view = view_of(scene)
+    packed = packed_tracks(tracks(scene, view))
+    beside = np.array([1e-9, 1e-4, 1e-3, 0.1, 1.0, 3.0])
+    phases = np.concatenate([first + beside, last - beside])
+    motion = scene.solve(phase=phases, speed=1.0)
+    for joint in motion.position:
+        place, velocity, _ = read(packed[joint], phases - first, scene.period)
+        there = motion.position[joint] @ DOWN * view.scale + complex(view.x, view.y)
+        assert np.abs(place @ (1, 1j) - there).max() < FINEST, joint
+        wanted = motion.velocity[joint] @ DOWN * view.scale
+        assert np.abs(velocity @ (1, 1j) - wanted).max() <= 2e-3 * np.abs(wanted).max(initial=1.0), joint
 
 
 # Where all signs change at once, at the ends of a way that is gone back, no stretch leads across.
