@@ -243,15 +243,20 @@ class Picture:
         self.layout: Layout = self.fit.arrangement.layout
         self.fitted: View = self._kept or self._of_sheet or self.fit.view_of(self.figure)
         """The view before zoom and pan."""
-        (width, height), (right, down) = self.size, look.pan
-        about, shift = (width / 2, height / 2), (right * height, down * height)
-        self.view: View = moved(self.fitted, about, zoom=look.zoom, pan=shift)
+        (right, down), height = look.pan, self.size[1]
+        self.view: View = moved(self.fitted, self.about, zoom=look.zoom, pan=(right * height, down * height))
         self.gauge: Gauge = self.fit.arrangement.gauge
         if self.sheet:
             self.gauge = gauge(self.layout.unit, self.figure.shortest * self.fitted.scale)
         setting = DrawSetting(self.figure, self.view, self.gauge, self.theme, self.layout, look, self.type)
         self.drawing = Drawing(setting, apart=self._apart, moment=self._moment)
         self._chart = self._charted()
+
+    @property
+    def about(self) -> tuple[float, float]:
+        """The pixel about which the look zooms: the stage's middle; of paper, which stays, the window's."""
+        whole = Rect(0, 0, *self.size) if self._kept or self.sheet else self.layout.stage
+        return whole.middle.real, whole.middle.imag
 
     @property
     def _of_sheet(self) -> View | None:
@@ -397,8 +402,7 @@ class Picture:
         words = layout.margin + _LINES_OF_LAYERS * layout.text_size
         stage = stage._replace(y=stage.y + words, height=stage.height - words).inset(2 * layout.margin)
         view = LayerView.fitting(parts.reach, parts.layers, shown.apart, stage)
-        middle, pan = complex(*self.size) / 2, complex(*self.look.pan) * self.size[1]
-        view = view.moved(middle, self.look.zoom, pan)
+        view = view.moved(complex(*self.about), self.look.zoom, complex(*self.look.pan) * self.size[1])
         text, unit, pixel = layout.small_size, self.scene.length_unit, max(layout.unit, _THIN)
         yield _NOTHING_STILL
         yield grouped("layers", lifted(parts, pose, unit, view, self.theme, text, pixel=pixel))

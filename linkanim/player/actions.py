@@ -27,6 +27,7 @@ from linkanim.player.keys import BESIDE_GAMES
 from linkanim.player.sketching import come, keep, left
 from linkanim.player.state import (
     ATTRACT_AFTER,
+    CHIP_FRAMES,
     FADE_FRAMES,
     FLASH_FRAMES,
     SHUTTER_FRAMES,
@@ -53,7 +54,9 @@ from linkanim.units import LENGTH_UNITS
 Step = TypeVar("Step")
 
 _NOTCH = 1.25
-_NOTCHES = (-8, 16)
+_NOTCHES, _ON_PAPER = (-6, 13), (-8, 16)
+"""The least and the greatest zoom, in notches: a linkage in a small room stays a twentieth of the window
+large, and none becomes more than 20 times as large. On a sheet there is more to draw on."""
 _PLACES = 9
 
 
@@ -119,7 +122,8 @@ def theme(state: State, _: None) -> State:
 def zoom(state: State, about: tuple[float, float, float]) -> State:
     """Zoom by notches of the wheel about a point."""
     notches, x, y = about
-    return replace(state, look=zoomed(state.look, notches, (x, y)))
+    ends = _ON_PAPER if state.building else _NOTCHES
+    return replace(state, look=zoomed(state.look, notches, (x, y), ends))
 
 
 def pan(state: State, by: tuple[float, float]) -> State:
@@ -133,15 +137,14 @@ def fit(state: State, _: None) -> State:
     return replace(state, look=replace(state.look, zoom=1.0, pan=(0.0, 0.0)))
 
 
-def zoomed(look: Look, notches: float, about: tuple[float, float]) -> Look:
+def zoomed(look: Look, notches: float, about: tuple[float, float], ends: tuple[int, int]) -> Look:
     """Return the look zoomed by `notches`, the point `about` staying where it is.
 
-    `about` is in window heights from the middle of the picture, right and down. As many notches back give the
-    same look, unless the end of the range was met.
+    `about` is in window heights from the middle of the stage, right and down. As many notches back give the
+    same look, unless an end of the range was met.
     """
-    before = math.log(look.zoom, _NOTCH)
-    low, high = _NOTCHES
-    zoom = _NOTCH ** min(max(round(before + notches), low), high)
+    low, high = ends
+    zoom = _NOTCH ** min(max(round(math.log(look.zoom, _NOTCH) + notches), low), high)
     ratio = zoom / look.zoom
     pan = tuple(point - (point - shift) * ratio for point, shift in zip(about, look.pan, strict=True))
     return replace(look, zoom=zoom, pan=_rounded(pan[0], pan[1]))
@@ -159,8 +162,9 @@ _LONGEST = 12
 
 
 def write(state: State, text: str) -> State:
-    """Add to the typed place, which a chip shows until it is taken."""
-    return _begun(state, (state.place_typed + text)[:_LONGEST])
+    """Add to the typed place, which a chip shows until it is taken; 0 alone also fits the view."""
+    typed = (state.place_typed + text)[:_LONGEST]
+    return _begun(fit(state, None) if typed.strip("0") == "" else state, typed)
 
 
 def erase(state: State, _: None) -> State:
@@ -169,7 +173,8 @@ def erase(state: State, _: None) -> State:
 
 
 def _begun(state: State, text: str) -> State:
-    chip = Toast(f"{_symbol(state)} = {text}_", state.frame + _STANDS) if text else None
+    stands = _STANDS if text.strip("0") else CHIP_FRAMES
+    chip = Toast(f"{_symbol(state)} = {text}_", state.frame + stands) if text else None
     return replace(state, place_typed=text, chip=chip)
 
 
@@ -567,7 +572,7 @@ ACTIONS: Mapping[str, Rule] = {
     "plot": Rule(_text, edits.plot, answer=_chart),  # a quantity's token
     "strip": Rule(_text, edits.strip, answer=_chart),  # a quantity's token, charted below or removed
     "help": Rule(_nothing, lambda state, _: replace(state, help=not state.help)),
-    # notches, about the point (x, y): window heights from the picture's middle, y down
+    # notches, about the point (x, y): window heights from the stage's middle, y down
     "zoom": Rule(_numbers(3), zoom, answer=_zoom),
     "pan": Rule(_numbers(2), pan),  # window heights, right and down
     "fit": Rule(_nothing, fit, answer=_zoom),

@@ -795,10 +795,9 @@ class Mouse:
         return "pan" if screen.charted(*self._at) is None else "chart"
 
     def _zoomed(self, notches: float, screen: Screen) -> tuple[Action, ...]:
-        """Zoom about the mouse; before its place is known, about the middle."""
-        middle = screen.size[0] / 2, screen.size[1] / 2
-        x, y = (at - half for at, half in zip(self._at if self._seen else middle, middle, strict=True))
-        return (Action("zoom", (float(notches), x / screen.size[1], y / screen.size[1])),)
+        """Zoom about the mouse, or the linkage's nearest place; before it was seen, about the middle."""
+        x, y = screen.from_middle(*self._at) if self._seen else (0.0, 0.0)
+        return (Action("zoom", (float(notches), x, y)),)
 
     def _moved(self, screen: Screen) -> tuple[Action, ...]:
         if self._drag == "pace":

@@ -54,17 +54,25 @@ class Approach:
         """Return whether the new view is reached."""
         return frame >= self.since + APPROACH_FRAMES
 
-    def look(self, look: Look, fitted: View, goal: View, size: tuple[int, int], frame: int) -> Look:
+    def look(
+        self,
+        look: Look,
+        fitted: View,
+        goal: View,
+        size: tuple[int, int],
+        frame: int,
+        *,
+        about: tuple[float, float] | None = None,
+    ) -> Look:
         """Return the look whose zoom and pan show this frame's view, between the old one and `goal`.
 
-        `fitted` is the view that the look zooms and pans, in a window of that size in pixels.
+        `fitted` is the view that the look zooms and pans, in a window of that size in pixels; it zooms about
+        a pixel, without one about the window's middle.
         """
-        view = between(self.left, goal, self._share(frame))
-        width, height = size
+        view, (x, y) = between(self.left, goal, self._share(frame)), about or (size[0] / 2, size[1] / 2)
         zoom = view.scale / fitted.scale
-        right = view.x - width / 2 - (fitted.x - width / 2) * zoom
-        down = view.y - height / 2 - (fitted.y - height / 2) * zoom
-        return replace(look, zoom=zoom, pan=(right / height, down / height))
+        right, down = view.x - x - (fitted.x - x) * zoom, view.y - y - (fitted.y - y) * zoom
+        return replace(look, zoom=zoom, pan=(right / size[1], down / size[1]))
 
     def arrival(self, frame: int) -> Arrival:
         """Return how charts come in at a frame: with the view."""
@@ -217,8 +225,9 @@ class Framing:
         if self._approach is None or self._approach.over(self._frame):
             self._approach = None
             return goal
-        look = self._approach.look(self._look(state), goal.fitted, goal.view, size, self._frame)
         kept = goal.fitted if state.sketch else None
+        about = None if kept else goal.about
+        look = self._approach.look(self._look(state), goal.fitted, goal.view, size, self._frame, about=about)
         names: Literal["as before", "at once"] = "as before" if goal.hurried else "at once"
         arrival = self._approach.arrival(self._frame)
         self._passing = Picture(

@@ -454,8 +454,8 @@ def bind_of(press: Press, mode: Mode = "play", *, typing: bool = False, valued: 
     """Return what a key asks for; None where it is not bound.
 
     In an open list printable keys are typed, except for a few that keep their meaning until something is
-    typed (`typing`). On a sheet digits are typed where the chosen thing has a value (`valued`); else they are
-    the numbers of tools.
+    typed (`typing`). While a mechanism is shown digits are a place to go to. On a sheet they are typed where
+    the chosen thing has a value (`valued`); else they are the numbers of tools.
     """
     if _is_typed(press, mode, typing, valued=valued):
         return Bind(press.key, Action(_TYPED[mode][0], press.text), repeats=True)
@@ -472,7 +472,7 @@ def _is_typed(press: Press, mode: Mode, typing: bool, *, valued: bool) -> bool:
     if mode == "build":
         return typing or (valued and press.text in "123456789.-")
     if mode in _RUNS:
-        return press.text in "123456789" or (typing and press.text in "0.")
+        return press.text in "0123456789" or (typing and press.text == ".")
     return typing or press.key not in _TYPED[mode][1]
 
 

@@ -416,6 +416,18 @@ class Screen:
         """The window's size."""
         return pygame.display.get_window_size()
 
+    def from_middle(self, x: float, y: float) -> tuple[float, float]:
+        """Return how far a pixel is from that about which the look zooms, in heights of the window.
+
+        Beside a linkage it is the place of the linkage that is nearest: zoomed about that, it stays in sight.
+        """
+        last, state = self._framing.last, self.state
+        if not (state.building or state.sketch or state.layers):
+            box, view = last.figure.box, last.view
+            (left, top), (right, low) = view.to_pixel(box.left, box.high), view.to_pixel(box.right, box.low)
+            x, y = min(max(x, left), right), min(max(y, top), low)
+        return (x - last.about[0]) / self.size[1], (y - last.about[1]) / self.size[1]
+
     def crank_pin(self) -> tuple[float, float]:
         """Return where the input crank's pin is, in pixels."""
         return self._framing.last.crank_pin_px(self.state.displayed.pose(self.state.phase, 0))

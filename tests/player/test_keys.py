@@ -74,7 +74,7 @@ PLAYING = {
     "+ on its own key": (Press("+", "+"), Action("zoom", (1.0, 0.0, 0.0))),
     "keypad +": (Press("kp_plus", "+"), Action("zoom", (1.0, 0.0, 0.0))),
     "-": (Press("-", "-"), Action("zoom", (-1.0, 0.0, 0.0))),
-    "0": (Press("0", "0"), Action("fit")),
+    "0": (Press("0", "0"), Action("type_place", "0")),
     "home": (Press("home"), Action("fit")),
     "l": (Press("l", "l"), Action("theme")),
     "f11": (Press("f11"), Action("fullscreen")),

@@ -19,6 +19,7 @@ from playing import CTRL, SHIFT, SIZE, Player, fake_start
 
 from linkanim.picture.look import Look
 from linkanim.picture.placing import Placer
+from linkanim.picture.view import Rect
 from linkanim.player import beside
 from linkanim.player import screen as display
 from linkanim.player.action import Action
@@ -26,7 +27,7 @@ from linkanim.player.actions import carried
 from linkanim.player.clock import STEP
 from linkanim.player.framing import Framing
 from linkanim.player.shown import overlay
-from linkanim.player.state import FRAMES, TOAST_FRAMES, State, begin
+from linkanim.player.state import CHIP_FRAMES, FRAMES, TOAST_FRAMES, State, begin
 from linkanim.player.tape_file import read
 from linkanim.scenes import load, names
 from linkanim.scenes.editing import dimensions
@@ -561,6 +562,56 @@ def test_the_wheel_zooms_about_the_middle_before_the_mouse_was_seen(player: Play
     before = player.window.screen.world(*middle)
     player.mouse(pygame.MOUSEWHEEL, (0, 0), x=0, y=2)
     assert player.window.screen.world(*middle) == pytest.approx(before)
+
+
+@pytest.mark.parametrize("listed", [False, True], ids=["chart", "list and chart"])
+@pytest.mark.parametrize("at", [None, 638 + 2j], ids=["over the chart", "in a corner"])
+@pytest.mark.parametrize("size", [(1280, 720), (640, 360), (720, 1280)], ids=str)
+def test_the_linkage_stays_in_sight_however_it_is_zoomed(
+    player: Player, listed: bool, size: tuple[int, int], at: complex | None
+) -> None:
+    pygame.display.set_mode(size, pygame.RESIZABLE)
+    player.press(pygame.K_c, 0, "c")
+    if listed:
+        player.press(pygame.K_e, 0, "e")
+    player.tick(60)
+    framing = player.window.screen._framing
+    assert framing.last.layout.chart
+    at = framing.last.layout.chart.middle if at is None else at
+    for notches in (-40, 40):
+        for _ in range(2):
+            player.mouse(pygame.MOUSEMOTION, (at.real, at.imag), rel=(0, 0), buttons=(0, 0, 0))
+            pygame.event.post(pygame.event.Event(pygame.MOUSEWHEEL, x=0, y=notches, flipped=False))
+            player.tick()
+        last, stage = framing.last, framing.last.layout.stage
+        box = last.figure.box
+        (left, top), (right, bottom) = (
+            last.view.to_pixel(box.left, box.high),
+            last.view.to_pixel(box.right, box.low),
+        )
+        assert max((right - left) / size[0], (bottom - top) / size[1]) >= 0.05
+        assert last.view.scale / last.fitted.scale <= 20
+        assert stage.meets(Rect(left, top, right - left, bottom - top))
+    player.press(pygame.K_HOME)
+    assert (player.state.look.zoom, player.state.look.pan) == (1.0, (0.0, 0.0))
+
+
+def test_zero_is_a_place_as_any_digit_and_fits_the_view(player: Player) -> None:
+    player.mouse(pygame.MOUSEWHEEL, (0, 0), x=0, y=3)
+    player.press(pygame.K_SPACE)
+    assert player.state.look.zoom > 1
+    player.type("0")
+    assert (player.state.look.zoom, player.state.clock.paused) == (1.0, False)
+    player.press(pygame.K_RETURN)
+    assert player.state.clock.paused
+    assert math.degrees(player.state.scene.pose(player.state.phase, 0).coordinate) % 360 == pytest.approx(0.0)
+    player.type("07")
+    assert player.state.place_typed == "07"
+    player.press(pygame.K_RETURN)
+    assert math.degrees(player.state.scene.pose(player.state.phase, 0).coordinate) % 360 == pytest.approx(7.0)
+    player.press(pygame.K_0, 0, "0")
+    player.tick(CHIP_FRAMES)
+    assert (player.state.place_typed, player.state.chip) == ("", None)
 
 
 def test_a_drag_pans(player: Player) -> None:
