@@ -8,6 +8,8 @@ MOST_TURNS = 1_000
 """Turns of the input, or swings there and back, within which every joint has to be back: in a period."""
 MOST_GEARED_TURNS = 20_000
 """Turns of the quickest crank in a period."""
+MOST_TURNS_ON = 1 << 30
+"""Turns of the input, or swings, up to which a pose has all its digits; of a geared crank twice as many."""
 MOST_DYAD_TURNS = 2_000
 """Turns of the input in a period times the dyads, each of which is examined over all of them."""
 MOST_CHANGE_POINTS = 100

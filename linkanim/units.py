@@ -23,6 +23,8 @@ from linkanim.frozen import NamedTuple
 
 _SMALLEST, _LARGEST = -4, 7
 """The first power of ten with which a number is written without an exponent, and the first with one again."""
+_ALL_DIGITS = 1e15
+"""A number up to which every digit before its point is known."""
 _NOTHING = 1e-13
 """Radians below which an angle is a rounding error of zero."""
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
@@ -49,8 +51,8 @@ def rounded(value: float, digits: int) -> str:
 
 
 def short(value: float) -> str:
-    """Return four significant digits, and every digit before the point: 33.33, 12346."""
-    return significant(value, 4) if abs(value) < 1000 else f"{value:.0f}"
+    """Return four significant digits, and every digit before the point that there is: 33.33, 12346, 6e+31."""
+    return f"{value:.0f}" if 1000 <= abs(value) < _ALL_DIGITS else significant(value, 4)
 
 
 def rpm(speed: float) -> str:

@@ -197,3 +197,18 @@ def test_angles_are_equal_where_all_their_digits_are() -> None:
     assert written == float(written)
     assert written == pickle.loads(pickle.dumps(written))
     assert pickle.loads(pickle.dumps(written)).rest == written.rest
+
+
+# A float has no more digits: those that print after them say nothing.
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (33.333, "33.33"),
+        (12345.6, "12346"),
+        (6e31, "6e+31"),
+        (-6.25e15, "-6.25e+15"),
+        (999_999_999_999_999.0, "9" * 15),
+    ],
+)
+def test_a_large_number_is_not_told_in_digits_that_it_has_not(value: float, text: str) -> None:
+    assert units.short(value) == text

@@ -835,7 +835,8 @@ class Mechanism:
         varying = {**dict.fromkeys(names, True), **dict.fromkeys(rates, variant.varying_rate)}
         pins = {joint.name: joint.position for joint in self.linkage.near.pins}
         places = layout({kind: rows[kind] for kind in kinds}, pins, VECTORS[:3])
-        made = ((program, laid) for (like, _), (program, laid) in self._programs.items() if like == variant)
+        there = tuple(self._programs.items())  # in one step: another thread may add to it meanwhile
+        made = ((program, laid) for (like, _), (program, laid) in there if like == variant)
         known = (program for program, laid in made if laid.kinds == places.kinds)
         return next(known, None) or batch(varying, places.outputs), places
 

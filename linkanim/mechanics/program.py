@@ -394,7 +394,12 @@ class Batch:
 
     def _buffers(self, size: int) -> list[Array]:
         """Return buffers for one call, used ones where they fit: fresh memory costs a page at a time."""
-        work = self.spare.pop() if self.spare else []
+        try:
+            work = (
+                self.spare.pop()
+            )  # without asking first whether there are any: another thread may take them
+        except IndexError:
+            work = []
         if work and len(work[0]) == size:
             return work
         return list(aligned_rows(self.passes.buffers, size))
@@ -460,7 +465,7 @@ class _Passes:
 
     def run_as_noted(self, given: Sequence[Array], results: Array) -> bool:
         """Fill the results (outputs, N) without compiling; return False where they are left to `block`."""
-        if self._runs == _NOTED or results.shape[1] * len(self._operations) > _FEW:
+        if self._runs >= _NOTED or results.shape[1] * len(self._operations) > _FEW:
             return False
         self._runs += 1
         known: dict[str, Any] = dict(zip(self._inputs, given, strict=True))

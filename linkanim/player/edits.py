@@ -100,7 +100,7 @@ def renewed(state: State, scene: Scene) -> State:
 def exchanged(state: State, scene: Scene) -> State:
     """Show a changed scene at the phase of the old one; raises whatever its solver raises."""
     clock = state.clock.at_rate(state.frame, scene.linkage.drive.speed)
-    proved(scene, clock.at(state.frame))
+    proved(scene, replace(state, clock=clock).phase)
     look = replace(state.look, chart=_kept_chart(state, scene))
     turned = state.turned if _verdict(scene.info) == _verdict(state.scene.info) else state.frame
     editing = still_typed(state.editing, state.scene, scene)

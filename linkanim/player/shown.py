@@ -439,7 +439,7 @@ def _quantities(state: State, listing: Listing) -> Quantities:
         return Quantities(others.rows, listing.chosen, listing.sieve, _OTHERS_HINT, title=others.title)
     found = [quantity(scene, token) for token in listing.found(scene)]
     # Values change four times a second: faster ones cannot be read, and each change costs a drawing.
-    pose = scene.pose(state.clock.at(state.frame // _READ * _READ), speed=state.clock.speed)
+    pose = scene.pose(state.phase_at(state.frame // _READ * _READ), speed=state.clock.speed)
     near = range(listing.chosen - _NEAR, listing.chosen + _NEAR)
     rows = tuple(
         (one.words, value_words(scene, one, pose) if n in near or n < _NEAR else one.symbol)

@@ -13,6 +13,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import field, replace
 from functools import cached_property
+from math import fmod
 from typing import TYPE_CHECKING, Any, Literal, Protocol, Self
 
 import numpy as np
@@ -417,6 +418,8 @@ def driven_bar(draft: Draft) -> Thing | None:
 
 PIVOTS = ("O2", "O4")
 """The fixed pins of every answer."""
+_MANY = 1e5
+"""A phase (rad) up to which turns are counted: a window that runs on for days comes to more."""
 _LARGEST_COGNATE = 2.5
 """A cognate larger than this, in sizes of the stroke, is not shown beside a smaller answer."""
 DIAL = "dial"
@@ -984,7 +987,12 @@ class State:
     @property
     def phase(self) -> float:
         """The phase (rad) at this frame."""
-        return self.clock.at(self.frame)
+        return self.phase_at(self.frame)
+
+    def phase_at(self, frame: float) -> float:
+        """Return the phase (rad) at a frame, of very many turns without whole periods."""
+        phase = self.clock.at(frame)
+        return phase if abs(phase) < _MANY else fmod(phase, self.scene.period)
 
 
 def begin(scene: Scene | str | os.PathLike[str] | None = None, *, look: Look | None = None) -> State:

@@ -74,7 +74,7 @@ class Tape:
             time = picture * FRAMES_PER_SECOND / fps
             while state.frame < math.floor(time):
                 state = next(states)
-            yield state, state.clock.at(time)
+            yield state, state.phase_at(time)
 
 
 def starting(state: State) -> State:

@@ -14,11 +14,14 @@ from dataclasses import field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
 
+from linkanim.bounds import MOST_TURNS_ON
 from linkanim.errors import BadInput
 from linkanim.frozen import NamedTuple, frozen
+from linkanim.units import shown
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
+    import numpy as np
+    from numpy.typing import ArrayLike, NDArray
 
     from linkanim.mechanics.analysis import Info
     from linkanim.mechanics.linkage import Linkage
@@ -226,21 +229,39 @@ class Scene:
         `speed` (rad/s) and `acceleration` (rad/s²) are those of what is given: of the crank's angle,
         or of the phase; the scene's own speed where none is given. `derivatives` 0, 1 or 2 says how
         much is worked out. An angle outside the input's range gives NaN; rates at a limit are
-        infinite. BadInput if neither or both of angle and phase are given, and for an angle if the
-        input is a slider.
+        infinite. BadInput if neither or both of angle and phase are given, for an angle if the
+        input is a slider, for anything but numbers, and beyond a billion turns.
         """
         if (angle is None) == (phase is None):
             raise BadInput("give either angle= or phase=, in radians")
         if angle is not None:
             self.linkage.drive.check_angle(self.name, "take the phase")
         _check_derivatives(derivatives)
+        by = "angle" if phase is None else "phase"
+        where = _numbers(by, angle if phase is None else phase)  # type: ignore[arg-type]
+        self._check_turns(by, float(abs(where).max(initial=0.0)))
+        rate = self.linkage.drive.speed if speed is None else speed
         return self.mechanism.solve(
-            angle=angle,
-            phase=phase,
-            speed=self.linkage.drive.speed if speed is None else speed,
-            acceleration=acceleration,
+            **{by: where},
+            speed=rate if type(rate) is float else _numbers("speed", rate),
+            acceleration=acceleration
+            if type(acceleration) is float
+            else _numbers("acceleration", acceleration),
             derivatives=derivatives,
         )
+
+    @cached_property
+    def _most(self) -> float:
+        """The greatest phase or angle (rad) at which a pose has all its digits."""
+        return 2 * math.pi * MOST_TURNS_ON / max(self.mechanism.assembly.quickest / 2, 1.0)
+
+    def _check_turns(self, what: str, size: float) -> None:
+        if size > self._most:
+            turns = f"{round(self._most / (2 * math.pi)):,}"
+            raise BadInput(
+                f"{self.name}: {what}={size:g} is more than {turns} turns, up to which a pose has all its"
+                f" digits; take off whole periods, each {self.period:g} rad"
+            )
 
     def cycle(self, count: int, *, derivatives: int = 2) -> Motion:
         """Return the motion at `count` phases, equally spaced over one true period, the end left out."""
@@ -268,6 +289,8 @@ class Scene:
         # A pose takes a microsecond or two, so values that are floats already are not checked further.
         if not (type(phase) is type(rate) is type(acceleration) is float):
             phase, rate, acceleration = _as_floats(phase, rate, acceleration)
+        if abs(phase) > self._most:
+            self._check_turns("phase", abs(phase))
         return self.mechanism.pose(phase, rate, acceleration, derivatives)
 
     def __getstate__(self) -> dict[str, Any]:
@@ -284,6 +307,19 @@ class Scene:
             if value
         )
         return f"<table>{cells}</table>"
+
+
+def _numbers(name: str, given: ArrayLike) -> NDArray[np.float64]:
+    """Return what is given as an array of floats; BadInput where it is anything but numbers."""
+    import numpy as np
+
+    try:
+        found = np.asarray(given)
+        if found.dtype.kind in "fiubO":
+            return np.asarray(found, np.float64)
+    except (TypeError, ValueError):
+        pass
+    raise BadInput(f"solve({name}={shown(given)}): give numbers, one or an array of them")
 
 
 def _as_floats(phase: float, speed: float, acceleration: float) -> tuple[float, float, float]:

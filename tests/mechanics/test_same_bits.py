@@ -41,7 +41,8 @@ def test_batches_of_any_size_hold_the_same_bits(scene: str) -> None:
 @pytest.mark.sampled
 def test_a_pose_alone_holds_the_bits_of_a_batch(scene: str) -> None:
     solved = load(scene)
-    phases = np.concatenate([MANY[:40], FAR, [0.0, math.pi / 2, math.pi, 2 * math.pi]])
+    far = FAR[np.abs(FAR) * solved.mechanism.assembly.quickest < 2 * math.pi * 2.0**31]
+    phases = np.concatenate([MANY[:40], far, [0.0, math.pi / 2, math.pi, 2 * math.pi]])
     whole = dict(rows(solved.solve(phase=phases)))
     for index, phase in enumerate(phases.tolist()):
         for name, value in rows(solved.pose(phase)):
