@@ -628,13 +628,17 @@ class Info:
 
     @property
     def input_words(self) -> str:
-        """How far the input goes, in words."""
-        if self.full_turn:
-            return "turns fully"
+        """How far the input goes, in words, and how far from another start."""
         drive = self.mechanism.linkage.drive
-        angles = drive.coordinate.is_angle
-        reach = self.ranges("{}…{}", degrees) if angles else _places(self, self.input_range, "…")
-        return f"{drive.actuator.moves} {reach}"
+        if self.full_turn or not drive.coordinate.is_angle:
+            return self.motion_words
+        return f"{drive.actuator.moves} {self.ranges('{}…{}', degrees)}"
+
+    @property
+    def motion_words(self) -> str:
+        """How far the input goes, in words; at hand at once."""
+        moves = self.mechanism.linkage.drive.actuator.moves
+        return "turns fully" if self.full_turn else f"{moves} {_places(self, self.input_range, '…')}"
 
     def ranges(self, form: str, end: Callable[[float], str]) -> str:
         """Return the input's range in words, and those that it has when it starts elsewhere.

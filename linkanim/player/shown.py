@@ -191,7 +191,7 @@ def _words(state: State, sheet: BuildSheet) -> tuple[str, tuple[str, ...]]:
         missing = building.made.missing
         return building.sentence or missing, (missing,) if building.sentence else ()
     info = state.scene.info
-    facts = (*filter(None, [info.grashof]), f"input {info.input_words}")
+    facts = (*filter(None, [info.grashof]), f"input {info.motion_words}")
     if state.editing.open:
         return building.sentence, ()  # the list shows the rest
     if building.sentence:
