@@ -330,7 +330,7 @@ _ON_A_LIST = frozenset({"move", "sift", "unsift", "back"})
 def play(state: State, words: str) -> State:
     """Begin a game, or the title, by its words; BadInput where they name none."""
     if state.games is None:
-        return with_toast(state, "there are no games here; `linkanim` alone has them")
+        return with_toast(state, "there are no games in this window; the program's own has them")
     game = state.games(words)
     if state.beneath is None:
         state = drop(left(state), None)

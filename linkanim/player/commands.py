@@ -359,7 +359,7 @@ def _nothing_moves(state: State) -> str:
 
 _LACKS: Mapping[Action, Callable[[State], str]] = {
     Action("play", "title door=play"): lambda state: (
-        "" if state.games else "there are no games here; `linkanim` alone has them"
+        "" if state.games else "there are no games in this window; the program's own has them"
     ),
     Action("trace"): lambda state: "" if state.scene.trace else "no joint of this mechanism is traced",
     Action("keep"): lambda state: "" if state.sketch and not state.sketch.is_blank else _NONE_YET,

@@ -41,9 +41,10 @@ def run(options: Namespace) -> None:
             raise BadInput(
                 "--preview without a picture's name opens the window; leave out -o and --json there"
             )
+        from linkanim.play.arcade import Arcade
         from linkanim.player.window import run as play
 
-        play(options.scene, layers=list(_words(options)))
+        play(options.scene, keeper=Arcade(), layers=list(_words(options)))
         return
     picture = options.preview and checked_output(options.preview, "", OF_A_FIGURE, inputs_of(options))
     scene = load(options.scene)

@@ -7,6 +7,7 @@ from argparse import Namespace
 from linkanim.atomic_files import kept_as
 from linkanim.picture.look import Look
 from linkanim.picture.photograph import refuse_lacking
+from linkanim.play.arcade import Arcade
 from linkanim.player.window import run as play
 from linkanim.scenes import names
 
@@ -17,4 +18,12 @@ def run(options: Namespace) -> None:
     photo = options.photo
     if photo:
         refuse_lacking(str(photo))
-    play(names()[0], look=look, size=options.size, drafts=kept_as("draft.json"), sheet=True, photo=photo)
+    play(
+        names()[0],
+        look=look,
+        size=options.size,
+        keeper=Arcade(),
+        drafts=kept_as("draft.json"),
+        sheet=True,
+        photo=photo,
+    )
