@@ -25,10 +25,6 @@ FINEST = 2.0**-70
 """Share of the largest place below which a bracket is not halved further: a place may be zero itself."""
 
 _ROUNDS = 5
-_AHEAD = 64
-"""Places that are worked out in a call where there are fewer brackets than that."""
-_DEEPEST = 6
-"""The most halvings that are prepared in one call."""
 
 
 def samples_a_turn(quickest: float) -> int:
@@ -64,59 +60,19 @@ def highest(
     return place
 
 
-def ends_of(
-    holds: Callable[[Array], Bools],
-    inside: Array,
-    outside: Array,
-    share: float = FINEST,
-    *,
-    ahead: int = _AHEAD,
-) -> Array:
+def ends_of(holds: Callable[[Array], Bools], inside: Array, outside: Array, share: float = FINEST) -> Array:
     """Return the last places (N,) at which a condition holds, between places where it does and does not.
 
-    `holds` takes places (M, N), M in each of the N brackets, and returns whether the condition holds at each.
-    No bracket is halved below that `share` of its places. With few brackets, all places that several halvings
-    may reach are asked for in one call, `ahead` of them at the most: a call costs more than a place.
+    `holds` tells of one place in each bracket, (N,), whether the condition holds there. No bracket is halved
+    below that `share` of its places.
     """
-    finest, each = share * np.maximum(np.abs(inside), np.abs(outside)), np.arange(len(inside))
-    deep = min(max(int(math.log2(ahead / max(len(inside), 1) + 1)), 1), _DEEPEST)
+    finest = share * np.maximum(np.abs(inside), np.abs(outside))
     while True:
-        middles, halves = _halvings(inside, outside, deep)
-        held, at = holds(middles), np.zeros(len(inside), np.intp)
-        size = np.maximum(np.abs(inside), np.abs(outside))
-        least = np.maximum(finest, 4 * np.spacing(size)) * 2.0 ** (deep + 1)
-        if (np.abs(outside - inside) > least).any():  # so that the search does not end with one of these
-            for level in range(deep):
-                at = 2 * at + ~held[(1 << level) - 1 + at, each]
-            inside, outside = halves[0][at, each], halves[1][at, each]
-            continue
-        for level in range(deep):
-            place = (1 << level) - 1 + at
-            middle, good = middles[place, each], held[place, each]
-            if ((middle == inside) | (middle == outside) | (np.abs(outside - inside) <= finest)).all():
-                return inside
-            inside, outside = np.where(good, middle, inside), np.where(good, outside, middle)
-            at = 2 * at + ~good
-
-
-def _halvings(inside: Array, outside: Array, deep: int) -> tuple[Array, tuple[Array, Array]]:
-    """Return the middles of `deep` halvings, one row for each outcome of the halvings before, and all halves.
-
-    A half where the condition holds in the middle comes before the one where it does not.
-    """
-    middles, halves = np.empty(((1 << deep) - 1, len(inside))), (inside[np.newaxis], outside[np.newaxis])
-    for level in range(deep):
-        here = middles[(1 << level) - 1 : (2 << level) - 1]
-        np.divide(np.add(*halves, out=here), 2, out=here)
-        halves = _in_turn(here, halves[0]), _in_turn(halves[1], here)
-    return middles, halves
-
-
-def _in_turn(first: Array, second: Array) -> Array:
-    """Return rows of both, in turn."""
-    rows = np.empty((2 * len(first), first.shape[1]))
-    rows[::2], rows[1::2] = first, second
-    return rows
+        middle = (inside + outside) / 2
+        if ((middle == inside) | (middle == outside) | (np.abs(outside - inside) <= finest)).all():
+            return inside
+        good = holds(middle)
+        inside, outside = np.where(good, middle, inside), np.where(good, outside, middle)
 
 
 def sign_changes(function: Callable[[Array], Array], places: Array, share: float = FINEST) -> Array:
@@ -138,8 +94,7 @@ def changes_by_row(
     rows, index, start = _brackets(function, places)
 
     def alike(middles: Array) -> Bools:
-        values = own_rows(function, np.tile(rows, len(middles)), middles.ravel()).reshape(middles.shape)
-        return np.asarray((values > 0) == start)
+        return np.asarray((own_rows(function, rows, middles) > 0) == start)
 
     return rows, ends_of(alike, places[index], places[index + 1], share)
 

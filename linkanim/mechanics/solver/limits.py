@@ -400,8 +400,6 @@ STANDSTILL = 2.0**-40
 FLAT = 2.0**-52
 """Share of a margin's scale by which it changes between samples that need no others between them."""
 FINEST = 2.0**-40
-AHEAD = 512
-"""Places at a time where extremes are bracketed: each call works the whole linkage out."""
 HALVINGS = 32
 FEW = 16
 """The most cells that are halved twice at a time: a call costs more than their samples."""
@@ -748,10 +746,10 @@ def _places(sampled: Callable[[Array], Sampled], samples: Sampled, cells: Bools,
     start = samples.rows[row, dyads, index] > 0
 
     def alike(phases: Array) -> Bools:
-        values = sampled(phases.ravel()).rows[row].reshape(-1, *phases.shape)
-        return np.asarray((values[dyads, :, np.arange(len(dyads))].T > 0) == start)
+        return np.asarray((sampled(phases).rows[row][dyads, each] > 0) == start)
 
-    found = ends_of(alike, samples.phases[index], samples.phases[index + 1], FINEST, ahead=AHEAD)
+    each = np.arange(len(dyads))
+    found = ends_of(alike, samples.phases[index], samples.phases[index + 1], FINEST)
     return [found[dyads == dyad] for dyad in range(len(cells))]
 
 
@@ -981,8 +979,7 @@ def _limits(
     own = np.arange(len(rows))
 
     def closes(phases: Array) -> Bools:
-        values = found.margins(phases.ravel()).reshape(-1, *phases.shape)
-        return np.asarray(values[rows, :, own].T >= 0)
+        return np.asarray(found.margins(phases)[rows, own] >= 0)
 
     ends = ends_of(closes, inside, outside)
     missed = (found.beside(*end) for end in zip(outside.tolist(), names, sides.tolist(), strict=True))
