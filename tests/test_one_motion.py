@@ -24,7 +24,7 @@ from linkanim.mechanics.quantities import Quantity, register
 from linkanim.picture.chart import ChartPanel, chart_panel, pen_for
 from linkanim.picture.figure import Figure, figure
 from linkanim.picture.hud import rows
-from linkanim.picture.layout import layout
+from linkanim.picture.layout import layout, with_side
 from linkanim.picture.quantities import series_of
 from linkanim.picture.text import Type
 from linkanim.picture.theme import LIGHT
@@ -87,7 +87,7 @@ def _tokens(name: str) -> list[str]:
 
 def _strips(name: str) -> tuple[Figure, dict[str, ChartPanel]]:
     shown = figure(load(name))
-    window = layout((1280, 720), chart=True)
+    window = with_side(layout((1280, 720)), 1, 0, beside=False)
     pen = pen_for(window, Type(), LIGHT)
     return shown, {token: chart_panel(shown, token, window, pen) for token in _tokens(name)}
 

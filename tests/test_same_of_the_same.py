@@ -40,7 +40,7 @@ from linkanim.picture.chart import chart_panel, pen_for
 from linkanim.picture.figure import Figure, figure
 from linkanim.picture.hud import measured
 from linkanim.picture.hud import rows as hud
-from linkanim.picture.layout import layout
+from linkanim.picture.layout import layout, with_side
 from linkanim.picture.text import Type
 from linkanim.picture.theme import LIGHT
 from linkanim.play.kinds import KINDS
@@ -282,7 +282,7 @@ KIND = ("position", "velocity", "acceleration")
 
 
 def _on_a_chart(scene: Scene, quantity: Quantity, pose: Pose) -> Iterator[str]:
-    window = layout((1280, 720), chart=True)
+    window = with_side(layout((1280, 720)), 1, 0, beside=False)
     chart = chart_panel(_figure(scene), quantity.token, window, pen_for(window, Type(), LIGHT))
     values, said = chart.values_at(pose), np.atleast_1d(np.asarray(quantity.shown(pose), float))
     whole = 360.0 if chart.series.unit == "°" else math.inf

@@ -246,7 +246,7 @@ def test_a_worked_solution_a_hand_out_and_a_page_take_a_unit(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     # of any pose: which one reads best is asked elsewhere
-    monkeypatch.setattr("linkanim.paper.report.default_phase", lambda _: 1.0)
+    monkeypatch.setattr("linkanim.paper.report.still_phase", lambda _: 1.0)
     own, shown = (
         _ran(capsys, "explain", "crank-rocker", "--angle", "60 deg", *more) for more in ([], ["--unit", "cm"])
     )

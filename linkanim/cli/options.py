@@ -350,13 +350,15 @@ class Preset:
     size: tuple[int, int]
     fps: float
     suffix: str
+    projected: bool = False
+    """Whether it is shown on a slide, whose letters are read from the last row."""
 
 
 DEFAULT = Preset((1280, 720), 25.0, ".gif")
 
 PRESETS = {
-    "slides": DEFAULT,
-    "beamer": Preset((1280, 720), 25.0, ".png"),
+    "slides": Preset((1280, 720), 25.0, ".gif", projected=True),
+    "beamer": Preset((1280, 720), 25.0, ".png", projected=True),
     "web": Preset((640, 360), 20.0, ".gif"),
 }
 
@@ -529,6 +531,12 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
             str,
             'begin with a game, such as "match level=mine.toml", "follow scene=press", "predict level=2"',
         ),
+        _takes(
+            "--reduced-motion",
+            action=BooleanOptionalAction,
+            default=None,
+            help="change pictures at once, without fades and moving views (default: as the desktop asks)",
+        ),
         _look("play"),
     ),
     "new": (
@@ -646,7 +654,7 @@ ARGUMENTS: Mapping[str, tuple[Argument, ...]] = {
         _look("draw"),
         _value("--poses N", poses, "draw N faint poses of the period behind it"),
         _CONSTRUCTION,
-        _usually(hud=False),
+        _usually(hud=False, material="flat"),
     ),
     "explain": (
         _SCENE,

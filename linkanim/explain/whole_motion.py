@@ -47,6 +47,7 @@ from linkanim.mechanics.analysis import FourBar, four_bar_of
 from linkanim.mechanics.linkage import RRP, RRR, Body, Crank, Joint
 from linkanim.mechanics.measures import output_body, output_slider
 from linkanim.mechanics.motion import Lazy
+from linkanim.mechanics.quantities import called
 from linkanim.mechanics.search import highest
 from linkanim.scenes.scene import Scene
 from linkanim.units import significant
@@ -295,7 +296,7 @@ class _WholeMotion:
         """Yield the step on the output's two dead centres; none where the output does not turn back."""
         slider, body = output_slider(self.scene.linkage), output_body(self.scene.linkage)
         if slider is not None and self.info.stroke:
-            title = f"Slider {slider.name}" if slider.name.isdecimal() else slider.name.capitalize()
+            title = called(slider, self.info.link_names)
             step = self._step(title, partial(self._of_slider, slider))
         elif slider is None and body is not None and self.info.swing is not None:
             step = self._step(self.info.link_names[body.name].capitalize(), partial(self._of_rocker, body))

@@ -91,12 +91,14 @@ def link_labels(linkage: Linkage) -> dict[str, str]:
 
 
 def called(body: Body, names: Mapping[str, str]) -> str:
-    """Return what a body is called in words, by its name in `names`: "Rocker", "Link 3", "Slider 5".
+    """Return what a body is called in words, by its name in `names`: "Rocker", "Link 3", "Slider C".
+
+    A slider with a number for a name is called after its joint, whose letter stands beside it.
 
     A body named by one letter is "Link b": the letter alone would be read as a joint's.
     """
     if body.name.isdecimal():
-        return f"{'Slider' if body.slider else 'Link'} {body.name}"
+        return f"Slider {body.slider}" if body.slider else f"Link {body.name}"
     words = names.get(body.name, body.name)
     return words[:1].upper() + words[1:] if len(words) >= _NOUN else f"Link {words}"
 

@@ -3,6 +3,7 @@
 From the ground up; a module imports from those before it only:
 
     illustration  a page's pen and surface, and a picture of groups that exist already
+    lettering     the letters that a document carries
     svg           items as SVG
     pdf           items as PDF
     latex         a PDF whose words LaTeX sets

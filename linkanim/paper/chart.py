@@ -32,12 +32,12 @@ from linkanim.picture.chart import (
     without_values,
     x_title,
 )
-from linkanim.picture.items import Caption, Group, Item, grouped
+from linkanim.picture.items import Caption, Group, Halo, Item, grouped
 from linkanim.picture.look import ThemeName
-from linkanim.picture.placing import Clutter, LabelPlaces, Solid, place
+from linkanim.picture.placing import Alternatives, chosen, crossed, grounded
 from linkanim.picture.quantities import Axis, linear, range_around, zeros_level
 from linkanim.picture.raster import Colour, Layer
-from linkanim.picture.shapes import box, disc, segments
+from linkanim.picture.shapes import disc, segments
 from linkanim.picture.view import Rect
 from linkanim.units import stepped
 
@@ -78,6 +78,7 @@ def finer(pen: Pen) -> Pen:
     return replace(pen, line=0.6 * pen.line)
 
 
+_Line = tuple[complex, complex]
 InPlot = tuple[Plot, Curve]
 """A curve in the plot that it is drawn in."""
 
@@ -88,7 +89,7 @@ class _Words(NamedTuple):
     curve: Curve
     at: complex
     text: str
-    places: LabelPlaces
+    places: Alternatives
     dotted: bool = False
 
 
@@ -140,28 +141,34 @@ class Annotations:
     def _placed(self, drawn: Sequence[InPlot], words: list[_Words]) -> Iterator[Item]:
         """Yield words where there is room, each with its dot and, where it is far off, a line to that."""
         pen, half = self.pen, 0.6 * self.pen.line
-        tracks = [(curve, line) for plot, curve in drawn for line in _tracks(plot, curve, half)]
-        own = {
-            id(curve): frozenset(n for n, (owner, _) in enumerate(tracks) if owner is curve)
-            for _, curve in drawn
-        }
-        to_place = [one.places._replace(beside=own[id(one.curve)]) for one in words]
-        dots = tuple(_around(one.at, _DOT * pen.line) for one in words if one.dotted)
+        tracks = [(curve, line) for plot, curve in drawn for line in _tracks(plot, curve)]
+        to_place = [self._off_curves(one, tracks, half) for one in words]
+        dots = [_around(one.at, _DOT * pen.line) for one in words if one.dotted]
         half_dot = 0.5 * _DOT * pen.line
-        measured = tuple(_around(at, half_dot) for at in _thinned(self.points, half_dot))
-        clutter = Clutter(drawn[0][0].area, (*dots, *measured), tuple(line for _, line in tracks))
-        for one, spot in zip(words, place(to_place, clutter), strict=True):
-            size, middle = one.places.size, complex(one.places.places[0, spot.which])
-            lead = -1 if one.places.drawn is None else int(one.places.drawn[spot.which])
-            if spot.shown[0] and lead >= 0:
-                end = one.places.lines[lead][0, 0, 1]
-                yield Layer(self.colour(one.curve), segments(one.at, end, 0.6 * pen.line))
+        measured = [_around(at, half_dot) for at in _thinned(self.points, half_dot)]
+        which = chosen(to_place, grounded(drawn[0][0].area, [*dots, *measured]))
+        for one, n in zip(words, which, strict=True):
+            size = one.places.size
+            if n is not None and one.places.lines is not None:
+                begin, end = one.places.lines[0, n, 0].tolist()
+                if begin != end:
+                    yield Layer(self.colour(one.curve), segments(one.at, end, 0.6 * pen.line))
             if one.dotted:
                 yield from dot(self.colour(one.curve), finer(pen)).at([one.at])
-            if spot.shown[0]:
-                yield Layer(pen.theme.background, [middle + box(size[0] + 4, size[1], 3)], 0.7)
+            if n is not None:
+                middle = complex(one.places.places[0, n])
                 at = (middle.real - size[0] / 2, middle.imag - size[1] / 2)
-                yield Caption(one.text, at, pen.small, pen.theme.ink)
+                halo = Halo(pen.theme.background, 0.2 * pen.small)
+                yield Caption(one.text, at, pen.small, pen.theme.ink, halo=halo)
+
+    def _off_curves(self, one: _Words, tracks: list[tuple[Curve, _Line]], half: float) -> Alternatives:
+        """Return the places of words, which cover no other curve and rather not their own."""
+        places, size = one.places.places, one.places.size
+        others = np.array([[line for curve, line in tracks if curve is not one.curve]]).reshape(1, -1, 2)
+        own = np.array([[line for curve, line in tracks if curve is one.curve]]).reshape(1, -1, 2)
+        faults = np.asarray(crossed(places, size, others, np.full(others.shape[1], half)).any(axis=2))
+        covered = np.asarray(crossed(places, size, own, np.full(own.shape[1], half)).any(axis=2))[0]
+        return one.places._replace(faults=faults, price=one.places.price + 2.0 * covered)
 
 
 def _apart(levels: Sequence[float], step: float, ends: tuple[float, float]) -> list[float]:
@@ -193,7 +200,7 @@ def _peak_words(plot: Plot, peak: Peak, curves: Curves, curve: Curve) -> str:
     return f"{stepped(peak.value, (plot.y.high - plot.y.low) / 500)}{unit} at {curves.place_words(peak.x)}"
 
 
-def _about(at: complex, text: str, pen: Pen, *, high: bool) -> LabelPlaces:
+def _about(at: complex, text: str, pen: Pen, *, high: bool) -> Alternatives:
     """Return places for words about a place on a curve, with lines to those that are not close by.
 
     The words of a `high` place stand above it where they can, those of a low one below.
@@ -213,18 +220,16 @@ def _about(at: complex, text: str, pen: Pen, *, high: bool) -> LabelPlaces:
     reach = away + 1j * np.maximum(np.abs(offs.imag) - tall / 2, 0) * np.sign(offs.imag)
     led = np.flatnonzero(np.abs(reach) > _CLOSE * pen.small)
     begins = 1.5 * _DOT * pen.line * reach[led] / np.abs(reach[led])
-    lines = tuple(np.array([[[at + begin, at + end]]]) for begin, end in zip(begins, reach[led], strict=True))
-    drawn = np.full(len(offs), -1)
-    drawn[led] = np.arange(len(led))
-    return LabelPlaces((wide, tall), at + offs[None], price, lines=lines, drawn=drawn)
+    lines = np.repeat((at + offs)[:, None], 2, axis=1)
+    lines[led] = np.stack([at + begins, at + reach[led]], axis=1)
+    return Alternatives((wide, tall), at + offs[None], price, lines=lines[None, :, None])
 
 
-def _tracks(plot: Plot, curve: Curve, half: float) -> Iterator[Solid]:
+def _tracks(plot: Plot, curve: Curve) -> Iterator[_Line]:
     """Yield a curve in short straight lines."""
     for path in paths(plot, curve.x, curve.values):
         points = path[np.r_[0 : len(path) - 1 : _EVERY, len(path) - 1]]
-        for begin, end in pairwise(points):
-            yield Solid(np.array([[begin, end]]), half)
+        yield from pairwise(points.tolist())
 
 
 # A chart on a page: curves with their legend, extremes marked, one axis a unit or a column of strips.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import cached_property
 from math import tau
 
@@ -14,6 +15,7 @@ from linkanim.mechanics.quantities import input_symbol
 from linkanim.paper.sentences import of_pose
 from linkanim.paper.svg import svg
 from linkanim.picture.items import Group
+from linkanim.picture.layout import Docked
 from linkanim.picture.look import Look
 from linkanim.picture.overlay import NOTHING_OVER, Overlay
 from linkanim.picture.picture import Picture
@@ -30,7 +32,7 @@ class Figured:
 
     Without a `phase` (rad) it is the pose that reads best. Values are for `speed` (rad/s), the scene's own
     where it is None, and the input's `acceleration`. Names stand as is best for this pose alone, or `as_seen`
-    in a window. The `overlay` is drawn on top.
+    in a window. The `overlay` is drawn on top. Bodies are flat, as in print, unless they are `lit`.
     """
 
     scene: Scene
@@ -42,11 +44,12 @@ class Figured:
     acceleration: float = 0.0
     as_seen: bool = False
     overlay: Overlay = NOTHING_OVER
+    lit: bool = False
 
     @cached_property
     def shown_phase(self) -> float:
         """The phase that it shows."""
-        return still_phase(self.scene, self.size, self.look.type_scale) if self.phase is None else self.phase
+        return still_phase(self.scene) if self.phase is None else self.phase
 
     @property
     def caption(self) -> str:
@@ -60,7 +63,9 @@ class Figured:
     def picture(self) -> Picture:
         """The picture whose pose it shows."""
         moment = None if self.as_seen else self.shown_phase
-        return Picture(self.scene, self.size, self.look, apart=True, moment=moment)
+        docked = Docked(head=self.overlay.construction > 0)
+        look = replace(self.look, material="lit" if self.lit else "flat")
+        return Picture(self.scene, self.size, look, apart=True, moment=moment, docked=docked)
 
     @cached_property
     def _poses(self) -> tuple[Pose, tuple[Pose, ...]]:

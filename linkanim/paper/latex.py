@@ -95,7 +95,7 @@ def write_for_latex(
 def words(size: tuple[int, int], items: Iterable[Item], name: str, wide: float | None = None) -> str:
     """Return the LaTeX that sets the captions of a picture, `size` in pixels, over the PDF of that name."""
     across = wide or _POINTS * size[0] * 25.4 / 72
-    lines = [item for item in items if isinstance(item, Caption) and item.text and item.strength]
+    lines = [item for item in items if isinstance(item, Caption) and item.text]
     smallest = min((line.size for line in lines), default=1)
     head = _HEAD.format(name=name, wide=across, height=size[1] / size[0])
     return head + "".join(_put(size, line, smallest) for line in lines) + _FOOT

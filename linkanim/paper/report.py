@@ -40,7 +40,7 @@ from linkanim.paper.vectors import polygons_svg, vectors_svg
 from linkanim.picture.figure import figure
 from linkanim.picture.look import Look
 from linkanim.picture.quantities import speed_words
-from linkanim.picture.stills import default_phase, input_rests
+from linkanim.picture.stills import input_rests, still_phase
 from linkanim.picture.text import subscripted
 from linkanim.scenes.editing import dimensions
 from linkanim.scenes.files import PublishedTable
@@ -139,7 +139,7 @@ class Report:
 
     @cached_property
     def _figure(self) -> Figured:
-        return Figured(self.scene, self._size, Look(names=2, hud=False), default_phase(self.scene))
+        return Figured(self.scene, self._size, Look(names=2, hud=False), still_phase(self.scene))
 
     @cached_property
     def _size(self) -> tuple[int, int]:

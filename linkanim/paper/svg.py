@@ -1,4 +1,7 @@
-"""Items as SVG: filled paths and text in a named face with a generic fallback, nothing embedded."""
+"""Items as SVG: filled paths, and text in a face of which the document carries the letters that it uses.
+
+A program that shows it in another face sets each line as wide as ours, so that nothing leaves the picture.
+"""
 
 from __future__ import annotations
 
@@ -8,13 +11,13 @@ from xml.sax.saxutils import escape, quoteattr
 
 import numpy as np
 
+from linkanim.paper.lettering import FAMILY, WEIGHTS, rules, width
 from linkanim.picture.items import Caption, Group, Item, clipped
 from linkanim.picture.raster import Colour, Layer, Loop
-from linkanim.picture.text import runs, typesetting
+from linkanim.picture.text import SEMIBOLD, runs, typesetting
 
-FACES = "'Source Sans Pro', 'Source Sans 3', 'Helvetica Neue', Arial, sans-serif"
+FACES = f"'{FAMILY}', 'Source Sans 3', 'Helvetica Neue', Arial, sans-serif"
 _ANCHORS = {"left": "start", "centre": "middle", "right": "end"}
-_SEMIBOLD = 600
 _SUBSCRIPT_RIM = 0.05
 """The width of a subscript's rim at most, as a share of an em: less than what is between two letters."""
 
@@ -41,6 +44,9 @@ def svg(
     if background is not None:
         body.append(f'<rect width="{width}" height="{height}" fill="{hexadecimal(background)}"/>')
     ids: set[str] = set()
+    items = [*items]
+    if letters := rules(item for item in flat(items) if isinstance(item, Caption)):
+        body.append(f"<style>{letters}</style>")
     for item in items:
         if not isinstance(item, Group):
             body += drawn([item])
@@ -59,7 +65,7 @@ def flat(items: Iterable[Item | Group]) -> Iterator[Item]:
     for item in items:
         if isinstance(item, Group):
             yield from clipped(item)
-            yield from item.captions
+            yield from item.named
         else:
             yield item
 
@@ -69,10 +75,12 @@ def hexadecimal(colour: Colour) -> str:
     return "#" + "".join(f"{part:02x}" for part in colour)
 
 
-def drawn(items: Iterable[Item], paint: Paint = hexadecimal) -> list[str]:
-    """Return the elements of items, their colours as `paint` writes them."""
+def drawn(items: Iterable[Item], paint: Paint = hexadecimal, *, fixed: bool = True) -> list[str]:
+    """Return the elements of items, colours as `paint` writes them; `fixed` words are as wide in any face."""
     shown = (item for item in items if (item.loops if isinstance(item, Layer) else item.text))
-    return [_path(item, paint) if isinstance(item, Layer) else _text(item, paint) for item in shown]
+    return [
+        _path(item, paint) if isinstance(item, Layer) else _text(item, paint, fixed=fixed) for item in shown
+    ]
 
 
 def _unused(name: str, ids: set[str]) -> str:
@@ -96,12 +104,15 @@ def _closed(loop: Loop) -> str:
     return "M" + "L".join(f"{point.real:g} {point.imag:g}" for point in points.tolist()) + "Z"
 
 
-def _text(line: Caption, paint: Paint) -> str:
+def _text(line: Caption, paint: Paint, *, fixed: bool) -> str:
     how = typesetting(line.size)
-    weight = f' font-weight="{_SEMIBOLD}"' if line.strong else ""
+    weight = f' font-weight="{WEIGHTS[SEMIBOLD]}"' if line.strong else ""
     at = f'x="{line.at[0]:.2f}" y="{line.at[1] + how.baseline:.2f}" font-size="{how.em:.2f}"'
     anchor = f'text-anchor="{_ANCHORS[line.anchor]}" fill="{paint(line.colour)}"'
-    return f"<text {at} {anchor}{weight}{_rim(line, paint)}{_faded(line)}>{''.join(_spans(line))}</text>"
+    of = f" data-of={quoteattr(line.of)}" if line.of else ""
+    wide = width(line) if fixed else None
+    room = f' textLength="{wide:.2f}" lengthAdjust="spacingAndGlyphs"' if wide else ""
+    return f"<text{of} {at} {anchor}{weight}{room}{_rim(line, paint)}>{''.join(_spans(line))}</text>"
 
 
 def _rim(line: Caption, paint: Paint) -> str:
@@ -118,10 +129,6 @@ def _lowered(line: Caption) -> str:
     if line.halo is None:
         return size
     return f'{size} stroke-width="{2 * min(line.halo.width, _SUBSCRIPT_RIM * how.em):.2f}"'
-
-
-def _faded(line: Caption) -> str:
-    return f' opacity="{line.strength:.2f}"' if line.strength < 1 else ""
 
 
 def _spans(line: Caption) -> Iterator[str]:

@@ -15,7 +15,7 @@ from linkanim.picture.chart import Pen, pen_for
 from linkanim.picture.items import Caption, Group, Halo, Item, grouped
 from linkanim.picture.look import Look
 from linkanim.picture.picture import Picture
-from linkanim.picture.placing import Clutter, LabelPlaces, Solid, place
+from linkanim.picture.placing import Alternatives, Obstacles, chosen, grounded
 from linkanim.picture.polygons import polygons_of
 from linkanim.picture.raster import Colour, Layer
 from linkanim.picture.shapes import arrows
@@ -94,21 +94,26 @@ def _drawn(found: Solution, picture: Picture) -> Iterator[Item]:
         yield Layer(colour, arrows([begin], [end - begin], 1.7 * pen.line))
         text = f"{one.symbol.letter}_{{{one.symbol.sub}}}"
         names.append(_Named(text, _beside(begin, end, pen.text), colour))
-    solids = [Solid(np.array([[begin, end]]), 1.5 * pen.line) for _, begin, end in long]
-    solids += [Solid(np.array([[at]]), 4 * pen.line) for at in touched.values()]
-    yield from _captions(names, Clutter(Rect(0, 0, *picture.size), solids=tuple(solids)), pen)
+    whole = Rect(0, 0, *picture.size)
+    ground = grounded(whole, lines=[(begin, end) for _, begin, end in long], half=1.5 * pen.line)
+    spots = np.array([[*touched.values()]], np.complex128).reshape(1, -1)
+    yield from _captions(names, ground._replace(discs=spots, radii=np.full(len(touched), 4 * pen.line)), pen)
 
 
-def _captions(names: list[_Named], clutter: Clutter, pen: Pen) -> Iterator[Caption]:
-    """Yield names placed where they cover nothing."""
-    sizes = [(pen.type.width(one.text, pen.text, strong=True), pen.text) for one in names]
+def _captions(names: list[_Named], ground: Obstacles, pen: Pen) -> Iterator[Caption]:
+    """Yield names placed where they cover nothing, else as little as possible."""
     labels = [
-        LabelPlaces(size, np.array([one.places]), np.arange(float(len(one.places))))
-        for size, one in zip(sizes, names, strict=True)
+        Alternatives(
+            (pen.type.width(one.text, pen.text, strong=True), pen.text),
+            np.array([one.places]),
+            np.arange(float(len(one.places))),
+            most=1.0,
+        )
+        for one in names
     ]
-    halo = Halo(pen.theme.background, pen.line)
-    for one, spot in zip(names, place(labels, clutter), strict=True):
-        at = one.places[spot.which]
+    halo = Halo(pen.theme.background, 0.2 * pen.text)
+    for one, n in zip(names, chosen(labels, ground), strict=True):
+        at = one.places[n or 0]
         top = at.real, at.imag - pen.text / 2
         yield Caption(one.text, top, pen.text, one.colour, "centre", strong=True, halo=halo)
 

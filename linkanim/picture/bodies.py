@@ -18,7 +18,20 @@ from linkanim.picture.figure import DrawContext, Figure
 from linkanim.picture.fittings import BARREL, PISTON, ROD, SLOT, SLOTTED, Bar, fittings, piston
 from linkanim.picture.layout import Gauge
 from linkanim.picture.raster import Colour, Layer
-from linkanim.picture.shapes import Part, Stamp, directions, disc, glazed, hull, lined, slotted, strokes, unit
+from linkanim.picture.shapes import (
+    Part,
+    Places,
+    Stamp,
+    directions,
+    disc,
+    glazed,
+    hull,
+    lined,
+    segments,
+    slotted,
+    strokes,
+    unit,
+)
 from linkanim.picture.theme import Theme, mixed
 from linkanim.picture.view import View
 
@@ -142,15 +155,17 @@ BEYOND = ("bucket", "hook", "pad")
 # Bodies: rounded bars and plates, the pins on top of them, centres of mass.
 
 
-def body_parts(context: DrawContext) -> tuple[Part, ...]:
+def body_parts(context: DrawContext, places: Places | None = None) -> tuple[Part, ...]:
     """Return every body with its joints' fittings, back to front: plates, then bars, in the scene's order.
+
+    With `places` in pixels a body has the shape that these give it, else its own.
 
     Plates are translucent enough to show what lies behind them, as on a locomotive with bars behind wheels.
     """
     figure, view, _, theme = context.known
     colours = colours_of(figure, theme)
     shown = (body for body in figure.bodies if figure.scene.style(body.name).outline != "none")
-    placed = {body: _local(body, figure, view) for body in shown}
+    placed = {body: _local(_rigid(body, figure, view, places)) for body in shown}
     plates = [body for body, points in placed.items() if _is_wide(body, figure, points)]
     bars = [body for body in placed if body not in plates]
     on_rails = [n for n, body in enumerate(placed) if figure.scene.style(body.name).outline == "railwheel"]
@@ -179,11 +194,17 @@ def colours_of(figure: Figure, theme: Theme) -> dict[str, Colour]:
     return {"": theme.metal} | {name: own[name] or colour for name, colour in free.items()}
 
 
-def _local(body: Body, figure: Figure, view: View) -> list[complex]:
-    """Return the body's joints in pixels, the first at 0 and the second on the positive real axis."""
+def _rigid(body: Body, figure: Figure, view: View, places: Places | None) -> list[complex]:
+    """Return the body's joints in pixels: at `places`, else somewhere in their own shape."""
+    if places is not None:
+        return [places[name] for name in body.joints]
     n = holding(figure.linkage.rigid_bodies, body.joints)
     assert n is not None
-    places = [view.scale * figure.linkage.rigid_bodies[n][name].conjugate() for name in body.joints]
+    return [view.scale * figure.linkage.rigid_bodies[n][name].conjugate() for name in body.joints]
+
+
+def _local(places: list[complex]) -> list[complex]:
+    """Return a body's joints in pixels, the first at 0 and the second on the positive real axis."""
     turn = unit(places[1] - places[0])
     return [(place - places[0]) / turn for place in places]
 
@@ -209,7 +230,39 @@ def _body(body: Body, points: list[complex], worked: list[Bar], context: DrawCon
         layers += _worked(bar, ends if plate else [*ends, *points], context, colours)
     first, second = body.joints[:2]
     pinned = (*body.joints, *context.figure.riding(body))
-    return Part(first, first, second, tuple(layers), pinned, body.name or "-".join(body.joints))
+    part = Part(first, first, second, tuple(layers), pinned, body.name or "-".join(body.joints))
+    part = replace(part, reaches=bar.reaches) if bar else part
+    return (
+        _lit(part, points if len(hull(points)) == 2 and not bar else [], gauge, colour)
+        if context.theme.lit
+        else part
+    )
+
+
+# The material of bodies: a soft shadow on what is below, a highlight along the upper edge of a bar.
+
+_SHADOW, _DARK = 0.18 + 0.42j, 0.15
+"""How far a shadow lies off, in half widths of a bar, and how dark it is."""
+_SHINE, _HAIR = 0.5, 0.9
+"""The share of white in a highlight, and its width in widths of a thin line."""
+_BLACK, _WHITE = (0, 0, 0), (255, 255, 255)
+
+
+def _lit(part: Part, axis: list[complex], gauge: Gauge, colour: Colour) -> Part:
+    """Return a part with its shadow, and with highlights beside its axis where it is a bar."""
+    if not part.layers:
+        return part
+    first = part.layers[0]
+    # a plate that lets one see through it throws none: that would darken the plate itself
+    shadow = (gauge.bar * _SHADOW, Layer(_BLACK, first.loops, _DARK)) if first.alpha == 1 else None
+    edges = []
+    if axis:
+        begin, end = min(axis, key=np.real), max(axis, key=np.real)
+        aside = gauge.bar - gauge.outline - _HAIR * gauge.line
+        for facing in (1j, -1j):
+            line = segments(begin + aside * facing, end + aside * facing, _HAIR * gauge.line)
+            edges.append((facing, Layer(mixed(colour, _WHITE, _SHINE), line)))
+    return replace(part, shadow=shadow, edges=tuple(edges))
 
 
 def _worked(bar: Bar, points: list[complex], context: DrawContext, colours: Colours) -> list[Layer]:
@@ -233,7 +286,11 @@ def _worked(bar: Bar, points: list[complex], context: DrawContext, colours: Colo
 def pin_stamp(gauge: Gauge, theme: Theme) -> Stamp:
     """Return a pin: a ring around an eye."""
     outer, inner = disc(gauge.pin + gauge.outline / 2), disc(gauge.pin - gauge.outline / 2)
-    return Stamp((Layer(theme.outline, [outer]), Layer(theme.pin, [inner])))
+    ring = Layer(theme.outline, [outer])
+    if not theme.lit:
+        return Stamp((ring, Layer(theme.pin, [inner])))
+    turned = -0.18 * gauge.pin * (1 + 1j) + disc(0.55 * (gauge.pin - gauge.outline / 2))
+    return Stamp((ring, Layer(mixed(theme.metal, theme.pin, 0.45), [inner]), Layer(theme.pin, [turned])))
 
 
 @lru_cache(maxsize=16)

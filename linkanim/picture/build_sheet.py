@@ -22,7 +22,7 @@ from linkanim.picture.bodies import mark_stamp, pin_stamp
 from linkanim.picture.figure import DrawSetting
 from linkanim.picture.fittings import Coil, Damping, StrutSpan, block_layers, damping, hatched, pedestal
 from linkanim.picture.items import SHEET, Caption, Group, Halo
-from linkanim.picture.layout import Gauge, Layout, gauge, tool_cells
+from linkanim.picture.layout import HEAD_STEP, Gauge, Layout, gauge, tool_cells
 from linkanim.picture.marks import beside, measure
 from linkanim.picture.motion_marks import turning_arrow
 from linkanim.picture.overlay import BuildShown, DimensionLine, DraftShown, PathShown, Rubber, Snap
@@ -260,8 +260,6 @@ def lit(shape: Shape, view: View, reach: float) -> Iterator[Loop]:
 
 _ROOM = 0.86
 """The share of the window that the home of a sheet takes."""
-_LINES = 2.4
-"""The room for words above, in heights of their text."""
 _LIT, _FAINT = 0.45, 0.55
 """The opacities of the light on the chosen shape, and of what the hand is drawing."""
 _BACKING = 0.8
@@ -272,11 +270,13 @@ _ALONG = ("begin", "end")
 """The frame of a length that is measured from its begin to its end."""
 
 
+_LEAST_WORDS = 9
+"""The smallest size of words at the head, in pixels."""
+
+
 def home_view(home: Box, layout: Layout) -> View:
     """Return the view in which a rectangle of the scene lies in the middle of a window, as large as fits."""
-    above = layout.margin + _LINES * layout.text_size
-    room = layout.stage._replace(y=layout.stage.y + above, height=max(layout.stage.height - above, 1))
-    return view_of(home, room, _ROOM)
+    return view_of(home, layout.stage, _ROOM)
 
 
 def paper(setting: DrawSetting, photo: Photo | None) -> Group:
@@ -417,26 +417,38 @@ def worded(
     *,
     is_warning: bool = False,
     cells: Sequence[Rect] = (),
-    room: float = 0.93,
+    beside: Rect | None = None,
 ) -> Group:
-    """Return a sentence and facts below it, at the top, off the cells of tools, on a backing.
+    """Return a sentence and facts below it at the head, off the cells of tools and what stands `beside`.
 
-    They take at most the share `room` of the stage's width.
+    Where they have no room in their usual sizes they are set smaller.
     """
     layout, theme = setting.layout, setting.theme
+    head = layout.head or layout.stage
     is_wide = layout.size[0] >= layout.size[1]
-    beside = max((cell.right for cell in cells), default=layout.stage.x) if is_wide else layout.stage.x
-    left, y, captions = beside + layout.margin, layout.margin, []
-    wide = room * (layout.stage.right - layout.margin - left)
-    first = sentence, layout.text_size, theme.warning if is_warning else theme.ink
-    for words, size, colour in (first, *((fact, layout.small_size, theme.dim) for fact in facts)):
-        for line in setting.type.wrapped(words, size, wide) if words else ():
-            captions.append(Caption(line, (left, y), size, colour, strong=size == layout.text_size))
-            y += 1.35 * size
+    left = max((cell.right for cell in cells), default=head.x) if is_wide else head.x
+    left, top, right = left + layout.margin, head.y + 0.75 * layout.margin, head.right - layout.margin
+    wide = (min(right, beside.x - layout.margin) if beside else right) - left
+    first, other = layout.text_size, layout.small_size
+    while True:
+        parts = [(sentence, first, theme.warning if is_warning else theme.ink, True)]
+        parts += [(fact, other, theme.dim, False) for fact in facts]
+        lines = [
+            (line, size, colour, strong)
+            for words, size, colour, strong in parts
+            for line in (setting.type.wrapped(words, size, wide, strong=strong) if words else ())
+        ]
+        if sum(HEAD_STEP * size for _, size, *_ in lines) <= head.height or first <= _LEAST_WORDS:
+            break
+        first, other = max(first - 1, _LEAST_WORDS), min(other, max(first - 1, _LEAST_WORDS))
+    captions, y = list[Caption](), top
+    for line, size, colour, strong in lines:
+        captions.append(Caption(line, (left, y), size, colour, strong=strong))
+        y += HEAD_STEP * size
     if not captions:
         return Group("build-words", ())
-    wide = max(setting.type.width(one.text, one.size, strong=one.strong) for one in captions)
+    broad = max(setting.type.width(one.text, one.size, strong=one.strong) for one in captions)
     edge = 0.5 * layout.small_size
-    middle = complex(left + wide / 2, (layout.margin + y) / 2)
-    plate = middle + box(wide + 2 * edge, y - layout.margin + 2 * edge, edge)
-    return Group("build-words", [Layer(theme.background, [plate], _BACKING)], captions, over=True)
+    middle = complex(left + broad / 2, (top + y) / 2)
+    plate = middle + box(broad + 2 * edge, y - top + edge, edge)
+    return Group("build-words", [Layer(theme.background, [plate])], captions, over=True)

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from functools import cached_property
-from itertools import combinations, pairwise
+from itertools import combinations
 
 import numpy as np
 
@@ -14,13 +14,11 @@ from linkanim.mechanics.measures import coupler_body
 from linkanim.mechanics.motion import Pose
 from linkanim.picture.chart import runs_of
 from linkanim.picture.figure import DrawSetting, Figure
-from linkanim.picture.items import Caption, Halo
-from linkanim.picture.placing import about, crossed, least_met, met, overlap, rect_rows
 from linkanim.picture.raster import Colour, Layer, Loop
 from linkanim.picture.shapes import Places, arrows, dashes, segments, stroke, unit
 from linkanim.picture.text import subscripted
 from linkanim.picture.theme import mixed
-from linkanim.picture.view import Rect
+from linkanim.picture.view import Box, Rect
 from linkanim.units import three_digits
 
 # Instant centres with Kennedy's lines, and the curves of the coupler's instant centre: both centrodes.
@@ -29,20 +27,16 @@ _CLOSE = 3.0
 """Points of a curve that are nearer to each other than this, in pixels, are thinned out."""
 _MOST = 5
 """With up to this many links, ground included, all centres are marked; with more, those to the ground."""
-_FAR = 3.0
-"""The view of a still holds centres up to this far from its middle, in sizes of the linkage."""
+_FAR = 0.7
+"""The view holds centres up to this far from its middle across and down, in sizes of the linkage."""
 _BEYOND = 4.0
 """How far a line is drawn towards a centre that is infinitely far, in sizes of the picture."""
 _FAINT = 0.45
 """The share of the background in the colour of Kennedy's lines."""
 _ARROW = 2.2
 """The length of an arrow at the edge, in heights of the text."""
-_CROSS, _BLOCK = 0.8, 2.4
-"""The arm of a centre's cross, and how far names keep from a slider's middle, in half widths of a bar."""
-_MARGIN = 6.0
-"""How far names keep from the picture's edge, in its unit."""
-_AROUND = np.exp(-0.25j * np.pi * np.array([1, -1, 3, -3, 0, 4, 2, -2]))
-"""The directions from a centre to its name, the best first."""
+CROSS = 0.8
+"""The arm of a centre's cross, in half widths of a bar."""
 
 
 class NamedPair(NamedTuple):
@@ -91,26 +85,43 @@ class CentrePairs:
         known = {pair: centre(pose, *(links[number] for number in pair)) for pair, _ in self.pairs}
         return {pair: found for pair, found in known.items() if found}
 
-    def near(self, pose: Pose) -> tuple[complex, ...]:
-        """Return the centres of a pose, in the scene's unit, that its picture has to include."""
-        middle = complex(*self.figure.box.middle)
+    def near(self, pose: Pose, box: Box, far: float = _FAR) -> tuple[complex, ...]:
+        """Return the centres of a pose, in the scene's unit, that lie near a rectangle of the scene.
+
+        That is up to `far` of its longer side from its middle, across and along: those that a picture of the
+        rectangle includes.
+        """
+        middle, reach = complex(*box.middle), far * max(box.right - box.left, box.high - box.low)
         places = [found.place for found in self.of(pose).values() if found.place is not None]
-        return tuple(place for place in places if abs(place - middle) <= _FAR * self.size)
+        offs = ((place, place - middle) for place in places)
+        return tuple(place for place, off in offs if max(abs(off.real), abs(off.imag)) <= reach)
 
     @property
     def size(self) -> float:
-        """The size of the linkage: the longer side of the box that it sweeps, in the scene's unit."""
+        """The longer side of the rectangle that the linkage sweeps, in the scene's unit."""
         box = self.figure.box
         return max(box.right - box.left, box.high - box.low)
 
+    @property
+    def far(self) -> tuple[str, ...]:
+        """Rows as wide as those that say where centres are that the picture does not show."""
+        jointed = {label for labels in self.at_joints.values() for label in labels}
+        unit_ = self.figure.scene.length_unit
+        named = subscripted(self.figure.fixed[0]) if self.figure.fixed else "the origin"
+        return tuple(f"{label}: 0000 {unit_} from {named}" for _, label in self.pairs if label not in jointed)
+
 
 class Seen(NamedTuple):
-    """A centre in pixels: its name, its place, whether it is in a joint; if invisible, its direction."""
+    """A centre in pixels: its name, its place, whether it is in a joint.
+
+    One that is not in the picture has its place at the edge, a direction, and words on how far it is.
+    """
 
     label: str
     at: complex
     direction: complex = 0j
     jointed: bool = False
+    words: str = ""
 
 
 @frozen
@@ -124,103 +135,35 @@ class Centres:
         """Which centres there are."""
         return CentrePairs(self.setting.figure)
 
-    def drawn(self, pose: Pose, places: Places, taken: Iterable[Rect]) -> tuple[list[Layer], list[Caption]]:
-        """Return the drawing of a pose's centres, and the names of those that are not in joints.
-
-        Names keep off what is `taken`, off each other and off bars.
-        """
-        found = self.known.of(pose)
-        seen = [*self._seen(found)]
-        return [*self._layers(found, seen)], [*self._captions(seen, places, taken)]
-
-    def _layers(self, found: dict[tuple[str, str], Centre], all_seen: Iterable[Seen]) -> Iterator[Layer]:
+    def layers(self, pose: Pose) -> Iterator[Layer]:
         """Yield Kennedy's lines, crosses at visible centres outside joints, arrows to invisible ones."""
+        found = self.known.of(pose)
         gauge, theme = self.setting.gauge, self.setting.theme
         lines = [line for step in self.known.steps for line in self._lines(step, found)]
         if lines:
             faint = mixed(theme.warning, theme.background, _FAINT)
             width = 0.8 * gauge.line
             yield Layer(faint, [loop for ends in lines for loop in dashes(*ends, 9 * width, width)])
-        reach, marks, width = _CROSS * gauge.bar, list[Loop](), 1.4 * gauge.line
-        for seen in all_seen:
+        reach, marks, width = CROSS * gauge.bar, list[Loop](), 1.4 * gauge.line
+        for seen in self._seen(found):
             if seen.direction:
-                long = _ARROW * self.setting.layout.small_size
-                marks += arrows([seen.at - long * seen.direction], [long * seen.direction], width)
+                marks += arrows([seen.at - self.arrow * seen.direction], [self.arrow * seen.direction], width)
             elif not seen.jointed:
                 ends = np.array([reach, 1j * reach])
                 marks += segments(seen.at - ends, seen.at + ends, width)
         yield Layer(theme.warning, marks)
 
-    def _captions(self, seen: Iterable[Seen], places: Places, taken: Iterable[Rect]) -> Iterator[Caption]:
-        theme, size = self.setting.theme, self.setting.layout.small_size
-        halo = Halo(theme.background, max(1.4 * self.setting.gauge.line, 1.5))
-        named = [one for one in seen if not one.jointed]
-        if not named:
-            return
-        wide = [self.setting.type.width(seen.label, size, strong=True) for seen in named]
-        middles = np.array([self._around(*each) for each in zip(named, wide, strict=True)])
-        room = self.setting.layout.reach.inset(_MARGIN * self.setting.layout.unit)
-        rects = about(middles, np.array(wide)[:, None], size, room)
-        marks = rect_rows(map(self._mark, named))
-        # a name may touch its own cross, but not its own arrow
-        own = np.array([not seen.direction for seen in named])[:, None] & overlap(rects, marks[..., None])
-        busy = met(rects, np.column_stack((rect_rows(taken), marks))) - own
-        solid = crossed(rects, self._bars(places)) + met(rects, rect_rows(self._solid(places)))
-        for n, which in enumerate(least_met(rects, busy, solid)):
-            x, y = rects[:2, n, which].tolist()
-            yield Caption(named[n].label, (x, y), size, theme.warning, strong=True, halo=halo)
-
-    def crosses(self, pose: Pose) -> tuple[tuple[complex, complex], ...]:
-        """Return the lines of the crosses of a pose, from end to end."""
-        seen = (one for one in self.seen(pose) if not one.jointed and not one.direction)
-        reach = _CROSS * self.setting.gauge.bar
-        return tuple((one.at - half, one.at + half) for one in seen for half in (reach, 1j * reach))
-
-    def _mark(self, seen: Seen) -> Rect:
-        """Return the rectangle of a centre's cross, or of its arrow."""
-        reach, long = _CROSS * self.setting.gauge.bar, _ARROW * self.setting.layout.small_size
-        foot = seen.at - long * seen.direction
-        (left, right), (top, bottom) = (
-            sorted(ends) for ends in zip(*((end.real, end.imag) for end in (foot, seen.at)), strict=True)
-        )
-        return Rect(left, top, right - left, bottom - top).inset(-0.5 * reach if seen.direction else -reach)
-
-    def _solid(self, places: Places) -> Iterator[Rect]:
-        """Yield the rectangles of pins and blocks."""
-        for joint in self.setting.figure.shown:
-            travels = self.setting.figure.linkage.joint(joint).travels
-            half, at = (_BLOCK if travels else 1.0) * self.setting.gauge.bar, places[joint]
-            yield Rect(at.real - half, at.imag - half, 2 * half, 2 * half)
-
-    def _bars(self, places: Places) -> list[tuple[complex, complex]]:
-        """Return the ends of the bars."""
-        bodies = self.setting.figure.bodies
-        return [(places[one], places[other]) for body in bodies for one, other in pairwise(body.joints)]
-
-    def _around(self, seen: Seen, wide: float) -> Loop:
-        """Return 24 places for the middle of a name: round a cross, or beside and behind an arrow.
-
-        At an arrow the last six places are one and the same.
-        """
-        size, off = self.setting.layout.small_size, 0.8 * self.setting.gauge.bar
-        if not seen.direction:
-            away = np.array([[0.0], [0.7 * size], [1.5 * size]])
-            x, y = (off + away + side / 2 for side in (wide, size))
-            return (seen.at + (_AROUND.real * x + 1j * (_AROUND.imag * y))).ravel()
-        beside = list[complex]()
-        for back in (0.5 * _ARROW, 1.1 * _ARROW, 1.6 * _ARROW):
-            foot = seen.at - back * size * seen.direction
-            for side in (1j * seen.direction, -1j * seen.direction):
-                aside = 0.5 * (abs(side.real) * wide + abs(side.imag) * size) + 0.5 * size
-                beside.append(foot + aside * side)
-        return np.array([*beside, *[beside[-1]] * (3 * len(_AROUND) - len(beside))])
+    @property
+    def arrow(self) -> float:
+        """The length of an arrow to a centre outside the picture, in pixels."""
+        return _ARROW * self.setting.layout.small_size
 
     def seen(self, pose: Pose) -> Iterator[Seen]:
         """Yield the visible centres, then the directions of the others."""
         return self._seen(self.known.of(pose))
 
     def _seen(self, found: dict[tuple[str, str], Centre]) -> Iterator[Seen]:
-        view, room, (named, pin) = self.setting.view, self.setting.layout.reach, self._pin
+        view, room, (named, pin) = self.setting.view, self.setting.layout.stage, self._pin
         inner, far = room.inset(6 * self.setting.layout.unit), list[Seen]()
         foot, unit_ = room.inset(1).nearest(pin), self.setting.figure.scene.length_unit
         jointed = {label for labels in self.known.at_joints.values() for label in labels}
@@ -232,15 +175,17 @@ class Centres:
                 direction = direction.conjugate()
                 if (-direction.imag, direction.real) <= (1e-9, 0.0):  # a direction points up, or to the right
                     direction = -direction
-                far.append(Seen(f"{label} at ∞", foot + inner.ahead(foot, direction) * direction, direction))
+                at = foot + inner.ahead(foot, direction) * direction
+                far.append(Seen(label, at, direction, words=f"{label}: at ∞"))
                 continue
             at = view.place((place.real, place.imag))
             if room.holds(at.real, at.imag):
                 yield Seen(label, at, jointed=label in jointed)
             elif label not in jointed:
                 direction = unit(at - pin)
-                told = f"{label} {three_digits(abs(at - pin) / view.scale)} {unit_} from {named}"
-                far.append(Seen(told, foot + inner.ahead(foot, direction) * direction, direction))
+                words = f"{label}: {three_digits(abs(at - pin) / view.scale)} {unit_} from {named}"
+                edge = foot + inner.ahead(foot, direction) * direction
+                far.append(Seen(label, edge, direction, words=words))
         yield from far
 
     @property
@@ -259,7 +204,7 @@ class Centres:
             far = _BEYOND * max(self.setting.layout.size) / self.setting.view.scale
             if ends := kennedy_line(step.pair, third, found, far):
                 one, other = (self.setting.view.place((end.real, end.imag)) for end in ends)
-                if seen := self.setting.layout.reach.crossed(one, other):
+                if seen := self.setting.layout.stage.crossed(one, other):
                     yield seen
 
     def fixed(self) -> Layer:
@@ -289,7 +234,7 @@ class Centres:
 
     def _stroked(self, path: Loop, colour: Colour) -> Layer:
         width = 1.3 * self.setting.gauge.line
-        runs = clipped(path, self.setting.layout.reach)
+        runs = clipped(path, self.setting.layout.stage)
         return Layer(colour, [loop for run in runs for loop in stroke(_thinned(run), width)])
 
 

@@ -46,10 +46,14 @@ _ASYMPTOTE, _ASYMPTOTE_DASHES = 0.6, (8.0, 6.0)
 """The width of an asymptote, in thin lines, and its dashes and gaps, in widths of the asymptote."""
 _RIM = 1e-6
 """Points of a curve that are outside a plot by less than this, in pixels, are on its edge."""
+_ZERO = 0.8
+"""The width of the line at zero, in thin lines; the grid's are thinner and lighter."""
 _FOOT = 1.6
 """From the plot down to the title of the horizontal axis, in heights of small text."""
-_WITH_FOOT, _NO_FOOT, _FOR_FOOT = 1.2, 1.6, 9.0
+_WITH_FOOT, _NO_FOOT, _FOR_FOOT = 1.2, 1.6, 8.0
 """In heights of small text: that title; the room below a plot without one; the least chart that has one."""
+_LONG, _FEWEST = 90.0, 4
+"""An axis that is at least this long, in pixels, has at least so many ticks."""
 
 
 @frozen
@@ -112,6 +116,9 @@ def axes(plot: Plot, pen: Pen) -> Iterator[Item]:
     rows = [complex(plot.place(plot.x.low, value)) for value, _ in plot.y.ticks]
     grid = [*_lines(np.array(columns), -1j * area.height, pen), *_lines(np.array(rows), area.width, pen)]
     yield Layer(theme.rule, grid)
+    if plot.y.low < 0.0 < plot.y.high:
+        zero = complex(plot.place(plot.x.low, 0.0))
+        yield Layer(theme.dim, segments([zero], [zero + area.width], _ZERO * pen.line))
     for foot, (_, label) in zip(columns, plot.x.ticks, strict=True):
         at = (foot.real, area.bottom + 0.4 * pen.small)
         yield Caption(label, at, pen.small, theme.dim, "centre")
@@ -139,20 +146,10 @@ def _levels(plot: Plot, pen: Pen) -> Iterator[tuple[float, str]]:
             yield y, label
 
 
-def x_title(plot: Plot, title: str, pen: Pen, *, foot: bool = True) -> Caption:
-    """Return the horizontal axis' title: below the tick labels on a plot with a `foot`, else beside them."""
-    y = plot.area.bottom + (_FOOT if foot else 0.4) * pen.small
+def x_title(plot: Plot, title: str, pen: Pen) -> Caption:
+    """Return the horizontal axis' title, below the tick labels."""
+    y = plot.area.bottom + _FOOT * pen.small
     return Caption(title, (plot.area.right, y), pen.small, pen.theme.dim, "right")
-
-
-def beside_title(plot: Plot, title: str, pen: Pen) -> Plot:
-    """Return a plot without those tick labels that its title, beside them, would cover."""
-    free = plot.area.right - pen.type.width(title, pen.small) - 0.6 * pen.small
-    ticks = []
-    for value, label in plot.x.ticks:
-        right = complex(plot.place(value, plot.y.low)).real + 0.5 * pen.type.width(label, pen.small)
-        ticks.append((value, label if right <= free else ""))
-    return replace(plot, x=replace(plot.x, ticks=tuple(ticks)))
 
 
 def marked(
@@ -169,7 +166,8 @@ def marked(
         left = foot.real + 0.3 * pen.small
         left = left if left + wide <= area.right else foot.real - 0.3 * pen.small - wide
         at = (left, area.bottom - 1.2 * pen.small if low else area.y + 0.1 * pen.small)
-        yield Caption(label, at, pen.small, pen.theme.dim)
+        if area.height > 2 * pen.small:
+            yield Caption(label, at, pen.small, pen.theme.dim)
 
 
 def _lines(feet: Loop, reach: complex, pen: Pen) -> list[Loop]:
@@ -250,6 +248,8 @@ _TITLE = 1.35
 """From the plot up to the line of text above it, in heights of that text."""
 _GAP = 1.2
 """The gap between two things in that line, in heights of its text."""
+_PAST = 0.13
+"""The opacity of the area that the motion has passed."""
 _LEAST_PLOT = 2.0
 """The least height of one of several plots, in heights of small text."""
 _BETWEEN = 0.7
@@ -312,8 +312,10 @@ class ChartPanel:
     @cached_property
     def y_axis(self) -> Axis:
         """The vertical axis."""
+        high = self.rect.height - 1.5 * self.pen.text - (_FOOT + _WITH_FOOT) * self.pen.small
         most = max(min(round(self.rect.height / (2.1 * self.pen.small)), 6), 2)
-        return around(self.curves[1], most=most, unit=self.series.unit, least=min(most, 4))
+        most = max(most, _FEWEST + 1) if high >= _LONG else most
+        return around(self.curves[1], most=most, unit=self.series.unit, least=min(most, _FEWEST))
 
     @property
     def _has_foot(self) -> bool:
@@ -337,10 +339,9 @@ class ChartPanel:
     def frame(self) -> Iterator[Item]:
         """Yield what stands still, without the curves."""
         title, pen = self.course.title, self.pen
-        bare = self._has_foot or not self.lowest
-        yield from axes(self.plot if bare else beside_title(self.plot, title, pen), pen)
-        if self.lowest:
-            yield x_title(self.plot, title, pen, foot=self._has_foot)
+        yield from axes(self.plot, pen)
+        if self._has_foot:
+            yield x_title(self.plot, title, pen)
         x, values = self.curves
         heights = np.interp([place for place, _ in self.course.marks], x, values[:, 0])
         marks = [(place, label if self.lowest else "") for place, label in self.course.marks]
@@ -380,6 +381,20 @@ class ChartPanel:
     def foot(self, pose: Pose) -> complex:
         """Return where the cursor stands on the axis at a pose, in pixels."""
         return complex(self.plot.place(float(self.course.x_of(pose.phase)), self.plot.y.low))
+
+    def past(self, pose: Pose) -> list[Layer]:
+        """Return the areas between the axis and the curves, up to a pose: what the motion has passed."""
+        x, values = self.curves
+        here = float(self.course.x_of(pose.phase))
+        level = min(max(0.0, self.plot.y.low), self.plot.y.high)
+        layers = []
+        for n, column in enumerate(values.T):
+            kept = (x < here) if self.speed >= 0 else (x > here)
+            for run in runs_of(kept & np.isfinite(column)):
+                ends = self.plot.place(x[run[[0, -1]]][::-1], [level, level])
+                loop = np.concatenate((self.plot.place(x[run], column[run]), ends))
+                layers.append(Layer(self.colour(n), [loop], _PAST))
+        return layers
 
     def cursor(self, pose: Pose) -> list[Layer]:
         """Return the line at a pose and the dots where it meets the curves."""
@@ -466,6 +481,10 @@ class ChartStrips:
     def cursor(self, pose: Pose) -> list[Layer]:
         """Return the lines at a pose and the dots where they meet the curves."""
         return [layer for panel in self.panels for layer in panel.cursor(pose)]
+
+    def past(self, pose: Pose) -> list[Layer]:
+        """Return the areas under the curves up to a pose."""
+        return [layer for panel in self.panels for layer in panel.past(pose)]
 
     def readings(self, pose: Pose) -> Iterator[Item]:
         """Yield the pose's values above each plot."""

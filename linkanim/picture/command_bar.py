@@ -41,8 +41,8 @@ def bar_cells(layout: Layout, buttons: Sequence[Button]) -> tuple[Rect | None, .
 
     None where there is no room.
     """
-    side, foot, chart = layout.button, _foot(layout), layout.chart
-    top = foot.bottom - _edge(layout) - (1 + _FRAME) * side
+    side, foot, chart = layout.button, layout.bar or layout.stage, layout.chart
+    top = foot.bottom - (1 + _FRAME) * side
     cells = _row(buttons, _numbers(buttons, on_chart=False), foot, top, layout)
     if chart:
         on_chart = _numbers(buttons, on_chart=True)
@@ -90,16 +90,11 @@ def _row(
     return cells
 
 
-def button_at(
-    layout: Layout, buttons: Sequence[Button], x: float, y: float, *, charted: bool = True
-) -> int | None:
-    """Return the number of the button under a pixel; -1 on the bar between buttons, None off the bar.
-
-    Where it is not `charted`, there are no buttons of a chart yet.
-    """
+def button_at(layout: Layout, buttons: Sequence[Button], x: float, y: float) -> int | None:
+    """Return the number of the button under a pixel; -1 on the bar between buttons, None off the bar."""
     cells = bar_cells(layout, buttons)
     frames = _frames(layout, buttons, cells)
-    if not any(frame.holds(x, y) for frame, on_chart in frames if charted or not on_chart):
+    if not any(frame.holds(x, y) for frame, _ in frames):
         return None
     return next((n for n, cell in enumerate(cells) if cell and cell.holds(x, y)), -1)
 
@@ -121,14 +116,6 @@ def share_at(layout: Layout, buttons: Sequence[Button], number: int, x: float) -
     cell = cells[number] if number < len(cells) else None
     begin, end = _rail(cell) if cell else (0.0, 1.0)
     return min(max((x - begin) / max(end - begin, 1.0), 0.0), 1.0)
-
-
-def _foot(layout: Layout) -> Rect:
-    """Return the room at whose bottom the bar stands: its own, else over a caption and the scene's foot."""
-    if layout.bar:
-        return layout.bar
-    caption, stage = layout.caption, layout.stage
-    return stage._replace(height=caption.bottom + 0.6 * layout.margin - stage.y) if caption else stage
 
 
 def _edge(layout: Layout) -> float:
@@ -177,21 +164,9 @@ class BarPrinter:
         self._board: Board | None = None
         self._kept: tuple[object, list[tuple[Rect, pygame.Surface, bool]]] | None = None
         self._faces: dict[_Sized, pygame.Surface] = {}
-        self._tooltips: dict[object, pygame.Surface] = {}
 
-    def draw(
-        self,
-        surface: pygame.Surface,
-        layout: Layout,
-        theme: Theme,
-        bar: CommandBar | None,
-        *,
-        charted: bool = True,
-    ) -> None:
-        """Draw the bar over the picture, and above it the name of the command under the mouse.
-
-        Where it is not `charted`, the chart is not in its place yet, and its buttons are left out.
-        """
+    def draw(self, surface: pygame.Surface, layout: Layout, theme: Theme, bar: CommandBar | None) -> None:
+        """Draw the bar over the picture; the caption names the command under the mouse."""
         if bar is None or not bar.buttons:
             return
         if self._board is None or (self._board.layout, self._board.theme) != (layout, theme):
@@ -199,20 +174,14 @@ class BarPrinter:
             if before.theme != theme:
                 self._faces.clear()
             self._board, self._kept = replace(before, layout=layout, theme=theme), None
-            self._tooltips.clear()
         cells = bar_cells(layout, bar.buttons)
         if self._kept is None or self._kept[0] != bar[:2]:
             frames = _frames(layout, bar.buttons, cells)
             sheets = [(frame, self._drawn(self._board, frame, cells, bar), on) for frame, on in frames]
-            self._kept = bar[:2], [*_over_caption(layout, theme), *sheets]
-        for frame, sheet, on_chart in self._kept[1]:
-            if on_chart and not charted:
-                continue
+            self._kept = bar[:2], sheets
+        for frame, sheet, _ in self._kept[1]:
             sheet.set_alpha(round(255 * bar.eighths / 8))
             surface.blit(sheet, (round(frame.x), round(frame.y)))
-        cell = cells[bar.pointed] if bar.pointed is not None and bar.pointed >= 0 else None
-        if cell and bar.eighths == 8:
-            self._tell(surface, self._board, cell, bar.buttons[bar.pointed or 0])
 
     def _drawn(
         self, board: Board, frame: Rect, cells: Sequence[Rect | None], bar: CommandBar
@@ -230,30 +199,6 @@ class BarPrinter:
         for cell, sized in seen:
             sheet.blit(self._faces[sized], (round(cell.x - frame.x), round(cell.y - frame.y)))
         return sheet
-
-    def _tell(self, surface: pygame.Surface, board: Board, cell: Rect, button: Button) -> None:
-        """Write a command's name above its button; on a chart, below it."""
-        words = button.name, button.key, button.lack
-        if words not in self._tooltips:
-            self._tooltips[words] = _tooltip(board, button)
-        drawn = self._tooltips[words]
-        free = surface.get_width() - drawn.get_width() - 2
-        x = min(max(cell.middle.real - drawn.get_width() / 2, 2), max(free, 2))
-        gap = (_FRAME + 0.15) * cell.height
-        chart = board.layout.chart
-        hangs = button.on_chart and chart is not None and cell.y < chart.middle.imag
-        y = cell.bottom + gap if hangs else cell.y - gap - drawn.get_height()
-        surface.blit(drawn, (round(x), round(max(y, 2))))
-
-
-def _over_caption(layout: Layout, theme: Theme) -> Iterator[tuple[Rect, pygame.Surface, bool]]:
-    """Yield a sheet that hides a caption where the bar comes and goes; it is not on a chart."""
-    caption = layout.caption
-    if caption and layout.bar and layout.bar.meets(caption):
-        place = Rect(caption.x, layout.bar.y, caption.width, layout.bar.height)
-        cover = pygame.Surface((round(place.width), round(place.height)))
-        cover.fill(theme.background)
-        yield place, cover, False
 
 
 class _Face(NamedTuple):
@@ -322,19 +267,3 @@ def _slider(theme: Theme, cell: Rect, share: float) -> list[Layer]:
         Layer(theme.outline, [knob + disc(0.25 * side)]),
         Layer(theme.panel, [knob + disc(0.2 * side)]),
     ]
-
-
-def _tooltip(board: Board, button: Button) -> pygame.Surface:
-    """Return a command's name and key on a sheet, and why it cannot be done."""
-    size, room = board.layout.small_size, board.layout.size[0] - 3 * board.layout.small_size
-    first, key = board.fitting((button.name,), size, room), button.key
-    gap = 0.9 * size + board.type.width(first, size)
-    lines = board.type.wrapped(button.lack, size, room) if button.lack else []
-    wide = max(board.widest(lines, size), gap + board.type.width(key, size) if key else gap - 0.9 * size)
-    sheet = board.sheet(wide + 1.4 * size, (1.3 * len(lines) + 1.6) * size)
-    board.write(sheet, first, (0.7 * size, 0.25 * size), size=size)
-    board.write(sheet, key, (0.7 * size + gap, 0.25 * size), size=size, colour=board.theme.dim)
-    for n, line in enumerate(lines, start=1):
-        at = (0.7 * size, (0.25 + 1.3 * n) * size)
-        board.write(sheet, line, at, size=size, colour=board.theme.warning)
-    return sheet

@@ -58,6 +58,10 @@ _BEYOND = 0.06
 """How far Kennedy's lines run beyond their centres, in their lengths."""
 _REACH = 3.0
 """The length of lines towards an infinitely far centre, in sizes of the linkage."""
+_FOUND = ("dot", "ring", "cross")
+"""The marks of points that are found."""
+_FAR = 3.0
+"""Centres up to this far from the linkage's middle, in its sizes, are drawn as points."""
 _POSES, _CLOSE = 72, 0.08
 """The number of poses among which the clearest is chosen, and how near to each other its centres may be."""
 _SHORT = 0.3
@@ -132,7 +136,8 @@ def steps_before(scene: Scene, kind: ConstructionKind) -> int:
 def places_of(scene: Scene, kind: ConstructionKind, phase: float) -> tuple[complex, ...]:
     """Return places in the scene's unit that a picture of a construction has to include."""
     if kind == "centres":
-        return CentrePairs(figure(scene)).near(scene.pose(phase, 1))
+        shown = figure(scene)
+        return CentrePairs(shown).near(scene.pose(phase, 1), shown.box, _FAR)
     marks = [mark for step in steps_of(scene, kind, phase) for mark in step.marks if mark.spreads]
     return tuple(complex(point) for mark in marks for point in mark.points if np.isfinite(point))
 
@@ -147,6 +152,15 @@ def shown_at(scene: Scene, at: int, phase: float) -> ConstructionShown:
         at -= count
     steps = steps_of(scene, last, phase)
     return ConstructionShown(last, steps[:at], len(steps))
+
+
+def found_by(scene: Scene, at: int, phase: float) -> tuple[complex, ...]:
+    """Return the points that a construction has found up to a step, but for those far from the linkage."""
+    box = figure(scene).box
+    size, middle = max(box.right - box.left, box.high - box.low), complex(*box.middle)
+    marks = (mark for step in shown_at(scene, at, phase).steps for mark in step.marks)
+    points = (complex(point) for mark in marks if mark.shape in _FOUND for point in mark.points)
+    return tuple(point for point in points if abs(point - middle) <= _FAR * size)
 
 
 def clear_phase(scene: Scene) -> float:
@@ -194,7 +208,7 @@ def linkage_marks(scene: Scene, phase: float) -> tuple[Mark, ...]:
 def _centre_steps(shown: Figure, phase: float) -> tuple[ConstructionStep, ...]:
     known = CentrePairs(shown)
     pose = shown.scene.pose(phase, 1)
-    found, near = known.of(pose), set(known.near(pose))
+    found, near = known.of(pose), set(known.near(pose, shown.box, _FAR))
     size = known.size
     links = shown.by_number
     touching = [

@@ -10,7 +10,7 @@ import numpy as np
 
 from linkanim.picture.chart import Pen, line_layer
 from linkanim.picture.items import Caption, Halo, Item
-from linkanim.picture.placing import holding, least_met, met, rect_rows
+from linkanim.picture.placing import Alternatives, chosen, grounded
 from linkanim.picture.raster import Colour, Layer, Loop
 from linkanim.picture.shapes import arrows, disc, segments
 from linkanim.picture.theme import mixed
@@ -156,43 +156,51 @@ def _names(marks: Sequence[Mark], pixels: Callable[[Loop], Loop], area: Rect, pe
     """Yield each mark's name beside it, where it meets no other name and as few points as possible."""
     points = [pixels(mark.points) for mark in marks if mark.spreads]
     busy = np.concatenate(points) if points else np.empty(0, np.complex128)
-    placed: list[Rect] = []
-    for mark in marks:
-        if not mark.label:
-            continue
-        at, wide, high = pixels(mark.points), pen.type.width(mark.label, pen.small), 1.2 * pen.small
-        taken = rect_rows(placed)
-        if mark.shape == "word":
-            tries = [_about(complex(at[0]), wide, high)]
-        elif mark.shape == "thin" and len(at) == 2:
-            # a tick of a scale has its number beyond it, or before it
-            along = complex(at[1] - at[0]) / max(abs(at[1] - at[0]), 1e-9)
-            beyond = 0.5 * (wide * abs(along.real) + high * abs(along.imag)) + 0.25 * pen.small
-            ends = ((at[1], along), (at[0], -along))
-            tries = [
-                _about(complex(end) + away * beyond * out, wide, high)
-                for away in _BEYOND
-                for end, out in ends
-            ]
-        else:
-            foot = complex(at[len(at) // 2 if mark.shape == "arc" else 0])
-            tries = [_about(foot + off, wide, high) for off in _offsets(_FARTHER, pen)]
-            if met(rect_rows(rect for rect in tries if _within(rect, area)), taken).all():
-                # the room around the mark is taken: a thin line leads to a name farther off
-                away = (_about(foot + off, wide, high) for off in _offsets(_FAR_OFF, pen))
-                far = [rect for rect in away if _within(rect, area)]
-                free = np.flatnonzero(met(rect_rows(far), taken) == 0)
-                if free.size:
-                    tries = [far[free[0]]]
-                    colour = mixed(_tone(mark, pen), pen.theme.background, 0.5)
-                    led = np.array([foot, _nearest(tries[0], foot)])
-                    yield Layer(colour, segments(led[:1], led[1:], _WIDTHS["thin"] * pen.line))
-        inside = [rect for rect in tries if _within(rect, area)] or tries
-        rects = rect_rows(inside)[:, None]
-        best = inside[least_met(rects, met(rects, taken), holding(rects, busy))[0]]
-        placed.append(best)
-        halo = Halo(pen.theme.background, 1.5 * pen.line)
+    named = [mark for mark in marks if mark.label]
+    sizes = [(float(pen.type.width(mark.label, pen.small)), 1.2 * pen.small) for mark in named]
+    feet = [_foot(mark, pixels(mark.points)) for mark in named]
+    choices, leads = list[Alternatives](), list[int]()
+    for mark, size, foot in zip(named, sizes, feet, strict=True):
+        places, lead = _places(mark, pixels(mark.points), foot, size, pen)
+        off = [busy - at for at in places]
+        covers = [int(((abs(one.real) < size[0] / 2) & (abs(one.imag) < size[1] / 2)).sum()) for one in off]
+        price = 0.05 * np.arange(len(places)) + 2.0 * np.array(covers) / max(len(busy), 1)
+        choices.append(Alternatives(size, np.array([places]), price, most=1.0))
+        leads.append(lead)
+    halo = Halo(pen.theme.background, 0.2 * pen.small)
+    for mark, size, foot, choice, lead, n in zip(
+        named, sizes, feet, choices, leads, chosen(choices, grounded(area)), strict=True
+    ):
+        at = complex(choice.places[0, n or 0])
+        best = _about(at, *size)
+        if n is not None and n >= lead:
+            # the room around the mark is taken: a thin line leads to a name farther off
+            colour = mixed(_tone(mark, pen), pen.theme.background, 0.5)
+            led = np.array([foot, best.nearest(foot)])
+            yield Layer(colour, segments(led[:1], led[1:], _WIDTHS["thin"] * pen.line))
         yield Caption(mark.label, (best.x, best.y), pen.small, _tone(mark, pen), halo=halo)
+
+
+def _foot(mark: Mark, at: Loop) -> complex:
+    """Return the point of a mark that its name is about."""
+    return complex(at[len(at) // 2 if mark.shape == "arc" else 0])
+
+
+def _places(
+    mark: Mark, at: Loop, foot: complex, size: tuple[float, float], pen: Pen
+) -> tuple[list[complex], int]:
+    """Return where a mark's name may stand, and from which place on a line leads to it."""
+    if mark.shape == "word":
+        return [foot], 1
+    if mark.shape == "thin" and len(at) == 2:
+        # a tick of a scale has its number beyond it, or before it
+        along = complex(at[1] - at[0]) / max(abs(at[1] - at[0]), 1e-9)
+        beyond = 0.5 * (size[0] * abs(along.real) + size[1] * abs(along.imag)) + 0.25 * pen.small
+        ends = ((complex(at[1]), along), (complex(at[0]), -along))
+        places = [end + away * beyond * out for away in _BEYOND for end, out in ends]
+        return places, len(places)
+    near = [foot + off for off in _offsets(_FARTHER, pen)]
+    return [*near, *(foot + off for off in _offsets(_FAR_OFF, pen))], len(near)
 
 
 def _offsets(distances: Sequence[float], pen: Pen) -> Iterator[complex]:
@@ -200,15 +208,6 @@ def _offsets(distances: Sequence[float], pen: Pen) -> Iterator[complex]:
     return (away * pen.small * complex(direction) for away in distances for direction in _AROUND)
 
 
-def _nearest(rect: Rect, at: complex) -> complex:
-    """Return the point of a rectangle that is nearest to a place."""
-    return complex(min(max(at.real, rect.x), rect.right), min(max(at.imag, rect.y), rect.bottom))
-
-
 def _about(at: complex, wide: float, high: float) -> Rect:
     """Return the rectangle of a name about a place."""
     return Rect(at.real - wide / 2, at.imag - high / 2, wide, high)
-
-
-def _within(rect: Rect, area: Rect) -> bool:
-    return area.holds(rect.x, rect.y) and area.holds(rect.right, rect.bottom)

@@ -42,10 +42,10 @@ class DeadCentres:
     ends: tuple[complex, complex]
     rail: float
 
-    def words(self) -> Iterator[tuple[str, Callable[[tuple[float, float]], Loop]]]:
+    def words(self) -> Iterator[tuple[str, complex, Callable[[tuple[float, float]], Loop]]]:
         """Yield the input's angle at each dead centre, and between them the stroke and the time ratio.
 
-        Each comes with the places at which the middle of a line of text of a given size may stand.
+        Each comes with its tick, and the places at which the middle of a line of text of a size may stand.
         """
         info = self.setting.figure.scene.info
         lines = [*map(self._angle, info.dead_centres or ())]
@@ -54,7 +54,7 @@ class DeadCentres:
             lines.append(typeset(f"{stroke}, time ratio {short(info.time_ratio)}"))
         feet = (*zip(self.ends, (-1, 1), strict=True), (sum(self.ends) / 2, 0))
         for text, foot in zip(lines, feet, strict=False):
-            yield text, partial(self._places, *foot)
+            yield text, foot[0], partial(self._places, *foot)
 
     def _places(self, foot: complex, end: int, size: tuple[float, float]) -> Loop:
         """Return places for the middle of a line of text off the guide, those on its side `out` first.

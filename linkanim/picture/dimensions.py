@@ -60,6 +60,11 @@ class MeasureLine(NamedTuple):
         pairs = (begin + level, end + level), (begin + near, begin + level), (end + near, end + level)
         return np.moveaxis(np.array(pairs), -1, 0)
 
+    def bases(self, at: Loop, span: Loop, tracks: Loop) -> Iterator[tuple[Loop, Loop]]:
+        """Yield places in the scene's unit, each with an end of the line, which stays as far off it."""
+        yield at + self.begin * span, tracks[:, 0, 0]
+        yield at + self.end * span, tracks[:, 0, 1]
+
 
 class AngleArc(NamedTuple):
     """An angle in the frame of two joints, between two directions; `radius` in pixels."""
@@ -85,6 +90,12 @@ class AngleArc(NamedTuple):
         points = at[:, None] + turn * directions(shares)
         pairs: Loop = np.stack((points[:, :-1], points[:, 1:]), axis=2)
         return pairs
+
+    def bases(self, at: Loop, span: Loop, tracks: Loop) -> Iterator[tuple[Loop, Loop]]:
+        """Yield places in the scene's unit, each with a point of the arc, which stays as far off it."""
+        for n in range(tracks.shape[1]):
+            yield at, tracks[:, n, 0]
+        yield at, tracks[:, -1, 1]
 
 
 def dimension_line(begin: complex, end: complex, away: complex, gauge: Gauge) -> list[Loop]:

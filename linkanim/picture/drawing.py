@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import replace
 from functools import cached_property
-from itertools import groupby, pairwise, zip_longest
+from itertools import groupby, zip_longest
 from math import isfinite
 from typing import TYPE_CHECKING
 
@@ -15,30 +14,29 @@ from linkanim.picture.bodies import body_parts, mark_stamp, mass_stamp, pin_stam
 from linkanim.picture.dimensions import Symbols, leg_part, pivots, symbols
 from linkanim.picture.figure import DrawSetting
 from linkanim.picture.fittings import Coil, Damping, coils, dampings, ground_layers, ground_line
-from linkanim.picture.gears import wheel_layers, wheel_parts
+from linkanim.picture.gears import still_parts, wheel_layers, wheel_parts
 from linkanim.picture.items import Group
-from linkanim.picture.look import ACCELERATION, VELOCITY
 from linkanim.picture.motion_marks import (
     Arrows,
     Sliding,
     Trace,
     Turning,
     arrow_layers,
-    arrow_names,
-    arrows_of,
+    arrows_for,
     motion_of,
     traces,
 )
 from linkanim.picture.raster import Layer
 from linkanim.picture.shapes import Part, Places, Stamp, by_depth, placed
 from linkanim.picture.theme import mixed
-from linkanim.picture.view import Rect, View
+from linkanim.picture.view import Rect
 
 if TYPE_CHECKING:
     from linkanim.picture.bodies import CausalChain
     from linkanim.picture.centres import Centres
     from linkanim.picture.dead_centres import DeadCentres
     from linkanim.picture.ink import Ink
+    from linkanim.picture.names import Names
 
 # What only some looks need is imported where it is used: the first frame does not wait for it.
 
@@ -90,16 +88,12 @@ class Drawing:
 
     @cached_property
     def dead_centres(self) -> DeadCentres | None:
-        """The ticks on a slider's guide, where the look names things."""
-        return self.dead_centres_in(self.setting.view) if self.setting.look.names else None
-
-    def dead_centres_in(self, view: View) -> DeadCentres | None:
-        """Return the ticks on a slider's guide in a view; None where there are none."""
-        if not self.setting.look.dead_centres:
+        """The ticks on a slider's guide, where the look names things; None where there are none."""
+        if not (self.setting.look.names and self.setting.look.dead_centres):
             return None
         from linkanim.picture.dead_centres import dead_centres_of
 
-        return dead_centres_of(replace(self.setting, view=view))
+        return dead_centres_of(self.setting)
 
     def places(self, pose: Pose) -> Places:
         """Return where all joints lie in pixels; a joint without a place (NaN) lies far outside.
@@ -114,7 +108,7 @@ class Drawing:
 
     def discs(self) -> Group:
         """Return what stands still behind everything: the wheels without their teeth, and belts."""
-        return Group("wheels", wheel_layers(self.setting), still=True)
+        return Group("wheels", wheel_layers(self.setting), still=True, made_of=still_parts(self.setting))
 
     def wheels(self, places: Places) -> Iterator[Group]:
         """Yield the turning parts of wheels; a wheel that stays in place looks the same after every tooth."""
@@ -148,8 +142,8 @@ class Drawing:
         """The instant centres, where their centrodes are shown."""
         return self.parts.centres if self.setting.look.centres > 1 else None
 
-    def moving(self, pose: Pose, taken: Iterable[Rect] = ()) -> Iterator[Group]:
-        """Yield all that moves, back to front; names of arrows and centres keep off what is `taken`."""
+    def moving(self, pose: Pose, names: Names, taken: Iterable[Rect] = ()) -> Iterator[Group]:
+        """Yield all that moves, back to front; names of arrows and far centres keep off what is `taken`."""
         places, parts = self.places(pose), self.parts
         if self._rolling:
             yield Group("moving-centrode", [self._rolling.moving(places)])
@@ -163,22 +157,28 @@ class Drawing:
         yield Group("input", list(self._turning(pose, places)), made_of=parts.turning)
         masses = [self.setting.view.place(at) for at in pose.com_position.values()]
         yield Group("centres-of-mass", parts.mass.at(masses), made_of=parts.mass)
-        known = parts.arrows, pose, self.setting.view, self.setting.figure.moving
-        arrows = arrow_layers(*known)
-        letters, inside = (
-            (self.setting.type, self.setting.layout.small_size),
-            self.setting.layout.reach.inset(2),
+        arrows, busy = (
+            arrow_layers(parts.arrows, pose, self.setting.view, self.setting.figure.moving),
+            [*taken],
         )
-        taken = list(taken) if parts.arrows or parts.centres else []
-        # in a moving picture a name would jump from one side of a bar to the other
-        bodies = self.setting.figure.bodies if parts.arrows and self._moment is not None else ()
-        bars = [(places[one], places[other]) for body in bodies for one, other in pairwise(body.joints)]
-        names = arrow_names(*known, letters, inside, taken, bars) if parts.arrows else ()
-        for kind, layers, symbols_ in zip(parts.arrows, arrows, names, strict=True):
+        named = names.arrow_names(parts.arrows, pose, busy, self.setting) if parts.arrows else ()
+        for kind, layers, symbols_ in zip(parts.arrows, arrows, named, strict=True):
             yield Group(kind.words, layers, symbols_, made_of=kind)
-            taken += [line.around(self.setting.type) for line in symbols_]
+            busy += [line.around(self.setting.type) for line in symbols_]
         if centres := parts.centres:
-            yield Group("instant-centres", *centres.drawn(pose, places, taken), made_of=centres)
+            words = names.centre_names(centres, pose, busy)
+            yield Group("instant-centres", [*centres.layers(pose)], words, made_of=centres)
+
+    def swinging(self, places: Places) -> Iterator[Group]:
+        """Yield the linkage between two closures, its joints at `places`: bodies there have another shape."""
+        for item, strut in zip(self.setting.figure.struts, self.parts.struts, strict=True):
+            yield Group(f"strut-{item.name}", strut.layers(places))
+        yield from self._pinned(places, body_parts(self.setting, places))
+
+    def heads(self, pose: Pose) -> list[complex]:
+        """Return where the heads of velocity and acceleration arrows lie in a pose."""
+        known = pose, self.setting.view, self.setting.figure.moving
+        return [one.foot + one.reach for kind in self.parts.arrows for one in kind.seen(*known)]
 
     def _turning(self, pose: Pose, places: Places) -> Iterator[Layer]:
         """Yield the arrow of the input's motion, and its angle."""
@@ -188,9 +188,9 @@ class Drawing:
         if turning and pose.input_speed:
             yield from turning.direction(pose, places, abs(drive.speed / pose.input_speed))
 
-    def _pinned(self, places: Places) -> Iterator[Group]:
+    def _pinned(self, places: Places, bodies: tuple[Part, ...] | None = None) -> Iterator[Group]:
         """Yield the bodies with their pins, each pin at the depth of its own links."""
-        for names, part in zip_longest(self.parts.pinned, self.parts.bodies):
+        for names, part in zip_longest(self.parts.pinned, bodies or self.parts.bodies):
             for together in [(name,) for name in names] if self._apart else [names]:
                 shapes = self._stamped(together, places)
                 yield Group("-".join(("joint", *together)), shapes, made_of=self._pin(together))
@@ -222,8 +222,6 @@ def _parts(setting: DrawSetting, known: Symbols | None, moment: float | None) ->
     bodies = body_parts(setting)
     chain = _chain(setting) if look.chain else None
     marked = [trace.joint for trace in curves if trace.joint not in figure.pins]
-    height = setting.layout.size[1]
-    kinds = [kind for kind in (VELOCITY, ACCELERATION) if kind in look.vectors]
     return Parts(
         wheels=wheel_parts(setting),
         struts=(*coils(setting), *dampings(setting)),
@@ -234,7 +232,7 @@ def _parts(setting: DrawSetting, known: Symbols | None, moment: float | None) ->
         traces=() if look.ink else curves,
         marks={trace.joint: mark_stamp(trace.colour, gauge, theme) for trace in reversed(curves)},
         inks=_inks(setting) if look.ink else (),
-        arrows=tuple(arrows_of(figure, kind, height, gauge, theme, moment=moment) for kind in kinds),
+        arrows=arrows_for(figure, look, setting.layout, gauge, theme, moment),
         turning=motion_of(setting) if look.names else None,
         legs=tuple(leg_part(point, view, gauge, theme.dim) for point in known.points) if known else (),
         centres=_centres(setting) if look.centres else None,

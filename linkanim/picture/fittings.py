@@ -15,6 +15,7 @@ import numpy as np
 
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.linkage import Damper, Joint, Line, Slide, Spring
+from linkanim.mechanics.motion import Pose
 from linkanim.picture.figure import DOWN, DrawContext, Figure
 from linkanim.picture.layout import Gauge
 from linkanim.picture.raster import Layer, Loop, Outlines
@@ -245,6 +246,8 @@ class Bar:
     ends: tuple[str, str]
     slot: tuple[complex, complex] | None = None
     piston: bool = False
+    reaches: tuple[str, ...] = ()
+    """The joint that travels in its slot."""
 
 
 class GuideRails(NamedTuple):
@@ -289,11 +292,11 @@ def _fitting(joint: Joint, context: DrawContext) -> Fitting:
     return _slider(joint, first.line, context)
 
 
-def outlines(figure: Figure) -> Iterator[tuple[Loop, Loop, Loop]]:
+def outlines(figure: Figure, still: Pose | None = None) -> Iterator[tuple[Loop, Loop, Loop]]:
     """Yield the outlines of slotted bars and guides, drawn thin, and the places and directions of each.
 
-    All are x + yi in the scene's unit, y up, at some of the cycle's moments, without those at which a joint
-    is NaN.
+    All are x + yi in the scene's unit, y up, at some of the cycle's moments or in one pose, without moments
+    at which a joint is NaN.
     """
     # A power of two keeps every digit; arcs have as many points as their size in pixels asks for.
     scale = 2.0 ** -max(frexp(figure.extent)[1] - _LARGE, 0)
@@ -311,7 +314,12 @@ def outlines(figure: Figure) -> Iterator[tuple[Loop, Loop, Loop]]:
             )
     for part in parts:
         at, tail, head = (
-            np.atleast_2d(figure.cycle.position[name])[::step] @ DOWN.conj()
+            (
+                np.array([still.position[name]])
+                if still
+                else np.atleast_2d(figure.cycle.position[name])[::step]
+            )
+            @ DOWN.conj()
             for name in (part.at, part.tail, part.head)
         )
         arrow = head - tail
@@ -496,7 +504,7 @@ def _slotted(slide: Slide, context: DrawContext) -> Fitting:
     collar = Part(slide.point, *slide.axis, _block(context, share=0.62), (slide.point,))
     if context.figure.linkage.joint(slide.point).fixed:
         return _swivelled(slide, slide.axis, collar, context)
-    return Fitting(before=(collar,), bar=Bar(slide.axis, _slot_ends(slide, context)))
+    return Fitting(before=(collar,), bar=Bar(slide.axis, _slot_ends(slide, context), reaches=(slide.point,)))
 
 
 def _swivelled(slide: Slide, bar: tuple[str, str], collar: Part, context: DrawContext) -> Fitting:
@@ -509,7 +517,7 @@ def _swivelled(slide: Slide, bar: tuple[str, str], collar: Part, context: DrawCo
     ends = min(length - far.real, 0.0) - room, max(length - near.real, 0.0) + room
     wall = barrel(*ends, BARREL * gauge.bar, gauge, context.theme)
     layers = tuple(layer.placed(complex(0, -near.imag)) for layer in wall)
-    cylinder = Part(slide.point, *bar, layers, (slide.point,))
+    cylinder = Part(slide.point, *bar, layers, (slide.point,), reaches=(bar[1],))
     return Fitting(behind=(cylinder,), before=(collar,), bar=Bar(bar, piston=True))
 
 
@@ -534,7 +542,7 @@ def _yoke(guided: Slide, slot: Slide, context: DrawContext) -> Fitting:
     widths = SLOTTED * gauge.bar, SLOT * gauge.bar
     bar = slotted([0j, *ends], ends, widths, gauge.outline, colours)
     carriers = line.on or (name, name)
-    yoke = Part(name, *carriers, (*_block(context, along), *bar))
+    yoke = Part(name, *carriers, (*_block(context, along), *bar), reaches=(slot.point,))
     collar = Part(slot.point, *carriers, _block(context, across, 0.62), (slot.point,))
     if line.on is None:
         return Fitting((yoke,), (collar,), _rails(name, along, gauge))

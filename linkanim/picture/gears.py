@@ -213,9 +213,18 @@ _HOLES, _HOLED, _HOLE = 5, 0.62, 0.19
 
 def wheel_layers(context: DrawContext) -> list[Layer]:
     """Return what does not turn: wheels and discs that stay where they are, and the belts between them."""
+    parts, figure = still_parts(context), context.figure
+    names = {name for part in parts for name in (part.at, part.head)}
+    places = {name: figure.pixel(name, context.view) for name in names}
+    return [layer.placed(places[part.at], part.turn(places)) for part in parts for layer in part.layers]
+
+
+def still_parts(context: DrawContext) -> tuple[Part, ...]:
+    """Return what does not turn as parts: each disc about its centre, a belt from one to the other."""
     figure, view, gauge, theme = context.known
-    layers = []
+    parts = []
     for pair in pairs(figure):
+        one, other = (wheel.centre for wheel in pair.wheels)
         for wheel in (wheel for wheel in pair.wheels if _stays(figure, wheel)):
             if wheel.pitch:
                 shown = [Layer(theme.ground, _pitch_circle(wheel.radius * view.scale, gauge))]
@@ -225,11 +234,11 @@ def wheel_layers(context: DrawContext) -> list[Layer]:
                 shown = [Layer(_tone(wheel, pair, theme), [disc(_root(wheel, view, gauge))])]
             else:
                 shown = [*_wheel(wheel, pair, (view, gauge, theme), moving=True)]
-            layers += [layer.placed(figure.pixel(wheel.centre, view)) for layer in shown]
+            at = wheel.centre
+            parts.append(Part(at, at, at, tuple(shown), sized=(one, other)))
         if pair.belted and not pair.planetary:
-            one, other = (figure.pixel(wheel.centre, view) for wheel in pair.wheels)
-            layers.append(Layer(theme.ground, list(_belt(pair, one, other, view, gauge))))
-    return layers
+            parts.append(_belting(pair, context))
+    return tuple(parts)
 
 
 def _stays(figure: Figure, wheel: Wheel) -> bool:
@@ -244,23 +253,31 @@ def wheel_parts(context: DrawContext) -> tuple[Part, ...]:
         for wheel in (wheel for wheel in pair.wheels if wheel.arm or not _stays(figure, wheel)):
             stays = _stays(figure, wheel)
             ends = wheel.centre, wheel.centre, wheel.arm or wheel.centre
+            size = pair.driver.centre, pair.driven.centre
             if wheel.pitch:
-                parts.append(Part(*ends, (Layer(theme.outline, [_mark(wheel, view, gauge)]),)))
+                parts.append(Part(*ends, (Layer(theme.outline, [_mark(wheel, view, gauge)]),), sized=size))
                 continue
             if wheel.quiet:
-                parts.append(Part(*ends, tuple(_quiet(wheel, pair, (view, gauge, theme))), fold=wheel.teeth))
+                rim = tuple(_quiet(wheel, pair, (view, gauge, theme)))
+                parts.append(Part(*ends, rim, fold=wheel.teeth, sized=size))
                 continue
-            rim, *holes, edge = _wheel(wheel, pair, (view, gauge, theme), moving=not stays)
+            rims, *holes, edge = _wheel(wheel, pair, (view, gauge, theme), moving=not stays)
             # the outline of a pulley has equal sides instead of teeth
-            fold = (wheel.teeth or len(rim.loops[0])) if stays else 1
-            parts.append(Part(*ends, (rim, edge), fold=fold))
-            parts += [Part(*ends, (hole,), fold=_HOLES if stays else 1) for hole in holes]
+            fold = (wheel.teeth or len(rims.loops[0])) if stays else 1
+            parts.append(Part(*ends, (rims, edge), fold=fold, sized=size))
+            parts += [Part(*ends, (hole,), fold=_HOLES if stays else 1, sized=size) for hole in holes]
         if pair.planetary and pair.belted:
-            far = abs(figure.start(pair.driven.centre) - figure.start(pair.driver.centre)) * view.scale
-            ends = pair.driver.centre, pair.driver.centre, pair.driven.centre
-            belt = list(_belt(pair, 0j, complex(far), view, gauge))
-            parts.append(Part(*ends, (Layer(theme.ground, belt),)))
+            parts.append(_belting(pair, context))
     return tuple(parts)
+
+
+def _belting(pair: WheelPair, context: DrawContext) -> Part:
+    """Return the belt of a pair from its driver to its driven pulley."""
+    figure, view, gauge, theme = context.known
+    one, other = (wheel.centre for wheel in pair.wheels)
+    far = abs(figure.start(other) - figure.start(one)) * view.scale
+    belt = list(_belt(pair, 0j, complex(far), view, gauge))
+    return Part(one, one, other, (Layer(theme.ground, belt),), sized=(one, other))
 
 
 def _quiet(wheel: Wheel, pair: WheelPair, drawn: tuple[View, Gauge, Theme]) -> Iterator[Layer]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import cached_property
-from itertools import groupby, zip_longest
+from itertools import zip_longest
 from math import degrees, floor, inf, log10, pi, tau
 from typing import TYPE_CHECKING
 
@@ -22,9 +22,9 @@ from linkanim.picture.look import Look
 from linkanim.picture.motion_marks import Arrows
 from linkanim.picture.quantities import driven_words, round_below, sign_of, speed_in, speed_unit, speed_words
 from linkanim.picture.raster import Colour, Layer
-from linkanim.picture.shapes import arrows, box, disc
+from linkanim.picture.shapes import arrows, disc
 from linkanim.picture.text import Type
-from linkanim.picture.theme import Theme, mixed
+from linkanim.picture.theme import Theme
 from linkanim.picture.view import Rect, eased
 from linkanim.scenes.editing import beyond_title
 from linkanim.scenes.scene import Scene
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 # What the HUD says about a pose: its rows of numbers, and what is special about it.
 
 _NEAR_LIMIT = 0.06 * pi
-"""How near to a limit, in phase, the HUD notes it: there 1 % of the input's swing is left."""
+"""How near to a limit, in phase, the readout notes it: there 1 % of the input's swing is left."""
 _NEAR_CHANGE = pi / 45
 _HELD, _EASED = 0.2, 0.5
 """How long a note stands before and after its instant, and how long it fades in and out, in s."""
@@ -177,23 +177,16 @@ def _row(one: MeasuredRow, length_unit: str) -> Row:
     return Row(one.rank, one.label, value)
 
 
-class Note(NamedTuple):
-    """What is special about a pose, and its opacity in eighths: 0 is invisible."""
+def note(scene: Scene, pose: Pose) -> str:
+    """Return what is special at a pose: the nearest limit of the input, or change point; else "".
 
-    words: str
-    eighths: int
-
-
-def note(scene: Scene, pose: Pose) -> Note:
-    """Return what is special at a pose: the nearest limit of the input, or change point.
-
-    The note fades in before and out after, in time as in angle, and gives way where another place is as near.
-    Where notes would follow each other too fast to be read, there is none.
+    It gives way where another place is as near. Where notes would follow each other too fast to be read,
+    there is none.
     """
     known = [(_nearness(pose, away, near), words) for away, near, words in _special(scene, pose)]
     (most, words), (next_most, _), *_ = (*sorted(known, reverse=True), (0.0, ""), (0.0, ""))
     pause = tau / max(len(known), 1) / abs(pose.input_speed) if pose.input_speed else inf
-    return Note(words, round(8 * (most - next_most) * eased(pause / _READ - 1.0)))
+    return words if most - next_most >= 0.5 and pause >= 1.5 * _READ else ""
 
 
 def _nearness(pose: Pose, away: float, near: float) -> float:
@@ -231,57 +224,35 @@ def _apart(one: float, other: float) -> float:
 
 STEP = 1.4
 """The step from row to row, in heights of their text."""
-_BACKING = 0.82
-"""The opacity of the backing under the words."""
 
 
 class WordLine(NamedTuple):
-    """A line that stands still: its text, how far down it is, its size, whether it is a title, its width."""
+    """A line that stands still: its text, how far down it is, its size, whether it is a title."""
 
     text: str
     y: float
     size: int
     strong: bool
-    width: int
 
 
 @frozen
 class WordBlock:
-    """Words at one size; all places are measured from the block's top left corner."""
+    """The column of words; all places are measured from its top left corner."""
 
     size: int
-    lines: tuple[WordLine, ...]
+    """The height of the readout's text."""
+    lines: tuple[WordLine, ...] = ()
     """The lines of the title and of the class."""
-    turns: int
-    """How many lines the title takes beyond the first."""
-    rows: frozenset[str]
+    rows: frozenset[str] = frozenset()
     """The names of the rows that are shown."""
-    first: float
+    first: float = 0.0
     """The top of the first row."""
-    note: float
+    note: float = 0.0
     """The top of the note on what is special."""
-    key: float
-    """The top of the key to the arrows."""
-    column: int
-    """The width of the rows."""
-    width: float
-    height: float
-
-    def rects_at(self, place: tuple[float, float]) -> Iterator[Rect]:
-        """Yield the rectangles that the words take where the block stands."""
-        x, y = place
-        for line in self.lines:
-            yield Rect(x, y + line.y, line.width, line.size)
-        if self.height > self.first:
-            yield Rect(x, y + self.first, self.column, self.height - self.first)
-
-    def parts_at(self, place: tuple[float, float]) -> tuple[Rect, Rect | None]:
-        """Return the rectangles of the words and of the key to the arrows; None without arrows."""
-        x, y = place
-        whole = Rect(x, y, self.width, self.key)
-        return whole, Rect(
-            x, y + self.key, self.column, self.height - self.key
-        ) if self.height > self.key else None
+    key: float = 0.0
+    """The top of the legend: the key to the colours, and below it what is listed."""
+    width: float = 0.0
+    height: float = 0.0
 
 
 @frozen
@@ -304,7 +275,7 @@ class Hud:
 
     def values(self, pose: Pose) -> list[Caption]:
         """Return the numbers of a pose beside them."""
-        size, right = self.block.size, self.place.x + self.block.column
+        size, right = self.block.size, self.place.right
         return [
             Caption(row.value, (right, self._top(n)), size, self.theme.ink, "right", strong=True)
             for n, (_, row) in enumerate(ranked(self._rows, pose))
@@ -312,7 +283,7 @@ class Hud:
 
     def label_at(self, x: float, y: float) -> str | None:
         """Return the label of the row under a pixel, "" for the class, None elsewhere."""
-        if not self.place.x <= x <= self.place.x + max(self.block.column, self.block.width):
+        if not self.place.x <= x <= self.place.right:
             return None
         if any(self.place.y + one.y <= y <= self.place.y + one.y + 1.2 * one.size for one in self._classed):
             return ""
@@ -330,22 +301,12 @@ class Hud:
         """The rows that are shown."""
         return tuple(row for row in rows_of(self.scene) if row.label in self.block.rows)
 
-    def backing(self, key: Rect | None) -> Layer:
-        """Return the backing that makes words and key readable where something lies under them."""
-        bottom = key.bottom if key else self.place.bottom
-        room = self.place._replace(height=bottom - self.place.y).inset(-0.5 * self.block.size)
-        middle = complex(room.x + room.width / 2, room.y + room.height / 2)
-        plate = middle + box(room.width, room.height, 0.5 * self.block.size)
-        return Layer(self.theme.background, [plate], _BACKING)
-
     def notes(self, pose: Pose) -> Iterator[Caption]:
-        """Yield the note on what is special at a pose, with its opacity."""
-        words, eighths = note(self.scene, pose)
-        size, colour = self.block.size, mixed(self.theme.background, self.theme.dim, eighths / 8)
-        lines = self.type.wrapped(words, size, self.block.column) if eighths else []
-        for n, line in enumerate(lines):
+        """Yield the note on what is special at a pose."""
+        size, words = self.block.size, note(self.scene, pose)
+        for n, line in enumerate(self.type.wrapped(words, size, self.place.width) if words else ()):
             at = (self.place.x, self.place.y + self.block.note + 1.2 * size * n)
-            yield Caption(line, at, size, colour)
+            yield Caption(line, at, size, self.theme.dim)
 
     def _top(self, row: int) -> float:
         return self.place.y + self.block.first + STEP * self.block.size * row
@@ -357,7 +318,6 @@ INK_LINES = 2
 """The lines of the key to the ink: one for its colours, one for its dots."""
 KEY_STEP = 1.5
 """The step from line to line of the key to the arrows, in heights of its text."""
-_SMALLEST = 8
 _ENDS = ("input", "output")
 _DISC_STEP = 1.2
 """The step from one disc of colour to the next, in heights of the text."""
@@ -375,13 +335,23 @@ class Legend:
     theme: Theme
     chain: tuple[Colour, ...] = ()
     ink: InkScale | None = None
+    listed: tuple[str, ...] = ()
+    """Rows of words below the key."""
 
     def group(self, speed: float) -> Group:
-        """Return the key at this input speed (rad/s)."""
+        """Return the key at this input speed (rad/s), and what is listed."""
         inked = self._inked(self.ink, len(self.kinds), speed) if self.ink else ()
         line = len(self.kinds) + (INK_LINES if self.ink else 0)
         chained = self._chained(self._top(line)) if self.chain else ()
-        return grouped("key", [*self._arrows(speed), *inked, *chained], still=True)
+        items = [*self._arrows(speed), *inked, *chained, *self._rows(line + bool(self.chain))]
+        return grouped("key", items, still=True)
+
+    def _rows(self, line: int) -> Iterator[Caption]:
+        """Yield what is listed, below so many lines of the key."""
+        top = self._top(line) + (0.4 * self.size if line else 0.0)
+        for n, row in enumerate(self.listed):
+            at = self.column.x, top + LISTED_STEP * self.size * n
+            yield Caption(row, at, self.size, self.theme.dim)
 
     def _inked(self, scale: InkScale, line: int, speed: float) -> Iterator[Item]:
         """Yield the key to the ink: its colours up to the greatest speed, and the time between its dots."""
@@ -436,15 +406,6 @@ class Legend:
         return value * scale, value
 
     @property
-    def fits(self) -> bool:
-        """Whether words and values stand side by side, with room for values a digit longer."""
-        lines = [f"{kind.words}  0{self.meaning(kind, kind.drive)}" for kind in self.kinds]
-        if self.ink:
-            lines.append(f"speed  0{self.ink.greatest_words(self.ink.drive)}")
-        room = self.column.width - self._reach - 0.6 * self.size
-        return all(self.type.width(line, self.size) <= room for line in lines)
-
-    @property
     def _reach(self) -> float:
         """The length of the key's arrows in pixels."""
         return 2.6 * self.size
@@ -465,36 +426,30 @@ def legend_for(
     theme: Theme,
     chain: tuple[Colour, ...] = (),
     ink: InkScale | None = None,
+    listed: tuple[str, ...] = (),
 ) -> Legend | None:
-    """Return the key to arrows, ink and chain, its text as large as fits; None without content or room."""
+    """Return the key to arrows, ink and chain, and what is listed; None without content or room."""
     column = layout.legend
-    if column is None or not (kinds or chain or ink):
+    if column is None or not (kinds or chain or ink or listed):
         return None
-    sizes = range(layout.small_size, _SMALLEST - 1, -1)
-    legends = [Legend(kinds, column, size, type_, theme, chain, ink) for size in sizes]
-    return next((legend for legend in legends if legend.fits), legends[-1])
+    return Legend(kinds, column, layout.small_size, type_, theme, chain, ink, listed)
 
 
-# The words about a scene, set in blocks: its title and class, rows of numbers, the key to its colours.
+# The column of words about a scene: its title and class, rows of numbers, the legend.
 
-_TITLE = 1.43
-"""The title's size, in sizes of the rows."""
-_SMALLEST_TYPE = 10
-_SHRUNK = 0.72
-"""The rows' least size: in pixels, and as a share of the usual size in the window."""
 _CLASS_RANK = 4
 """The class is left out after the rows of higher ranks."""
-_CLASS_WIDTH = 17.0
-"""A class up to this wide, in sizes of the text, is not broken into lines."""
+_NARROWEST = 13.0
+"""The least width of the column where there are rows, in heights of their text."""
 _GAP = 0.9
-"""The gap between the name and the value of a row, in sizes of the text."""
-_MOST_LINES = 4
+"""The gap between the name and the value of a row, in heights of the text."""
 _TRIED = 24
-_SENTENCE_LINES = (1, 2, 3, 4)
 _MEASURED = 21
 """The size at which widths of values are compared; the widest value is the widest at any size."""
 _FASTEST = -10.0
 """The fastest that a scene is run at, backwards for the minus sign."""
+LISTED_STEP = 1.3
+"""The step from row to row of what is listed, in heights of its text."""
 
 
 class WidestRow(NamedTuple):
@@ -522,113 +477,94 @@ def _over_a_cycle(scene: Scene) -> Iterator[WidestRow]:
             yield WidestRow(rank, row)
 
 
-def blocks(
-    scenes: Sequence[Scene], rows: tuple[WidestRow, ...], layout: Layout, keys: int, type_: Type
-) -> Iterator[list[WordBlock]]:
-    """Yield the words in groups, the preferred ones first; a group has the title in one line, two, and so on.
+class Legendary(NamedTuple):
+    """What the legend holds: how many lines of a key to the colours, and the rows of what is listed."""
 
-    First come all `rows` in decreasing sizes, then fewer and fewer rows, then no key. `keys` is how many
-    lines the key has. The words are the first scene's, with room for those of the others in their place.
+    keys: int = 0
+    listed: tuple[str, ...] = ()
+
+
+def columns(
+    scenes: Sequence[Scene], rows: tuple[WidestRow, ...], layout: Layout, legend: Legendary, type_: Type
+) -> Iterator[WordBlock]:
+    """Yield the column of words, whole first, then shorter and shorter, at last with nothing in it.
+
+    The rows go first, those of the highest rank before others, and the class with those of its rank; then
+    the key, then the title; what is listed stays as long as it fits at all. The words are the first scene's,
+    with room for those of the others in their place. Without scenes there is the legend alone.
     """
-    setter = _Setter(scenes, layout, keys, type_)
-    smallest = max(_SMALLEST_TYPE, round(_SHRUNK * layout.text_size))
-    for size in range(layout.text_size, smallest, -1):
-        yield setter.group(size, rows, True)
-    ranks = sorted({one.rank for one in rows}, reverse=True)
-    bare = _Setter(scenes, layout, 0, type_)
-    ways = [(setter, rank) for rank in ranks] + [(bare, rank) for rank in (*ranks, -1)]
-    for way, rank in ways:
-        yield way.group(smallest, tuple(one for one in rows if one.rank <= rank), rank >= _CLASS_RANK)
+    titled = bool(scenes)
+    ranks = sorted({_CLASS_RANK, *(one.rank for one in rows)}, reverse=True)
+    ways = [(tuple(one for one in rows if one.rank <= rank), rank >= _CLASS_RANK) for rank in ranks]
+    for kept, classed in ways if titled else ():
+        yield _column(scenes, kept, layout, legend, type_, classed=classed)
+    for fewer in (legend, legend._replace(keys=0)):
+        yield _column(scenes, (), layout, fewer, type_, classed=False)
+    yield _column((), (), layout, legend._replace(keys=0), type_, classed=False)
+    yield WordBlock(layout.text_size)
 
 
-def key_block(scene: Scene, layout: Layout, keys: int, type_: Type) -> WordBlock:
-    """Return a block of the key to the colours alone, which has so many lines."""
-    size, wide = layout.small_size, _key_width(scene, layout, type_)
-    return WordBlock(size, (), 0, frozenset(), 0.0, 0.0, 0.0, round(wide), wide, KEY_STEP * size * keys)
+def _column(
+    scenes: Sequence[Scene],
+    rows: tuple[WidestRow, ...],
+    layout: Layout,
+    legend: Legendary,
+    type_: Type,
+    *,
+    classed: bool,
+) -> WordBlock:
+    size, small, big = layout.text_size, layout.small_size, layout.title_size
+    wide = [
+        type_.width(one.row.label, size) + type_.width(one.row.value, size, strong=True) + _GAP * size
+        for one in rows
+    ]
+    if legend.keys:
+        wide.append(_key_width(layout, type_))
+    wide += [type_.width(row, small) for row in legend.listed]
+    least = max(max(wide, default=0.0), _NARROWEST * size if scenes else 0.0)
+    room = layout.size[0] - 2 * layout.margin
+    lines: list[WordLine] = []
+    y = 0.0
+    if scenes:
+        title = scenes[0].title if type_.shows(scenes[0].title) else scenes[0].name
+        across = min(max(least, type_.narrowest(title, big, 2)), room)
+        for text in type_.wrapped(title, big, across, strong=True) or ("",):
+            lines.append(WordLine(text, y, big, True))
+            y += 1.12 * big
+        y += 0.1 * size
+        across = min(max(across, least), room)
+        for each in (
+            zip_longest(*_classes(scenes, title, size, across, type_), fillvalue="") if classed else ()
+        ):
+            lines.append(WordLine(each[0], y, size, False))
+            y += 1.2 * size
+    width = max([least, *(type_.width(one.text, one.size, strong=one.strong) for one in lines)])
+    first = y + 0.5 * size if rows else y
+    note = first + STEP * size * len(rows) + (0.3 * size if rows else 0.0)
+    key = note
+    if rows:
+        words = [words for scene in scenes for words in notes(scene)]
+        key += 1.2 * size * max((len(type_.wrapped(one, size, width)) for one in words), default=0)
+    high = KEY_STEP * small * legend.keys + LISTED_STEP * small * len(legend.listed)
+    high += 0.4 * small if legend.keys and legend.listed else 0.0
+    names = frozenset(one.row.label for one in rows)
+    return WordBlock(size, tuple(lines), names, first, note, key, float(width), key + high)
 
 
-def _key_width(scene: Scene, layout: Layout, type_: Type) -> float:
+def _classes(
+    scenes: Sequence[Scene], title: str, size: int, width: float, type_: Type
+) -> Iterator[list[str]]:
+    """Yield the lines of the scenes' classes, the first scene's first."""
+    for scene in scenes:
+        yield type_.wrapped(beyond_title(title, scene.info.class_name), size, width)
+
+
+def _key_width(layout: Layout, type_: Type) -> float:
     size = layout.small_size
-    return 3.2 * size + type_.width(f"acceleration  00000 {scene.length_unit}/s²", size)
+    return 3.2 * size + type_.width("acceleration  00000 mm/s²", size)
 
 
 def caption_lines(layout: Layout, text: str, type_: Type) -> list[str]:
-    """Return a sentence in lines, as it stands below a scene."""
-    room = layout.caption.width if layout.caption else layout.stage.width - 2 * layout.margin
-    return type_.wrapped(text, layout.small_size, room) if text else []
-
-
-def shapes_of(text: str, layout: Layout, type_: Type) -> Iterator[tuple[float, float]]:
-    """Yield the width and height of a sentence on a backing of its own, in one line and in more."""
-    size = layout.small_size
-    whole = type_.width(text, size)
-    for count in _SENTENCE_LINES if text else ():
-        lines = type_.wrapped(text, size, (1.0 + 0.2 * (count > 1)) * whole / count)
-        wide = max(type_.width(line, size) for line in lines)
-        yield wide + 2.0 * size, (1.25 * len(lines) + 0.75) * size
-
-
-class _Setter:
-    """Sets the words of one scene."""
-
-    def __init__(self, scenes: Sequence[Scene], layout: Layout, keys: int, type_: Type) -> None:
-        self._scene, self._layout, self._keys, self._type = scenes[0], layout, keys, type_
-        self._title = self._scene.title if type_.shows(self._scene.title) else self._scene.name
-        self._classes = [beyond_title(self._title, scene.info.class_name) for scene in scenes]
-        self._notes = [words for scene in scenes for words in notes(scene)]
-
-    def group(self, size: int, rows: tuple[WidestRow, ...], classed: bool) -> list[WordBlock]:
-        """Return the block with the title in one line, in two, and so on."""
-        big = round(_TITLE * size)
-        titles = [self._broken(count, big) for count in range(1, _MOST_LINES + 1)]
-        return [self._block(size, title, rows, classed) for title, _ in groupby(titles)]
-
-    def _block(
-        self, size: int, title: tuple[str, ...], rows: tuple[WidestRow, ...], classed: bool
-    ) -> WordBlock:
-        big, column = round(_TITLE * size), self._column(size, rows)
-        lines = [self._line(text, 1.12 * big * n, big, strong=True) for n, text in enumerate(title)]
-        y, wide = 1.12 * big * len(title) + 0.1 * size, max(line.width for line in lines)
-        for line_of_each in self._classed(size, max(column, wide, _CLASS_WIDTH * size)) if classed else ():
-            widest = max(self._type.width(text, size) for text in line_of_each)
-            lines.append(WordLine(line_of_each[0], y, size, False, widest))
-            y += 1.2 * size
-        first = y + 0.5 * size if rows else y
-        note = first + STEP * size * len(rows) + (0.3 * size if rows else 0.0)
-        key = note + 1.2 * size * max(
-            (len(self.wrapped(words, size, column)) for words in self._notes), default=0
-        )
-        high = KEY_STEP * self._layout.small_size * self._keys if rows else 0.0
-        width = max(column, *(line.width for line in lines))
-        shown = frozenset(one.row.label for one in rows)
-        last, tall = len(title) - 1, key + high
-        return WordBlock(size, tuple(lines), last, shown, first, note, key, column, width, tall)
-
-    def _classed(self, size: int, width: float) -> Iterator[tuple[str, ...]]:
-        """Yield the lines of the scenes' classes, the first scene's first."""
-        wrapped = (self._type.wrapped(words, size, width) for words in self._classes)
-        yield from zip_longest(*wrapped, fillvalue="")
-
-    def wrapped(self, words: str, size: int, column: int) -> list[str]:
-        """Return a note in lines."""
-        return self._type.wrapped(words, size, column) if column else []
-
-    def _column(self, size: int, rows: tuple[WidestRow, ...]) -> int:
-        """Return the width of the column of rows and of the key to the colours."""
-        width = self._type.width
-        wide = [
-            width(one.row.label, size) + width(one.row.value, size, strong=True) + _GAP * size for one in rows
-        ]
-        if rows and self._keys:
-            wide.append(_key_width(self._scene, self._layout, self._type))
-        return round(max(wide, default=0.0))
-
-    def _line(self, text: str, y: float, size: int, *, strong: bool) -> WordLine:
-        return WordLine(text, y, size, strong, self._type.width(text, size, strong=strong))
-
-    def _broken(self, count: int, big: int) -> tuple[str, ...]:
-        """Return the title in at most `count` lines, broken between words, as narrow as possible."""
-        room = self._layout.stage.width - 2 * self._layout.margin
-        narrowest = self._type.narrowest(self._title, big, count)
-        width = narrowest if narrowest < int(room) else room
-        return tuple(self._type.wrapped(self._title, big, width, strong=True)) or ("",)
+    """Return a sentence in lines, as it stands below a linkage."""
+    slot = layout.caption or layout.stage
+    return type_.wrapped(text, layout.small_size, slot.width - 2 * layout.margin) if text else []

@@ -31,7 +31,7 @@ class Halo(NamedTuple):
 class Caption(NamedTuple):
     """One line of text; `at` is its top, at its left, middle or right as `anchor` says.
 
-    A caption in a halo has the opacity `strength`, 0 to 1.
+    `of` is what it names, such as "joint:A"; where it is empty its group says what kind of words it is.
     """
 
     text: str
@@ -41,7 +41,7 @@ class Caption(NamedTuple):
     anchor: Anchor = "left"
     strong: bool = False
     halo: Halo | None = None
-    strength: float = 1.0
+    of: str = ""
 
     def around(self, type_: Type) -> Rect:
         """Return the rectangle that the caption takes up."""
@@ -52,6 +52,9 @@ class Caption(NamedTuple):
 
 Item = Layer | Caption
 
+
+_KINDS = {"words": "readout", "key": "legend", "far-centres": "legend", "chart": "axis", "reading": "axis"}
+"""What words are of that name no part of the linkage, by their groups."""
 
 SHEET = "sheet"
 """The name of the group on which the others are drawn."""
@@ -76,6 +79,12 @@ class Group(NamedTuple):
     key: Hashable = None
     made_of: object = None
     under: Underlay | None = None
+
+    @property
+    def named(self) -> Iterator[Caption]:
+        """The words, each with what it is of: a thing of the linkage, or the kind of the group's words."""
+        kind = _KINDS.get(self.name, self.name)
+        return (line if line.of else line._replace(of=kind) for line in self.captions)
 
 
 def grouped(name: str, items: Iterable[Item], *, still: bool = False) -> Group:

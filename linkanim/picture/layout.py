@@ -1,74 +1,80 @@
-"""Where things stand in the window, and how large they are for its size."""
+"""Where things stand in a picture, and how large they are for its size: one slot for each kind of thing.
+
+The title and the readout stand in one column at the top left, the legend below them; charts and polygons at
+the side, right of the linkage or under it; the caption in a line at the foot, over which in a window the bar
+of commands comes and goes. Lists take the column's place. The stage is what these leave to the linkage;
+nothing else is drawn there.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import replace
 from functools import cached_property
-from itertools import product
 from math import ceil
 
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.picture.view import Rect
 
 _DRAWN_FOR = (1280, 720)
-TEXT, SMALL = 21.0, 17.0
-"""The heights of text and of small text, in units."""
+SMALL = 17.0
+"""The height of small text, in units."""
+_LETTERS = {"title": (30.0, 15), "text": (21.0, 13), "label": (20.0, 12), "small": (SMALL, 11)}
+"""The one scale of letters: heights of lines in units, and the least in pixels."""
+MARGIN = 20.0
+"""The margin everywhere, in units."""
+_MARGIN_OF_STILL = 0.04
+"""The margin round a still, in shorter sides of it."""
 _EDGE = 10.8
-"""From the window's edge to the edit list, in units."""
+"""From the window's edge to a list, in units."""
 _SHARES_BELOW, _SHARE_BESIDE = (0.27, 0.41, 0.52), 0.45
-"""The share of the height that one, two or three charts below take; that of the width beside the scene."""
+"""The share of the height that one, two or three charts below take; that of the width beside the linkage."""
 _ROW_OF_ANSWERS = 0.17
 """The height of a row of small pictures, in heights of the window."""
 _SLIDER = 1.9
 """The height of a slider's room, in heights of small text."""
-_BUTTON, _LEAST_BUTTON = 40.0, 28.0
+_BUTTON, _LEAST_BUTTON = 34.0, 28.0
 """The side of a button in units, and the least in pixels: a finger has to find it."""
-_BAR = 1.6
-"""The height of a bar of buttons with its margins, in sides of a button."""
-_SHARE_OF_BAR = 0.3
+_BAR = 1.25
+"""The height of the bar of commands, in sides of a button."""
+_SHARE_OF_BAR = 0.16
 """The greatest share of the height that the bar takes."""
-_LITTLE_FOR_BAR = 0.13
-"""Where the bar would take a greater share of the height, it has no room but lies over the scene's foot."""
+_LITTLE_FOR_BAR = 0.05
+"""Where the bar needs a greater share of the height beyond the stage's margin, it has no room of its own."""
+_MUCH_FOR_BAR = 0.12
+"""Where the bar needs a greater share of the height, what is open has room where the bar comes and goes."""
+_FOOT = 1.6
+"""The height of a window's caption, in heights of its text."""
+CAPTION_STEP = 1.25
+"""The step from line to line of a caption, in heights of its text."""
+HEAD_STEP = 1.35
+"""The step from line to line of a sentence at the head, in heights of its text."""
 _NARROW = 30
 """A window narrower than so many heights of its text has a list at its foot, not at its left."""
 _SHARE_LISTED = 0.42
 """A list's share of the height at the foot."""
-_MARGIN, _OFF = 20.0, 0.6
-"""The margin around charts and polygons, in units, and the gap between them and the stage, in margins."""
-_HEAD_OF_MARKS = 1.5
-"""The height of the marks of recording and pause, in heights of their text: a chart begins below them."""
 _TALLEST = 0.42
-"""The height of a chart beside the scene, in widths of the window; of several below each other twice that."""
+"""The height of a chart beside the linkage, in widths of the window; of several, twice that."""
 HEAD_OF_CHART = 25.5
 """The room of a chart's title and of the values read from the chart, in heights of text."""
-_BUTTONS, _ROW_OF_BUTTONS = 5.2, 1.5
-"""The room of a chart's buttons across, and below its foot where its head has none, in sides of one."""
-_ROW = 1.3
-"""The step from row to row of a table, in heights of its text."""
-_SMALLEST_ROW = 8
-_SHARE_OF_TABLE = 0.27
-"""A table that would take a greater share of the stage's width, or height, is set smaller, to that size."""
-CAPTION_STEP = 1.25
-"""The step from line to line of a caption, in heights of its text."""
-_SHARE_OF_CAPTION = 0.16
-"""The greatest share of the stage's height that a caption takes."""
-_SHARES_OF_POLYGONS = (0.38, 0.6)
-"""The polygons' share of the room that a chart leaves: of its width, or of its height if that is greater.
-
-The second number is the share of a single large polygon.
-"""
+_BUTTONS, _ROW_OF_BUTTONS = 5.5, 1.4
+"""The width of a chart's buttons and the height of a row of them, in sides of a button."""
+_SHARES_OF_POLYGONS, _BELOW = (0.36, 0.6), 1.3
+"""The polygons' share of the width: of both, and of a single large one. Below, their share is greater."""
+_POLYGONS_OVER_CHART = 0.56
+"""The polygons' share of a side that they share with charts."""
 
 
 class Docked(NamedTuple):
-    """What has room of its own in a window, apart from the scene and its charts."""
+    """What has room of its own in a window, apart from the linkage and its charts."""
 
     listed: int = 0
-    """1 for an open list, instead of the HUD; 2 for one with tools beside it."""
+    """1 for an open list, instead of the readout; 2 for one with tools beside it."""
     row: bool = False
     """Whether there is a row of small pictures, at the foot."""
     bar: bool = False
-    """Whether the bar of commands has room, at the foot."""
+    """Whether there is a foot for what is said in passing, and for the bar of commands."""
+    head: bool = False
+    """Whether a sentence stands at the head, instead of the title: of a sheet, or a construction's step."""
 
 
 NOTHING_DOCKED = Docked()
@@ -76,214 +82,198 @@ NOTHING_DOCKED = Docked()
 
 @frozen
 class Layout:
-    """The parts of a window; `unit` is the size of a pixel of a window of 1280 × 720, or of 720 × 1280."""
+    """The slots of a picture; `unit` is the size of a pixel of a picture of 1280 × 720, or of 720 × 1280."""
 
     size: tuple[int, int]
     unit: float
     stage: Rect
-    """The room that chart and edit list leave to the scene and the words about it."""
-    hud: Rect | None
-    legend: Rect | None
-    """The key to the vectors, at the foot of the HUD."""
-    chart: Rect | None
-    marks: Rect
-    """Where the marks of recording and pause stand: in the window's upper right corner."""
-    lists: Rect
-    """Where the edit list or that of quantities stands, if one is open."""
+    """The room of the linkage."""
+    head: Rect | None = None
+    """The room of a sentence and of a slider beside it."""
+    hud: Rect | None = None
+    """The title and the readout."""
+    legend: Rect | None = None
+    """The key to the colours and what is listed, below the readout."""
+    chart: Rect | None = None
     polygons: Rect | None = None
-    hint: Rect | None = None
-    """Where the words on which keys to press stand; without width where there is no room for them."""
+    caption: Rect | None = None
+    """The foot, for one line of words in its middle."""
+    bar: Rect | None = None
+    """Where the bar of commands comes and goes: over the caption, in the stage's margin."""
+    lists: Rect = Rect(0, 0, 1, 1)
+    """Where a list stands, if one is open."""
+    room: Rect | None = None
+    """What an open list leaves of the window; None where no list is open."""
     row: Rect | None = None
     """Where a row of small pictures stands, if there is one."""
     dial: Rect | None = None
     """Where a slider stands above the row of small pictures."""
-    bar: Rect | None = None
-    """Where the bar of commands stands, if it has room of its own; else it lies over the stage's foot."""
-    table: Rect | None = None
-    """Where a table of dimensions stands, if it is given room."""
-    caption: Rect | None = None
-    """Where the sentence on what to watch for stands, if it is given room."""
-    passing: Rect | None = None
-    """Where that sentence may stand for a while, off all that is drawn; None where there is no such place."""
-    room: Rect | None = None
-    """What an open list leaves of the window; None where no list is open."""
-    words: tuple[Rect, ...] = ()
-    """The parts of the HUD and of the key that hold words: names keep off these."""
     type_scale: float = 1.0
     """How many times larger words are than usual in a window of that size."""
 
     @cached_property
     def above_bar(self) -> float:
-        """The height of the window above the bar of commands, where that has room at the foot."""
-        low = self.size[1]
-        return self.bar.y if self.bar and self.bar.bottom >= low - 1 else low
+        """The height of the window above the bar; the whole height where that is little."""
+        kept = self.bar and self.bar.height <= _MUCH_FOR_BAR * self.size[1]
+        return self.bar.y if self.bar and kept else self.size[1]
 
-    @cached_property
-    def reach(self) -> Rect:
-        """The room in which a zoomed scene is drawn: up to chart and polygons, and under the edit list."""
-        right, bottom = self.size
-        for beside in (self.chart, self.polygons):
-            if beside and beside.x >= self.stage.right:
-                right = min(right, int(self.stage.right))
-            elif beside:
-                bottom = min(bottom, int(beside.y))
-        return Rect(0, 0, right, bottom)
-
-    @cached_property
-    def before_charts(self) -> Rect:
-        """The same where polygons have no place yet: up to the charts."""
-        (right, bottom), chart = self.size, self.chart
-        if chart and chart.x >= self.stage.right:
-            right = int(chart.x - _OFF * _MARGIN * self.unit)
-        elif chart:
-            bottom = int(chart.y)
-        return Rect(0, 0, right, bottom)
+    @property
+    def title_size(self) -> int:
+        """The height of the title."""
+        return self._letters("title")
 
     @property
     def text_size(self) -> int:
         """The height of text that must read from the back row."""
-        return max(round(TEXT * self.unit * self.type_scale), 13)
+        return self._letters("text")
+
+    @property
+    def label_size(self) -> int:
+        """The height of joints' letters."""
+        return self._letters("label")
 
     @property
     def small_size(self) -> int:
-        """The height of tick labels and hints."""
-        return max(round(SMALL * self.unit * self.type_scale), 11)
+        """The height of tick labels and of names of links."""
+        return self._letters("small")
+
+    def _letters(self, kind: str) -> int:
+        units, least = _LETTERS[kind]
+        return max(round(units * self.unit * self.type_scale), least)
 
     @property
     def button(self) -> float:
         """The side of a button of the bar of commands."""
-        room = self.bar.height if self.bar else _SHARE_OF_BAR * self.stage.height
-        return max(min(max(_BUTTON * self.unit, _LEAST_BUTTON), room / _BAR), 2.0)
+        return max(min(max(_BUTTON * self.unit, _LEAST_BUTTON), _SHARE_OF_BAR * self.size[1] / _BAR), 2.0)
 
     @property
     def margin(self) -> float:
-        """How far words keep from the stage's edges, in pixels."""
-        return max(20 * self.unit, 6.0)
+        """The margin, in pixels."""
+        return max(MARGIN * self.unit, 6.0)
+
+    @property
+    def marks(self) -> Rect:
+        """Where the marks of recording and pause stand: at the right end of the foot."""
+        foot, edge = (
+            self.caption or self.stage._replace(y=self.stage.bottom - 2 * self.text_size),
+            self.margin,
+        )
+        wide, high = 0.22 * foot.width, 1.2 * self.text_size
+        return Rect(foot.right - edge - wide, foot.y + (foot.height - high) / 2, wide, high)
 
 
-def layout(
-    size: tuple[int, int],
-    *,
-    chart: int = 0,
-    beside: bool = False,
-    listed: int = 0,
-    polygons: int = 0,
-    row: bool = False,
-    bar: bool = False,
-    type_scale: float = 1.0,
-) -> Layout:
-    """Divide a window: `chart` charts along the bottom, or `beside` the scene; the stage is what is left.
-
-    `listed` leaves room for a list, on the left or, in a narrow window, at the foot; where it is 2, also for
-    tools beside the list. `polygons` leaves room for polygons, on the right or below, and more where it is 2,
-    for a large one. `row` leaves room for small pictures at the foot, with the bar of commands below them.
-    The `bar` has room at the foot without a row, too, where that takes little height. The HUD has no place
-    yet: that depends on the scene. Words are `type_scale` times as large as usual.
-    """
+def layout(size: tuple[int, int], *, docked: Docked = NOTHING_DOCKED, type_scale: float = 1.0) -> Layout:
+    """Return the slots that do not depend on what is shown: lists, rows, the foot; the stage is the rest."""
     unit = min(max(size) / _DRAWN_FOR[0], min(size) / _DRAWN_FOR[1])
     whole = Rect(0, 0, *size)
-    empty = Layout(size, unit, whole, None, None, None, whole, whole, type_scale=type_scale)
-    parts = _charted(empty, chart=chart, beside=beside, listed=listed, row=row, bar=bar)
-    if not polygons:
-        return parts
-    stage, edge, share = parts.stage, _MARGIN * parts.unit, _SHARES_OF_POLYGONS[polygons - 1]
-    if stage.width >= stage.height:
-        wide = share * stage.width
-        # in a window that has a bar, charts begin below the mark of pause
-        top = edge + (_HEAD_OF_MARKS * parts.text_size if bar else 0.0)
-        place = Rect(stage.right - wide, top, wide - edge, stage.height - top - edge)
-        return replace(parts, polygons=place, stage=stage._replace(width=stage.width - wide - _OFF * edge))
-    high = share * stage.height
-    place = Rect(stage.x + edge, stage.bottom - high, stage.width - 2 * edge, high - edge)
-    return replace(parts, polygons=place, stage=stage._replace(height=stage.height - high - _OFF * edge))
-
-
-def with_table(parts: Layout, rows: int, wide: float, head: float = 0.0) -> Layout:
-    """Return a layout with room for a table beside the stage or below it, whichever takes less of it.
-
-    Beside the stage the table begins `head` pixels down, below the marks.
-    """
-    stage, edge = parts.stage, parts.margin
-    for size in range(parts.small_size, _SMALLEST_ROW - 1, -1):
-        step, broad_row = _ROW * size, wide * size / parts.small_size
-        columns = ceil(rows * step / max(stage.height - 2 * edge - head, 1))
-        across = max(int((stage.width - 2 * edge) / broad_row), 1)
-        broad, deep = columns * broad_row + edge, ceil(rows / across) * step + edge
-        if min(broad / stage.width, deep / stage.height) < _SHARE_OF_TABLE:
-            break
-    if broad / stage.width < deep / stage.height:
-        high = stage.height - 2 * edge - head
-        place = Rect(stage.right - broad, stage.y + edge + head, broad - edge, high)
-        return replace(parts, table=place, stage=stage._replace(width=stage.width - broad))
-    place = Rect(stage.x + edge, stage.bottom - deep, stage.width - 2 * edge, deep - edge)
-    return replace(parts, table=place, stage=stage._replace(height=stage.height - deep))
+    parts = Layout(size, unit, whole, type_scale=type_scale)
+    if docked.bar or docked.row:
+        # across the whole window, below a list: the bar stands still while a list opens and closes
+        line, deep = _FOOT * parts.small_size, _BAR * parts.button
+        foot = whole._replace(y=whole.bottom - line, height=line)
+        bar = whole._replace(y=foot.y - deep, height=deep)
+        # the bar comes and goes in half the stage's margin, and in what it needs beyond that
+        beyond = deep if docked.row else deep - parts.margin / 2
+        beyond = beyond if docked.row or beyond <= _LITTLE_FOR_BAR * size[1] else 0.0
+        parts, whole = replace(parts, bar=bar, caption=foot), whole._replace(height=foot.y - beyond)
+    parts = replace(parts, lists=_lists(parts))
+    room = _beside_list(parts.lists, whole) if docked.listed else whole
+    if parts.bar and parts.above_bar > parts.bar.y:
+        top = min(parts.bar.y, room.bottom - parts.bar.height)
+        parts = replace(parts, bar=parts.bar._replace(x=room.x, y=top, width=room.width))
+    parts = replace(parts, room=room if docked.listed else None)
+    room = _beside_tools(parts, room) if docked.listed > 1 else room
+    if docked.head:
+        head = room._replace(height=1.5 * parts.margin + HEAD_STEP * (parts.text_size + parts.small_size))
+        parts, room = (
+            replace(parts, head=head),
+            Rect(room.x, head.bottom, room.width, room.bottom - head.bottom),
+        )
+    if docked.row:
+        high, slider = _ROW_OF_ANSWERS * size[1], _SLIDER * parts.small_size
+        place = Rect(room.x, room.bottom - high, room.width, high).inset(4 * unit)
+        dial = Rect(room.x, place.y - slider, room.width, slider)
+        parts, room = replace(parts, row=place, dial=dial), room._replace(height=dial.y - room.y)
+    return replace(parts, stage=room)
 
 
 def with_caption(parts: Layout, lines: int) -> Layout:
-    """Return a layout with room for `lines` of text where the bar comes and goes, or at the stage's foot.
-
-    At the stage's foot there is room only where the lines take little of it.
-    """
-    stage, edge, size = parts.stage, parts.margin, parts.small_size
-    deep, bar = lines * CAPTION_STEP * size, parts.bar
-    if lines and bar and deep <= bar.height:
-        top = bar.y + (bar.height - deep) / 2
-        return replace(parts, caption=Rect(bar.x + edge, top, bar.width - 2 * edge, deep))
-    if not lines or deep + edge > _SHARE_OF_CAPTION * stage.height:
+    """Return slots with a foot for so many lines of words; the foot of a window stays as it is."""
+    if parts.caption or not lines:
         return parts
-    place = Rect(stage.x + edge, stage.bottom - deep - 0.6 * edge, stage.width - 2 * edge, deep)
-    return replace(parts, caption=place, stage=stage._replace(height=place.y - stage.y))
+    stage, deep = parts.stage, lines * CAPTION_STEP * parts.small_size + 1.2 * parts.margin
+    foot = Rect(stage.x, stage.bottom - deep, stage.width, deep)
+    return replace(parts, caption=foot, stage=stage._replace(height=foot.y - stage.y))
 
 
-def _charted(empty: Layout, *, chart: int, beside: bool, listed: int, row: bool, bar: bool) -> Layout:
-    """Return a layout with chart, list, row and bar placed, but without polygons."""
-    unit, whole, edge = empty.unit, empty.stage, _MARGIN * empty.unit
-    deep = min(_BAR * max(_BUTTON * unit, _LEAST_BUTTON), _SHARE_OF_BAR * whole.height)
-    if row or (bar and deep <= _LITTLE_FOR_BAR * whole.height):
-        # at the window's foot, below a list: the bar stands still while a list opens and closes
-        whole = whole._replace(height=whole.height - deep)
-        empty = replace(empty, bar=Rect(0, whole.bottom, whole.width, deep))
-    empty = replace(empty, lists=_lists(empty))
-    room = _beside(empty.lists, whole) if listed else whole
-    empty = replace(empty, room=room if listed else None)
-    room = _beside_tools(empty, room) if listed > 1 else room
-    if row:
-        high, slider = _ROW_OF_ANSWERS * (room.height + deep), _SLIDER * empty.small_size
-        place = Rect(room.x, room.bottom - high, room.width, high).inset(4 * unit)
-        dial = Rect(room.x, place.y - slider, room.width, slider)
-        empty = replace(empty, row=place, dial=dial)
-        room = room._replace(height=dial.y - room.y)
-    if not chart:
-        return replace(empty, stage=room)
+def with_side(parts: Layout, charts: int, polygons: int, *, beside: bool) -> Layout:
+    """Return slots with charts and polygons right of the linkage or under it.
+
+    `polygons` is 2 for a large one.
+    """
+    if not charts and not polygons:
+        return parts
+    stage, edge = parts.stage, parts.margin
+    shares = _SHARES_OF_POLYGONS[polygons - 1] * (1.0 if beside else _BELOW) if polygons else 0.0
     if beside:
-        head = edge + _HEAD_OF_MARKS * empty.text_size
-        tallest = _TALLEST * room.width * min(chart, 2)
-        wide, below = _SHARE_BESIDE * room.width, edge
-        if bar and wide - edge < HEAD_OF_CHART * empty.text_size + _BUTTONS * empty.button:
-            below = max(edge, _ROW_OF_BUTTONS * empty.button)
-        high = min(room.height - head - below, tallest)
-        top = max(min((room.height - high) / 2, room.height - below - high), head)
-        chart_place = Rect(room.right - wide, top, wide - edge, high)
-        return replace(empty, stage=room._replace(width=room.width - wide - _OFF * edge), chart=chart_place)
-    tall = _SHARES_BELOW[min(chart, len(_SHARES_BELOW)) - 1] * room.height
-    chart_place = Rect(room.x + edge, room.bottom - edge - tall, room.width - 2 * edge, tall)
-    return replace(empty, stage=room._replace(height=chart_place.y - _OFF * edge), chart=chart_place)
+        wide = max(_SHARE_BESIDE if charts else 0.0, shares) * stage.width
+        side = Rect(stage.right - wide, stage.y + edge, wide - edge, stage.height - 2 * edge)
+        if charts and parts.bar and side.width < HEAD_OF_CHART * parts.text_size + _BUTTONS * parts.button:
+            foot = min(side.bottom, parts.bar.y) - _ROW_OF_BUTTONS * parts.button
+            side = side._replace(height=foot - side.y)
+        left = stage._replace(width=stage.width - wide - edge / 2)
+        polygon, chart = _over_each_other(side, charts, polygons, edge)
+        if chart:
+            high = min(chart.height, _TALLEST * stage.width * min(charts, 2))
+            chart = chart._replace(y=chart.y + (chart.height - high) / 2, height=high)
+    else:
+        high = (
+            max(_SHARES_BELOW[min(charts, len(_SHARES_BELOW)) - 1] if charts else 0.0, shares) * stage.height
+        )
+        side = Rect(stage.x + edge, stage.bottom - high, stage.width - 2 * edge, high - edge)
+        left = stage._replace(height=stage.height - high - edge / 2)
+        polygon, chart = _beside_each_other(side, charts, polygons, edge)
+    return replace(parts, stage=left, chart=chart if charts else None, polygons=polygon if polygons else None)
 
 
-_HEIGHT_OF_CHIP = 1.7
-"""The height of a chip, in heights of its text."""
+def _over_each_other(side: Rect, charts: int, polygons: int, gap: float) -> tuple[Rect, Rect]:
+    """Return the rooms of polygons and charts in a tall side."""
+    high = _POLYGONS_OVER_CHART * side.height if charts and polygons else side.height
+    if not (charts and polygons):
+        return side, side
+    return side._replace(height=high - gap), side._replace(y=side.y + high, height=side.height - high)
 
 
-def chip_places(parts: Layout, wide: float) -> Iterator[Rect]:
-    """Yield where a chip so many pixels wide may stand: below the marks, in corners, between these."""
-    edge, size = round(_EDGE * parts.unit), parts.text_size
-    room, high = parts.stage.inset(edge), round(_HEIGHT_OF_CHIP * size)
-    # charts and polygons have their words at their head
-    docked = any(one is not None and one.x >= parts.stage.right for one in (parts.chart, parts.polygons))
-    right = room.right if docked else parts.marks.right
-    yield Rect(right - wide, parts.marks.y + _HEAD_OF_MARKS * size, wide, high)
-    for across, low in product((1, 0, 0.5), (1, 0)):
-        yield Rect(room.x + across * (room.width - wide), room.y + low * (room.height - high), wide, high)
+def _beside_each_other(side: Rect, charts: int, polygons: int, gap: float) -> tuple[Rect, Rect]:
+    """Return the rooms of polygons and charts in a wide side."""
+    wide = _POLYGONS_OVER_CHART * side.width
+    if not (charts and polygons):
+        return side, side
+    return side._replace(width=wide - gap), side._replace(x=side.x + wide, width=side.width - wide)
+
+
+def with_words(parts: Layout, block: tuple[float, float], key: float, *, above: bool) -> Layout | None:
+    """Return slots with a column of words of this size, whose legend begins `key` pixels down.
+
+    The linkage is right of them or, with the words `above`, below them. None where they have no room.
+    """
+    stage, edge, (wide, high) = parts.stage, parts.margin, block
+    if wide + 2 * edge > stage.width or high + 2 * edge > stage.height:
+        return None
+    hud = Rect(stage.x + edge, stage.y + edge, wide, min(key, high))
+    legend = Rect(hud.x, hud.y + key, wide, high - key) if high > key else None
+    if above:
+        taken = high + edge
+        left = stage._replace(y=stage.y + taken, height=stage.height - taken)
+    else:
+        taken = wide + edge
+        left = stage._replace(x=stage.x + taken, width=stage.width - taken)
+    return replace(parts, hud=hud, legend=legend, stage=left)
+
+
+def room_of(parts: Layout, *, still: bool) -> Rect:
+    """Return the part of the stage that the linkage and its names may fill."""
+    return parts.stage.inset(_MARGIN_OF_STILL * min(parts.size) if still else parts.margin)
 
 
 # The tools beside a list of dimensions, and on a sheet.
@@ -336,7 +326,7 @@ def _lists(parts: Layout) -> Rect:
     return Rect(margin, margin, wide, height - 2 * margin)
 
 
-def _beside(lists: Rect, whole: Rect) -> Rect:
+def _beside_list(lists: Rect, whole: Rect) -> Rect:
     """Return what a list leaves of the window."""
     if lists.y > lists.x:
         return whole._replace(height=lists.y - lists.x)

@@ -14,6 +14,8 @@ from linkanim.frozen import NamedTuple, frozen
 from linkanim.units import LENGTH_UNITS
 
 ThemeName = Literal["light", "dark"]
+Material = Literal["lit", "flat"]
+"""How bodies look: lit, with shadows and highlights; or flat, as a diagram."""
 Over = Literal["angle", "time", "phase"]
 """The horizontal axis of a chart."""
 ConstructionKind = Literal["synthesis", "dead-centres", "centres"]
@@ -207,6 +209,17 @@ class Look:
         steps=("light", "dark"),
         answers=("light", "dark"),
         keys=("l",),
+    )
+    material: Material = _toggle(
+        "lit",
+        Option(
+            "look",
+            "lit, as of metal, or flat, as in print (default: lit; of a figure, flat)",
+            commands=("play", "record", "draw"),
+        ),
+        steps=("lit", "flat"),
+        answers=("lit, as of metal", "flat, as in print"),
+        keys=("shift+l",),
     )
     background: bool = _toggle(
         True,

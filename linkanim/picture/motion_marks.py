@@ -6,7 +6,7 @@ turns, and is straight where a slider is driven.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property, lru_cache
 from itertools import accumulate, pairwise
 from math import ceil, floor, pi, tau
@@ -20,8 +20,8 @@ from linkanim.mechanics.linkage import DrivenSlider
 from linkanim.mechanics.motion import Motion, Pose
 from linkanim.mechanics.quantities import indexed
 from linkanim.picture.figure import DrawContext, Figure
-from linkanim.picture.items import Caption, Halo
-from linkanim.picture.layout import Gauge
+from linkanim.picture.layout import Gauge, Layout
+from linkanim.picture.look import ACCELERATION, VELOCITY, Look
 from linkanim.picture.raster import Colour, Layer, Loop
 from linkanim.picture.shapes import (
     Places,
@@ -35,9 +35,8 @@ from linkanim.picture.shapes import (
     strokes,
     unit,
 )
-from linkanim.picture.text import Type
 from linkanim.picture.theme import Theme, mixed
-from linkanim.picture.view import Rect, View
+from linkanim.picture.view import View
 
 # Curves of the traced joints: the whole curve stands still, its recent part follows the phase.
 
@@ -48,7 +47,7 @@ _ORDER = (0, *(shade + step for shade in range(1, _SHADES - 1, 2) for step in (1
 """The order in which shades are painted: the oldest first, but odd ones after both neighbours."""
 SWELL = 1.7
 """The width of the recent part at its end, in widths of the whole curve."""
-_FAINT = 0.5
+_FAINT, _FAINTER = 0.5, 0.62
 """The share of the background in the whole curve's colour."""
 _NEAR, _LONGEST_RUN = 0.01, 16
 """A straight piece may replace points that lie this near to it, in pixels, and this many at the most."""
@@ -169,7 +168,7 @@ def traces(context: DrawContext) -> tuple[Trace, ...]:
     found = []
     for n, joint in enumerate(figure.scene.trace):
         colour = theme.traces[n % len(theme.traces)]
-        back = mixed(colour, theme.background, _FAINT)
+        back = mixed(colour, theme.background, _FAINTER if theme.lit else _FAINT)
         path = figure.path(joint, view)
         found.append(Trace(joint, path, figure.scene.period, colour, back, 1.3 * gauge.line))
     return tuple(found)
@@ -209,19 +208,23 @@ class Turning:
 
     def tracks(
         self, paths: Mapping[str, Loop], rates: NDArray[np.float64], *, angled: bool
-    ) -> Iterator[tuple[Loop, float]]:
-        """Yield points (n, k) along the arrow and the angle, for joints on paths (n); half their widths."""
+    ) -> Iterator[tuple[Loop, float, bool]]:
+        """Yield points (n, k) along the arrow and the angle, for joints on paths (n).
+
+        Each comes with half its width, and whether it is the arrow's head.
+        """
         centre, pin = paths[self.pivot], paths[self.pin]
         direction, share = (pin - centre) / np.abs(pin - centre), np.linspace(0, 1, 16)
         sweep = SWEEP * np.clip(-rates / self.fastest, -1, 1)[:, None]
         shaft = np.sign(sweep) * AHEAD + sweep * np.linspace(0, 1, 6)
         head = shaft[:, -1:] + np.sign(sweep) * 6.0 * self.gauge.line / self.arrow * np.array([-0.5, 1])
-        for bend, half in ((shaft, 1.8), (head, 4.2)):
-            yield centre[:, None] + self.arrow * direction[:, None] * directions(bend), half * self.gauge.line
+        for bend, half, is_head in ((shaft, 1.8, False), (head, 4.2, True)):
+            points = centre[:, None] + self.arrow * direction[:, None] * directions(bend)
+            yield points, half * self.gauge.line, is_head
         if angled:
             turned = self.turned(np.angle(np.conj(direction)))[:, None]
-            yield centre[:, None] + self.arc * directions(-turned * share), 1.5 * self.gauge.line
-            yield centre[:, None] + np.array([0, 1.5 * self.arc]), self.gauge.line
+            yield centre[:, None] + self.arc * directions(-turned * share), 1.5 * self.gauge.line, False
+            yield centre[:, None] + np.array([0, 1.5 * self.arc]), self.gauge.line, False
 
     def direction(self, pose: Pose, places: Places, rate: float) -> list[Layer]:
         """Return the arrow, shorter as the bar slows down; `rate` is the scene's speed over the pose's."""
@@ -293,11 +296,11 @@ class Sliding:
 
     def tracks(
         self, paths: Mapping[str, Loop], rates: NDArray[np.float64], *, angled: bool
-    ) -> Iterator[tuple[Loop, float]]:
-        """Yield the ends (n, 2) of the arrow of a joint on its path, and half its width; it has no angle."""
+    ) -> Iterator[tuple[Loop, float, bool]]:
+        """Yield the ends (n, 2) of the arrow of a joint on its path, as `Turning.tracks` does."""
         reach = self.along * self.longest * np.clip(rates / self.fastest, -1, 1)
         foot = paths[self.joint] + self.room * self.along * np.sign(rates)
-        yield np.stack((foot, foot + reach), axis=1), 4.2 * self.gauge.line
+        yield np.stack((foot, foot + reach), axis=1), 4.2 * self.gauge.line, True
 
 
 def motion_of(context: DrawContext) -> Turning | Sliding | None:
@@ -336,14 +339,10 @@ def turning_arrow(pivot: complex, pin: complex, gauge: Gauge, theme: Theme) -> l
 # Velocity and acceleration arrows at all moving joints and centres of mass, with their names.
 
 Kind = Literal["v", "a"]
-LONGEST, _LEAST = 0.22, 0.02
+LONGEST, _LONGEST_OF_STILL, _LEAST = 0.22, 0.18, 0.02
 """The longest arrow of a cycle, as a share of the window's height; and the least share of its largest value
 to which a still's arrows are scaled: below it the linkage is nearly at rest."""
 ORDER = {"v": 1, "a": 2}
-_ASIDE = complex(directions(1.1))
-"""The direction to a name beside an arrow's head, where there is no room beyond the head."""
-_OFF_HEAD = 0.4 + np.array([0.0, 1.0, 2.0])
-"""How far from its arrow's head a name may be, in heights of the text."""
 
 
 class SeenArrow(NamedTuple):
@@ -352,6 +351,11 @@ class SeenArrow(NamedTuple):
     symbol: str
     foot: complex
     reach: complex
+
+    @property
+    def of(self) -> str:
+        """What its name is of: "vector:v_A"."""
+        return vector_of(self.symbol)
 
 
 @frozen
@@ -379,6 +383,19 @@ class Arrows:
         """
         faster = abs(speed / self.drive) ** ORDER[self.kind]
         return self.longest / (self.most * faster) if self.most > 0 and faster > 0 else 0.0
+
+    def paths(self, motion: Motion, joints: tuple[str, ...]) -> Iterator[tuple[str, Any, Any]]:
+        """Yield the symbol of each arrow at the scene's own speed, its places (n, 2), y up, and reaches.
+
+        Reaches (n, 2), y up, are in pixels; those of a motion that does not turn at the scene's speed, too.
+        """
+        values, of_mass = _rates(motion, self.kind)
+        speed = np.atleast_1d(np.asarray(motion.input_speed, np.float64))
+        scale = np.array([self.scale(float(one)) for one in speed[:1]])
+        rows = [(name, motion.position[name], values[name]) for name in joints]
+        rows += [(f"G {body}", motion.com_position[body], one) for body, one in of_mass.items()]
+        for name, place, value in rows:
+            yield indexed(self.kind, name), place, scale * np.atleast_2d(value)
 
     def seen(self, pose: Pose, view: View, joints: tuple[str, ...]) -> list[SeenArrow]:
         """Return the arrows of a pose that are long enough to be seen, in pixels."""
@@ -412,58 +429,29 @@ def arrow_layers(
     ]
 
 
-def arrow_names(
-    kinds: Sequence[Arrows],
-    pose: Pose,
-    view: View,
-    joints: tuple[str, ...],
-    letters: tuple[Type, int],
-    inside: Rect,
-    busy: Iterable[Rect] = (),
-    bars: Sequence[tuple[complex, complex]] = (),
-) -> list[list[Caption]]:
-    """Return the names of the arrows of a pose, kind by kind: each beyond its head, off `busy` places.
-
-    Each name also keeps off the names before it and, where possible, off `bars`. An arrow shorter than the
-    height of its name has none. Names stay in the picture where their arrows leave it.
-    """
-    from linkanim.picture.placing import about, crossed, least_met, met, rect_rows, widened
-
-    type_, size = letters
-    seen = [
-        (n, arrow)
-        for n, kind in enumerate(kinds)
-        for arrow in kind.seen(pose, view, joints)
-        if abs(arrow.reach) >= size
-    ]
-    found: list[list[Caption]] = [[] for _ in kinds]
-    if not seen:
-        return found
-    wide = np.array([type_.width(arrow.symbol, size, strong=True) for _, arrow in seen])[:, None]
-    middles = _beyond_heads([arrow for _, arrow in seen], wide, size)
-    rects = about(middles, wide, size, inside)
-    in_bars = crossed(widened(rects, kinds[0].gauge.bar), bars)
-    places = least_met(rects, met(rects, rect_rows(busy)), in_bars)
-    for (n, arrow), (x, y, width, _) in zip(seen, rects[:, range(len(seen)), places].T.tolist(), strict=True):
-        halo, at = Halo(kinds[n].halo, max(1.2 * kinds[n].gauge.line, 1.5)), (x + width / 2, y)
-        name = Caption(arrow.symbol, at, size, kinds[n].colour, "centre", strong=True, halo=halo)
-        found[n].append(name)
-    return found
-
-
-def _beyond_heads(seen: Sequence[SeenArrow], wide: NDArray[np.float64], high: float) -> Loop:
-    """Return where the middles of n names of widths (n, 1) may stand (n, k): beyond their arrows' heads."""
-    turns = (1, _ASIDE, _ASIDE.conjugate())
-    headings = np.array([[[unit(arrow.reach) * turn] for turn in turns] for arrow in seen])
-    away = np.abs(headings.real) * wide[..., None] / 2 + np.abs(headings.imag) * high / 2 + _OFF_HEAD * high
-    heads = np.array([arrow.foot + arrow.reach for arrow in seen])[:, None, None]
-    return np.asarray((heads + away * headings).reshape(len(seen), -1))
-
-
 def _values(pose: Pose, kind: Kind, joints: tuple[str, ...]) -> list[tuple[str, Any, Any]]:
     values, of_mass = _rates(pose, kind)
     at_joints = [(joint, pose.position[joint], values[joint]) for joint in joints]
     return at_joints + [(f"G {body}", pose.com_position[body], value) for body, value in of_mass.items()]
+
+
+def plain(symbol: str) -> str:
+    """Return a symbol in letters and digits alone: r₂ as r2, v_{A} as v_A."""
+    lowered = {0x2080 + n: str(n) for n in range(10)}
+    return symbol.translate(lowered).replace("{", "").replace("}", "")
+
+
+def vector_of(symbol: str) -> str:
+    """Return what an arrow's name is of: "vector:v_A"."""
+    return f"vector:{plain(symbol)}"
+
+
+def arrows_for(
+    figure: Figure, look: Look, layout: Layout, gauge: Gauge, theme: Theme, moment: float | None = None
+) -> tuple[Arrows, ...]:
+    """Return the arrows that a look has, scaled to the cycle or to one moment."""
+    kinds = (kind for kind in (VELOCITY, ACCELERATION) if kind in look.vectors)
+    return tuple(arrows_of(figure, kind, layout.size[1], gauge, theme, moment=moment) for kind in kinds)
 
 
 def arrows_of(
@@ -480,7 +468,8 @@ def arrows_of(
     drive = figure.linkage.drive.speed
     words, per = ("velocity", "/s") if kind == "v" else ("acceleration", "/s²")
     unit = figure.scene.length_unit + per
-    return Arrows(kind, words, unit, most, LONGEST * height, drive, colour, theme.background, gauge)
+    longest = (LONGEST if moment is None else _LONGEST_OF_STILL) * height
+    return Arrows(kind, words, unit, most, longest, drive, colour, theme.background, gauge)
 
 
 def _most(cycle: Motion | Pose, kind: Kind, joints: tuple[str, ...]) -> float:

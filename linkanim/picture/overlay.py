@@ -176,6 +176,16 @@ class SliderShown(NamedTuple):
     at: int
 
 
+# A linkage on its way to its other closure.
+
+
+class SwingShown(NamedTuple):
+    """The closure that the linkage leaves, and the share of the way to its own that is over."""
+
+    left: Scene
+    share: float
+
+
 # The bar of commands at the foot: its commands, and the state of each.
 
 
@@ -520,7 +530,8 @@ class Overlay:
     of those beside it, `glow` is the joint under the mouse, `told` the words about the thing there, `instant`
     the phase that the mouse points at on a curve; with `grip` the chart's cursor has a grip. `shutter` is how
     white the picture is, in eighths. The `bar` has the commands; `tools` are those of a sheet, beside a list
-    of dimensions.
+    of dimensions. In a `swing` the linkage is between two closures. The share
+    `shut` of an open list is still beyond the window's edge.
     """
 
     paused: bool = False
@@ -537,6 +548,7 @@ class Overlay:
     layers: LayersShown | None = None
     construction: int = 0
     slider: SliderShown | None = None
+    swing: SwingShown | None = None
     game: GamePanel | None = None
     spots: tuple[Spot, ...] = ()
     lane: Lane | None = None
@@ -553,6 +565,7 @@ class Overlay:
     noted: bool = False
     bar: CommandBar | None = None
     tools: ToolBar | None = None
+    shut: float = 0.0
 
     @property
     def tool_bar(self) -> ToolBar | None:

@@ -1,12 +1,12 @@
-"""Draw what lies over the picture for a while: help, edit list, list of quantities, chips, marks of state.
+"""Draw what lies over the picture for a while: help, lists, words at the foot, marks of state.
 
-The help has as many columns as the window has room for. Chips are words that come and go.
+The help has as many columns as the window has room for.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
-from itertools import chain, product
+from collections.abc import Callable, Iterator, Sequence
+from itertools import chain
 from math import ceil, floor
 from typing import Any
 
@@ -15,108 +15,79 @@ import pygame
 
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.picture.board import STEP, Board, Rows, around
-from linkanim.picture.command_bar import bar_place, bar_places
 from linkanim.picture.game_panel import answer_rows, game_panel
-from linkanim.picture.layout import Layout, chip_places
-from linkanim.picture.overlay import Fading, Help, Overlay, Panel, Quantities
+from linkanim.picture.layout import CAPTION_STEP
+from linkanim.picture.overlay import Button, Help, Overlay, Panel, Quantities
 from linkanim.picture.raster import Colour, Layer, Loop, paint
 from linkanim.picture.shapes import box, disc, stroke
 from linkanim.picture.theme import ORANGE, mixed
 from linkanim.picture.view import Rect
-from linkanim.steps import at_once
 
-# Words that come and go, and their places: a chip that answers a key, the keys to press, sentences.
+# What is said in passing: one sheet of words in the caption's slot.
 
-_GAP = "   ·   "
-_LITTLE = 0.12
-"""A sentence that takes a greater share of the stage's height is shown only where nothing is drawn."""
-
-
-Clear = Callable[[tuple[Rect, ...]], tuple[bool, ...]]
-"""Tells for each place whether nothing is drawn there."""
-
-_BESIDE = 0.3
-"""The least gap between a chip and other words, in heights of its text."""
+_SEPARATOR = "   ·   "
+_MOST_LINES = 3
+"""The most lines of words at the foot: with more they are set smaller."""
+_LEAST_FOOT = 9
+"""The smallest text at the foot, in pixels."""
 
 
-def chip(board: Board, text: str) -> pygame.Surface:
-    """Return a chip: words on a small sheet."""
-    size = board.layout.text_size
-    sheet = board.sheet(board.type.width(text, size, strong=True) + 1.6 * size, 1.7 * size)
-    board.write(sheet, text, (sheet.get_width() / 2, 0.35 * size), size=size, anchor="centre", strong=True)
-    return sheet
+def foot(board: Board, said: tuple[str, bool]) -> tuple[pygame.Surface, tuple[float, float]]:
+    """Return words on a sheet, and its place: in the middle of the foot, with further lines above that.
 
-
-def hint_bar(board: Board, text: str) -> pygame.Surface | None:
-    """Return the hint bar with as many of its last parts as fit; None where none does."""
-    size, parts = board.layout.small_size, text.split(" · ")
-    place = board.layout.hint or board.layout.stage
-    room = place.width - 2 * size
-    while parts and board.type.width(_GAP.join(parts), size) > room:
-        parts.pop(0)
-    if not parts:
-        return None
-    words = _GAP.join(parts)
-    sheet = board.sheet(board.type.width(words, size) + 2 * size, 1.6 * size)
-    board.write(sheet, words, (size, 0.3 * size), size=size, colour=board.theme.dim)
-    return sheet
-
-
-def sentence(board: Board, text: str) -> tuple[pygame.Surface, tuple[float, float] | None]:
-    """Return the sentence on what to watch for, and its place off the drawing, or off words; else None."""
-    free, stage = board.layout.passing, board.layout.stage
-    sheet = _lines(board, text, board.layout.small_size, (free or stage).width + 1, board.theme.dim)
-    if free or sheet.get_height() > _LITTLE * stage.height:
-        return sheet, (free.x, free.y) if free else None
-    return sheet, off_words(board.layout, sheet, edges(board, sheet))
-
-
-def toast(board: Board, text: str) -> tuple[pygame.Surface, tuple[float, float]]:
-    """Return a toast and its place: where nothing is drawn, else off the words about the scene."""
-    layout, small, hint = board.layout, board.layout.small_size, board.layout.hint
-    if hint and board.type.width(text, small) + 2 * small <= hint.width:
-        sheet = _lines(board, text, small, hint.width)
-        return sheet, (hint.x + (hint.width - sheet.get_width()) / 2, hint.bottom - sheet.get_height())
-    ways = (layout.text_size, 0.9), (small, 0.9), (small, 0.6), (small, 0.4)
-    sheets: list[pygame.Surface] = []
-    for size, share in ways:
-        sheets.append(_lines(board, text, size, share * layout.stage.width))
-        if at := off_words(layout, sheets[-1], edges(board, sheets[-1])):
-            return sheets[-1], at
-    return sheets[0], next(edges(board, sheets[0]))
-
-
-def _lines(board: Board, text: str, size: int, room: float, colour: Colour | None = None) -> pygame.Surface:
-    """Return words on a sheet, in lines no wider than `room`, in ink unless a colour is given."""
-    lines = board.type.wrapped(text, size, room - 2 * size)
-    sheet = board.sheet(board.widest(lines, size) + 2 * size, (1.25 * len(lines) + 0.75) * size)
+    Words that are an answer stand in ink, others are dim.
+    """
+    (text, is_answer), layout, theme = said, board.layout, board.theme
+    slot = layout.caption or layout.stage._replace(y=layout.stage.bottom - 2 * layout.small_size)
+    room = slot.width - 2 * layout.margin
+    for size in range(layout.small_size, _LEAST_FOOT - 1, -1):
+        lines = board.type.wrapped(text, size, room, strong=is_answer)
+        if len(lines) <= _MOST_LINES:
+            break
+    high = max((CAPTION_STEP * len(lines) + 0.2) * size, min(slot.height, 1.6 * size))
+    sheet = board.sheet(board.widest(lines, size, strong=is_answer) + 1.6 * size, high)
+    top = (high - CAPTION_STEP * len(lines) * size) / 2
+    colour = theme.ink if is_answer else theme.dim
     for n, line in enumerate(lines):
-        at = (sheet.get_width() / 2, (0.5 + 1.25 * n) * size)
-        board.write(sheet, line, at, size=size, colour=colour, anchor="centre")
-    return sheet
+        at = sheet.get_width() / 2, top + CAPTION_STEP * size * n
+        board.write(sheet, line, at, size=size, colour=colour, anchor="centre", strong=is_answer)
+    below = (slot.height - min(slot.height, 1.6 * layout.small_size)) / 2
+    return sheet, (slot.x + (slot.width - sheet.get_width()) / 2, slot.bottom - below - high)
 
 
-def off_words(
-    layout: Layout, drawn: pygame.Surface, places: Iterable[tuple[float, float]]
-) -> tuple[float, float] | None:
-    """Return the first of some places at which a sheet covers no word about the scene; else None."""
-    busy = (*layout.words, *([layout.legend] if layout.legend else []))
-    size = drawn.get_size()
-    return next((at for at in places if not any(Rect(*at, *size).meets(one) for one in busy)), None)
+def said_in(board: Board, overlay: Overlay) -> tuple[str, bool] | None:
+    """Return what is said at the foot, and whether it is an answer.
+
+    The name of the command under the mouse comes first, then a toast, an answer to a key, and hints.
+    """
+    bar = overlay.bar
+    if bar and bar.pointed is not None and bar.pointed >= 0:
+        return _tip(bar.buttons[bar.pointed]), False
+    if overlay.toast:
+        return overlay.toast, True
+    if overlay.chip and overlay.chip.eighths > 0:
+        return overlay.chip.text, True
+    if overlay.told:
+        return _SEPARATOR.join(overlay.told.lines), False
+    for words in (overlay.watch, overlay.hint):
+        if words and words.eighths > 0:
+            return _shortened(board, words.text), False
+    return None
 
 
-def edges(board: Board, drawn: pygame.Surface) -> Iterator[tuple[float, float]]:
-    """Yield places of a sheet along the foot and the head of the scene's room."""
-    room = board.layout.stage.inset(board.margin)
-    wide, high = room.width - drawn.get_width(), room.height - drawn.get_height()
-    for low, right in product((1, 0), (0.5, 1, 0)):
-        yield room.x + right * wide, room.y + low * high
+def _tip(button: Button) -> str:
+    """Return a command's name and key, and why it cannot be done."""
+    named = f"{button.name}   {button.key}".strip()
+    return f"{named}: {button.lack}" if button.lack else named
 
 
-def put(surface: pygame.Surface, drawn: pygame.Surface, at: tuple[float, float], shown: Fading) -> None:
-    """Blit a drawn surface, its top left corner at a place, with the opacity of `shown`."""
-    drawn.set_alpha(round(255 * shown.eighths / 8))
-    surface.blit(drawn, (round(at[0]), round(at[1])))
+def _shortened(board: Board, text: str) -> str:
+    """Return words without their first parts where they would need more than a line."""
+    parts, layout = text.split(" · "), board.layout
+    room = (layout.caption or layout.stage).width - 4 * layout.margin
+    while len(parts) > 1 and board.type.width(_SEPARATOR.join(parts), layout.small_size) > room:
+        parts.pop(0)
+    return _SEPARATOR.join(parts)
 
 
 # The list of dimensions: what the linkage is, the values, and why one is refused.
@@ -127,8 +98,6 @@ _FEWEST = 4
 """Where fewer rows than this would be shown, hints and facts are left out."""
 _NAME = 4.5
 """The part of a row's name that is shown where its value is too long, in heights of the text."""
-_ROWS_IN_STEP = 3
-"""The rows that are drawn in one step where a list is drawn beforehand."""
 _FLASH = 0.45
 """The share of the flash's colour in the bar behind the facts at its brightest."""
 
@@ -156,20 +125,12 @@ class _Division:
 
 def edit_list(board: Board, panel: Panel) -> pygame.Surface:
     """Return the list; where it would not fit at a readable size, only the rows around the chosen one."""
-    return at_once(_edit_list_in_steps(board, panel))
-
-
-def _edit_list_in_steps(board: Board, panel: Panel) -> Generator[None, None, pygame.Surface]:
     parts = _fitting(board, panel)
-    yield
     size = parts.size
     sheet = board.sheet(parts.wide, STEP * size * parts.lines)
-    yield
     _head(board, sheet, panel, parts)
     top = parts.top
     for k, n in enumerate(parts.rows):
-        if k % _ROWS_IN_STEP == 0:
-            yield
         _row(board, sheet, panel, n, (top + STEP * k) * size, size)
     for n, (line, colour) in enumerate(parts.foot, start=len(parts.rows)):
         board.write(sheet, line, (1.2 * size, (top + 0.3 + STEP * n) * size), size=size, colour=colour)
@@ -256,8 +217,6 @@ _WIDEST = 0.97
 """The greatest share of its room's width that the help takes."""
 _LEAST = 9
 """The smallest text that can be read, in pixels."""
-_LINES_IN_STEP = 4
-"""The lines that are drawn in one step where the help is drawn beforehand."""
 
 
 class _Line(NamedTuple):
@@ -289,25 +248,17 @@ def help_sheet(board: Board, shown: tuple[Help, int]) -> pygame.Surface:
 
     Where that would be too small to read, it has the window's height; lines without room there are left out.
     """
-    return at_once(_help_in_steps(board, shown))
-
-
-def _help_in_steps(board: Board, shown: tuple[Help, int]) -> Generator[None, None, pygame.Surface]:
-    laid = yield from _help_laid(board, shown)
-    yield
+    laid = _help_laid(board, shown)
     sheet = board.sheet(laid.wide, laid.high)
-    yield
     for column, x in _help_columns(laid):
         for n, line in enumerate(column.lines):
-            if n % _LINES_IN_STEP == 0:
-                yield
             _draw(board, sheet, column, line, (x, (0.9 + _STEP * n) * laid.size), laid.size)
     return sheet
 
 
 def help_line_at(board: Board, shown: tuple[Help, int], x: float, y: float) -> str | None:
     """Return the keys of the line at a place of the help's sheet; None where there is none."""
-    laid = at_once(_help_laid(board, shown))
+    laid = _help_laid(board, shown)
     number = floor((y / laid.size - 0.9) / _STEP + 0.12)
     for column, left in _help_columns(laid):
         inside = left <= x <= left + column.keys + column.does + _HELP_GAP * laid.size
@@ -318,7 +269,7 @@ def help_line_at(board: Board, shown: tuple[Help, int], x: float, y: float) -> s
     return None
 
 
-def _help_laid(board: Board, shown: tuple[Help, int]) -> Generator[None, None, _Laid]:
+def _help_laid(board: Board, shown: tuple[Help, int]) -> _Laid:
     groups, room = shown
     wide, (above, whole) = _WIDEST * room, (board.layout.above_bar, board.layout.size[1])
     ways = [(above, _ways(board, groups, wide)), (whole, _ways(board, groups, wide))]
@@ -327,7 +278,6 @@ def _help_laid(board: Board, shown: tuple[Help, int]) -> Generator[None, None, _
         for laid in every:
             if laid.wide <= wide + 1 and laid.high <= _WIDEST * high:
                 return laid
-            yield
     return laid
 
 
@@ -414,10 +364,6 @@ _BOX = 2.5
 
 def quantity_list(board: Board, shown: Quantities) -> pygame.Surface:
     """Return the list, as many rows around the chosen one as the window has room for."""
-    return at_once(_quantity_list_in_steps(board, shown))
-
-
-def _quantity_list_in_steps(board: Board, shown: Quantities) -> Generator[None, None, pygame.Surface]:
     size, wide = board.layout.small_size, board.layout.lists.width
     rows, hint = _rows_and_hint(board, shown)
     lines = max(len(rows), 1) + len(hint) + _QUANTITY_FRAME
@@ -431,9 +377,7 @@ def _quantity_list_in_steps(board: Board, shown: Quantities) -> Generator[None, 
             board.bar(sheet, y, size, behind)
     if shown.boxes:
         _boxes(board, sheet, [(y, shown.boxes[row]) for row, y in places], size)
-    for k, (row, y) in enumerate(places):
-        if k % _ROWS_IN_STEP == 0:
-            yield
+    for row, y in places:
         _quantity_row(board, sheet, shown, row, size, y)
     if not shown.rows:
         at = (1.2 * size, (0.9 + STEP) * size)
@@ -518,8 +462,6 @@ def _boxes(board: Board, sheet: pygame.Surface, rows: Sequence[tuple[float, bool
 # What lies over the picture: the help, the edit list, a toast, the marks of pause and recording.
 
 _VEIL = 170
-_BACKING = 0.7
-"""The opacity of a mark's backing."""
 
 
 class Panels:
@@ -529,23 +471,20 @@ class Panels:
         self.board = board
         self._kept: dict[Any, tuple[Any, Any]] = {}
 
-    def draw(self, surface: pygame.Surface, overlay: Overlay, clear: Clear | None = None) -> None:
-        """Draw what an overlay holds: the help over a game or beside the edit list, a toast at the foot.
-
-        `clear` tells in which places nothing is drawn; without it this is not known.
-        """
+    def draw(self, surface: pygame.Surface, overlay: Overlay) -> None:
+        """Draw what an overlay holds: the help over a game or beside the edit list, words at the foot."""
         self._marks(surface, overlay)
-        self._list(surface, game_panel, overlay.game)
+        self._list(surface, game_panel, overlay.game, overlay.shut)
         if overlay.help:
             surface.blit(self._keep(_veil, self.board.layout.size), (0, 0))
-        left = self._list(surface, edit_list, overlay.panel)
-        self._list(surface, quantity_list, overlay.quantities)
+        left = self._list(surface, edit_list, overlay.panel, overlay.shut)
+        self._list(surface, quantity_list, overlay.quantities, overlay.shut)
         if overlay.help:
             drawn, place = self._helped(overlay.help, left)
             surface.blit(drawn, (place.x, place.y))
-        self._passing(surface, overlay, clear)
-        if overlay.toast:
-            surface.blit(*self._toasted(overlay, overlay.toast))
+        if said := said_in(self.board, overlay):
+            drawn, at = self._keep(foot, said)
+            surface.blit(drawn, (round(at[0]), round(at[1])))
 
     def _helped(self, shown: Help, left: int) -> tuple[pygame.Surface, Rect]:
         """Return the help and its place, right of a list that takes `left` pixels of the window's left."""
@@ -556,15 +495,11 @@ class Panels:
         at = left + (wide - left - drawn.get_width()) // 2, int(high - drawn.get_height()) // 2
         return drawn, Rect(*at, *drawn.get_size())
 
-    def _toasted(self, overlay: Overlay, text: str) -> tuple[pygame.Surface, tuple[float, float]]:
-        drawn, at = self._keep(toast, text)
-        return drawn, self._above_bar(overlay, drawn, at)
-
     def on_toast(self, overlay: Overlay, x: float, y: float) -> bool:
         """Return whether a pixel is on the toast."""
         if not overlay.toast:
             return False
-        drawn, at = self._toasted(overlay, overlay.toast)
+        drawn, at = self._keep(foot, (overlay.toast, True))
         return Rect(*at, *drawn.get_size()).holds(x, y)
 
     def help_at(self, overlay: Overlay, x: float, y: float) -> str | None:
@@ -581,29 +516,20 @@ class Panels:
         room = self.board.layout.size[0] - left
         return help_line_at(self.board, (overlay.help, room), x - place.x, y - place.y) or ""
 
-    def prepared(self, overlay: Overlay) -> Iterator[None]:
-        """Draw help, lists and chip of an overlay in steps, so that showing them later takes less time."""
-        if overlay.help:
-            yield from self._ahead(help_sheet, (overlay.help, self.board.layout.size[0]), _help_in_steps)
-        if overlay.panel:
-            yield from self._ahead(edit_list, overlay.panel, _edit_list_in_steps)
-        if overlay.quantities:
-            yield from self._ahead(quantity_list, overlay.quantities, _quantity_list_in_steps)
-        if overlay.chip:
-            yield
-            self._keep(chip, overlay.chip.text)
+    def _list(self, surface: pygame.Surface, make: Any, shown: object, shut: float) -> int:
+        """Draw a list, if one is open; return the width that it takes at the window's top left.
 
-    def _ahead(self, make: Any, shown: Any, steps: Any) -> Iterator[None]:
-        """Draw a panel in steps, and cache it as when it is shown."""
-        drawn = yield from steps(self.board, shown)
-        self._kept[make, None] = shown, drawn
-
-    def _list(self, surface: pygame.Surface, make: Any, shown: object) -> int:
-        """Draw a list, if one is open; return the width that it takes at the window's top left."""
+        The share `shut` of it is beyond the left edge, or beyond the foot where it stands there.
+        """
         if shown is None:
             return 0
         drawn = self._keep(make, shown)
-        surface.blit(drawn, self._listed(drawn))
+        left, top = self._listed(drawn)
+        if top <= self.board.margin:
+            left -= round(shut * (left + drawn.get_width()))
+        else:
+            top += round(shut * (surface.get_height() - top))
+        surface.blit(drawn, (left, top))
         return self._beside(drawn)
 
     def _beside(self, drawn: pygame.Surface) -> int:
@@ -659,60 +585,6 @@ class Panels:
         foot = self.board.layout.size[1] - margin - drawn.get_height()
         return round(place.x), max(foot, margin) if place.y > margin else margin
 
-    def _passing(self, surface: pygame.Surface, overlay: Overlay, clear: Clear | None) -> None:
-        """Draw the chip, and the hint bar at the bottom, where the HUD is not."""
-        room = self.board.layout.stage
-        if overlay.chip:
-            drawn = self._keep(chip, overlay.chip.text)
-            put(surface, drawn, self._chip_place(overlay, drawn, clear), overlay.chip)
-        if overlay.watch:
-            drawn, at = self._keep(sentence, overlay.watch.text)
-            if at:
-                put(surface, drawn, self._above_bar(overlay, drawn, at), overlay.watch)
-        if overlay.hint:
-            words = self._keep(hint_bar, overlay.hint.text)
-            at = self.board.layout.hint or room
-            if words:
-                leads = at.x + at.width / 2 <= room.x + room.width / 2
-                left = at.x if leads else at.right - words.get_width()
-                free = self._above_bar(overlay, words, (left, at.bottom - words.get_height()))
-                put(surface, words, free, overlay.hint)
-
-    def _chip_place(
-        self, overlay: Overlay, drawn: pygame.Surface, clear: Clear | None
-    ) -> tuple[float, float]:
-        """Return where a chip stands: below the marks, or where nothing is drawn; else only off words."""
-        layout, places = self.board.layout, tuple(chip_places(self.board.layout, drawn.get_width()))
-        if clear and not overlay.is_drawn_on:
-            busy, gap = [*layout.words, *self._busy(overlay)], _BESIDE * layout.text_size
-            for place, free in zip(places, clear(places), strict=False):
-                if free and not any(place.inset(-gap).meets(one) for one in busy):
-                    return place.x, place.y
-        usual = places[0].x, places[0].y
-        return off_words(layout, drawn, [usual, *edges(self.board, drawn)]) or usual
-
-    def _busy(self, overlay: Overlay) -> Iterator[Rect]:
-        """Yield where other words and buttons are, besides the rows of words about the scene."""
-        layout = self.board.layout
-        yield from bar_places(layout, overlay.bar)
-        if layout.legend:
-            yield layout.legend
-        yield layout.marks._replace(height=layout.text_size)
-        if overlay.watch and layout.passing:
-            yield layout.passing
-        if overlay.toast:
-            sheet, at = self._toasted(overlay, overlay.toast)
-            yield Rect(*at, *sheet.get_size())
-
-    def _above_bar(
-        self, overlay: Overlay, drawn: pygame.Surface, at: tuple[float, float]
-    ) -> tuple[float, float]:
-        """Return the place of words that come and go, moved above the bar of commands where need be."""
-        bar = bar_place(self.board.layout, overlay.bar)
-        if bar is None or not bar.meets(Rect(*at, *drawn.get_size())):
-            return at
-        return at[0], max(bar.y - self.board.margin / 2 - drawn.get_height(), 0.0)
-
     def _keep(self, make: Any, value: Any, slot: object = None) -> Any:
         """Return `make` of the board and a value, cached until the slot is asked for another value."""
         kept = self._kept.get((make, slot))
@@ -721,12 +593,13 @@ class Panels:
         return kept[1]
 
     def _marks(self, surface: pygame.Surface, overlay: Overlay) -> None:
-        """Draw the sign of a pause in its corner; those of recording and a stroke, with words, beside it."""
-        size, place, theme = self.board.layout.text_size, self.board.layout.marks, self.board.theme
+        """Draw the marks at the right end of the foot: a pause, a recording, how far off a curve is."""
+        size, place, theme = self.board.layout.small_size, self.board.layout.marks, self.board.theme
+        right, top = place.right, place.middle.imag - 0.6 * size
         if overlay.paused:
             sheet = self._keep(_sign, theme.ink)
-            surface.blit(sheet, (round(place.right - sheet.get_width()), round(place.y)))
-        right, top = place.right - 1.4 * size, place.y
+            surface.blit(sheet, (round(right - sheet.get_width()), round(top)))
+            right -= sheet.get_width() + 0.6 * size
         for sign, words, colour in (
             (_dot, overlay.recording, theme.warning),
             (_wave, overlay.path.off if overlay.path else None, theme.ink),
@@ -734,7 +607,7 @@ class Panels:
             if words:
                 sheet = self._keep(_mark, (sign, words, colour), sign)
                 surface.blit(sheet, (round(right - sheet.get_width()), round(top)))
-                top += 1.5 * size
+                right -= sheet.get_width() + 0.6 * size
 
 
 def _veil(board: Board, size: tuple[int, int]) -> pygame.Surface:
@@ -745,25 +618,22 @@ def _veil(board: Board, size: tuple[int, int]) -> pygame.Surface:
 
 
 def _mark(board: Board, shown: tuple[Callable[[float], list[Loop]], str, Colour]) -> pygame.Surface:
-    """Return a sign and words on their backing."""
-    (sign, words, colour), size = shown, board.layout.text_size
-    wide, high = board.type.width(words, size) + 1.6 * size, 1.15 * size
-    sheet = pygame.Surface((ceil(wide), ceil(high)), pygame.SRCALPHA, 32)
-    back = complex(wide / 2, high / 2) + box(wide, high, 0.4 * size)
-    signs = [complex(0.6 * size, 0.5 * size) + loop for loop in sign(size)]
-    paint(sheet, [Layer(board.theme.background, [back], _BACKING), Layer(colour, signs)])
+    """Return a sign and words beside it."""
+    (sign, words, colour), size = shown, board.layout.small_size
+    sheet = pygame.Surface(
+        (ceil(board.type.width(words, size) + 1.5 * size), ceil(1.2 * size)), pygame.SRCALPHA, 32
+    )
+    paint(sheet, [Layer(colour, [complex(0.6 * size, 0.55 * size) + loop for loop in sign(size)])])
     board.write(sheet, words, (1.4 * size, 0), size=size, colour=colour)
     return sheet
 
 
 def _sign(board: Board, colour: Colour) -> pygame.Surface:
-    """Return the sign of a pause on its backing."""
-    side = 1.2 * board.layout.text_size
+    """Return the sign of a pause."""
+    side = 1.2 * board.layout.small_size
     sheet = pygame.Surface((ceil(side), ceil(side)), pygame.SRCALPHA, 32)
-    middle = complex(side, side) / 2
-    signs = [middle + loop for loop in _bars(board.layout.text_size)]
-    back = middle + box(side, side, 0.3 * side)
-    paint(sheet, [Layer(board.theme.background, [back], _BACKING), Layer(colour, signs)])
+    signs = [complex(side, side) / 2 + loop for loop in _bars(board.layout.small_size)]
+    paint(sheet, [Layer(colour, signs)])
     return sheet
 
 

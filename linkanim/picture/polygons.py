@@ -5,40 +5,36 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import cached_property
-from itertools import product
 
 import numpy as np
 
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.mechanics.motion import Pose
 from linkanim.mechanics.polygons import Order, Side, Sort
+from linkanim.picture.anchors import Way, pushed
 from linkanim.picture.chart import Pen
 from linkanim.picture.figure import Figure
 from linkanim.picture.items import Caption, Group, Halo
-from linkanim.picture.placing import LabelPlaces, crossed, met, placed_among, rect_rows
+from linkanim.picture.motion_marks import SeenArrow
+from linkanim.picture.placing import Alternatives, chosen, crossed, grounded
 from linkanim.picture.quantities import round_step
 from linkanim.picture.raster import Colour, Layer
-from linkanim.picture.shapes import arrows, disc, segments, unit
+from linkanim.picture.shapes import arrows, disc, segments
 from linkanim.picture.view import Box, Rect
 from linkanim.units import three_digits
 
-_TITLES = {1: ("velocity polygon", "velocities", "/s"), 2: ("acceleration polygon", "accelerations", "/s²")}
+_TITLES: dict[Order, tuple[str, str]] = {1: ("velocity polygon", "/s"), 2: ("acceleration polygon", "/s²")}
 _NOTHING = 1e-9
 """Share of a polygon's greatest extent below which a vector has no direction."""
-_LABELLED = 0.3
+_LABELLED = 0.8
 """The shortest vector that has its symbol beside it, in heights of the text."""
-_NEAR, _SHARES, _SIDES = (0.0, 0.3), (0.5, 0.35, 0.65), (1, -1)
-_STANDS = (
-    *product(_NEAR, _SHARES, _SIDES),
-    *product((1.1,), _SHARES, _SIDES),
-    *product((1.5, 2.0), (0.5,), _SIDES),
-)
-"""Where a symbol may stand, the best place first.
-
-That is how far from its vector, in heights of the text, where along the vector, and on which side.
-"""
-_LED = 1.0
-"""A symbol this far off or farther, in heights of the text, has a thin line to its vector."""
+_SIDES = tuple(Way(share, turn, 0.12) for share in (0.5, 0.35, 0.65) for turn in (1j, -1j))
+"""Where a symbol may stand beside its vector: by its middle, on either side."""
+_AROUND = np.exp(0.25j * np.pi * np.arange(8))
+"""The directions from the pole to its name."""
+_MOMENTS = 24
+"""The moments of a cycle at which symbols are looked at."""
+_NOWHERE = -1e7
 _BEYOND = 5.0
 """How far outside the polygon's place symbols may stand, in widths of a thin line."""
 _TITLE = 0.6
@@ -60,9 +56,9 @@ class Arrow(NamedTuple):
     reach: complex
 
     @property
-    def middle(self) -> complex:
-        """The middle of the arrow."""
-        return self.foot + self.reach / 2
+    def seen(self) -> SeenArrow:
+        """The arrow with its symbol."""
+        return SeenArrow(self.side.symbol, self.foot, self.reach)
 
     @property
     def is_absolute(self) -> bool:
@@ -74,12 +70,11 @@ class Arrow(NamedTuple):
         return abs(self.foot - other.foot) + abs(self.reach - other.reach) < 1e-3
 
 
-class PlacedSymbols(NamedTuple):
-    """Names in their places, lines from them to what they name, and vectors without room for a name."""
+class Placing(NamedTuple):
+    """Where the names of a polygon stand: off its pole in a direction, and beside its vectors."""
 
-    captions: list[Caption]
-    leaders: list[Layer]
-    left: list[Arrow]
+    pole: complex
+    sides: dict[tuple[str, Sort], Way]
 
 
 @frozen
@@ -110,21 +105,21 @@ class Polygon:
         """Return the polygon of a pose with its title and the bar of its scale."""
         if self.moment is not None and self.shown is None:
             return replace(self, shown=pose).group(pose)
-        words, _, per = _TITLES[self.order]
+        words, per = _TITLES[self.order]
         scale = self.scale(pose.input_speed)
         pole = self.pole(pose.input_speed)
         found = self._arrows(pose, pole, scale)
         dot = Layer(self.pen.theme.ink, [pole + disc(1.8 * self.pen.line)])
-        symbols = self._symbols(found, pole)
-        layers, captions = [*symbols.leaders, *self._drawn(found), dot], [self._title, *symbols.captions]
-        if scale > 0 and symbols.left and self.shown is not None and self.lists:
-            every = self._rows(symbols.left, scale, per)
+        symbols, left = self._symbols(found, pole)
+        layers, captions = [*self._drawn(found), dot], [self._title, *symbols]
+        if scale > 0 and left and self.shown is not None and self.lists:
+            every = self._rows(left, scale, per)
             wide = self._widest(every)
-            if not self.aside and not self._corner(every, wide, found, symbols.captions)[1]:
+            if not self.aside and not self._corner(every, wide, found, symbols)[1]:
                 return replace(self, aside=min(wide + self.pen.small, 0.5 * self.rect.width)).group(pose)
-            for most in range(len(every), min(len(symbols.left), 2) - 1, -1):
-                rows = self._rows(symbols.left, scale, per, most)
-                corner, free = self._corner(rows, self._widest(rows), found, symbols.captions)
+            for most in range(len(every), min(len(left), 2) - 1, -1):
+                rows = self._rows(left, scale, per, most)
+                corner, free = self._corner(rows, self._widest(rows), found, symbols)
                 if free:
                     captions += self._listed(rows, corner)
                     break
@@ -143,14 +138,10 @@ class Polygon:
 
     @cached_property
     def _title(self) -> Caption:
-        """The title, as long and as large as there is room for, if possible beside the bar of the scale."""
-        pen, (full, brief, _) = self.pen, _TITLES[self.order]
-        rooms = (self._beside_bar, self.rect.width)
-        choices = [
-            (room, words, size) for room in rooms for words in (full, brief) for size in (pen.text, pen.small)
-        ]
-        fits = (choice[1:] for choice in choices if pen.type.width(*choice[1:]) <= choice[0])
-        words, size = next(fits, choices[-1][1:])
+        """The title, as large as its place is wide."""
+        pen, words = self.pen, _TITLES[self.order][0]
+        sizes = range(pen.text, 7, -1)
+        size = next((one for one in sizes if pen.type.width(words, one) <= self.rect.width), 8)
         return Caption(words, (self.rect.x, self.rect.y), size, pen.theme.ink)
 
     @property
@@ -166,7 +157,7 @@ class Polygon:
     @property
     def _usual(self) -> float:
         """The usual width of the words at the bar of the scale."""
-        per = _TITLES[self.order][2]
+        per = _TITLES[self.order][1]
         return self.pen.type.width(f"1000 {self.figure.scene.length_unit}{per}", self.pen.small)
 
     def scale(self, speed: float) -> float:
@@ -232,43 +223,83 @@ class Polygon:
             return theme.velocity if self.order == 1 else theme.acceleration
         return theme.traces[0] if sort in _GUIDED else theme.dim
 
-    def _symbols(self, found: list[Arrow], pole: complex) -> PlacedSymbols:
-        """Return the name of the pole and the symbols, each beyond its vector as seen from the middle.
+    def _symbols(self, found: list[Arrow], pole: complex) -> tuple[list[Caption], list[Arrow]]:
+        """Return the name of the pole and the symbols beside their vectors; and vectors that have none.
 
-        Where there is no room beside a vector its symbol stands farther off, and a thin line leads to it.
+        A symbol stands on one side of its vector all through the cycle. Where it would lie on another there,
+        or where its vector is shorter than the symbol is high, it is left out.
         """
-        pen = self.pen
-        middle = sum((arrow.middle for arrow in found), 0j) / max(len(found), 1)
-        long = [arrow for arrow in found if abs(arrow.reach) >= _LABELLED * pen.small]
-        arrows_ = sorted(long, key=lambda arrow: (not arrow.is_absolute, -abs(arrow.reach)))
-        wide = [pen.type.width(arrow.side.symbol, pen.small) for arrow in arrows_]
-        origin = "o_{v}" if self.order == 1 else "o_{a}"
-        to_place = [_about(pole, pen.type.width(origin, pen.small), pen.small)]
-        to_place += [_beside(*known, pen.small, middle) for known in zip(arrows_, wide, strict=True)]
-        lines = np.array([[(arrow.foot, arrow.foot + arrow.reach) for arrow in found]]).reshape(1, -1, 2)
-        # the place ends 11 thin lines before the picture does: no symbol is cut there
-        room = self.rect.inset(-min(pen.text, _BEYOND * pen.line))
-        (named, _), *placed = placed_among(to_place, room, [*self._words], lines, pen.line)
-        at = complex(to_place[0].places[0, named])
-        captions = [self._written(origin, at, pen.theme.ink)]
-        leaders, left = list[Layer](), [arrow for arrow in found if arrow not in long]
-        for arrow, label, (which, has_room) in zip(arrows_, to_place[1:], placed, strict=True):
-            if not has_room:
+        pen, small, room = self.pen, self.pen.small, self._within
+        origin, way = "o_{v}" if self.order == 1 else "o_{a}", self._placing.pole
+        size = (float(pen.type.width(origin, small)), float(small))
+        at = pole + pushed(way, 2.4 * pen.line, size, False)
+        captions, taken, left = (
+            [self._written(origin, at, pen.theme.ink)],
+            [*self._words, _rect(at, size)],
+            [],
+        )
+        for arrow in sorted(found, key=lambda arrow: (not arrow.is_absolute, -abs(arrow.reach))):
+            symbol = arrow.side.symbol
+            size = (float(pen.type.width(symbol, small)), float(small))
+            way_ = self._placing.sides.get((symbol, arrow.side.sort))
+            middle = way_.middle(arrow.seen, size) if way_ else 0j
+            rect = _rect(middle, size)
+            inside = room.holds(rect.x, rect.y) and room.holds(rect.right, rect.bottom)
+            short = abs(arrow.reach) < _LABELLED * small
+            if way_ is None or short or not inside or any(rect.meets(one) for one in taken):
                 left.append(arrow)
                 continue
-            at, colour = complex(label.places[0, which]), self._colour(arrow.side.sort)
-            captions.append(self._written(arrow.side.symbol, at, colour))
-            further, share, _ = _STANDS[which]
-            if further >= _LED:
-                foot = arrow.foot + share * arrow.reach
-                towards = unit(foot - at)
-                half = 0.5 * (abs(towards.real) * label.size[0] + abs(towards.imag) * label.size[1])
-                leaders.append(Layer(pen.theme.dim, segments(at + half * towards, foot, 0.5 * pen.line)))
-        return PlacedSymbols(captions, leaders, left)
+            taken.append(rect)
+            captions.append(self._written(symbol, middle, self._colour(arrow.side.sort)))
+        return captions, left
+
+    @property
+    def _within(self) -> Rect:
+        """The room of symbols: it ends some thin lines before the picture does, so that none is cut there."""
+        return self.rect.inset(-min(self.pen.text, _BEYOND * self.pen.line))
+
+    @cached_property
+    def _placing(self) -> Placing:
+        """Where the symbols stand: chosen for the pose that is shown, or for the cycle."""
+        pen, small = self.pen, self.pen.small
+        scene = self.figure.scene
+        speed = scene.linkage.drive.speed
+        poses = (
+            [self.shown]
+            if self.shown
+            else [scene.pose(scene.period * n / _MOMENTS, 2, speed=speed) for n in range(_MOMENTS)]
+        )
+        pole = self.pole(speed)
+        seen = [self._arrows(pose, pole, self.scale(pose.input_speed)) for pose in poses if pose]
+        keys = list(dict.fromkeys((arrow.side.symbol, arrow.side.sort) for row in seen for arrow in row))
+        most = max((len(row) for row in seen), default=0)
+        lines = np.full((len(seen), most, 2), _NOWHERE, np.complex128)
+        for n, row in enumerate(seen):
+            if row:
+                lines[n, : len(row)] = [(arrow.foot, arrow.foot + arrow.reach) for arrow in row]
+        ground = grounded(self._within, [*self._words])
+        ground = ground._replace(bars=lines, thick=np.full(most, pen.line))
+        origin = "o_{v}" if self.order == 1 else "o_{a}"
+        size = (float(pen.type.width(origin, small)), float(small))
+        round_ = np.array([[pole + pushed(complex(way), 2.4 * pen.line, size, False) for way in _AROUND]])
+        choices = [Alternatives(size, np.repeat(round_, len(seen), axis=0), 0.02 * np.arange(8.0), most=1.0)]
+        for number, key in enumerate(keys):
+            size = (float(pen.type.width(key[0], small)), float(small))
+            places = np.full((len(seen), len(_SIDES)), _NOWHERE * (2 + number), np.complex128)
+            hidden = np.ones(len(seen), np.bool_)
+            for n, row in enumerate(seen):
+                arrow = next((one for one in row if (one.side.symbol, one.side.sort) == key), None)
+                if arrow and abs(arrow.reach) >= _LABELLED * small:
+                    places[n], hidden[n] = [way.middle(arrow.seen, size) for way in _SIDES], False
+            price = np.asarray(0.05 * np.arange(len(_SIDES)), np.float64)
+            choices.append(Alternatives(size, places, price, excused=hidden, most=1.0))
+        pole_way, *ways = chosen(choices, ground)
+        sides = {key: _SIDES[n] for key, n in zip(keys, ways, strict=True) if n is not None}
+        return Placing(complex(_AROUND[pole_way or 0]), sides)
 
     def _written(self, words: str, at: complex, colour: Colour) -> Caption:
         """Return a name about a place."""
-        pen, halo = self.pen, Halo(self.pen.theme.background, 0.8 * self.pen.line)
+        pen, halo = self.pen, Halo(self.pen.theme.background, 0.1 * self.pen.small)
         return Caption(words, (at.real, at.imag - pen.small / 2), pen.small, colour, "centre", halo=halo)
 
     @property
@@ -276,7 +307,8 @@ class Polygon:
         """The rectangles of the title, and of the bar of the scale with its meaning."""
         title, small, rect = self._title, self.pen.small, self.rect
         yield title.around(self.pen.type)
-        wide = max((1 - _TITLE) * rect.width, self._usual)
+        said = self.pen.type.width(f" {self.says}", small) if self.says else 0.0
+        wide = max((1 - _TITLE) * rect.width, self._usual + said)
         if self._barred:
             yield Rect(rect.right - wide, rect.y, wide, 2.0 * small)
         else:
@@ -314,9 +346,11 @@ class Polygon:
         ends = [(arrow.foot, arrow.foot + arrow.reach) for arrow in found]
         busy = [line.around(self.pen.type) for line in named] + [*self._words]
         corners = corners[::2] if self.aside else corners
-        rects = rect_rows(corners)
-        covered = crossed(rects, ends) + met(rects, rect_rows(busy))
-        return corners[covered.argmin()], not covered.all()
+        places = np.array([[corner.middle for corner in corners]])
+        lines = np.array([ends], np.complex128).reshape(1, -1, 2)
+        covered = crossed(places, (wide, high), lines, np.zeros(len(ends))).sum(axis=2)[0]
+        covered += [sum(corner.meets(one) for one in busy) for corner in corners]
+        return corners[int(covered.argmin())], not covered.all()
 
     def _listed(self, rows: list[tuple[str, Colour]], corner: Rect) -> Iterator[Caption]:
         small = self.pen.small
@@ -345,28 +379,9 @@ class Polygon:
         return bar, Caption(words, (rect.x, top), small, ink)
 
 
-def _beside(arrow: Arrow, wide: float, high: float, middle: complex) -> LabelPlaces:
-    """Return places for a symbol beside an arrow, away from the middle of all first."""
-    across = 1j * unit(arrow.reach)
-    if ((arrow.middle - middle) * across.conjugate()).real < 0:
-        across = -across
-    away = 0.5 * (abs(across.real) * wide + abs(across.imag) * high) + 0.175 * high
-    places = [
-        arrow.foot + share * arrow.reach + side * (away + further * high) * across
-        for further, share, side in _STANDS
-    ]
-    return LabelPlaces((wide, high), np.array([places]), np.linspace(0.0, 1.0, len(places)))
-
-
-def _about(pole: complex, wide: float, high: float) -> LabelPlaces:
-    """Return places for the name of the pole round it."""
-    turns = np.exp(0.25j * np.pi * np.arange(8))
-    rings = [
-        turns.real * (0.4 * high + out + wide / 2) + 1j * turns.imag * (out + 0.7 * high)
-        for out in (0.0, high)
-    ]
-    places = pole + np.concatenate(rings)
-    return LabelPlaces((wide, high), places[None], np.arange(float(len(places))))
+def _rect(middle: complex, size: tuple[float, float]) -> Rect:
+    """Return the rectangle of a size about a place."""
+    return Rect(middle.real - size[0] / 2, middle.imag - size[1] / 2, *size)
 
 
 def polygons_of(

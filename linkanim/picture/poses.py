@@ -25,8 +25,6 @@ _ACROSS = 0.55
 """How long a pose's y axis is drawn, in lengths of its x axis."""
 _CURVE, _HELD = 200, 90
 """Points of a circuit of Burmester's curves, and of one while a hand changes it."""
-_WORDS = 0.5
-"""The share of the stage's width that words beside the dial take."""
 
 
 def posed(setting: DrawSetting, shown: PosesShown) -> Iterator[Group]:
@@ -43,7 +41,7 @@ def posed(setting: DrawSetting, shown: PosesShown) -> Iterator[Group]:
         "couplers", [Layer(faint, [loop for one in ghosts for loop in stroke(one, 0.6 * line, closed=True)])]
     )
     # what can be grasped lies over the words, whose backing would hide it
-    yield worded(setting, shown.sentence, shown.facts, is_warning=shown.is_warning, room=_WORDS)
+    yield worded(setting, shown.sentence, shown.facts, is_warning=shown.is_warning)
     yield Group("handles", [*_handles(setting, shown, line)], over=True)
     yield Group("poses", [*_frames(setting, shown, line)], [*_numbers(setting, shown)], over=True)
 

@@ -337,6 +337,8 @@ def offsets(path: Loop) -> Loop:
 _GLAZED = 0.6
 """The opacity of a plate's fill."""
 
+_LIT = 0.05
+"""An edge that faces upwards by less than this catches no light."""
 Places = Mapping[str, complex]
 """Where the joints lie in pixels, as x + yi."""
 
@@ -356,6 +358,14 @@ class Part:
     joints: tuple[str, ...] = ()
     name: str = ""
     fold: int = 1
+    shadow: tuple[complex, Layer] | None = None
+    """What it throws on what is below, and how far that lies from it on the picture, in pixels."""
+    edges: tuple[tuple[complex, Layer], ...] = ()
+    """Its edges that may catch the light: layers, and the direction in which each faces."""
+    reaches: tuple[str, ...] = ()
+    """Joints that travel along it, beside those that go through it: it is as long as they need."""
+    sized: tuple[str, str] | None = None
+    """The two joints whose distance its whole size follows: those between which a gear pair lies."""
 
     @property
     def title(self) -> str:
@@ -365,7 +375,13 @@ class Part:
     def placed(self, places: Places) -> list[Layer]:
         """Return the layers where the joints now lie."""
         at, turn = places[self.at], self.turn(places)
-        return [layer.placed(at, turn) for layer in self._joined]
+        found = [self.shadow[1].placed(at + self.shadow[0], turn)] if self.shadow else []
+        found += [layer.placed(at, turn) for layer in self._joined]
+        for facing, layer in self.edges:
+            up = -(facing * turn).imag
+            if up > _LIT:
+                found.append(layer._replace(alpha=up * layer.alpha).placed(at, turn))
+        return found
 
     def turn(self, places: Places) -> complex:
         """Return the direction that the part is turned by."""

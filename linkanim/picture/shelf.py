@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator, Iterator
+from collections.abc import Iterator
 from itertools import groupby
 from math import ceil
 from pathlib import Path
@@ -14,7 +14,7 @@ import pygame
 from linkanim.errors import LinkanimError
 from linkanim.frozen import NamedTuple
 from linkanim.picture.board import Board
-from linkanim.picture.layout import Layout, layout
+from linkanim.picture.layout import Docked, Layout, layout
 from linkanim.picture.look import Look
 from linkanim.picture.overlay import MINE, NEW, NEW_TITLE, AnswerRow, Browsing, Shelf
 from linkanim.picture.picture import Picture
@@ -27,7 +27,6 @@ from linkanim.picture.theme import ORANGE, theme_of
 from linkanim.picture.view import Rect
 from linkanim.scenes import chapter_of, load, titles
 from linkanim.scenes.scene import Scene
-from linkanim.steps import at_once
 
 if TYPE_CHECKING:
     from linkanim.synthesis.answers import PathAnswer
@@ -131,7 +130,7 @@ class _Shape:
     """The sizes of things on a shelf, and which mechanisms are in each row."""
 
     def __init__(self, size: tuple[int, int], browsing: Browsing) -> None:
-        parts = layout(size, bar=True)
+        parts = layout(size, docked=Docked(bar=True))
         unit = parts.unit
         self.text = max(round(15.0 * unit), 11)
         edge = max(14.0 * unit, 4.0)
@@ -213,11 +212,6 @@ class ShelfPrinter:
         self._made_for = self._still = None
         self._live, self._unread, self._read = {}, set(), None
 
-    def prepared(self, size: tuple[int, int], shelf: Shelf) -> Iterator[None]:
-        """Draw the frames and titles of a shelf in steps, so that opening it later takes less time."""
-        board = Board(layout(size), self._type, theme_of(shelf.theme))
-        yield from _still(size, board, grid(size, shelf.browsing), shelf.browsing)
-
     def draw(self, surface: pygame.Surface, shelf: Shelf) -> None:
         """Draw the shelf instead of the picture; each frame after the first adds one mechanism."""
         size = surface.get_size()
@@ -229,7 +223,7 @@ class ShelfPrinter:
         board, found = Board(layout(size), self._type, theme_of(shelf.theme)), grid(size, shelf.browsing)
         shown = (found.top, shelf.browsing.found, shelf.browsing.sieve)
         if self._still is None or self._still[0] != shown:
-            self._still = shown, at_once(_still(size, board, found, shelf.browsing))
+            self._still = shown, _still(size, board, found, shelf.browsing)
         surface.blit(self._still[1], (0, 0))
         others = _AT_ONCE if opens else self._join(found, shelf)
         for n in _due(self._live, found, shelf, others):
@@ -293,10 +287,8 @@ def _turn(shelf: Shelf, n: int, count: int) -> int:
     return 0 if shelf.still else max((shelf.frame - n) // turns * turns, 0)
 
 
-def _still(
-    size: tuple[int, int], board: Board, found: Grid, browsing: Browsing
-) -> Generator[None, None, pygame.Surface]:
-    """Return the still part of a shelf, in steps: frames, titles, headings, and the typed text."""
+def _still(size: tuple[int, int], board: Board, found: Grid, browsing: Browsing) -> pygame.Surface:
+    """Return the still part of a shelf: frames, titles, headings, and the typed text."""
     still = pygame.Surface(size, 0, 32)
     still.fill(board.theme.background)
     typed = f"{browsing.sieve}_" if browsing.sieve else ""
@@ -314,13 +306,11 @@ def _still(
         board.write(still, _NONE, (x, found.room.y), size=text, colour=board.theme.warning)
     for name, at in found.headings:
         board.write(still, name, (at.x, at.y), size=round(_HEADING * text), strong=True)
-    yield
     width = max(1.5 * board.layout.unit, 1.0)
     outer, inner = ([frame_of(cell, board, by) for cell in found.cells.values()] for by in (width, 0.0))
     paint(still, [Layer(board.theme.rule, outer), Layer(board.theme.panel, inner)])
     named = titles()
     for n, cell in found.cells.items():
-        yield
         if n == NEW:
             paint(still, [Layer(board.theme.dim, _plus(cell, found.line, board.layout.unit))])
             _title(still, board, NEW_TITLE, cell, found)

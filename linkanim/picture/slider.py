@@ -21,17 +21,14 @@ from linkanim.picture.view import Rect
 
 _WIDE, _SHARE = 250.0, 0.42
 """A slider's width in units, and the greatest share of the stage's width that it takes."""
-_BELOW = 2.4
-"""How far a slider is below the upper edge, in heights of text: marks stand above it."""
 _BACKING = 0.8
 
 
 def slider_rect(layout: Layout) -> Rect:
     """Return where a slider stands, with its words."""
-    stage, small = layout.stage, layout.small_size
-    wide = min(_WIDE * layout.unit, _SHARE * stage.width)
-    top = stage.y + layout.margin + _BELOW * layout.text_size
-    return Rect(stage.right - layout.margin - wide, top, wide, 4.0 * small)
+    head, small = layout.head or layout.stage, layout.small_size
+    wide = min(_WIDE * layout.unit, _SHARE * head.width)
+    return Rect(head.right - layout.margin - wide, head.y + 0.25 * small, wide, 4.0 * small)
 
 
 def slider_step(layout: Layout, shown: SliderShown, x: float) -> int:

@@ -13,7 +13,6 @@ import pygame
 from linkanim.mechanics.motion import Pose
 from linkanim.picture.board import Board
 from linkanim.picture.items import SHEET, Caption, Group, flat
-from linkanim.picture.layout import Layout
 from linkanim.picture.overlay import NOTHING_OVER, Overlay
 from linkanim.picture.picture import Picture
 from linkanim.picture.raster import Cover, Shapes, covers, in_turn, is_clear, keep_memory, paints
@@ -24,10 +23,6 @@ if TYPE_CHECKING:
 
 _MOST_PICTURES, _MOST_BYTES = 8, 100_000_000
 """The most memory for cached shapes: that of so many pictures, and so many bytes."""
-_MOST_EXPECTED = 6
-"""The number of layouts for which panels that may be shown next are cached."""
-_WORDS_IN_STEP = 6
-"""The lines of words that are drawn in one step where a picture is drawn beforehand."""
 _SPARE_LABELS = 8
 """The number of cached labels that were not in the last frame."""
 
@@ -42,11 +37,9 @@ class SurfacePrinter:
         keep_memory()
         self._picture: Picture | None = None
         self._still: tuple[tuple[Group, ...], pygame.Surface] | None = None
-        self._next_still: tuple[tuple[Group, ...], pygame.Surface] | None = None
         self._covers: dict[Hashable, tuple[tuple[Group, ...], Cover]] = {}
         self._labels = _Labels()
         self._panels: Panels | None = None
-        self._expected: list[Panels] = []
         self._paper: tuple[Group, pygame.Surface] | None = None
 
     def print(
@@ -71,10 +64,8 @@ class SurfacePrinter:
         Picture and surface have the same top left corner where their sizes differ.
         """
         if picture is not self._picture:
-            still = self._still if picture.late else None
-            kept = self._covers.items() if picture.late else ()
-            self._picture, self._still = picture, still
-            self._covers = {key: (groups, cover) for key, (groups, cover) in kept if groups[0].still}
+            self._picture, self._still = picture, None
+            self._covers.clear()
         first, *others = _runs(picture.groups(pose, overlay, faint=faint))
         canvas = self._on_still(surface, picture, first)
         parted = [_parts(run) for run in others]
@@ -87,42 +78,9 @@ class SurfacePrinter:
             self._words(canvas, picture.type, run, whole=picture.held)
         self._labels.let_go()
         if overlay != NOTHING_OVER:
-            # What is swept is not worked out while a hand changes it.
-            clear = None if picture.held or picture.late else picture.fit.clear
-            self._panels_of(picture).draw(canvas, overlay, clear)
+            self._panels_of(picture).draw(canvas, overlay)
         if canvas is not surface:
             surface.blit(canvas, (0, 0))
-
-    def drawn_ahead(self, picture: Picture, phase: float, speed: float, overlay: Overlay) -> Iterator[None]:
-        """Draw in steps, and cache, the words and the still part of a picture that is printed next."""
-        pose, faint = picture.poses(phase, speed)
-        groups = [*picture.groups(pose, overlay, faint=faint)]
-        yield
-        first, *others = _runs(groups)
-        bitmap = self._bitmap(picture, first)
-        self._next_still = first, bitmap
-        lines = [line for run in others for group in run for line in group.captions]
-        self._labels.expect(lines)
-        scrap = bitmap.copy()
-        yield
-        for n in range(0, len(lines), _WORDS_IN_STEP):
-            self._words(scrap, picture.type, (Group("words", (), lines[n : n + _WORDS_IN_STEP]),))
-            yield
-
-    def prepared(self, picture: Picture, place: Layout, overlay: Overlay) -> Iterator[None]:
-        """Draw the panels of an overlay in steps, so that showing them later takes less time.
-
-        They are drawn for a picture like this one in the layout `place`.
-        """
-        from linkanim.picture.panels import Panels
-
-        panels = self._panels_of(picture)
-        board = replace(panels.board, layout=place)
-        every = panels, *self._expected
-        panels = next((one for one in every if one.board == board), None) or Panels(board)
-        if panels not in every:
-            self._expected = [*self._expected[1 - _MOST_EXPECTED :], panels]
-        yield from panels.prepared(overlay)
 
     def row_at(self, picture: Picture, overlay: Overlay, x: float, y: float) -> int | None:
         """Return the row of the open list under a pixel, -1 on the list beside them; None off it."""
@@ -151,10 +109,7 @@ class SurfacePrinter:
     ) -> pygame.Surface:
         """Return the surface, or a canvas where that is of another kind, with the still part on it."""
         if self._still is None or not _same(self._still[0], still):
-            if self._next_still and _same(self._next_still[0], still):
-                self._still, self._next_still = self._next_still, None
-            else:
-                self._still = still, self._bitmap(picture, still)
+            self._still = still, self._bitmap(picture, still)
         bitmap = self._still[1]
         alike = surface.get_size() == picture.size and surface.get_masks() == bitmap.get_masks()
         canvas = surface if alike and paints(surface) else bitmap.copy()
@@ -212,7 +167,7 @@ class SurfacePrinter:
         before = self._panels.board if self._panels else Board(picture.layout, picture.type, picture.theme)
         board = replace(before, layout=picture.layout, type=picture.type, theme=picture.theme)
         if self._panels is None or before != board:
-            self._panels = next((one for one in self._expected if one.board == board), None) or Panels(board)
+            self._panels = Panels(board)
         return self._panels
 
 
@@ -222,14 +177,9 @@ class _Labels:
     def __init__(self) -> None:
         self._kept: dict[Hashable, Lettering] = {}
         self._drawn: set[Hashable] = set()
-        self._expected: set[Hashable] = set()
-
-    def expect(self, lines: Iterable[Caption]) -> None:
-        """Keep those of these lines that are drawn, until others are expected."""
-        self._expected = {_label_key(line) for line in lines}
 
     def draw(self, surface: pygame.Surface, line: Caption, type_: Type, *, whole: bool) -> None:
-        """Draw a line in its halo, with its own opacity."""
+        """Draw a line in its halo."""
         assert line.halo
         key = _label_key(line)
         self._drawn.add(key)
@@ -238,15 +188,12 @@ class _Labels:
             self._kept[key] = Lettering(line.text, type_, line.size, colours, line.halo.width)
         letters = self._kept[key]
         aside = {"left": 0.5, "centre": 0.0, "right": -0.5}[line.anchor] * letters.size[0]
-        letters.draw(
-            surface, complex(line.at[0] + aside, line.at[1] + letters.drop), line.strength, whole=whole
-        )
+        letters.draw(surface, complex(line.at[0] + aside, line.at[1] + letters.drop), whole=whole)
 
     def let_go(self) -> None:
         """Forget labels that the frame just ended did not draw, except a few."""
-        needed = self._drawn | (self._expected & self._kept.keys())
-        if len(self._kept) > len(needed) + _SPARE_LABELS:
-            self._kept = {key: self._kept[key] for key in needed}
+        if len(self._kept) > len(self._drawn) + _SPARE_LABELS:
+            self._kept = {key: self._kept[key] for key in self._drawn}
         self._drawn.clear()
 
 

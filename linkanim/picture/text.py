@@ -514,10 +514,8 @@ class Lettering:
         """The words in their halo, worked out when first drawn: many are measured but find no room."""
         return _haloed(self._cover, round(_FINE * self.halo[1]), (self.ink, self.halo[0]))
 
-    def draw(
-        self, surface: pygame.Surface, middle: complex, shown: float = 1.0, *, whole: bool = False
-    ) -> None:
-        """Draw the words about a place in pixels, with an opacity of `shown` from 0 to 1.
+    def draw(self, surface: pygame.Surface, middle: complex, *, whole: bool = False) -> None:
+        """Draw the words about a place in pixels.
 
         With `whole` they begin at a whole pixel, which is faster where many places are new.
         """
@@ -528,8 +526,6 @@ class Lettering:
         x = step * round((_FINE * middle.real - wide / 2) / step)
         y = step * round((_FINE * middle.imag - high / 2) / step)
         sprite = self._sprite(x % _FINE, y % _FINE)
-        if sprite.get_alpha() != round(255 * shown):
-            sprite.set_alpha(round(255 * shown))
         surface.blit(sprite, (x // _FINE, y // _FINE))
 
     def _meets(self, size: tuple[int, int], middle: complex) -> bool:

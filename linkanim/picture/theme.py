@@ -44,6 +44,8 @@ class Theme:
     """The colours of traced joints in their order, used again from the first."""
     speeds: tuple[Colour, ...]
     """From standing still to the greatest speed."""
+    lit: bool = False
+    """Whether bodies throw shadows and have highlights, as a thing of metal has; else it is a diagram's."""
 
 
 LIGHT = Theme(
@@ -95,12 +97,24 @@ _PAPER = (255, 255, 255)
 
 def on_paper(theme: Theme) -> Theme:
     """Return the theme for a figure with a transparent ground: the light theme's rims are white as paper."""
-    return replace(theme, background=_PAPER, pin=_PAPER) if theme == LIGHT else theme
+    return replace(theme, background=_PAPER, pin=_PAPER) if theme.background == LIGHT.background else theme
 
 
-def theme_of(name: str) -> Theme:
-    """Return the theme "light" or "dark"; KeyError for another name."""
-    return _THEMES[name]
+_SOFTER, _RECEDED = 0.25, 0.3
+"""The share of the background in outlines and in the ground where bodies are lit."""
+
+
+def theme_of(name: str, *, lit: bool = False) -> Theme:
+    """Return the theme "light" or "dark", its outlines softer where bodies are `lit`.
+
+    KeyError for another name.
+    """
+    theme = _THEMES[name]
+    if not lit:
+        return theme
+    outline = mixed(theme.outline, theme.background, _SOFTER)
+    ground = mixed(theme.ground, theme.background, _RECEDED)
+    return replace(theme, outline=outline, ground=ground, lit=True)
 
 
 def mixed(colour: Colour, other: Colour, share: float) -> Colour:

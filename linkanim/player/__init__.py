@@ -21,11 +21,11 @@ From the ground up; a module imports from those before it only:
     sound      cues, their waves, the loudspeaker
     pointing   what is under the mouse, and the words about it
     shown      the state as an overlay
-    stroke_view  the view of a stroke and its linkage
     framing    the picture that fits a state, and the change to the next one
     screen     the display, and what is on it
     devices    keyboard, touch, gamepads, mouse
     files      files that the window writes
     beside     processes beside the window: a search, a recording
+    desktop    what the desktop asks of every program
     window     the loop
 """

@@ -540,6 +540,13 @@ def _running(work: Callable[[Clock, int, Any], Clock]) -> Callable[[State, Any],
     return lambda state, value: replace(state, clock=work(state.clock, state.frame, value))
 
 
+def _pause(state: State, _: None) -> State:
+    """Pause the motion, or let it go on; a paused picture is complete."""
+    paused = not state.clock.paused
+    clock = state.clock.pause(state.frame, paused)
+    return replace(state, clock=clock, glide=None if paused else state.glide)
+
+
 def _of_look(name: str) -> Rule:
     """Return the rule of a field of the look; some do more than go a step further."""
     more = {"ghost": ghost, "theme": theme, "unit": unit, "over": over, "polygons": polygons}
@@ -552,7 +559,7 @@ def _of_look(name: str) -> Rule:
 
 
 ACTIONS: Mapping[str, Rule] = {
-    "pause": Rule(_nothing, _running(lambda clock, frame, _: clock.pause(frame, not clock.paused))),
+    "pause": Rule(_nothing, _pause),
     "step": Rule(_whole, _running(Clock.step)),  # degrees of phase, along the way the crank runs
     "speed": Rule(_whole, _running(Clock.faster), answer=_speed),  # steps of the speed ladder
     "level": Rule(_whole, _running(Clock.at_level), answer=_speed),  # a rung of it, 0 for the scene's own

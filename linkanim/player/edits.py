@@ -80,7 +80,7 @@ def closure(state: State, _: None) -> State:
         scene = other_closure(state.scene)
     except LinkanimError as error:
         return with_toast(state, str(error))
-    return exchanged(replace(state, editing=with_undo(state.editing, state.scene)), scene)
+    return followed(replace(state, editing=with_undo(state.editing, state.scene)), scene)
 
 
 def renewed(state: State, scene: Scene) -> State:
@@ -108,8 +108,9 @@ def exchanged(state: State, scene: Scene) -> State:
 
 
 def followed(state: State, scene: Scene) -> State:
-    """Let the shown scene glide to a changed one."""
-    return replace(exchanged(state, scene), glide=glide(state.shown, scene, state.frame))
+    """Let the shown scene glide to a changed one, or swing over to its other closure."""
+    way = None if state.reduced_motion else glide(state.shown, scene, state.frame, state.phase)
+    return replace(exchanged(state, scene), glide=way)
 
 
 def _verdict(info: Info) -> tuple[str, bool, bool]:

@@ -1,86 +1,58 @@
 """Fit a picture to a state, and go from one picture to the next.
 
-The view moves smoothly to another one; another picture fades in. A step of a drag that takes too long to be
-drawn in one frame is drawn in two.
+The view moves smoothly to another one; another picture fades in.
 """
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable, Generator, Iterator
 from dataclasses import replace
-from functools import partial
-from itertools import islice
-from math import inf
-from typing import Literal
 
 import pygame
-from pygame.event import Event
 
 from linkanim.frozen import frozen
-from linkanim.picture.layout import Docked, Layout
+from linkanim.picture.layout import Docked
 from linkanim.picture.look import Look
-from linkanim.picture.picture import Arrival, Deferral, Earlier, Picture
-from linkanim.picture.view import Box, View, eased
-from linkanim.player.clock import FRAMES_PER_SECOND
-from linkanim.player.state import FADE_FRAMES, Sketch, State
-from linkanim.player.stroke_view import view_for
+from linkanim.picture.overlay import NOTHING_OVER, Overlay
+from linkanim.picture.picture import Picture
+from linkanim.picture.view import View, eased
+from linkanim.player.state import FADE_FRAMES, SWING_FRAMES, Changeover, State
 
 # The pictures of states: each fits what is shown, and the view moves smoothly from one to the next.
 #
 # So the eye can follow what makes room for what. Window and recordings share this.
 
 APPROACH_FRAMES = 14
-_NAMES, _NAMES_ON_THE_WAY = 2, 1
-"""The names that are placed in a frame, and in a frame that draws everything anew because its view moves."""
-
-DrawnAhead = Callable[[Picture, State], Iterator[None]]
 
 
 @frozen
 class Approach:
     """The view that is being left for another one, and the frame at which the change began.
 
-    `edge` is that of the picture being left: charts come in from there. Polygons that this picture did not
-    have wait (`waits`) until the view is there.
+    `edge` is that of the picture being left: charts come in from there.
     """
 
     left: View
     since: int
     edge: tuple[float, float] = (0.0, 0.0)
-    waits: bool = False
+    frames: int = APPROACH_FRAMES
 
     def over(self, frame: int) -> bool:
         """Return whether the new view is reached."""
-        return frame >= self.since + APPROACH_FRAMES
+        return frame >= self.since + self.frames
 
-    def look(
-        self,
-        look: Look,
-        fitted: View,
-        goal: View,
-        size: tuple[int, int],
-        frame: int,
-        *,
-        about: tuple[float, float] | None = None,
-    ) -> Look:
-        """Return the look whose zoom and pan show this frame's view, between the old one and `goal`.
+    def view(self, goal: View, frame: int) -> View:
+        """Return this frame's view, between the old one and `goal`."""
+        return between(self.left, goal, self._share(frame))
 
-        `fitted` is the view that the look zooms and pans, in a window of that size in pixels; it zooms about
-        a pixel, without one about the window's middle.
-        """
-        view, (x, y) = between(self.left, goal, self._share(frame)), about or (size[0] / 2, size[1] / 2)
-        zoom = view.scale / fitted.scale
-        right, down = view.x - x - (fitted.x - x) * zoom, view.y - y - (fitted.y - y) * zoom
-        return replace(look, zoom=zoom, pan=(right / size[1], down / size[1]))
-
-    def arrival(self, frame: int) -> Arrival:
-        """Return how charts come in at a frame: with the view."""
-        return Arrival(self.edge, 1.0 - eased(self._share(frame)), self.waits)
+    def aside(self, edge: tuple[float, float], frame: int) -> tuple[float, float]:
+        """Return how far charts are from their slots, whose linkage ends at an `edge`: right, and down."""
+        rest = 1.0 - eased(self._share(frame))
+        right, down = (max(before - now, 0.0) * rest for before, now in zip(self.edge, edge, strict=True))
+        return right, down
 
     def _share(self, frame: int) -> float:
         """Return the share of the way that is over, in time."""
-        return (frame - self.since + 1) / (APPROACH_FRAMES + 1)
+        return (frame - self.since + 1) / (self.frames + 1)
 
 
 def between(one: View, other: View, share: float) -> View:
@@ -96,20 +68,14 @@ def between(one: View, other: View, share: float) -> View:
 class Framing:
     """Makes the picture of each state that comes, from the last one; a list in a window takes its room.
 
-    Where it is `captioned`, as the window is, names come with the sentence on what to watch for, the bar of
-    commands has room at the foot, and a frame does not wait until all names are placed. The picture with
-    placed names is then drawn `ahead`, in steps, before it is returned.
+    Only in a `window` are there tools beside a list.
     """
 
-    def __init__(self, *, captioned: bool = False, ahead: DrawnAhead | None = None) -> None:
-        self._captioned, self._ahead = captioned, ahead
+    def __init__(self, *, window: bool = False) -> None:
+        self._window = window
         self._fitting: Picture | None = None
-        self._coming: Picture | None = None
-        self._drawing: Iterator[None] | None = None
         self._passing: Picture | None = None
         self._approach: Approach | None = None
-        self._drawn: tuple[int, View] | None = None
-        self._frame = 0
 
     @property
     def last(self) -> Picture:
@@ -118,129 +84,71 @@ class Framing:
         assert picture is not None
         return picture
 
-    def fitting(
-        self,
-        state: State,
-        size: tuple[int, int],
-        *,
-        hurried: bool = False,
-        earlier: Earlier | None = None,
-    ) -> Picture:
-        """Return the picture that fits the state; where its view differs from the last, begin to move to it.
-
-        In a `hurried` frame of a window, names that need new places stay where they were: each further frame
-        places some of them. The still part `earlier` is kept, too.
-        """
+    def fitting(self, state: State, size: tuple[int, int]) -> Picture:
+        """Return the picture that fits the state; begin to move to it where its view is another one."""
         before, sketch, look = self._fitting, state.sketch, self._look(state)
-        hurried = hurried and self._captioned
         held = bool(state.held or (sketch and sketch.held is not None) or state.building or state.home)
-        docked = self._docked(state)
-        home = state.building.home if state.building else state.home
-        fits = before and before.fits(state.shown, size, look, docked, held=held, sheet=home)
-        if before and fits and not before.hurried:
-            if not earlier:
-                before.catch_up()
-            return before
+        docked, sheet = self._docked(state), state.building.home if state.building else state.home
         stays = before is not None and before.size == size
-        make = partial(
-            Picture,
-            state.shown,
-            size,
-            look,
-            before,
-            docked=docked,
-            sheet=home,
+        home, also = None, _included(state)
+        if sketch and before and stays and (sketch.is_blank or held):
+            home, also = before.fitted, before.composition.wanted.also
+        if before and before.fits(state.shown, size, look, docked, held=held, sheet=sheet, also=also):
+            return before
+        made = Picture(
+            state.shown, size, look, before, held=held, docked=docked, sheet=sheet, also=also, home=home
         )
-        if before and fits and not sketch:
-            made = self._coming = self._coming or make(later=Deferral(held, "in steps"))
-            most = _NAMES_ON_THE_WAY if self._approach else _NAMES
-            if not made.place_names(most if hurried else None) or (hurried and self._draws(made, state)):
-                return before
-        else:
-            stay = hurried and not (sketch and stays)
-            make = partial(make, later=Deferral(held, "as before" if stay else "at once", earlier))
-            made = make(kept=before.fitted if before and sketch and stays else None)
-        self._coming = self._drawing = None
-        if before and sketch and stays and not held and not made.look.framed:
-            goal = self._of_the_stroke(before, made, sketch)
-            made = made if goal == made.fitted else make(kept=goal)
         if before and before.sheet != made.sheet:
             self._approach = None
         elif before and (_has_moved(before, made) or (sketch and stays and before.fitted != made.fitted)):
             left = self._passing or before
-            self._approach = Approach(left.view, state.frame, left.edge, not left.has_polygons)
+            frames = SWING_FRAMES if isinstance(state.glide, Changeover) else APPROACH_FRAMES
+            self._approach = Approach(left.view, state.frame, left.edge, frames)
         elif before and not _is_framed_alike(before, made):
             self._approach = None
         self._fitting = made
         return made
 
-    def _draws(self, coming: Picture, state: State) -> bool:
-        """Draw one step of the coming picture ahead; return whether there was a step left."""
-        if self._drawing is None:
-            self._drawing = self._ahead(coming, state) if self._ahead else iter(())
-        return any(True for _ in islice(self._drawing, 1))
-
     def _docked(self, state: State) -> Docked:
-        """Return what has room of its own; only a window has tools beside a list and the bar of commands."""
-        has_tools = self._captioned and state.editing.open and not (state.listing or state.game)
+        """Return what has room of its own."""
+        has_tools = self._window and state.editing.open and not (state.listing or state.game)
         row = state.sketch is not None and bool(state.sketch.answers)
-        return Docked(2 if has_tools else int(state.listed), row, self._captioned)
-
-    def _of_the_stroke(self, before: Picture, made: Picture, sketch: Sketch) -> View:
-        """Return the view of a sketch and the linkage for it; unchanged where there is no linkage yet."""
-        if not sketch.is_asked or sketch.is_blank:
-            self._drawn = sketch.strokes, before.fitted
-            return before.fitted
-        if self._drawn is None or self._drawn[0] != sketch.strokes:
-            self._drawn = sketch.strokes, before.fitted
-        x, y = sketch.points.real, sketch.points.imag
-        stroke = Box(float(x.min()), float(y.min()), float(x.max()), float(y.max()))
-        room = made.layout.stage.inset(2 * made.layout.margin)
-        return view_for(self._drawn[1], stroke, made.fit.subject.figure.box, room, made.layout.hud)
-
-    def preparing(self, state: State) -> Generator[None, None, Layout]:
-        """Work out in steps what the picture of a state with the last picture's scene needs.
-
-        Returns the layout of that picture.
-        """
-        return (yield from self.last.preparing(self._look(state), self._docked(state)))
+        head = bool(state.building or state.posing or state.constructed or state.layers)
+        return Docked(2 if has_tools else int(state.listed), row, self._window, head and not state.listed)
 
     def _look(self, state: State) -> Look:
-        """Return the look of a state; where `captioned`, names bring the sentence on what to watch for."""
+        """Return the look of a state."""
         if state.layers:
             return replace(Look(theme=state.look.theme, hud=False), zoom=state.look.zoom, pan=state.look.pan)
         drawn = state.building or state.posing or state.constructed
         look = replace(state.look, hud=False) if drawn else state.look
-        return replace(look, caption=True) if self._captioned and look.names else look
+        return replace(look, centres=0) if state.constructed else look
 
-    def at(self, state: State, size: tuple[int, int], *, late: bool = False) -> Picture:
-        """Return the picture for this frame: while the view moves, one on the way to the fitting picture.
-
-        A `late` picture has the view and the still part of the last one.
-        """
-        self._frame = self._frame if late else state.frame
-        last = self._passing or self._fitting
-        earlier = last.earlier if last and late else None
-        goal, self._passing = self.fitting(state, size, hurried=True, earlier=earlier), None
-        if self._approach is None or self._approach.over(self._frame):
+    def at(self, state: State, size: tuple[int, int]) -> Picture:
+        """Return the picture for this frame: while the view moves, one on the way to the fitting picture."""
+        goal, self._passing = self.fitting(state, size), None
+        if self._approach is None or state.reduced_motion or self._approach.over(state.frame):
             self._approach = None
             return goal
-        kept = goal.fitted if state.sketch else None
-        about = None if kept else goal.about
-        look = self._approach.look(self._look(state), goal.fitted, goal.view, size, self._frame, about=about)
-        names: Literal["as before", "at once"] = "as before" if goal.hurried else "at once"
-        arrival = self._approach.arrival(self._frame)
-        self._passing = Picture(
-            state.shown,
-            size,
-            look,
-            goal,
-            docked=self._docked(state),
-            kept=kept,
-            sheet=goal.sheet,
-            later=Deferral(names=names, earlier=earlier, arrival=arrival),
+        view, aside = (
+            self._approach.view(goal.view, state.frame),
+            self._approach.aside(goal.edge, state.frame),
         )
+        self._passing = goal.on_its_way(view, aside)
         return self._passing
+
+
+def _included(state: State) -> tuple[complex, ...]:
+    """Return places of the scene that the picture includes: what was drawn, what a construction has found."""
+    sketch = state.sketch
+    if sketch and not sketch.is_blank:
+        x, y = sketch.points.real, sketch.points.imag
+        return complex(float(x.min()), float(y.min())), complex(float(x.max()), float(y.max()))
+    if state.constructed and state.clock.paused:
+        from linkanim.picture.constructed import found_by
+
+        return found_by(state.shown, state.constructed, state.phase)
+    return ()
 
 
 def _has_moved(one: Picture, other: Picture) -> bool:
@@ -261,6 +169,34 @@ def _are_one(one: Picture, other: Picture) -> bool:
     return one.scene is other.scene or (named and one.scene.length_unit == other.scene.length_unit)
 
 
+# A list comes in from the window's edge, and goes out there.
+
+_DRAWER_FRAMES = 9
+
+
+class Drawer:
+    """Moves the list of dimensions, of quantities or of a game in and out."""
+
+    def __init__(self) -> None:
+        self._last, self._since, self._is_open = NOTHING_OVER, -_DRAWER_FRAMES, False
+
+    def at(self, over: Overlay, state: State) -> Overlay:
+        """Return the overlay to draw: a list that opens or shuts is in part beyond the edge."""
+        is_open = bool(over.panel or over.quantities or over.game)
+        if is_open != self._is_open:
+            self._is_open, self._since = is_open, state.frame
+        gone = state.frame - self._since + 1
+        if is_open:
+            self._last = over
+        if state.reduced_motion or gone >= _DRAWER_FRAMES:
+            return over
+        share = eased(gone / _DRAWER_FRAMES)
+        if is_open:
+            return replace(over, shut=1.0 - share)
+        last = self._last
+        return replace(over, panel=last.panel, quantities=last.quantities, game=last.game, shut=share)
+
+
 # From one picture to the next: the old one fades while the new one is already there; the shutter's flash.
 
 _WHITE = 0.7
@@ -276,7 +212,7 @@ class Fade:
 
     def strength(self, state: State, surface: pygame.Surface) -> int:
         """Return the opacity (0 to 255) of the old picture; `surface` holds that picture at first."""
-        if state.faded is None:
+        if state.faded is None or state.reduced_motion:
             self._old = self._since = None
             return 0
         if state.faded != self._since:
@@ -295,51 +231,3 @@ class Fade:
             white.fill((255, 255, 255))
             white.set_alpha(round(255 * _WHITE * (shutter / 8) ** 2))
             surface.blit(white, (0, 0))
-
-
-# How a step of a drag is drawn: in one frame, or, where that takes too long, in two.
-
-_ROOM = 0.85 / FRAMES_PER_SECOND
-"""The time that a frame may take, in seconds: the rest is left to the machine's other work."""
-_ONCE = 0.75
-"""The time of a step in one frame, as a share of its time in two: these draw what moves twice."""
-
-
-class StepSplitter:
-    """Draws a step of a drag in two frames where the last step took longer than a frame.
-
-    The first frame draws the moved linkage, the second the still part behind it, and the list; meanwhile mere
-    moves of the mouse have to wait.
-    """
-
-    def __init__(self, now: Callable[[], float] = time.perf_counter) -> None:
-        self._now, self._began = now, 0.0
-        self._waiting: list[Event] = []
-        self._late = False
-        self._part: Literal["first", "rest", "whole", "none"] = "none"
-        self._first, self._step = 0.0, inf
-
-    def begin(self, events: list[Event]) -> list[Event]:
-        """Begin a frame; return the events for it: of the new ones, and of those that waited."""
-        self._began = self._now()
-        events, self._waiting = self._waiting + events, []
-        if self._late and all(event.type == pygame.MOUSEMOTION for event in events):
-            events, self._waiting = [], events
-        return events
-
-    def late(self, *, stepped: bool) -> bool:
-        """Return whether this frame, in which something was changed or not, is the first of a step's two."""
-        was, self._late = self._late, stepped and self._step > _ROOM
-        self._part = "first" if self._late else "rest" if was else "whole" if stepped else "none"
-        return self._late
-
-    def end(self) -> None:
-        """End a frame: measure the time that it took."""
-        took = self._now() - self._began
-        match self._part:
-            case "first":
-                self._first = took
-            case "rest":
-                self._step = _ONCE * (self._first + took)
-            case "whole":
-                self._step = took

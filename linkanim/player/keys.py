@@ -190,7 +190,7 @@ KEYS: Table = {
             "zoom (wheel), pan",
             _zoom("+ = kp_plus", 1.0) + _zoom("- kp_minus", -1.0) + _on("0 kp0 home", "fit"),
         ),
-        KeyRow("L", "light / dark", _of_look("theme")),
+        KeyRow("L (Shift: lit / flat)", "light / dark", _of_look("theme") + _of_look("material")),
         KeyRow("U", "sounds: dead centres and limits", _on("u", "sounds")),
         KeyRow("F11", "full screen", _on("f11", "fullscreen")),
         KeyRow(
@@ -507,7 +507,7 @@ MENU_IN: frozenset[Mode] = frozenset(get_args(Mode)) - {*_ALONE}
 """The modes in which the list of commands can be opened, or is."""
 BESIDE_GAMES = frozenset(
     {
-        *("play", "help", "theme", "zoom", "fit", "fullscreen", "sounds"),
+        *("play", "help", "theme", "material", "zoom", "fit", "fullscreen", "sounds"),
         *("pan", "record", "taking", "screenshot", "svg", "quit"),
     }
 )
@@ -531,6 +531,7 @@ _APART: Mapping[Action, str] = {
     **{Action("select", n): f"mechanism {n + 1} of the chapter" for n in range(9)},
     Action("names"): "names, then dimensions",
     Action("over"): "the chart's axis: angle, time, phase",
+    Action("material"): "lit or flat",
     Action("polygons"): "velocity and acceleration polygons",
     Action("large_polygon"): "one polygon alone, large",
     Action("chain"): "the input's colour along the chain",

@@ -12,7 +12,6 @@ import os
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from dataclasses import replace
 from math import ceil, hypot, log10
 from typing import Any, Literal
 
@@ -28,7 +27,7 @@ from linkanim.mechanics.linkage import Point
 from linkanim.picture.build_sheet import grid_step, pencil
 from linkanim.picture.command_bar import BarPrinter, button_at, share_at
 from linkanim.picture.command_icons import window_icon
-from linkanim.picture.layout import Layout, layout
+from linkanim.picture.layout import Docked, Layout, layout
 from linkanim.picture.overlay import NEAR, Browsing, Overlay
 from linkanim.picture.picture import Picture
 from linkanim.picture.sheet_rows import row_at
@@ -39,15 +38,13 @@ from linkanim.picture.theme import theme_of
 from linkanim.picture.tools import ToolPrinter, tool_at
 from linkanim.picture.view import Rect
 from linkanim.player.action import Action
-from linkanim.player.actions import carried
-from linkanim.player.framing import Fade, Framing
+from linkanim.player.framing import Drawer, Fade, Framing
 from linkanim.player.pointing import Pointed, PointedThing, thing_at
 from linkanim.player.posing import has_room
 from linkanim.player.posing import under as posed_under
-from linkanim.player.shown import Hover, overlay
-from linkanim.player.state import PIVOTS, State, driven_bar, proved
-from linkanim.scenes import names, title_of
-from linkanim.scenes.editing import ghost_of, handles, known_ghost_of
+from linkanim.player.shown import Hover
+from linkanim.player.state import PIVOTS, State, driven_bar
+from linkanim.scenes.editing import handles
 
 # The display: a window on a real screen.
 
@@ -197,7 +194,7 @@ class Connection:
     """
 
     def __init__(self) -> None:
-        self.lost = False
+        self.lost = self._closes = False
         self._watched: int | None = None
         # the library calls these until the process ends, so they must exist as long
         self._handlers = _IO_ERROR(self._broken), _EXIT(self._broken)
@@ -225,7 +222,9 @@ class Connection:
         if self.lost:
             atexit.unregister(pygame.quit)
         else:
+            self._closes = True
             pygame.display.quit()
+            self._closes = False
 
     def _watch(self, server: int) -> None:
         """Ask the library to go on after an error, which versions before 1.7 (2020) cannot."""
@@ -239,6 +238,8 @@ class Connection:
 
     def _broken(self, *_: object) -> int:
         self.lost = True
+        if self._closes:  # the library waits for ever for its window to be gone, as when a session ends
+            os._exit(1)
         return 0
 
 
@@ -251,16 +252,6 @@ def _pointer(capsule: Any) -> int:
 
 # The window's picture: the one that fits the present scene, size and look, and what was shown last.
 
-_AHEAD = (
-    *(Action("chart", 1), Action("polygons"), Action("names"), Action("edit")),
-    *(Action("vectors", kind) for kind in "va"),
-    *(Action("help"), Action("list"), Action("shelf")),
-)
-"""Likely next actions that move things on the picture, or open a panel."""
-_REST = 20
-"""The frames for which a picture is shown before anything is prepared, so that Tab stays quick."""
-_MOST_JOINTS = 20
-"""The most joints of a linkage for which things are prepared: with more, single steps would delay a frame."""
 _PULLED = 6.0
 """How near to a line of the grid counts as on it, in units."""
 _VISIBLE = 1.0
@@ -281,96 +272,28 @@ class Screen:
         self._shelf = ShelfPrinter()
         self._fade = Fade()
         self._printer = SurfacePrinter()
-        self._framing = Framing(captioned=True, ahead=self._drawn_ahead)
+        self._framing, self._drawer = Framing(window=True), Drawer()
         self.over = Overlay()
         self._row, self._tools, self._bar = RowPrinter(), ToolPrinter(), BarPrinter()
         self._pointer: object = None
-        self._prepared: Picture | None = None
-        self._preparing: Iterator[None] = iter(())
-        self._arrived: int | None = None
 
-    def show(self, state: State, over: Overlay, *, late: bool = False) -> None:
-        """Paint the state into the window and flip, where it differs from what is shown.
-
-        With `late`, only the linkage is up to date; the still part and the list are as they were.
-        """
+    def show(self, state: State, over: Overlay) -> None:
+        """Paint the state into the window and flip, where it differs from what is shown."""
         surface = display_surface()
-        if late and over.panel and self.over.panel:
-            over = replace(over, panel=self.over.panel)
         self.state, self.over = state, over
         self._point(state)
         on_sheet = state.building and state.building.building.made.scene is None
         title = UNTITLED if on_sheet else state.scene.title
         self._name(f"{title}{' • edited' * (state.place in state.edited and not on_sheet)}")
-        picture = self._framing.at(state, surface.get_size(), late=late)
+        picture = self._framing.at(state, surface.get_size())
         veiled = self._fade.strength(state, surface)
-        shown = (picture, picture.late, state.phase, state.clock.speed, over, veiled)
+        drawn = self._drawer.at(over, state)
+        shown = (picture, state.phase, state.clock.speed, drawn, veiled)
         if shown != self._shown:
-            self._paint(surface, picture, state, over)
+            self._paint(surface, picture, state, drawn)
             self._fade.draw(surface, veiled, over.shutter)
             pygame.display.flip()
             self._shown = shown
-        if state.arrived != self._arrived:
-            self._arrived = state.arrived
-            self._find_other(state)
-
-    def prepare(self, state: State) -> bool:
-        """Do a step of the work that the next key may need, in a frame in which nothing happens.
-
-        Results are cached where they would be looked up; a key's picture is the same without them. Returns
-        whether there is more to do.
-        """
-        if not _has_leisure(state):
-            return False
-        picture, before = self._framing.last, self._prepared
-        if picture is not before:
-            self._prepared, self._preparing = picture, self._ahead(state, picture)
-            return True
-        with suppress(Exception):  # a fault will occur again with the key, which reports it
-            for _ in self._preparing:
-                return True
-        return False
-
-    def _drawn_ahead(self, picture: Picture, state: State) -> Iterator[None]:
-        """Draw in steps a picture that will replace the shown one."""
-        return self._printer.drawn_ahead(picture, state.phase, state.clock.speed, self.over)
-
-    def _find_other(self, state: State) -> None:
-        """Find the other closure of a mechanism that has just appeared.
-
-        For some this takes a tenth of a second at once: that is not noticed when the picture changes anyway.
-        """
-        with suppress(Exception):  # a fault will occur again with the key, which reports it
-            if _has_leisure(state):
-                ghost_of(state.scene)
-
-    def _ahead(self, state: State, picture: Picture) -> Iterator[None]:
-        """Prepare what keys may ask for: the other closure, quantities to chart, polygons, panels."""
-        for _ in range(_REST):
-            yield
-        if other := known_ghost_of(state.scene):
-            proved(other, 0.0)
-            yield
-            yield from picture.expecting(other)
-        yield from state.scene.finding_telling()
-        _ = picture.fit.subject.figure.polygon_boxes
-        for name in names():
-            yield
-            title_of(name)
-        for action in _AHEAD:
-            yield
-            after = carried(state, action)
-            yield
-            over = overlay(after)
-            yield
-            place = yield from self._framing.preparing(after)
-            yield
-            yield from self._printer.prepared(picture, place, over)
-            if over.tool_bar:
-                yield
-                self._tools.prepare(place, picture.theme, over.tool_bar)
-            if over.shelf:
-                yield from self._shelf.prepared(self.size, over.shelf)
 
     def _paint(self, surface: pygame.Surface, picture: Picture, state: State, over: Overlay) -> None:
         if over.shelf:
@@ -380,12 +303,11 @@ class Screen:
             self._printer.print(surface, picture, state.phase, state.clock.speed, over)
             self._row.draw(surface, picture.layout, over.row)
             self._tools.draw(surface, picture.layout, picture.theme, over.tool_bar)
-        place, charted = self._bar_layout(over), self._framing.last.arrived
-        self._bar.draw(surface, place, theme_of(state.look.theme), over.bar, charted=charted)
+        self._bar.draw(surface, self._bar_layout(over), theme_of(state.look.theme), over.bar)
 
     def _bar_layout(self, over: Overlay) -> Layout:
         """Return the layout in which the bar of commands stands; the shelf fills the window."""
-        return layout(self.size, bar=True) if over.shelf else self._framing.last.layout
+        return layout(self.size, docked=Docked(bar=True)) if over.shelf else self._framing.last.layout
 
     def _point(self, state: State) -> None:
         """Show the mouse's pointer as a pencil while the pencil is taken."""
@@ -573,8 +495,7 @@ class Screen:
     def button_at(self, x: float, y: float) -> int | None:
         """Return the number of the command of the bar under a pixel, -1 between them; None off the bar."""
         bar = self.over.bar
-        charted = self._framing.last.arrived
-        return button_at(self._bar_layout(self.over), bar.buttons, x, y, charted=charted) if bar else None
+        return button_at(self._bar_layout(self.over), bar.buttons, x, y) if bar else None
 
     def share_at(self, number: int, x: float) -> float:
         """Return the share of a slider on the bar, 0 to 1, at a pixel's x."""
@@ -719,9 +640,3 @@ class Screen:
     def charted(self, x: float, y: float) -> float | None:
         """Return the phase under a pixel of the chart; None off it."""
         return None if self.over.hides_chart else self._framing.last.chart_phase_at(x, y)
-
-
-def _has_leisure(state: State) -> bool:
-    """Return whether there is time to prepare for keys: nothing is dragged, and no single step takes long."""
-    leads = state.held or state.grasp or state.glide
-    return state.mode in ("play", "paused") and not leads and len(state.scene.linkage.joints) <= _MOST_JOINTS

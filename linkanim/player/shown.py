@@ -43,6 +43,7 @@ from linkanim.picture.overlay import (
     Shelf,
     SliderShown,
     Snap,
+    SwingShown,
     ToolBar,
 )
 from linkanim.picture.quantities import chart_tokens, quantity
@@ -62,6 +63,7 @@ from linkanim.player.state import (
     LIFTED,
     SHUTTER_FRAMES,
     BuildSheet,
+    Changeover,
     Grip,
     Layering,
     Listing,
@@ -335,9 +337,16 @@ def overlay(
         instant=pointed.instant if pointed else None,
         grip=state.look.chart is not None and not state.game,
         shutter=0 if state.shot is None else 8 - 8 * (state.frame - state.shot) // SHUTTER_FRAMES,
+        swing=_swing(state),
         game=lists.game and replace(lists.game, pointed=row),
         bar=bar(state, button),
     )
+
+
+def _swing(state: State) -> SwingShown | None:
+    """Return the closure that is left, and how far, while the linkage swings over."""
+    swing = state.glide if isinstance(state.glide, Changeover) else None
+    return SwingShown(swing.left, swing.share(state.frame)) if swing else None
 
 
 def _glow(state: State, hover: str | None) -> str | None:
@@ -617,11 +626,15 @@ def _hint_bar(state: State) -> Fading | None:
 
 
 def _watch(state: State) -> Fading | None:
-    """Return the sentence on what to watch for, in a mechanism's first seconds, until something is done."""
+    """Return the sentence on what to watch for: with the names, and in a mechanism's first seconds.
+
+    Of these it is there until something is done.
+    """
+    if state.is_covered or state.recording or state.toast:
+        return None
     gone = state.frame - (state.frame if state.arrived is None else state.arrived)
-    busy = state.is_covered or state.recording or state.toast or state.touched > (state.arrived or 0)
-    eighths = min(gone, _WATCH_FRAMES - gone, 32) // 4
-    return None if busy or eighths <= 0 or state.look.names else Fading(state.shown.look_at, eighths)
+    is_new = 0 < gone < _WATCH_FRAMES and state.touched <= (state.arrived or 0)
+    return Fading(state.shown.look_at) if is_new or state.look.names else None
 
 
 def _measured(state: State, items: tuple[Dimension, ...]) -> Iterator[DimensionLine]:

@@ -13,7 +13,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import field, replace
 from functools import cached_property
-from math import fmod
+from math import dist, fmod
 from typing import TYPE_CHECKING, Any, Literal, Protocol, Self
 
 import numpy as np
@@ -274,8 +274,27 @@ class Glide:
     coming: Scene | None = None
 
 
-def glide(before: Scene, after: Scene, frame: int) -> Glide | None:
-    """Return the glide from one scene to the other; None where no length or angle differs."""
+SWING_FRAMES = 36
+_IN_PLACE = 1e-9
+"""By how much a joint may move and stay in its place, in the scene's unit."""
+
+
+class Changeover(NamedTuple):
+    """The closure that the linkage leaves from frame `since` on, to swing over to the scene's own."""
+
+    left: Scene
+    since: int
+
+    def share(self, frame: int) -> float:
+        """Return the share of the way that is over, slow at both ends."""
+        return eased((frame + 1 - self.since) / SWING_FRAMES)
+
+
+def glide(before: Scene, after: Scene, frame: int, phase: float) -> Glide | Changeover | None:
+    """Return the glide from one scene to the other; a swing where only the closure differs.
+
+    None where the linkage is another one, or stays in its place at the `phase`.
+    """
     old = {item.key: item for item in dimensions(before)}
     changes = tuple(
         (item.key, old[item.key].value, item.value)
@@ -283,15 +302,23 @@ def glide(before: Scene, after: Scene, frame: int) -> Glide | None:
         if item.kind in _FOLLOWED and item.key in old
         if item.unit == old[item.key].unit and item.value != old[item.key].value
     )
-    return Glide(before, frame, changes) if changes else None
+    if changes:
+        return Glide(before, frame, changes)
+    places, others = before.pose(phase, 0).position, after.pose(phase, 0).position
+    if places.keys() != others.keys():
+        return None
+    swings = any(dist(others[name], place) > _IN_PLACE for name, place in places.items())
+    return Changeover(before, frame) if swings else None
 
 
-def followed(begun: Glide, after: Scene, frame: int) -> Glide | None:
+def followed(begun: Glide | Changeover, after: Scene, frame: int) -> Glide | Changeover | None:
     """Return the glide at `frame`; None when `after` is reached.
 
     A scene on the way that cannot be assembled over its whole cycle is left out: the last one stays.
     """
     gone = frame + 1 - begun.since
+    if isinstance(begun, Changeover):
+        return begun if gone <= SWING_FRAMES else None
     if gone > FRAMES:
         return None
     if gone % EVERY == 0 and gone < FRAMES:
@@ -807,7 +834,8 @@ class State:
     words. Recordings are made as `take` says; `taking` is the open dialog in which that is chosen. `held` is
     the joint whose lengths are being dragged, `grasp` the joint that drags the input, `pad` whether a gamepad
     is plugged in. `home` is the part of the plane that a game keeps visible, if not the fitted scene.
-    `sounds` says whether the motion is heard, None where the user has not chosen.
+    `sounds` says whether the motion is heard, None where the user has not chosen. With `reduced_motion` the
+    picture changes at once, without fades, glides and moving views.
 
     With `from_title` Esc leads from a mechanism back to the title. In a `kiosk` a mechanism that runs and is
     left alone gives way to the title, `by_itself`; the first action then only brings back what was there.
@@ -843,7 +871,7 @@ class State:
     game: Game | None = None
     games: Callable[[str], Game] | None = None
     beneath: State | None = None
-    glide: Glide | None = None
+    glide: Glide | Changeover | None = None
     turned: int | None = None
     arrived: int | None = None
     place_typed: str = ""
@@ -860,6 +888,7 @@ class State:
     by_itself: bool = False
     pad: bool = False
     sounds: bool | None = None
+    reduced_motion: bool = False
     home: Box | None = None
     stirred: int | None = None
     touched: int = 0
@@ -868,7 +897,7 @@ class State:
     @property
     def shown(self) -> Scene:
         """The scene to draw: `scene`, or one on the way to it while a length is changing."""
-        return self.glide.scene if self.glide else self.scene
+        return self.glide.scene if isinstance(self.glide, Glide) else self.scene
 
     @property
     def displayed(self) -> Scene:

@@ -30,10 +30,10 @@ from linkanim.player.actions import aged, carried, leave, settled
 from linkanim.player.building import left, written
 from linkanim.player.clock import FRAMES_PER_SECOND
 from linkanim.player.commands import tool_asks
+from linkanim.player.desktop import reduces_motion
 from linkanim.player.devices import MOUSE_EVENTS, PAD_EVENTS, Fingers, Keyboard, Mouse, Pads, latest
 from linkanim.player.edits import renewed
 from linkanim.player.files import DraftFile, SavedScenes, SceneFile, beside, scene_files
-from linkanim.player.framing import StepSplitter
 from linkanim.player.keys import bind_of
 from linkanim.player.pointing import Pointed, PointedThing
 from linkanim.player.screen import Screen
@@ -110,7 +110,7 @@ class Window:
         self._as_made: Sequence[str] = _USUALLY_MADE
         self.screen = Screen(state)
         self._keyboard, self._mouse, self._fingers, self._pads = Keyboard(), Mouse(), Fingers(), Pads()
-        self._speaker, self._splitter = Speaker(), StepSplitter()
+        self._speaker = Speaker()
         self._notes: list[str] = []
         self._photo: str | None = None
         self._windowed = screen.frame()
@@ -134,16 +134,12 @@ class Window:
         """
         self._pads.look(frames)
         events = self._fingers.pointed(pygame.event.get(), pygame.display.get_window_size())
-        events = self._splitter.begin(events)
         self._now, before = self.state.frame + frames, self.state
         for frame in range(frames):
             self._advance(events if frame == 0 else [])
         for cue in cues(before, self.state):
             self._speaker.play(cue)
         self._show()
-        self._splitter.end()
-        if not events:
-            self.screen.prepare(self.state)
         return self._open
 
     def fill(self) -> None:
@@ -431,10 +427,10 @@ class Window:
             hover = None  # the joint belongs to the scene from before
         try:
             row, over = self._mouse.pointed(self.screen), self._over_sheet()
-            late, button = self._splitter.late(stepped=self._has_stepped), self._mouse.on_bar(self.screen)
+            button = self._mouse.on_bar(self.screen)
             pointed = self._mouse.over_scene(self.screen, self.state.frame) if free else self._led_joint()
             over_ = overlay(self.state, hover, row, over, button, pointed)
-            self.screen.show(self.state, over_, late=late)
+            self.screen.show(self.state, over_)
         except Exception as error:
             if self._good is None:
                 raise
@@ -453,13 +449,6 @@ class Window:
         places = self.state.displayed.pose(self.state.phase, 0).position
         led = grasp.joint in places
         return Pointed(places[grasp.joint], PointedThing("joint", grasp.joint)) if led else None
-
-    @property
-    def _has_stepped(self) -> bool:
-        """Whether a drag has changed the scene since it was shown, or was refused."""
-        now, before = self.state, self.screen.state
-        refused = now.editing.refusal != before.editing.refusal
-        return now.held is not None and (now.scene is not before.scene or refused)
 
     def _over_sheet(self) -> Hover | None:
         """Return what is under the mouse of an open sheet, or of the tools beside the list of dimensions."""
@@ -730,6 +719,7 @@ def run(
     layers: Sequence[str] | None = None,
     game: str | None = None,
     photo: Path | None = None,
+    reduced_motion: bool | None = None,
 ) -> int:
     """Open the window on a scene, a scene file or a tape, and return 0 when it is closed.
 
@@ -739,11 +729,13 @@ def run(
     window, a running recording is finished. `drafts` is the file in which a draft is kept; with `sheet` the
     window opens on the draft that was kept, else on an empty sheet, with `photo` behind it if one is given.
     With `layers` it shows the scene's layers, to be made with these options of `linkanim make`. `game` are
-    the words of a game to begin with.
+    the words of a game to begin with. With `reduced_motion` pictures change at once; None does as the desktop
+    asks.
     """
     tape = _tape(scene, keeper)
     state = tape.begun if tape else begin(scene, look=look)
-    state = replace(state, games=keeper.game_of if keeper else None)
+    reduced = reduces_motion() if reduced_motion is None else reduced_motion
+    state = replace(state, games=keeper.game_of if keeper else None, reduced_motion=reduced)
     opening = game or ("title" if scene is None else None)
     if opening and keeper:
         words = keeper.completed(opening)

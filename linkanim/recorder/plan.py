@@ -175,17 +175,17 @@ def _refuse_nonsense(clip: Clip) -> None:
     """Raise `BadInput` for what is not a number of its kind, or makes a clip of absurd length."""
     if not math.isfinite(clip.speed) or clip.speed == 0.0:
         raise BadInput(
-            f"a speed of {short(clip.speed)} rad/s has no period to record; give one such as 30 rpm"
+            f"a speed of {clip.speed:g} rad/s has no period to record; give one such as 30 rpm"
         )
     slowest, fastest = RATES
     if not slowest <= clip.fps <= fastest:
         raise BadInput(
-            f"{short(clip.fps)} frames a second cannot be recorded; give {slowest} to {fastest}, such as 25"
+            f"{clip.fps:g} frames a second cannot be recorded; give {slowest} to {fastest}, such as 25"
         )
     if clip.periods < 1:
         raise BadInput(f"{clip.periods} periods cannot be recorded; give a whole number from 1")
     if clip.seconds is not None and not (math.isfinite(clip.seconds) and clip.seconds > 0.0):
-        raise BadInput(f"{short(clip.seconds)} s cannot be recorded; give a positive number of seconds")
+        raise BadInput(f"{clip.seconds:g} s cannot be recorded; give a positive number of seconds")
     if clip.length * clip.fps > MOST_FRAMES:
         raise BadInput(
             f"{short(clip.length)} s at {short(clip.fps)} fps are {short(clip.length * clip.fps)} frames,"

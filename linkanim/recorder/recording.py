@@ -18,6 +18,7 @@ from linkanim.atomic_files import checked_target
 from linkanim.bounds import MOST_FRAMES
 from linkanim.errors import BadInput, RecordingFailed, WorkFailed
 from linkanim.frozen import frozen
+from linkanim.picture.layout import Docked
 from linkanim.picture.look import ConstructionKind, Look
 from linkanim.picture.overlay import Overlay
 from linkanim.picture.picture import Picture
@@ -211,7 +212,7 @@ class SceneFrames:
     ) -> None:
         self.size = size
         self.alpha = not look.background
-        self.colours = theme_colours(look.theme)
+        self.colours = theme_colours(look)
         self._plan = plan
         self._over = Overlay(noted=noted)
         self._picture, self._printer = Picture(scene, size, look), SurfacePrinter()
@@ -237,7 +238,8 @@ class ConstructionFrames(SceneFrames):
         super().__init__(scene, plan, size, look)
         phase = plan.clip.start
         self._before = steps_before(scene, kind)
-        self._picture = Picture(scene, size, look, moment=phase, also=places_of(scene, kind, phase))
+        places = places_of(scene, kind, phase)
+        self._picture = Picture(scene, size, look, moment=phase, also=places, docked=Docked(head=True))
         self._drawn = 0
 
     def draw(self, frame: int) -> Frame:
@@ -291,9 +293,10 @@ def record(
     return write(SceneFrames(scene, plan, size, look, noted=noted), plan, path, progress)
 
 
-def theme_colours(theme: str) -> tuple[Colour, ...]:
-    """Return every colour of a theme: a GIF has to show flat areas of these exactly."""
+def theme_colours(look: Look) -> tuple[Colour, ...]:
+    """Return every colour of a look's theme: a GIF has to show flat areas of these exactly."""
     plain: list[Colour] = []
-    for value in astuple(theme_of(theme)):
-        plain += value if isinstance(value[0], tuple) else [value]
+    for value in astuple(theme_of(look.theme, lit=look.material == "lit")):
+        if isinstance(value, tuple):
+            plain += value if isinstance(value[0], tuple) else [value]
     return tuple(dict.fromkeys(plain))

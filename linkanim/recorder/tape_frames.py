@@ -10,6 +10,7 @@ from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from linkanim.picture.look import Look, Material, ThemeName
 from linkanim.picture.overlay import Overlay
 from linkanim.picture.photograph import refuse_lacking
 from linkanim.picture.raster import offscreen, pixel_view
@@ -47,7 +48,7 @@ class TapeFrames:
     def __init__(self, tape: Tape, fps: float, size: tuple[int, int], *, photo: bool = False) -> None:
         self.size = size
         self.alpha = not tape.start.look.background
-        self.colours = tuple(colour for theme in _themes(tape) for colour in theme_colours(theme))
+        self.colours = tuple(colour for look in _looks(tape) for colour in theme_colours(look))
         self._tape = tape
         self._fps, self._photo = fps, photo
         self._surface = offscreen(size, alpha=self.alpha)
@@ -88,10 +89,12 @@ def _shape(window: tuple[int, int]) -> tuple[int, int]:
     return width, height
 
 
-def _themes(tape: Tape) -> tuple[str, ...]:
-    """Return the themes that a tape shows."""
-    changes = any(action.name == "theme" for _, action in tape.actions)
-    return ("light", "dark") if changes else (tape.start.look.theme,)
+def _looks(tape: Tape) -> tuple[Look, ...]:
+    """Return the looks that a tape shows, as far as their colours differ."""
+    start, names = tape.start.look, {action.name for _, action in tape.actions}
+    themes: tuple[ThemeName, ...] = ("light", "dark") if "theme" in names else (start.theme,)
+    materials: tuple[Material, ...] = ("lit", "flat") if "material" in names else (start.material,)
+    return tuple(replace(start, theme=theme, material=one) for theme in themes for one in materials)
 
 
 def record_tape(

@@ -1,11 +1,10 @@
-// Other lengths: sliders for them, and the linkage drawn plainly as it is solved anew.
+// Other lengths: sliders for them, and the motion of the linkage as it is solved anew.
 "use strict";
-const lengthsOf = (model, { kinds, part, put, say, unit, add, by, xy, line, view, short, state, byId, wake }) => {
-  const TURN = 2 * Math.PI, FRAME = 360;
+const lengthsOf = (model, { view, say, short, state, byId, renewed }) => {
+  const TURN = 2 * Math.PI, BESIDE = 1e-4;
   const solver = solverOf(model), first = model.values.slice();
   const [scale, left, top] = view;
-  const root = byId("own"), picture = byId("picture"), whole = picture.getAttribute("viewBox");
-  let range = null, course = null, base = Object.create(null), moves = [], tracks = new Map(), on = false;
+  let range = null, course = null, base = Object.create(null), on = false;
 
   const pixel = ([x, y]) => [left + scale * x, top - scale * y];
   const turned = ([x, y]) => [scale * x, -scale * y];
@@ -24,7 +23,7 @@ const lengthsOf = (model, { kinds, part, put, say, unit, add, by, xy, line, view
     return [middle - reach * Math.cos(there), way * reach * Math.sin(there), reach * Math.cos(there)];
   }
 
-  // Returns all joints at a phase in pixels, null where rounding leaves them open.
+  // Returns all points at a phase in pixels, null where rounding leaves the linkage open.
   const kept = { phase: NaN, found: null };
   function posed(phase) {
     if (kept.phase === phase) return kept.found;
@@ -35,6 +34,11 @@ const lengthsOf = (model, { kinds, part, put, say, unit, add, by, xy, line, view
         p: pixel(p), v: turned(by(v, rate)), a: turned(add(by(a, rate * rate), by(v, second))),
       };
     }
+    for (const name in joints && model.masses) {
+      const [one, other, share] = model.masses[name], [here, there] = [found[one], found[other]];
+      const along = (kind) => add(here[kind], mul(share, sub(there[kind], here[kind])));
+      found[name] = one === other ? { ...here, p: add(here.p, share) } : { p: along("p"), v: along("v"), a: along("a") };
+    }
     Object.assign(kept, { phase, found: joints && found });
     return kept.found;
   }
@@ -43,48 +47,15 @@ const lengthsOf = (model, { kinds, part, put, say, unit, add, by, xy, line, view
       // at a limit a rounded root may be just below zero
       for (const off of [0, 1e-7, -1e-7, 1e-5, -1e-5]) {
         const found = posed(phase + off);
-        if (found) return found[name];
+        if (!found) continue;
+        // at a limit the input stands while rates by its angle are unbounded: their product is read beside it
+        const beside = range && Math.abs(Math.sin(phase)) < BESIDE && posed(phase + (Math.tan(phase) < 0 ? -BESIDE : BESIDE));
+        return beside ? { ...beside[name], p: found[name].p } : found[name];
       }
       return { p: pixel([0, 0]), v: [0, 0], a: [0, 0] };
     },
   });
-
-  function links(group) {
-    const width = 0.016 * Number(whole.split(" ")[2]);
-    const rims = { stroke: "var(--ink)", "stroke-width": 1.2, "stroke-linejoin": "round", "stroke-linecap": "round" };
-    const drawn = model.links.map(({ joints, slider, colour }) => {
-      if (slider) {
-        const { way } = model.joints.find(({ name }) => name === slider), turn = unit([way[0], -way[1]]);
-        const node = part(group, "rect", { x: -1.5 * width, y: -width, width: 3 * width, height: 2 * width, fill: colour, ...rims });
-        return (place) => put(node, "transform", `matrix(${turn[0]} ${turn[1]} ${-turn[1]} ${turn[0]} ${xy(place(slider))})`);
-      }
-      const bar = { fill: joints.length > 2 ? colour : "none", stroke: colour, "stroke-width": width, "stroke-linejoin": "round", "stroke-linecap": "round" };
-      const back = part(group, "path", { ...bar, fill: joints.length > 2 ? "var(--ink)" : "none", stroke: "var(--ink)", "stroke-width": width + 3 });
-      const node = part(group, "path", bar);
-      return (place) => {
-        const path = line(joints.map(place)) + (joints.length > 2 ? "Z" : "");
-        for (const each of [back, node]) put(each, "d", path);
-      };
-    });
-    const pins = model.joints.map(({ name, kind }) => {
-      const rock = kind === "pin" && part(group, "path", { d: `M0 0L${-width} ${1.7 * width}H${width}Z`, fill: "none", stroke: "var(--ink)", "stroke-width": 1.5 });
-      const node = part(group, "circle", { r: 0.36 * width, fill: "var(--back)", stroke: "var(--ink)", "stroke-width": 1.5 });
-      return (place) => { for (const each of [rock, node]) if (each) put(each, "transform", `translate(${xy(place(name))})`); };
-    });
-    return [...drawn, ...pins];
-  }
-
-  // Keeps all of a period in the picture.
-  function fit() {
-    const [x, y, wide, high] = whole.split(" ").map(Number), margin = 0.05 * wide;
-    const box = [x, y, x + wide, y + high];
-    for (let n = 0; n < FRAME; n += 4) for (const name of tracks.keys()) {
-      const { p } = tracks.get(name).at(tracks.period * n / FRAME);
-      box[0] = Math.min(box[0], p[0] - margin); box[1] = Math.min(box[1], p[1] - margin);
-      box[2] = Math.max(box[2], p[0] + margin); box[3] = Math.max(box[3], p[1] + margin);
-    }
-    put(picture, "viewBox", `${box[0]} ${box[1]} ${box[2] - box[0]} ${box[3] - box[1]}`);
-  }
+  const tracks = new Map([...model.joints.map(({ name }) => name), ...Object.keys(model.masses)].map((name) => [name, track(name)]));
 
   const degrees = (angle) => `${(angle * 180 / Math.PI).toFixed(1).replace("-", "−")}°`;
   function told() {
@@ -95,7 +66,14 @@ const lengthsOf = (model, { kinds, part, put, say, unit, add, by, xy, line, view
 
   function inputWords(phase) {
     const [angle] = inputAt(phase);
-    return degrees(range ? angle : angle - TURN * Math.floor(angle / TURN));
+    return degrees(range ? angle : mod(angle, TURN));
+  }
+
+  // Returns the input's speed in words: as given where it turns, else how often it goes there and back.
+  function speedWords(speed, words) {
+    const each = Math.abs(speed) * 30 / Math.PI;
+    if (range) return `${short(each)} swings/min`;
+    return words.endsWith("/min") ? `${short(speed * 30 / Math.PI)} rpm` : words;
   }
 
   function renew() {
@@ -111,21 +89,9 @@ const lengthsOf = (model, { kinds, part, put, say, unit, add, by, xy, line, view
     range = found;
     course = range && solver.course(range, base);
     kept.phase = NaN;
-    tracks = new Map(model.joints.map(({ name }) => [name, track(name)]));
     tracks.period = TURN * (course ? course.periods : model.turns);
     byId("made").textContent = told();
-    root.replaceChildren();
-    moves = links(root);
-    for (const mover of model.movers) moves.push(kinds[mover.kind](part(root, "g", {}), mover, tracks));
-    if (on) fit();
     return true;
-  }
-
-  function show(yes) {
-    on = yes;
-    root.toggleAttribute("hidden", !on);
-    if (on) fit(); else put(picture, "viewBox", whole);
-    wake();
   }
 
   const entries = model.sliders.map(({ label, number, least, most }) => {
@@ -146,19 +112,22 @@ const lengthsOf = (model, { kinds, part, put, say, unit, add, by, xy, line, view
   });
   function change(number, value) {
     solver.set(number, value);
-    if (renew()) show(true);
+    if (!renew()) return;
+    on = true;
+    renewed();
   }
   byId("sliders").replaceChildren(...entries.map(({ box }) => box));
   byId("reset").addEventListener("click", () => {
     first.forEach((value, number) => solver.set(number, value));
     for (const entry of entries) entry.reset();
     renew();
-    show(false);
+    on = false;
+    renewed();
   });
   renew();
 
   return {
-    solver, change, get on() { return on; }, get range() { return range; }, get moves() { return moves; },
-    get tracks() { return tracks; }, renew, inputWords,
+    solver, change, get on() { return on; }, get range() { return range; },
+    tracks, told, renew, inputAt, inputWords, speedWords,
   };
 };

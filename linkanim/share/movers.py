@@ -22,15 +22,40 @@ from numpy.typing import NDArray
 from linkanim.frozen import frozen
 from linkanim.mechanics.motion import Motion, Pose
 from linkanim.paper.svg import drawn, flat, hexadecimal
+from linkanim.picture.bodies import WHEELS
+from linkanim.picture.dimensions import pivots
 from linkanim.picture.figure import DOWN
-from linkanim.picture.fittings import BACK, CORE, EDGE, TILT, Coil, Damping
+from linkanim.picture.fittings import (
+    BACK,
+    CORE,
+    EDGE,
+    TILT,
+    Coil,
+    Damping,
+    away,
+    fittings,
+    pedestal,
+    rails_of,
+    rails_under,
+)
 from linkanim.picture.items import Caption, Group, Item
-from linkanim.picture.labels import Label, Names
-from linkanim.picture.look import ThemeName
-from linkanim.picture.motion_marks import AHEAD, ORDER, RECENT, SWEEP, SWELL, Arrows, Sliding, Trace, Turning
+from linkanim.picture.look import ACCELERATION, VELOCITY, ThemeName
+from linkanim.picture.motion_marks import (
+    AHEAD,
+    ORDER,
+    RECENT,
+    SWEEP,
+    SWELL,
+    Kind,
+    Sliding,
+    Trace,
+    Turning,
+    arrows_of,
+)
+from linkanim.picture.names import Label, Names
 from linkanim.picture.picture import Picture
-from linkanim.picture.raster import Colour, Loop
-from linkanim.picture.shapes import Part, Places, Stamp
+from linkanim.picture.raster import Colour, Layer, Loop
+from linkanim.picture.shapes import Part, Places, Stamp, units
 from linkanim.picture.theme import theme_of
 from linkanim.picture.view import View
 from linkanim.scenes.scene import Scene
@@ -55,7 +80,9 @@ class Pairs:
     def elements(self, light: Iterable[Item], dark: Iterable[Item]) -> str:
         """Return the same items, described in both themes, as SVG."""
         coded = [self._coded(*pair) for pair in zip(light, dark, strict=True)]
-        return "".join(map(_shorter, drawn(coded, lambda colour: f"var(--c{int.from_bytes(colour)})")))
+        return "".join(
+            map(_shorter, drawn(coded, lambda colour: f"var(--c{int.from_bytes(colour)})", fixed=False))
+        )
 
     def styles(self, themes: tuple[ThemeName, ThemeName], stated: ThemeName | None) -> str:
         """Return the style sheet of the colours, ink and background among them by their names.
@@ -140,6 +167,13 @@ _STEPS = 1 << 30
 """Steps of a point's places, from its first one to the farthest."""
 LARGEST_SINGLE = float(np.finfo(np.float32).max)
 """The largest number of 32 bits: larger rates, beside a place where they are unbounded, are cut to it."""
+_ROUNDED = 1e-6
+"""How far the points of a rounded outline may be off their radius, in pixels."""
+_STATED = ("dead-centres", "key", "dimension-lines")
+"""The groups that hold for the given lengths alone; the key lists the dimensions that have no place."""
+_KINDS: tuple[Kind, ...] = (VELOCITY, ACCELERATION)
+_OF_LENGTHS = ("dimension:", "dead-centre:")
+"""The labels that hold for the given lengths alone."""
 _NOWHERE = complex(-1e4, -1e4)
 """Where a joint is drawn that has no position (NaN): outside the picture."""
 
@@ -347,40 +381,106 @@ class Mobile:
             case Part() as part, Part() as dark:
                 yield self._part(part, dark)
             case tuple() as parts, tuple() as darks:
-                yield from (self._part(*both) for both in zip(parts, darks, strict=True))
+                for both in zip(parts, darks, strict=True):
+                    drawn = self._part(*both)
+                    given = {"given": True} if one.name == "dimensions" else {}
+                    yield replace(drawn, mover={**(drawn.mover or {}), **given})
             case Stamp() as stamp, Stamp() as dark:
                 for body in pose.com_position:
                     at = centre(body)
                     put = (Part(at, at, at, some.layers) for some in (stamp, dark))
                     yield self._part(*put)
-            case Names() as names, Names() as dark:
-                yield from self._names(names, dark)
+                yield from (Movable("", self._arrows(kind)) for kind in _KINDS)
+            case Names(), Names():
+                yield from self._names()
             case dict() as lines, dict() as darks if self.light.names:
-                for label in (label for label in self.light.names.labels if label.symbol in lines):
-                    line = self._part(lines[label.symbol], darks[label.symbol])
-                    yield replace(line, mover={**(line.mover or {}), **_shown(label)})
-            case (Coil() | Damping() | Trace() | Arrows() | Turning() | Sliding()) as live, dark:
+                for of, line in lines.items():
+                    drawn = self._part(line, darks[of])
+                    yield replace(drawn, mover={**(drawn.mover or {}), "named": True, "given": True})
+            case (Coil() | Damping() | Trace() | Turning() | Sliding()) as live, dark:
                 yield Movable("", self._live(one, live, dark))
+            case _ if one.name == "ground-line":
+                yield Movable("", self._level())
+            case _ if one.name == "ground":
+                yield from self._ground()
             case _:
                 if shapes := self.pairs.elements(flat([one]), flat([other])):
-                    yield Movable(shapes)
+                    yield Movable(shapes, {"kind": "given"} if one.name in _STATED else None)
 
     def _part(self, light: Part, dark: Part) -> Movable:
         shapes = self.pairs.elements(light.layers, dark.layers)
-        mover = {"kind": "part", "at": light.at, "tail": light.tail, "head": light.head}
+        mover = {"kind": "part", "at": light.at, "tail": light.tail, "head": light.head, **self._form(light)}
         link = self.light.scene.info.link_names.get(light.name)
         mover |= {"link": link} if link else {}
         turn, at = light.turn(self._places), self._places[light.at]
         matrix = (turn.real, turn.imag, -turn.imag, turn.real, at.real, at.imag)
         return Movable(shapes, mover, f"matrix({' '.join(f'{part:.7g}' for part in matrix)})")
 
-    def _names(self, light: Names, dark: Names) -> Iterator[Movable]:
-        tables = ([*names.table.captions()] if names.table else [] for names in (light, dark))
-        if table := self.pairs.elements(*tables):
-            yield Movable(table)
-        for label, other in zip(light.labels, dark.labels, strict=True):
-            shapes = self.pairs.elements([_line(label, light)], [_line(other, dark)])
-            yield Movable(shapes, {"kind": "label", **_placed(label, light), **_shown(label)})
+    def _form(self, part: Part) -> Mover:
+        """Return how a part's shape follows from lengths: which joints it reaches to, and its outlines.
+
+        An outline that is rounded about some of the joints' places has a radius and their numbers, two for
+        each joint: where it is nearest in the part's frame and where it is farthest; other outlines have 0.
+        """
+        if part.sized:
+            return {"sized": list(part.sized)}
+        names = list(dict.fromkeys((*part.joints, *part.reaches)))
+        if len(names) < 2:
+            return {}
+        ends = np.concatenate([self._ends(part, name) for name in names])
+        wheel = self.light.figure.scene.style(part.name).outline in WHEELS
+        layers = (layer.loops for layer in part.layers if layer.loops)
+        forms = [[_rounding(loop, ends, wheel=wheel) for loop in loops] for loops in layers]
+        return {"reaches": names, "forms": forms}
+
+    def _ends(self, part: Part, name: str) -> Loop:
+        """Return both ends (2,) of a joint's way in a part's frame (pixels); alike for one fixed in it."""
+        figure, view = self.light.figure, self.light.view
+        known = (figure.cycle.position[one] for one in (part.at, part.tail, part.head, name))
+        at, tail, head, joint = (view.scale * (np.atleast_2d(one) @ DOWN) for one in known)
+        way: Loop = (joint - at) / (units(head - tail) if part.tail != part.head else 1)
+        way = way[np.isfinite(way)]
+        along = way.real if np.ptp(way.real) >= np.ptp(way.imag) else way.imag
+        return way[[along.argmin(), along.argmax()]]
+
+    def _ground(self) -> Iterator[Movable]:
+        """Yield guides, rails and pedestals."""
+        contexts = [one.drawing.setting for one in (self.light, self.dark)]
+        rails = [[*rails_of(context)] for context in contexts]
+        grounds = [context.theme.ground for context in contexts]
+        guides = [fitting.guide for fitting in fittings(contexts[0]) if fitting.guide]
+        gauge = contexts[0].gauge
+        for guide, *loops in zip(guides, *rails, strict=True):
+            layers = ([Layer(*both)] for both in zip(grounds, loops, strict=True))
+            more = {"beyond": list(guide.beyond), "aside": guide.aside, "closed": guide.head}
+            size = {"bar": gauge.bar, "line": gauge.line, "colour": self.pairs.variable(*grounds)}
+            mover = {"kind": "rails", "at": guide.joint, "along": _pair(guide.along), **more, **size}
+            yield Movable(self.pairs.elements(*layers), mover)
+        under = [[Layer(one.theme.ground, loops) for loops in rails_under(one)] for one in contexts]
+        if shapes := self.pairs.elements(*under):
+            yield Movable(shapes)
+        for name in contexts[0].figure.fixed:
+            feet = (pedestal(0j, away(one.figure, name), one.gauge, one.theme) for one in contexts)
+            yield self._part(*(Part(name, name, name, foot) for foot in feet))
+
+    def _level(self) -> Mover:
+        """Return the data of the ground's line, from pivot to pivot."""
+        colour = self.pairs.variable(self.light.theme.ground, self.dark.theme.ground)
+        names = list(pivots(self.light.figure))
+        return {"kind": "level", "names": names, "line": self.light.gauge.line, "colour": colour}
+
+    def _names(self) -> Iterator[Movable]:
+        """Yield the labels, each about 0."""
+        pictures, lines = (self.light, self.dark), list[list[Caption]]()
+        for picture in pictures:
+            placed = picture.names.captions(
+                picture.drawing.places(picture.poses(0.0)[0]), picture.drawing.setting
+            )
+            lines.append([line._replace(at=(0.0, -0.5 * line.size)) for line in placed])
+        for label, *both in zip(self.light.names.labels, *lines, strict=True):
+            shapes = self.pairs.elements(*([line] for line in both))
+            given = {"given": True} if label.of.startswith(_OF_LENGTHS) else {}
+            yield Movable(shapes, {"kind": "label", **_placed(label, self.light.view.scale), **given})
 
     def _live(self, group: Group, light: Any, dark: Any) -> Mover:
         """Return the data of what the script draws anew at every pose."""
@@ -394,8 +494,6 @@ class Mobile:
                 colours = self.pairs.variables((light.back, *light.shades), (dark.back, *dark.shades))
                 recent = {"phase": RECENT, "swell": SWELL}
                 return {"kind": kind, "at": light.joint, "width": width, "colours": colours} | recent
-            case Arrows():
-                return self._arrows(light, dark)
             case Sliding():
                 along = _pair(light.along)
                 more = {"kind": "sliding", "at": light.joint, "along": along, "room": light.room}
@@ -426,34 +524,56 @@ class Mobile:
         size = {"reach": list(light.reach), "length": light.length, "rod": light.rod, "colour": colour}
         return {"kind": "damping", "between": list(light.between), **size, "barrel": barrel, "head": head}
 
-    def _arrows(self, light: Arrows, dark: Arrows) -> Mover:
+    def _arrows(self, kind: Kind) -> Mover:
         """Return the data of arrows; `gain` is their length for a rate of 1 pixel/rad (or /rad²) of phase."""
-        order, scene = ORDER[light.kind], self.light.scene
+        order, scene, sides = ORDER[kind], self.light.scene, (self.light, self.dark)
+        light, dark = (arrows_of(one.figure, kind, one.size[1], one.gauge, one.theme) for one in sides)
         gain = light.scale(light.drive) * abs(light.drive) ** order / self.light.view.scale
         colours = self.pairs.variables((light.colour, light.halo), (dark.colour, dark.halo))
         feet = [*scene.trace, *(centre(body.name) for body in scene.linkage.bodies if body.com is not None)]
         line = {"longest": light.longest, "line": light.gauge.line, "colours": colours}
+        line |= {"words": light.words, "unit": light.unit}
         return {"kind": "arrows", "order": order, "at": feet, "gain": gain, **line}
 
 
-def _line(label: Label, names: Names) -> Caption:
-    """Return a label's line about 0."""
-    return Caption(label.text, (0.0, -0.5 * label.line), label.line, label.colour, "centre", True, names.halo)
+def _placed(label: Label, scale: float) -> Mover:
+    """Return a label's place: the parts of its anchor, as plain numbers and arrays."""
+    assert label.anchor is not None
+    at, head, base, way, reach, flat_, turns = label.anchor
+    ways = {"base": _pair(base), "way": _pair(way), "size": list(label.size)}
+    return {
+        "at": at,
+        "head": head,
+        **ways,
+        "reach": reach,
+        "flat": flat_,
+        "turns": turns,
+        "scale": scale,
+        "font": label.line,
+    }
 
 
-def _shown(label: Label) -> Mover:
-    """Return the opacity of a label over the cycle, in 255ths."""
-    assert label.shown is not None
-    return {"shown": packed(np.rint(255 * label.shown), "u1")}
+def _rounding(loop: Loop, ends: Loop, *, wheel: bool) -> Any:
+    """Return a rounded outline's radius, below 0 for a hole, and the numbers of its ends; else 0.
 
-
-def _placed(label: Label, names: Names) -> Mover:
-    """Return a label's place: the parts of its `Spots`, as plain numbers and arrays."""
-    assert label.spot is not None
-    at, head, begin, end, share, aside, further, off = label.spot
-    ways = {"begin": _pair(begin), "end": _pair(end), "off": _pair(off), "size": list(label.size)}
-    shares = {"share": float(share), "aside": float(aside), "further": float(further)}
-    return {"at": at, "head": head, **ways, **shares, "scale": names.scale, "bar": names.bar}
+    Of a wheel that reaches beyond all ends, it is how far, and a third entry says so.
+    """
+    loop = np.asarray(loop)
+    side = 1 if (np.conj(loop) * np.roll(loop, -1)).imag.sum() > 0 else -1
+    off = np.abs(loop[:, None] - ends)
+    round_ = np.ptp(off, axis=0) <= _ROUNDED  # a disc about one end may reach beyond others
+    radius, near = off.min(axis=1), off.argmin(axis=1)
+    if round_.any():
+        near = np.full(len(loop), round_.argmax())
+        radius = off[:, near[0]]
+    if np.ptp(radius) > _ROUNDED:
+        return 0
+    numbers = sorted({*near.tolist()})
+    size = round(side * float(radius.mean()), 3)
+    reach = float(np.abs(ends).max())
+    if wheel and len(numbers) == 1 and abs(size) > 0.8 * reach:
+        return [round(size - side * reach, 3), numbers, side]
+    return [size, numbers]
 
 
 def _pair(value: Any) -> list[float]:

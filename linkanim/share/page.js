@@ -10,18 +10,6 @@
   const TURN = 2 * Math.PI;
   page.period = TURN * Math.round(page.period / TURN);  // with all its digits
 
-  // --- small arithmetic -------------------------------------------------------------------------
-
-  const mod = (a, b) => a - b * Math.floor(a / b);
-  const add = (a, b) => [a[0] + b[0], a[1] + b[1]];
-  const sub = (a, b) => [a[0] - b[0], a[1] - b[1]];
-  const mul = (a, b) => [a[0] * b[0] - a[1] * b[1], a[0] * b[1] + a[1] * b[0]];
-  const by = (a, k) => [a[0] * k, a[1] * k];
-  const size = (a) => Math.hypot(a[0], a[1]);
-  const unit = (a) => { const long = size(a); return long > 0 ? by(a, 1 / long) : [1, 0]; };
-  const xy = (a) => a[0].toFixed(4) + " " + a[1].toFixed(4);
-  const line = (points) => "M" + points.map(xy).join("L");
-  const clamp = (x, low, high) => Math.min(Math.max(x, low), high);
   const minus = (text) => text.replaceAll("-", "−");
   const short = (x) => minus(String(Number(x.toPrecision(4))));
 
@@ -116,17 +104,22 @@
   }
   const grown = (value, { poles }, phase) => poles ? value / weight(poles, phase) : value;
 
+  // the least size of names and the longest arrow of the key on the screen, in its pixels; the poses of a period that
+  // are looked at
+  const LEAST = 12, KEY = 54, POSES = 180;
+  const picture = byId("picture"), about = byId("about").textContent, whole = picture.getAttribute("viewBox");
+  let zoom = 1;
   const motionIsFine = !matchMedia("(prefers-reduced-motion: reduce)").matches;
-  // a low page, as in a slide's frame, leaves its room to the mechanism: numbers and chart come when asked for
-  const isLow = matchMedia("(max-height: 30rem) and (min-width: 34rem)").matches;
   const state = {
     phase: 0, playing: motionIsFine, pace: 1, way: 1, side: 0, last: 1,
     trace: true, velocity: false, acceleration: false, names: true, pointer: null, held: null,
-    values: !isLow, curves: !isLow,
+    values: false, curves: false,
   };
   const speed = () => page.speed * state.way;
 
   // --- what moves: each kind gets its group, and gives what puts it at a pose ---------------------
+  //
+  // Where lengths are changed it is told the poses `before` and `after`, and works out what follows from lengths.
 
   // What is set already is left alone: what stands still costs a frame nothing.
   const put = (node, name, value) => {
@@ -143,38 +136,91 @@
   const matrix = (turn, at) =>
     `matrix(${turn[0].toFixed(8)} ${turn[1].toFixed(8)} ${(-turn[1]).toFixed(8)} ${turn[0].toFixed(8)} ${xy(at)})`;
 
-  // Returns what tells how strongly a name or a dimension line shows now.
-  function strengthOf(shown) {
-    const table = unpacked(shown, "u1"), count = table.length;
-    return () => {
-      const moment = mod(state.phase / page.period, 1) * count, first = Math.floor(moment) % count;
-      const strength = (table[first] + (moment % 1) * (table[(first + 1) % count] - table[first])) / 255;
-      return state.names && strength > 0.05 ? strength.toFixed(2) : 0;
+  // How far a label of these sides is pushed along a way, so that it just clears what lies at its begin.
+  function pushed(way, reach, [wide, high], flat) {
+    const [x, y] = way.map(Math.abs), w = wide / 2, h = high / 2;
+    if (!x && !y) return [0, 0];
+    if (flat) return by(way, reach + x * w + y * h);
+    if (x && (w + reach) * y <= h * x) return by(way, (w + reach) / x);
+    if (y && (h + reach) * x <= w * y) return by(way, (h + reach) / y);
+    return by(way, x * w + y * h + Math.sqrt(Math.max(reach ** 2 - (x * h - y * w) ** 2, 0)));
+  }
+
+  // By how much a label is larger than it is drawn, and where its middle stands.
+  const grownOf = ({ font }) => Math.max(1, LEAST / (font * zoom));
+  function labelled(mover, place) {
+    const { at, head, base, way, reach, flat, turns, size: sides, scale } = mover;
+    const span = at === head ? [scale, 0] : sub(place(head), place(at)), turned = turns && at !== head ? mul(way, unit(span)) : way;
+    return add(add(place(at), mul(base, span)), pushed(turned, reach, by(sides, grownOf(mover)), flat));
+  }
+
+  // By how much what is between two joints has grown.
+  const grownWheel = ([one, other], { before, after }) => {
+    const [old, fresh] = [before, after].map(([of]) => size(sub(of.get(other), of.get(one))));
+    return fresh / old;
+  };
+
+  // Returns places on a track from one phase to another, closer where it bends: no chord of it may be seen.
+  function pathOf(track, from, to, pieces) {
+    const place = (n) => track.at(from + (to - from) * n / pieces).p;
+    const bent = (begin, end, first, last, times) => {
+      const half = (begin + end) / 2, middle = place(half);
+      if (!times || size(sub(middle, by(add(first, last), 0.5))) < 0.1) return [first];
+      return [...bent(begin, half, first, middle, times - 1), ...bent(half, end, middle, last, times - 1)];
     };
+    return [...Array.from({ length: pieces }, (_, n) => bent(n, n + 1, place(n), place(n + 1), 6)).flat(), place(pieces)];
   }
 
   const KINDS = {
-    part(group, { at, tail, head, shown }) {
-      const still = tail === head, strength = shown && strengthOf(shown);
+    part(group, mover, tracks, changed) {
+      const { at, tail, head, named, given, sized, forms } = mover, still = tail === head;
+      const grown = changed && sized ? grownWheel(sized, changed) : 1;
+      if (changed && forms) reshape([...group.querySelectorAll("path")], mover, changed);
       return (place) => {
-        if (strength) put(group, "opacity", strength());
+        group.classList.toggle("off", Boolean(given && changed || named && !state.names));
         const turn = still ? [1, 0] : unit(sub(place(head), place(tail)));
-        put(group, "transform", matrix(turn, place(at)));
+        put(group, "transform", matrix(by(turn, grown), place(at)));
       };
     },
 
-    label(group, { at, head, begin, end, off, size: sides, share, aside, further, scale, bar, shown }) {
-      const strength = strengthOf(shown);
+    // what holds for the lengths alone that the page has
+    given(group, mover, tracks, changed) {
+      return () => group.classList.toggle("off", Boolean(changed));
+    },
+
+    label(group, mover, tracks, changed) {
       return (place) => {
-        const span = at === head ? [scale, 0] : sub(place(head), place(at));
-        const along = mul(sub(end, begin), span);
-        const normal = mul([0, 1], unit(along));
-        const clear = 0.5 * (Math.abs(normal[0]) * sides[0] + Math.abs(normal[1]) * sides[1]) + 1.3 * bar;
-        const foot = add(add(place(at), mul(begin, span)), by(along, share));
-        const middle = add(add(foot, by(normal, aside * (clear + further))), off);
-        put(group, "transform", `translate(${xy(middle)})`);
-        put(group, "opacity", strength());
+        put(group, "transform", matrix([grownOf(mover), 0], labelled(mover, place)));
+        group.classList.toggle("off", !state.names || Boolean(mover.given && changed));
       };
+    },
+
+    // the line of the ground, in dashes and dots
+    level(group, { names, line: thick, colour }, tracks) {
+      const dashes = [5, 1.8, 0.9, 1.3].map((share) => share * thick).join(" ");
+      stroked(group, colour, 0.8 * thick, { d: line(names.map((name) => tracks.get(name).at(0).p)), "stroke-dasharray": dashes });
+      return () => {};
+    },
+
+    rails(group, { at, along, beyond, aside, closed, bar, line: thick, colour }, tracks, changed) {
+      if (changed) {
+        const way = changed.after.map((of) => mul(of.get(at), back(along)));
+        const [low, high] = ends(way.map(([x]) => x)), begin = low - beyond[0], end = high + beyond[1], across = way[0][1];
+        const sides = [1, -1].map((side) => [[begin, across + side * aside], [end, across + side * aside], side]);
+        if (closed) sides.push([[end, across + aside], [end, across - aside], 1]);
+        const drawn = (lines) => lines.map((points) => line(points.map((point) => mul(along, point)))).join("");
+        const strokes = sides.flatMap(([from, to, side]) => {
+          const long = size(sub(to, from)), count = Math.max(Math.round(long / (0.62 * bar)), 1), ahead = unit(sub(to, from));
+          return Array.from({ length: count }, (_, n) => {
+            const foot = add(from, by(ahead, long * (n + 0.75) / count));
+            return [foot, add(foot, mul(ahead, [-0.5 * bar, 0.62 * side * bar]))];
+          });
+        });
+        group.replaceChildren();
+        stroked(group, colour, 1.4 * thick, { d: drawn(sides.map((side) => side.slice(0, 2))) });
+        stroked(group, colour, 0.8 * thick, { d: drawn(strokes) });
+      }
+      return () => {};
     },
 
     coil(group, { between, radius, lead, coils, widths, tilt, colours }) {
@@ -205,7 +251,8 @@
       };
     },
 
-    damping(group, { between, reach, length, rod, colour, barrel, head }) {
+    damping(group, { between, reach: given, length, rod, colour, barrel, head }, tracks, changed) {
+      const reach = changed ? ends(changed.after.map((of) => size(sub(of.get(between[1]), of.get(between[0]))))) : given;
       const cylinder = part(group, "g"), rods = stroked(group, colour, rod, { "stroke-linecap": "round" });
       const piston = part(group, "g");
       cylinder.innerHTML = barrel;
@@ -224,9 +271,8 @@
     },
 
     curve(group, { at, width, colours }, tracks) {
-      const { period } = tracks, count = Math.max(360, 360 * Math.round(period / TURN));
-      const points = Array.from({ length: count }, (_, n) => tracks.get(at).at(n / count * period).p);
-      stroked(group, colours[0], width, { d: line(points) + "Z" });
+      const points = pathOf(tracks.get(at), 0, tracks.period, 180 * Math.max(1, Math.round(tracks.period / TURN)));
+      stroked(group, colours[0], width, { d: line(points) });
       return () => group.classList.toggle("off", !state.trace);
     },
 
@@ -238,26 +284,25 @@
         group.classList.toggle("off", !state.trace);
         if (!state.trace) return;
         const tail = Math.min(phase, tracks.period) * Math.sign(speed());
-        paths.forEach((path, n) => put(path, "d", line(Array.from({ length: pieces + 1 }, (_, k) => {
-          const age = 1 - (n + k / pieces) / shades.length;
-          return tracks.get(at).at(state.phase - tail * age).p;
-        }))));
+        paths.forEach((path, n) => {
+          const [from, to] = [n, n + 1].map((shade) => state.phase - tail * (1 - shade / shades.length));
+          put(path, "d", line(pathOf(tracks.get(at), from, to, pieces)));
+        });
       };
     },
 
-    arrows(group, { order, at, gain, longest, line: thick, colours }) {
+    arrows(group, mover) {
+      const { at, line: thick, colours } = mover;
       const width = 1.6 * thick;
       const paths = at.map(() => part(group, "path", {
         fill: colours[0], stroke: colours[1], "stroke-width": 1.5 * thick, "paint-order": "stroke",
       }));
       return (place, pose) => {
-        const shown = order === 1 ? state.velocity : state.acceleration;
+        const { shown, of } = arrowsOf(mover);
         group.classList.toggle("off", !shown);
         if (!shown) return;
         at.forEach((name, n) => {
-          const { p, v, a } = pose(name);
-          const reach = order === 1 ? by(v, gain * Math.sign(speed())) : by(a, gain);
-          const long = size(reach), seen = long > 0.01 * longest && long < 100 * longest;
+          const { p, reach, seen } = of(pose(name));
           put(paths[n], "d", seen ? arrow(p, reach, width) : "");
         });
       };
@@ -302,6 +347,32 @@
     },
   };
 
+  // Returns whether arrows of a kind are shown, and one's place and reach in a pose.
+  function arrowsOf({ order, gain, longest }) {
+    const shown = order === 1 ? state.velocity : state.acceleration;
+    const of = ({ p, v, a }) => {
+      const reach = order === 1 ? by(v, gain * Math.sign(speed())) : by(a, gain), long = size(reach);
+      return { p, reach, seen: long > 0.01 * longest && long < 100 * longest };
+    };
+    return { shown, of };
+  }
+
+  // Lays out the key to the arrows that are shown: one of each kind, and how much it stands for.
+  function layKey() {
+    byId("key").replaceChildren();
+    const side = now();
+    for (const mover of side.data.movers.filter((one) => one.kind === "arrows" && arrowsOf(one).shown)) {
+      const { order, gain, line: thick, colours, words: named, unit: of } = mover;
+      const scale = gain * side.data.view[0] / Math.abs(speed()) ** order, most = KEY / (zoom * scale);
+      const power = 10 ** Math.floor(Math.log10(most)), value = power * [5, 2, 1].find((one) => one * power <= most * 1.0001);
+      const long = value * scale, sample = byId("key").appendChild(document.createElementNS(SVG, "svg"));
+      sample.setAttribute("viewBox", `0 ${-5 * thick} ${long} ${10 * thick}`);
+      sample.style.width = `${long * zoom}px`;
+      part(sample, "path", { fill: colours[0], d: arrow([0, 0], [long, 0], 1.6 * thick) });
+      for (const [kind, text] of [["span", named], ["b", `${short(value)} ${of}`]]) byId("key").appendChild(document.createElement(kind)).textContent = text;
+    }
+  }
+
   // Returns the outline of an arrow from its foot; short ones are smaller.
   function arrow(foot, reach, width) {
     const long = size(reach), head = Math.min(4.2 * width, 0.6 * long), half = Math.min(width / 2, head / 5);
@@ -312,6 +383,7 @@
 
   // Returns how the input's coordinate, as it is read, changes by phase as it runs now: its table's slope.
   function inputRate() {
+    if (own?.on) return own.inputAt(state.phase)[1] * 180 / Math.PI * Math.sign(speed());
     const row = sides[state.side].rows[0], step = page.period / 480;
     const middle = clamp(mod(state.phase, page.period), step, page.period - step);
     const [before, after] = [middle - step, middle + step].map((phase) => reading(row.tables[0], row, shareOf(phase)));
@@ -325,24 +397,95 @@
     const tracks = Object.assign(new Map(), { period: page.period });
     for (const name in data.tracks) tracks.set(name, new Track(data.tracks[name]));
     const group = byId(`side${number}`);
-    const groups = [...group.querySelectorAll("[data-m]")];
+    for (const use of group.querySelectorAll("use")) {
+      use.replaceWith(...document.querySelector(use.getAttribute("href")).cloneNode(true).childNodes);
+    }
+    const groups = [...group.querySelectorAll("[data-m]")], marked = groups.map((one) => one.innerHTML);
     const laid = ({ ends, poles, ...rest }) => ({ ...rest, ends: ends && unpacked(ends, "f8"), poles: poles && unpacked(poles, "f8") });
     const rows = data.rows.map((row) => ({ ...laid(row), tables: (row.values || []).map((some) => unpacked(some, row.kind)) }));
     const charts = data.charts.map((chart) => ({
       ...chart, curves: chart.curves.map((curve) => ({ ...laid(curve), table: unpacked(curve.values, curve.kind) })),
     }));
-    const moves = data.movers.map((mover, n) => KINDS[mover.kind](groups[n], mover, tracks));
-    return { data, tracks, group, groups, rows, charts, moves };
+    return { data, tracks, group, groups, marked, rows, charts, moves: [] };
   });
   const now = () => sides[state.side];
   const own = page.model && lengthsOf(page.model, {
-    kinds: KINDS, part, put, say, unit, add, by, xy, line, view: page.sides[0].view, short, state, byId, wake: () => wake(),
+    view: page.sides[0].view, say, short, state, byId, renewed: () => lay(),
   });
   // The tracks of what is shown: of the page's own linkage, or of other lengths.
   const tracksNow = () => own?.on ? own.tracks : now().tracks;
   const periodNow = () => tracksNow().period;
 
   // --- drawing ------------------------------------------------------------------------------------
+
+  const turnsOf = (tracks) => clamp(Math.round(tracks.period / TURN), 1, 8);
+  function posesOf(tracks) {
+    const count = POSES * turnsOf(tracks);
+    return Array.from({ length: count }, (_, n) => new Map([...tracks].map(([name, track]) => [name, track.at(n / count * tracks.period).p])));
+  }
+
+  // Draws the groups of what is shown: as they are given, or as they are with other lengths.
+  function lay() {
+    const side = now(), tracks = tracksNow(), [wide, high] = whole.split(" ").slice(2).map(Number);
+    sides.forEach(({ group }, n) => group.toggleAttribute("hidden", n !== state.side));
+    side.before ||= posesOf(side.tracks);
+    const changed = own?.on ? { before: side.before, after: posesOf(tracks) } : null;
+    side.moves = side.data.movers.map((mover, n) => {
+      side.groups[n].innerHTML = side.marked[n];
+      return KINDS[mover.kind](side.groups[n], mover, tracks, changed);
+    });
+    side.box = [[0, wide], [0, high]];
+    side.poses = changed ? changed.after : side.before;
+    byId("about").classList.toggle("changed", Boolean(changed));
+    byId("about").textContent = changed ? `With other lengths: ${own.told()}` : about;
+    side.beyond = changed ? changed.after.flatMap((of) => [...of.values()]) : [];
+    if (changed) side.data.movers.forEach((mover, n) => { side.beyond.push(...wheeled(mover, side.groups[n], changed)); });
+    chart.classList.toggle("off", !side.charts.length || !state.curves);
+    compose();
+  }
+
+  function compose() {
+    layKey();
+    arrange();
+    layKey();  // its arrows are as long as those of the picture
+    layChart();
+  }
+
+  // Returns the corners of the squares that a wheel takes up.
+  function wheeled({ at, sized }, group, changed) {
+    if (!sized) return [];
+    const { x, y, width, height } = group.getBBox(), far = Math.max(-x, -y, x + width, y + height) * grownWheel(sized, changed);
+    return changed.after.flatMap((of) => [-far, far].map((off) => add(of.get(at), [off, off])));
+  }
+
+  // Puts all of a period into the view, with names and the arrows that are shown, and the chart where it leaves the
+  // picture larger: beside it or below.
+  function arrange() {
+    const side = now(), margin = 0.04 * side.box[0][1], phases = Array.from({ length: 60 }, (_, n) => n / 60 * periodNow());
+    const shown = side.data.movers.filter((mover) => mover.kind === "arrows" && arrowsOf(mover).shown);
+    const heads = shown.flatMap((mover) => mover.at.flatMap((name) => phases.map((phase) => {
+      // beside a dead centre arrows are longer than any picture
+      const { p, reach } = arrowsOf(mover).of(tracksNow().get(name).at(phase));
+      return add(p, by(reach, Math.min(1, 1.5 * mover.longest / size(reach) || 0)));
+    })));
+    const points = [...side.beyond, ...heads].filter((point) => point.every(Number.isFinite)), labels = side.data.movers.filter(({ kind, given }) => kind === "label" && !(given && own?.on));
+    const panes = byId("panes"), room = panes.clientWidth - byId("told").offsetWidth, { clientHeight: tall } = panes;
+    for (let times = 0; times < 3; times++) {  // names are the larger the smaller the picture becomes
+      const names = labels.flatMap((mover) => side.poses.flatMap((of, n) => {
+        // letters may be a little wider in the reader's font
+        const half = mul([0.5 * grownOf(mover), 0], [1.15 * mover.size[0], 1.3 * mover.size[1]]), middle = n % 3 ? null : labelled(mover, (name) => of.get(name));
+        return middle ? [sub(middle, half), add(middle, half)] : [];
+      }));
+      const [[left, right], [top, low]] = side.box.map((box, n) =>
+        ends([...box, ...points.flatMap((point) => [point[n] - margin, point[n] + margin]), ...names.map((point) => point[n])]));
+      const wide = right - left, high = low - top;
+      put(picture, "viewBox", `${left} ${top} ${wide} ${high}`);
+      const beside = Math.min(0.6 * room / wide, tall / high), below = Math.min(room / wide, (tall - 0.31 * innerHeight) / high);
+      panes.classList.toggle("beside", beside > below && !chart.classList.contains("off"));
+      zoom = picture.getScreenCTM()?.a || 1;
+    }
+    wake();
+  }
 
   function draw() {
     const side = now(), poses = new Map();
@@ -351,12 +494,11 @@
       return poses.get(name);
     };
     const place = (name) => pose(name).p;
-    sides.forEach(({ group }, n) => group.toggleAttribute("hidden", own?.on || n !== state.side));
-    for (const move of own?.on ? own.moves : side.moves) move(place, pose);
+    zoom = picture.getScreenCTM()?.a || 1;
+    for (const move of side.moves) move(place, pose);
     put(byId("grip"), "transform", `translate(${xy(place(side.data.drive))})`);
     drawRows(side);
-    chart.classList.toggle("off", own?.on || !side.charts.length || !state.curves);
-    if (side.charts.length && !own?.on) drawCursor(side.charts[state.way > 0 ? 0 : 1]);
+    drawCursor();
     drawInput(side);
     if (byId("numbers").open) drawNumbers(side, pose);
     drawReading(side, pose);
@@ -377,9 +519,30 @@
     return minus(Number(text) === 0 ? text.replace("-", "") : text) + (unitName === "°" ? "°" : ` ${unitName}`).trimEnd();
   }
 
-  const OTHER = { label: page.input, text: null };
-  const rowsNow = (side) => own?.on ? [OTHER] : side.rows;
-  const rowWords = (row) => row === OTHER ? own.inputWords(state.phase) : row.text ? row.text[state.way > 0 ? 0 : 1] : words(valueOf(row), row.digits, row.unit);
+  // the rows that hold for the lengths that are shown: where they are changed, those that follow from the joints
+  const rowsNow = (side) => own?.on ? side.rows.filter((row, n) => n < 2 || row.law) : side.rows;
+  function rowWords(row, n) {
+    if (own?.on && n < 2) return n ? own.speedWords(speed(), row.text[state.way > 0 ? 0 : 1]) : own.inputWords(state.phase);
+    return row.text ? row.text[state.way > 0 ? 0 : 1] : words(own?.on ? follows(row.law, state.phase) : valueOf(row), row.digits, row.unit);
+  }
+
+  // Returns what a law gives at a phase, from the joints as they are with the lengths that are shown.
+  function follows({ of, at, order, axis, way, gain, shift }, phase) {
+    const rate = speed() / now().data.view[0];
+    const [first, second] = at.map((name) => {
+      const { p, v, a } = tracksNow().get(name).at(phase);
+      return [world(p, now().data.view), by(back(v), rate), by(back(a), rate * speed())];
+    });
+    const dot = (a, b) => a[0] * b[0] + a[1] * b[1];
+    if (of === "point") return gain * (axis === null ? size(first[order]) : first[order][axis]) + shift;
+    const [p, v, a] = first.map((one, n) => sub(second[n], one)), cross = (b) => p[0] * b[1] - p[1] * b[0];
+    const found = {
+      travel: () => dot([p, v, a][order], way),
+      span: () => order ? dot(p, v) / size(p) : size(p),
+      turn: () => [Math.atan2(p[1], p[0]), cross(v) / dot(p, p), cross(a) / dot(p, p)][order],
+    }[of]();
+    return gain * found + shift;
+  }
 
   function drawRows(side) {
     const list = byId("rows");
@@ -392,12 +555,12 @@
         return [name, value];
       }));
     }
-    rowsNow(side).forEach((row, n) => { say(list.children[2 * n + 1], rowWords(row)); });
+    rowsNow(side).forEach((row, n) => { say(list.children[2 * n + 1], rowWords(row, n)); });
   }
 
   let spoken = "";
   function drawInput(side) {
-    const slider = byId("input"), text = rowWords(rowsNow(side)[0]);
+    const slider = byId("input"), text = rowWords(rowsNow(side)[0], 0);
     put(slider, "max", periodNow());
     slider.value = mod(state.phase, periodNow());
     slider.setAttribute("aria-valuetext", text);
@@ -410,57 +573,143 @@
   const chart = byId("chart");
   let cursor = null;
 
-  function layChart() {
-    const data = now().charts[state.way > 0 ? 0 : 1];
-    chart.classList.toggle("off", !data);
-    if (!data) return;
-    chart.setAttribute("aria-label", data.title);
-    chart.innerHTML = data.frame;
-    const [left, top, width, high] = data.area, [low, up] = data.y;
-    const level = (value) => top + high * (1 - clamp((value - low) / (up - low), 0, 1));
-    const [origin, scale, span] = data.course;
-    for (const curve of data.curves) {
-      const { table, ends } = curve;
-      let d = "";
-      for (let part = 1; part < ends.length; part++) {
-        const from = ends[part - 1], long = ends[part] - from, count = Math.ceil(long * width) + 1;
-        for (let n = 0, pen = false; n <= count; n++) {
-          // the end of a part, as a reading there is the beginning of the next
-          const share = from + long * Math.min(n / count, 1 - 1e-9);
-          const value = grown(reading(table, curve, share), curve, origin + scale * share * span), seen = Number.isFinite(value);
-          if (seen) d += `${pen ? "L" : "M"}${xy([left + width * share, level(value)])}`;
-          pen = seen;
-        }
+  // Returns ticks from low to high, at most so many where that can be had: at round numbers, angles at parts of a turn.
+  function ticksOf(low, high, most, sign) {
+    const span = high - low, power = 10 ** Math.floor(Math.log10(span / most));
+    const parts = sign && span / most > 7.5 ? [15, 30, 45, 90, 180, 360, 720] : [1, 2, 5, 10].map((one) => one * power);
+    const step = parts.find((one) => span / one <= most * (1 + 1e-9)) || parts.at(-1), digits = Math.max(-Math.floor(Math.log10(step) + 1e-9), 0);
+    const first = Math.ceil(low / step - 1e-9), last = Math.floor(high / step + 1e-9);
+    return Array.from({ length: last - first + 1 }, (_, n) => [(first + n) * step, minus(((first + n) * step).toFixed(digits).replace(/^-(0\.?0*)$/, "$1")) + sign]);
+  }
+
+  // Returns the chart of what is shown: its course, and of each curve its runs of [share, value] and what it reads;
+  // null where the quantity does not follow from the joints alone.
+  function charted() {
+    const [forth, other] = now().charts;
+    if (!forth) return null;
+    const data = state.way > 0 ? forth : { ...forth, ...other };
+    if (!own?.on) return { ...data, title: data.titles[2], curves: data.curves.map((curve) => ({ ...curve, ...given(data, curve) })) };
+    if (!data.curves.every(({ law }) => law)) return { ...data, curves: [], unknown: true };
+    const swings = own.range && data.across, timed = own.range || !data.across;
+    const course = timed ? [0, speed(), periodNow() / Math.abs(speed())] : data.course;
+    const shown = { ...data, course, across: swings ? "" : data.across, title: data.titles[swings ? 3 : 2], marks: [] };
+    shown.curves = data.curves.map((curve) => {
+      const [origin, scale, span] = course, run = [], count = 360 * turnsOf(own.tracks);
+      for (let n = 0; n <= count; n++) {
+        const value = follows(curve.law, origin + scale * n / count * span), before = n && data.unit === "°" ? run.at(-1)[1] : value;
+        run.push([n / count, value + 360 * Math.round((before - value) / 360)]);
       }
-      stroked(chart, curve.colour, data.width, { d });
+      const read = (share) => {
+        const value = follows(curve.law, state.phase), near = run[Math.round(share * count)][1];
+        return data.unit === "°" ? value + 360 * Math.round((near - value) / 360) : value;
+      };
+      return { ...curve, runs: [run], read };
+    });
+    const values = shown.curves.flatMap(({ runs }) => runs.flat().map(([, value]) => value)).filter(Number.isFinite);
+    const [low, high] = ends(values), least = Math.max(1e-9 * Math.max(-low, high), 1e-12), room = high - low > least ? 0.06 * (high - low) : 0.5 * Math.abs(high) || 1;
+    shown.y = [low - room, high + room];
+    return shown;
+  }
+
+  // The runs and the reading of a curve that the page has as a table.
+  function given({ course: [origin, scale, span] }, curve) {
+    const { table, ends: parts } = curve, runs = [];
+    for (let part = 1; part < parts.length; part++) {
+      const from = parts[part - 1], long = parts[part] - from, count = Math.ceil(long * 600) + 1;
+      let run = null;
+      for (let n = 0; n <= count; n++) {
+        // the end of a part, as a reading there is the beginning of the next
+        const share = from + long * Math.min(n / count, 1 - 1e-9);
+        const value = grown(reading(table, curve, share), curve, origin + scale * share * span);
+        if (!Number.isFinite(value)) run = null;
+        else (run ||= runs[runs.push([]) - 1]).push([share, value]);
+      }
     }
-    const rule = stroked(chart, data.ink, 1.6);
-    const dots = data.curves.map(({ colour }) => part(chart, "circle", { r: 5, fill: colour, stroke: "var(--back)", "stroke-width": 2 }));
-    const label = part(chart, "text", { x: left + width, y: top - 0.5 * data.text, fill: data.ink, "text-anchor": "end", "font-size": 0.8 * data.text });
-    cursor = { rule, dots, label, level };
+    return { runs, read: (share) => grown(reading(table, curve, share), curve, state.phase) };
+  }
+
+  function layChart() {
+    const data = charted(), wide = chart.clientWidth, tall = chart.clientHeight;
+    chart.replaceChildren();
+    cursor = null;
+    if (!data || !wide || !tall) return;
+    const words = (markup, x, y, anchor) => {
+      const group = part(chart, "g", { transform: `translate(${x} ${y})` });
+      group.innerHTML = markup;
+      group.firstElementChild.setAttribute("text-anchor", anchor);
+      return group.firstElementChild.getComputedTextLength();
+    };
+    // the quantity in words where there is room for them, else by its symbol
+    const title = (x, room) => {
+      if (words(data.titles[0], x, top - 21, "start") <= room) return;
+      chart.lastElementChild.remove();
+      words(data.titles[1], x, top - 21, "start");
+    };
+    const note = (text, x, y, anchor, more) => {
+      say(part(chart, "text", { x, y, "text-anchor": anchor, "font-size": 12, fill: "var(--ink)", ...more }), text);
+    };
+    chart.setAttribute("aria-label", data.words);
+    chart.classList.toggle("said", Boolean(data.unknown));
+    const high = Math.min(tall, 0.62 * wide) - 62, top = (tall - high - 62) / 2 + 24, [low, up] = data.y, sign = data.unit === "°" ? "°" : "";
+    if (data.unknown) {
+      words(data.titles[0], 8, 2, "start");
+      note("It is known for the page’s own lengths alone.", 8, 34, "start", {});
+      return;
+    }
+    let most = clamp(Math.round(high / 24), 2, 6), levels = ticksOf(low, up, most, sign);
+    while (high >= 90 && levels.length < 4 && most < 12) levels = ticksOf(low, up, ++most, sign);
+    const left = 12 + 6.6 * Math.max(...levels.map(([, text]) => text.length)), width = wide - left - 16;
+    const level = (value) => top + high * (1 - clamp((value - low) / (up - low), 0, 1));
+    const [, , span] = data.course, along = (x) => left + width * x / span;
+    for (const [value, text] of levels) {
+      const zero = low < 0 && up > 0 && !value;
+      stroked(chart, zero ? "var(--ink)" : data.rule, 1, { d: `M${left} ${level(value)}h${width}`, opacity: zero ? 0.6 : 1 });
+      note(text, left - 5, level(value) + 4, "end", {});
+    }
+    for (const [value, text] of ticksOf(0, span, clamp(Math.round(width / 48), 2, 8), data.across)) {
+      stroked(chart, data.rule, 1, { d: `M${along(value)} ${top}v${high}` });
+      note(text, along(value), top + high + 15, "middle", {});
+    }
+    for (const [value, text] of data.marks) {
+      stroked(chart, "var(--ink)", 1, { d: `M${along(value)} ${top}v${high}`, "stroke-dasharray": "4 4", opacity: 0.6 });
+      note(text, Math.min(along(value) + 4, wide - 6.6 * text.length), top + 11, "start", {});
+    }
+    const told = 110 * data.curves.length;
+    title(left, width - told);
+    words(data.title, left + width, top + high + 20, "end");
+    for (const { colour, runs } of data.curves) {
+      const d = runs.map((run) => line(run.map(([share, value]) => [left + width * share, level(value)]))).join("");
+      stroked(chart, colour, 2, { d });
+    }
+    const rule = stroked(chart, "var(--ink)", 1.2);
+    const dots = data.curves.map(({ colour }) => part(chart, "circle", { r: 4.5, fill: colour, stroke: "var(--back)", "stroke-width": 1.5 }));
+    const label = part(chart, "text", { x: left + width, y: top - 9, fill: "var(--ink)", "text-anchor": "end", "font-size": 13 });
+    cursor = { data, rule, dots, label, level, left, top, width, high };
   }
 
   // Returns how far along a chart the cursor stands, 0 to 1; one over time begins with the period, or ends with it.
   function chartShare({ course: [origin, scale, span] }) {
     const along = mod((state.phase - origin) / scale, span) / span;
-    if (!page.retraced) return along;
+    if (!page.retraced || own?.on) return along;
     return scale > 0 ? shareOf(state.phase) : 1 - shareOf(state.phase);
   }
 
-  function drawCursor(data) {
-    const [left, top, width, high] = data.area, share = chartShare(data), x = left + width * share;
-    put(cursor.rule, "d", `M${x.toFixed(2)} ${top}V${top + high}`);
-    say(cursor.label, data.curves.map((curve, n) => {
-      const { table, label } = curve, value = grown(reading(table, curve, share), curve, state.phase), dot = cursor.dots[n];
-      dot.setAttribute("cx", x);
-      dot.setAttribute("cy", Number.isFinite(value) ? cursor.level(value) : -100);
-      return `${label} ${words(value, data.digits, data.unit)}`.trim();
+  function drawCursor() {
+    if (!cursor) return;
+    const { data, rule, dots, label, level, left, top, width, high } = cursor, share = chartShare(data), x = left + width * share;
+    put(rule, "d", `M${x.toFixed(2)} ${top}v${high}`);
+    say(label, data.curves.map(({ label: named, read }, n) => {
+      const value = read(share);
+      put(dots[n], "cx", x);
+      put(dots[n], "cy", Number.isFinite(value) ? level(value) : -100);
+      return `${named} ${words(value, data.digits, data.unit)}`.trim();
     }).join("   "));
   }
 
   function scrub(event) {
-    const data = now().charts[state.way > 0 ? 0 : 1], [left, , width] = data.area, [origin, scale, span] = data.course;
-    const share = clamp((under(chart, event)[0] - left) / width, 0, 1);
+    if (!cursor) return;
+    const { left, width, data: { course: [origin, scale, span] } } = cursor;
+    const share = clamp((event.clientX - chart.getBoundingClientRect().left - left) / width, 0, 1);
     pause();
     moveTo(origin + scale * share * span);
   }
@@ -590,7 +839,7 @@
     return (low + high) / 2;
   }
 
-  const picture = byId("picture"), handle = byId("handle");
+  const handle = byId("handle");
   handle.addEventListener("pointerdown", (event) => {
     if (event.button) return;
     event.preventDefault();
@@ -620,7 +869,7 @@
     state[name] = on;
     byId(name).setAttribute("aria-pressed", on);
     byId("rows").classList.toggle("off", !state.values);
-    wake();
+    lay();
   }
   function showSide(number) {
     state.side = mod(number, sides.length);
@@ -628,14 +877,12 @@
     const { name } = now().data, button = byId("closure");
     button.textContent = name ? `Closure: ${name}` : "Closure";
     button.classList.toggle("off", sides.length < 2);
-    layChart();
-    wake();
+    lay();
   }
   function reverse() {
     state.way = -state.way;
     byId("reverse").setAttribute("aria-pressed", state.way < 0);
-    layChart();
-    wake();
+    lay();
   }
   function pace(steps) {
     const list = byId("pace");
@@ -681,13 +928,21 @@
     hide(name, !sides[0].data.movers.some((mover) => mover.kind === "arrows" && mover.order === order && mover.at.length));
   hide("theme", Boolean(page.theme));
   hide("curves", !sides.some(({ charts }) => charts.length));
-  for (const name of ["values", "curves"]) toggle(name, state[name]);
+  // a low page, as in a slide's frame, leaves its room to the mechanism: numbers and chart come when asked for, and
+  // where there is room beside it
+  const { clientWidth: across, clientHeight: down } = byId("panes"), [, , broad, deep] = whole.split(" ").map(Number);
+  const isLow = matchMedia("(max-height: 30rem) and (min-width: 34rem)").matches, free = across - down * broad / deep;
+  state.values = !isLow || free > 190;
+  state.curves = !isLow || free > 460;
+  for (const name of ["values", "curves"]) byId(name).setAttribute("aria-pressed", state[name]);
+  byId("rows").classList.toggle("off", !state.values);
   hide("lengths", !own);
   if (own) globalThis.lengths = own;
   const slider = byId("input");
   slider.min = 0;
   slider.setAttribute("aria-label", page.input);
   byId("grip").classList.remove("off");
+  new ResizeObserver(() => { zoom = picture.getScreenCTM()?.a || 1; compose(); }).observe(byId("panes"));
   showSide(0);
   play(state.playing);
 })();

@@ -26,11 +26,11 @@ from linkanim.frozen import frozen
 from linkanim.mechanics.linkage import Crank
 from linkanim.mechanics.motion import Motion
 from linkanim.paper.svg import FACES
-from linkanim.picture.bodies import colours_of
 from linkanim.picture.chart import ChartPanel, Pen
 from linkanim.picture.figure import Figure, figure
 from linkanim.picture.hud import measured
-from linkanim.picture.look import ACCELERATION, VELOCITY, Look, ThemeName
+from linkanim.picture.items import Caption
+from linkanim.picture.look import Look, ThemeName
 from linkanim.picture.picture import Picture
 from linkanim.picture.quantities import quantity, speed_words, unbounded_places
 from linkanim.picture.text import Type
@@ -38,16 +38,20 @@ from linkanim.picture.theme import Theme
 from linkanim.picture.view import Rect
 from linkanim.scenes.editing import closure_name, ghost_of
 from linkanim.scenes.scene import Scene
+from linkanim.share.laws import Law, law_of
 from linkanim.share.lengths import model
-from linkanim.share.movers import Mobile, Pairs, begin_of, packed, packed_tracks, tracks
+from linkanim.share.movers import Mobile, Pairs, begin_of, centre, packed, packed_tracks, tracks
 from linkanim.share.tables import Tabulated, kind_of, table
 
 # The numbers of a page over one true period, in both directions: rows of values, and the chart.
 
-CHART = (960, 300)
+CHART = (720, 300)
+"""The size for which the range of a chart's values is chosen; it is drawn as large as the page has room."""
 _TEXT = (26, 22)
-"""The heights of a chart's text and of its small text."""
+"""The heights of its text and of its small text there."""
 _LINE = 2.0
+_WORDS = 13
+"""The height of a chart's titles on the page."""
 _OF_A_ROW, _OF_A_CHART = 1 / 16, 2e-6
 """By how much of the last digit shown a row's table may be off; a chart's by this share of its height."""
 
@@ -74,7 +78,8 @@ def rows(scene: Scene, speed: float) -> Iterator[dict[str, Any]]:
     title = "input speed" if scene.info.full_turn else "input rate"
     yield {"label": title, "text": [speed_words(scene, way * speed) for way in (1, -1)]}
     for _, label, of, step in measured(scene):
-        yield _row(scene, label, of.shown_unit(scene.length_unit), step, (of.shown, (speed, -speed)))
+        row = _row(scene, label, of.shown_unit(scene.length_unit), step, (of.shown, (speed, -speed)))
+        yield row | {"law": law_of(scene, of)}
 
 
 _Asked = tuple[Callable[[Motion], Any], tuple[float, ...]]
@@ -117,7 +122,11 @@ def charts(figure: Figure, themes: tuple[Theme, Theme], shown: tuple[str, float]
     text, small = _TEXT
     pens = (Pen(Type(), theme, small, text, _LINE) for theme in themes)
     one, other = (ChartPanel(figure, of, Rect(0, 0, *CHART), pen, speed) for pen in pens)
-    return [_chart(one.at(way * speed), other.at(way * speed), pairs) for way in (1, -1)]
+    known = figure.scene.quantities
+    laws = [law_of(figure.scene, known[".".join(filter(None, (of.token, name)))]) for name in of.columns]
+    forth, back = (_chart(one.at(way * speed), other.at(way * speed), pairs, laws) for way in (1, -1))
+    del back["titles"]  # they are those of the way forth
+    return [forth, back]
 
 
 def _table(panel: ChartPanel, least: float) -> Tabulated:
@@ -139,7 +148,7 @@ def _table(panel: ChartPanel, least: float) -> Tabulated:
     return table(scene, (begin, end), read, [place for some in unbounded for place in some.tolist()], least)
 
 
-def _chart(light: ChartPanel, dark: ChartPanel, pairs: Pairs) -> dict[str, Any]:
+def _chart(light: ChartPanel, dark: ChartPanel, pairs: Pairs, laws: Sequence[Law | None]) -> dict[str, Any]:
     course, scene = light.course, light.figure.scene
     span = light.plot.y.high - light.plot.y.low
     found = _table(light, _OF_A_CHART * span)
@@ -149,22 +158,25 @@ def _chart(light: ChartPanel, dark: ChartPanel, pairs: Pairs) -> dict[str, Any]:
             "label": light.series.labels[n],
             "colour": pairs.variable(light.colour(n), dark.colour(n)),
             "values": packed(column, kind),
+            "law": laws[n],
             **_said(kind),
             **found.said,
         }
         for n, column in enumerate(found.values)
     ]
+    words, themes = light.quantity.title(scene.length_unit), (light.pen.theme, dark.pen.theme)
+    titles = (words, words.removeprefix(f"{light.quantity.words} "), course.title, "time (s)")
+    lines = ([Caption(title, (0.0, 0.0), _WORDS, theme.ink) for theme in themes] for title in titles)
     return {
-        "frame": pairs.elements(light.frame(), dark.frame()),
-        "title": light.quantity.title(scene.length_unit),
-        "area": list(light.plot.area),
+        "words": words,
+        "titles": [pairs.elements(*([line] for line in both)) for both in lines],
         "y": [light.plot.y.low, light.plot.y.high],
         "course": [course.origin, course.scale, course.span],
+        "across": course.unit,
+        "marks": list(course.marks),
         "unit": light.series.unit,
         "digits": _digits(span / 500),
-        "width": light.width,
-        "ink": pairs.variable(light.pen.theme.ink, dark.pen.theme.ink),
-        "text": light.pen.text,
+        "rule": pairs.variable(*(theme.rule for theme in themes)),
         "curves": curves,
     }
 
@@ -180,10 +192,6 @@ LARGEST = 200_000
 """The most bytes of a page."""
 _SHARED = 200
 """The fewest bytes of shapes that are stored once where they occur again."""
-_TALL = 0.8
-"""The ratio of height to width above which a picture has its chart beside it."""
-_OF_TRACKS = ("curve", "recent", "arrows")
-"""The kinds of movers that follow only points, and so hold for any lengths of links."""
 _WIDTH, _HEIGHTS = 960, (480, 900)
 
 
@@ -240,7 +248,7 @@ def _why_large(scene: Scene) -> str:
 
 def _drawn(shared: Shared, scene: Scene, size: tuple[int, int]) -> tuple[Picture, Picture]:
     """Return the pictures of a closure, light and dark."""
-    look = Look(names=shared.names, hud=False, vectors=frozenset((VELOCITY, ACCELERATION)))
+    look = Look(names=shared.names, hud=False)
     light, dark = (replace(look, theme=name) for name in shared.themes)
     picture = Picture(scene, size, light, apart=True)
     return picture, Picture(scene, size, dark, picture, apart=True)
@@ -265,7 +273,7 @@ def _whole(shared: Shared, size: tuple[int, int], closures: Sequence[tuple[Pictu
     if lengths := sides[0].model():
         found["model"] = lengths  # in all its digits: it is solved, not only drawn
     sheet = pairs.styles(shared.themes, shared.theme)
-    script = "\n".join(map(_bare, map(packaged, ("solver.js", "lengths.js", "page.js"))))
+    script = "\n".join(map(_bare, map(packaged, ("shapes.js", "solver.js", "lengths.js", "page.js"))))
     kind = scene.info.class_name
     digest = "sha256-" + base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
     return Template(packaged("page.html")).substitute(
@@ -275,8 +283,6 @@ def _whole(shared: Shared, size: tuple[int, int], closures: Sequence[tuple[Pictu
         styles="\n".join((sheet, packaged("page.css"))),
         faces=FACES,
         view=f"0 0 {size[0]} {size[1]}",
-        shape="tall" if size[1] > _TALL * size[0] else "wide",
-        chart=f"0 0 {CHART[0]} {CHART[1]}",
         shapes=shapes,
         data=json.dumps(found, ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c"),
         script=script,
@@ -319,21 +325,24 @@ class _Side:
 
     def model(self) -> dict[str, Any] | None:
         """Return the linkage for the page's solver, for other lengths; None where that cannot solve it."""
-        found, linkage = model(self._scene), self._scene.linkage
+        found = model(self._scene)
         if found is None:
             return None
-        light, dark = (colours_of(one.figure, one.theme) for one in (self._picture, self._dark))
-        links = [
-            {
-                "joints": body.joints,
-                "slider": body.slider,
-                "colour": self._pairs.variable(*(known.get(body.name, known[""]) for known in (light, dark))),
-            }
-            for body in linkage.bodies
-            if body.slider or len(body.joints) > 1
-        ]
-        movers = [one.mover for one in self._movables if one.mover and one.mover["kind"] in _OF_TRACKS]
-        return {**found, "links": links, "movers": movers, "unit": self._scene.length_unit}
+        return {**found, "unit": self._scene.length_unit, "masses": self._masses()}
+
+    def _masses(self) -> dict[str, Any]:
+        """Return each centre of mass as shares of the way between two joints, along it and to its right.
+
+        It keeps them where lengths are changed. One on a single joint is so many pixels off it.
+        """
+        pose, view, found = self._scene.pose(0.0, 0), self._picture.view, {}
+        for body, place in pose.com_position.items():
+            joints = self._scene.linkage.body(body).joints or (str(self._scene.linkage.body(body).slider),)
+            ends = [view.place(pose.position[name]) for name in joints]
+            off = view.place(place) - ends[0]
+            share = off / (ends[1] - ends[0]) if len(ends) > 1 else off
+            found[centre(body)] = [joints[0], joints[min(1, len(ends) - 1)], [share.real, share.imag]]
+        return found
 
     def data(self) -> dict[str, Any]:
         """Return the closure's data for the page's script."""

@@ -17,9 +17,12 @@ from linkanim.errors import BadInput
 
 # What is on, or has a value, in a command line that says only what it must.
 DEFAULTS: list[tuple[list[str], dict[str, Any]]] = [
-    ([], {"command": "play", "theme": "light"}),
-    (["record", "press"], {"trace": True, "hud": True, "theme": "light", "background": True}),
-    (["draw", "press"], {"trace": True, "theme": "light", "background": True}),
+    ([], {"command": "play", "theme": "light", "material": "lit"}),
+    (
+        ["record", "press"],
+        {"trace": True, "hud": True, "theme": "light", "background": True, "material": "lit"},
+    ),
+    (["draw", "press"], {"trace": True, "theme": "light", "background": True, "material": "flat"}),
     (["solve", "press"], {}),
     (["info", "press"], {}),
     (["scenes"], {}),

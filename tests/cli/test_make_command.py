@@ -165,7 +165,7 @@ def test_a_preview_without_a_name_opens_the_window_with_the_options_that_were_gi
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     opened: dict[str, object] = {}
-    monkeypatch.setattr(window, "run", lambda scene, layers: opened.update(scene=scene, layers=layers))
+    monkeypatch.setattr(window, "run", lambda scene, **more: opened.update(scene=scene, **more))
     words = ["--bar", "12", "--sheet", "500x300", "--fit", "A4", "--bridge"]
     assert main(["make", "crank-rocker", *words, "--preview"]) == 0
     assert opened["scene"] == "crank-rocker"

@@ -14,20 +14,24 @@ from linkanim.picture.picture import Picture
 from linkanim.picture.raster import Layer, offscreen, paint, pixel_view
 from linkanim.picture.shapes import rounded
 from linkanim.picture.surface import printed
+from linkanim.picture.view import View
 from linkanim.scenes.scene import Scene
 
 Pixels = NDArray[np.float64]
 
 SIZE = (320, 180)
-LOOK = Look(hud=False, vectors=frozenset("va"))
-"""Text stays out: it is not drawn larger by the same factor as all else."""
+LOOK = Look(hud=False, vectors=frozenset("va"), material="flat")
+"""Text stays out, and what stands beside it: it is not drawn larger by the same factor as all else."""
+_BESIDE = ("slots", "key")
 PHASES = (0.0, 1.0, 2.5, 4.0, 5.5)
 _FINER = 8
 
 
 def frame_decibels(scene: Scene, phases: Sequence[float] = PHASES) -> float:
     """Return the worst PSNR of frames against the mean of 64 samples a pixel of the same drawing, in dB."""
-    small, large = (Picture(scene, (by * SIZE[0], by * SIZE[1]), LOOK) for by in (1, _FINER))
+    small = Picture(scene, SIZE, LOOK)
+    home = View(_FINER * small.view.scale, _FINER * small.view.x, _FINER * small.view.y)
+    large = Picture(scene, (_FINER * SIZE[0], _FINER * SIZE[1]), LOOK, home=home)
     poses = [scene.pose(phase) for phase in phases]
     return min(psnr(_painted(small, pose), averaged(_painted(large, pose), _FINER)) for pose in poses)
 
@@ -62,7 +66,8 @@ def centre(cover: Pixels) -> complex:
 def _painted(painter: Picture, pose: Pose) -> Pixels:
     surface = offscreen(painter.size)
     surface.fill(painter.theme.background)
-    printed(surface, (group._replace(captions=()) for group in painter.groups(pose)), painter.type)
+    groups = (group._replace(captions=()) for group in painter.groups(pose) if group.name not in _BESIDE)
+    printed(surface, groups, painter.type)
     return _levels(bytes(pixel_view(surface)), painter.size)
 
 

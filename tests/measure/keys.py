@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 import time
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import replace
 from statistics import median
 from typing import NamedTuple
@@ -25,28 +25,21 @@ from linkanim.scenes import load, names
 KEYS = "lnptcvaibjhkoe"
 """The letters measured: those that change what is shown."""
 BEFORE, AFTER = 12, 26
-"""Frames shown before a key, and after it: names and polygons have come by then."""
+"""Frames shown before a key, and after it: the view has come to rest by then."""
 AGAIN = 2
 """So often a key over a bound is pressed again, in a new window: what else the machine does only adds."""
 BOUNDS_MS = {(1280, 720): 33.0, (1920, 1080): 50.0}
 """For the frame that heeds a key; those after it take no longer than the first of them."""
-STEP_MS = 16.0
-"""For a step in which is prepared what keys may ask for: one that takes a frame or more is seen."""
 TITLES = ("key", "median", "worst", "on", "worst after it", "on")
 
 
 class KeyCost(NamedTuple):
-    """Processor time of the frame that heeds a key, and of the slowest of those after it, in ms.
-
-    `step` is the longest of the steps in which was prepared what keys may ask for: one is done in each frame
-    in which nothing happens, those after the key among them.
-    """
+    """Processor time of the frame that heeds a key, and of the slowest of those after it, in ms."""
 
     key: str
     scene: str
     heeded: float
     after: float
-    step: float
 
 
 def measured(size: tuple[int, int], scenes: Iterable[str], keys: str = KEYS) -> list[KeyCost]:
@@ -67,8 +60,8 @@ def measured(size: tuple[int, int], scenes: Iterable[str], keys: str = KEYS) -> 
 
 
 def _over(cost: KeyCost, size: tuple[int, int]) -> bool:
-    """Tell whether a frame is over its bound, or a step over its own by more than the clock's own noise."""
-    bounds = (BOUNDS_MS[size], min(BOUNDS_MS.values()), 1.25 * STEP_MS)
+    """Tell whether a frame is over its bound."""
+    bounds = (BOUNDS_MS[size], min(BOUNDS_MS.values()))
     return any(took > most for took, most in zip(cost[2:], bounds, strict=True))
 
 
@@ -81,22 +74,12 @@ def _pressed(size: tuple[int, int], name: str, key: str) -> KeyCost:
         state = begun
         for _ in range(BEFORE):
             state, _ = _frame(screen, state)
-        steps = list(_prepared(screen, state))
         state, heeded = _frame(screen, state, bind.action)
         later = []
         for _ in range(AFTER):
             state, spent = _frame(screen, state)
-            later.append(spent + next(_prepared(screen, state), 0.0))
-    return KeyCost(key, name, heeded, max(later), max(steps))
-
-
-def _prepared(screen: Screen, state: State) -> Iterator[float]:
-    """Prepare what keys may ask for; yield the processor time of each step in ms."""
-    more = True
-    while more:
-        start = time.process_time()
-        more = screen.prepare(state)
-        yield 1e3 * (time.process_time() - start)
+            later.append(spent)
+    return KeyCost(key, name, heeded, max(later))
 
 
 def _frame(screen: Screen, state: State, *actions: Action) -> tuple[State, float]:
@@ -117,11 +100,8 @@ def as_text(size: tuple[int, int], costs: list[KeyCost]) -> str:
         middle = median(cost.heeded for cost in of_key)
         figures = (f"{middle:.0f} ms", f"{worst.heeded:.0f} ms", worst.scene)
         rows.append((key.upper(), *figures, f"{later.after:.0f} ms", later.scene))
-    (width, height), step = size, max(costs, key=lambda cost: cost.step)
-    head = f"{width}x{height}, at most {BOUNDS_MS[size]:g} ms wanted"
-    long = len({cost.scene for cost in costs if cost.step > STEP_MS})
-    told = f"{step.step:.0f} ms, {step.scene} (≤ {STEP_MS:g} ms; longer on {long} scenes)"
-    return f"{head}\n{columns(rows)}\nlongest step beforehand: {told}"
+    head = f"{size[0]}x{size[1]}, at most {BOUNDS_MS[size]:g} ms wanted"
+    return f"{head}\n{columns(rows)}"
 
 
 if __name__ == "__main__":

@@ -46,7 +46,6 @@ with display.opened((1280, 720)):
     screen = Screen(state)
     for _ in range(60):
         screen.show(state, overlay(state))
-        screen.prepare(state)
         state = advance(state)
 """
 """A second of a window with its names, dimensions and arrows."""

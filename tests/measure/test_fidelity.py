@@ -12,6 +12,7 @@ from fidelity import Pixels
 
 from linkanim.mechanics.motion import Pose
 from linkanim.picture.look import Look
+from linkanim.picture.view import View
 from linkanim.scenes import load
 from linkanim.scenes.scene import Scene
 
@@ -30,18 +31,20 @@ def test_the_worst_frame_counts_without_words_and_against_64_samples_a_pixel(
 ) -> None:
     made: list[tuple[int, int]] = []
 
-    def painter(scene: Scene, size: tuple[int, int], look: Look) -> tuple[int, int]:
-        assert (scene.name, look.hud, look.vectors) == ("press", False, frozenset("va"))
-        made.append(size)
-        return size
+    class Painter:
+        def __init__(self, scene: Scene, size: tuple[int, int], look: Look, home: View | None = None) -> None:
+            assert (scene.name, look.hud, look.vectors) == ("press", False, frozenset("va"))
+            assert home == (View(16.0, 24.0, 32.0) if made else None)
+            made.append(size)
+            self.size, self.view = size, View(2.0, 3.0, 4.0)
 
-    def painted(size: tuple[int, int], pose: Pose) -> Pixels:
-        width, height = size
-        off = {0.0: 1.0, 1.0: 51.0, 2.5: 2.0}[pose.phase] if size == made[1] else 0.0
+    def painted(painter: Painter, pose: Pose) -> Pixels:
+        width, height = painter.size
+        off = {0.0: 1.0, 1.0: 51.0, 2.5: 2.0}[pose.phase] if painter.size == made[1] else 0.0
         return np.full((height, width, 3), off)
 
     monkeypatch.setattr(fidelity, "SIZE", (32, 18))
-    monkeypatch.setattr(fidelity, "Picture", painter)
+    monkeypatch.setattr(fidelity, "Picture", Painter)
     monkeypatch.setattr(fidelity, "_painted", painted)
     found = fidelity.frame_decibels(load("press"), (0.0, 1.0, 2.5))
     assert found == pytest.approx(13.9794, abs=1e-4)

@@ -29,8 +29,8 @@ TOLD = [
     ("slider-crank", "slider.coefficient", "f₄", "Slider: kinematic coefficient", "{}/rad"),
     # bodies that are named by a number keep it
     ("press", "3.angular_velocity", "ω₃", "Link 3: angular velocity", "rad/s"),
-    ("press", "5.travel_velocity", "v₅", "Slider 5: velocity", "{}/s"),
-    ("press", "5.travel_acceleration", "a₅", "Slider 5: acceleration", "{}/s²"),
+    ("press", "5.travel_velocity", "v₅", "Slider C: velocity", "{}/s"),
+    ("press", "5.travel_acceleration", "a₅", "Slider C: acceleration", "{}/s²"),
     # a vector has a magnitude and two components; what is no number stands in braces
     ("press", "B.position", "r_{B}", "B: position", "{}"),
     ("press", "B.position.x", "x_{B}", "B: x-position", "{}"),

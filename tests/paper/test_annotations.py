@@ -73,7 +73,7 @@ def faults(page: Page) -> Iterator[str]:
 
 def _tied(page: Page, items: list[Item], n: int) -> tuple[complex, np.ndarray | None]:
     """Return the dot of words, and the line from it to them if there is one; their value is its curve's."""
-    dot, lead, words = items[n - 2], items[n - 4], items[n]
+    dot, lead, words = items[n - 1], items[n - 3], items[n]
     assert isinstance(dot, Layer)
     assert isinstance(words, Caption)
     match = TOLD.match(words.text)

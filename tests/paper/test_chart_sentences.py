@@ -154,7 +154,7 @@ def test_a_measured_table_stands_beside_this_solution(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     # of any pose: which one reads best is asked elsewhere
-    monkeypatch.setattr("linkanim.paper.report.default_phase", lambda _: 1.0)
+    monkeypatch.setattr("linkanim.paper.report.still_phase", lambda _: 1.0)
     scene, degrees = load("crank-rocker"), np.arange(0, 360, 15.0)
     motion = scene.solve(angle=np.radians(degrees), speed=10.0)
     rates = 1.01 * motion.angular_velocity["rocker"]
@@ -199,7 +199,7 @@ def test_a_table_that_cannot_be_laid_beside_is_refused(
     capsys: pytest.CaptureFixture[str],
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("linkanim.paper.report.default_phase", lambda _: 1.0)
+    monkeypatch.setattr("linkanim.paper.report.still_phase", lambda _: 1.0)
     data, out = tmp_path / "other.csv", tmp_path / "report"
     data.write_text(table)
     assert main(["report", "crank-rocker", "-o", str(out), "--data", str(data)]) == 2

@@ -24,6 +24,7 @@ from linkanim.scenes import load
 SIZE = (800, 450)
 SVG = "{http://www.w3.org/2000/svg}"
 FULL = Look(names=2, vectors=frozenset("va"), hud=False)
+FLAT = replace(FULL, material="flat")
 
 
 def _levels(surface: pygame.Surface) -> np.ndarray:
@@ -52,8 +53,8 @@ def test_svg_as_another_program_renders_it_is_the_png(name: str, theme: str) -> 
 def test_the_png_is_what_the_window_draws(name: str) -> None:
     """But for names, which a figure places for its pose, and for what stands at the edge of the stage."""
     scene, surface = load(name), offscreen(SIZE)
-    bare, beside = replace(FULL, names=0), replace(FULL, names=0, polygons=True, centres=2)
-    for look, share in ((bare, 0.0), (beside, 1e-4), (FULL, 0.01)):
+    bare, beside = replace(FLAT, names=0), replace(FLAT, names=0, polygons=True, centres=2)
+    for look, share in ((bare, 0.0), (beside, 1e-4), (FLAT, 0.01)):
         SurfacePrinter().paint(surface, Picture(scene, SIZE, look, moment=1.0), scene.pose(1.0))
         apart = np.abs(_levels(Figured(scene, SIZE, look, phase=1.0).surface()) - _levels(surface))
         assert (apart.max(axis=-1) > 2).mean() <= share
@@ -63,7 +64,7 @@ def test_the_png_is_what_the_window_draws(name: str) -> None:
 @pytest.mark.parametrize("look", [Look(zoom=2.0, pan=(0.1, 0.2)), Look(theme="dark", polygons=True)])
 def test_chart_words_and_key_stand_as_in_the_window(look: Look) -> None:
     scene, size, surface = load("press"), (960, 540), offscreen((960, 540))
-    look = replace(look, chart="C.acceleration", vectors=frozenset("va"))
+    look = replace(look, chart="C.acceleration", vectors=frozenset("va"), material="flat")
     SurfacePrinter().print(surface, Picture(scene, size, look), 1.0, 4.0, Overlay())
     figured = Figured(scene, size, look, phase=1.0, speed=4.0, as_seen=True)
     assert psnr(_levels(figured.surface()), _levels(surface)) > (30 if look.framed else 45)
@@ -73,14 +74,14 @@ def test_chart_words_and_key_stand_as_in_the_window(look: Look) -> None:
 @pytest.mark.parametrize("size", [SIZE, (450, 800)])
 def test_what_stands_beside_a_zoomed_scene_is_kept_clear_of_it(size: tuple[int, int]) -> None:
     figured = Figured(load("crank-rocker"), size, Look(zoom=3.0, chart="rocker.angle", names=2), phase=1.0)
-    reach, groups, cut = figured.picture.layout.reach, _groups(figured), 0
-    assert reach.right < size[0] or reach.bottom < size[1]
-    for name in groups.keys() - {"chart", "reading", "words", "key", "backing"}:
+    (right, bottom), groups, cut = figured.picture.edge, _groups(figured), 0
+    assert right < size[0] or bottom < size[1]
+    for name in groups.keys() - {"chart", "reading", "words", "key", "slots"}:
         for path in groups[name].iter(f"{SVG}path"):
             x, y = np.array(re.findall(r"-?[\d.]+", path.attrib["d"]), float).reshape(-1, 2).T
-            assert x.max() <= reach.right
-            assert y.max() <= reach.bottom
-            cut += x.max() > reach.right - 1 or y.max() > reach.bottom - 1
+            assert x.max() <= right
+            assert y.max() <= bottom
+            cut += x.max() > right - 1 or y.max() > bottom - 1
     assert cut
 
 
@@ -118,12 +119,12 @@ def test_names_are_text_in_a_halo_with_their_subscripts() -> None:
     assert [span.text for span in lowered] == ["2"]
     # a rim as wide as the letter's own would cover that letter's edge: "O2" read as "C2"
     (rim,) = (float(span.get("stroke-width", 99)) for span in lowered)
-    assert 0 < rim < 0.5 * min(float(text.get("stroke-width", 0)) for text in names)
+    assert 0 < rim < min(float(text.get("stroke-width", 0)) for text in names)
 
 
 def test_the_press_is_a_small_file() -> None:
     figured = Figured(load("press"), (1280, 720), replace(FULL, centres=2, polygons=True), phase=1.0)
-    assert len(figured.document().encode()) < 200_000
+    assert len(figured.document().encode()) < 220_000  # with the letters that it carries
 
 
 def test_without_a_background_nothing_is_behind() -> None:
@@ -139,7 +140,7 @@ def test_faint_poses_stay_behind_and_faint() -> None:
     plain = _levels(Figured(scene, SIZE, bare, phase=1.0).surface())
     many = _levels(Figured(scene, SIZE, bare, phase=1.0, poses=8).surface())
     changed = (many != plain).any(axis=-1)
-    assert 0.1 < changed.mean() < 0.5
+    assert 0.1 < changed.mean() < 0.8
     assert np.abs(many - plain)[changed].mean() < 60
 
 
@@ -152,11 +153,20 @@ def test_a_figure_of_which_nothing_is_asked_is_of_one_pose_and_one_closure() -> 
     assert bare.picture.view != ghost.picture.view
 
 
+def _plain(symbol: str) -> str:
+    return symbol.replace("{", "").replace("}", "")
+
+
 def test_instant_centres_are_where_the_quantity_says_and_pins_are_not_marked() -> None:
     scene = load("press")
     figured = Figured(scene, (1280, 720), Look(hud=False, centres=1), phase=1.0)
     (marked,) = [group for group in figured.groups() if group.name == "instant-centres"]
-    assert [caption.text for caption in marked.captions] == ["P_{13}", "P_{14}", "P_{16}", "P_{15} at ∞"]
+    assert [caption.text for caption in marked.captions] == ["P_{15}"]
+    (named,) = [group for group in figured.groups() if group.name == "names"]
+    own = {caption.text for caption in named.captions if caption.of == f"centre:{_plain(caption.text)}"}
+    assert own == {"P_{13}", "P_{14}", "P_{16}"}
+    (far,) = [group for group in figured.groups() if group.name == "far-centres"]
+    assert [caption.text for caption in far.captions] == ["P_{15}: at ∞"]
     pose, view = scene.pose(1.0), figured.picture.view
     (crosses,) = marked.layers
     assert len(crosses.loops) == 2 * 3 + 1  # an arrow to the one at infinity

@@ -36,7 +36,7 @@ from linkanim.paper.findings import (
 from linkanim.paper.html import Beside
 from linkanim.paper.report import Report
 from linkanim.paper.vectors import vectors_svg
-from linkanim.picture.stills import default_phase
+from linkanim.picture.stills import still_phase
 from linkanim.scenes import load, names
 from linkanim.scenes.toml import text as written
 from linkanim.units import rounded, significant, typeset
@@ -45,7 +45,7 @@ from linkanim.units import rounded, significant, typeset
 @pytest.fixture
 def anywhere(monkeypatch: pytest.MonkeyPatch) -> None:
     """The figure is of any pose: which one reads best is looked for where that is what is asked."""
-    monkeypatch.setattr("linkanim.paper.report.default_phase", lambda _: 1.0)
+    monkeypatch.setattr("linkanim.paper.report.still_phase", lambda _: 1.0)
 
 
 # turns fully; its joints are farthest apart within its second turn; swings, and rests at its start
@@ -64,13 +64,13 @@ def test_a_figure_a_solution_and_a_report_are_of_one_pose(
     assert main(["explain", name]) == 0
     (worked,) = re.findall(r"^At .* = (\S+)°\.$", capsys.readouterr().out, re.MULTILINE)
     scene = load(name)
-    pose = scene.pose(default_phase(scene), 1)
+    pose = scene.pose(still_phase(scene), 1)
     assert float(drawn) == pytest.approx(float(worked), abs=0.06)
     assert float(worked) == pytest.approx(math.degrees(pose.coordinate) % 360, abs=0.006)
     assert 0 < float(worked) < 360
     assert pose.coordinate_rate
     report = Report(scene, (), (Pace(1.0, ""),))
-    worked_out = solution(PoseRequest(scene, "phase", default_phase(scene), 1.0))
+    worked_out = solution(PoseRequest(scene, "phase", still_phase(scene), 1.0))
     assert dict(report.files())["loops.svg"] == vectors_svg(worked_out)
 
 
@@ -266,7 +266,7 @@ def test_equations_too_long_for_half_a_page_stand_below_the_loops(name: str, bes
 def test_its_charts_say_of_what_they_are(press: Path) -> None:
     text = (press / "report.html").read_text(encoding="utf-8")
     captions = re.findall(r"<figcaption>Figure \d+\. (.*?)</figcaption>", text)
-    assert {"Travel: Slider 5", "Angle: Link 3, Link 6, Link 4", "Transmission angle"} <= {*captions}
+    assert {"Travel: Slider C", "Angle: Link 3, Link 6, Link 4", "Transmission angle"} <= {*captions}
     assert "Velocity of centres of mass: Link 3" in captions
 
 
@@ -315,7 +315,7 @@ def test_the_tables_of_the_press_say_what_the_printed_report_does() -> None:
         one.title: one for one in value_tables(values, instants_at(load("press"), (low, high)), PACES, 4)
     }
     assert list(found) == [
-        "Links", "Slider 5", "Joints", "Centres of mass", "Springs and dampers", "The whole mechanism",
+        "Links", "Slider C", "Joints", "Centres of mass", "Springs and dampers", "The whole mechanism",
     ]  # fmt: skip
     links = found["Links"]
     assert [title for title, _ in links.groups] == ["θ₂ = 87.00°", "θ₂ = 306.00°"]
@@ -328,7 +328,7 @@ def test_the_tables_of_the_press_say_what_the_printed_report_does() -> None:
     rows = dict(links.groups[0][1])
     assert {name: tuple(rows[name][n] for n in at) for name in AT_87} == AT_87
     assert "−18.46" in dict(links.groups[1][1])["Link 3"]
-    assert dict(found["Slider 5"].groups[0][1])["θ₂ = 87.00°"][4:8:3] == ("−132.8", "−2771")
+    assert dict(found["Slider C"].groups[0][1])["θ₂ = 87.00°"][4:8:3] == ("−132.8", "−2771")
 
 
 def test_more_speeds_than_fit_go_on_in_a_further_table() -> None:

@@ -9,13 +9,11 @@ import pygame
 from fidelity import Pixels
 
 from linkanim.mechanics.motion import Pose
-from linkanim.picture.items import Caption
-from linkanim.picture.labels import Names
+from linkanim.picture.layout import NOTHING_DOCKED, Docked, Layout, layout, with_side
 from linkanim.picture.look import Look
 from linkanim.picture.picture import Picture
 from linkanim.picture.raster import Colour, Layer, Shapes, covers, offscreen
 from linkanim.picture.surface import SurfacePrinter
-from linkanim.picture.text import Type
 from linkanim.picture.view import Rect
 from linkanim.scenes.scene import Scene
 
@@ -71,13 +69,6 @@ def inked(surface: pygame.Surface, where: Rect, colour: Colour) -> bool:
     return bool((away < 40).any())
 
 
-def place_of(caption: Caption, type_: Type) -> Rect:
-    """Return where a line of text stands."""
-    wide = type_.width(caption.text, caption.size, strong=caption.strong)
-    left = caption.at[0] - wide * {"left": 0.0, "centre": 0.5, "right": 1.0}[caption.anchor]
-    return Rect(left, caption.at[1], wide, caption.size)
-
-
 def contrast(one: Colour, other: Colour) -> float:
     """Return the contrast of two colours, 1 to 21, as WCAG 2 defines it."""
     darker, lighter = sorted((_luminance(one), _luminance(other)))
@@ -90,16 +81,20 @@ def _luminance(colour: Colour) -> float:
     return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
 
 
-def labelled(picture: Picture) -> Names:
-    """Return the names that a picture has."""
-    assert picture.names is not None
-    return picture.names
-
-
 def standing(picture: Picture, pose: Pose) -> Iterator[tuple[str, Rect]]:
-    """Yield what is written and the rectangle it takes, for every label that shows."""
-    names, places = labelled(picture), picture.drawing.places(pose)
-    for label, middle, shown in names.standing(pose, places):
-        wide, high = label.size
-        if shown:
-            yield label.text, Rect(middle.real - wide / 2, middle.imag - high / 2, wide, high)
+    """Yield what each label says and the rectangle of its line."""
+    places = picture.drawing.places(pose)
+    for line in picture.names.captions(places, picture.drawing.setting):
+        yield line.text, line.around(picture.type)
+
+
+def window(
+    size: tuple[int, int],
+    charts: int = 0,
+    polygons: int = 0,
+    *,
+    beside: bool = False,
+    docked: Docked = NOTHING_DOCKED,
+) -> Layout:
+    """Return the slots of a window with charts and polygons."""
+    return with_side(layout(size, docked=docked), charts, polygons, beside=beside)

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from linkanim.errors import SceneError
-from linkanim.picture.arrangement import sweep_of
 from linkanim.picture.bodies import SHAPES, WHEELS, body_parts, colours_of, wheel_radius
 from linkanim.picture.figure import DrawContext, Figure, figure
+from linkanim.picture.fit import of_linkage
 from linkanim.picture.fittings import fittings, ground_layers, rail_reach, rails_of
 from linkanim.picture.layout import Gauge
 from linkanim.picture.raster import Loop
@@ -81,7 +81,7 @@ def test_a_wheel_lies_behind_bars_and_within_the_picture() -> None:
     context = DrawContext(figure(scene), View(1, 0, 0), GAUGE, LIGHT)
     parts = [part.name for part in body_parts(context) if part.name]
     assert parts.index("rocker") < parts.index("crank")
-    box = sweep_of(figure(scene)).box
+    box = of_linkage(figure(scene), GAUGE).box
     assert box.right >= 100 + 80
     assert box.low <= -79
 

@@ -14,7 +14,6 @@ from linkanim.picture.drawing import Drawing
 from linkanim.picture.figure import figure
 from linkanim.picture.look import Look
 from linkanim.picture.picture import Picture
-from linkanim.picture.stills import default_phase
 from linkanim.picture.text import subscripted
 from linkanim.picture.view import Rect
 from linkanim.scenes import load, names
@@ -65,21 +64,21 @@ def test_each_centre_has_its_name_wherever_it_lies(
 
 
 @pytest.mark.parametrize("name", ["crank-rocker", "slider-crank", "drag-link", "inverted-slider-crank"])
-def test_a_still_holds_centres_up_to_three_sizes_away_and_tells_of_the_others(name: str) -> None:
+def test_a_still_holds_the_centres_near_its_linkage_and_tells_of_the_others(name: str) -> None:
     scene = load(name)
     for phase in (0.2, 1.0, 2.2, 3.3, 5.0):
         picture = Picture(scene, (1280, 720), Look(hud=False, centres=1), moment=phase)
-        box, said = picture.figure.box, words_of(picture, phase)
-        size = max(box.right - box.left, box.high - box.low)
+        box, said = picture.figure.box_of(scene.pose(phase, 2)), words_of(picture, phase)
+        window, size = Rect(0, 0, 1280, 720), max(box.right - box.left, box.high - box.low)
         known = CentrePairs(picture.figure)
         for pair, label in known.pairs:
             place = known.of(scene.pose(phase, 2))[pair].place
             if place is None:
-                assert f"{label} at ∞" in said
-            elif abs(place - complex(*box.middle)) <= 3 * size:
-                assert Rect(0, 0, 1280, 720).holds(*picture.view.to_pixel(place.real, place.imag))
-            else:
-                assert any(f"{label} " in line and "from O" in line for line in said)
+                assert f"{label}: at ∞" in said
+                continue
+            held = window.holds(*picture.view.to_pixel(place.real, place.imag))
+            assert held or abs(place - complex(*box.middle)) > 0.6 * size
+            assert held or any(line.startswith(f"{label}: ") and line.endswith("from O₂") for line in said)
 
 
 @pytest.mark.parametrize("number", range(20))
@@ -96,22 +95,20 @@ def test_a_still_of_any_few_links_names_all_their_centres_and_each_at_its_place(
         boxes = [line.around(picture.type) for line in lines]
         assert not any(one.inset(1).meets(other.inset(1)) for one, other in combinations(boxes, 2))
         for pair, label in known.pairs:
-            ((said, box),) = (
-                (line.text, box) for line, box in zip(lines, boxes, strict=True) if label in line.text
-            )
-            assert Rect(0, 0, 1280, 720).holds(box.x, box.y)
-            assert Rect(0, 0, 1280, 720).holds(box.right, box.bottom)
             place = known.of(pose)[pair].place
             if place is None:
-                assert said == f"{label} at ∞"
+                assert f"{label}: at ∞" in [line.text for line in lines]
                 continue
             x, y = picture.view.to_pixel(place.real, place.imag)
-            if Rect(0, 0, 1280, 720).holds(x, y):
-                off = max(box.x - x, x - box.right, 0), max(box.y - y, y - box.bottom, 0)
-                assert np.hypot(*off) < 4 * picture.layout.small_size, label
-            else:
+            if not Rect(0, 0, 1280, 720).holds(x, y):  # an arrow leads there, named where it has room
                 far = three_digits(abs(place - complex(*pose.position[picture.figure.fixed[0]])))
-                assert said == f"{label} {far} mm from O₂"
+                assert f"{label}: {far} mm from O₂" in [line.text for line in lines]
+                continue
+            (box,) = (box for line, box in zip(lines, boxes, strict=True) if label in line.text.split(", "))
+            assert Rect(0, 0, 1280, 720).holds(box.x, box.y)
+            assert Rect(0, 0, 1280, 720).holds(box.right, box.bottom)
+            off = max(box.x - x, x - box.right, 0), max(box.y - y, y - box.bottom, 0)
+            assert np.hypot(*off) < 5.5 * picture.layout.small_size, label
 
 
 def test_a_centre_out_of_sight_is_told_with_its_distance_and_an_arrow_along_the_way() -> None:
@@ -120,33 +117,8 @@ def test_a_centre_out_of_sight_is_told_with_its_distance_and_an_arrow_along_the_
     known, pose = CentrePairs(picture.figure), scene.pose(phase, 2)
     place = known.of(pose)["1", "3"].place
     assert place is not None
-    (told,) = [line for line in words_of(picture, phase) if line.startswith("P_{13} ")]
-    assert told == f"P_{{13}} {three_digits(abs(place))} mm from O₂"
-
-
-# a cross beside a pin, one beside a dead centre's words, one at the edge beside an arrow, three at a block
-CROWDED = ["stephenson-3", "umbrella", "pumpjack", "elliptic-trammel"]
-
-
-@pytest.mark.thinned(4)
-@pytest.mark.parametrize("name", CROWDED)
-def test_no_word_of_a_still_lies_on_a_centre(name: str) -> None:
-    scene = load(name)
-    phase = default_phase(scene)
-    picture = Picture(scene, (1280, 720), Look(hud=False, centres=1, names=1), moment=phase)
-    pose = scene.pose(phase, 2)
-    assert picture.drawing.parts.centres
-    crosses = picture.drawing.parts.centres.crosses(pose)
-    arrows = [
-        seen.at - 10 * seen.direction for seen in picture.drawing.parts.centres.seen(pose) if seen.direction
-    ]
-    said = [line for group in picture.groups(pose) for line in group.captions]
-    for line in said:
-        box = line.around(picture.type)
-        assert not any(box.crossed(*ends) for ends in crosses), line.text
-        assert not any(box.holds(at.real, at.imag) for at in arrows), line.text
-    boxes = [line.around(picture.type) for line in said]
-    assert not any(one.inset(1).meets(other.inset(1)) for one, other in combinations(boxes, 2))
+    (told,) = [line for line in words_of(picture, phase) if line.startswith("P_{13}: ")]
+    assert told == f"P_{{13}}: {three_digits(abs(place))} mm from O₂"
 
 
 def test_kennedy_s_lines_run_through_their_three_centres() -> None:
@@ -169,9 +141,12 @@ def test_kennedy_s_lines_run_through_their_three_centres() -> None:
 def test_what_is_a_joint_has_no_cross() -> None:
     picture = Picture(load("crank-rocker"), (640, 360), Look(hud=False, centres=1), moment=0.9)
     pose = picture.scene.pose(0.9, 2)
-    (marked,) = [group for group in picture.drawing.moving(pose) if group.name == "instant-centres"]
-    lines, crosses = marked.layers
-    assert len(crosses.loops) == 4
+    (marked,) = [group for group in picture.groups(pose) if group.name == "instant-centres"]
+    lines, marks = marked.layers
+    assert picture.drawing.parts.centres
+    free = [seen for seen in picture.drawing.parts.centres.seen(pose) if not seen.jointed]
+    assert len(free) == 2
+    assert len(marks.loops) == sum(1 if seen.direction else 2 for seen in free)
     assert lines.loops
 
 
@@ -192,7 +167,7 @@ def test_the_curves_touch_in_the_coupler_s_centre(phase: float) -> None:
 def test_no_curve_runs_across_the_picture(name: str) -> None:
     centres = found(name)
     places = drawing(name, 2).places(load(name).pose(0.4))
-    room = centres.setting.layout.reach
+    room = centres.setting.layout.stage
     for layer in (centres.fixed(), centres.moving(places)):
         for loop in layer.loops:
             assert np.abs(np.diff(loop)).max() < 0.2 * room.width
@@ -229,7 +204,6 @@ def test_without_a_coupler_there_are_no_curves() -> None:
 def test_no_two_links_are_called_the_same(name: str, centres: int) -> None:
     look = Look(hud=False, names=1, centres=centres)
     picture = Picture(load(name), (1280, 720), look, moment=1.0)
-    assert picture.names is not None
     figure_ = picture.figure
     joints = {subscripted(joint.name) for joint in figure_.linkage.joints}
     links = [label.text for label in picture.names.labels if label.text.partition(",")[0] not in joints]

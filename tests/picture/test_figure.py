@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from linkanim.mechanics.linkage import RPP, RPR, RRP, Crank, Drive, Line, Linkage, Pin
-from linkanim.picture.arrangement import sweep_of
 from linkanim.picture.bodies import body_parts, colours_of
 from linkanim.picture.figure import DrawContext, figure
+from linkanim.picture.fit import of_linkage
 from linkanim.picture.layout import gauge
 from linkanim.picture.raster import Loop
 from linkanim.picture.theme import LIGHT
@@ -149,7 +149,7 @@ def test_a_guide_goes_along_with_the_body_that_carries_it_and_is_in_the_picture(
     parts = body_parts(DrawContext(shown, VIEW, GAUGE, LIGHT))
     bar, _, slot, block = (part for part in parts if part.tail == "O4")
     assert (bar.at, slot.at, block.at) == ("O4", "O4", "J")
-    wide = sweep_of(shown).box
+    wide = of_linkage(shown, GAUGE).box
     for phase in (0.0, 1.0, 2.5, 4.0):
         pose = shown.scene.pose(phase)
         places = {name: complex(x, -y) for name, (x, y) in pose.position.items()}

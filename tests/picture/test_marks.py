@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import pytest
-from pictures import place_of
 
 from linkanim.picture.look import Look
 from linkanim.picture.marks import beside, measure
@@ -27,7 +26,7 @@ def test_a_value_stands_above_its_bar_and_clear_of_it(half: complex, dimensioned
     )
     (caption,) = group.captions
     assert caption.text == "120.5 mm"
-    place = place_of(caption, setting.type)
+    place = caption.around(setting.type)
     corners = [complex(x, y) for x in (place.x, place.right) for y in (place.y, place.bottom)]
     aside = [((corner - MIDDLE) / half).imag * abs(half) for corner in corners]
     assert min(map(abs, aside)) > setting.gauge.bar
@@ -39,6 +38,6 @@ def test_a_value_stands_above_its_bar_and_clear_of_it(half: complex, dimensioned
 def test_a_value_stays_on_the_stage(at: complex) -> None:
     setting = Picture(load("crank-rocker"), (640, 360), Look(hud=False)).drawing.setting
     for half in BARS:
-        place = place_of(beside(setting, at - half, at + half, "120.5 mm").captions[0], setting.type)
+        place = beside(setting, at - half, at + half, "120.5 mm").captions[0].around(setting.type)
         assert setting.layout.stage.holds(place.x, place.y)
         assert setting.layout.stage.holds(place.right, place.bottom)

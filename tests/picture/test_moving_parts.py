@@ -14,13 +14,13 @@ from pictures import contrast, pixels
 
 from linkanim.mechanics.linkage import Crank, Damper, Drive, Gear, Linkage, Pin
 from linkanim.mechanics.quantities import indexed
-from linkanim.picture.arrangement import sweep_of
 from linkanim.picture.figure import DrawContext, Figure, figure
+from linkanim.picture.fit import of_linkage
 from linkanim.picture.fittings import Coil, Damping, coils, dampings, fittings
 from linkanim.picture.gears import WheelPair, pairs, teeth_a_second, wheel_layers, wheel_parts, wheels
 from linkanim.picture.layout import gauge
 from linkanim.picture.look import Look
-from linkanim.picture.motion_marks import LONGEST, Trace, arrow_layers, arrows_of, traces
+from linkanim.picture.motion_marks import _LONGEST_OF_STILL, LONGEST, Trace, arrow_layers, arrows_of, traces
 from linkanim.picture.picture import Picture
 from linkanim.picture.raster import Layer, Loop, offscreen
 from linkanim.picture.shapes import directions, folded
@@ -241,7 +241,7 @@ def test_gears_on_one_pivot_have_nothing_to_show() -> None:
 
 
 def test_wheels_are_part_of_what_must_be_seen(press: Figure) -> None:
-    wide = sweep_of(press).box
+    wide = of_linkage(press, GAUGE).box
     assert wide.left <= -165
     assert wide.high >= 165
     for wheel in wheels(press):
@@ -398,7 +398,7 @@ def test_every_moving_joint_has_its_arrow_and_its_name(name: str) -> None:
     """The slider, too; joints that lie on each other have one arrow."""
     picture = Picture(load(name), (1280, 720), Look(vectors=frozenset("v")))
     pose = picture.scene.pose(1.0)
-    group = next(group for group in picture.drawing.moving(pose) if group.name == "velocity")
+    group = next(group for group in picture.groups(pose) if group.name == "velocity")
     named = {words.text for words in group.captions}
     scale = picture.drawing.parts.arrows[0].scale(pose.input_speed)
     for joint in picture.figure.shown:
@@ -509,7 +509,7 @@ def test_a_planet_that_keeps_its_arm_s_turning_has_no_wheels_and_a_slower_one_a_
 
 def test_a_ring_is_part_of_what_must_be_seen() -> None:
     shown = figure(planetary(Fraction(-1)))
-    assert sweep_of(shown).box.right > 80.0
+    assert of_linkage(shown, GAUGE).box.right > 80.0
 
 
 # The bar that a coupler carries, straight along it or 10 aside: how far the pin goes is how long its slot is.
@@ -583,7 +583,7 @@ def test_arrows_of_a_still_are_to_its_own_scale_and_named_off_the_bars() -> None
         )
         for picture in (still, moving)
     ]
-    assert longest[0] == pytest.approx(LONGEST * 720)
+    assert longest[0] == pytest.approx(_LONGEST_OF_STILL * 720)
     assert longest[1] < 0.5 * longest[0]
 
 
@@ -592,7 +592,7 @@ def test_no_name_of_an_arrow_lies_on_a_bar_in_a_still() -> None:
     look = Look(hud=False, vectors=frozenset("a"))
     picture, pose = Picture(scene, (1280, 720), look, moment=phase), scene.pose(phase, 2)
     places = picture.drawing.places(pose)
-    (group,) = (group for group in picture.drawing.moving(pose) if group.name == "acceleration")
+    (group,) = (group for group in picture.groups(pose) if group.name == "acceleration")
     named = [line.around(picture.type) for line in group.captions]
     assert len(named) == 3
     for body in picture.figure.bodies:

@@ -12,11 +12,9 @@ import pytest
 from pictures import inked, pixels
 
 from linkanim.picture.board import Board
-from linkanim.picture.command_bar import bar_place
-from linkanim.picture.layout import Docked, chip_places, layout
+from linkanim.picture.layout import Docked, layout
 from linkanim.picture.look import Look
 from linkanim.picture.overlay import (
-    NOTHING_OVER,
     Button,
     CommandBar,
     DimensionLine,
@@ -25,7 +23,7 @@ from linkanim.picture.overlay import (
     Overlay,
     Panel,
 )
-from linkanim.picture.panels import edit_list
+from linkanim.picture.panels import edit_list, foot, said_in
 from linkanim.picture.picture import Picture
 from linkanim.picture.raster import offscreen
 from linkanim.picture.surface import SurfacePrinter
@@ -35,7 +33,6 @@ from linkanim.picture.view import Rect
 from linkanim.scenes import load
 
 SIZE = (640, 360)
-WORDS = "40 rpm"
 
 
 @pytest.fixture(scope="module")
@@ -73,97 +70,70 @@ def _between(one: pygame.Surface, other: pygame.Surface) -> Rect:
     return Rect(x, y, int(columns.max()) + 1 - x, int(rows.max()) + 1 - y)
 
 
-def _saying(kind: str, words: Fading) -> Overlay:
-    return Overlay(chip=words) if kind == "chip" else Overlay(hint=words)
+SAID = {
+    "a toast": Overlay(toast="recordings/crank-rocker-1.gif: 45 %"),
+    "an answer": Overlay(chip=Fading("names and dimensions")),
+    "a hint": Overlay(hint=Fading("Space pause · Tab next · drag the pin · H keys")),
+    "a mark": Overlay(recording="REC GIF 0:03"),
+}
 
 
-@pytest.mark.parametrize("kind", ["chip", "strip"])
-def test_a_chip_and_the_strip_hold_their_words_and_fade(painter: Picture, kind: str) -> None:
-    bare = _painted(painter, Overlay())
-    there = _painted(painter, _saying(kind, Fading(WORDS)))
-    size = painter.layout.text_size if kind == "chip" else painter.layout.small_size
-    ink = LIGHT.ink if kind == "chip" else LIGHT.dim
-    sheet = _between(bare, there)
-    wide = Type().width(WORDS, size, strong=kind == "chip")
-    assert wide + 0.8 * size < sheet.width < wide + 3 * size
-    assert sheet.height > 1.4 * size
-    middle = sheet.inset(0.3 * size)
-    assert inked(there, middle, ink)
-    going = _painted(painter, _saying(kind, Fading(WORDS, 2)))
-    assert not inked(going, middle, ink)
-
-
-@pytest.mark.parametrize("look", [Look(polygons=True), Look(chart="j.angle")], ids=["polygons", "chart"])
-@pytest.mark.parametrize("size", [(1280, 720), (640, 360), (500, 720)], ids=str)
-def test_a_chip_lies_on_no_words_of_a_chart_or_a_polygon(size: tuple[int, int], look: Look) -> None:
-    shown, printer = Picture(load("jansen"), size, look), SurfacePrinter()
-    sheets = []
-    for chip in (None, Fading("polygons")):
-        sheets.append(offscreen(size))
-        printer.paint(sheets[-1], shown, shown.scene.pose(1.0), Overlay(chip=chip))
-    beside = shown.layout.polygons or shown.layout.chart
-    assert beside
-    assert not _between(*sheets).meets(beside)
-
-
-def chip_of(shown: Picture, words: str, overlay: Overlay = NOTHING_OVER) -> Rect:
-    """Return where a chip with these words lies on a picture."""
-    sheets = [offscreen(shown.size), offscreen(shown.size)]
-    for sheet, chip in zip(sheets, (None, Fading(words)), strict=True):
-        over = replace(overlay, chip=chip)
-        SurfacePrinter().paint(sheet, shown, shown.scene.pose(1.0), over)
-    return _between(*sheets)
-
-
-def is_bare(shown: Picture, place: Rect) -> bool:
-    """Return whether nothing is drawn in a place of a picture, all through a cycle."""
-    columns, rows = slice(int(place.x), int(place.right)), slice(int(place.y), int(place.bottom))
-    for n in range(40):
-        surface = offscreen(shown.size)
-        SurfacePrinter().paint(surface, shown, shown.scene.pose(shown.scene.period * n / 40))
-        if (pixels(surface)[rows, columns] != LIGHT.background).any():
-            return False
-    return True
-
-
+# with a chart beside the linkage and below it; the key to the arrows is the lowest row
+@pytest.mark.parametrize("size", [(640, 360), (720, 1280)])
 @pytest.mark.parametrize(
-    ("name", "size", "look", "words"),
-    [
-        ("crank-rocker", (320, 180), Look(), "25 rpm"),
-        ("crank-rocker", (320, 180), Look(chart="rocker.angle"), "Rocker: angle"),
-        ("crank-rocker", (320, 180), Look(polygons=True), "polygons"),
-        ("crank-rocker", (640, 360), Look(), "25 rpm"),
-        ("jansen", (640, 360), Look(chart="d.angle"), "Link d: angle"),
-        ("engine", (1280, 720), Look(chart="slider.travel_velocity"), "Slider: velocity"),
-        ("engine", (360, 640), Look(), "25 rpm"),
-    ],
+    "look",
+    [Look(vectors=frozenset("v")), Look(chart="H.velocity"), Look(polygons=True, names=1, caption=True)],
 )
-def test_a_chip_lies_where_nothing_is_drawn(name: str, size: tuple[int, int], look: Look, words: str) -> None:
-    shown = Picture(load(name), size, look, docked=Docked(bar=True))
-    place = chip_of(shown, words)
-    usual, *_ = chip_places(shown.layout, place.width)
-    assert not is_bare(shown, usual)
-    assert is_bare(shown, place)
+@pytest.mark.parametrize("case", SAID)
+def test_what_is_said_in_passing_stands_in_the_caption_s_slot_alone(
+    case: str, look: Look, size: tuple[int, int]
+) -> None:
+    shown = Picture(load("press"), size, look, docked=Docked(bar=True))
+    sheets = [offscreen(size), offscreen(size)]
+    for sheet, overlay in zip(sheets, (Overlay(), SAID[case]), strict=True):
+        SurfacePrinter().paint(sheet, shown, shown.scene.pose(1.0), overlay)
+    slot, place = shown.layout.caption, _between(*sheets)
+    assert slot
+    assert slot.x <= place.x <= place.right <= slot.right
+    assert slot.y - 1 <= place.y <= place.bottom <= slot.bottom + 1
+    assert not slot.meets(shown.layout.stage)
 
 
-def test_a_chip_stays_below_the_marks_where_nothing_is_drawn_there_or_nowhere_else() -> None:
-    for name, free in (("engine", True), ("press", False)):
-        shown = Picture(load(name), (320, 180), Look())
-        place = chip_of(shown, "25 rpm")
-        usual, *_ = chip_places(shown.layout, place.width)
-        assert abs(usual.middle - place.middle) < 2, name
-        assert is_bare(shown, place.inset(1)) == free, name
+def test_of_all_that_could_be_said_the_most_pressing_is(painter: Picture) -> None:
+    board = Board(painter.layout, Type(), LIGHT)
+    bar = CommandBar((Button("play", "play", "Space"), Button("chart", "chart", "C", lack="no quantity")))
+    said = Overlay(hint=Fading("H keys · Tab next"))
+    assert said_in(board, said) == ("H keys   ·   Tab next", False)
+    said = replace(said, watch=Fading("watch P"))
+    assert said_in(board, said) == ("watch P", False)
+    said = replace(said, chip=Fading("25 rpm"))
+    assert said_in(board, said) == ("25 rpm", True)
+    said = replace(said, toast="written")
+    assert said_in(board, said) == ("written", True)
+    said = replace(said, bar=bar._replace(pointed=0))
+    assert said_in(board, said) == ("play   Space", False)
+    assert said_in(board, Overlay(bar=bar._replace(pointed=1))) == ("chart   C: no quantity", False)
+    assert said_in(board, Overlay(chip=Fading("25 rpm", 0))) is None
 
 
-def test_a_chip_is_not_under_the_bar_nor_where_a_draft_may_be() -> None:
-    shown = Picture(load("crank-rocker"), (320, 180), Look(), docked=Docked(bar=True))
-    bar = CommandBar(tuple(Button("play", "play", "Space") for _ in range(9)))
-    frame = bar_place(shown.layout, bar)
-    assert frame
-    assert chip_of(shown, "25 rpm").meets(frame)
-    assert not chip_of(shown, "25 rpm", Overlay(bar=bar)).meets(frame)
-    place = chip_of(shown, "25 rpm", Overlay(construction=1))
-    assert abs(next(iter(chip_places(shown.layout, place.width))).middle - place.middle) < 2
+def test_hints_that_have_no_room_in_a_line_lose_their_first_parts() -> None:
+    board = Board(layout((320, 180), docked=Docked(bar=True)), Type(), LIGHT)
+    words = " · ".join(f"key {n} does something" for n in range(9))
+    told = said_in(board, Overlay(hint=Fading(words)))
+    assert told
+    assert words.endswith(told[0].replace("   ·   ", " · "))
+    assert "key 8" in told[0]
+    assert "key 0" not in told[0]
+
+
+@pytest.mark.parametrize("count", [1, 16, 40])
+def test_words_at_the_foot_are_whole_and_in_the_window(count: int) -> None:
+    board = Board(layout((480, 270), docked=Docked(bar=True)), Type(), LIGHT)
+    sheet, (x, y) = foot(board, ("a few words " * count, True))
+    assert x >= 0
+    assert x + sheet.get_width() <= 480
+    assert y > 0.6 * 270
+    assert round(y) + sheet.get_height() <= 270
 
 
 def test_the_picture_recedes_behind_the_help(painter: Picture) -> None:
@@ -175,12 +145,27 @@ def test_the_picture_recedes_behind_the_help(painter: Picture) -> None:
     assert not inked(_painted(painter, told), title, LIGHT.ink)
 
 
+def test_help_stands_beside_the_values_that_it_explains() -> None:
+    scene, size = load("crank-rocker"), (1280, 720)
+    painter, surface = Picture(scene, size, Look(), docked=Docked(listed=1)), offscreen(size)
+    edited = Overlay(panel=Panel((EditRow("Crank 2", "55 mm", chosen=True),), hint="Esc closes"))
+    SurfacePrinter().paint(surface, painter, scene.pose(1.0), edited)
+    plain = pixels(surface)
+    lines = tuple((f"key {n}", "what it does, in a few words") for n in range(9))
+    helped = replace(edited, help=(("edit", lines),))
+    SurfacePrinter().paint(surface, painter, scene.pose(1.0), helped)
+    rows, columns = np.nonzero((plain == LIGHT.chosen).all(axis=-1))
+    within = np.s_[rows.min() : rows.max(), columns.min() : columns.max()]
+    assert np.array_equal(pixels(surface)[within], plain[within])
+    assert not np.array_equal(pixels(surface)[:, 640:], plain[:, 640:])
+
+
 def _list(rows: Sequence[EditRow], facts: tuple[str, ...] = ("Grashof",), hint: str = "Esc closes") -> Panel:
     return Panel(tuple(rows), facts=facts, hint=hint)
 
 
 def test_every_line_of_the_edit_list_has_a_place_of_its_own() -> None:
-    board = Board(layout(SIZE, listed=True), Type(), LIGHT)
+    board = Board(layout(SIZE, docked=Docked(listed=1)), Type(), LIGHT)
     rows = [
         EditRow("Crank 2", "40 mm", chosen=True),
         EditRow("Coupler 3", "90 mm"),
@@ -199,7 +184,7 @@ def test_every_line_of_the_edit_list_has_a_place_of_its_own() -> None:
 
 
 def test_a_bar_lies_behind_all_of_the_chosen_row() -> None:
-    board = Board(layout(SIZE, listed=True), Type(), LIGHT)
+    board = Board(layout(SIZE, docked=Docked(listed=1)), Type(), LIGHT)
     rows = [EditRow("Crank 2", "40 mm", chosen=True), EditRow("Coupler 3", "90 mm")]
     one = edit_list(board, _list(rows))
     words = _between(one, edit_list(board, _list([replace(rows[0], value="77 mm"), rows[1]])))

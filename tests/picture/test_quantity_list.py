@@ -11,7 +11,7 @@ import pytest
 
 from linkanim.frozen import frozen
 from linkanim.picture.board import STEP, Board
-from linkanim.picture.layout import layout
+from linkanim.picture.layout import Docked, layout
 from linkanim.picture.overlay import Quantities
 from linkanim.picture.panels import quantity_list, quantity_rows
 from linkanim.picture.raster import Colour
@@ -46,7 +46,7 @@ class Noted(Board):
 
 @pytest.fixture
 def board() -> Noted:
-    return Noted(layout((640, 360), chart=False, beside=False, listed=True), Type(), LIGHT)
+    return Noted(layout((640, 360), docked=Docked(listed=1)), Type(), LIGHT)
 
 
 def test_rows_stand_line_by_line_below_the_title_and_the_hint_below_them(board: Noted) -> None:
@@ -119,7 +119,7 @@ def test_words_too_long_lose_their_symbol_and_then_their_middle(board: Noted) ->
 def test_where_fewer_than_four_rows_would_be_left_the_hint_gives_way() -> None:
     told = set()
     for high in range(120, 360, 8):
-        low = Noted(layout((640, high), chart=False, beside=False, listed=True), Type(), LIGHT)
+        low = Noted(layout((640, high), docked=Docked(listed=1)), Type(), LIGHT)
         sheet = quantity_list(low, Quantities(ROWS, 3, "", "Enter"))
         rows = sum(words in low.lines for words, _ in ROWS)
         assert rows >= 4 if "Enter" in low.lines else rows <= 4

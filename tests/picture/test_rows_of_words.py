@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import pytest
-from pictures import place_of
 
 from linkanim.picture.look import Look
 from linkanim.picture.overlay import RowsShown
@@ -33,7 +32,7 @@ def test_each_row_holds_its_words_and_is_found_there(
     assert [title.text, *(one.text for one in words)] == [shown.title, *told]
     ends = dict[int, float]()
     for caption in group.captions:
-        place = place_of(caption, setting.type)
+        place = caption.around(setting.type)
         found = {row_at(layout, view, shown, x, place.middle.imag) for x in (place.x, place.right)}
         row = next((n for n, one in enumerate(shown.rows) if caption.text in one), -1)
         assert found == {row}, caption.text

@@ -16,7 +16,6 @@ from fidelity import frame_decibels
 from pictures import BARE, SMALL, alphas, painted, pixels
 
 from linkanim.errors import BadInput
-from linkanim.picture import arrangement
 from linkanim.picture.bodies import colours_of
 from linkanim.picture.figure import figure
 from linkanim.picture.items import Caption, Group, Halo
@@ -136,18 +135,13 @@ def test_a_painter_that_takes_over_renders_no_glyph_again(monkeypatch: pytest.Mo
     )
 
 
-def test_a_step_of_a_pan_measures_the_hud_no_more(monkeypatch: pytest.MonkeyPatch) -> None:
-    scene = load("press")
-    before = Picture(scene, (640, 360), Look())
-
-    def refused(*_: object) -> None:
-        raise AssertionError("the scene is measured again")
-
-    for name in ("widest_rows", "sweep_of", "figure", "arranged"):
-        monkeypatch.setattr(arrangement, name, refused)
-    after = Picture(scene, (640, 360), replace(Look(), pan=(0.1, 0.2), zoom=2.0), before=before)
-    assert after.view != before.view
-    Picture(scene, (640, 360), replace(Look(), theme="dark"), before=before)
+@pytest.mark.parametrize("change", [{"theme": "dark"}, {"pan": (0.1, 0.2), "zoom": 2.0}])
+def test_another_theme_or_view_composes_nothing_anew(change: dict[str, Any]) -> None:
+    scene, look = load("press"), Look(names=2)
+    before = Picture(scene, (640, 360), look)
+    after = Picture(scene, (640, 360), replace(look, **change), before=before)
+    assert after.composition is before.composition
+    assert (after.view != before.view) == ("zoom" in change)
 
 
 @pytest.mark.parametrize("change", [{"theme": "dark"}, {"vectors": frozenset("va")}, {"chart": "3.angle"}])
@@ -172,10 +166,10 @@ def test_without_a_background_only_what_is_drawn_is_opaque() -> None:
 
 
 def test_pins_and_rims_of_a_light_picture_without_a_background_are_as_white_as_paper() -> None:
-    scene, look = load("crank-rocker"), Look(hud=False, background=False)
+    scene, look = load("crank-rocker"), Look(hud=False, background=False, material="flat")
     clear, solid = painted(scene, 1.0, look), painted(scene, 1.0, replace(look, background=True))
     grounded = (alphas(clear) == 255) & (pixels(solid) == theme_of("light").background).all(axis=-1)
-    assert grounded.sum() >= 4
+    assert grounded.any()
     assert (pixels(clear)[grounded] == 255).all()
 
 
@@ -213,15 +207,16 @@ def test_the_crank_pin_lies_where_the_pose_has_it() -> None:
 def test_the_chart_tells_the_phase_under_a_pixel() -> None:
     scene = load("kite")
     painter = Picture(scene, (640, 360), Look(chart="rocker.angle"))
-    assert painter.chart_phase_at(320, 100) is None
-    low, high = (painter.chart_phase_at(px, 320) for px in (45, 625))
-    assert low is not None
-    assert high is not None
+    assert painter.layout.chart
+    middle = painter.layout.chart.middle
+    found = [painter.chart_phase_at(px, middle.imag) for px in range(640)]
+    low, *_, high = (phase for phase in found if phase is not None)
+    assert painter.chart_phase_at(*painter.crank_pin_px(scene.pose(0.0))) is None
     # from the crank's angle 0 through two turns; the drive starts at 60°
     for phase, turned in ((low, 0.0), (high, 2 * math.tau)):
         away = math.remainder(scene.linkage.drive.start + phase - turned, scene.period)
-        assert away == pytest.approx(0.0, abs=0.3)
-    assert Picture(scene, (640, 360), Look()).chart_phase_at(320, 320) is None
+        assert away == pytest.approx(0.0, abs=0.1)
+    assert Picture(scene, (640, 360), Look()).chart_phase_at(middle.real, middle.imag) is None
 
 
 def test_an_unknown_chart_is_answered_with_the_list() -> None:
@@ -278,21 +273,6 @@ def test_a_scene_on_the_way_is_as_large_as_the_one_it_becomes_and_in_its_place(c
     assert max(wide, high) == pytest.approx(theirs.view.scale)
 
 
-# Instant centres lie where they lie; the centrodes, and a scene zoomed or panned, run under the words.
-@pytest.mark.parametrize(
-    ("look", "overrun"),
-    [
-        (Look(), False),
-        (Look(centres=1), False),
-        (Look(centres=2), True),
-        (Look(zoom=0.5), True),
-        (Look(pan=(0.0, -0.1)), True),
-    ],
-)
-def test_words_need_a_backing_where_something_may_lie_under_them(look: Look, overrun: bool) -> None:
-    assert look.overrun == overrun
-
-
 @pytest.mark.parametrize(
     "overlay",
     [
@@ -307,7 +287,8 @@ def test_words_need_a_backing_where_something_may_lie_under_them(look: Look, ove
 )
 def test_each_part_of_an_overlay_shows_and_goes(overlay: Overlay) -> None:
     scene = load("crank-rocker")
-    painter, surface, pose = Picture(scene, (640, 360), Look()), offscreen((640, 360)), scene.pose(1.0)
+    painter = Picture(scene, (640, 360), Look(), docked=Docked(bar=True))
+    surface, pose = offscreen((640, 360)), scene.pose(1.0)
     SurfacePrinter().paint(surface, painter, pose)
     plain = _bytes(surface)
     SurfacePrinter().paint(surface, painter, pose, overlay)
@@ -318,7 +299,8 @@ def test_each_part_of_an_overlay_shows_and_goes(overlay: Overlay) -> None:
 
 def test_a_panel_that_is_kept_follows_what_it_says() -> None:
     scene = load("crank-rocker")
-    painter, surface, pose = Picture(scene, (640, 360), Look()), offscreen((640, 360)), scene.pose(1.0)
+    painter = Picture(scene, (640, 360), Look(), docked=Docked(bar=True))
+    surface, pose = offscreen((640, 360)), scene.pose(1.0)
     pictures = []
     for toast in ("one", "another", "one"):
         SurfacePrinter().paint(surface, painter, pose, Overlay(toast=toast))
@@ -414,7 +396,7 @@ def test_a_curve_is_not_cut_where_it_enters_a_plate(name: str, phase: float, the
     differ = np.abs(with_curve - without).max(axis=-1)
     behind = [differ[int(y), int(x)] for x, y in _curve_behind_plates(scene, phase, size)]
     assert len(behind) > 15
-    assert min(behind) > 12
+    assert min(behind) > 9
 
 
 def _curve_behind_plates(scene: Scene, phase: float, size: tuple[int, int]) -> list[tuple[float, float]]:
@@ -446,7 +428,7 @@ def _distance(point: complex, one: complex, other: complex) -> float:
 
 
 def test_beside_an_open_list_no_words_are_measured(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("linkanim.picture.arrangement.widest_rows", lambda *_: pytest.fail("no HUD is shown"))
+    monkeypatch.setattr("linkanim.picture.composition.widest_rows", lambda *_: pytest.fail("no HUD is shown"))
     Picture(load("press"), (640, 360), Look(), docked=Docked(listed=1))
 
 

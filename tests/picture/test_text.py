@@ -13,7 +13,8 @@ from pictures import pixels
 
 from linkanim.letters import lacking
 from linkanim.picture import text as fonts
-from linkanim.picture.arrangement import FitRequest, fitted
+from linkanim.picture.hud import Legendary, columns
+from linkanim.picture.layout import layout
 from linkanim.picture.raster import offscreen
 from linkanim.picture.text import Type, runs, subscripted, typesetting
 from linkanim.scenes import load
@@ -208,8 +209,7 @@ def test_lines_are_no_wider_than_they_may_be_and_lose_nothing(text: str, width: 
 
 def test_a_title_that_no_font_has_gives_way_to_the_scene_s_name(alone: Type) -> None:
     scene = replace(load("crank-rocker"), name="mine", title="曲柄")
-    block = fitted(scene, None, FitRequest((640, 360), False, 0, True), alone).arrangement.block
-    assert block is not None
+    block = next(columns((scene,), (), layout((640, 360)), Legendary(), alone))
     assert block.lines[0].text == "mine"
 
 

@@ -9,6 +9,7 @@ import pygame
 
 from linkanim.player import screen
 from linkanim.player.files import SceneFile
+from linkanim.player.shown import overlay
 from linkanim.player.state import CHIP_FRAMES, STIR_FRAMES, State
 from linkanim.player.window import GameKeeper, Window
 from linkanim.synthesis.follower import Reply, Request
@@ -45,11 +46,11 @@ class Player:
             self.press(ord(letter), 0, letter)
 
     def settle(self) -> bytes:
-        """Let go by what answers a key, and the bar, with all names in place, and return the pixels then."""
-        while self.window.screen._framing.last.hurried:
-            self.tick(0)
+        """Let go by what answers a key, the bar, and what to watch for; return the pixels then."""
         stirred = self.state.stirred
         self.tick(max(CHIP_FRAMES, 0 if stirred is None else stirred + STIR_FRAMES - self.state.frame))
+        while (words := overlay(self.state).watch) and words.eighths and not self.state.look.names:
+            self.tick(60)
         return self.pixels
 
     def mouse(self, kind: int, at: tuple[float, float], **more: Any) -> bool:

@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import replace
-from itertools import count, pairwise
+from itertools import pairwise
 
 import pygame
 import pytest
-from playing import SIZE, Player
+from playing import Player
 
 from linkanim.mechanics.motion import mechanism
-from linkanim.picture.items import Group
 from linkanim.picture.look import Look
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
-from linkanim.player.framing import Framing, StepSplitter
+from linkanim.player.framing import Framing
 from linkanim.player.state import State, begin, loss_of_turning
 from linkanim.player.tape import Tape, starting
 from linkanim.scenes import load, names
@@ -290,7 +288,7 @@ def test_shift_makes_the_mouse_go_in_tenths(
     player.type("e")
     x, y = place(player.state, "B")
     monkeypatch.setattr(pygame.key, "get_mods", lambda: shift)
-    player.drag(player.window.screen.pixel(x, y), player.window.screen.pixel(x + 10.0, y + 7.0))
+    player.drag(player.window.screen.pixel(x, y), player.window.screen.pixel(x + 9.0, y + 5.0))
     rocker = values(player.state)["Rocker 4"]
     assert (round(rocker, 1), rocker == round(rocker)) == (rocker, whole)
 
@@ -337,80 +335,32 @@ def test_the_view_stands_still_under_the_hand_as_long_as_there_is_room() -> None
     assert framing.fitting(left, size).view != before
 
 
-def charted_drag(player: Player, seconds: float, far: float = 2.0) -> Iterator[tuple[bool, bool, bool]]:
-    """Drag a joint where a frame takes so long; yield if the scene, the curve and the list have changed."""
-    clock = iter(count(step=seconds))
-    player.window._splitter = StepSplitter(lambda: next(clock))
-    player.window.state = replace(player.state, look=Look(chart="P.velocity"))
-    player.type("e")
-    player.settle()
-    x, y = player.window.screen.pixel(*place(player.state, "B"))
-    player.mouse(pygame.MOUSEBUTTONDOWN, (x, y), button=1)
-    for step in range(1, 8):
-        scene, panel, behind = player.state.scene, player.window.screen.over.panel, behind_of(player)
-        player.mouse(pygame.MOUSEMOTION, (x + far * step, y), rel=(2, 0), buttons=(1, 0, 0))
-        yield (
-            player.state.scene is not scene,
-            behind_of(player) is not behind,
-            player.window.screen.over.panel != panel,
-        )
-
-
-def behind_of(player: Player) -> Group:
-    """What stands still behind all, which has the chart."""
-    return player.window.screen._framing.last.earlier.groups["behind"][-1]
-
-
-def test_where_time_allows_all_follows_the_hand_in_every_frame(player: Player) -> None:
-    first, rest, *steps = charted_drag(player, 0.004)
-    assert (first, rest) == ((True, False, False), (False, True, True))  # how fast it is is not known yet
-    assert set(steps) == {(True, True, True)}
-
-
-def test_where_it_does_not_the_linkage_follows_in_one_frame_and_the_rest_in_the_next(player: Player) -> None:
-    steps = list(charted_drag(player, 0.02))
-    assert steps[::2] == [(True, False, False)] * 4
-    assert steps[1::2] == [(False, True, True)] * 3
-    player.tick()
-    framing = Framing(captioned=True)
-    picture = framing.at(player.state, SIZE)
-    list(picture.groups(picture.scene.pose(player.state.phase)))
-    assert behind_of(player).captions == picture.earlier.groups["behind"][-1].captions
-
-
-def test_what_no_longer_has_room_is_fitted_with_the_rest(player: Player) -> None:
-    drag_ = charted_drag(player, 0.02, far=14)
-    views = [(step, player.window.screen._framing.last.view) for step in drag_]
-    changed = [view != before for (_, before), (_, view) in pairwise(views)]
-    assert any(changed)
-    assert not any(change for change, (step, _) in zip(changed, views[1:], strict=True) if step[0])
-    assert player.window.screen._framing.last.fit.has_room
-
-
-def test_a_refusal_is_worked_out_in_one_frame_and_shown_in_the_next(player: Player) -> None:
-    frames = []
-    for _ in charted_drag(player, 0.02, far=90.0):
-        panel = player.window.screen.over.panel
-        assert panel
-        frames.append((player.state.editing.refusal, panel.error))
-    first = [found != shown for found, shown in frames]
-    assert any(first)
-    assert not any(one and other for one, other in pairwise(first))
-
-
-def test_a_button_that_comes_up_does_not_wait(player: Player) -> None:
-    steps = charted_drag(player, 0.02)
-    assert next(steps) == (True, False, False)
-    x, y = player.window.screen.pixel(*place(player.state, "B"))
-    pygame.event.post(pygame.event.Event(pygame.MOUSEMOTION, pos=(x + 30, y), rel=(9, 0), buttons=(1, 0, 0)))
-    before = player.state.scene
-    player.mouse(pygame.MOUSEBUTTONUP, (x + 30, y), button=1)
-    assert player.state.scene is not before
-    assert player.state.held is None
-
-
 def test_what_is_dragged_aside_goes_with_the_mouse(player: Player) -> None:
     screen = player.window.screen
     x, y = screen.pixel(0.0, 0.0)
     player.drag((5, 5), (25, 17))
     assert player.window.screen.pixel(0.0, 0.0) == pytest.approx((x + 20, y + 12), abs=1.0)
+
+
+def test_linkage_chart_list_and_dimensions_follow_the_hand_in_every_frame(player: Player) -> None:
+    pygame.display.set_mode((1280, 720), pygame.RESIZABLE)
+    player.window.state = replace(player.state, look=Look(chart="P.velocity", names=2))
+    player.type("e")
+    player.settle()
+    shown, seen = player.window.screen, list[tuple[object, ...]]()
+    x, y = shown.pixel(*place(player.state, "B"))
+    player.mouse(pygame.MOUSEBUTTONDOWN, (x, y), button=1)
+    anchors = [label.anchor for label in shown._framing.last.names.labels]
+    for step in range(1, 8):
+        player.mouse(pygame.MOUSEMOTION, (x + 9 * step, y), rel=(9, 0), buttons=(1, 0, 0))
+        picture, panel = shown._framing.last, shown.over.panel
+        assert picture.scene is picture.figure.scene is player.state.scene
+        assert picture._chart
+        assert picture._chart.panels[0].figure is picture.figure
+        assert [label.anchor for label in picture.names.labels] == anchors
+        told = [label.text for label in (*picture.names.labels, *picture.names.listed)]
+        assert panel
+        assert any(row.value in " ".join(told) for row in panel.rows)
+        seen.append((player.state.scene, panel, told))
+    changed = [[one != other for one, other in zip(*pair, strict=True)] for pair in pairwise(seen)]
+    assert all(all(one) for one in changed), changed

@@ -315,6 +315,7 @@ def settle(player: Player) -> None:
     """Let what glides come to rest, and the view with it, which begins to move when it is seen."""
     player.tick(3)
     player.tick(2 * FRAMES)
+    player.tick(FRAMES)
 
 
 @pytest.mark.usefixtures("in_step")

@@ -7,12 +7,16 @@ from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pygame
 import pytest
 from playing import Player
 
+from linkanim.picture.board import Board
 from linkanim.picture.figure import figure
+from linkanim.picture.layout import Docked
 from linkanim.picture.look import Look
+from linkanim.picture.panels import said_in
 from linkanim.picture.picture import Picture
 from linkanim.player import screen
 from linkanim.player.action import Action
@@ -130,28 +134,22 @@ def test_it_is_in_no_screenshot() -> None:
     assert lasting(state).told is None
 
 
-@pytest.mark.parametrize("size", [(320, 180), (640, 360), (1280, 720)])
-@pytest.mark.parametrize("joint", ["O2", "A", "B", "P"])
-def test_the_card_is_within_the_picture_and_beside_the_joint(size: tuple[int, int], joint: str) -> None:
+@pytest.mark.parametrize(("joint", "count"), [("O2", 0), ("A", 2), ("B", 2)])
+def test_a_joint_has_its_two_arrows_and_its_words_stand_at_the_foot(joint: str, count: int) -> None:
     state = standing("crank-rocker")
-    picture = Picture(state.scene, size, Look())
+    picture = Picture(state.scene, (640, 360), Look(), docked=Docked(bar=True))
     pose, _ = picture.poses(1.0)
     place = pose.position[joint]
     over = replace(lasting(state), told=told(state, Pointed(place, PointedThing("joint", joint))))
-    (card,) = (group for group in picture.groups(pose, over) if group.name == "told")
-    corners = card.layers[0].loops[0]
-    assert corners.real.min() >= -1.0
-    assert corners.real.max() <= size[0] + 1.0
-    assert corners.imag.min() >= -1.0
-    assert corners.imag.max() <= size[1] + 1.0
-    for line in card.captions:
-        assert corners.imag.min() < line.at[1] < corners.imag.max() - line.size
-    at = picture.view.place(place)
-    inside = (
-        corners.real.min() < at.real < corners.real.max()
-        and corners.imag.min() < at.imag < corners.imag.max()
-    )
-    assert not inside
+    (arrows,) = (group for group in picture.groups(pose, over) if group.name == "told-arrows")
+    assert not arrows.captions
+    assert len(arrows.layers) == 2 * count  # each on a rim
+    for layer in arrows.layers:
+        away = np.abs(np.concatenate(layer.loops) - picture.view.place(place))
+        assert away.min() < 3 * picture.gauge.line
+    assert over.told
+    words, _ = said_in(Board(picture.layout, picture.type, picture.theme), over) or ("", False)
+    assert words.split("   ·   ") == [*over.told.lines]
 
 
 @pytest.fixture
@@ -260,12 +258,6 @@ def test_the_class_says_why_it_is_that(here: Path) -> None:
         player.mouse(pygame.MOUSEMOTION, at, rel=(0, 0), buttons=(0, 0, 0))
         assert player.window.screen.over.told
         assert "s + l = 150 < p + q = 165" in player.window.screen.over.told.lines
-        picture, state = player.window.screen._framing.last, player.state
-        pose, _ = picture.poses(state.phase)
-        groups = picture.groups(pose, player.window.screen.over)
-        (card,) = (group for group in groups if group.name == "told")
-        left = card.layers[0].loops[0].real.min()
-        assert left >= max(one.right for one in picture.layout.words)
         player.drag(at)
         player.tick()
         assert player.state.toast
@@ -283,7 +275,8 @@ def test_a_right_click_on_a_row_of_numbers_lists_all_commands(rows_shown: Player
 def test_every_row_of_numbers_is_under_the_mouse_at_its_place(rows_shown: Player) -> None:
     picture = rows_shown.window.screen._framing.last
     assert picture._hud
-    for label in picture.fit.arrangement.block.rows if picture.fit.arrangement.block else ():
+    assert picture.composition.block.rows
+    for label in picture.composition.block.rows:
         _, y = row_of(rows_shown, label)
         caption = next(one for one in picture._hud.still() if one.text == label)
         assert abs(caption.at[1] - y) <= 0.5 * caption.size

@@ -48,6 +48,7 @@ def listed(request: pytest.FixtureRequest) -> Iterator[Player]:
         player = Player(begin(load("crank-rocker")))
         player.press(pygame.K_SPACE)
         player.press(pygame.K_e)
+        player.tick(12)
         yield player
         player.window.close()
 
@@ -93,6 +94,7 @@ def test_the_wheel_stays_with_its_row_where_the_list_moves_on_below_it() -> None
         player = Player(begin(load("press")))
         player.press(pygame.K_SPACE)
         player.press(pygame.K_e)
+        player.tick(12)
         last = max(filter(None, (player.window.screen.row_at(12, y) for y in range(180))))
         wheel(player, row_place(player, last), 1)
         once = player.state.scene
@@ -143,6 +145,7 @@ def test_a_press_on_the_list_moves_nothing_behind_it(listed: Player) -> None:
 def test_a_quantity_is_charted_with_a_click(listed: Player) -> None:
     listed.press(pygame.K_ESCAPE)
     listed.press(pygame.K_k)
+    listed.tick(12)
     panel = overlay(listed.state).quantities
     assert panel
     wheel(listed, row_place(listed, panel.chosen), -2)

@@ -63,6 +63,7 @@ def player(here: Path, asked: Asked) -> Iterator[Player]:
 
 def opened(player: Player) -> None:
     player.press(pygame.K_g, CTRL | SHIFT)
+    player.tick(12)
     assert player.state.mode == "record"
 
 

@@ -74,9 +74,9 @@ OPTIONS: list[tuple[str, Look]] = [
     ("record press --names --names --names", Look(names=2)),
     ("record press --chart rocker.angle --theme dark", Look(chart="rocker.angle", theme="dark")),
     ("record press --transparent", Look(background=False)),
-    ("draw press --ghost --transparent", Look(ghost=True, background=False, hud=False)),
-    ("draw press --instant-centres --centrodes", Look(centres=2, hud=False)),
-    ("draw press --centrodes --instant-centres", Look(centres=2, hud=False)),
+    ("draw press --ghost --transparent", Look(ghost=True, background=False, hud=False, material="flat")),
+    ("draw press --instant-centres --centrodes", Look(centres=2, hud=False, material="flat")),
+    ("draw press --centrodes --instant-centres", Look(centres=2, hud=False, material="flat")),
 ]
 
 

@@ -198,7 +198,7 @@ def test_the_cursor_of_a_chart_reads_a_value_beside_a_pole(page: Page, tmp_path:
     page.go(put(tmp_path, Shared(scene, chart=token)))
     for at in (2.3612, 2.35, 1.0):
         go_to(page, at)
-        told = page.value("document.querySelector('#chart text:last-of-type').textContent")
+        told = page.value("document.querySelector('#chart > text:last-of-type').textContent")
         exact = float(scene.quantities[token].read(scene.pose(phase(page))))
         assert float(told) == pytest.approx(exact, rel=1e-4, abs=0.006)
 

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 from browser import PROGRAM, Page, browser
-from shared_page import put
+from shared_page import go_to, put
 
 from linkanim.errors import LinkanimError
 from linkanim.scenes import load, names
@@ -269,12 +269,89 @@ def test_the_other_closure_and_the_way_back(page: Page, tmp_path: Path) -> None:
     assert off(page, other, [0.1, 2.0, 4.0], {"B": -1}) == []
     page.value("document.getElementById('closure').click()")
     page.frame()
-    assert page.value("lengths.on && !document.getElementById('own').hasAttribute('hidden')")
-    assert page.value("document.getElementById('side1').hasAttribute('hidden')")
+    assert page.value("lengths.on && !document.getElementById('side1').hasAttribute('hidden')")
+    assert page.value("document.getElementById('side0').hasAttribute('hidden')")
     page.value("document.getElementById('reset').click()")
     page.frame()
-    assert page.value("!lengths.on && document.getElementById('own').hasAttribute('hidden')")
+    assert not page.value("lengths.on")
     assert isclose(page.value("Number(document.querySelector('#sliders input').value)"), found["values"][0])
+
+
+BOXES = """(() => {
+  const { movers } = JSON.parse(document.getElementById("data").textContent).sides[0];
+  return [...document.querySelectorAll("#side0 [data-m]")].map((group, n) => {
+    const { x, y, width, height } = group.getBoundingClientRect();
+    const back = document.getElementById("picture").getScreenCTM().inverse();
+    const ends = [[x, y], [x + width, y + height]].map((end) => new DOMPoint(...end).matrixTransform(back));
+    return { kind: movers[n].kind, given: Boolean(movers[n].given), box: ends.flatMap(({ x, y }) => [x, y]) };
+  });
+})()"""
+ENDS = """(() => {
+  const { movers } = JSON.parse(document.getElementById("data").textContent).sides[0];
+  const groups = document.querySelectorAll("#side0 [data-m]"), found = [];
+  movers.forEach(({ link, at, head }, n) => {
+    if (!link) return;
+    const paths = [...groups[n].querySelectorAll("path")], turned = groups[n].getScreenCTM().inverse();
+    for (const name of [at, head]) {
+      const { p } = lengths.tracks.get(name).at(Number(document.getElementById("input").value));
+      const on = document.getElementById("picture").getScreenCTM();
+      const there = new DOMPoint(p[0], p[1]).matrixTransform(on).matrixTransform(turned);
+      const inside = (off) => paths.some((path) => path.isPointInFill(new DOMPoint(there.x + off, there.y)));
+      found.push([`${link} at ${name}`, inside(0)]);
+    }
+  });
+  return found;
+})()"""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", [*SCENES, "engine", "oscillating-cylinder", "landing-gear", "toggle-clamp"])
+def test_a_page_draws_changed_lengths_as_it_draws_its_own(name: str, page: Page, tmp_path: Path) -> None:
+    page.sized(2400, 1500)  # so large that no name is enlarged
+    page.go(put(tmp_path, Shared(load(name), names=1)))
+    go_to(page, 1.0)
+    own = page.value(BOXES)
+    page.value("lengths.change(0, lengths.solver.values[0])")
+    page.frame()
+    changed = page.value(BOXES)
+    assert len(own) == len(changed) > 5
+    for one, other in zip(own, changed, strict=True):
+        if not one["given"] and one["kind"] not in ("given", "arrows"):
+            # the width of a stroke is not in its box
+            near = {"rails": 5.0, "label": 1.0}.get(one["kind"], 0.3)
+            assert one["box"] == pytest.approx(other["box"], abs=near), one
+    assert page.messages == []
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["crank-rocker", "slider-crank", "jansen", "press", "whitworth"])
+@pytest.mark.parametrize("share", [0.9, 1.04])
+def test_bars_end_at_their_joints_with_other_lengths(
+    name: str, share: float, page: Page, tmp_path: Path
+) -> None:
+    page.go(put(tmp_path, Shared(load(name), names=1)))
+    for number in range(2):
+        page.value(f"lengths.change({number}, {share} * lengths.solver.values[{number}])")
+    go_to(page, 1.0)
+    found = page.value(ENDS)
+    assert len(found) > 3
+    assert [where for where, inside in found if not inside] == []
+
+
+@pytest.mark.slow
+def test_a_wheel_stays_round_and_holds_its_pin(page: Page, tmp_path: Path) -> None:
+    page.sized(2400, 1500)
+    page.go(put(tmp_path, Shared(load("engine"))))
+    go_to(page, 0.0)
+    sides = "(() => { const { width, height } = [...document.querySelectorAll('#side0 [data-m]')]"
+    sides += ".map((group) => group.getBBox()).sort((a, b) => b.width * b.height - a.width * a.height)"
+    sides += ".find(({ width, height }) => Math.abs(width / height - 1) < 0.01); return [width, height]; })()"
+    before = page.value(sides)
+    page.value("lengths.change(0, 1.5 * lengths.solver.values[0])")
+    page.frame()
+    wide, high = page.value(sides)
+    assert wide == pytest.approx(high, rel=1e-3)
+    assert 1.2 * before[0] < wide < 1.5 * before[0]
 
 
 # of two ranges the page takes the one above the ground line, wherever that leads

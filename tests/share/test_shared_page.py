@@ -130,10 +130,10 @@ def test_both_closures_are_there_and_know_their_names() -> None:
         pytest.param("scotch-yoke", 900, id="one as high as wide"),
     ],
 )
-def test_a_picture_is_as_high_as_its_scene_within_bounds_and_its_chart_as_wide(name: str, high: int) -> None:
+def test_a_picture_is_as_high_as_its_scene_within_bounds(name: str, high: int) -> None:
     page = Reader(document(Shared(load(name))))
-    views = [attrs["viewbox"] for tag, attrs in page.seen if tag == "svg"]
-    assert views == [f"0 0 960 {high}", "0 0 960 300"]
+    views = [attrs.get("viewbox") for tag, attrs in page.seen if tag == "svg"]
+    assert views == [f"0 0 960 {high}", None]
 
 
 def test_a_page_runs_at_the_speed_asked_for() -> None:
@@ -311,7 +311,9 @@ def test_no_words_take_room_from_the_linkage() -> None:
     across, down = x + scale * places[:, 0], y - scale * places[:, 1]
     assert across.min() + across.max() == pytest.approx(float(wide), abs=2.0)
     assert down.min() + down.max() == pytest.approx(float(high), abs=2.0)
-    assert max(np.ptp(across) / float(wide), np.ptp(down) / float(high)) > 0.94
+    assert (
+        max(np.ptp(across) / float(wide), np.ptp(down) / float(high)) > 0.92
+    )  # a margin of 4 % on both sides
 
 
 @pytest.mark.parametrize("token", ["P.velocity", "rocker.angle", "rocker.coefficient"])

@@ -38,7 +38,8 @@ def run(options: Namespace) -> None:
         told(page.title)
         return
     phase = None if phase is None else float(phase)
-    shown = Figured(scene, size, look, phase, options.poses or 0, options.speed)
+    lit = look.material == "lit"
+    shown = Figured(scene, size, look, phase, options.poses or 0, options.speed, lit=lit)
     _write(shown, target, canvas, latex=bool(options.text))
     told(shown.words)
     if shown.phase is None:

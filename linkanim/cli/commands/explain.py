@@ -22,7 +22,7 @@ from linkanim.paper.construction import ConstructionPage
 from linkanim.paper.html import embedded
 from linkanim.paper.svg import svg
 from linkanim.paper.vectors import vectors_svg
-from linkanim.picture.stills import default_phase
+from linkanim.picture.stills import still_phase
 from linkanim.scenes import load
 from linkanim.scenes.editing import in_unit
 from linkanim.scenes.scene import Scene
@@ -111,7 +111,7 @@ def _pose(scene: Scene, options: Namespace) -> PoseRequest:
     if angle is not None:
         phase_at(scene, angle)  # raises OutOfRange where the input does not reach it
     elif phase is None:
-        phase = default_phase(scene)
+        phase = still_phase(scene)
         # an input that turns has one pose at that angle within its first turn; one that swings has two
         angle = scene.pose(phase, 0).coordinate % tau if scene.info.full_turn else None
     if angle is not None:

@@ -21,12 +21,13 @@ def run(options: Namespace) -> None:
         return
     play(
         options.scene,
-        look=Look(theme=options.theme, unit=options.unit),
+        look=Look(theme=options.theme, unit=options.unit, material=options.material),
         attract=options.attract,
         size=options.size,
         keeper=Arcade(options.scores, greets=True),
         game=options.game,
         drafts=kept_as("draft.json"),
+        reduced_motion=options.reduced_motion,
     )
 
 

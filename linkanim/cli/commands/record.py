@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from argparse import Namespace
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
@@ -13,13 +14,15 @@ from linkanim.cli.alternative import alternative
 from linkanim.cli.command_table import parse
 from linkanim.cli.exits import DONE, FAILED
 from linkanim.cli.letters import tell_of_scene
-from linkanim.cli.options import DEFAULT, PRESETS, inputs_of
+from linkanim.cli.options import DEFAULT, PRESETS, Preset, inputs_of
 from linkanim.cli.picture_options import look_of, refuse_photograph
 from linkanim.cli.progress import bar
 from linkanim.errors import BadInput
 from linkanim.letters import PIXELS
 from linkanim.manifest import checked_output
+from linkanim.picture.layout import SMALL, layout
 from linkanim.picture.look import TOGGLES
+from linkanim.picture.purpose import PURPOSES
 from linkanim.picture.quantities import speed_words
 from linkanim.recorder.recording import SUFFIXES, Recording, record
 from linkanim.scenes import load
@@ -39,14 +42,23 @@ def run(options: Namespace) -> None:
         raise BadInput("--alt is for a scene; what a tape shows is what was done in it")
     told = alternative(options)
     size = None if is_tape and not options.preset else preset.size
-    frame = {"size": options.size or size, "fps": options.fps or preset.fps}
+    pixels: tuple[int, int] | None = options.size or size
     with bar(shown=options.progress) as progress:
-        work = _of_tape(options) if is_tape else _of_scene(options, target.path)
-        recording = work(target, **frame, progress=progress)
+        scale = letters_for(preset, pixels or preset.size)
+        work = _of_tape(options) if is_tape else _of_scene(options, target.path, scale)
+        recording = work(target, size=pixels, fps=options.fps or preset.fps, progress=progress)
     print(recording.summary, file=sys.stderr)
     print(recording.path)
     if options.alt:
         told(_words(options))
+
+
+def letters_for(preset: Preset, size: tuple[int, int]) -> float:
+    """Return how many times larger than usual letters are for a purpose: on a slide as its figures' are."""
+    if not preset.projected:
+        return 1.0
+    usual = SMALL * layout(size).unit
+    return max(PURPOSES["slide"]._replace(pixels=size[0]).type_scale(usual), 1.0)
 
 
 def _words(options: Namespace) -> str:
@@ -65,13 +77,13 @@ def _stem(source: str) -> str:
     return Path(source).name.removesuffix(".json").removesuffix(".tape").removesuffix(".toml")
 
 
-def _of_scene(options: Namespace, target: Path) -> Callable[..., Recording]:
+def _of_scene(options: Namespace, target: Path, type_scale: float) -> Callable[..., Recording]:
     if options.photo:
         raise BadInput("--photo is for a tape, whose sheet has a photograph behind it")
     scene = load(options.scene)
     refuse_photograph(scene, target)
     asked = {name: getattr(options, name) for name in _OF_A_SCENE}
-    look = look_of(scene, options)
+    look = replace(look_of(scene, options), type_scale=type_scale)
     tell_of_scene(scene, PIXELS, title=look.hud, names=look.names > 0)
     asked |= {"periods": options.periods or 1, "look": look}
     if options.construction:

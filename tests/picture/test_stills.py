@@ -4,15 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from random_scenes import chain
 
 from linkanim.paper.figure import Figured
-from linkanim.picture import stills
 from linkanim.picture.figure import figure
 from linkanim.picture.look import Look
 from linkanim.picture.stills import still_phase
-from linkanim.scenes import load, names
-from linkanim.scenes.reading import scene_from
+from linkanim.scenes import load
 
 # at their starts bars lie in line, or a joint behind another
 HIDDEN = ["chebyshev-line", "driven-piston", "inverted-slider-crank", "oscillating-cylinder", "scissor-lift"]
@@ -52,7 +49,7 @@ def test_no_two_bars_lie_in_line_there(name: str) -> None:
 def test_a_figure_is_of_that_pose_unless_told_otherwise_and_its_caption_says_where() -> None:
     scene = load("inverted-slider-crank")
     chosen, asked = (Figured(scene, (320, 180), Look(), phase) for phase in (None, 0.5))
-    assert chosen.shown_phase == still_phase(scene, (320, 180))
+    assert chosen.shown_phase == still_phase(scene)
     assert asked.shown_phase == 0.5
     assert chosen.caption == f"θ₂ = {np.degrees(scene.pose(chosen.shown_phase).coordinate):.1f}°"
     assert chosen.document() == Figured(scene, (320, 180), Look(), chosen.shown_phase).document()
@@ -66,27 +63,9 @@ def test_it_is_near_sixty_degrees_within_one_turn_with_every_dimension_at_what_i
     scene = load(name)
     still = Figured(scene, (1280, 720), Look(names=2))
     assert 0 <= still.shown_phase < 2 * np.pi
-    labels = still.picture.names
-    assert labels is not None
-    assert labels.table is None
-    assert not labels.unlisted
+    assert not still.picture.names.listed
     angle = np.degrees(scene.pose(still.shown_phase, 0).coordinate) % 360
     assert abs(angle - 60) <= 30
     shown = float(still.caption.split("=")[1].rstrip("°"))
     assert 0 <= shown < 360
     assert abs(shown - angle) < 0.1
-
-
-@pytest.mark.long
-def test_few_stills_have_a_table_of_what_has_no_place() -> None:
-    figures = (Figured(load(name), (1280, 720), Look(names=2)) for name in names())
-    assert sum(not (one.picture.names and one.picture.names.table is None) for one in figures) <= 5
-
-
-def test_of_many_joints_the_usual_pose_is_taken_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Names of all of them in two dozen poses take minutes, and find no room in any."""
-    scene = scene_from(chain(20), name="chain", where="chain.toml")
-    monkeypatch.setattr(stills, "_labels", lambda *given: pytest.fail("names are placed"))
-    assert np.degrees(scene.pose(still_phase(scene, (320, 180)), 0).coordinate) == pytest.approx(
-        60.0, abs=1.0
-    )

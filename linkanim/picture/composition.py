@@ -1,0 +1,472 @@
+"""Compose a picture: slots for words, charts and polygons, and the linkage as large as fits into the rest."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import cached_property
+from itertools import product
+
+import numpy as np
+
+from linkanim.frozen import NamedTuple, frozen
+from linkanim.picture.anchors import Anchor, pushed
+from linkanim.picture.centres import CentrePairs
+from linkanim.picture.dead_centres import DeadCentres, dead_centres_of
+from linkanim.picture.dimensions import Symbols, symbols
+from linkanim.picture.figure import DrawSetting, Figure, figure
+from linkanim.picture.fit import Extent, around, each, fitted, of_linkage, together
+from linkanim.picture.hud import (
+    Legendary,
+    WidestRow,
+    WordBlock,
+    caption_lines,
+    columns,
+    key_lines,
+    widest_rows,
+)
+from linkanim.picture.layout import (
+    Docked,
+    Gauge,
+    Layout,
+    gauge,
+    layout,
+    room_of,
+    with_caption,
+    with_side,
+    with_words,
+)
+from linkanim.picture.look import Look
+from linkanim.picture.motion_marks import Arrows, Sliding, Turning, arrows_for, motion_of
+from linkanim.picture.names import Names, names_of
+from linkanim.picture.quantities import chart_tokens
+from linkanim.picture.text import Type, subscripted
+from linkanim.picture.theme import Theme
+from linkanim.picture.view import Rect, View
+from linkanim.scenes.scene import Scene
+
+_KEEPS = 0.75
+"""The share of its size without words that the linkage keeps: for more words there is no room."""
+_BETTER = 1.1
+"""The factor by which the linkage must be larger with its charts beside it for them to stand there."""
+_WIDE_ENOUGH = 420
+"""The least width of a picture that has its charts beside the linkage, in pixels."""
+_THINNEST = 0.68
+"""The least thickness of a drawing on a small stage, as a share of that for the whole picture."""
+_ROOM_FOR_LINES = (5.5, 3.8, 2.2, 0.8)
+"""The room for dimension lines on each side of a still at first, in heights of their text: less and less."""
+_LEAST = 0.57
+"""The least share of a still's width or height that the linkage takes."""
+_ROUNDS, _SAME, _ALIKE = 5, 0.005, 0.02
+"""How often names are chosen and the linkage is fitted at the most: until its size hardly changes.
+
+It may change more in a moving picture, in which names are not as close to other things.
+"""
+_SAMPLES = 60
+"""The most moments at which arrows are looked at."""
+
+
+class Wanted(NamedTuple):
+    """What a picture is to hold, as far as its composition depends on it.
+
+    `moment` is the phase of a still, `also` are further places in the scene's unit that the view includes.
+    """
+
+    size: tuple[int, int]
+    charts: int = 0
+    polygons: int = 0
+    """1 for both polygons, 2 for a large one."""
+    key_lines: int = 0
+    hud: bool = True
+    caption: bool = False
+    docked: Docked = Docked()
+    moment: float | None = None
+    also: tuple[complex, ...] = ()
+    names: int = 0
+    joints_named: bool = False
+    centres: int = 0
+    vectors: frozenset[str] = frozenset()
+    traced: bool = True
+    dead_centres: bool = True
+    type_scale: float = 1.0
+
+    @property
+    def worded(self) -> bool:
+        """Whether the title and the readout are shown; an open list takes their place."""
+        return self.hud and not self.docked.listed
+
+
+def wanted(
+    scene: Scene,
+    size: tuple[int, int],
+    look: Look,
+    docked: Docked,
+    moment: float | None = None,
+    also: tuple[complex, ...] = (),
+) -> Wanted:
+    """Return what a picture of a scene in a look has to hold."""
+    return Wanted(
+        size,
+        len(chart_tokens(scene, look.chart)),
+        look.polygons_shown,
+        key_lines(look),
+        look.hud,
+        look.caption and not docked.listed,
+        docked,
+        moment,
+        also,
+        look.names,
+        look.joints_named,
+        look.centres,
+        look.vectors,
+        look.trace or look.ink,
+        look.dead_centres,
+        look.type_scale,
+    )
+
+
+@frozen
+class Subject:
+    """A scene's figure, and perhaps a second scene beside it, such as its other closure."""
+
+    figure: Figure
+    beside: Scene | None = None
+
+    @property
+    def scenes(self) -> tuple[Scene, ...]:
+        """The scene, and the one beside it."""
+        return (self.figure.scene, self.beside) if self.beside else (self.figure.scene,)
+
+    @cached_property
+    def rows(self) -> tuple[WidestRow, ...]:
+        """The rows of their readout, at their widest."""
+        return widest_rows(self.scenes, Type())
+
+    @cached_property
+    def figures(self) -> tuple[Figure, ...]:
+        """Their figures."""
+        return (self.figure, figure(self.beside)) if self.beside else (self.figure,)
+
+
+@frozen
+class Composition:
+    """Where everything stands: the slots, the view, the thicknesses, the words, the names."""
+
+    subject: Subject
+    wanted: Wanted
+    layout: Layout
+    view: View
+    gauge: Gauge
+    block: WordBlock
+    names: Names = Names()
+    listed: tuple[str, ...] = ()
+    """The rows that the legend has room for."""
+    extent: Extent | None = None
+
+    @property
+    def has_room(self) -> bool:
+        """Whether all that the linkage passes lies on its stage."""
+        found = together(of_linkage(one, self.gauge) for one in self.subject.figures).pixels(self.view)
+        stage = self.layout.stage
+        return (
+            stage.x <= found.x
+            and found.right <= stage.right
+            and stage.y <= found.y
+            and found.bottom <= stage.bottom
+        )
+
+    def view_of(self, shown: Figure) -> View:
+        """Return the view of the subject's figure; a figure on its way to it has the same scale and place."""
+        view, whole = self.view, self.subject.figure
+        if shown is whole:
+            return view
+        wide, high = (shown.box.right - shown.box.left, shown.box.high - shown.box.low)
+        spans = ((whole.box.right - whole.box.left, wide), (whole.box.high - whole.box.low, high))
+        share = min((span / own for span, own in spans if own > 0), default=1.0)
+        x, y = view.to_pixel(*whole.box.middle)
+        across, up = shown.box.middle
+        scale = view.scale * share
+        return View(scale, x - scale * across, y + scale * up)
+
+
+def composed(
+    subject: Subject, look: Look, asked: Wanted, type_: Type, theme: Theme, kept: Composition | None = None
+) -> Composition:
+    """Return the composition of a subject in a look.
+
+    With one `kept`, such as while a hand changes the linkage, view and names stay where they are in that.
+    """
+    if kept is not None:
+        figured = symbols(subject.figure) if asked.names > 1 else None
+        names = kept.names.measuring(figured, subject.figure.scene.length_unit)
+        return replace(kept, subject=subject, names=names)
+    return _Composer(subject, look, asked, type_, theme).composition()
+
+
+@frozen
+class _Composer:
+    """Composes one picture."""
+
+    subject: Subject
+    look: Look
+    asked: Wanted
+    type: Type
+    theme: Theme
+
+    def composition(self) -> Composition:
+        """Fit the linkage with room for names, choose their anchors, then fit all once more with these.
+
+        A still in which dimensions leave the linkage too little has less room for them.
+        """
+        if not self._named:
+            return self._arranged(self._first(0.0), self._far_centres)
+        still = self.asked.moment is not None
+        for lines in _ROOM_FOR_LINES if still and self.asked.names > 1 else (2.0,):
+            found = self._composed(lines)
+            if self._share(found) >= _LEAST:
+                break
+        return found
+
+    def _composed(self, lines: float) -> Composition:
+        """Return the composition with so much room for dimension lines at first, in heights of their text."""
+        still = self.asked.moment is not None
+        found = self._arranged(self._first(lines), self._far_centres)
+        for _ in range(_ROUNDS if still else _ROUNDS - 2):
+            names, last = self._names(found), found
+            found = self._arranged_for(names, found)
+            grown = abs(found.view.scale / last.view.scale - 1.0)
+            if grown < (_SAME if still else _ALIKE):
+                return replace(found, names=names)
+        names = self._names(found)
+        rows = len(names.listed) + len(self._far_centres)
+        found = self._arranged_for(names, found) if rows != len(found.listed) else found
+        return replace(found, names=names)
+
+    def _arranged_for(self, names: Names, found: Composition) -> Composition:
+        """Return the composition with room for exactly these names, which were chosen in another one."""
+        exact = together([self._linkage, self._arrow_extent, *self._label_extents(names, found)])
+        return self._arranged(exact, (*(label.row for label in names.listed), *self._far_centres))
+
+    def _share(self, found: Composition) -> float:
+        """Return the share of the picture's width or height that the linkage takes, whichever is greater."""
+        box, (wide, high) = self._linkage.box, self.asked.size
+        scale = found.view.scale
+        return max(scale * (box.right - box.left) / wide, scale * (box.high - box.low) / high)
+
+    @property
+    def _named(self) -> bool:
+        return self.look.named or bool(self.look.vectors)
+
+    @cached_property
+    def _bare(self) -> Layout:
+        """The slots that depend on nothing but the window, and the caption's."""
+        asked = self.asked
+        parts = layout(asked.size, docked=asked.docked, type_scale=asked.type_scale)
+        if not asked.caption or parts.caption:
+            return parts
+        lines = caption_lines(parts, self.subject.figure.scene.look_at, self.type)
+        return with_caption(parts, len(lines))
+
+    @cached_property
+    def _gauge(self) -> Gauge:
+        """The thicknesses, for the linkage as large as it is without words."""
+        parts, box = (
+            self._bare,
+            together(of_linkage(one, Gauge(0, 0, 0, 0)) for one in self.subject.figures).box,
+        )
+        parts = max(
+            (
+                with_side(parts, self.asked.charts, self.asked.polygons, beside=beside)
+                for beside in (False, True)
+            ),
+            key=lambda one: _bare_scale(box, one.stage),
+        )
+        stage = parts.stage
+        share = min(stage.width / parts.size[0], stage.height / parts.size[1])
+        return gauge(
+            parts.unit * max(share, _THINNEST), self.subject.figure.shortest * _bare_scale(box, stage)
+        )
+
+    @cached_property
+    def _linkage(self) -> Extent:
+        """How far the linkage extends, with the one beside it and places that have to be seen."""
+        asked, figures = self.asked, self.subject.figures
+        found = [of_linkage(one, self._gauge, asked.moment, traced=asked.traced) for one in figures]
+        if asked.also:
+            found.append(around(np.array(asked.also), 2.0 * self._gauge.bar))
+        return together(found)
+
+    @cached_property
+    def arrows(self) -> tuple[Arrows, ...]:
+        """The arrows of velocity and acceleration."""
+        return arrows_for(
+            self.subject.figure, self.look, self._bare, self._gauge, self.theme, self.asked.moment
+        )
+
+    @cached_property
+    def _arrow_extent(self) -> Extent:
+        """How far arrows and their names extend."""
+        shown, found = self.subject.figure, []
+        moment = self.asked.moment
+        motion = shown.cycle if moment is None else shown.scene.solve(phase=np.array([moment]))
+        step = 1 if moment is not None else max(len(shown.cycle.phase) // _SAMPLES, 1)
+        size = self._bare.small_size
+        for kind in self.arrows:
+            for symbol, place, reach in kind.paths(motion, shown.moving):
+                foot, head = (np.atleast_2d(one)[::step] @ np.array([1, 1j]) for one in (place, reach))
+                tip = np.conj(head)
+                with np.errstate(invalid="ignore", divide="ignore"):
+                    way = np.where(np.abs(tip) > 0, tip / np.abs(tip), 0)
+                wide = self.type.width(symbol, size, strong=True)
+                half = complex(wide / 2 + 2, size / 2 + 2)
+                off = 0.25 * size + np.abs(way.real) * wide / 2 + np.abs(way.imag) * size / 2
+                found.append(each(foot, tip + off * way, np.array([half])))
+        return together(found)
+
+    def _first(self, lines: float) -> Extent:
+        """Return the linkage and its arrows, with room for names whose places are not known yet.
+
+        Dimension lines have so much room on each side, in heights of their text.
+        """
+        found, asked, parts = [self._linkage, self._arrow_extent], self.asked, self._bare
+        size, shown = parts.label_size, self.subject.figure
+        if asked.joints_named:
+            for name in shown.shown:
+                wide = self.type.width(subscripted(name), size, strong=True)
+                path = (
+                    shown.cycle.position[name]
+                    if asked.moment is None
+                    else np.array(shown.scene.pose(asked.moment, 0).position[name])
+                )
+                gap = self._gauge.bar + 0.2 * size
+                found.append(
+                    around(
+                        np.atleast_2d(path) @ np.array([1, 1j]),
+                        (wide + gap, size + gap, wide + gap, size + gap),
+                    )
+                )
+        if asked.names > 1:
+            found.append(Extent(self._linkage.boxes, self._linkage.margins + lines * parts.small_size))
+        return together(found)
+
+    def _arranged(self, extent: Extent, listed: tuple[str, ...]) -> Composition:
+        """Return the words and slots that leave the linkage room, and the linkage fitted into it.
+
+        Of the column of words as much is kept as leaves the linkage its share of the size that it has without
+        any. The column stands beside the linkage or above it, charts beside or below it, whichever leaves the
+        linkage larger.
+        """
+        asked, still = self.asked, self.asked.moment is not None
+        sides = [
+            (beside, with_side(self._bare, asked.charts, asked.polygons, beside=beside))
+            for beside in ((False, True) if self._may_stand_beside else (False,))
+        ]
+        least = _KEEPS * max(_scale(extent, parts, still) for _, parts in sides)
+        legend = Legendary(asked.key_lines, listed)
+        scenes: Sequence[Scene] = self.subject.scenes if asked.worded else ()
+        rows = self.subject.rows if scenes else ()
+        best: tuple[float, Layout, WordBlock] | None = None
+        for block in columns(scenes, rows, self._bare, legend, self.type):
+            best = None
+            for (beside, parts), above in product(sides, (False, True)):
+                slots = (
+                    with_words(parts, (block.width, block.height), block.key, above=above)
+                    if block.height
+                    else parts
+                )
+                if slots is None:
+                    continue
+                scale = _scale(extent, slots, still)
+                weight = scale * (1.0 if not beside or len(sides) < 2 else 1.0 / _BETTER)
+                if best is None or weight > best[0] * (1 + 1e-9):
+                    best = weight, slots, block
+                    found = scale
+            # what is listed is nowhere else
+            if best is not None and (found >= least or (listed and not block.lines and not block.rows)):
+                break
+        assert best is not None
+        _, slots, block = best
+        view = fitted(extent, room_of(slots, still=still))
+        return Composition(self.subject, asked, slots, view, self._gauge, block, listed=listed, extent=extent)
+
+    @property
+    def _may_stand_beside(self) -> bool:
+        return bool(self.asked.charts or self.asked.polygons) and self.asked.size[0] >= _WIDE_ENOUGH
+
+    # The names.
+
+    @cached_property
+    def _symbols(self) -> Symbols | None:
+        return symbols(self.subject.figure) if self.asked.names > 1 else None
+
+    def _setting(self, found: Composition) -> DrawSetting:
+        parts = self.subject.figure, found.view, self._gauge, self.theme
+        return DrawSetting(*parts, found.layout, self.look, self.type)
+
+    def _marks(self, setting: DrawSetting) -> tuple[Turning | Sliding | None, DeadCentres | None]:
+        turning = motion_of(setting) if self.look.names else None
+        centred = dead_centres_of(setting) if self.look.names and self.look.dead_centres else None
+        return turning, centred
+
+    def _names(self, found: Composition) -> Names:
+        setting = self._setting(found)
+        return names_of(setting, self._symbols, *self._marks(setting), self.arrows, self.asked.moment)
+
+    def _label_extents(self, names: Names, found: Composition) -> list[Extent]:
+        """Return how far labels, the lines drawn with them and the marks of the input extend."""
+        shown, moment = self.subject.figure, self.asked.moment
+        motion = shown.cycle if moment is None else shown.scene.solve(phase=np.array([moment]))
+        step = 1 if moment is not None else max(len(shown.cycle.phase) // _SAMPLES, 1)
+        joints = [joint.name for joint in shown.linkage.joints]
+        places = {
+            name: (np.atleast_2d(motion.position[name])[::step] @ np.array([1, -1j])) for name in joints
+        }
+        scale, result = found.view.scale, []
+        for label in names.labels:
+            if label.anchor is None:
+                continue
+            base, offset = _parts_of(label.anchor, places, label.size)
+            result.append(
+                each(np.conj(base), offset, np.array([complex(label.size[0] / 2 + 3, label.size[1] / 2 + 2)]))
+            )
+            if label.drawn:
+                at, head = (places[name] for name in label.drawn.frame)
+                turned = label.drawn.frame[0] != label.drawn.frame[1]
+                span = head - at if turned else np.ones(len(at), np.complex128)
+                tracks = label.drawn.tracks(scale * at, scale * span, self._gauge)
+                for base, ends in label.drawn.bases(at, span, tracks):
+                    result.append(each(np.conj(base), ends - scale * base, np.array([2 + 2j])))
+        turning, _ = self._marks(self._setting(found))
+        if isinstance(turning, Turning):
+            result.append(around(np.conj(places[turning.pivot]), turning.arrow + 4 * self._gauge.line))
+        return result
+
+    @cached_property
+    def _far_centres(self) -> tuple[str, ...]:
+        """Rows for the centres that the picture does not show."""
+        return CentrePairs(self.subject.figure).far if self.asked.centres else ()
+
+
+def _parts_of(
+    anchor: Anchor, places: dict[str, np.ndarray], size: tuple[float, float]
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return an anchor's base in the scene's unit, y down, and how far the label is off it in pixels."""
+    at, head = places[anchor.at], places[anchor.head]
+    span = head - at if anchor.head != anchor.at else np.ones(len(at), np.complex128)
+    way = (
+        anchor.way * np.where(span == 0, 1, span / np.where(span == 0, 1, np.abs(span)))
+        if anchor.turns
+        else np.full(len(at), anchor.way)
+    )
+    offset = np.array([pushed(complex(one), anchor.reach, size, anchor.flat) for one in way])
+    return at + anchor.base * span, offset
+
+
+def _scale(extent: Extent, parts: Layout, still: bool) -> float:
+    return fitted(extent, room_of(parts, still=still)).scale
+
+
+def _bare_scale(box: object, stage: Rect) -> float:
+    wide, high = box.right - box.left, box.high - box.low  # type: ignore[attr-defined]
+    scales = [room / span for room, span in ((stage.width, wide), (stage.height, high)) if span > 0]
+    return min(scales, default=1.0)
