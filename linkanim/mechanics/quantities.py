@@ -8,7 +8,7 @@ Symbols are those of the textbooks; their subscripts are Unicode's digits (ω₃
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import lru_cache, partial
 from types import MappingProxyType
@@ -47,7 +47,6 @@ from linkanim.mechanics.measures import (
 from linkanim.mechanics.motion import Motion
 from linkanim.mechanics.program import Array
 from linkanim.mechanics.search import sign_changes
-from linkanim.steps import at_once
 from linkanim.units import shown
 
 _STANDARD = {
@@ -412,8 +411,6 @@ def _of_strut(strut: Spring | Damper, index: str, words: str, *, every: bool) ->
 
 
 _LEAST, _MOST = 6, 10
-_IN_STEP = 2
-"""The number of quantities that are looked at in a step."""
 
 
 def key_quantities(cycle: Motion, traced: tuple[str, ...] = ()) -> tuple[str, ...]:
@@ -422,19 +419,8 @@ def key_quantities(cycle: Motion, traced: tuple[str, ...] = ()) -> tuple[str, ..
     What it is there to move, the forces, how its links turn, the torque at its input, the first of the
     `traced` joints whose speed changes, how well it transmits; nothing that stands still over the cycle.
     """
-    return at_once(finding_key_quantities(cycle, traced))
-
-
-def finding_key_quantities(
-    cycle: Motion, traced: tuple[str, ...] = ()
-) -> Generator[None, None, tuple[str, ...]]:
-    """Find these quantities in steps of some milliseconds."""
-    linkage, changing = cycle.mechanism.linkage, set[str]()
-    for n, (token, one) in enumerate(register(linkage).items()):
-        if n % _IN_STEP == 0:
-            yield
-        if one.changes(cycle):
-            changing.add(token)
+    linkage = cycle.mechanism.linkage
+    changing = {token for token, one in register(linkage).items() if one.changes(cycle)}
     point = tuple(name for name in traced if f"{name}.velocity" in changing)[:1]
     candidates = [token for token in _candidates(linkage, point) if token in changing]
     rest = [token for token in register(linkage) if token in changing and token not in candidates]

@@ -252,11 +252,6 @@ class Look:
         """Whether joints' names are drawn: also for polygons, whose vectors are named by joints."""
         return self.names > 0 or self.polygons_shown == 1
 
-    @property
-    def overrun(self) -> bool:
-        """Whether curves or the scene itself may lie where the words stand."""
-        return self.framed or self.centres > 1
-
 
 TOGGLES: Mapping[str, Toggle] = {
     one.name: one.metadata["toggle"] for one in fields(Look) if "toggle" in one.metadata

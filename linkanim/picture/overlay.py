@@ -573,11 +573,6 @@ class Overlay:
         return self.build.tools if self.build else self.tools
 
     @property
-    def is_drawn_on(self) -> bool:
-        """Whether more is drawn about the scene than its motion: a sheet's lines, poses, a construction."""
-        return bool(self.path or self.build or self.poses or self.layers or self.construction or self.slider)
-
-    @property
     def hides_chart(self) -> bool:
         """Whether no chart is shown: on blank paper, under a draft or among parts in layers."""
         blank = (self.path and self.path.blank) or (self.poses and self.poses.blank)

@@ -96,22 +96,6 @@ def chosen(labels: Sequence[Alternatives], ground: Obstacles) -> list[int | None
     return found
 
 
-def faults_of(labels: Sequence[Alternatives], which: Sequence[int | None], ground: Obstacles) -> list[Bools]:
-    """Return for each label that has a place at which moments (n,) it has a fault there, excused or not."""
-    faults = [_faults(label, ground) for label in labels]
-    for one, place in zip(labels, which, strict=True):
-        if place is not None:
-            mine = one.places[:, place : place + 1], one.size
-            lines = None if one.lines is None else one.lines[:, place]
-            for other, fault in zip(labels, faults, strict=True):
-                if other is not one:
-                    fault |= _hit_by(other, *mine, lines)
-    return [
-        fault[:, place] if place is not None else np.zeros(len(fault), np.bool_)
-        for fault, place in zip(faults, which, strict=True)
-    ]
-
-
 def grounded(
     inside: Rect, rects: Sequence[Rect] = (), lines: Sequence[tuple[complex, complex]] = (), half: float = 0.0
 ) -> Obstacles:

@@ -174,9 +174,7 @@ def _centiseconds(length: Fraction, fps: Fraction) -> tuple[int, Fraction]:
 def _refuse_nonsense(clip: Clip) -> None:
     """Raise `BadInput` for what is not a number of its kind, or makes a clip of absurd length."""
     if not math.isfinite(clip.speed) or clip.speed == 0.0:
-        raise BadInput(
-            f"a speed of {clip.speed:g} rad/s has no period to record; give one such as 30 rpm"
-        )
+        raise BadInput(f"a speed of {clip.speed:g} rad/s has no period to record; give one such as 30 rpm")
     slowest, fastest = RATES
     if not slowest <= clip.fps <= fastest:
         raise BadInput(

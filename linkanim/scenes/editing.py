@@ -411,11 +411,6 @@ def ghost_of(scene: Scene) -> Scene | None:
     return scene.elsewhere[_OTHER_CLOSURE]
 
 
-def known_ghost_of(scene: Scene) -> Scene | None:
-    """Return the other closure where it is cached; None where it was not asked for, or there is none."""
-    return scene.elsewhere.get(_OTHER_CLOSURE)
-
-
 def _choice(scene: Scene) -> _Choice | None:
     """Return where the first closure that can be chosen is; a missing key means the first option."""
     document = scene.document

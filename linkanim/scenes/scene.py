@@ -9,7 +9,7 @@ Its parts, in reading order:
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
@@ -156,14 +156,6 @@ class Scene:
         from linkanim.mechanics.quantities import key_quantities
 
         return key_quantities(self.cycle(self.mechanism.count(96)), self.trace)
-
-    def finding_telling(self) -> Iterator[None]:
-        """Find what is `telling` in small steps."""
-        from linkanim.mechanics.quantities import finding_key_quantities
-
-        if "telling" not in vars(self):
-            found = yield from finding_key_quantities(self.cycle(self.mechanism.count(96)), self.trace)
-            vars(self)["telling"] = found
 
     @cached_property
     def length_step(self) -> float:

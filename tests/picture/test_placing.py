@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from linkanim.picture.placing import Alternatives, Obstacles, chosen, crossed, faults_of, grounded
+from linkanim.picture.placing import Alternatives, Obstacles, chosen, crossed, grounded
 from linkanim.picture.view import Rect
 
 ROOM = Rect(0, 0, 400, 400)
@@ -75,8 +75,6 @@ def test_a_place_is_as_good_as_it_is_over_all_moments() -> None:
     assert chosen([only._replace(excused=excused)], ground) == [0]
     # an excused moment is no reason to stand there all the same
     assert chosen([both._replace(excused=excused)], ground) == [1]
-    (fault,) = faults_of([only], [0], ground)
-    assert np.flatnonzero(fault).tolist() == [8, 9, 10, 11]
 
 
 def test_whoever_has_the_fewest_places_goes_first_unless_the_rank_says_otherwise() -> None:
