@@ -6,7 +6,7 @@ These are data only; places are in the scene's unit, y up. Modules such as `pane
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Literal, TypeVar
@@ -287,28 +287,31 @@ class OwnFile(NamedTuple):
         return self.name.removesuffix(".toml")
 
 
-def found_among(entries: Sequence[Scene | str], sieve: str) -> tuple[int, ...]:
-    """Return the places of the mechanisms that have all the sieve's words in name, title or chapter."""
-    return sifted(dict(enumerate((NEW_TITLE, *_searched(entries)), start=NEW)), sieve)
+def sifted(texts: Mapping[Key, tuple[str, ...]], sieve: str) -> tuple[Key, ...]:
+    """Return the keys whose texts have all the sieve's words, the best ones first.
 
-
-def sifted(texts: Mapping[Key, str], sieve: str) -> tuple[Key, ...]:
-    """Return the keys of the texts that have all the sieve's words."""
+    The best is the one whose first text is what was typed; then come those whose first text has all the
+    words, then those whose first two have them, and so on, each in the order of `texts`.
+    """
     if not (words := sieve.casefold().split()):
         return tuple(texts)
-    found = [(key, text.casefold()) for key, text in texts.items()]
+    found = [(key, [text.casefold() for text in several]) for key, several in texts.items()]
     for word in words:
-        found = [(key, text) for key, text in found if word in text]
-    return tuple(key for key, _ in found)
+        found = [(key, several) for key, several in found if any(word in text for text in several)]
+
+    def rank(several: list[str]) -> int:
+        if several[0].replace("-", " ").split() == sieve.casefold().replace("-", " ").split():
+            return 0
+        return 1 + max(next(n for n, text in enumerate(several) if word in text) for word in words)
+
+    return tuple(key for key, several in sorted(found, key=lambda one: rank(one[1])))
 
 
-def _searched(entries: Sequence[Scene | str]) -> Iterator[str]:
-    named = titles()
-    for entry in entries:
-        if isinstance(entry, str):
-            yield f"{entry} {named[entry]} {chapter_of(entry)}"
-        else:
-            yield f"{entry.name} {entry.title} {entry.chapter}"
+def searched(entry: Scene | str) -> tuple[str, str, str]:
+    """Return the texts by which a mechanism is found: its name, its title, its chapter."""
+    if isinstance(entry, str):
+        return entry, titles()[entry], chapter_of(entry) or ""
+    return entry.name, entry.title, entry.chapter
 
 
 @frozen
@@ -328,11 +331,10 @@ class Browsing:
 
     @cached_property
     def found(self) -> tuple[int, ...]:
-        """The places of the mechanisms and files that have all the sieve's words."""
-        texts = (f"{one.title} {one.written} {MINE}" for one in self.own)
-        return found_among(self.entries, self.sieve) + sifted(
-            dict(enumerate(texts, start=len(self.entries))), self.sieve
-        )
+        """The places of the mechanisms and files that have all the sieve's words, the best ones first."""
+        files = ((one.title, one.written, MINE) for one in self.own)
+        texts = ((NEW_TITLE,), *map(searched, self.entries), *files)
+        return sifted(dict(enumerate(texts, start=NEW)), self.sieve)
 
     def file_at(self, place: int) -> OwnFile | None:
         """Return the file at a place; None where there is a mechanism, or nothing."""
@@ -340,9 +342,9 @@ class Browsing:
         return self.own[behind] if 0 <= behind < len(self.own) else None
 
     def sifted(self, sieve: str) -> Browsing:
-        """Return the shelf with another sieve; if the chosen entry is not found, the first one is chosen."""
+        """Return the shelf with another sieve, and the best of what is found chosen."""
         other = replace(self, sieve=sieve, top=0)
-        return other if self.chosen in other.found else replace(other, chosen=(*other.found, self.chosen)[0])
+        return replace(other, chosen=(*other.found, self.chosen)[0]) if sieve else other
 
 
 class Shelf(NamedTuple):

@@ -54,7 +54,7 @@ class Arcade:
         game, scores = GameWords.of(words), self._scores()
         match game.kind:
             case "title":
-                return str(game.having(door=scores.door or "play"))
+                return str(game.having(door=scores.door or "run"))
             case "menu":
                 from linkanim.play.menus import is_round
 

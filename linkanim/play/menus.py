@@ -163,11 +163,11 @@ def read_lobby(words: GameWords) -> Lobby:
 EACH = 9 * FRAMES_PER_SECOND
 _NAME = "linkanim"
 _TITLE_ABOUT = "An arcade of planar linkages"
-_HINT = "press any key   ↑ ↓ choose   Q quits"
+_HINT = "press any key   ↑ ↓ choose   O all mechanisms   Q quits"
 
 
 DOORS = (
-    Door("explore", "Explore", "the shelf of all mechanisms"),
+    Door("run", "Run", "a mechanism"),
     Door("build", "Build", "draw a linkage on a sheet"),
     Door("path", "Draw a path", "and get linkages that follow it"),
     Door("play", "Play", "predict, match, follow"),
@@ -176,29 +176,31 @@ _IGNORED = frozenset({"scrub", "point", "move", "pull"})
 """Actions of a moving mouse, which do not leave the title: a click does."""
 _HELD: Mapping[str, Callable[[State, Any], State]] = {"grab": grab, "carry": carry, "drop": drop}
 """Actions of a hand on the running mechanism."""
-_BY_KEY = {"shelf": "explore", "pencil": "path"}
-"""The door to which a command leads directly."""
 
 
 @frozen
 class Title:
-    """The title: the door that any key takes, and the place on the shelf of the mechanism that runs."""
+    """The title: the door that any key takes, and the place on the shelf of the mechanism that runs.
+
+    Without a place it is that of the mechanism to which the first door leads.
+    """
 
     door: int
-    place: int
+    place: int | None
     covers = False
 
     @property
     def words(self) -> str:
         """The words that begin it again."""
-        return f"title door={DOORS[self.door].name} place={self.place}"
+        return f"title door={DOORS[self.door].name}" + ("" if self.place is None else f" place={self.place}")
 
     def entered(self, state: State) -> State:
         """Return the state with a mechanism running, and nothing on it but its sentence."""
         shown = Look(hud=False, theme=state.look.theme)
-        entry = state.shelf[self.place % len(state.shelf)]
+        place = state.place if self.place is None else self.place
+        entry = state.shelf[place % len(state.shelf)]
         scene = load(entry) if isinstance(entry, str) else entry
-        return with_scene(replace(state, look=shown), scene)
+        return with_scene(replace(state, look=shown, game=replace(self, place=place)), scene)
 
     def carried(self, state: State, action: Action) -> State:
         """Go through a door, or choose one."""
@@ -206,8 +208,10 @@ class Title:
             return with_toast(state, "Q quits")
         if action.name in _HELD:
             return _HELD[action.name](state, action.value)
-        if action.name in _BY_KEY:
-            return _through(state, [door.name for door in DOORS].index(_BY_KEY[action.name]))
+        if action.name == "shelf":
+            return open_shelf(leave(state), None)
+        if action.name == "pencil":
+            return _through(state, [door.name for door in DOORS].index("path"))
         if action.name in _IGNORED or (action.name == "option" and action.value not in range(len(DOORS))):
             return state
         door, taken = chosen_by(action, self.door, len(DOORS)) or (self.door, True)
@@ -217,15 +221,17 @@ class Title:
         """Go on to the next mechanism when one has run for a while."""
         if state.arrived is None or state.frame - state.arrived < EACH or state.grasp:
             return state
-        further = replace(self, place=(self.place + 1) % len(state.shelf))
+        further = replace(self, place=((self.place or 0) + 1) % len(state.shelf))
         return further.entered(replace(state, game=further))
 
     def shown(self, state: State, over: Overlay) -> Overlay:
         """Return the overlay with the name and the doors."""
+        run, *others = DOORS
+        run = run._replace(about=state.beneath.scene.title) if state.beneath else run
         panel = GamePanel(
             _NAME,
             lines=(_TITLE_ABOUT,),
-            choices=choices_of(DOORS),
+            choices=choices_of((run, *others)),
             subject=state.scene.title,
             lines_after=(state.scene.look_at,),
             hint=_HINT,
@@ -244,16 +250,18 @@ def _through(state: State, door: int) -> State:
     state = leave(state)
     if name == "path":
         return pencil(left(state), None)
-    if name == "explore":
-        return open_shelf(state, None)
+    if name == "run":
+        state = left(state)
+        return replace(state, clock=state.clock.pause(state.frame, False))
     return state if state.sheet and state.sheet.open else build(state, None)
 
 
 def read_title(words: GameWords) -> Title:
     """Return the title that words begin; BadInput where they do not."""
     names = [door.name for door in DOORS]
-    door = words.text("door", "explore")
-    return Title(names.index(door) if door in names else 0, words.whole("place", 0, 0, 10_000))
+    door = words.text("door")
+    place = words.whole("place", 0, 0, 10_000) if "place" in words.fields else None
+    return Title(names.index(door) if door in names else 0, place)
 
 
 def read(words: GameWords) -> Title | Lobby | Menu:

@@ -70,7 +70,7 @@ class Entries:
     @cached_property
     def found(self) -> tuple[ListRow, ...]:
         """The rows that have all the sieve's words."""
-        return sifted({one: f"{one.words} {one.key}" for one in self.entries}, self.sieve)
+        return sifted({one: (one.words, one.key) for one in self.entries}, self.sieve)
 
     @cached_property
     def rows(self) -> tuple[tuple[str, str], ...]:
@@ -111,7 +111,7 @@ class Listing:
 def listed(scene: Scene, sieve: str) -> tuple[str, ...]:
     """Return the tokens of the quantities that have all the sieve's words, the key quantities first."""
     found = {token: quantity(scene, token) for token in (*scene.telling, *scene.quantities)}
-    return sifted({token: f"{token} {one.words} {one.symbol}" for token, one in found.items()}, sieve)
+    return sifted({token: (token, one.words, one.symbol) for token, one in found.items()}, sieve)
 
 
 # The editing of dimensions: the value being typed, the refused value and why, undo and redo.
@@ -1027,10 +1027,10 @@ class State:
 def begin(scene: Scene | str | os.PathLike[str] | None = None, *, look: Look | None = None) -> State:
     """Return the state a window opens with: `scene`, loaded where it is a name or path, and the catalogue.
 
-    Without a scene it is the catalogue's first; a scene outside the catalogue stands before all others.
-    BadInput as loading raises it.
+    Without a scene it is the press; a scene outside the catalogue stands before all others. BadInput as
+    loading raises it.
     """
-    source = names()[0] if scene is None else scene
+    source = "press" if scene is None else scene
     found = source if isinstance(source, Scene) else load(source)
     shelf: tuple[Scene | str, ...] = names()
     if source not in shelf and (found.name not in shelf or load(found.name) != found):

@@ -80,9 +80,11 @@ def player(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Player]:
         player.window.close()
 
 
-def test_from_the_title_enter_alone_begins_a_round_and_a_key_answers(player: Player, tmp_path: Path) -> None:
-    for _ in ("Play", "Predict", "all mechanisms"):
-        player.press(pygame.K_RETURN)
+def test_from_the_title_its_door_and_enter_begin_a_round_and_a_key_answers(
+    player: Player, tmp_path: Path
+) -> None:
+    for key in (pygame.K_4, pygame.K_RETURN, pygame.K_RETURN):  # Play, Predict, all mechanisms
+        player.press(key)
         player.tick()
     game = round_of(player.state)
     assert game.question
@@ -134,8 +136,8 @@ def test_what_is_missed_is_kept_and_comes_first_the_next_time(player: Player, tm
 
 def test_the_menu_chooses_chapter_and_level_and_shows_best_scores(player: Player, tmp_path: Path) -> None:
     Arcade(tmp_path / "scores.json").keep("best=four-bars.2:321")
-    for _ in ("Play", "Predict"):
-        player.press(pygame.K_RETURN)
+    for key in (pygame.K_4, pygame.K_RETURN):  # Play, Predict
+        player.press(key)
         player.tick()
     game = player.state.game
     assert isinstance(game, Menu)

@@ -12,6 +12,7 @@ import pytest
 from playing import SIZE, Player
 
 from linkanim.errors import BadInput
+from linkanim.play.arcade import Arcade
 from linkanim.play.games import GAMES, game_of
 from linkanim.play.menus import EACH, Title
 from linkanim.player import screen
@@ -52,8 +53,9 @@ WAYS_IN = {
     "any letter": (((pygame.K_y, 0, "y"),), "build"),
     "Enter": (((pygame.K_RETURN,),), "build"),
     "Space": (((pygame.K_SPACE, 0, " "),), "build"),
-    "a number": (((pygame.K_1, 0, "1"),), "shelf"),
-    "up, then in": (((pygame.K_UP,), (pygame.K_RETURN,)), "shelf"),
+    "a number": (((pygame.K_1, 0, "1"),), "play"),
+    "up, then in": (((pygame.K_UP,), (pygame.K_RETURN,)), "play"),
+    "O": (((pygame.K_o, 0, "o"),), "shelf"),
 }
 
 
@@ -73,7 +75,40 @@ def test_a_click_on_a_door_goes_in_and_the_mouse_lights_it(player: Player) -> No
     player.tick()
     assert player.pixels != before
     player.mouse(pygame.MOUSEBUTTONDOWN, door, button=1)
-    assert player.state.mode == "shelf"
+    assert player.state.mode == "play"
+
+
+FRESH = {"Space": (pygame.K_SPACE, " "), "a letter": (pygame.K_y, "y"), "Enter": (pygame.K_RETURN, "\r")}
+
+
+@pytest.mark.parametrize("after", [0, 2 * EACH], ids=["at once", "when others have run"])
+@pytest.mark.parametrize(("key", "text"), FRESH.values(), ids=FRESH)
+def test_in_a_fresh_window_any_key_runs_the_press(key: int, text: str, after: int, tmp_path: Path) -> None:
+    keeper = Arcade(tmp_path / "scores.json")
+    with screen.opened(SIZE):
+        state = replace(begin(), games=keeper.game_of, from_title=True)
+        player = Player(carried(state, Action("play", keeper.completed("title"))), keeper=keeper)
+        assert player.state.scene.name == "press"
+        player.window.state = left_alone(player.state, after)
+        player.press(key, 0, text)
+        assert (player.state.mode, player.state.scene.name, player.state.game) == ("play", "press", None)
+        before = player.state.phase
+        player.tick(9)
+        assert player.state.phase != before
+        player.window.close()
+
+
+def test_run_leads_back_to_what_stood_and_it_runs() -> None:
+    state = carried(replace(begin(load("engine")), games=game_of), Action("pause"))
+    state = carried(carried(state, Action("play", "title door=play")), Action("option", 0))
+    assert (state.scene.name, state.mode) == ("engine", "play")
+
+
+def test_run_leaves_a_sheet_and_keeps_it() -> None:
+    state = carried(replace(begin(load("engine")), games=game_of), Action("build_on"))
+    state = carried(carried(state, Action("play", "title")), Action("option", 0))
+    assert (state.mode, state.building) == ("play", None)
+    assert state.sheet
 
 
 def test_esc_stays_and_the_theme_goes_along(player: Player) -> None:
@@ -128,7 +163,7 @@ def test_esc_leaves_full_screen_but_in_a_kiosk(player: Player, monkeypatch: pyte
 def test_what_is_the_window_s_stays_when_a_door_is_gone_through() -> None:
     state = replace(titled(), from_title=True, kiosk=True, sounds=True, pad=True)
     after = advance(state, [Action("option", 0)])
-    assert (after.mode, after.from_title, after.kiosk, after.sounds, after.pad) == ("shelf", *[True] * 4)
+    assert (after.mode, after.from_title, after.kiosk, after.sounds, after.pad) == ("play", *[True] * 4)
 
 
 def test_esc_and_f3_lead_back_to_it(player: Player) -> None:

@@ -262,8 +262,12 @@ def test_the_shelf_is_browsed_with_the_mouse(player: Player) -> None:
     assert not player.state.is_covered
 
 
-# What is typed is looked for in title, chapter and name; the chosen one stays where it is found.
+# What is typed is looked for in name, title and chapter; the best of what is found is chosen, whatever was.
 SIFTED = {
+    "a name, among names that have it": ("quick-return-press", "press", "press"),
+    "a name with a space": ("press", "slider crank", "slider-crank"),
+    "a name before titles": ("press", "watt", "watt-line"),
+    "a title before chapters": ("press", "slid", "slider-crank"),
     "a title": ("press", "double-rocker", "double-rocker"),
     "a chapter": ("press", "exact and", "peaucellier"),
     "a name": ("crank-rocker", "hoecken", "hoecken"),

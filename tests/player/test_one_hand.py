@@ -494,7 +494,7 @@ def test_the_tape_of_that_lecture_shows_it(kind: type[Hand]) -> None:
 
 # What is seen two gestures after the title, by its doors.
 DOORS: dict[str, tuple[Callable[[Any], object], Callable[[Any], object]]] = {
-    "explore": (lambda hand: hand.mechanism(), lambda state: state.mode == "play"),
+    "run": (lambda hand: hand.press("names"), lambda state: state.mode == "play"),
     "build": (
         lambda hand: hand.drag(hand.pixel(0, 0)),
         lambda state: state.building.building.draft.of("pins"),

@@ -83,7 +83,7 @@ def _predict(player: Player) -> None:
 
 
 def _title(player: Player) -> None:
-    title = Action("play", "title door=explore place=0")
+    title = Action("play", "title")
     player.window.state = carried(replace(player.state, games=game_of), title)
     player.tick()  # from here on the view that fits is approached
     player.tick(119)
@@ -109,7 +109,7 @@ def _build(player: Player) -> None:
 
 
 SHOTS = {
-    "title": ("crank-rocker", _title),
+    "title": ("press", _title),
     "build": ("crank-rocker", _build),
     "press": ("press", _press),
     "double-rocker": ("double-rocker", _double_rocker),
