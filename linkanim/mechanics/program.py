@@ -9,7 +9,6 @@ Its parts, in reading order:
 from __future__ import annotations
 
 import math
-from bisect import bisect_left
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Set
 from ctypes import addressof, c_char
@@ -50,90 +49,33 @@ def allocated(operations: Sequence[Operation], outputs: Sequence[int | str]) -> 
     """Return where the values of nodes are held; the operations are given in the order of their work.
 
     Outputs are held in their own rows, named o0, o1, …; other values in rows that are not filled yet, and in
-    buffers, b0, b1, …. An output that is no node, or that has an earlier row, is to be copied.
+    buffers, b0, b1, …: in the place that was free last of those that stay free as long. An output that is no
+    node, or that has an earlier row, is to be copied.
     """
-    nodes = [index for index, *_ in operations]
-    held, copies = _rows(set(nodes), outputs)
-    last = {value: at for at, (*_, arguments) in enumerate(operations) for value in arguments}
-    inner = [node for node in nodes if node not in held]
-    heirs = _heirs(nodes, held, last)
-    ending: dict[int, list[int]] = {}
-    for node in inner:
-        ending.setdefault(last[node], []).append(node)
-    free = _Free({held[node]: at for at, node in enumerate(nodes) if node in held})
-    for at, node in enumerate(nodes):
-        free.places += [held[index] for index in ending.get(at, ())]
-        if node in heirs:
-            held[node] = free.take(at, last[node], heirs[node])
-    return Allocation(held, tuple(copies), free.buffers)
-
-
-def _rows(
-    computed: set[int], outputs: Sequence[int | str]
-) -> tuple[dict[int | str, str], list[tuple[int, int | str]]]:
-    """Return the row of each node that is an output, and the outputs that have to be copied into theirs."""
+    computed = {index for index, *_ in operations}
     held: dict[int | str, str] = {}
-    copies: list[tuple[int, int | str]] = []
+    copies = []
     for row, value in enumerate(outputs):
         if value in computed and value not in held:
             held[value] = f"o{row}"
         else:
             copies.append((row, value))
-    return held, copies
-
-
-def _heirs(
-    nodes: Sequence[int], held: Mapping[int | str, str], last: Mapping[int | str, int]
-) -> dict[int, tuple[int, str]]:
-    """Return for each inner value until when its row may pass from value to value, and which row it is."""
-    heirs: dict[int, tuple[int, str]] = {}
-    for node in reversed(nodes):
-        if node not in held:
-            user = nodes[last[node]]
-            heirs[node] = heirs.get(user) or (last[node], held[user])
-    return heirs
-
-
-class _Free:
-    """The places that are free; `filled` says at which pass each row gets its own values."""
-
-    def __init__(self, filled: Mapping[str, int]) -> None:
-        self.filled = filled
-        self.rows = sorted((at, row) for row, at in filled.items())
-        """Rows not used so far, with the pass that fills each; the first to be filled comes first."""
-        self.places: list[str] = []
-        """Places that were given back, the latest last."""
-        self.buffers = 0
-
-    def take(self, at: int, last: int, heir: tuple[int, str]) -> str:
-        """Take the heir's row, else a place that is free as long as that, else one free while it is used."""
-        until, row = heir
-        return self._row(row) or self._until(at, until) or self._until(at, last) or self._new()
-
-    def _row(self, row: str) -> str | None:
-        """Take that row, if it is free."""
-        at = bisect_left(self.rows, (self.filled[row], row))
-        if at < len(self.rows) and self.rows[at][1] == row:
-            return self.rows.pop(at)[1]
-        if row not in self.places:
-            return None
-        self.places.remove(row)
-        return row
-
-    def _until(self, at: int, until: int) -> str | None:
-        """Take the place freed last of those that stay free from one pass to another, if there is any."""
-        for n in range(len(self.places) - 1, -1, -1):
-            end = self.filled.get(self.places[n], until)
-            if end >= until:
-                return self.places.pop(n)
+    last = {value: at for at, (*_, arguments) in enumerate(operations) for value in arguments}
+    filled = {held[index]: at for at, (index, *_) in enumerate(operations) if index in held}
+    free, inner, buffers = sorted(filled, key=lambda row: -filled[row]), computed - held.keys(), 0
+    for at, (index, _, arguments) in enumerate(operations):
+        free += [held[one] for one in dict.fromkeys(arguments) if last[one] == at and one in inner]
+        if index in held:
+            continue
+        for n in range(len(free) - 1, -1, -1):
+            if (end := filled.get(free[n], len(operations))) >= last[index]:
+                held[index] = free.pop(n)
+                break
             if end < at:
-                del self.places[n]
-        first = bisect_left(self.rows, (until, ""))
-        return self.rows.pop(first)[1] if first < len(self.rows) else None
-
-    def _new(self) -> str:
-        self.buffers += 1
-        return f"b{self.buffers - 1}"
+                del free[n]
+        else:
+            held[index], buffers = f"b{buffers}", buffers + 1
+    return Allocation(held, tuple(copies), buffers)
 
 
 # Compile symbolic expressions into a function of floats and into passes over blocks of arrays.

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from fractions import Fraction
-from typing import Any, ClassVar
 
 import numpy as np
 import pytest
@@ -140,33 +139,6 @@ def test_result_rows_serve_as_scratch_until_they_are_filled() -> None:
     found = program(np.array([at]))[:, 0]
     true = [math.sqrt((at * at + n) * (at * at + (n + 2) % 8 + 1)) for n in range(1, 9)]
     assert found == pytest.approx(np.array(true), rel=1e-15)
-
-
-class Watched(np.ndarray):
-    """An array that notes of each pass into one whether it is written over one of its arguments."""
-
-    seen: ClassVar[list[bool]] = []
-
-    def __array_ufunc__(self, ufunc: np.ufunc, method: str, *given: Any, **options: Any) -> Any:
-        places = [np.asarray(array) for array in (*given, *options.pop("out", ()))]
-        *arguments, target = places
-        self.seen.append(any(argument is target or argument.base is target.base for argument in arguments))
-        return getattr(ufunc, method)(*arguments, target, **options)
-
-
-def test_a_value_is_handed_down_to_its_result_in_one_place() -> None:
-    graph = Graph()
-    x = graph.input("x")
-    square = x * x
-    # The first result is filled while `square` waits, which would strand what it is made of in that row.
-    first, second = square + 1.0, square - sqrt(square + 2.0)
-    program = batch({"x": True}, [first, sqrt(second * second + first)])
-    rows, work = ([np.empty(4).view(Watched) for _ in range(n)] for n in (2, program.passes.buffers))
-    Watched.seen.clear()
-    program.passes.block(np.ones(4), *program.constants, *rows, *work)
-    # Only x², the first result and the second's first sum have no argument to be written over.
-    assert Watched.seen.count(False) == 3
-    assert rows[1][0] == math.sqrt((1 - math.sqrt(3)) ** 2 + 2)
 
 
 @pytest.mark.parametrize("dyads", [2, 30])
