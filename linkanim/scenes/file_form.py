@@ -3,6 +3,7 @@
 Its parts, in reading order:
 
 - How joints are written: the fields of each kind, and of fixed pins. A kind of joint is one entry here.
+- How a linkage is written by points in one pose and the links through them.
 - How the input is written and read: a driven crank, a cylinder that turns it, a slider.
 - The shorthands [four-bar], [slider-crank] and [six-bar]: the common linkages in a few lines.
 - The tables [guide], [function] and [quick-return]: what a linkage was made for.
@@ -221,6 +222,96 @@ PLACE = Field("", POINT, "x and y", label=("Pin {name}, x", "Pin {name}, y"), dr
 PINS = Named((POLAR_PIN,), PLACE, Pin)
 
 
+# How a linkage is written by points in one pose and the links through them.
+#
+# `links` makes [joints] of these tables. Their numbers are no dimensions: a scene is edited joint by joint.
+
+GROUND = "ground"
+"""The link that stands still."""
+_PLACED = replace(POINT, measure=None)
+_TURNED = replace(ANGLE, measure=None)
+_LONG = replace(LENGTH, measure=None)
+
+
+def _pair_lengths(table: Table, key: str) -> dict[str, Any] | None:
+    """Read the lengths that links state, as { "A-B" = 90 }; each link's by the pair as it is written."""
+    links = table.table(key)
+    found: dict[str, Any] = {}
+    for name in links.values:
+        pairs = links.table(name)
+        lengths = {pair: pairs.attempt(LENGTH.read, pairs, pair) for pair in pairs.values}
+        found[name] = None if None in lengths.values() else lengths
+    return None if None in found.values() else found
+
+
+POLAR_POINT = form(
+    "a point, by its distance",
+    Field("from", JOINT, "the point that it is measured from, else the origin", None, into="base"),
+    Field("length", _LONG, "the distance from there"),
+    Field("angle", _TURNED, "the direction from there"),
+    make=lambda name, **polar: polar,
+)
+POINTS = Named(
+    (POLAR_POINT,), Field("", _PLACED, "where a point stands in one pose, x and y"), lambda _, place: place
+)
+LINKS = Named((), Field("", MEMBERS, "the points on a rigid link; `ground` stands still"), lambda _, of: of)
+_SLIDES_ON = (
+    Field("on", NAME, "the link that carries the line"),
+    Field("angle", _TURNED, "the line's direction in the pose", "0 deg"),
+)
+LINK_SLIDE = form(
+    "a link that slides along a line and does not turn on it",
+    Field("link", NAME, "the link that slides"),
+    *_SLIDES_ON,
+    Field("through", JOINT, "a point on the line: the link's first point", None),
+    mark="link",
+    make=lambda _, **slide: slide,
+)
+PIN_SLIDE = form(
+    "a pin in a slot",
+    Field("point", JOINT, "the pin"),
+    *_SLIDES_ON,
+    mark="point",
+    make=lambda _, **slide: slide,
+)
+SLIDES = Named((LINK_SLIDE, PIN_SLIDE))
+_TWO_LINKS = ValueType(
+    Table.texts, "2 links", {"type": "array", "items": NAME.schema, "minItems": 2, "maxItems": 2}
+)
+GEAR_PAIR = form(
+    "two links that turn together",
+    Field("links", _TWO_LINKS, "the first turns the second"),
+    Field("ratio", replace(RATIO, measure=None), "how far the second turns while the first turns once"),
+    Field("carrier", NAME, "the link on which both turns are measured", GROUND),
+    make=lambda _, **gear: gear,
+)
+GEARS = Named((GEAR_PAIR,))
+_LENGTHS_OF_LINKS = ValueType(
+    _pair_lengths,
+    'lengths of a link, `{ "A-B" = 90 }`',
+    {
+        "type": "object",
+        "additionalProperties": {"type": "object", "additionalProperties": LENGTH.schema or {}},
+    },
+)
+POSED = (
+    Field("points", POINTS, "the joints in one pose", None),
+    Field("links", LINKS, "the rigid links", {}),
+    Field("slides", SLIDES, "what slides", {}),
+    Field("gears", GEARS, "the gear pairs", {}),
+    Field("lengths", _LENGTHS_OF_LINKS, "where points are only read off", {}),
+)
+"""The tables of a linkage that is written by its points in one pose."""
+MOTOR_OF_POINTS = (
+    Field("links", _TWO_LINKS, "of points: what turns on what, where more than two links meet", None),
+    Field("slide", NAME, "of points: the slide that drives", None),
+    Field("from", replace(OFFSET, measure=None), "of a driving slide: its travel at one end", None),
+    Field("to", replace(OFFSET, measure=None), "of a driving slide: its travel at the other end", None),
+)
+"""The keys of the input that only such a linkage has."""
+POSE_KEYS = tuple(one.key for one in POSED)
+
+
 # How the input is written and read: a driven crank, a cylinder that turns it, a slider.
 
 Values = Mapping[str, Any]
@@ -242,12 +333,13 @@ DRIVE = form(
     "the input",
     Field("cylinder", CYLINDER, "what turns the crank, if it does not turn by itself", None),
     Field("slider", SLIDER_INPUT, "what drives instead of a crank", None),
-    Field("joint", NAME, "the crank that is driven: the first one without a gear", None),
+    Field("joint", NAME, "the crank that is driven; of points, its pivot: the first one", None),
     Field("speed", SPEED, "turns, or there and back; negative: clockwise", "20 rpm", label="Input speed"),
     Field("start", ANGLE, "the crank's angle at the start", "0 deg", label="Start angle"),
     Field(
         "returns", choice("other", "same"), "the closure on which an input that swings comes back", "other"
     ),
+    *MOTOR_OF_POINTS,
 )
 INPUT = Field("drive", DRIVE, "the input", {})
 
@@ -261,6 +353,8 @@ def read_drive(top: Table, usual: str | None) -> Drive | None:
     values: Values | None = INPUT.read(top)
     if values is None or not top.context.sound:
         return None
+    for key in (one.key for one in MOTOR_OF_POINTS if one.key in top.table("drive")):
+        raise top.table("drive").error(key, "goes with [points] and [links]; leave it out")
     joints = top.context.joints.values()
     if "slider" in values or any(isinstance(joint, DrivenSlider) for joint in joints):
         return _slider_drive(top, values)
@@ -740,6 +834,7 @@ SCENE_FILE = form(
     *(Field(key, one, one.words, None) for key, one in SHORTHANDS.items()),
     Field("joints", JOINTS, "the joints", {}),
     Field("ground", PINS, "the fixed pins", {}),
+    *POSED,
     Field("bodies", Named((BLOCK, BAR)), "what is drawn and named", {}),
     Field("springs", Named((SPRING,)), "the springs", {}),
     Field("dampers", Named((DAMPER,)), "the dampers", {}),

@@ -453,7 +453,8 @@ def form(words: str, *fields: Field, **how: Any) -> Form:
 class Named:
     """A table of tables by their names, as [joints.A], [joints.B], each of which has one of the `forms`.
 
-    Where an entry may be a list instead of a table, `plain` is its field, and `make` makes the value of it.
+    Where an entry may be a list instead of a table, `plain` is its field, and `make` makes the value of it;
+    without any `forms` it has to be one.
     """
 
     forms: tuple[Form, ...]
@@ -471,7 +472,7 @@ class Named:
         return {name: group.attempt(self._entry, group, name) for name in group.entries()}
 
     def _entry(self, group: Table, name: str) -> Any:
-        if self.plain and not isinstance(group.values[name], Mapping):
+        if self.plain and not (self.forms and isinstance(group.values[name], Mapping)):
             place = self.plain.type.read(group, name)
             return place and self.make(name, place)
         table = group.table(name)

@@ -35,7 +35,9 @@ from linkanim.mechanics.linkage import (
     rigid_bodies,
 )
 from linkanim.scenes.file_form import (
+    GROUND,
     JOINTS,
+    POSE_KEYS,
     PURPOSES,
     SCENE_FILE,
     SECTIONS,
@@ -45,6 +47,7 @@ from linkanim.scenes.file_form import (
     read_drive,
 )
 from linkanim.scenes.form import Context, Field, Key, Table, fields_in
+from linkanim.scenes.links import as_joints
 from linkanim.scenes.scene import FREE_STYLE, Scene
 from linkanim.scenes.toml import Keys, line_numbers, parse
 
@@ -293,6 +296,8 @@ def read(
     their own table is checked, and the assembly is checked only where every joint is sound.
     """
     top = _opened(document, where)
+    if any(key in top for key in POSE_KEYS):
+        return _read_points(top, name=name, towards=towards, check=check)
     top, short = _with_joints(top)
     bodies = _part(top, "bodies") or {}
     parts = {
@@ -319,6 +324,37 @@ def read(
     return scene, top.context.problems
 
 
+def _read_points(
+    top: Table, *, name: str, towards: Scene | None, check: Check | None
+) -> tuple[Scene | None, list[BadInput]]:
+    """Return the scene of a file with points and links, as `read` does."""
+    problems = top.context.problems
+    if "points" not in top:
+        key = next(key for key in POSE_KEYS if key in top)
+        problems.append(top.error(key, "goes with [points]; say where the joints stand in one pose"))
+        return None, problems
+    for key in ("joints", GROUND, *SHORTHANDS):
+        if key in top:
+            way_out = "list the fixed points in links.ground" if key == GROUND else "keep one of them"
+            problems.append(top.error(key, f"does not go with [points]; {way_out}"))
+    document = None if problems else as_joints(top)
+    if document is None:
+        return None, problems
+    scene, further = read(document, name=name, where=top.where, towards=towards, check=check)
+    return scene, [*problems, *(_of_points(error, top.where) for error in further)]
+
+
+def _of_points(error: BadInput, where: str) -> BadInput:
+    """Return an error about a joint as one about the point, or the links, that it came from."""
+    section, *rest = error.keys or ("",)
+    if section not in ("joints", GROUND):
+        return error
+    own = "points" if rest else "links"
+    told = type(error)(str(error).replace(f"{where}: {section}", f"{where}: {own}", 1))
+    told.keys = (own, *rest[:1])
+    return told
+
+
 def _part(top: Table, key: str) -> Any:
     """Return the value of one of the file's tables or keys; None where it has a fault."""
     return top.attempt(SECTIONS[key].read, top)
@@ -329,7 +365,8 @@ def _opened(document: Mapping[str, Any], where: str) -> Table:
     top = Table(where, document)
     unit = _part(top, "length_unit") or "mm"
     top.refuse_unknown(SCENE_FILE.keys)
-    names = [*_shorthand_names(top), *_names(document.get("ground")), *_names(document.get("joints"))]
+    sections = (document.get(key) for key in ("ground", "joints", "points"))
+    names = [*_shorthand_names(top), *(name for section in sections for name in _names(section))]
     context = Context(unit, tuple(dict.fromkeys(names)), problems=top.context.problems)
     return replace(top, context=context)
 
@@ -353,7 +390,8 @@ def _with_joints(top: Table) -> tuple[Table, Expansion]:
     short = top.attempt(_expansion, top, pins.get("O2", Pin("O2", (0.0, 0.0))))
     moving = _part(top, "joints") or {}
     if not (any(key in top for key in SHORTHANDS) or "joints" in top):
-        reason = f"describes no linkage; give it [joints], or one of {', '.join(SHORTHANDS)}"
+        ways = f"[joints], [points] and [links], or one of {', '.join(SHORTHANDS)}"
+        reason = f"describes no linkage; give it {ways}"
         top.context.problems.append(top.wrong(reason))
     expanded: dict[str, Joint | None] = dict.fromkeys(_shorthand_names(top))
     if short:

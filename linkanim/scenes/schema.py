@@ -59,7 +59,7 @@ SCHEMA: Mapping[str, Any] = {
     "$schema": "https://json-schema.org/draft/2020-12/schema",
     **schema_of(SCENE_FILE),
     "title": "A scene of linkanim",
-    "anyOf": [{"required": [key]} for key in ("joints", *SHORTHANDS)],
+    "anyOf": [{"required": [key]} for key in ("joints", "points", *SHORTHANDS)],
 }
 """The schema; TOML and JSON have the same tables, lists and values."""
 

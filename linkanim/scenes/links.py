@@ -1,0 +1,726 @@
+"""Make the joints of a scene file from points in one pose and the links through them.
+
+Its parts, in reading order:
+
+- What a file's tables say of the pose: where its points are, which links join them, what slides.
+- Stated lengths: the pose is moved to the nearest one that has them.
+- Mobility: how many motors the links need.
+- The chain of dyads that follows from the drive, each as the table of a joint.
+- The document with [joints] that says the same.
+"""
+
+from __future__ import annotations
+
+import math
+from cmath import phase, rect
+from collections.abc import Iterator, Mapping
+from fractions import Fraction
+from itertools import combinations
+from typing import Any
+
+from linkanim.errors import BadInput
+from linkanim.frozen import NamedTuple
+from linkanim.intake import meant
+from linkanim.mechanics.linkage import RRP, RRR
+from linkanim.scenes.file_form import GROUND, MOTOR_OF_POINTS, POSE_KEYS, SECTIONS, on_circle
+from linkanim.scenes.form import Table
+from linkanim.units import angle, shown
+
+# What a file's tables say of the pose: where its points are, which links join them, what slides.
+
+Document = Mapping[str, Any]
+_NEAR = 1e-12
+"""The share of a distance that counts as rounding."""
+_FLAT = 1e-9
+"""The sine below which a pose does not show on which side of a line a joint lies."""
+
+
+class PosedSlide(NamedTuple):
+    """A prismatic joint: what slides, a link or a point, along a line of the link `on`.
+
+    `angle` is the line's direction in the pose (rad).
+    """
+
+    name: str
+    on: str
+    angle: float
+    link: str = ""
+    point: str = ""
+
+    def other(self, link: str) -> str:
+        """Return the link that slides on a link; "" where there is none, or it is a point that slides."""
+        return {self.on: self.link, self.link: self.on}.get(link, "") if self.link else ""
+
+
+class GearPair(NamedTuple):
+    """Two links, the second of which turns `ratio` times as far as the first, as their carrier sees it."""
+
+    name: str
+    links: tuple[str, str]
+    ratio: Fraction
+    carrier: str
+
+
+class PosedLinks(NamedTuple):
+    """Links in one pose: where their points are (x + yi), and what holds them to each other.
+
+    `stated` are the distances of pairs of points that are given as such.
+    """
+
+    places: Mapping[str, complex]
+    links: Mapping[str, tuple[str, ...]]
+    slides: tuple[PosedSlide, ...]
+    gears: tuple[GearPair, ...]
+    stated: Mapping[frozenset[str], float]
+
+    def length(self, one: str, other: str) -> float:
+        """Return the distance of two points: as stated, else that of their places."""
+        return self.stated.get(frozenset((one, other))) or abs(self.places[other] - self.places[one])
+
+    def at(self, point: str) -> list[str]:
+        """Return the links that a point is on."""
+        return [name for name, points in self.links.items() if point in points]
+
+    @property
+    def size(self) -> float:
+        """How far its points lie apart."""
+        first = next(iter(self.places.values()))
+        return max(abs(place - first) for place in self.places.values())
+
+
+def posed(top: Table) -> PosedLinks | None:
+    """Return what the tables of a file say of the pose; None where anything in them has a fault."""
+    read = {key: top.attempt(SECTIONS[key].read, top) for key in POSE_KEYS}
+    tables: dict[str, Any] = {key: table for key, table in read.items() if table is not None}
+    if len(tables) < len(read) or any(None in tables[key].values() for key in POSE_KEYS if key != "lengths"):
+        return None
+    links: dict[str, tuple[str, ...]] = tables["links"]
+    sliding = [top.attempt(_sliding, top, name, of, links) for name, of in tables["slides"].items()]
+    gears = [top.attempt(_gear_pair, top, name, of, links) for name, of in tables["gears"].items()]
+    places = top.attempt(_places, top, tables["points"])
+    if None in sliding or None in gears or places is None:
+        return None
+    polar = {name: of for name, of in tables["points"].items() if "base" in of}
+    stated = {frozenset((name, of["base"])): of["length"] for name, of in polar.items()}
+    slides = tuple(one for one in sliding if one)
+    found = PosedLinks(places, links, slides, tuple(one for one in gears if one), stated)
+    problems = len(top.context.problems)
+    for check in (_check_links, _check_points, _check_shared):
+        top.attempt(check, top, found)
+    if len(top.context.problems) > problems:
+        return None
+    return top.attempt(_with_lengths, top, found, tables["lengths"]) if tables["lengths"] else found
+
+
+def _places(top: Table, points: Mapping[str, Any]) -> dict[str, complex]:
+    """Return the points' places; refuse one that is measured from itself."""
+    found = {name: complex(*place) for name, place in points.items() if isinstance(place, tuple)}
+    waiting = {name: polar for name, polar in points.items() if name not in found}
+    while waiting:
+        ready = [name for name, polar in waiting.items() if polar.get("base") not in waiting]
+        if not ready:
+            name = next(iter(waiting))
+            table = top.table("points").table(name)
+            raise table.error("from", "is measured from this point itself; give one of them as [x, y]")
+        for name in ready:
+            polar = waiting.pop(name)
+            base = found[polar["base"]] if "base" in polar else 0j
+            found[name] = base + complex(*on_circle(polar["length"], polar["angle"]))
+    return {name: found[name] for name in points}
+
+
+def _link(table: Table, key: str, name: str, links: Mapping[str, Any]) -> str:
+    if name not in links:
+        known = f"{meant(name, links)}; there are {', '.join(links)}"
+        raise table.error(key, f"no link is called {shown(name)}{known}")
+    return name
+
+
+def _sliding(top: Table, name: str, of: Document, links: Mapping[str, tuple[str, ...]]) -> PosedSlide:
+    table = top.table("slides").table(name)
+    on, link, point = _link(table, "on", of["on"], links), of.get("link", ""), of.get("point", "")
+    if link and _link(table, "link", link, links) == on:
+        raise table.error("on", "is the link itself; name the link that carries the line")
+    if point in links[on]:
+        raise table.error("point", f"is fixed on {on}, so it cannot slide there; leave it out of links.{on}")
+    return PosedSlide(name, on, of["angle"], link, point)
+
+
+def _gear_pair(top: Table, name: str, of: Document, links: Mapping[str, Any]) -> GearPair:
+    table = top.table("gears").table(name)
+    pair = tuple(of["links"])
+    if len(pair) != 2 or pair[0] == pair[1]:
+        raise table.error("links", 'must be two links, such as ["crank", "wheel"]')
+    for link in pair:
+        _link(table, "links", link, links)
+    carrier = _link(table, "carrier", of["carrier"], links)
+    if carrier in pair:
+        raise table.error("carrier", "is one of the two; name the link that carries both")
+    return GearPair(name, (pair[0], pair[1]), of["ratio"], carrier)
+
+
+def _check_links(top: Table, pose: PosedLinks) -> None:
+    """Refuse a linkage without ground, and links that are no bodies."""
+    table = top.table("links")
+    if not pose.links.get(GROUND):
+        raise table.error(GROUND, 'names no point; list the points that stand still: ground = ["O2", "O4"]')
+    if len(pose.links) < 2:
+        raise table.wrong('has nothing but the ground; add what moves, such as crank = ["O2", "A"]')
+    slides = {end for slide in pose.slides for end in (slide.on, slide.link)}
+    for name, points in pose.links.items():
+        if not points or (len(points) < 2 and name not in (GROUND, *slides)):
+            raise table.error(name, "has two points or more; a block with one pin slides: [slides.block]")
+        places = [pose.places[point] for point in points]
+        if len(points) > 1 and all(abs(place - places[0]) <= _NEAR * pose.size for place in places):
+            raise table.error(name, f"{points[0]} and {points[1]} are one point; a link needs two places")
+
+
+def _check_points(top: Table, pose: PosedLinks) -> None:
+    """Refuse points that no link has."""
+    for name in pose.places:
+        if not pose.at(name):
+            raise top.table("points").error(name, "is on no link; name it in one of [links], or leave it out")
+
+
+def _check_shared(top: Table, pose: PosedLinks) -> None:
+    """Refuse links with two points in common."""
+    for (one, points), (other, others) in combinations(pose.links.items(), 2):
+        shared = [point for point in points if point in others]
+        if len(shared) > 1:
+            both = f"{one} and {other} share {shared[0]} and {shared[1]}"
+            raise top.table("links").wrong(f"{both}, so they are one body; make them one link")
+
+
+# Stated lengths: the pose is moved to the nearest one that has them.
+
+_ROUNDS = 60
+
+
+def _with_lengths(top: Table, pose: PosedLinks, lengths: Mapping[str, Mapping[str, float]]) -> PosedLinks:
+    """Return the pose that has the stated lengths, the nearest to the one that is written.
+
+    Fixed points stay, and what is written by length and angle from one that stays; blocks stay on their
+    guides.
+    """
+    table, stated, firm = top.table("lengths"), dict(pose.stated), {*pose.links[GROUND]}
+    for name in pose.places:
+        written = top.values["points"][name]
+        if isinstance(written, Mapping) and written.get("from") in firm:
+            firm.add(name)
+    mobile = pose.places.keys() - firm
+    for link, pairs in lengths.items():
+        _link(top, "lengths", link, pose.links)
+        for written, length in pairs.items():
+            pair = _pair(table.table(link), written, pose.links[link])
+            stated[frozenset(pair)] = length
+            mobile |= set(pair) if link == GROUND else set()
+    spans = [(sorted(pair), length) for pair, length in stated.items()]
+    places = dict(pose.places)
+    if all(abs(abs(places[q] - places[p]) - length) <= _NEAR * length for (p, q), length in spans):
+        return pose._replace(stated=stated)
+    # Here, so that reading a scene file loads no arrays.
+    import numpy as np
+
+    columns = {name: n for n, name in enumerate(sorted(mobile))}
+    guided = [
+        (point, rect(1.0, slide.angle + math.pi / 2))
+        for slide in pose.slides
+        if slide.on == GROUND
+        for point in (pose.links[slide.link] if slide.link else (slide.point,))
+        if point in columns
+    ]
+    for _ in range(_ROUNDS):
+        matrix = np.zeros((len(spans) + len(guided), 2 * len(columns)))
+        off = np.zeros(len(matrix))
+        for row, (point, normal) in enumerate(guided, len(spans)):
+            matrix[row, 2 * columns[point] : 2 * columns[point] + 2] = normal.real, normal.imag
+        for row, ((p, q), length) in enumerate(spans):
+            span = places[q] - places[p]
+            off[row] = length - abs(span)
+            for name, sense in ((p, -1.0), (q, 1.0)):
+                if name in columns and span:
+                    at = 2 * columns[name]
+                    matrix[row, at : at + 2] = sense * span.real / abs(span), sense * span.imag / abs(span)
+        step = np.linalg.lstsq(matrix, off, rcond=1e-9)[0]
+        for name, n in columns.items():
+            places[name] += complex(step[2 * n], step[2 * n + 1])
+        if abs(off).max() <= _NEAR * pose.size:
+            return pose._replace(places=places, stated=stated)
+    raise table.wrong("no pose near the points has all of them; correct the points, or leave a length out")
+
+
+def _pair(table: Table, written: str, points: tuple[str, ...]) -> tuple[str, str]:
+    """Return the two points that "A-B" names, which must be on the link."""
+    for at, sign in enumerate(written):
+        pair = (written[:at].strip(), written[at + 1 :].strip())
+        if sign in "-–" and pair[0] != pair[1] and {*pair} <= {*points}:
+            return pair
+    raise table.error(written, f'must be two points of the link, such as "{points[0]}-{points[-1]}"')
+
+
+# Mobility: how many motors the links need.
+
+
+def mobility(pose: PosedLinks) -> int:
+    """Return the degrees of freedom: 3 of each moving link, less what pins, slides and gears take."""
+    free = 3 * (len(pose.links) - 1) - len(pose.gears)
+    free -= sum(2 * (len(pose.at(name)) - 1) for name in pose.places)
+    return free - sum(2 if slide.link else 1 for slide in pose.slides)
+
+
+def _refuse_mobility(top: Table, pose: PosedLinks) -> None:
+    free = mobility(pose)
+    table = top.table("links")
+    if free > 1:
+        loose = [name for name in pose.links if name != GROUND and _held(pose, name) < 2]
+        which = f"; {', '.join(loose[:3])} hangs by one joint only" if loose else ""
+        more = "one more link" if free == 2 else f"{free - 1} more links"
+        way_out = f"add {more} to hold it, or a gear pair"
+        raise table.wrong(f"mobility {free}: one motor leaves it loose{which}; {way_out}")
+    if free < 1:
+        raise table.wrong(f"mobility {free}: nothing can move; leave out a link, or a point of one")
+
+
+def _held(pose: PosedLinks, link: str) -> int:
+    """Return how many joints and gears hold a link."""
+    pins = sum(len(pose.at(point)) > 1 for point in pose.links[link])
+    slides = sum(link in (slide.on, slide.link) or slide.point in pose.links[link] for slide in pose.slides)
+    return pins + slides + sum(link in gear.links for gear in pose.gears)
+
+
+# The chain of dyads that follows from the drive, each as the table of a joint.
+
+
+class _Geared(NamedTuple):
+    """A link that turns `ratio` times as far as the input; `angle` (rad) is that of its `pin` in the pose."""
+
+    pin: str
+    angle: float
+    ratio: Fraction
+
+
+class _Dyads:
+    """The joints found so far, each from those before it, and the links whose places follow from them."""
+
+    def __init__(self, top: Table, pose: PosedLinks) -> None:
+        self.top, self.pose = top, pose
+        self.joints: dict[str, dict[str, Any]] = {}
+        self.known = set(pose.links[GROUND])
+        self.blocks: dict[str, str] = {}
+        """The blocks that were placed, each with its pin."""
+        self.turning: dict[str, _Geared] = {}
+        self.reason = ""
+        """Why a dyad could not be written, the first one."""
+
+    def place(self, link: str) -> list[str]:
+        """Return the points of a link that are known."""
+        return [point for point in self.pose.links[link] if point in self.known]
+
+    def axis(self, link: str) -> tuple[str, str] | None:
+        """Return two known points of a link, apart from each other."""
+        first, *others = self.place(link) or [""]
+        small = _NEAR * self.pose.size
+        for other in others:
+            if abs(self.pose.places[other] - self.pose.places[first]) > small:
+                return first, other
+        return None
+
+    def stands(self, link: str) -> bool:
+        """Tell whether a link's place is known."""
+        return link == GROUND or link in self.blocks or self.axis(link) is not None
+
+    def add(self, point: str, table: dict[str, Any]) -> bool:
+        """Add a joint."""
+        self.joints[point] = table
+        self.known.add(point)
+        return True
+
+    def grow(self) -> bool:
+        """Add the next joint that follows from those that are known; return whether there was one."""
+        return any(
+            step(link)
+            for step in (self._points, self._geared, self._bars, self._slots, self._yoke)
+            for link in self.pose.links
+        )
+
+    def _points(self, link: str) -> bool:
+        """Add a further point of a link whose place is known."""
+        axis = self.axis(link)
+        for point in self.pose.links[link]:
+            if axis and link != GROUND and point not in self.known:
+                first, second = (self.pose.places[name] for name in axis)
+                at = (self.pose.places[point] - first) * (abs(second - first) / (second - first))
+                return self.add(point, {"on": [*axis], "at": [at.real, at.imag]})
+        return False
+
+    def _geared(self, link: str) -> bool:
+        """Add the pin of a link that a gear turns about a known joint."""
+        if link in self.turning or link == GROUND:
+            return False
+        for gear in self.pose.gears:
+            by = _turn_by(gear, link, self.turning) if link in gear.links else None
+            if by is None:
+                continue
+            mate, ratio = by
+            pivot = next(iter(self.place(link)), "")
+            pin = self.pin_of(link, pivot) if pivot else ""
+            if pin and pin not in self.known:
+                turn = phase(self.pose.places[pin] - self.pose.places[pivot])
+                other = self.turning[mate]
+                offset = math.remainder(turn - float(ratio) * other.angle, math.tau)
+                self.turning[link] = _Geared(pin, turn, ratio * other.ratio)
+                geared = {"with": other.pin, "ratio": _written(ratio), "offset": in_degrees(offset)}
+                length = self.pose.length(pivot, pin)
+                return self.add(pin, {"crank": pivot, "length": length, "gear": geared})
+        return False
+
+    def pin_of(self, link: str, pivot: str) -> str:
+        """Return the point of a link that shows its turn about a pivot: the first one apart from it."""
+        small, places = _NEAR * self.pose.size, self.pose.places
+        apart = (name for name in self.pose.links[link] if abs(places[name] - places[pivot]) > small)
+        return next(apart, "")
+
+    def _pivots(self) -> Iterator[tuple[str, str]]:
+        """Yield the links that turn about one known point, with that point."""
+        for link in self.pose.links:
+            if not self.stands(link) and link not in self.turning:
+                yield from ((link, point) for point in self.place(link)[:1])
+
+    def _bars(self, link: str) -> bool:
+        """Add the joint in which a link about a known point meets another one, or a slider, or a guide."""
+        for one, pivot in self._pivots():
+            if one != link:
+                continue
+            for point in self.pose.links[one]:
+                if point in self.known:
+                    continue
+                if self._with_bar(one, pivot, point) or self._with_line(pivot, point):
+                    return True
+        return False
+
+    def _with_bar(self, link: str, pivot: str, point: str) -> bool:
+        for other, end in self._pivots():
+            if other != link and point in self.pose.links[other]:
+                ends, places = (pivot, end), self.pose.places
+                base, arm = places[end] - places[pivot], places[point] - places[pivot]
+                left = (base.conjugate() * arm).imag
+                self._refuse_flat(left, abs(base) * abs(arm), (*ends, point))
+                lengths = [self.pose.length(joint, point) for joint in ends]
+                return self.add(point, {"from": [*ends], "length": lengths, "side": RRR.sides[left < 0]})
+        return False
+
+    def _with_line(self, end: str, point: str) -> bool:
+        """Add a point that a bar from a known joint holds on a line: itself, or the block that it is on."""
+        for slide in self.pose.slides:
+            ends = [name for name in (slide.link, slide.on) if name]
+            block = next((name for name in ends if point in self.pose.links[name]), "")
+            on = slide.on if slide.point == point else slide.other(block) if block else ""
+            if not on or not self.stands(on):
+                continue
+            line = self.line(on, slide.angle, point)
+            if line is None:
+                continue
+            ahead = ((self.pose.places[point] - self.pose.places[end]) * rect(1.0, -slide.angle)).real
+            self._refuse_flat(ahead, self.pose.length(end, point), (end, point))
+            if slide.link:
+                self.blocks[block] = point
+            bar = {"from": end, "length": self.pose.length(end, point)}
+            return self.add(point, {**bar, "line": line, "side": RRP.sides[ahead < 0]})
+        return False
+
+    def _slots(self, link: str) -> bool:
+        """Add the end of a link about a known point whose slot passes over another, or that slides in one."""
+        for one, pivot in self._pivots():
+            for slide in self.pose.slides if one == link else ():
+                if slide.point in self.known and slide.on == one:
+                    through = slide.point
+                else:
+                    other = slide.other(one)
+                    through = next(iter(self.place(other)), "") if other and not self.stands(other) else ""
+                if through and through != pivot and self._slotted(one, pivot, through, slide):
+                    return True
+        return False
+
+    def _slotted(self, link: str, pivot: str, through: str, slide: PosedSlide) -> bool:
+        places = self.pose.places
+        along = (places[through] - places[pivot]) * rect(1.0, -slide.angle)
+        self._refuse_flat(along.real, abs(along), (pivot, through))
+        sense = math.copysign(1.0, along.real)
+        for point in self.pose.links[link]:
+            at = (places[point] - places[pivot]) * rect(sense, -slide.angle)
+            if point not in self.known and at.real > 0 and abs(at.imag) <= _NEAR * self.pose.size:
+                slot = {"pivot": pivot, "through": through, **_offset(sense * along.imag, self.pose.size)}
+                return self.add(point, {"slot": slot, "length": self.pose.length(pivot, point)})
+        self.reason = self.reason or (
+            f"slides.{slide.name}: {link} needs a point on its slot's line through {pivot}, on the side of "
+            f"{through}; add one to [points] and to links.{link}"
+        )
+        return False
+
+    def _yoke(self, link: str) -> bool:
+        """Add the point at which the slot of a link that slides on a known one crosses its line."""
+        for slot in self.pose.slides:
+            if slot.on != link or slot.point not in self.known or self.stands(link):
+                continue
+            for guide in self.pose.slides:
+                on = guide.other(link)
+                if on and self.stands(on) and self._crossing(link, slot, guide, on):
+                    return True
+        return False
+
+    def _crossing(self, link: str, slot: PosedSlide, guide: PosedSlide, on: str) -> bool:
+        pin = self.pose.places[slot.point]
+        for point in self.pose.links[link]:
+            aside = ((self.pose.places[point] - pin) * rect(1.0, -slot.angle)).imag
+            line = self.line(on, guide.angle, point)
+            if abs(aside) <= _NEAR * self.pose.size and line is not None:
+                self.blocks[link] = point
+                turned = in_degrees(math.remainder(slot.angle - guide.angle, math.tau))
+                return self.add(point, {"slide": {"pin": slot.point, "line": line, "slot": turned}})
+        self.reason = self.reason or (
+            f"slides.{slot.name}: {link} needs a point on its slot's line, which runs through {slot.point}; "
+            f"add one to [points] and to links.{link}"
+        )
+        return False
+
+    def line(self, on: str, angle: float, point: str) -> dict[str, Any] | None:
+        """Return the line of a known link through a point; None on a block, which has no axis."""
+        axis = None if on == GROUND else self.axis(on)
+        if on != GROUND and axis is None:
+            return None
+        places, along = self.pose.places, rect(1.0, -angle)
+        aside = {name: ((places[point] - places[name]) * along).imag for name in self.place(on)}
+        # Rounding decides between none that are equally near.
+        through = min(aside, key=lambda name: round(abs(aside[name]) / self.pose.size, 9))
+        base = phase(places[axis[1]] - places[axis[0]]) if axis else 0.0
+        line: dict[str, Any] = {"on": [*axis]} if axis else {}
+        turned = in_degrees(math.remainder(angle - base, math.tau) if axis else angle)
+        return {**line, "through": through, "angle": turned, **_offset(aside[through], self.pose.size)}
+
+    def _refuse_flat(self, part: float, size: float, joints: tuple[str, ...]) -> None:
+        """Refuse a pose at the limit of a dyad, from which its closure cannot be read."""
+        if abs(part) <= _FLAT * size:
+            listed = f"{', '.join(joints[:-1])} and {joints[-1]}"
+            raise self.top.table("points").wrong(
+                f"{listed} stand at a limit in this pose, which does not show how they are put together; "
+                "give the points in another pose"
+            )
+
+
+def _offset(offset: float, size: float) -> dict[str, float]:
+    return {"offset": offset} if abs(offset) > _NEAR * size else {}
+
+
+def _turn_by(gear: GearPair, link: str, turning: Mapping[str, _Geared]) -> tuple[str, Fraction] | None:
+    """Return the link by which a gear turns another, and how far; None where that is not known yet."""
+    first, second = gear.links
+    other, ratio = (first, gear.ratio) if link == second else (second, 1 / gear.ratio)
+    rest = [name for name in (other, gear.carrier) if name != GROUND]
+    if not rest or any(name not in turning for name in rest):
+        return None
+    if gear.carrier == GROUND:
+        return other, ratio
+    # The carrier turns both: b - c = ratio (a - c).
+    own = turning[gear.carrier].ratio
+    turns = (ratio * turning[other].ratio if other != GROUND else 0) + (1 - ratio) * own
+    return gear.carrier, turns / own
+
+
+def in_degrees(angle: float) -> str:
+    """Return an angle (rad) in the shortest degrees that have all its digits."""
+    exact = math.degrees(angle)
+    for digits in range(4, 18):
+        text = f"{exact:.{digits}g}"
+        if abs(math.radians(float(text)) - angle) <= 2.0**-52 * abs(angle):
+            break
+    return f"{float(text) + 0.0:.17g} deg" if digits == 17 else f"{text} deg"
+
+
+def _written(ratio: Fraction) -> int | str:
+    return ratio.numerator if ratio.denominator == 1 else str(ratio)
+
+
+# The document with [joints] that says the same.
+
+
+def as_joints(top: Table) -> dict[str, Any] | None:
+    """Return the document of a file with [points] as one with [joints]; None where it has a fault."""
+    pose = posed(top)
+    drive = top.attempt(SECTIONS["drive"].read, top)
+    if pose is None or drive is None:
+        return None
+    return top.attempt(_document, top, pose, drive)
+
+
+def _document(top: Table, pose: PosedLinks, drive: Mapping[str, Any]) -> dict[str, Any]:
+    _refuse_mobility(top, pose)
+    chain = _Dyads(top, pose)
+    driven = _by_slide(chain, drive) if "slide" in drive else _by_motor(chain, drive)
+    while chain.grow():
+        pass
+    _refuse_unfound(top, chain, drive)
+    if "slider" in driven:
+        driven["slider"] = _travel(chain, driven["slider"])
+    stated = {key: value for key, value in top.values.items() if key not in (*POSE_KEYS, "bodies")}
+    pins = {name: _pin(top, pose, name) for name in pose.links[GROUND]}
+    bodies = _bodies(top, chain)
+    return {**stated, "drive": driven, "ground": pins, "joints": chain.joints, "bodies": bodies}
+
+
+def _pin(top: Table, pose: PosedLinks, name: str) -> Any:
+    """Return a fixed pin as it is written, if that is from the origin; else its place."""
+    written = top.values["points"][name]
+    place = pose.places[name]
+    if isinstance(written, Mapping) and "from" not in written:
+        return written
+    return written if isinstance(written, list) and not _moved(top, pose, name) else [place.real, place.imag]
+
+
+def _moved(top: Table, pose: PosedLinks, name: str) -> bool:
+    """Tell whether a stated length has moved a point."""
+    table = top.table("points")
+    return complex(*SECTIONS["points"].type.plain.type.read(table, name)) != pose.places[name]  # type: ignore[union-attr]
+
+
+def _bodies(top: Table, chain: _Dyads) -> dict[str, Any]:
+    """Return the links as bodies, with what [bodies] says of them."""
+    found: dict[str, Any] = {}
+    for name, points in chain.pose.links.items():
+        if name == GROUND:
+            continue
+        if len(points) > 1:
+            found[name] = {"joints": [*points]}
+        elif name in chain.blocks:
+            found[name] = {"slider": points[0]}
+    stated = top.table("bodies").values
+    for name, body in stated.items():
+        found[name] = {**found.get(name, {}), **body} if isinstance(body, Mapping) else body
+    return found
+
+
+_OWN = ("joint", *(one.key for one in MOTOR_OF_POINTS))
+
+
+def _by_motor(chain: _Dyads, drive: Mapping[str, Any]) -> dict[str, Any]:
+    """Add the driven crank; return the drive's table."""
+    table, pose = chain.top.table("drive"), chain.pose
+    pivot = drive.get("joint") or _usual_pivot(pose)
+    if pivot not in pose.places:
+        way_out = f"{meant(pivot, pose.places)}; name the one where the motor turns"
+        raise table.error("joint", f"is no point{way_out}")
+    crank = _driven_link(table, pose, pivot, drive.get("links"))
+    pin = chain.pin_of(crank, pivot)
+    written = chain.top.values["points"][pin]
+    direction = phase(pose.places[pin] - pose.places[pivot])
+    polar = isinstance(written, Mapping) and written.get("from") == pivot
+    start = written["angle"] if polar else in_degrees(direction)
+    chain.turning[crank] = _Geared(pin, direction, Fraction(1))
+    chain.add(pin, {"crank": pivot, "length": pose.length(pivot, pin)})
+    stated = {key: value for key, value in table.values.items() if key not in _OWN}
+    if "cylinder" in stated:
+        stated["cylinder"] = {**stated["cylinder"], "joint": pin}
+    return {"start": start, **stated, "joint": pin}
+
+
+def _usual_pivot(pose: PosedLinks) -> str:
+    """Return the first fixed point about which one link turns, else the first fixed point."""
+    pins = pose.links[GROUND]
+    return next((name for name in pins if len(pose.at(name)) == 2), pins[0])
+
+
+def _driven_link(table: Table, pose: PosedLinks, pivot: str, links: tuple[str, ...] | None) -> str:
+    """Return the link that a motor on the ground turns."""
+    meeting = pose.at(pivot)
+    if links is not None:
+        if len(links) != 2 or not {*links} <= {*meeting} or links[0] == links[1]:
+            raise table.error("links", f"must be two of the links that meet at {pivot}: {', '.join(meeting)}")
+        meeting = [*links]
+    if len(meeting) != 2:
+        if len(meeting) < 2:
+            reason = f"is on {meeting[0]} alone, so nothing turns there; name a joint of two links"
+            raise table.error("joint", reason)
+        way_out = f"say which two: links = [{shown(meeting[0])}, {shown(meeting[1])}]"
+        raise table.error("joint", f"is where {', '.join(meeting)} meet; {way_out}")
+    if GROUND not in meeting:
+        both = f"is between {meeting[0]} and {meeting[1]}, which both move"
+        raise table.error("joint", f"{both}; only a motor on the ground is solved yet")
+    return next(name for name in meeting if name != GROUND)
+
+
+def _by_slide(chain: _Dyads, drive: Mapping[str, Any]) -> dict[str, Any]:
+    """Add the driven slider; return the drive's table."""
+    table, pose = chain.top.table("drive"), chain.pose
+    for key in ("joint", "links", "start", "cylinder", "slider"):
+        if key in table:
+            raise table.error(key, "does not go with a slide that drives; leave it out")
+    slide = next((one for one in pose.slides if one.name == drive["slide"]), None)
+    if slide is None:
+        names = [one.name for one in pose.slides]
+        known = f"{meant(drive['slide'], names)}; there are {', '.join(names) or 'none'}"
+        raise table.error("slide", f"is no slide{known}")
+    block = slide.other(GROUND)
+    if not block:
+        raise table.error("slide", "is no link that slides on the ground; only such a one can drive yet")
+    points = pose.links[block]
+    pin = next((name for name in points if len(pose.at(name)) > 1), points[0])
+    line = chain.line(GROUND, slide.angle, pin)
+    chain.blocks[block] = pin
+    chain.add(pin, {"line": line})
+    stated = {key: value for key, value in table.values.items() if key not in _OWN}
+    ends = {key: table.values[key] for key in ("from", "to") if key in table}
+    return {**stated, "slider": {"joint": pin, **ends}}
+
+
+def _travel(chain: _Dyads, slider: dict[str, Any]) -> dict[str, Any]:
+    """Return a driving slider's table with its ends: where they are not stated, as far as two bars let it."""
+    if {"from", "to"} <= slider.keys():
+        return slider
+    pin, places = slider["joint"], chain.pose.places
+    line = chain.joints[pin]["line"]
+    along = rect(1.0, -angle(line["angle"]))
+    for joint in chain.joints.values():
+        ends = joint["from"] if isinstance(joint.get("from"), list) else []
+        other = next((end for end in ends if end in chain.pose.links[GROUND]), "")
+        if pin in ends and other:
+            at = (places[other] - places[line["through"]]) * along
+            now = ((places[pin] - places[other]) * along).real
+            one, two = joint["length"]
+            far, near = (
+                math.sqrt(max((reach - aside) * (reach + aside), 0.0))
+                for reach, aside in ((one + two, at.imag - line.get("offset", 0.0)) for two in (two, -two))
+            )
+            low, high = (near if near else -far, far) if now > 0 else (-far, -near if near else far)
+            return {"from": at.real + low, "to": at.real + high, **slider}
+    table = chain.top.table("drive")
+    raise table.wrong("needs the ends of its slide's travel; give from and to, such as from = 80, to = 160")
+
+
+def _refuse_unfound(top: Table, chain: _Dyads, drive: Mapping[str, Any]) -> None:
+    """Refuse what no chain of dyads finds, with the joints at which it could be driven instead."""
+    pose = chain.pose
+    left = [name for name in pose.places if name not in chain.known]
+    if not left:
+        return
+    if chain.reason:
+        raise top.at(chain.reason, *chain.reason.partition(":")[0].split("."))
+    loose = [name for name in pose.links if not chain.stands(name)]
+    raise top.table("links").wrong(
+        f"{', '.join(loose)} can only be solved together, as a group of {len(loose)} links; only chains of "
+        f"dyads are solved yet{_way_out(top, pose, drive)}"
+    )
+
+
+def _way_out(top: Table, pose: PosedLinks, drive: Mapping[str, Any]) -> str:
+    """Say at which fixed points a motor would have the links follow one dyad after the other."""
+    found = []
+    for name in pose.links[GROUND]:
+        if len(pose.at(name)) == 2 and name != drive.get("joint"):
+            chain = _Dyads(top, pose)
+            try:
+                _by_motor(chain, {"joint": name})
+                while chain.grow():
+                    pass
+            except BadInput:
+                continue
+            found += [name] if {*pose.places} <= chain.known else []
+    return f"; with the motor at {' or '.join(found)} it is one" if found else ""
