@@ -1,7 +1,8 @@
 """Measure what is said on pictures: letters that stand wrong, what lies over what, what a frame leaves empty.
 
 Each rule is checked on finished pictures alone: on the places of joints and links, and on the boxes of all
-words. `python tests/measure/stage.py` prints how often each is broken, over all scenes, sizes and looks.
+words. `python tests/measure/stage.py` prints how often each is broken, over all scenes, sizes and looks; with
+a number, over so many random linkages.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from itertools import combinations
 from math import hypot, inf
+from pathlib import Path
 from typing import NamedTuple
 
 from linkanim.mechanics.motion import Pose
@@ -29,6 +31,7 @@ SIZES = ((1280, 720), (1920, 1080), (960, 540), (640, 360), (320, 180), (720, 12
 """The sizes of moving pictures; stills have those of `STILLS`."""
 STILLS = {"book": ((992, 744), 1.84), "page": ((1890, 1063), 1.03), "slide": ((1920, 1080), 1.57)}
 """The sizes of stills for a book, a page and a slide, and how much larger words are there."""
+LOOKS = ("names", "dimensions", "vectors", "centres", "polygons")
 ON_PART = ("joint", "body", "dimension", "vector", "angle", "dead-centre", "centre")
 """The kinds of words that stand on the linkage; all others stand in slots."""
 SLOTS = ("readout", "legend", "axis", "caption")
@@ -245,12 +248,18 @@ def _rect_off_line(box: Rect, begin: complex, end: complex) -> float:
     return min(*(_off_line(corner, begin, end) for corner in corners), _off(box, begin), _off(box, end))
 
 
-def measured(scenes: Iterable[Scene], *, told: bool = False) -> dict[str, Counter[str]]:
+def measured(
+    scenes: Iterable[Scene],
+    *,
+    told: bool = False,
+    sizes: Sequence[tuple[int, int]] = SIZES,
+    of: Sequence[str] = LOOKS,
+) -> dict[str, Counter[str]]:
     """Return how often each rule is broken, by kind of picture."""
     found: dict[str, Counter[str]] = {}
     for scene in scenes:
-        for look_name, look in looks(scene).items():
-            for size in SIZES:
+        for look_name, look in ((name, look) for name, look in looks(scene).items() if name in of):
+            for size in sizes:
                 faults = [*of_moving(scene, size, look)]
                 _count(found, f"moving {size[0]}x{size[1]}", scene, look_name, faults, told=told)
             for name, (size, scale) in STILLS.items():
@@ -283,6 +292,16 @@ def table(found: dict[str, Counter[str]]) -> str:
     return "\n".join(lines)
 
 
+def _random(count: int) -> dict[str, Counter[str]]:
+    """Return the same of random linkages of four and five links, at one size."""
+    sys.path.insert(0, str(Path(__file__).parents[1] / "mechanics"))
+    from few_links import drawn
+
+    few = map(drawn, range(count))
+    return measured(few, told=True, sizes=SIZES[:1], of=("names", "dimensions", "vectors"))
+
+
 if __name__ == "__main__":
     chosen = sys.argv[1:] or names()
-    print(table(measured(map(load, chosen), told=True)))
+    numbered = chosen[0].isdecimal()
+    print(table(_random(int(chosen[0])) if numbered else measured(map(load, chosen), told=True)))
