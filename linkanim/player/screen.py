@@ -10,7 +10,7 @@ import atexit
 import ctypes
 import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from math import ceil, hypot, log10
 from typing import Any, Literal
@@ -194,7 +194,8 @@ class Connection:
     """
 
     def __init__(self) -> None:
-        self.lost = self._closes = False
+        self.lost = False
+        self._asked: Callable[[], object] = lambda: None
         self._watched: int | None = None
         # the library calls these until the process ends, so they must exist as long
         self._handlers = _IO_ERROR(self._broken), _EXIT(self._broken)
@@ -219,12 +220,13 @@ class Connection:
 
         The rest of pygame stays until the process ends: fonts that outlive it would leak their memory.
         """
+        with suppress(pygame.error, KeyError):
+            if _pointer(pygame.display.get_wm_info()["display"]) == self._watched:
+                self._asked()
         if self.lost:
             atexit.unregister(pygame.quit)
         else:
-            self._closes = True
             pygame.display.quit()
-            self._closes = False
 
     def _watch(self, server: int) -> None:
         """Ask the library to go on after an error, which versions before 1.7 (2020) cannot."""
@@ -235,11 +237,11 @@ class Connection:
             library.XSetIOErrorHandler.argtypes = (_IO_ERROR,)
             library.XSetIOErrorHandler(self._handlers[0])
             goes_on(server, self._handlers[1], None)
+            library.XSync.argtypes = (ctypes.c_void_p, ctypes.c_int)
+            self._asked = lambda: library.XSync(server, 0)  # a question that is answered: is it still there?
 
     def _broken(self, *_: object) -> int:
         self.lost = True
-        if self._closes:  # the library waits for ever for its window to be gone, as when a session ends
-            os._exit(1)
         return 0
 
 
