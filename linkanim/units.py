@@ -162,6 +162,9 @@ class Units(NamedTuple):
 _ONE = Fraction(1)
 ANGLE = Units("an angle", {"deg": _PI / 180, "rad": _ONE})
 SPEED = Units("an angular speed", {"rpm": _PI / 30, "rad/s": _ONE, "deg/s": _PI / 180})
+TRAVEL_SPEED = Units(
+    "a speed", {"mm/s": _ONE / 1000, "cm/s": _ONE / 100, "m/s": _ONE, "in/s": Fraction(254, 10000)}
+)
 ANGULAR_ACCELERATION = Units("an angular acceleration", {"rad/s^2": _ONE, "deg/s^2": _PI / 180})
 _FASTEST = 1.05e6
 """The highest angular speed in rad/s: 1e7 rpm, with a margin for rounding."""
@@ -239,11 +242,17 @@ def split(text: str) -> tuple[float, str]:
     return float(match[1]), text[match.end() :].strip()
 
 
+def names_unit(text: str, of: Units) -> bool:
+    """Tell whether a text ends in one of the units of a quantity."""
+    match = _NUMBER.match(text)
+    return match is not None and _folded(text[match.end() :]) in map(_folded, of.factors)
+
+
 def is_quantity(text: str) -> bool:
     """Tell whether a text is a number with a unit that is known."""
     match, units = (
         _NUMBER.match(text),
-        (ANGLE, SPEED, ANGULAR_ACCELERATION, _LENGTH, STIFFNESS, DAMPING, MASS, INERTIA),
+        (ANGLE, SPEED, TRAVEL_SPEED, ANGULAR_ACCELERATION, _LENGTH, STIFFNESS, DAMPING, MASS, INERTIA),
     )
     known = {_folded(name) for one in units for name in one.factors}
     return match is not None and _folded(text[match.end() :]) in known

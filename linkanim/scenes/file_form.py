@@ -13,7 +13,7 @@ Its parts, in reading order:
 from __future__ import annotations
 
 import math
-from collections.abc import Container, Mapping
+from collections.abc import Callable, Container, Mapping
 from dataclasses import replace
 from typing import Any, get_args
 
@@ -21,13 +21,13 @@ from linkanim import units
 from linkanim.bounds import LONGEST_TEXT
 from linkanim.frozen import NamedTuple, frozen
 from linkanim.intake import unnameable
-from linkanim.mechanics.angles import unit
 from linkanim.mechanics.linkage import (
     MOTOR,
     RPP,
     RPR,
     RRP,
     RRR,
+    Actuator,
     Body,
     Crank,
     Cylinder,
@@ -60,6 +60,7 @@ from linkanim.scenes.form import (
     OFFSET,
     PAIR,
     POINT,
+    POINT_ON_BODY,
     RATIO,
     SHORTEST,
     SPEED,
@@ -72,11 +73,13 @@ from linkanim.scenes.form import (
     Named,
     Schema,
     Table,
+    TravelSpeed,
     ValueType,
     choice,
     form,
     listed,
     never,
+    on_circle,
     side,
 )
 from linkanim.scenes.form import JOINTS as MEMBERS
@@ -92,12 +95,6 @@ _LEAST_SLOT = 1e-6
 def aside(words: str) -> tuple[str, str]:
     """Return the labels of a place on a body: along its axis, and to the left of it."""
     return f"{words}, along", f"{words}, to the left"
-
-
-def on_circle(length: float, angle: float) -> Point:
-    """Return the point at `length` and `angle` (rad) from the origin, exact at multiples of pi/2."""
-    along, left = unit(angle)
-    return along * length, left * length
 
 
 def polar_pin(name: str, length: float, angle: float, base: Pin | None = None) -> Pin:
@@ -179,22 +176,48 @@ DRIVEN_SLIDER = form(
     without=("from", "length"),
     make=DrivenSlider,
 )
+
+
+def _refuse_two_sides(table: Table, values: Mapping[str, Any]) -> None:
+    if "near" in table and "side" in table:
+        raise table.error("near", "says the closure as side does; keep one of them")
+
+
+def _without_near(kind: Callable[..., Joint]) -> Callable[..., Joint]:
+    """Return what makes a joint whose closure may be named by a place; `reading` finds the side of it."""
+
+    def made(name: str, near: Point | None = None, **known: Any) -> Joint:
+        return kind(name, **known)
+
+    return made
+
+
+_NEAR = Field(
+    "near",
+    replace(POINT, measure=None),
+    "in place of side: the closure nearer to this place at the start",
+    None,
+)
 SLIDER = form(
     "a slider that a bar moves",
     Field("from", JOINT, "the bar's other end", into="end", must="moving"),
     _BAR,
     Field("line", LINE, "the line that it slides along"),
     Field("side", side(*RRP.sides), "of two closures the one further along the line, or back", RRP.sides[0]),
+    _NEAR,
     mark="line",
-    make=RRP,
+    refuse=_refuse_two_sides,
+    make=_without_near(RRP),
 )
 DYAD = form(
     "a joint of two bars",
     Field("from", PAIR, "the bars' other ends", into="ends"),
     Field("length", _LENGTHS, "the bars' lengths", into="lengths", label=("{bar}",) * 2, drag="distance"),
     Field("side", side(*RRR.sides), "of the line from the first end to the second", RRR.sides[0]),
+    _NEAR,
     mark="from",
-    make=RRR,
+    refuse=_refuse_two_sides,
+    make=_without_near(RRR),
 )
 _SLOT = Field("slot", SLOT, "the slotted bar", into=SPREAD)
 SLOTTED_BAR = form("the end of a bar that slides through a joint", _SLOT, _BAR, mark="slot", make=RPR)
@@ -203,7 +226,7 @@ YOKE = form("a yoke, where its slot crosses its line", _SLIDE, mark="slide", mak
 BODY_POINT = form(
     "a point of a body",
     Field("on", PAIR, "two joints of the body: its axis"),
-    Field("at", POINT, "the place along the axis, and to its left", label=_AT, drag="place"),
+    Field("at", POINT_ON_BODY, "the place along the axis, and to its left", label=_AT, drag="place"),
     mark="on",
     refuse=_refuse_own,
     make=Rigid,
@@ -334,7 +357,13 @@ DRIVE = form(
     Field("cylinder", CYLINDER, "what turns the crank, if it does not turn by itself", None),
     Field("slider", SLIDER_INPUT, "what drives instead of a crank", None),
     Field("joint", NAME, "the crank that is driven; of points, its pivot: the first one", None),
-    Field("speed", SPEED, "turns, or there and back; negative: clockwise", "20 rpm", label="Input speed"),
+    Field(
+        "speed",
+        SPEED,
+        'turns, or there and back; negative: clockwise; of a length, `"10 cm/s"`',
+        "20 rpm",
+        label="Input speed",
+    ),
     Field("start", ANGLE, "the crank's angle at the start", "0 deg", label="Start angle"),
     Field(
         "returns", choice("other", "same"), "the closure on which an input that swings comes back", "other"
@@ -376,7 +405,18 @@ def read_drive(top: Table, usual: str | None) -> Drive | None:
     driven = _cylinder(table.table("cylinder"), cylinder, name) if cylinder else MOTOR
     at_zero = values["start"] == 0 and "start" in table
     retraced = values["returns"] == "same"
-    return Drive(name, values["speed"], values["start"], driven, at_zero=at_zero, retraced=retraced)
+    speed = _phase_speed(table, values["speed"], driven)
+    return Drive(name, speed, values["start"], driven, at_zero=at_zero, retraced=retraced)
+
+
+def _phase_speed(table: Table, speed: float | TravelSpeed, actuator: Actuator) -> float:
+    """Return dφ/dt (rad/s); a length's speed is the mean one on its way from one end to the other."""
+    if not isinstance(speed, TravelSpeed):
+        return speed
+    if not actuator.stated_lengths:
+        raise table.error("speed", 'is a speed along a line, but a crank turns; write "20 rpm"')
+    first, last = actuator.stated_lengths
+    return math.pi * speed.metres / (abs(last - first) * units.metre(table.context.unit))
 
 
 def _slider_drive(top: Table, values: Values) -> Drive:
@@ -403,7 +443,8 @@ def _slider_drive(top: Table, values: Values) -> Drive:
     if abs(travel["to"] - travel["from"]) < SHORTEST:
         raise slider.error("to", "is the same place as from, so nothing would move")
     actuator = Travel(travel["from"], travel["to"])
-    return Drive(name, values["speed"], actuator=actuator, retraced=values["returns"] == "same")
+    speed = _phase_speed(table, values["speed"], actuator)
+    return Drive(name, speed, actuator=actuator, retraced=values["returns"] == "same")
 
 
 def _cylinder(table: Table, values: Values, driven: str) -> Cylinder:

@@ -20,8 +20,9 @@ from typing import Any, ClassVar, Literal, Self, TypeVar
 from linkanim import units
 from linkanim.bounds import LONGEST_TEXT, MOST_NAMES, MOST_PROBLEMS
 from linkanim.errors import BadInput, SceneError, UnitError
-from linkanim.frozen import frozen
+from linkanim.frozen import NamedTuple, frozen
 from linkanim.intake import Section, few, meant
+from linkanim.mechanics.angles import unit
 from linkanim.mechanics.linkage import Joint, RigidBody
 from linkanim.units import shown
 
@@ -299,9 +300,34 @@ def _colour(table: Table, key: str) -> tuple[int, int, int]:
 
 LENGTH = _quantity("length", "a length", _length, units.LENGTH_UNITS, _not_above, bare=True)
 OFFSET = _quantity("offset", "a length of either sign", _length, units.LENGTH_UNITS, _far, bare=True)
-_ANGLES, _SPEEDS = (*units.ANGLE.factors, "°"), (*units.SPEED.factors, "°/s")
+_ANGLES, _SPEEDS = (
+    (*units.ANGLE.factors, "°"),
+    (*units.SPEED.factors, "°/s", *units.TRAVEL_SPEED.factors),
+)
+
+
+class TravelSpeed(NamedTuple):
+    """The speed of an input that is a length (m/s)."""
+
+    metres: float
+
+
+def _speed(value: object) -> Any:
+    """Return an angular speed (rad/s), or what is a length in a time as such a `TravelSpeed`."""
+    if isinstance(value, str) and units.names_unit(value, units.TRAVEL_SPEED):
+        return TravelSpeed(units.TRAVEL_SPEED.read(value))
+    return units.angular_speed(value)
+
+
+def _no_speed(speed: Any, _: str) -> str:
+    """Say that a speed moves nothing, or is beyond what can be computed, if it is."""
+    if isinstance(speed, TravelSpeed):
+        return _far(speed.metres, "m/s") or ("" if speed.metres else "a speed of zero moves nothing")
+    return _standstill(speed, "")
+
+
 ANGLE = _quantity("angle", 'an angle, `"30 deg"`', _with_unit(units.angle), _ANGLES, _many_turns)
-SPEED = _quantity("speed", 'a speed, `"20 rpm"`', _with_unit(units.angular_speed), _SPEEDS, _standstill)
+SPEED = _quantity("speed", 'a speed, `"20 rpm"`', _with_unit(_speed), _SPEEDS, _no_speed)
 
 
 def _above(measure: Measure, words: str, of: units.Units) -> ValueType:
@@ -323,6 +349,42 @@ RATIO = ValueType(
     bare=True,
 )
 POINT = listed(OFFSET, 2)
+
+
+def _point_on_body(table: Table, key: str) -> Any:
+    """Read a place along an axis and to its left; or one of the distance and the angle from the axis."""
+    if not isinstance(table.values[key], Mapping):
+        return POINT.read(table, key)
+    polar = table.table(key)
+    polar.refuse_unknown(("length", "angle"))
+    for part in ("length", "angle"):
+        polar.need(part)
+    length, angle = polar.attempt(LENGTH.read, polar, "length"), polar.attempt(ANGLE.read, polar, "angle")
+    return None if length is None or angle is None else on_circle(length, angle)
+
+
+def on_circle(length: float, angle: float) -> tuple[float, float]:
+    """Return the point at `length` and `angle` (rad) from the origin, exact at multiples of pi/2."""
+    along, left = unit(angle)
+    return along * length, left * length
+
+
+POINT_ON_BODY = replace(
+    POINT,
+    read=_point_on_body,
+    words=f'{POINT.words}, or `{{ length = 50, angle = "30 deg" }}`',
+    schema={
+        "anyOf": [
+            POINT.schema,
+            {
+                "type": "object",
+                "additionalProperties": False,
+                "properties": {"length": LENGTH.schema, "angle": ANGLE.schema},
+                "required": ["length", "angle"],
+            },
+        ]
+    },
+)
 
 TEXT = ValueType(_text, "a text", {"type": "string", "maxLength": LONGEST_TEXT})
 TEXTS = ValueType(Table.texts, "a list of texts", {"type": "array", "items": {"type": "string"}})

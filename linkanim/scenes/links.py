@@ -22,8 +22,8 @@ from linkanim.errors import BadInput
 from linkanim.frozen import NamedTuple
 from linkanim.intake import meant
 from linkanim.mechanics.linkage import RRP, RRR
-from linkanim.scenes.file_form import GROUND, MOTOR_OF_POINTS, POSE_KEYS, SECTIONS, on_circle
-from linkanim.scenes.form import Table
+from linkanim.scenes.file_form import GROUND, MOTOR_OF_POINTS, POSE_KEYS, SECTIONS
+from linkanim.scenes.form import Table, on_circle
 from linkanim.units import angle, shown
 
 # What a file's tables say of the pose: where its points are, which links join them, what slides.
@@ -31,6 +31,8 @@ from linkanim.units import angle, shown
 Document = Mapping[str, Any]
 _NEAR = 1e-12
 """The share of a distance that counts as rounding."""
+_BEYOND = 1.5
+"""The length of a slot whose end is no point, in distances of its pin from the pivot."""
 _FLAT = 1e-9
 """The sine below which a pose does not show on which side of a line a joint lies."""
 
@@ -446,16 +448,22 @@ class _Dyads:
         along = (places[through] - places[pivot]) * rect(1.0, -slide.angle)
         self._refuse_flat(along.real, abs(along), (pivot, through))
         sense = math.copysign(1.0, along.real)
+        slot = {"pivot": pivot, "through": through, **_offset(sense * along.imag, self.pose.size)}
         for point in self.pose.links[link]:
             at = (places[point] - places[pivot]) * rect(sense, -slide.angle)
             if point not in self.known and at.real > 0 and abs(at.imag) <= _NEAR * self.pose.size:
-                slot = {"pivot": pivot, "through": through, **_offset(sense * along.imag, self.pose.size)}
                 return self.add(point, {"slot": slot, "length": self.pose.length(pivot, point)})
-        self.reason = self.reason or (
-            f"slides.{slide.name}: {link} needs a point on its slot's line through {pivot}, on the side of "
-            f"{through}; add one to [points] and to links.{link}"
+        # No point of the link is on the slot's line through the pivot: the slot's own end is one.
+        end = f"{slide.name}'" if slide.name in places else slide.name
+        length = max(
+            _BEYOND * abs(along), *(abs(places[name] - places[pivot]) for name in self.pose.links[link])
         )
-        return False
+        direction = rect(sense * length, slide.angle)
+        self.pose = self.pose._replace(
+            places={**places, end: places[pivot] + direction},
+            links={**self.pose.links, link: (*self.pose.links[link], end)},
+        )
+        return self.add(end, {"slot": slot, "length": length})
 
     def _yoke(self, link: str) -> bool:
         """Add the point at which the slot of a link that slides on a known one crosses its line."""

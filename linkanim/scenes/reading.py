@@ -4,6 +4,7 @@ Its parts, in reading order:
 
 - How much sizes in one scene may differ: beyond that neither digits nor pixels show them together.
 - The joints of a file in the order in which they are solved, those with a fault left out.
+- Places by length and angle, and closures by a place that is near, in their usual form.
 - From the document in a scene file to a checked `Scene`, or to all that is wrong with it.
 - Every problem of a scene file at once, each with its line.
 """
@@ -13,14 +14,16 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
-from math import hypot
+from math import hypot, pi
 from typing import Any
 
 from linkanim import units
 from linkanim.bounds import MOST_PROBLEMS
 from linkanim.errors import AssemblyError, BadInput
 from linkanim.frozen import NamedTuple
+from linkanim.mechanics.angles import unit
 from linkanim.mechanics.linkage import (
+    RRP,
     RRR,
     Body,
     Crank,
@@ -46,7 +49,7 @@ from linkanim.scenes.file_form import (
     names_of,
     read_drive,
 )
-from linkanim.scenes.form import Context, Field, Key, Table, fields_in
+from linkanim.scenes.form import POINT, Context, Field, Key, Table, fields_in
 from linkanim.scenes.links import as_joints
 from linkanim.scenes.scene import FREE_STYLE, Scene
 from linkanim.scenes.toml import Keys, line_numbers, parse
@@ -299,6 +302,8 @@ def read(
     if any(key in top for key in POSE_KEYS):
         return _read_points(top, name=name, towards=towards, check=check)
     top, short = _with_joints(top)
+    top = top.attempt(_settled, top, short) or top
+    document = top.values
     bodies = _part(top, "bodies") or {}
     parts = {
         "linkage": _linkage(top, short, {name: one and one.body for name, one in bodies.items()}),
@@ -322,6 +327,64 @@ def read(
     scene = Scene(name=name, length_unit=top.context.unit, **parts)
     top.attempt(_check_assembly, top, scene, check)
     return scene, top.context.problems
+
+
+# Places by length and angle, and closures by a place that is near, are written as all others from here on.
+
+
+def _settled(top: Table, short: Expansion) -> Table:
+    """Return the file's table with its joints' places on bodies and closures in their usual form."""
+    tables = top.table("joints")
+    for name, joint in top.context.joints.items() if top.context.sound else ():
+        table = tables.values.get(name, {})
+        if isinstance(joint, Rigid) and isinstance(table.get("at"), Mapping):
+            top = _restated(top, joint, {**table, "at": [*joint.at]})
+        if isinstance(joint, RRR | RRP) and "near" in table:
+            joint = replace(joint, side=_nearer_side(top, joint, short))
+            side = joint.sides[joint.side < 0]
+            top = _restated(top, joint, {**{k: v for k, v in table.items() if k != "near"}, "side": side})
+    return top
+
+
+def _restated(top: Table, joint: Joint, table: Mapping[str, Any]) -> Table:
+    """Return the file's table with another table of a joint."""
+    joints = {**top.values["joints"], joint.name: table}
+    context = replace(top.context, joints={**top.context.joints, joint.name: joint})
+    return replace(top, values={**top.values, "joints": joints}, context=context)
+
+
+def _nearer_side(top: Table, joint: RRR | RRP, short: Expansion) -> int:
+    """Return the side of the closure of a joint that is nearer to the place in its table, at the start."""
+    from linkanim.mechanics.motion import mechanism
+
+    table = top.table("joints").table(joint.name)
+    drive = read_drive(top, short.drive)
+    names = list(top.context.joints)
+    before = [top.context.joints[name] for name in names[: names.index(joint.name) + 1]]
+    if drive is None or drive.joint not in {one.name for one in before}:
+        raise table.error("near", "is no place of a joint that the input moves; say the side instead")
+    moving = mechanism(Linkage(tuple(before), drive))
+    if drive.coordinate.is_angle and not drive.actuator.stated_lengths:
+        found = moving.solve(angle=drive.start, speed=1.0, derivatives=0).position
+    else:
+        found = moving.solve(phase=pi / 2, speed=1.0, derivatives=0).position
+    at = {name: complex(*place) for name, place in found.items()}
+    here, near = at[joint.name], complex(*POINT.read(table, "near"))
+    if here != here:
+        raise table.error(
+            "near", "cannot be compared: the input does not come to its start; give another start"
+        )
+    if isinstance(joint, RRR):
+        p, q = (at[end] for end in joint.ends)
+        there = p + (q - p) * ((here - p) / (q - p)).conjugate()
+    else:
+        axis = at[joint.line.on[1]] - at[joint.line.on[0]] if joint.line.on else 1 + 0j
+        along = axis / abs(axis) * complex(*unit(joint.line.angle))
+        there = here - 2 * ((here - at[joint.end]) * along.conjugate()).real * along
+    one, other = abs(here - near), abs(there - near)
+    if abs(one - other) <= 1e-9 * (one + other):
+        raise table.error("near", "is as near to one closure as to the other; give a place beside it")
+    return joint.side if one < other else -joint.side
 
 
 def _read_points(
