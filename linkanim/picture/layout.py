@@ -178,7 +178,7 @@ def layout(size: tuple[int, int], *, docked: Docked = NOTHING_DOCKED, type_scale
         parts, whole = replace(parts, bar=bar, caption=foot), whole._replace(height=foot.y - beyond)
     parts = replace(parts, lists=_lists(parts))
     room = _beside_list(parts.lists, whole) if docked.listed else whole
-    if parts.bar and parts.above_bar > parts.bar.y:
+    if parts.bar and docked.listed and parts.above_bar > parts.bar.y:
         top = min(parts.bar.y, room.bottom - parts.bar.height)
         parts = replace(parts, bar=parts.bar._replace(x=room.x, y=top, width=room.width))
     parts = replace(parts, room=room if docked.listed else None)

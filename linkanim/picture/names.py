@@ -122,11 +122,12 @@ class Names:
     def captions(self, places: Places, setting: DrawSetting, heads: Sequence[complex] = ()) -> list[Caption]:
         """Return all labels in a pose; of those that arrowheads lie on, none."""
         scale, reach, found = setting.view.scale, 2.4 * setting.gauge.line, list[Caption]()
+        kept_off = np.array(heads, np.complex128)
         for label in self.labels:
             if label.anchor:
                 middle = label.anchor.middle(places, scale, label.size)
                 rect = _about(middle, label.size)
-                if not any(_is_near(rect, head, reach) for head in heads):
+                if not _is_on(rect, kept_off, reach):
                     found.append(_caption(label, middle, setting))
         return found
 
@@ -185,16 +186,12 @@ class Names:
             self.ways[one.of].middle(one, label.size) for (_, one), label in zip(long, labels, strict=True)
         ]
         rects = [_about(middle, label.size) for middle, label in zip(middles, labels, strict=True)]
-        busy, heads = [*taken], [one.foot + one.reach for _, one in seen]
-        pins = [setting.view.place(pose.position[name]) for name in figure.pins]
+        busy, heads = [*taken], np.array([one.foot + one.reach for _, one in seen])
+        pins = np.array([setting.view.place(pose.position[name]) for name in figure.pins])
         head, pin, room = 2.4 * setting.gauge.line, setting.gauge.pin, setting.layout.stage
         for (n, _), label, middle, rect in zip(long, labels, middles, rects, strict=True):
-            covers = any(rect.meets(other) for other in busy)
-            covers = (
-                covers
-                or any(_is_near(rect, at, head) for at in heads)
-                or any(_is_near(rect, at, pin) for at in pins)
-            )
+            covers = _is_on(rect, heads, head) or _is_on(rect, pins, pin)
+            covers = covers or any(rect.meets(other) for other in busy)
             inside = room.holds(rect.x, rect.y) and room.holds(rect.right, rect.bottom)
             if not covers and (inside or setting.look.framed):
                 busy.append(rect)
@@ -209,10 +206,7 @@ class Names:
         """
         setting, line, busy, found = centres.setting, centres.setting.layout.small_size, [*taken], []
         kept = {label.of for label in self.labels}
-        pins, pin = (
-            [setting.view.place(pose.position[name]) for name in setting.figure.pins],
-            setting.gauge.pin,
-        )
+        pins = np.array([setting.view.place(pose.position[name]) for name in setting.figure.pins])
         for seen in centres.seen(pose):
             label = _label(setting, seen.label, line, "warning", f"centre:{plain(seen.label)}")
             if seen.jointed or (label.of in kept and not seen.direction):
@@ -229,7 +223,7 @@ class Names:
             if (
                 inside
                 and not any(rect.meets(one) for one in busy)
-                and not any(_is_near(rect, at, pin) for at in pins)
+                and not _is_on(rect, pins, setting.gauge.pin)
             ):
                 busy.append(rect)
                 found.append(_caption(label, middle, setting))
@@ -253,9 +247,18 @@ def _about(middle: complex, size: Size) -> Rect:
     return Rect(middle.real - size[0] / 2, middle.imag - size[1] / 2, *size)
 
 
-def _is_near(rect: Rect, at: complex, reach: float) -> bool:
-    """Return whether a place is within a reach of a rectangle."""
-    return abs(rect.nearest(at) - at) < reach
+def _bounds(points: Loop) -> Rect:
+    """Return the rectangle that holds points x + yi."""
+    x, y = points.real, points.imag
+    left, top = float(x.min()), float(y.min())
+    return Rect(left, top, float(x.max()) - left, float(y.max()) - top)
+
+
+def _is_on(rect: Rect, points: Loop, reach: float) -> bool:
+    """Return whether any of some points is within a reach of a rectangle."""
+    x, y = np.abs(points.real - rect.middle.real), np.abs(points.imag - rect.middle.imag)
+    off = np.hypot(np.maximum(x - rect.width / 2, 0.0), np.maximum(y - rect.height / 2, 0.0))
+    return bool((off < reach).any())
 
 
 def _leader(middle: complex, size: Size, foot: complex, bar: float) -> tuple[complex, complex]:
@@ -646,8 +649,9 @@ class _Labelling:
         inside = _held(middles, own) if own.shape[1] > 2 else np.zeros(middles.shape, np.bool_)
         off = np.where(inside, 0.0, off)
         faults = ~inside & (touch > _TOUCHES * label.line)
-        for names, sides in self.links:
-            if names != joints:
+        near = _bounds(middles).inset(-max(float(off.max()), self.setting.gauge.bar))
+        for (names, sides), bounds in zip(self.links, self._reaches, strict=True):
+            if names != joints and near.meets(bounds):
                 other = off_lines(middles, sides).min(axis=2)
                 if sides.shape[1] > 2:
                     other = np.where(_held(middles, sides), 0.0, other)
@@ -655,6 +659,11 @@ class _Labelling:
                     faults |= inside & (other < self.setting.gauge.bar)
                 faults |= other < off - 0.5
         return self._wanted(label, families, faults=faults, most=_CROWDED if self.moment is None else 0.0)
+
+    @cached_property
+    def _reaches(self) -> list[Rect]:
+        """The rectangles that links pass."""
+        return [_bounds(sides).inset(-1.0) for _, sides in self.links]
 
     def _on_link(self, body: Body, label: Label, line: int) -> list[Anchors]:
         """Return the anchors of a link's name: beside its bar and on it, or in its plate and beside that."""

@@ -80,7 +80,9 @@ def chosen(labels: Sequence[Alternatives], ground: Obstacles) -> list[int | None
     prices = [label.price + _COVERING * _covered(label, ground) for label in labels]
     free = [int((~fault.any(axis=0)).sum()) for fault in faults]
     found: list[int | None] = [None] * len(labels)
-    for n in sorted(range(len(labels)), key=lambda n: (labels[n].rank, not labels[n].ordered and free[n], n)):
+    order = sorted(range(len(labels)), key=lambda n: (labels[n].rank, not labels[n].ordered and free[n], n))
+    reaches = [_reach(label) for label in labels]
+    for turn, n in enumerate(order, start=1):
         share = _share(labels[n], faults[n])
         allowed = share <= max(labels[n].most, share.min() if labels[n].most >= 1 else 0.0) + _SURE
         if not allowed.any():
@@ -90,10 +92,19 @@ def chosen(labels: Sequence[Alternatives], ground: Obstacles) -> list[int | None
         best = found[n] = int(cost.argmin())
         mine = labels[n].places[:, best : best + 1], labels[n].size
         lines = None if labels[n].lines is None else labels[n].lines[:, best]  # type: ignore[index]
-        for other, fault in zip(labels, faults, strict=True):
-            if other is not labels[n]:
-                fault |= _hit_by(other, *mine, lines)
+        for other in order[turn:]:
+            if reaches[n].meets(reaches[other]):
+                faults[other] |= _hit_by(labels[other], *mine, lines)
     return found
+
+
+def _reach(label: Alternatives) -> Rect:
+    """Return the rectangle that holds a label in all its places, and the lines drawn with it."""
+    parts = [label.places.ravel()] + ([] if label.lines is None else [label.lines.ravel()])
+    points = np.concatenate(parts)
+    wide, high = label.size[0] / 2 + label.size[1], 1.5 * label.size[1] + label.gap
+    left, top = float(points.real.min()) - wide, float(points.imag.min()) - high
+    return Rect(left, top, float(points.real.max()) + wide - left, float(points.imag.max()) + high - top)
 
 
 def grounded(
@@ -183,7 +194,7 @@ def crossed(places: Loop, size: Size, lines: Loop, halves: Floats) -> Bools:
 
     Separating axes: the two of the rectangle, and the normal of the line.
     """
-    middle = lines.mean(axis=2)[:, None] - places[:, :, None]
+    middle = ((lines[..., 0] + lines[..., 1]) / 2)[:, None] - places[:, :, None]
     arm = ((lines[..., 1] - lines[..., 0]) / 2)[:, None]
     wide, high = size[0] / 2 + halves, size[1] / 2 + halves
     across = np.abs(middle.real * arm.imag - middle.imag * arm.real)
@@ -197,16 +208,13 @@ def crossed(places: Loop, size: Size, lines: Loop, halves: Floats) -> Bools:
 
 def _run_over(lines: Loop, others: Loop, sizes: Floats) -> Bools:
     """Return whether lines (n, k, 2) run over any of some rectangles (n, m), as (n, k)."""
-    middle = lines.mean(axis=2)[:, :, None] - others[:, None]
+    middle = ((lines[..., 0] + lines[..., 1]) / 2)[:, :, None] - others[:, None]
     arm = ((lines[..., 1] - lines[..., 0]) / 2)[:, :, None]
     wide, high = sizes[:, 0] / 2 + 1.0, sizes[:, 1] / 2 + 1.0
     across = np.abs(middle.real * arm.imag - middle.imag * arm.real)
-    found: Bools = (
-        (np.abs(middle.real) < wide + np.abs(arm.real))
-        & (np.abs(middle.imag) < high + np.abs(arm.imag))
-        & (across < wide * np.abs(arm.imag) + high * np.abs(arm.real))
-    ).any(axis=2)
-    return found
+    found = (np.abs(middle.real) < wide + np.abs(arm.real)) & (np.abs(middle.imag) < high + np.abs(arm.imag))
+    found &= across < wide * np.abs(arm.imag) + high * np.abs(arm.real)
+    return np.asarray(found.any(axis=2))
 
 
 def _apart(points: ArrayLike, lines: Loop) -> Floats:

@@ -163,7 +163,10 @@ def test_every_command_is_reached_by_pointing_alone(player: Player) -> None:
             share = min((max(found) + 10) / (count - 1), 1.0)
             player.drag((strip, 300), (strip, track[0] + share * (track[-1] - track[0])))
         assert len(found) > before
-    assert [found[row] for row in range(count)] == [(one, one) for one in expected]
+    asked = [found[row] for row in range(count)]
+    constructions = [both for both in asked if both[0] and both[0].name == "construction" and both[0].value]
+    assert [both for both in asked if both not in constructions] == [(one, one) for one in expected]
+    assert all(one == other for one, other in constructions)
     assert len(expected) > 10
 
 
