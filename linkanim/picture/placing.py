@@ -92,15 +92,18 @@ def chosen(labels: Sequence[Alternatives], ground: Obstacles) -> list[int | None
         best = found[n] = int(cost.argmin())
         mine = labels[n].places[:, best : best + 1], labels[n].size
         lines = None if labels[n].lines is None else labels[n].lines[:, best]  # type: ignore[index]
+        taken = _reach(labels[n], best)
         for other in order[turn:]:
-            if reaches[n].meets(reaches[other]):
+            if taken.meets(reaches[other]):
                 faults[other] |= _hit_by(labels[other], *mine, lines)
     return found
 
 
-def _reach(label: Alternatives) -> Rect:
-    """Return the rectangle that holds a label in all its places, and the lines drawn with it."""
-    parts = [label.places.ravel()] + ([] if label.lines is None else [label.lines.ravel()])
+def _reach(label: Alternatives, place: int | None = None) -> Rect:
+    """Return the rectangle that holds a label in all its places, or in one, and the lines drawn with it."""
+    some = slice(None) if place is None else slice(place, place + 1)
+    parts = [label.places[:, some].ravel()]
+    parts += [] if label.lines is None else [label.lines[:, some].ravel()]
     points = np.concatenate(parts)
     wide, high = label.size[0] / 2 + label.size[1], 1.5 * label.size[1] + label.gap
     left, top = float(points.real.min()) - wide, float(points.imag.min()) - high
