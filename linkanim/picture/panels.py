@@ -5,6 +5,7 @@ The help has as many columns as the window has room for.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator, Sequence
 from itertools import chain
 from math import ceil, floor
@@ -358,6 +359,15 @@ def _draw(
 
 _QUANTITY_FRAME = 2.6
 """The height of the list's frame, without its rows and hint, in lines."""
+_ABBREVIATED = {
+    **{"second ": "2nd ", "kinematic coefficient": "kin. coeff.", " spring:": ":", " damper:": ":"},
+    **{"acceleration": "accel.", "angular": "ang.", "tangential": "tang.", "kin. ": ""},
+}
+"""How words of quantities are abbreviated where room is short, one after the other."""
+_NUMBER, _USUAL = r"[−\d.∞]+", "−0.8888"
+"""A number in a value, and one as wide as most."""
+_GAP = 0.7
+"""The gaps between words, symbol and value, in heights of their text."""
 _BOX = 2.5
 """Where the words of rows with boxes begin, in heights of their text."""
 
@@ -429,15 +439,29 @@ def _rows_and_hint(board: Board, shown: Quantities) -> tuple[range, list[str]]:
 def _quantity_row(
     board: Board, sheet: pygame.Surface, shown: Quantities, row: int, size: int, y: float
 ) -> None:
-    begin = (_BOX if shown.boxes else 1.2) * size
-    (words, symbol), room = shown.rows[row], sheet.get_width() - begin - 1.2 * size
-    left = room - board.type.width(words, size) - size
-    ways = (symbol, symbol.rpartition(" = ")[2])
-    symbol = next((text for text in ways if board.type.width(text, size) <= left), "")
+    """Write a row: its value at the right, the symbol before it, and its words in the room that remains.
+
+    The symbol keeps its place while the value's digits change.
+    """
+    begin, right = (_BOX if shown.boxes else 1.2) * size, sheet.get_width() - 1.2 * size
+    words, told = shown.rows[row]
+    symbol, _, value = told.rpartition(" = ")
+    taken = board.widest((value, re.sub(_NUMBER, _USUAL, value)) if symbol else (value,), size)
+    board.write(sheet, value, (right, y), size=size, colour=board.theme.dim, anchor="right")
     if symbol:
-        at = (sheet.get_width() - 1.2 * size, y)
-        board.write(sheet, symbol, at, size=size, colour=board.theme.dim, anchor="right")
-    board.write(sheet, board.fitting((words,), size, room), (begin, y), size=size)
+        taken += board.type.width(symbol, size) + _GAP * size
+        board.write(sheet, symbol, (right - taken, y), size=size, colour=board.theme.dim)
+    room = right - begin - (taken + _GAP * size if told else 0.0)
+    board.write(sheet, board.fitting([*_shorter(words)], size, room), (begin, y), size=size)
+
+
+def _shorter(words: str) -> Iterator[str]:
+    """Yield a quantity's words, then with more and more of them abbreviated."""
+    yield words
+    for word, short in _ABBREVIATED.items():
+        if word in words:
+            words = words.replace(word, short)
+            yield words
 
 
 def _boxes(board: Board, sheet: pygame.Surface, rows: Sequence[tuple[float, bool]], size: int) -> None:

@@ -109,8 +109,8 @@ class Listing:
 
 
 def listed(scene: Scene, sieve: str) -> tuple[str, ...]:
-    """Return the tokens of the quantities that have all the sieve's words, the key quantities first."""
-    found = {token: quantity(scene, token) for token in (*scene.telling, *scene.quantities)}
+    """Return the tokens of the quantities with a value that have all the sieve's words, the key ones first."""
+    found = {token: quantity(scene, token) for token in scene.valued}
     return sifted({token: (token, one.words, one.symbol) for token, one in found.items()}, sieve)
 
 

@@ -158,6 +158,15 @@ class Scene:
         return key_quantities(self.cycle(self.mechanism.count(96)), self.trace)
 
     @cached_property
+    def valued(self) -> tuple[str, ...]:
+        """The tokens of the quantities that have a finite value somewhere in a cycle, the telling ones first."""
+        import numpy as np
+
+        cycle = self.cycle(self.mechanism.count(96))
+        found = dict.fromkeys((*self.telling, *self.quantities))
+        return tuple(token for token in found if np.isfinite(self.quantities[token].read(cycle)).any())
+
+    @cached_property
     def length_step(self) -> float:
         """The step in which its lengths are told: a power of ten, about a three-thousandth of the longest.
 

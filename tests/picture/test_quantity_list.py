@@ -102,18 +102,49 @@ def test_what_has_been_typed_stands_for_the_title_and_none_found_is_said(board: 
     assert board.bars == []
 
 
-def test_words_too_long_lose_their_symbol_and_then_their_middle(board: Noted) -> None:
-    size, long = board.layout.small_size, "m"
+def test_words_too_long_lose_their_middle_and_never_their_symbol(board: Noted) -> None:
+    size = board.layout.small_size
     room = board.layout.lists.width - 2.4 * size
-    while board.type.width(long + "m", size) <= room:
-        long += "m"
-    quantity_list(board, Quantities(((long, "θ"), (long * 2, "ω"), ("short", "α")), 0))
-    assert {"θ", "ω", "α"} & set(board.lines) == {"α"}
-    assert "short" in board.lines
-    written = [text for text in board.lines if "mm" in text]
-    assert written[0] == long
-    assert "…" in written[1]
-    assert all(board.type.width(text, size) <= room for text in written)
+    rows = (("m" * 40, "θ = 1.5°"), ("w" * 40, "ω = −0.1 rad/s"), ("short", "α = 10 rad/s²"))
+    quantity_list(board, Quantities(rows, 0))
+    for words, told in rows:
+        symbol, _, value = told.partition(" = ")
+        assert {symbol, value} <= {*board.lines}
+        assert board.lines[symbol].at[1] == board.lines[value].at[1]
+        (written,) = (text for text in board.lines if text[0] == words[0] and text not in (symbol, value))
+        assert ("…" in written) == (words != "short")
+        end = board.lines[written].at[0] + board.type.width(written, size)
+        assert end < board.lines[symbol].at[0] < board.lines[value].at[0] - board.type.width(value, size)
+    assert all(board.type.width(text, size) <= room for text in board.lines)
+
+
+STEADY = {
+    "a sign": ("ω₃ = 1.25 rad/s", "ω₃ = −0.3012 rad/s"),
+    "a vector's digits": ("r_{A} = 1, 2 mm", "r_{A} = −41.21, 37.52 mm"),
+    "infinity": ("ρ_{A} = ∞ mm", "ρ_{A} = 55 mm"),
+}
+
+
+@pytest.mark.parametrize("told", STEADY.values(), ids=STEADY)
+def test_a_symbol_stays_while_its_value_changes(board: Noted, told: tuple[str, str]) -> None:
+    symbol, places = told[0].partition(" = ")[0], set[tuple[float, float]]()
+    for value in told:
+        quantity_list(board, Quantities((("Link 3: angular velocity", value),), 0))
+        places.add(board.lines[symbol].at)
+    assert len(places) == 1
+
+
+ABBREVIATED = {
+    "Link 3: second kinematic coefficient": "Link 3: 2nd kin. coeff.",
+    "Link 3: angular acceleration": "Link 3: angular accel.",
+    "Link 3: angle": "Link 3: angle",
+}
+
+
+def test_the_words_of_quantities_are_abbreviated_before_they_are_cut() -> None:
+    board = Noted(layout((1280, 720), docked=Docked(listed=1)), Type(), LIGHT)
+    quantity_list(board, Quantities(tuple((words, "h′₂ = 0.1089 rad/rad²") for words in ABBREVIATED), 0))
+    assert {*ABBREVIATED.values()} <= {*board.lines}
 
 
 def test_where_fewer_than_four_rows_would_be_left_the_hint_gives_way() -> None:
