@@ -109,7 +109,7 @@ class Listing:
 
 
 def listed(scene: Scene, sieve: str) -> tuple[str, ...]:
-    """Return the tokens of the quantities with a value that have all the sieve's words, the key ones first."""
+    """Return the tokens of the quantities with a value that have all the sieve's words, key ones first."""
     found = {token: quantity(scene, token) for token in scene.valued}
     return sifted({token: (token, one.words, one.symbol) for token, one in found.items()}, sieve)
 

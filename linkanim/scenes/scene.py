@@ -159,7 +159,7 @@ class Scene:
 
     @cached_property
     def valued(self) -> tuple[str, ...]:
-        """The tokens of the quantities that have a finite value somewhere in a cycle, the telling ones first."""
+        """The tokens of the quantities with a finite value somewhere in a cycle, the telling ones first."""
         import numpy as np
 
         cycle = self.cycle(self.mechanism.count(96))
