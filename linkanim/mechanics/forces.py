@@ -1,9 +1,9 @@
 """What the input has to deliver: its torque, or the force of a cylinder or a slider that drives.
 
 By the balance of power over all that the scene gives a force or a mass (the principle of virtual power;
-Uicker, Pennock and Shigley, Theory of Machines and Mechanisms), tension F positive and y up,
+Uicker, Pennock and Shigley, Theory of Machines and Mechanisms), tension F positive, y up, P and T loads,
 
-    Q q' = Σ (m a·v + I α ω) + Σ m g v_y + Σ F dL/dt
+    Q q' = Σ (m a·v + I α ω) + Σ m g v_y + Σ F dL/dt - Σ (P·v + T ω)
 
 where q is the crank's angle, the cylinder's length or the slider's travel, and Q its torque or its push.
 Where everything rests for an instant, accelerations stand in for velocities, which are all in proportion to
@@ -20,13 +20,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkanim.frozen import NamedTuple
-from linkanim.mechanics.linkage import Damper, Linkage, Spring, holding
+from linkanim.mechanics.linkage import Body, Damper, Linkage, Spring, holding
 from linkanim.mechanics.measures import (
     ROUNDING,
     between,
     components,
+    cross,
+    dot,
     force_rounding,
     growth,
+    loaded,
     over,
     rounding_of,
     said,
@@ -87,15 +90,20 @@ def input_effort(motion: Any) -> Any:
     forward. Unbounded at a limit of the input that takes power; NaN where the input stands still and does not
     start to move either.
     """
-    power = _power(motion, _MOVING)
-    found = _quotient(motion, power, _MOVING)
+    with np.errstate(invalid="ignore"):  # a limit's unbounded rates leave no number
+        power = _power(motion, _MOVING)
+        found = _quotient(motion, power, _MOVING)
+    unbounded = ~np.isfinite(power.weight) & ~np.isnan(motion.phase)
+    found = np.where(unbounded, np.inf, found)[()] if np.any(unbounded) else found
     if not motion.acceleration or not np.any(near := stands(motion, _ENDING)):
         return found
     stops, still = stands(motion), power.weight <= power.rounding
     starting = _quotient(motion, _power(motion, _STARTING), _STARTING)
     found = np.where(stops, np.where(still, starting, np.inf), found)
-    near = np.asarray(near & ~(stops & still))
-    return (_beside(motion, found, near) if np.any(near) else found)[()]
+    near = idle(motion, np.asarray(near & ~(stops & still)))
+    if np.any(near):
+        found[near] = beside(motion, near, lambda there: _quotient(there, _power(there, _MOVING), _MOVING))
+    return found[()]
 
 
 def _quotient(motion: Any, power: _Power, rates: _Rates) -> Any:
@@ -104,29 +112,38 @@ def _quotient(motion: Any, power: _Power, rates: _Rates) -> Any:
     return settled(over(power.total, pace), over(power.rounding, abs(pace)))
 
 
-def _beside(motion: Any, effort: Array, near: NDArray[np.bool_]) -> Array:
-    """Return efforts, those that are 0/0 at a near end of the input interpolated from both sides.
+def near_ends(motion: Any) -> Any:
+    """Tell where the input stands so near an end that power and pace may both have no digits."""
+    return stands(motion, _ENDING)
 
-    There what has a force or a mass moves on and takes no power. Where it rests with the input, both have
-    their digits up to the end.
+
+def idle(motion: Any, near: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Tell at which of these instants, near an end of the input, what has a force or a mass moves on there.
+
+    It takes no power at the end, and the effort is 0/0. Where it rests with the input, both have their digits
+    up to the end.
     """
-    phase, speed, second = (
-        np.broadcast_to(value, effort.shape)[near]
-        for value in (motion.phase, motion.input_speed, motion.input_acceleration)
-    )
+    found = near.copy()
+    if np.any(near):
+        phase = np.broadcast_to(motion.phase, near.shape)[near]
+        there = _power(_solved(motion, near, math.pi * np.rint(phase / math.pi)), _MOVING)
+        found[near] = (there.weight > there.rounding) & (np.abs(there.total) <= _IDLE * there.rounding)
+    return found
 
-    def solved(phases: Array) -> tuple[Any, _Power]:
-        found = motion.mechanism.solve(phase=phases, speed=speed, acceleration=second)
-        return found, _power(found, _MOVING)
 
-    _, there = solved(math.pi * np.rint(phase / math.pi))
-    idle = (there.weight > there.rounding) & (np.abs(there.total) <= _IDLE * there.rounding)
-    if idle.any():
-        step, weights = _BESIDE[0] / motion.mechanism.assembly.quickest, _BESIDE[1]
-        places = ((phase + side * n * step, w) for n, w in enumerate(weights, start=1) for side in (-1, 1))
-        read = sum(weight * _quotient(*solved(place), _MOVING) for place, weight in places)
-        effort[near] = np.where(idle, read, effort[near])
-    return effort
+def beside(motion: Any, where: NDArray[np.bool_], read: Callable[[Any], Any]) -> Any:
+    """Return what is read of a motion, interpolated at some of its instants from both sides."""
+    step, weights = _BESIDE[0] / motion.mechanism.assembly.quickest, _BESIDE[1]
+    phase = np.broadcast_to(motion.phase, where.shape)[where]
+    places = ((phase + side * n * step, w) for n, w in enumerate(weights, start=1) for side in (-1, 1))
+    return sum(weight * read(_solved(motion, where, place)) for place, weight in places)
+
+
+def _solved(motion: Any, where: NDArray[np.bool_], phases: Array) -> Any:
+    """Return the motion at other phases, with the rates that the input has at these instants."""
+    rates = (motion.input_speed, motion.input_acceleration)
+    speed, second = (np.broadcast_to(rate, where.shape)[where] for rate in rates)
+    return motion.mechanism.solve(phase=phases, speed=speed, acceleration=second)
 
 
 class _Power(NamedTuple):
@@ -145,9 +162,8 @@ def _power(motion: Any, rates: _Rates) -> _Power:
     linkage = motion.mechanism.linkage
     struts = _strut_power(motion, rates, linkage.springs + linkage.dampers)
     nothing = 0.0 * motion.phase
-    return _Power(
-        *map(sum, zip((nothing, nothing, nothing), *struts, *_body_power(motion, rates), strict=True))
-    )
+    others = (*_body_power(motion, rates), *_load_power(motion, rates))
+    return _Power(*map(sum, zip((nothing, nothing, nothing), *struts, *others, strict=True)))
 
 
 def _strut_power(
@@ -177,11 +193,13 @@ def _body_power(motion: Any, rates: _Rates) -> Iterator[tuple[Any, Any, Any]]:
         prefix, centre = ("com_", body.name) if body.slider is None else ("", body.slider)
         if body.mass is not None:
             u, v = components(getattr(motion, rates.centres if prefix else rates.points)[centre])
-            a, b = components(getattr(motion, f"{prefix}acceleration")[centre])
+            a, b = (0.0, 0.0)
+            if not linkage.static:
+                a, b = components(getattr(motion, f"{prefix}acceleration")[centre])
             pull, moved = size((a, b)) * metre + abs(linkage.gravity), body.mass * metre * size((u, v))
             power = body.mass * metre * ((a * u + b * v) * metre + linkage.gravity * v)
             yield power, moved * pull, moved * (ROUNDING * pull + jolt) + body.mass * blur * pull
-        if body.inertia is not None:
+        if body.inertia is not None and not linkage.static:
             turning = body.inertia * getattr(motion, rates.turning)[body.name]
             gained = motion.angular_acceleration[body.name]
             noise = abs(turning) * jerk + (ROUNDING * abs(turning) + body.inertia * twist) * abs(gained)
@@ -197,6 +215,32 @@ def _pace(motion: Any, rates: _Rates) -> Any:
         return rate if linkage.drive.coordinate.is_angle else rate * linkage.metre
     moving = between(getattr(motion, rates.points), ends)
     return growth(between(motion.position, ends), moving) * linkage.metre
+
+
+def _load_power(motion: Any, rates: _Rates) -> Iterator[tuple[Any, Any, Any]]:
+    """Yield what each load takes from the input, its weight, and its rounding errors."""
+    linkage = motion.mechanism.linkage
+    blur, twist = rates.rounding(motion, "{}") * linkage.metre, rates.rounding(motion, "rad")
+    for load in linkage.loads:
+        body = linkage.body(load.on)
+        arm, force = loaded(motion, load)
+        u, v = components(getattr(motion, rates.points)[body.slider or body.joints[0]])
+        turning = _turning(motion, rates, body)
+        u, v = (u - turning * arm[1]) * linkage.metre, (v + turning * arm[0]) * linkage.metre
+        weight = size(force) * size((u, v)) + abs(load.torque * turning)
+        noise = ROUNDING * weight + size(force) * blur + abs(load.torque) * twist
+        yield -(dot(force, (u, v)) + load.torque * turning), weight, noise
+
+
+def _turning(motion: Any, rates: _Rates, body: Body) -> Any:
+    """Return how fast a body turns: a block with the body that carries its line."""
+    if body.slider is None:
+        return getattr(motion, rates.turning)[body.name]
+    axis = motion.mechanism.linkage.slides[body.slider].axis
+    if axis is None:
+        return 0.0
+    apart = between(motion.position, axis)
+    return over(cross(apart, between(getattr(motion, rates.points), axis)), dot(apart, apart))
 
 
 class Demand(NamedTuple):

@@ -603,11 +603,15 @@ class Pin(Joint):
 
 
 class Gear(NamedTuple):
-    """A gear pair: angle = ratio × (angle of the crank `mate`) + offset."""
+    """A gear pair: angle = ratio × (angle of the crank `mate`) + offset.
+
+    Its teeth press on each other at `pressure_angle` from the common tangent of its pitch circles.
+    """
 
     mate: str
     ratio: Fraction
     offset: float = 0.0
+    pressure_angle: float = math.radians(20)
 
 
 @frozen
@@ -865,6 +869,26 @@ class Damper:
         return self.coefficient is not None
 
 
+@frozen
+class Load(Stated):
+    """A force (N) and a torque (N m, counter-clockwise) on the body `on`.
+
+    The force acts in its joint `joint`; else `at`, along first -> second joint and to the left of that; of a
+    block in the joint with which it slides. It is (x, y), or one that `turns` with its body: along first ->
+    second joint, or along a block's line, and to the left.
+    """
+
+    name: str
+    on: str
+    joint: str = ""
+    at: Point | None = None
+    force: Point = (0.0, 0.0)
+    torque: float = 0.0
+    turns: bool = False
+
+    sized: ClassVar[tuple[str, ...]] = ("at",)
+
+
 class Driven(NamedTuple):
     """What the drive moves: a crank about its pivot, or a slider.
 
@@ -890,8 +914,11 @@ class Linkage(Stated):
     """One unit of length in metres (0.001 for mm); forces need it."""
     gravity: float = 0.0
     """The acceleration of gravity (m/s², downwards); 0 where the scene states none."""
+    static: bool = False
+    """Whether forces are those at rest: masses have weight, but no inertia."""
+    loads: tuple[Load, ...] = ()
 
-    sized: ClassVar[tuple[str, ...]] = ("joints", "bodies", "drive")
+    sized: ClassVar[tuple[str, ...]] = ("joints", "bodies", "drive", "loads")
 
     @property
     def unit(self) -> str:
@@ -900,9 +927,18 @@ class Linkage(Stated):
 
     @property
     def forceful(self) -> bool:
-        """Whether the input has to drive anything: a spring or damper of known force, or a mass."""
+        """Whether the input has to drive anything: a spring or damper of known force, a mass, or a load."""
         struts = self.springs + self.dampers
-        return any(strut.forceful for strut in struts) or any(body.forceful for body in self.bodies)
+        return (
+            bool(self.loads)
+            or any(strut.forceful for strut in struts)
+            or any(body.forceful for body in self.bodies)
+        )
+
+    @cached_property
+    def slides(self) -> dict[str, Slide]:
+        """Map each joint that travels along a line to how it slides."""
+        return {joint.name: joint.slides[0] for joint in self.joints if joint.travels}
 
     @staticmethod
     def strut_word(strut: Spring | Damper) -> str:

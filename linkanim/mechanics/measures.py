@@ -17,7 +17,8 @@ import numpy as np
 
 from linkanim.frozen import NamedTuple
 from linkanim.mechanics.angles import STATED
-from linkanim.mechanics.linkage import Body, Crank, Damper, Linkage, Spring, holding, share_of
+from linkanim.mechanics.linkage import Body, Crank, Damper, Line, Linkage, Load, Spring, holding, share_of
+from linkanim.mechanics.precise import direction as exact_direction
 
 # What a solved number says at a phase: a value, 0, unbounded, or no value at all.
 #
@@ -202,7 +203,7 @@ def cross(vector: Vector, other: Vector) -> Any:
 def growth(vector: Vector, rate: Vector) -> Any:
     """Return how fast a vector's length grows, given its rate; of length 0, how fast it is about to grow."""
     length = size(vector)
-    found = over(_dot(vector, rate), length)
+    found = over(dot(vector, rate), length)
     return found if np.all(length) else np.where(length == 0, size(rate), found)[()]
 
 
@@ -217,7 +218,7 @@ def direction(vector: Vector) -> Any:
 
 def tangential(velocity: Any, acceleration: Any) -> Any:
     """Return the acceleration along the way a point moves: negative where it slows down; NaN at rest."""
-    return over(_dot(velocity, acceleration), size(velocity))
+    return over(dot(velocity, acceleration), size(velocity))
 
 
 def normal(velocity: Any, acceleration: Any) -> Any:
@@ -235,7 +236,33 @@ def curvature_radius(velocity: Any, acceleration: Any, least: Any) -> Any:
     return over(speed * speed * speed, np.where(straight, 0.0, bend)[()])
 
 
-def _dot(vector: Vector, other: Vector) -> Any:
+def turned(vector: Vector, by: Vector) -> Vector:
+    """Return a vector turned by the angle of another one, of length 1."""
+    return vector[0] * by[0] - vector[1] * by[1], vector[0] * by[1] + vector[1] * by[0]
+
+
+def body_direction(motion: Any, body: Body) -> Vector:
+    """Return the direction of a body, of length 1: of first -> second joint, or of a block's line."""
+    linkage = motion.mechanism.linkage
+    if body.slider is not None:
+        return line_direction(motion, linkage.slides[body.slider].line)
+    first, second = body.joints[:2]
+    frame = linkage.rigid_bodies[holding(linkage.rigid_bodies, body.joints) or 0]
+    x, y = between(motion.position, (first, second))
+    length = 1.0 / abs(frame[second] - frame[first])
+    return x * length, y * length
+
+
+def line_direction(motion: Any, line: Line) -> Vector:
+    """Return the direction of a line of travel, of length 1."""
+    x, y = map(float, exact_direction(line.angle))
+    if line.on is None:
+        return x, y
+    return turned((x, y), body_direction(motion, Body("", line.body)))
+
+
+def dot(vector: Vector, other: Vector) -> Any:
+    """Return the scalar product of two vectors."""
     return vector[0] * other[0] + vector[1] * other[1]
 
 
@@ -466,6 +493,17 @@ def force_rounding(motion: Any, item: Spring | Damper) -> Any:
     return rounding_of(motion, unit, order) * (abs(factor or 0.0) * motion.mechanism.linkage.metre)
 
 
+def loaded(motion: Any, load: Load) -> tuple[Vector, Vector]:
+    """Return where a load acts, from its body's first joint or its block's, and its force (N)."""
+    body = motion.mechanism.linkage.body(load.on)
+    arm: Vector = (0.0, 0.0)
+    if load.joint and body.slider is None:
+        arm = between(motion.position, (body.joints[0], load.joint))
+    elif load.at is not None:
+        arm = turned(load.at, body_direction(motion, body))
+    return arm, turned(load.force, body_direction(motion, body)) if load.turns else load.force
+
+
 def _of_struts(kind: str) -> tuple[Measure, ...]:
     """Return length, rate, force, direction and its rate of the struts of one kind, "spring" or "damper"."""
 
@@ -575,10 +613,16 @@ def _of_paths(prefix: str) -> tuple[Measure, ...]:
 
 PATH, CENTRE_PATH = _of_paths(""), _of_paths("com_")
 
-FAMILIES = tuple(
-    tuple(measure.name for measure in family) for family in (POINT, CENTRE, TURNING[1:], TRAVELLING)
+LEVER = "lever"
+"""The solved arms of the dyads' reactions, which a linkage without forces does not have."""
+FAMILIES = (
+    *(tuple(measure.name for measure in family) for family in (POINT, CENTRE, TURNING[1:], TRAVELLING)),
+    (LEVER,),
 )
 """The solved quantities in families that are worked out together, each before its derivatives."""
 VECTORS = tuple(measure.name for measure in (*POINT, *CENTRE))
 NUMBERS = tuple(measure.name for measure in (*TURNING[1:], *TRAVELLING))
-DERIVATIVE_OF = {measure.name: measure.order for measure in (*POINT, *CENTRE, *TURNING, *TRAVELLING)}
+DERIVATIVE_OF = {
+    **{measure.name: measure.order for measure in (*POINT, *CENTRE, *TURNING, *TRAVELLING)},
+    LEVER: 0,
+}

@@ -27,6 +27,7 @@ from linkanim.mechanics.linkage import Body, CrankTriangle, Damper, Linkage, Spr
 from linkanim.mechanics.measures import (
     DERIVATIVE_OF,
     FAMILIES,
+    LEVER,
     NUMBERS,
     VECTORS,
     FarPositions,
@@ -273,6 +274,7 @@ class Derived(ABC, Generic[Vector, Number]):
     travel: Mapping[str, Number]
     travel_velocity: Mapping[str, Number]
     travel_acceleration: Mapping[str, Number]
+    lever: Mapping[str, Number]
     phase: Number
     input_speed: Any
     input_acceleration: Any
@@ -445,7 +447,7 @@ class Motion(Derived[Array, Array]):
                 results[:, instants.back] = program(instants.x[instants.back], *(-rate for rate in rates))
             if distances is not None:
                 results[:, distances.outside] = np.nan
-                if distances.at_limit.any() and any(map(DERIVATIVE_OF.__getitem__, kinds)):
+                if distances.at_limit.any() and any(DERIVATIVE_OF[kind] or kind == LEVER for kind in kinds):
                     snapped = program(*path.solved_from(distances.snapped), *rates)
                     _mark_limits(places, results, snapped, distances.at_limit)
         results.setflags(write=False)
@@ -546,9 +548,9 @@ class _Paced(Motion):
 
 
 def _mark_limits(places: ResultLayout, results: Array, snapped: Array, at_limit: NDArray[np.bool_]) -> None:
-    """Give rates the values they have at the limit itself: infinite where they are unbounded."""
+    """Give rates, and levers, the values they have at the limit itself: infinite where they are unbounded."""
     for row, kind in enumerate(places.kinds):
-        if DERIVATIVE_OF[kind]:
+        if DERIVATIVE_OF[kind] or kind == LEVER:
             values = snapped[row, at_limit]
             results[row, at_limit] = np.where(np.isnan(values), np.inf, values)
 
@@ -936,6 +938,8 @@ def _quantities(walk: Walk, unscale: float) -> Iterator[tuple[str, Mapping[str, 
             yield kind, {name: (rates[order - 1],) for name, rates in turnings.items()}
         else:
             yield kind, {name: (rates[order] * unscale,) for name, rates in travels.items()}
+    levers = walk.levers if walk.linkage.forceful else {}
+    yield LEVER, {name: (lever * unscale,) for name, lever in levers.items()}
 
 
 @lru_cache(maxsize=1)

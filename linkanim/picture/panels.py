@@ -446,7 +446,7 @@ def _quantity_row(
     begin, right = (_BOX if shown.boxes else 1.2) * size, sheet.get_width() - 1.2 * size
     words, told = shown.rows[row]
     symbol, _, value = told.rpartition(" = ")
-    taken = board.widest((value, re.sub(_NUMBER, _USUAL, value)) if symbol else (value,), size)
+    taken: float = board.widest((value, re.sub(_NUMBER, _USUAL, value)) if symbol else (value,), size)
     board.write(sheet, value, (right, y), size=size, colour=board.theme.dim, anchor="right")
     if symbol:
         taken += board.type.width(symbol, size) + _GAP * size

@@ -81,7 +81,13 @@ def test_every_kind_of_joint_is_known_to_close() -> None:
     assert found == set(CLOSERS)
 
 
-JOINT_FILES = {"mechanics/linkage", "mechanics/solver/closing", "scenes/file_form", "explain/joints"}
+JOINT_FILES = {
+    "mechanics/linkage",
+    "mechanics/solver/closing",
+    "mechanics/reactions",
+    "scenes/file_form",
+    "explain/joints",
+}
 INPUT_FILES = {"mechanics/linkage", "mechanics/solver/strokes", "scenes/file_form", "explain/solution"}
 
 
@@ -95,8 +101,8 @@ INPUT_FILES = {"mechanics/linkage", "mechanics/solver/strokes", "scenes/file_for
         pytest.param("Cylinder(Stroke)?", INPUT_FILES, id="a cylinder that drives"),
     ],
 )
-def test_a_kind_is_told_in_four_files(kind: str, files: set[str]) -> None:
-    """Its data, how it closes or runs, how it is written, how it is worked out; what is drawn follows."""
+def test_a_kind_is_told_in_few_files(kind: str, files: set[str]) -> None:
+    """Its data, how it closes or runs, what it carries, how it is written and explained; the rest follows."""
     package = Path(linkanim.__file__).parent
     telling = (file for file in package.rglob("*.py") if re.search(rf"\b{kind}\b", file.read_text("utf-8")))
     assert {file.relative_to(package).with_suffix("").as_posix() for file in telling} == files

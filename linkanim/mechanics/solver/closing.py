@@ -534,6 +534,12 @@ class Walk:
         self.travels: dict[str, Moving] = {}
         self.closings: dict[str, Closing] = {}
         """What closes each dyad on moving points: L², or how far its end lies from its line, U and W."""
+        self.levers: dict[str, Value] = {}
+        """The arm of each dyad's reactions, which vanishes as its root does and keeps all its digits.
+
+        Of two bars it is how far the line of the second passes to the right of the far end of the first; of a
+        slider how far it is ahead of its bar's end; of a slot how far the joint in it is ahead of the pivot.
+        """
 
     @property
     def bodies(self) -> dict[str, Slope]:
@@ -807,6 +813,9 @@ def close_bars(joint: RRR, walk: Walk) -> None:
         across = q - p
         root = walk.span_root(joint.name, across, lengths).times(sign)
         triangle = moving_triangle(across, lengths, root)
+    walk.levers[joint.name] = triangle.across.cross(triangle.lift) * (
+        (-1.0 if swapped else 1.0) / joint.lengths[1]
+    )
     walk.points[joint.name], *bars = _meet(p, q, lengths, triangle)
     ends = zip((first, second), bars, strict=True)
     for end, (turning, arm) in reversed([*ends]) if swapped else ends:
@@ -874,7 +883,7 @@ def close_slider(joint: RRP, walk: Walk) -> None:
         forward.second - (aside.rate * rho.value + aside.value * rho.rate),
     )
     walk.points[joint.name] = rail.place(travel)
-    walk.travels[joint.name] = travel
+    walk.travels[joint.name], walk.levers[joint.name] = travel, q
     arm = rail.along.scaled(q) - rail.along.left().scaled(aside.value)
     walk.add_piece(rail.turning.plus(-rho.value, -rho.rate), (joint.end, joint.name), arm)
 
@@ -921,6 +930,7 @@ def close_slot(joint: RPR, walk: Walk) -> None:
         turn = moving_triangle(across, (0.0, 0.0), root).turn
         reduced = root.lift or Reduced(across, root.q)
         direction = _direction(reduced.across.position, reduced.q, joint.offset)
+    walk.levers[joint.name] = root.q
     turning = _turning_kinds(turn, root, joint.offset) if joint.offset else turn
     arm = direction.scaled(joint.length)
     walk.points[joint.name] = pivot + carried(arm, turning)

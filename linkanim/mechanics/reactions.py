@@ -1,0 +1,574 @@
+"""What holds each body: the forces that meet in its joints, those of guides and gears, and the ground's.
+
+Every joint was closed from joints before it, so its forces follow from those behind it: joints are taken in
+the reverse order, and each gives two or three equations of balance in as many unknowns, which are solved in
+closed form. Inertia counts as a force, -m a and -I α (d'Alembert). With the arms b₁ and b₂ of two bars that
+meet in B, from their far ends, the moments M₁ and M₂ there of all else that acts on them, and the force Q on
+the pin in B,
+
+    b₁ × F₁ = -M₁     b₂ × F₂ = -M₂     F₁ + F₂ = Q
+
+so F₁ is a quotient over b₁ × b₂, which vanishes where the bars lie in one line; a bar to a slider and a slot
+have such a divisor, too. Its root has a sign and all its digits (`solver.signed_root`), so forces have theirs
+up to dead centres and limits of the input, where they grow without bound (Uicker, Pennock and Shigley, Theory
+of Machines and Mechanisms, on static and dynamic force analysis).
+
+Springs, dampers and loads in a joint pull at its pin, not at one of the bodies that meet there: the forces of
+the pin on all of them are together what pulls at it. There is no friction.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import defaultdict
+from collections.abc import Callable, Mapping
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+
+from linkanim.frozen import NamedTuple
+from linkanim.mechanics.forces import beside, idle, near_ends
+from linkanim.mechanics.linkage import (
+    RPP,
+    RPR,
+    RRP,
+    RRR,
+    Body,
+    Brace,
+    Crank,
+    Damper,
+    DrivenSlider,
+    Joint,
+    Line,
+    Linkage,
+    Load,
+    Rigid,
+    Spring,
+    coincide,
+    holding,
+)
+from linkanim.mechanics.measures import (
+    ROUNDING,
+    Vector,
+    between,
+    components,
+    cross,
+    dot,
+    force_rounding,
+    line_direction,
+    loaded,
+    near,
+    over,
+    rounding_of,
+    settled,
+    size,
+    turned,
+)
+from linkanim.mechanics.precise import direction
+from linkanim.mechanics.program import Array
+
+GROUND = "ground"
+_AT = 2.0**-50
+"""Share of a bar's length below which a lever is none: the last digits of the phase."""
+
+_IDLE = 10.0
+"""A moment of no more than this many times its rounding errors is none."""
+
+Member = int | str
+"""A body: its place among the rigid bodies, the ground being 0; of a block the joint it slides with."""
+
+
+class GuideForces(NamedTuple):
+    """What a guide does to what slides on it: a force to the left of the line's direction, and a moment.
+
+    The force (N) acts in the sliding joint, about which the moment (N m) is taken.
+    """
+
+    force: Any
+    moment: Any
+
+
+class GearForces(NamedTuple):
+    """What the teeth do to a geared crank's wheel, in N: along the pitch circles, and apart.
+
+    `tangential` is positive where it turns the wheel counter-clockwise. Both are None where no two wheels
+    mesh: of a belt, and of cranks about one pivot; `moment` (N m) is what turns the crank.
+    """
+
+    tangential: Any
+    radial: Any
+    moment: Any
+
+
+class Reactions(NamedTuple):
+    """All forces at an instant, or at many: on the body that is named, in newtons and newton metres.
+
+    `joints` has for each joint in which several bodies meet the force on each of them (x, y); `guides` by
+    sliding body; `gears` by crank. `ground` is the sum of all that acts on the ground, the shaking force, and
+    `moment` its moment about the input's pivot. `effort` is the input's, as it follows from its joints
+    (`forces.input_effort` has it from the balance of power, which keeps its digits at change points, too).
+    Infinite where it is unbounded, NaN where there is no value.
+    """
+
+    joints: Mapping[str, Mapping[str, Vector]]
+    guides: Mapping[str, GuideForces]
+    gears: Mapping[str, GearForces]
+    ground: Vector
+    moment: Any
+    effort: Any
+
+
+# Which bodies there are, and what each is called.
+
+
+class Members(NamedTuple):
+    """The bodies of a linkage: by joint those that its definition makes, or has it on; and their names.
+
+    What a joint's definition makes are the bodies of its bars, then its block.
+    """
+
+    of: Mapping[str, tuple[Member, ...]]
+    names: Mapping[Member, str]
+
+
+def member_of(linkage: Linkage, body: Body) -> Member:
+    """Return which body a named one is."""
+    return body.slider if body.slider is not None else holding(linkage.rigid_bodies, body.joints) or 0
+
+
+@lru_cache(maxsize=16)
+def members(linkage: Linkage) -> Members:
+    """Return the bodies of a linkage; one without a name is called by its joints."""
+    of, names, count = dict[str, tuple[Member, ...]](), dict[Member, str]({0: GROUND}), 1
+    for joint in linkage.joints:
+        if joint.fixed or isinstance(joint, Rigid):
+            of[joint.name] = (holding(linkage.rigid_bodies, joint.needs) or 0,)
+            continue
+        bars = {count + n: f"{start}–{joint.name}" for n, (start, _) in enumerate(joint.bars)}
+        block = {joint.name: f"slider {joint.name}"} if joint.travels else {}
+        count += len(bars)
+        of[joint.name] = (*bars, *block)
+        names |= bars | block
+    for body in reversed(linkage.bodies):
+        if member := member_of(linkage, body):
+            names[member] = body.name
+    return Members(of, names)
+
+
+def named_at(linkage: Linkage, member: Member, joint: str) -> str:
+    """Return what a body is called at a joint: of several named ones that are one, the one with the joint."""
+    own = (body for body in linkage.bodies if joint in body.joints and member_of(linkage, body) == member)
+    found = next(own, None)
+    return found.name if found and member else members(linkage).names[member]
+
+
+# The forces, joint by joint from the last to the first.
+#
+# Lengths are in the scene's unit, and moments in newtons times that, until they are told.
+
+
+def _sum(vector: Vector, other: Vector) -> Vector:
+    return vector[0] + other[0], vector[1] + other[1]
+
+
+def _difference(vector: Vector, other: Vector) -> Vector:
+    return vector[0] - other[0], vector[1] - other[1]
+
+
+def _scaled(vector: Vector, factor: Any) -> Vector:
+    return vector[0] * factor, vector[1] * factor
+
+
+def _left(vector: Vector) -> Vector:
+    return -vector[1], vector[0]
+
+
+class _Balance:
+    """What acts on each body and pin so far; the joints' own kinds add what follows."""
+
+    def __init__(self, motion: Any) -> None:
+        self.motion, self.linkage = motion, motion.mechanism.linkage
+        self.members = members(self.linkage)
+        self.places = near(motion.position)
+        self.forces: dict[Member, list[tuple[Vector, Vector]]] = defaultdict(list)
+        """Places and forces on each body."""
+        self.couples: dict[Member, Any] = defaultdict(float)
+        self.pins: dict[str, Vector] = defaultdict(lambda: (0.0, 0.0))
+        """What pulls at each pin."""
+        self.joints: dict[str, dict[Member, Vector]] = defaultdict(dict)
+        self.guides: dict[str, tuple[Any, Any]] = {}
+        self.gears: dict[str, tuple[Any, Any, Any]] = {}
+        self.effort: Any = 0.0
+        self.shaking: tuple[Any, Any, Any] = (0.0, 0.0, 0.0)
+        """The force on the ground, and its moment about the input's pivot."""
+        self.noise: Any = 0.0
+        """How large the rounding errors of forces may be (N)."""
+        self.idle: Any = False
+        """Where a lever and the moment over it vanish together."""
+        self.nowhere: Any = False
+        """Where a force has no direction: of a spring or damper of no length."""
+
+    def place(self, joint: str) -> Vector:
+        """Return where a joint is."""
+        return components(self.places[joint])
+
+    def apply(self, member: Member, place: Vector, force: Vector) -> None:
+        """Add a force on a body."""
+        self.forces[member].append((place, force))
+
+    def meet(self, joint: str, member: Member, force: Vector) -> None:
+        """Add the force of a pin on a body, which pushes back."""
+        known = self.joints[joint].get(member)
+        self.joints[joint][member] = _sum(known, force) if known else force
+        self.pins[joint] = _difference(self.pins[joint], force)
+        self.apply(member, self.place(joint), force)
+
+    def total(self, member: Member) -> Vector:
+        """Return the sum of the forces on a body."""
+        x: Any = 0.0
+        y: Any = 0.0
+        for _, (u, v) in self.forces[member]:
+            x, y = x + u, y + v
+        return x, y
+
+    def moment(self, member: Member, about: Vector) -> Any:
+        """Return the moment of all that acts on a body."""
+        terms = (cross(_difference(place, about), force) for place, force in self.forces[member])
+        return sum(terms, self.couples[member])
+
+    def hang(self, member: Member, joint: str) -> None:
+        """Let a body be held by a pin against all else that acts on it."""
+        x, y = self.total(member)
+        self.meet(joint, member, (-x, -y))
+
+    def shake(self) -> None:
+        """Note what all weights, loads and inertia do to the ground, which they reach without loss."""
+        joint = self.linkage.driven.joint
+        pivot = self.place(joint.line.through if isinstance(joint, DrivenSlider) else joint.pivot)
+        known = list(self.forces)
+        force: Vector = (0.0, 0.0)
+        for member in known:
+            force = _sum(force, self.total(member))
+        self.shaking = *force, sum((self.moment(one, pivot) for one in {*known, *self.couples}), 0.0)
+
+    def along(self, line: Line) -> tuple[Vector, Member]:
+        """Return the direction of a line of travel, of length 1, and the body that carries it."""
+        carrier = holding(self.linkage.rigid_bodies, line.body) if line.on else 0
+        assert carrier is not None
+        return line_direction(self.motion, line), carrier
+
+    def guide(self, name: str, line: Line) -> None:
+        """Let a block be held by its guide against all that acts on it across the line."""
+        u, carrier = self.along(line)
+        place, normal = self.place(name), _left(u)
+        force, moment = -dot(self.total(name), normal), -self.moment(name, place)
+        self.guides[name] = force, moment
+        self.apply(carrier, place, _scaled(normal, -force))
+        self.couples[carrier] = self.couples[carrier] - moment
+
+    def quotient(self, moments: Vector, lever: Any, lengths: tuple[float, ...]) -> Vector:
+        """Return moments over a lever; where there is none, and no moments either, it is noted as `idle`."""
+        if np.any(gone := np.equal(lever, 0.0)):
+            least = np.where(np.isfinite(self.noise), _IDLE * self.noise * math.prod(lengths), 0.0)
+            self.idle = self.idle | (gone & (size(moments) <= least))
+        return over(moments[0], lever), over(moments[1], lever)
+
+    def lever(self, joint: Joint) -> Any:
+        """Return the lever of a dyad's reactions; 0 where it vanishes to the last digits of a phase."""
+        found, least = self.motion.lever[joint.name], _AT * max(length for _, length in joint.bars)
+        return np.where(np.abs(found) <= least, 0.0, found)[()]
+
+
+def _bars(joint: RRR, balance: _Balance) -> None:
+    (one, other), pull = balance.members.of[joint.name], balance.pins[joint.name]
+    (first, last), place = joint.ends, balance.place(joint.name)
+    b1, b2 = (_difference(place, balance.place(end)) for end in joint.ends)
+    m1 = balance.moment(one, balance.place(first))
+    m2 = balance.moment(other, balance.place(last)) + cross(b2, pull)
+    area = balance.lever(joint) * joint.lengths[1]
+    force = balance.quotient(_sum(_scaled(b2, -m1), _scaled(b1, -m2)), area, joint.lengths)
+    balance.meet(joint.name, one, force)
+    balance.meet(joint.name, other, _difference(pull, force))
+    balance.hang(one, first)
+    balance.hang(other, last)
+
+
+def _bar_to_slider(joint: RRP, balance: _Balance) -> None:
+    bar, block = balance.members.of[joint.name]
+    (u, _), pull = balance.along(joint.line), balance.pins[joint.name]
+    arm = _difference(balance.place(joint.name), balance.place(joint.end))
+    along = dot(_sum(pull, balance.total(block)), u)
+    moment = -balance.moment(bar, balance.place(joint.end)) - along * cross(arm, u)
+    across, _ = balance.quotient((moment, 0.0), balance.lever(joint), (joint.length,))
+    force = _sum(_scaled(u, along), _scaled(_left(u), across))
+    balance.meet(joint.name, bar, force)
+    balance.meet(joint.name, block, _difference(pull, force))
+    balance.guide(joint.name, joint.line)
+    balance.hang(bar, joint.end)
+
+
+def _slot(joint: RPR, balance: _Balance) -> None:
+    (bar,) = balance.members.of[joint.name]
+    balance.meet(joint.name, bar, balance.pins[joint.name])
+    u = _scaled(between(balance.motion.position, (joint.pivot, joint.name)), 1.0 / joint.length)
+    moment = -balance.moment(bar, balance.place(joint.pivot))
+    push, _ = balance.quotient((moment, 0.0), balance.lever(joint), (joint.length,))
+    balance.meet(joint.through, bar, _scaled(_left(u), push))
+    balance.hang(bar, joint.pivot)
+
+
+def _yoke(joint: RPP, balance: _Balance) -> None:
+    (block,) = balance.members.of[joint.name]
+    balance.meet(joint.name, block, balance.pins[joint.name])
+    (u, _), (cosine, sine) = balance.along(joint.line), map(float, direction(joint.slot))
+    push = dot(balance.total(block), u) / sine
+    balance.meet(joint.pin, block, _scaled(turned((-sine, cosine), u), push))
+    balance.guide(joint.name, joint.line)
+
+
+def _crank(joint: Crank, balance: _Balance) -> None:
+    (bar,) = balance.members.of[joint.name]
+    balance.meet(joint.name, bar, balance.pins[joint.name])
+    pivot = balance.place(joint.pivot)
+    moment = -balance.moment(bar, pivot)
+    ends = balance.linkage.drive.actuator.along
+    if joint.gear is not None:
+        _mesh(joint, moment, balance)
+    elif ends is None:
+        balance.effort = moment
+        balance.couples[0] = balance.couples[0] - moment
+    else:
+        fixed, moving = ends
+        apart = between(balance.motion.position, ends)
+        u = tuple(over(part, size(apart)) for part in apart)
+        balance.effort = over(moment, cross(_difference(balance.place(moving), pivot), u))
+        balance.meet(moving, bar, _scaled(u, balance.effort))
+        balance.pins[fixed] = _difference(balance.pins[fixed], _scaled(u, balance.effort))
+    balance.hang(bar, joint.pivot)
+
+
+def _driven_slider(joint: DrivenSlider, balance: _Balance) -> None:
+    (block,) = balance.members.of[joint.name]
+    balance.meet(joint.name, block, balance.pins[joint.name])
+    u, _ = balance.along(joint.line)
+    balance.effort = -dot(balance.total(block), u)
+    balance.apply(block, balance.place(joint.name), _scaled(u, balance.effort))
+    balance.apply(0, balance.place(joint.name), _scaled(u, -balance.effort))
+    balance.guide(joint.name, joint.line)
+
+
+def _point(joint: Rigid, balance: _Balance) -> None:
+    (body,) = balance.members.of[joint.name]
+    balance.meet(joint.name, body, balance.pins[joint.name])
+
+
+def _mesh(joint: Crank, moment: Any, balance: _Balance) -> None:
+    """Let a geared crank be turned by its mate's teeth, or as by a belt."""
+    gear, linkage = joint.gear, balance.linkage
+    assert gear is not None
+    (bar,), (other,) = balance.members.of[joint.name], balance.members.of[gear.mate]
+    centre, own, ratio = linkage.crank(gear.mate).pivot, balance.place(joint.pivot), float(gear.ratio)
+    share, still = _contact(linkage, joint)
+    if share is None:
+        balance.couples[bar] = balance.couples[bar] + moment
+        balance.couples[other] = balance.couples[other] - moment * ratio
+        balance.couples[0] = balance.couples[0] - moment * (1.0 - ratio)
+        balance.gears[joint.name] = None, None, moment
+        return
+    line = _difference(own, balance.place(centre))
+    distance = size(line)
+    u = _scaled(line, 1.0 / distance)
+    tangential = over(moment, distance * (share - 1.0))
+    radial = abs(tangential) * math.tan(gear.pressure_angle)
+    force = _sum(_scaled(_left(u), tangential), _scaled(u, radial if share < 1.0 else -radial))
+    place = _sum(own, _scaled(line, share - 1.0))
+    balance.apply(bar, place, force)
+    balance.apply(0 if still else other, place, _scaled(force, -1.0))
+    balance.gears[joint.name] = tangential if share > 1.0 else -tangential, radial, moment
+
+
+def _contact(linkage: Linkage, joint: Crank) -> tuple[float | None, bool]:
+    """Return where two wheels touch, as a share of the way from the mate's pivot to the crank's own.
+
+    Then whether the crank's wheel rolls on one that stands still. No share where no wheels mesh.
+    """
+    gear = joint.gear
+    assert gear is not None
+    mate, ratio = linkage.crank(gear.mate), float(gear.ratio)
+    if not linkage.joint(mate.pivot).fixed:
+        return None, False
+    if joint.pivot == mate.name:
+        return (1.0 - 1.0 / ratio, True) if ratio < 0 or ratio > 1 else (None, True)
+    pivots = linkage.rigid_bodies[0]
+    apart = joint.pivot in pivots and not coincide(pivots, joint.pivot, mate.pivot)
+    return (ratio / (ratio - 1.0), False) if apart and ratio < 0 else (None, False)
+
+
+_KINDS: Mapping[type[Joint], Callable[[Any, _Balance], None]] = {
+    RRR: _bars,
+    RRP: _bar_to_slider,
+    RPR: _slot,
+    RPP: _yoke,
+    Crank: _crank,
+    DrivenSlider: _driven_slider,
+    Rigid: _point,
+    Brace: _point,
+}
+
+
+def _balanced(motion: Any) -> _Balance:
+    """Return the balance of a motion after all joints."""
+    balance = _Balance(motion)
+    for strut in (*balance.linkage.springs, *balance.linkage.dampers):
+        _pull(strut, balance)
+    for body in balance.linkage.bodies:
+        _weigh(body, balance)
+    for load in balance.linkage.loads:
+        _press(load, balance)
+    balance.shake()
+    for joint in reversed(balance.linkage.joints):
+        if not joint.fixed:
+            _KINDS[type(joint)](joint, balance)
+    for pin in balance.linkage.pins:
+        balance.meet(pin.name, 0, balance.pins[pin.name])
+    return balance
+
+
+def _pull(strut: Spring | Damper, balance: _Balance) -> None:
+    """Let a spring or damper pull at the pins at its ends."""
+    motion = balance.motion
+    rigid = holding(balance.linkage.rigid_bodies, strut.between) is not None
+    if not strut.forceful or (rigid and isinstance(strut, Damper)):
+        return
+    known = (motion.spring if isinstance(strut, Spring) else motion.damper)[strut.name]
+    apart = between(motion.position, strut.between)
+    if isinstance(strut, Spring) and not strut.free_length:
+        share = (strut.stiffness or 0.0) * balance.linkage.metre
+    else:
+        share = over(known.force, known.length)
+        balance.nowhere = balance.nowhere | (np.equal(known.length, 0.0) & np.not_equal(known.force, 0.0))
+    pull = _scaled(apart, share)
+    first, last = strut.between
+    balance.pins[first] = _sum(balance.pins[first], pull)
+    balance.pins[last] = _difference(balance.pins[last], pull)
+    balance.noise = balance.noise + ROUNDING * abs(known.force) + force_rounding(motion, strut)
+
+
+def _weigh(body: Body, balance: _Balance) -> None:
+    """Let a body's weight and its inertia act on it."""
+    motion, linkage = balance.motion, balance.linkage
+    member = member_of(linkage, body)
+    moves = 0.0 if linkage.static else 1.0
+    if not member:
+        return
+    if body.mass is not None:
+        x, y = (0.0, 0.0)
+        prefix, name = ("", body.slider) if body.slider is not None else ("com_", body.name)
+        if moves:
+            x, y = components(getattr(motion, f"{prefix}acceleration")[name])
+        down = y * linkage.metre + linkage.gravity
+        place = components(near(getattr(motion, f"{prefix}position"))[name])
+        balance.apply(member, place, (-body.mass * linkage.metre * x, -body.mass * down))
+        jolt = moves * rounding_of(motion, "{}/s²", 2) * linkage.metre
+        balance.noise = balance.noise + body.mass * (ROUNDING * (size((x * linkage.metre, down))) + jolt)
+    if body.inertia is not None and moves:
+        turning = body.inertia * motion.angular_acceleration[body.name] / linkage.metre
+        balance.couples[member] = balance.couples[member] - turning
+        jerk = body.inertia / linkage.metre * rounding_of(motion, "rad/s²", 2)
+        balance.noise = balance.noise + (ROUNDING * abs(turning) + jerk) / linkage.longest
+
+
+def _press(load: Load, balance: _Balance) -> None:
+    """Let a load act on its body."""
+    body = balance.linkage.body(load.on)
+    member = member_of(balance.linkage, body)
+    arm, force = loaded(balance.motion, load)
+    balance.apply(member, _sum(balance.place(body.slider or body.joints[0]), arm), force)
+    balance.couples[member] = balance.couples[member] + load.torque / balance.linkage.metre
+    torque = abs(load.torque) / (balance.linkage.metre * balance.linkage.longest)
+    balance.noise = balance.noise + ROUNDING * (size(force) + torque)
+
+
+# What is told of them.
+
+
+@lru_cache(maxsize=2)
+def reactions(motion: Any) -> Reactions:
+    """Return all reactions of a motion, or of a pose; with masses its second derivatives are needed.
+
+    Where a lever and the moment over it vanish together, forces are those beside, interpolated.
+    """
+    with np.errstate(all="ignore"):
+        return _reactions(motion)
+
+
+def _reactions(motion: Any) -> Reactions:
+    balance = _balanced(motion)
+    found = _listed(balance)
+    ends = np.asarray(near_ends(motion)) if motion.acceleration else np.asarray(False)
+    free = np.broadcast_to(idle(motion, ends) | balance.idle, found[0].shape)
+    if np.any(free):
+        for value, known in zip(found, beside(motion, free, _stacked), strict=True):
+            value[free] = known
+    return _told(balance, found)
+
+
+def _stacked(motion: Any) -> Array:
+    return np.stack(_listed(_balanced(motion)))
+
+
+def _listed(balance: _Balance) -> list[Array]:
+    """Return all numbers that are told, as computed: an array of each."""
+    told = [part for forces in balance.joints.values() for force in forces.values() for part in force]
+    told += [part for guide in balance.guides.values() for part in guide]
+    told += [part for gear in balance.gears.values() for part in gear if part is not None]
+    told += [*balance.shaking, balance.effort]
+    shape = np.shape(balance.motion.phase)
+    return [np.array(np.broadcast_to(part, shape)) for part in told]
+
+
+def _told(balance: _Balance, found: list[Array]) -> Reactions:
+    """Return the numbers in their places: 0 for rounding errors, infinite where they are unbounded."""
+    linkage, metre, phase = balance.linkage, balance.linkage.metre, np.asarray(balance.motion.phase)
+    sizes = np.abs(found)
+    largest = np.where(np.isfinite(sizes), sizes, 0.0).max(axis=0)
+    own = np.where(np.isfinite(balance.noise), balance.noise, 0.0)
+    noise = np.maximum(own, ROUNDING * largest)
+    nowhere = np.isnan(phase) | balance.nowhere
+
+    def told(number: Any, least: Any) -> Any:
+        number = np.where(nowhere, np.nan, np.where(np.isnan(number), np.inf, number))
+        value = settled(number, least)
+        return value if np.ndim(value) else float(value)
+
+    def force(least: Any = noise) -> Any:
+        return told(next(numbers), least)
+
+    def moment(least: Any = noise) -> Any:
+        return told(next(numbers) * metre, least * (linkage.longest * metre))
+
+    numbers = iter(found)
+    joints = {
+        joint: {member: (force(), force()) for member in forces} for joint, forces in balance.joints.items()
+    }
+    guides = {name: GuideForces(force(), moment()) for name in balance.guides}
+    gears = {
+        name: GearForces(
+            None if tangential is None else force(), None if radial is None else force(), moment()
+        )
+        for name, (tangential, radial, _) in balance.gears.items()
+    }
+    ends = linkage.drive.actuator.along or ()
+    return Reactions(
+        {
+            joint: {named_at(linkage, member, joint): force for member, force in joints[joint].items()}
+            for joint in linkage.by_name
+            if len(joints[joint]) > 1 or joint in ends
+        },
+        {balance.members.names[name]: guide for name, guide in guides.items()},
+        gears,
+        (force(own), force(own)),
+        moment(own),
+        moment() if linkage.drive.actuator.effort[0] == "torque" else force(),
+    )
