@@ -223,8 +223,7 @@ def test_every_quantity_is_the_same_in_json_csv_chart_hud_and_api(name: str) -> 
     extent = max(float(np.abs(places).max()) for places in cycle.position.values())
     for speed in PACES:
         printed, cells = _solved(scene, speed)
-        motion, paced = scene.solve(phase=PLACES, speed=speed), cycle.paced(speed / scene.linkage.drive.speed)
-        solved = scene.solve(phase=cycle.phase, speed=speed)
+        motion, solved = scene.solve(phase=PLACES, speed=speed), scene.solve(phase=cycle.phase, speed=speed)
         poses = [scene.pose(phase, speed=speed) for phase in PLACES.tolist()]
         for quantity in known.values():
             values = np.asarray(quantity.read(motion), float)
@@ -234,7 +233,7 @@ def test_every_quantity_is_the_same_in_json_csv_chart_hud_and_api(name: str) -> 
             if quantity.path:
                 _agree(quantity, values, [_at(row, quantity.path) for row in printed], 0.0)
                 _agree(quantity, values, [_cell(row, quantity.path) for row in cells], 0.0)
-            charted = series_of(scene, quantity, paced).values
+            charted = series_of(scene, quantity, solved).values
             meant = np.asarray(quantity.shown(solved), float).reshape(charted.shape)
             _agree(quantity, meant, charted, 1e3 * near)
         for pose in poses:

@@ -135,11 +135,6 @@ def columns(places: Mapping[str, Place], results: Array, shape: tuple[int, ...])
     return Lazy(places, column)
 
 
-def scaled(values: Mapping[str, Array], factor: float) -> Mapping[str, Array]:
-    """Return the same columns, each times a factor."""
-    return Lazy(values, lambda name: values[name] * factor)
-
-
 def read_only(values: Any) -> Any:
     """Return an array, or a tuple of values, with its arrays made read-only."""
     if isinstance(values, tuple):
@@ -492,13 +487,6 @@ class Motion(Derived[Array, Array]):
     def _per(self) -> dict[str, Motion]:
         return {}
 
-    def paced(self, factor: float) -> Motion:
-        """Return the same motion run `factor` times as fast; backwards where that is negative.
-
-        Nothing is solved: first derivatives in time grow with the factor, second ones with its square.
-        """
-        return _Paced(self, factor)
-
     def _continuous(self, ends: tuple[str, str]) -> Array:
         principal: Array = np.asarray(direction(between(self.position, ends)))
         return principal if principal.ndim == 0 else self._unwrapped(principal, ends)
@@ -521,30 +509,6 @@ class Motion(Derived[Array, Array]):
         instants = self.instants._replace(x=x, distances=distances, rates=(w, a), shape=x.shape, back=None)
         found = Motion(self.mechanism, 1.0, 0.0, instants).position
         return np.asarray(direction(between(found, ends)))
-
-
-class _Paced(Motion):
-    """A motion run `factor` times as fast: each quantity is multiplied by its own power of the factor."""
-
-    def __init__(self, motion: Motion, factor: float) -> None:
-        speed, acceleration = motion.input_speed * factor, motion.input_acceleration * factor**2
-        super().__init__(motion.mechanism, speed, acceleration, motion.instants)
-        vars(self).update(motion=motion, factor=factor, per_input=motion.per_input, _per=motion._per)
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return _Paced, (self.motion, self.factor)
-
-    def _worked_out(self, kinds: tuple[str, ...]) -> dict[str, Any]:
-        found = {kind: getattr(self.motion, kind) for kind in kinds}
-        return {kind: scaled(of, self._power(kind)) if ORDER[kind] else of for kind, of in found.items()}
-
-    def _input(self) -> dict[str, Any]:
-        found = {name: getattr(self.motion, name) for name in ("phase", *COORDINATE)}
-        return {name: read_only(of * self._power(name)) if ORDER[name] else of for name, of in found.items()}
-
-    def _power(self, name: str) -> float:
-        power: float = self.factor ** ORDER[name]
-        return power
 
 
 def _mark_limits(places: ResultLayout, results: Array, snapped: Array, at_limit: NDArray[np.bool_]) -> None:

@@ -172,9 +172,7 @@ def _there_and_back(scene: Scene, over: Over | None) -> bool:
 
 def _of(scene: Scene, one: Quantity, pace: Pace, over: Over | None, cycle: Motion) -> Iterator[Curve]:
     """Yield the curve of a quantity, or one for each component of a vector."""
-    steady = pace.acceleration == 0
-    paced = cycle.paced(pace.speed / scene.linkage.drive.speed) if steady else pace.motion(scene, cycle.phase)
-    series = series_of(scene, one, paced)
+    series = series_of(scene, one, pace.motion(scene, cycle.phase))
     series = broken(series, one, cycle)
     if _there_and_back(scene, over):
         angle = np.degrees(scene.solve(phase=series.phases, derivatives=0).coordinate)
@@ -243,7 +241,7 @@ def table(curves: Curves) -> tuple[list[str], list[Floats]]:
         names, columns = [scene.linkage.drive.coordinate.name, "phase"], [angle, phases]
     several = len({curve.pace for curve in curves.curves}) > 1
     for pace in dict.fromkeys(curve.pace for curve in curves.curves):
-        paced = motion.paced(pace.speed / scene.linkage.drive.speed)
+        paced = pace.motion(scene, phases)
         words = f"@{pace.words}" if several else ""
         names.append(f"time{words}")
         columns.append(phases / pace.speed)

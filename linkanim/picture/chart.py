@@ -293,7 +293,7 @@ class ChartPanel:
 
     @cached_property
     def _cycle(self) -> Motion:
-        return self.figure.cycle.paced(self.speed / self.figure.linkage.drive.speed)
+        return self.figure.scene.solve(phase=self.figure.cycle.phase, speed=self.speed)
 
     @cached_property
     def curves(self) -> tuple[Floats, Floats]:

@@ -90,8 +90,8 @@ def _row(scene: Scene, label: str, unit: str, step: float, asked: _Asked) -> dic
     shown, speeds = asked
 
     def read(phases: NDArray[np.float64]) -> NDArray[np.float64]:
-        motion = scene.solve(phase=phases, speed=speeds[0])
-        return np.array([shown(motion.paced(speed / speeds[0])) for speed in speeds], float)
+        motions = (scene.solve(phase=phases, speed=speed) for speed in speeds)
+        return np.array([shown(motion) for motion in motions], float)
 
     found = table(scene, (0.0, scene.period), read, (), _OF_A_ROW * 10.0 ** -_digits(step))
     forth, back = found.values[0], found.values[-1]

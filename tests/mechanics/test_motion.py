@@ -159,20 +159,6 @@ def test_messages_name_the_lengths_as_they_were_given() -> None:
         mechanism(slider_crank(1e-88, 5e-90, 3e-88))
 
 
-@pytest.mark.parametrize("factor", [2.0, -1.0, 0.1, -3.7])
-@pytest.mark.parametrize("name", ["press", "double-rocker", "slider-crank"])
-def test_a_motion_at_another_pace_is_the_one_solved_at_that_speed(name: str, factor: float) -> None:
-    scene = load(name)
-    phases = np.linspace(0.1, 6.0, 40)
-    paced = scene.solve(phase=phases, speed=2.0, acceleration=0.5).paced(factor)
-    solved = scene.solve(phase=phases, speed=2.0 * factor, acceleration=0.5 * factor**2)
-    assert paced.input_speed == solved.input_speed
-    for quantity in register(scene.linkage).values():
-        assert quantity.read(paced) == pytest.approx(quantity.read(solved), rel=1e-11, abs=1e-9)
-    with pytest.raises(ValueError, match="read-only"):
-        paced.velocity["A"][0] = 1.0
-
-
 # A sweep by angle that begins at a limit as it is printed, where rates per input have no bound.
 FROM_LIMITS = [
     ("double-rocker", 13.7953, "coupler", [62.32, 43.49, 37.18]),
@@ -372,10 +358,8 @@ def test_a_used_scene_and_a_motion_go_through_a_pickle(name: str) -> None:
     assert scene.info.lines
     assert set(scene.telling) < set(scene.quantities)
     again, motion_again, pose_again = pickle.loads(pickle.dumps((scene, motion, pose)))
-    paced = pickle.loads(pickle.dumps(motion.paced(2.0)))
     assert again == scene
     assert list(again.quantities) == list(scene.quantities)
-    assert paced.coordinate_rate == pytest.approx(motion.coordinate_rate * 2.0)
     for quantity, (many, one) in zip(known, meant, strict=True):
         assert np.array_equal(quantity.read(motion_again), many, equal_nan=True), quantity.token
         assert np.array_equal(quantity.read(pose_again), one, equal_nan=True), quantity.token

@@ -160,7 +160,7 @@ def test_a_crank_turns_with_the_input_at_a_limit_too() -> None:
 def test_rounding_grows_with_size_and_speed_as_the_quantity_does(token: str, order: int, unit: bool) -> None:
     scene = load("press")
     known, cycle = register(scene.linkage)[token], scene.cycle(12)
-    slow, fast = (known.rounding(cycle.paced(speed / scene.linkage.drive.speed)) for speed in (1.0, 300.0))
+    slow, fast = (known.rounding(scene.solve(phase=cycle.phase, speed=speed)) for speed in (1.0, 300.0))
     extent = scene.linkage.extent
     assert max(np.abs(places).max() for places in cycle.position.values()) <= extent
     assert slow == pytest.approx(1e-13 * (extent if unit else 1.0))
