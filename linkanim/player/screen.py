@@ -346,7 +346,7 @@ class Screen:
         Beside a linkage it is the place of the linkage that is nearest: zoomed about that, it stays in sight.
         """
         last, state = self._framing.last, self.state
-        if not (state.building or state.sketch or state.layers):
+        if not (state.building or state.layers or (state.sketch and state.sketch.is_blank)):
             box, view = last.figure.box, last.view
             (left, top), (right, low) = view.to_pixel(box.left, box.high), view.to_pixel(box.right, box.low)
             x, y = min(max(x, left), right), min(max(y, top), low)

@@ -44,8 +44,7 @@ def follow(state: State, numbers: tuple[float, ...]) -> State:
         return state
     answer = sketch.answer_from(numbers)
     if not sketch.answers:
-        state = exchanged(state, sketch.scene_of(answer))
-        return sketching(replace(state, glide=None, faded=state.frame), answers=(answer,))
+        return sketching(_first(state, sketch.scene_of(answer)), answers=(answer,))
     if isinstance(sketch.answer, Scene):
         return state
     answers = tuple(answer if n == sketch.chosen else one for n, one in enumerate(sketch.answers))
@@ -89,9 +88,13 @@ def taken(state: State, first: int, found: tuple[Any, ...]) -> State:
     if before == found[first]:
         return state
     scene = sketch.scene_of(found[first])
-    if was_none:
-        return replace(exchanged(state, scene), glide=None, faded=state.frame)
-    return followed(state, scene)
+    return _first(state, scene) if was_none else followed(state, scene)
+
+
+def _first(state: State, scene: Scene) -> State:
+    """Show the first linkage for a sketch: it runs at once, whatever was paused before."""
+    state = replace(exchanged(state, scene), glide=None, faded=state.frame)
+    return replace(state, clock=state.clock.pause(state.frame, False))
 
 
 def _stands_on(scene: Scene, row: tuple[float, ...], size: float) -> bool:

@@ -576,10 +576,11 @@ class PathSketch(Sketch):
         """Whether there is a stroke."""
         return self.curve is not None
 
-    @property
+    @cached_property
     def points(self) -> NDArray[np.complex128]:
-        """The stroke's points."""
-        return np.zeros(0, np.complex128) if self.curve is None else self.curve.points
+        """The stroke's points, and those that the joints of the shown cognates pass."""
+        stroke = np.zeros(0, np.complex128) if self.curve is None else self.curve.points
+        return np.concatenate([stroke, *(one.passed for one in self.cognates if one)])
 
     @property
     def at_rest(self) -> PathSketch:

@@ -87,13 +87,14 @@ class Figures(NamedTuple):
 
     `deviation` is the error that ranks answers, `size` the longest link, and `room` the diagonal of the
     rectangle that all joints sweep, each as a share of the curve's size; `angle` is the least transmission
-    angle (rad).
+    angle (rad). `crank` is the crank's length as a share of the longest link's.
     """
 
     deviation: float
     size: float
     room: float
     angle: float
+    crank: float = 1.0
 
 
 @frozen(eq=False, kw_only=True)
@@ -156,7 +157,8 @@ class Fit(CouplerLinkage):
         swept = np.concatenate([np.ravel(place) for place in places])
         size = self.task.curve.size
         room = float(np.hypot(np.ptp(swept.real), np.ptp(swept.imag)))
-        return Figures(self.error / size, self.size / size, room / size, self.transmission_angle)
+        crank = self.parameters["crank"] / self.size
+        return Figures(self.error / size, self.size / size, room / size, self.transmission_angle, crank)
 
 
 def document_of(
@@ -535,7 +537,15 @@ class PathAnswer(NamedTuple):
     @property
     def figures(self) -> Figures:
         """The figures by which it is compared with others, without the room that it sweeps."""
-        return Figures(self.off / 100, self.size, self.size, self.angle)
+        lengths = FOUR_BAR.link_lengths(np.array([self.row]))[0]
+        return Figures(self.off / 100, self.size, self.size, self.angle, float(lengths[0] / lengths.max()))
+
+    @property
+    def passed(self) -> Complex:
+        """Points that its joints pass in a turn of the crank."""
+        angles = self.start + self.sense * _TURN
+        found: Complex = FOUR_BAR.joints(np.array([self.row]), np.array([self.closure]), angles[None])[0]
+        return found.ravel()
 
     @property
     def numbers(self) -> tuple[float, ...]:

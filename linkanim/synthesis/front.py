@@ -40,6 +40,8 @@ _STILL_NEAR = 2.0
 """The factor of the best deviation that is allowed in this choice for a better transmission angle."""
 _WELL = math.radians(35)
 """From this transmission angle on a linkage runs well; below, the angle counts as much as the deviation."""
+_VISIBLE = 0.1
+"""No answer with a shorter crank, as a share of its longest link, is chosen if there is another."""
 _FARTHEST, _TIMES = 0.03, 3.0
 """The largest deviation of an answer: this share of the curve's size, or so many times the best one."""
 _JAMS = math.radians(5)
@@ -85,8 +87,12 @@ def knee(front: Sequence[Figures]) -> int:
     """Return the index of the answer that would be chosen.
 
     It does not double the size to save less than a third of the deviation, nor is it larger than 2.5 curve
-    sizes if a smaller one is within 1.5 times the best deviation.
+    sizes if a smaller one is within 1.5 times the best deviation. Its crank is long enough to be seen turn,
+    where there is such an answer.
     """
+    seen = [n for n, one in enumerate(front) if one.crank >= _VISIBLE]
+    if 0 < len(seen) < len(front):
+        return seen[knee([front[n] for n in seen])]
     off = [max(one.deviation, _SEEN) for one in front]
 
     def is_worth_it(n: int) -> bool:

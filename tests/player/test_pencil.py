@@ -14,7 +14,9 @@ import pytest
 from playing import CTRL, SHIFT, NoSearch, Player
 
 from linkanim.picture.cognates import cognate_sides
+from linkanim.picture.view import Rect
 from linkanim.player import beside as following
+from linkanim.player import screen
 from linkanim.player.action import Action
 from linkanim.player.actions import advance
 from linkanim.player.beside import actions_of, request_of
@@ -340,6 +342,56 @@ def test_a_path_is_drawn_with_the_mouse_and_its_linkage_written(player: Player, 
     player.mouse(pygame.MOUSEMOTION, (1, 1), rel=(0, 0), buttons=(0, 0, 0))  # off what tells itself
     assert player.settle() == paused
     assert player.state.sketch is None
+
+
+@pytest.mark.usefixtures("in_step")
+def test_a_linkage_for_a_stroke_runs_at_once_whatever_was_paused(player: Player) -> None:
+    assert player.state.clock.paused
+    player.type("w")
+    player.drag(*loop(player))
+    player.tick()
+    assert not player.state.clock.paused
+    player.press(pygame.K_ESCAPE)
+    assert player.state.clock.paused  # the scene from before is as it was
+
+
+SHAPES = [(1280, 720), (640, 360), (480, 640)]
+
+
+@pytest.mark.usefixtures("in_step", "here")
+@pytest.mark.parametrize("size", SHAPES)
+def test_stroke_linkage_cognates_and_cards_are_all_in_sight_and_0_brings_them_back(
+    size: tuple[int, int],
+) -> None:
+    with screen.opened(size):
+        player = Player(begin(load("crank-rocker")))
+        player.type("w")
+        player.drag(*loop(player))
+        settle(player)
+        sketch = sketch_of(player.state)
+        assert any(sketch.cognates)
+
+        def is_seen(turn: float) -> bool:
+            view, pose = player.window.screen, player.state.scene.pose(turn, 0)
+            bars = [side for n, one in enumerate(sketch.cognates) if one for side in cognate_sides(pose, n)]
+            places = [*map(complex, *zip(*pose.position.values(), strict=True)), *sum(bars, ())]
+            found = [view.pixel(at.real, at.imag) for at in (*sketch.points, *places)]
+            stage = view._framing.last.layout.stage
+            low = min((cell.y for cell in view.answer_cells()), default=stage.bottom)
+            return all(0 <= x <= size[0] and 0 <= y <= low for x, y in found)
+
+        assert all(is_seen(0.1 * n) for n in range(63))
+        player.mouse(pygame.MOUSEMOTION, (5, size[1] - 5), rel=(0, 0), buttons=(0, 0, 0))
+        for _ in range(9):
+            pygame.event.post(pygame.event.Event(pygame.MOUSEWHEEL, x=0, y=1))
+            player.tick()
+        box, view = player.window.screen._framing.last.figure.box, player.window.screen
+        (left, top), (right, low) = view.pixel(box.left, box.high), view.pixel(box.right, box.low)
+        assert Rect(left, top, right - left, low - top).meets(Rect(0, 0, *size))
+        player.type("0")
+        settle(player)
+        assert all(is_seen(0.1 * n) for n in range(63))
+        player.window.close()
 
 
 @pytest.mark.usefixtures("in_step")

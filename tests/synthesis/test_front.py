@@ -76,6 +76,13 @@ def test_the_answer_that_is_chosen_is_worth_its_size(front: list[Figures], chose
     assert knee(front) == chosen, why
 
 
+def test_the_crank_of_the_answer_that_is_chosen_is_seen_to_turn_where_there_is_such_an_answer() -> None:
+    tiny, plain = figures((0.01, 1), (0.03, 2))
+    tiny, plain = tiny._replace(crank=0.04), plain._replace(crank=0.2)
+    assert knee([tiny, plain]) == 1
+    assert knee([tiny, tiny._replace(size=3.0)]) == 0
+
+
 def test_a_chosen_answer_never_doubles_the_size_for_less_than_a_third_of_the_deviation() -> None:
     steps = list(product((0.004, 0.01, 0.014, 0.03), (0.5, 1.1, 2.4, 5.0)))
     for some in combinations(steps, 3):
