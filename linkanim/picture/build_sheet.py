@@ -350,14 +350,17 @@ def _grid_words(shown: BuildShown, setting: DrawSetting) -> Group:
 
 
 def _chosen(shown: BuildShown, setting: DrawSetting) -> Iterator[Group]:
-    """Yield the light on the chosen shape, and its number beside it."""
+    """Yield the light on the chosen shape, and the number of one that has a length beside it.
+
+    Beside a joint is its letter; its numbers are in the list.
+    """
     if shown.chosen is None:
         return
     loops = [*lit(shown.chosen, setting.view, 1.5 * setting.gauge.bar)]
     yield Group("chosen", [Layer(ORANGE, loops, _LIT)], over=True)
-    if shown.number:
-        ends = [setting.view.place(point) for point in shown.chosen.places[:2]]
-        if len(ends) < 2 or shown.chosen.kind == "guides":
+    ends = [setting.view.place(point) for point in shown.chosen.places[:2]]
+    if shown.number and len(ends) > 1 and shown.chosen.kind not in ("pins", "joints"):
+        if shown.chosen.kind == "guides":
             ends = [ends[0] - 30 * setting.layout.unit, ends[0] + 30 * setting.layout.unit]
         if shown.measures:
             words = DimensionLine(_ALONG, 0, 1, shown.number, chosen=False)

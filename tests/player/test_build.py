@@ -76,6 +76,27 @@ def builder(here: object) -> Iterator[Builder]:
         player.window.close()
 
 
+def captions(builder: Builder) -> list[Rect]:
+    """Return where words stand on the window, without those of the list beside the sheet."""
+    picture, state, over = builder.window.screen._framing.last, builder.state, builder.window.screen.over
+    assert over.build
+    bare = replace(over, build=replace(over.build, panel=None))
+    groups = picture.groups(picture.scene.pose(state.phase), bare)
+    return [line.around(picture.type) for group in groups for line in group.captions]
+
+
+@pytest.mark.parametrize("places", [((0, 0),), ((0, 0), (40, 20)), ((0, 0), (0, 40)), ((0, 0), (-40, 0))])
+def test_what_was_just_set_down_has_its_letter_and_no_words_on_it(
+    builder: Builder, places: tuple[tuple[float, float], ...]
+) -> None:
+    for place in places:
+        builder.click(*place)
+        builder.tick()
+        found = captions(builder)
+        over = [(one, other) for n, one in enumerate(found) for other in found[:n] if one.meets(other)]
+        assert not over
+
+
 def test_an_empty_sheet_says_what_to_do(builder: Builder) -> None:
     assert builder.state.mode == "build"
     shown = builder.window.screen.over.build
