@@ -24,6 +24,7 @@ import numpy as np
 from linkanim.explain.formula import LATEX, MATHML, Formula, Notation, Symbol, plain_latex, typeset
 from linkanim.explain.solution import Solution
 from linkanim.explain.steps import (
+    HALF,
     MARKED,
     Equation,
     Given,
@@ -175,8 +176,6 @@ def math_style() -> str:
 
 _INDEXED = re.compile(r"(?<=[^\W\d_])_?(\d+)$")
 _KEY_DIGITS = 5
-_HALF = 0.5001
-"""How far off a value may be that still rounds to a digit, in units of its place."""
 
 
 @frozen
@@ -337,7 +336,7 @@ def _short(value: Formula, solved: Mapping[Symbol, float]) -> Formula:
     there = len(value.shown.partition(".")[2])
     usual = min(decimals(true, _KEY_DIGITS), there)
     tried = (usual, min(usual + 1, there), *range(usual - 1, -1, -1))
-    right = (n for n in tried if abs(float(rounded(true, n)) - value.value) <= _HALF * 10**-n)
+    right = (n for n in tried if abs(float(rounded(true, n)) - value.value) <= HALF * 10**-n)
     return replace(value, shown=rounded(true, next(right, 0)))
 
 

@@ -34,6 +34,7 @@ from linkanim.explain.joints import KINDS, LoopArrow, VectorLoop, body_point, ha
 from linkanim.explain.steps import (
     ANGLE,
     BY_INPUT,
+    HALF,
     IN_TIME,
     LENGTH,
     ORDERS,
@@ -48,6 +49,7 @@ from linkanim.explain.steps import (
     SymbolNames,
     Words,
     Work,
+    decimals,
     marked,
     names_of,
     rounded,
@@ -325,6 +327,8 @@ def _body_powers(rates: Rates, known: Mapping[str, Formula]) -> Iterator[Formula
 _FEWEST, _MOST = 6, 14
 _AGREES = 5e-6
 """The share of itself by which a result may differ from the solver's."""
+TOLD = 4
+"""Significant digits of a result that is told."""
 _LONG = 100.0
 """The factor on the median bar beyond which a longest bar does not set the decimals of lengths."""
 _TINY = 1e-300
@@ -454,8 +458,17 @@ def _compared(found: Solution) -> Iterator[tuple[Outcome, float]]:
 def _agrees(found: Solution) -> bool:
     return all(
         abs(result.value.value - true) <= max(_AGREES * abs(true), result.least)
+        and _told_alike(result.value, true)
         for result, true in _compared(found)
     )
+
+
+def _told_alike(value: Formula, true: float) -> bool:
+    """Return whether a value and the solver's are one number in the digits that are told of it."""
+    places = decimals(true, TOLD) if math.isfinite(true) else _MOST
+    if places > len(value.shown.partition(".")[2]):
+        return True
+    return abs(float(rounded(value.value, places)) - true) <= HALF * 10.0**-places
 
 
 def _right_places(found: Solution) -> dict[Symbol, int]:

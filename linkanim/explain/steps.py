@@ -367,10 +367,17 @@ class Work:
         """Return the angle of the line from one joint to another, worked out where it is not known yet."""
         found = self.angles.get((start, end))
         if found is None:
-            span = self.points[end] - self.points[start]
-            found = self.let(self.angle_symbol(start, end), atan2(span.y, span.x), ANGLE)
+            span, symbol = self.points[end] - self.points[start], self.angle_symbol(start, end)
+            angle = atan2(span.y, span.x)
+            found = self._same_angle(symbol, angle.value) or self.let(symbol, angle, ANGLE)
             self.angles[start, end] = found
         return found
+
+    def _same_angle(self, symbol: Symbol, value: float) -> Formula | None:
+        """Return the angle that is known by this symbol: that of another two points of the same line."""
+        known = (one for one in self.angles.values() if one.symbol == symbol)
+        least = 10.0 ** (1 - self.scale.decimals(ANGLE))
+        return next((one for one in known if abs(math.remainder(one.value - value, 360)) < least), None)
 
     def angle_symbol(self, start: str, end: str) -> Symbol:
         """Return the symbol of the angle of the line from one joint to another."""
@@ -439,6 +446,8 @@ def rounded(value: float, places: int) -> str:
 
 
 _FLOAT_DIGITS = 13
+HALF = 0.5001
+"""How far off a value may be that still rounds to a digit, in units of its place."""
 
 
 # Velocities and accelerations, or kinematic coefficients: those known so far, and their lines.

@@ -81,6 +81,9 @@ _BRACES = {ord("{"): None, ord("}"): None}
 _LONGEST = 60
 """Letters of a chart's file name that come from its quantities."""
 
+FIGURE = Look(names=2, hud=False, dead_centres=False)
+"""How a scene looks in the figure of its dimensions: nothing in it is of another pose."""
+
 DrawnChart = tuple[tuple[str, ...], FigurePart]
 """A chart's quantities, and how it is shown."""
 
@@ -139,7 +142,7 @@ class Report:
 
     @cached_property
     def _figure(self) -> Figured:
-        return Figured(self.scene, self._size, Look(names=2, hud=False), still_phase(self.scene))
+        return Figured(self.scene, self._size, FIGURE, still_phase(self.scene))
 
     @cached_property
     def _size(self) -> tuple[int, int]:
@@ -336,7 +339,7 @@ class Report:
 
     def _poses(self) -> Iterator[Part]:
         """Yield a figure of the scene at each instant."""
-        look = Look(names=1, hud=False, trace=False)
+        look = Look(names=1, hud=False, trace=False, dead_centres=False)
         across = 3 if self._tall or len(self.instants) % 3 == 0 else 2
         size = _TALL_POSE if self._tall else _POSES[across]
         figures = (
