@@ -804,11 +804,12 @@ class _Labelling:
             ring = np.stack([corners, np.roll(corners, -1)], axis=1)[None]
             for point in points if len(corners) > 2 else ():
                 cost += _ACROSS / len(points) * _held(point, ring).mean(axis=0)
-        for _, sides in self.links:
+        if self.links:
+            sides = np.concatenate([sides for _, sides in self.links], axis=1)
+            first = np.cumsum([0, *(sides.shape[1] for _, sides in self.links)])[:-1]
             for point in points:
-                cost += 0.2 * (off_lines(point, sides).min(axis=2) < 1.5 * self.setting.gauge.bar).mean(
-                    axis=0
-                )
+                off = np.minimum.reduceat(off_lines(point, sides), first, axis=2)
+                cost += 0.2 * (off < 1.5 * self.setting.gauge.bar).mean(axis=0).sum(axis=-1)
         return cost
 
     def _by_angle(self, label: Label, one: Measurement) -> _Wanted:
